@@ -1,0 +1,27 @@
+# What lightnet stands on. Each library has one home; only that folder's .cpp files include it.
+find_package(PkgConfig REQUIRED)
+find_package(Threads REQUIRED)
+find_package(embree 3 REQUIRED)                            # rays against triangles and spheres (core/scene)
+find_package(OpenEXR 3 CONFIG REQUIRED)                    # pictures out (core/film), textures in (core/scene)
+find_package(PNG REQUIRED)                                 # pictures out, textures in
+find_package(JPEG REQUIRED)                                # textures in
+find_package(Boost 1.74 REQUIRED COMPONENTS context)       # fibers (core/runtime)
+find_package(fmt REQUIRED)                                 # text: g++ 12 has no std::format
+find_package(nlohmann_json REQUIRED)                       # canonical text of graphs and plans, run.json
+find_package(CLI11 REQUIRED)                               # command lines (tools)
+find_package(cppzmq REQUIRED)                              # sockets (transport)
+pkg_check_modules(sodium REQUIRED IMPORTED_TARGET libsodium)   # BLAKE2b content hashes (core)
+pkg_check_modules(lua REQUIRED IMPORTED_TARGET lua5.4-c++)     # the build of Lua whose errors are C++ exceptions
+
+# msgpack-cxx installs a config file under a name of its own; an interface target is surer.
+find_path(MSGPACK_INCLUDE_DIR msgpack.hpp REQUIRED)
+add_library(msgpack_headers INTERFACE)
+target_include_directories(msgpack_headers SYSTEM INTERFACE "${MSGPACK_INCLUDE_DIR}")
+target_compile_definitions(msgpack_headers INTERFACE MSGPACK_NO_BOOST MSGPACK_DEFAULT_API_VERSION=3)
+
+if(LIGHTNET_BUILD_TESTS)
+  find_package(GTest REQUIRED)
+endif()
+if(LIGHTNET_BUILD_BENCHMARKS)
+  find_package(benchmark REQUIRED)
+endif()

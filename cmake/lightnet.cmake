@@ -1,0 +1,25 @@
+# How every target of the project is built.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
+set(CMAKE_VERIFY_INTERFACE_HEADER_SETS ON)
+
+# Same bytes everywhere: no fused multiply-add behind our back, no fast-math, one instruction set.
+add_compile_options(-ffp-contract=off -march=${LIGHTNET_ARCH})
+
+# Warnings are each target's own business; -Werror comes from the dev preset.
+add_library(lightnet_warnings INTERFACE)
+target_compile_options(lightnet_warnings INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wimplicit-fallthrough)
+
+# lightnet_library(NAME sources... HEADERS ... NEEDS libraries-in-our-headers HIDES libraries-inside-our-cpp-files)
+function(lightnet_library name)
+  cmake_parse_arguments(PARSE_ARGV 1 LIB "" "" "HEADERS;NEEDS;HIDES")
+  add_library(lightnet_${name} STATIC ${LIB_UNPARSED_ARGUMENTS})
+  add_library(lightnet::${name} ALIAS lightnet_${name})
+  target_sources(lightnet_${name} PUBLIC FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}" FILES ${LIB_HEADERS})
+  target_link_libraries(lightnet_${name} PUBLIC ${LIB_NEEDS} PRIVATE ${LIB_HIDES} lightnet_warnings)
+endfunction()

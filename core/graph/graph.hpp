@@ -1,0 +1,44 @@
+// What a graph file says: a plain value.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/graph/value.hpp"
+
+namespace lightnet {
+
+/// One node of the graph: `name = Kind { inputs…, key = value… }`.
+struct Node {
+    std::string name;                        // what stands on the left
+    std::string kind;
+    std::vector<Value> entries;              // what stands in the array part: inputs (NodeRef), or a scene's file name
+    std::map<std::string, Value> params;     // string keys; check() fills in the defaults
+    SourceLine where;
+    friend bool operator==(const Node&, const Node&) = default;
+};
+
+/// A graph, in the order of its file. Plain data: copyable, comparable, sendable.
+struct Graph {
+    std::string file;          // the graph file, as named by the user
+    std::vector<Node> nodes;   // in the order in which the file names them
+    friend bool operator==(const Graph&, const Graph&) = default;
+
+    /// Index of the node called `name`.
+    std::optional<std::size_t> find(std::string_view name) const;
+    /// Indices of the nodes that `node` asks, in graph order (its entries, then NodeRef parameters other than scenes
+    /// do not count: only entries are inputs).
+    std::vector<std::size_t> inputs_of(std::size_t node) const;
+};
+
+/// Canonical text (JSON) of a graph: the same graph gives the same bytes. For pipes, plans and hashes.
+std::string to_json(const Graph& graph);
+/// Reads it back. Throws Error on anything else.
+Graph graph_from_json(std::string_view text);
+
+}  // namespace lightnet

@@ -1,0 +1,32 @@
+// What a hosts file says: where nodes run, and how often. A plain value.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace lightnet {
+
+/// `place "tcp://onyx1:7777" { direct = 1, caustics = 2 }`
+struct HostEntry {
+    std::string endpoint;                    // "tcp://host:port"
+    std::map<std::string, int> replicas;     // node name → how many places of this host hold it; empty: the whole network
+    int places = 0;                          // 0: one per core that the host offers
+    SourceLine where;
+    friend bool operator==(const HostEntry&, const HostEntry&) = default;
+};
+
+/// All hosts of a run, in the order of the file.
+struct Hosts {
+    std::string file;
+    std::vector<HostEntry> hosts;
+    friend bool operator==(const Hosts&, const Hosts&) = default;
+};
+
+std::string to_json(const Hosts& hosts);
+Hosts hosts_from_json(std::string_view text);
+
+}  // namespace lightnet

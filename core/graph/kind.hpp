@@ -1,0 +1,62 @@
+// What a node can be: the schema of one kind, which feeds validation, `describe` and the maker of the node.
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/graph/value.hpp"
+
+namespace lightnet {
+
+class LightOp;
+class NodeContext;
+class Renderer;
+
+/// What a node gives, and what an input must give.
+enum class Role { light, image, scene };
+
+enum class ParamType { number, integer, flag, text, numbers, film, scene };
+
+/// One parameter of a kind.
+struct Param {
+    std::string name;
+    ParamType type = ParamType::number;
+    std::string help;                               // one line
+    std::string unit = {};                          // "m", "W·sr⁻¹·m⁻²", "samples", …; empty: none
+    std::optional<Value> initial = {};              // the default; none: must be given
+    double least = -std::numeric_limits<double>::infinity();
+    double most = std::numeric_limits<double>::infinity();
+    std::vector<std::string> choices = {};          // for text: what it may be; empty: anything
+    bool optional = false;                          // may be absent without a default
+};
+
+/// One kind of node.
+struct Kind {
+    std::string name;                               // "DirectLighting"
+    Role role = Role::light;
+    std::string help;                               // what it does, one line
+    std::size_t least_inputs = 0;                   // light inputs, from the array part
+    std::size_t most_inputs = 0;
+    bool linear = false;                            // answers with a weighted sum of its inputs: layers pass through
+    std::vector<Param> params = {};
+    std::function<std::unique_ptr<LightOp>(const NodeContext&)> make_light = {};
+    std::function<std::unique_ptr<Renderer>(const NodeContext&)> make_renderer = {};
+};
+
+/// All kinds that a program knows. Given by main, in order of name; nothing registers itself.
+class Registry {
+public:
+    explicit Registry(std::vector<Kind> kinds);
+    const Kind* find(std::string_view name) const;
+    const std::vector<Kind>& kinds() const { return kinds_; }
+
+private:
+    std::vector<Kind> kinds_;
+};
+
+}  // namespace lightnet

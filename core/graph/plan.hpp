@@ -1,0 +1,55 @@
+// Who runs what: computed from a graph and from the hosts that are there. A plain value.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/graph/graph.hpp"
+#include "core/graph/hosts.hpp"
+#include "core/graph/kind.hpp"
+
+namespace lightnet {
+
+/// What the picture's layers are, and which of them pass through each node. Depends on the graph alone.
+struct Layers {
+    std::vector<std::string> film;                    // "emission", then the terminals of the additive paths, graph order
+    std::vector<std::vector<std::size_t>> of_node;    // per node: the terminals (node indices) that its answers keep apart
+};
+
+/// Layers of a checked graph. A linear node on an additive path from the renderer keeps its terminals apart; every
+/// other node answers with one colour.
+Layers layers_of(const Graph& graph, const Registry& registry);
+
+/// Where one place is.
+struct PlaceAt {
+    std::string host;               // endpoint of its host; "" for places of this process
+    std::uint32_t index = 0;        // among the places of its host
+    friend bool operator==(const PlaceAt&, const PlaceAt&) = default;
+};
+
+/// All places of a run, and which of them answer for each node.
+struct Plan {
+    std::vector<PlaceAt> places;
+    std::vector<std::vector<std::uint32_t>> places_of;   // node index → places (indices) that hold it; scenes: none
+    friend bool operator==(const Plan&, const Plan&) = default;
+};
+
+/// How many places a host offers.
+struct HostOffer {
+    std::string endpoint;
+    std::uint32_t places = 1;
+};
+
+/// Spreads the graph over the hosts that are there. Without a hosts file (or where an entry names no nodes) each place
+/// holds the whole network. A node whose hosts are all absent is put on the place that holds the fewest nodes.
+Plan plan(const Graph& graph, const Registry& registry, const Hosts& hosts, const std::vector<HostOffer>& offers);
+
+/// The index of the renderer whose picture the run makes.
+std::size_t renderer_of(const Graph& graph, const Registry& registry);
+
+std::string to_json(const Plan& plan);
+Plan plan_from_json(std::string_view text);
+
+}  // namespace lightnet

@@ -1,0 +1,33 @@
+// A parameter of a node, as the graph file gave it.
+#pragma once
+
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace lightnet {
+
+struct Value;
+using List = std::vector<Value>;
+
+/// A Lua table: entries by position, entries by name.
+struct Table {
+    List list;
+    std::map<std::string, Value> named;
+    friend bool operator==(const Table&, const Table&) = default;
+};
+
+/// Refers to another node by name.
+struct NodeRef {
+    std::string name;
+    friend bool operator==(const NodeRef&, const NodeRef&) = default;
+};
+
+/// Numbers are doubles, as Lua's integers up to 2⁵³ fit one.
+struct Value {
+    std::variant<bool, double, std::string, NodeRef, Table> data;
+    friend bool operator==(const Value&, const Value&) = default;
+};
+
+}  // namespace lightnet

@@ -1,0 +1,60 @@
+#include "core/light/inputs.hpp"
+
+namespace lightnet {
+namespace {
+
+// Takes care that no ask outlives the buffers that it writes to, whichever way its scope is left.
+class Asking {
+public:
+    Asking(const Input& input, std::span<const Query> questions, std::span<Rgb> answers)
+        : port_(*input.port), ticket_(port_.begin(questions, answers)) {}
+    Asking(Asking&& other) noexcept : port_(other.port_), ticket_(std::exchange(other.ticket_, 0)) {}
+    Asking& operator=(Asking&&) = delete;
+    ~Asking() {
+        if (ticket_) port_.abandon(ticket_);
+    }
+    void finish() {
+        if (const auto ticket = std::exchange(ticket_, 0)) port_.finish(ticket);
+    }
+
+private:
+    Port& port_;
+    Port::Ticket ticket_;
+};
+
+Part empty_part(const Inputs& inputs, std::size_t index, std::size_t questions) {
+    Part part{&inputs[index], index, inputs.layers(), {}};
+    part.answers.resize(questions * part.input->width());
+    return part;
+}
+
+}  // namespace
+
+std::vector<Part> ask_all(const Inputs& inputs, std::span<const Query> questions) {
+    std::vector<Part> parts;
+    parts.reserve(inputs.size());
+    std::vector<Asking> asked;
+    asked.reserve(inputs.size());
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+        auto& part = parts.emplace_back(empty_part(inputs, i, questions.size()));
+        asked.emplace_back(*part.input, questions, part.answers);
+    }
+    for (auto& one : asked) one.finish();
+    return parts;
+}
+
+Part ask(const Inputs& inputs, std::size_t index, std::span<const Query> questions) {
+    Part part = empty_part(inputs, index, questions.size());
+    Asking(*part.input, questions, part.answers).finish();
+    return part;
+}
+
+void add(const Part& part, std::span<Rgb> answers, float weight) {
+    const std::size_t width = part.input->width();
+    const std::size_t questions = part.answers.size() / width;
+    for (std::size_t q = 0; q < questions; ++q)
+        for (std::size_t k = 0; k < width; ++k)
+            answers[q * part.layers + part.input->layers[k]] += part.answers[q * width + k] * weight;
+}
+
+}  // namespace lightnet

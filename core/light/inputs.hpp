@@ -1,0 +1,59 @@
+// What a node's constructor is given to ask its inputs with.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/light/port.hpp"
+
+namespace lightnet {
+
+/// One input of a node, in the order in which the graph lists them.
+struct Input {
+    std::string name;                       // of the node that answers
+    Port* port = nullptr;                   // owned by the place
+    std::vector<std::uint32_t> layers{0};   // which of the asker's layers each colour of an answer belongs to
+
+    std::size_t width() const { return layers.size(); }
+};
+
+/// All inputs of one node.
+class Inputs {
+public:
+    Inputs() = default;
+    Inputs(std::vector<Input> inputs, std::size_t layers) : inputs_(std::move(inputs)), layers_(layers) {}
+
+    std::size_t size() const { return inputs_.size(); }
+    bool empty() const { return inputs_.empty(); }
+    const Input& operator[](std::size_t i) const { return inputs_[i]; }
+    auto begin() const { return inputs_.begin(); }
+    auto end() const { return inputs_.end(); }
+    /// How many colours an answer of the node itself has: one per layer of the picture that it adds to.
+    std::size_t layers() const { return layers_; }
+
+private:
+    std::vector<Input> inputs_;
+    std::size_t layers_ = 1;
+};
+
+/// What one input answered: `input->width()` colours per question, side by side.
+struct Part {
+    const Input* input = nullptr;
+    std::size_t index = 0;         // of the input
+    std::size_t layers = 1;        // of the asker
+    std::vector<Rgb> answers;
+};
+
+/// Asks all inputs the same questions; all are asked before any is awaited.
+std::vector<Part> ask_all(const Inputs& inputs, std::span<const Query> questions);
+
+/// Asks one input.
+Part ask(const Inputs& inputs, std::size_t index, std::span<const Query> questions);
+
+/// answers += weight × part, each colour into its own layer.
+void add(const Part& part, std::span<Rgb> answers, float weight = 1);
+
+}  // namespace lightnet

@@ -1,0 +1,43 @@
+// What a node may know of the world when it is made.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/graph/graph.hpp"
+#include "core/light/inputs.hpp"
+#include "core/math/random.hpp"
+
+namespace lightnet {
+
+class Scene;
+
+/// Handed to a node's constructor. Parameters have passed the schema of the node's kind and defaults are filled in,
+/// so reading one that the schema doesn't name is a bug of the node.
+class NodeContext {
+public:
+    NodeContext(const Node& node, Inputs inputs, const Scene& scene, std::uint64_t seed);
+
+    const std::string& name() const { return node_.name; }
+    /// The node's own key: derive streams as child(query.stream, here.key(), i).
+    Key key() const { return key_of(node_.name); }
+    const Scene& scene() const { return scene_; }
+    const Inputs& inputs() const { return inputs_; }
+    std::uint64_t seed() const { return seed_; }
+
+    double number(const std::string& param) const;
+    std::int64_t integer(const std::string& param) const;
+    bool flag(const std::string& param) const;
+    const std::string& text(const std::string& param) const;
+    std::vector<double> numbers(const std::string& param) const;
+    const Value& value(const std::string& param) const;
+
+private:
+    const Node& node_;
+    Inputs inputs_;
+    const Scene& scene_;
+    std::uint64_t seed_;
+};
+
+}  // namespace lightnet

@@ -1,0 +1,27 @@
+// A renderer: turns tiles of the picture into pixels.
+#pragma once
+
+#include <span>
+
+#include "core/film/tile.hpp"
+#include "core/math/rgb.hpp"
+
+namespace lightnet {
+
+/// Samples the picture, finds what is seen, and asks its lighting input how bright it is. The rules of LightOp hold.
+class Renderer {
+public:
+    virtual ~Renderer() = default;
+
+    /// Writes the sum, over the samples of the tile's block, of what each pixel receives: for each pixel (row by row)
+    /// one colour per film layer, side by side; layer 0 is the emission that the renderer sees itself, the others are
+    /// those of its lighting input. `pixels` comes zeroed. Each sample's radiance is added in the order of samples.
+    virtual void render(const Tile& tile, std::span<Rgb> pixels) const = 0;
+
+protected:
+    Renderer() = default;
+    Renderer(const Renderer&) = delete;
+    Renderer& operator=(const Renderer&) = delete;
+};
+
+}  // namespace lightnet

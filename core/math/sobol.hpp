@@ -1,0 +1,16 @@
+// Owen-scrambled Sobol' points, padded from pairs of dimensions.
+#pragma once
+
+#include <cstdint>
+
+#include "core/math/random.hpp"
+#include "core/math/vec.hpp"
+
+namespace lightnet {
+
+/// Point `index` of the two-dimensional Sobol' sequence, its order shuffled and its digits scrambled by `key`
+/// (Burley 2020, "Practical Hash-based Owen Scrambling"). For one key, each aligned power of two of consecutive
+/// indices is stratified in [0,1)². Different keys give independent sequences.
+Vec2 sobol_point(Key key, std::uint32_t index);
+
+}  // namespace lightnet

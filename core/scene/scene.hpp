@@ -1,0 +1,73 @@
+// A scene that can be asked: geometry in Embree, materials, lights, camera. Immutable after construction.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "core/bsdf/bsdf.hpp"
+#include "core/light/query.hpp"
+#include "core/scene/camera.hpp"
+#include "core/scene/lights.hpp"
+#include "core/scene/ray.hpp"
+#include "core/scene/scene_data.hpp"
+#include "core/scene/surface.hpp"
+
+namespace lightnet {
+
+/// How the scene is built. The same values on every host of a run, as the bytes of its answers may depend on them.
+struct SceneOptions {
+    std::string isa = "avx2";              // Embree's instruction set
+    std::uint32_t width = 0, height = 0;   // of the picture; 0: as the scene says
+};
+
+/// Built once per process and shared by all its places: every member may be called from any thread.
+class Scene {
+public:
+    explicit Scene(SceneData data, const SceneOptions& options = {});
+    ~Scene();
+    Scene(const Scene&) = delete;
+    Scene& operator=(const Scene&) = delete;
+
+    /// The nearest hit in (0, ray.far). The hit is the same for single rays and packets, whatever the others are.
+    std::optional<Hit> intersect(const Ray& ray) const;
+    /// The same for many rays; `hits[i]` is empty where ray i leaves the scene.
+    void intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const;
+    /// Is anything in (0, ray.far)?
+    bool occluded(const Ray& ray) const;
+
+    SurfacePoint surface(const Hit& hit) const;
+    SurfacePoint surface(const Query& query) const;
+    /// How the surface scatters there.
+    Bsdf bsdf(const SurfacePoint& point) const;
+
+    /// Radiance that the surface itself emits into `direction` (unit, away from it).
+    Rgb emission(const SurfacePoint& point, Vec3 direction) const;
+    /// Radiance arriving from infinity, from `direction` (unit, away from the eye).
+    Rgb environment(Vec3 direction) const;
+
+    /// Chooses a light and a point on it, seen from `from`. None: no light can reach the point by this sample.
+    std::optional<LightSample> sample_light(Vec3 from, float choice, Vec2 u) const;
+    /// Density with which sample_light() finds the emitting point `on`, which lies in `direction` from `from`.
+    float light_pdf(Vec3 from, Vec3 direction, const SurfacePoint& on) const;
+    /// The same for the environment.
+    float environment_pdf(Vec3 direction) const;
+    bool has_environment() const;
+
+    const Camera& camera() const;
+    const FilmData& film() const;
+    /// Radius of the sphere around everything, metres.
+    float radius() const;
+
+    /// Rays traced so far by the calling thread, for the run's counters.
+    static std::uint64_t rays_of_this_thread();
+
+private:
+    struct Built;
+    std::unique_ptr<const Built> built_;
+};
+
+}  // namespace lightnet
