@@ -20,8 +20,7 @@ public:
           inputs_(here.inputs()),
           key_(here.key()),
           seed_(here.seed()),
-          max_depth_(static_cast<std::uint32_t>(here.integer("max_depth"))),
-          exposure_(here.scene().film().scale) {}
+          max_depth_(static_cast<std::uint32_t>(here.integer("max_depth"))) {}
 
     void render(const Tile& tile, std::span<Rgb> pixels) const override {
         const std::size_t at_once = std::max<std::size_t>(1, samples_at_once / std::max(1u, tile.samples));
@@ -72,8 +71,8 @@ private:
 
     /// Follows one ray until no mirror or glass carries it on. Returns what shines by itself on the way.
     Rgb follow(const Look& look, Ray ray, std::optional<Hit> hit, Seen& seen) const {
-        Rgb emitted, weight{exposure_, exposure_, exposure_};
-        float squeezed = 1 / exposure_;  // the weight times this is the share of light that reaches the eye
+        Rgb emitted, weight{1, 1, 1};
+        float squeezed = 1;  // by refraction, which is no loss: roulette must not see it
         for (std::uint32_t depth = 0;; ++depth) {
             if (!hit) return emitted + weight * scene_.environment(ray.direction);
             const SurfacePoint point = scene_.surface(*hit);
@@ -133,7 +132,6 @@ private:
     Key key_;
     std::uint64_t seed_;
     std::uint32_t max_depth_;
-    float exposure_;
 };
 
 }  // namespace
