@@ -1,0 +1,80 @@
+#include "core/film/atomic_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace lightnet {
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& path, const char* what) {
+    const int reason = errno;
+    throw Error(path.string(), fmt::format("{}: {}", what, std::generic_category().message(reason)));
+}
+
+/// A temporary file that is gone at the end of its scope unless it was renamed.
+class TemporaryFile {
+public:
+    explicit TemporaryFile(const std::filesystem::path& target)
+        : target_(target), name_(target.string() + ".XXXXXX"), file_(::mkostemp(name_.data(), O_CLOEXEC)) {
+        if (file_ < 0) fail(target_, "can't be written");
+    }
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+    ~TemporaryFile() {
+        if (file_ >= 0) ::close(file_);
+        if (!name_.empty()) ::unlink(name_.c_str());
+    }
+
+    void write(std::string_view bytes) {
+        while (!bytes.empty()) {
+            const auto written = ::write(file_, bytes.data(), bytes.size());
+            if (written < 0 && errno == EINTR) continue;
+            if (written < 0) fail(target_, "could not be written");
+            bytes.remove_prefix(static_cast<std::size_t>(written));
+        }
+    }
+
+    void become_target() {
+        // mkostemp makes files that only their owner reads; give the picture the rights of any other new file.
+        const mode_t mask = ::umask(0);
+        ::umask(mask);
+        ::fchmod(file_, 0666 & ~mask);
+        if (::fsync(file_) != 0) fail(target_, "could not be synced to the disk");
+        if (::close(std::exchange(file_, -1)) != 0) fail(target_, "could not be written");
+        if (::rename(name_.c_str(), target_.c_str()) != 0) fail(target_, "could not be renamed to its name");
+        name_.clear();
+    }
+
+private:
+    std::filesystem::path target_;
+    std::string name_;
+    int file_;
+};
+
+// Without this a power cut may undo the rename. Not every file system can do it, and the file itself is whole anyhow.
+void sync_folder(const std::filesystem::path& folder) {
+    const int handle = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (handle < 0) return;
+    ::fsync(handle);
+    ::close(handle);
+}
+
+}  // namespace
+
+void write_file(const std::filesystem::path& path, std::string_view bytes) {
+    TemporaryFile file(path);
+    file.write(bytes);
+    file.become_target();
+    sync_folder(path.parent_path());
+}
+
+}  // namespace lightnet

@@ -1,0 +1,34 @@
+#include "core/film/run_report.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "core/film/atomic_file.hpp"
+
+namespace lightnet {
+
+std::string to_json(const RunReport& report) {
+    using Json = nlohmann::ordered_json;
+    Json places = Json::array(), phases = Json::array();
+    for (const auto& [host, index, nodes] : report.places)
+        places.push_back({{"host", host}, {"index", index}, {"nodes", nodes}});
+    for (const auto& [name, seconds] : report.phases) phases.push_back({{"name", name}, {"seconds", seconds}});
+
+    Json json;
+    json["format"] = "lightnet run 1";
+    json["outcome"] = report.outcome;
+    json["graph"] = {{"file", report.graph}, {"hash", report.graph_hash}};
+    json["mode"] = report.mode;
+    json["outputs"] = report.outputs;
+    json["places"] = places;
+    json["phases"] = phases;
+    json["counters"] = report.counters;
+    json["settings"] = report.settings;
+    json["versions"] = report.versions;
+    json["warnings"] = report.warnings;
+    // File names may be in any encoding; a report is worth more than one strange letter.
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void write_report(const std::filesystem::path& path, const RunReport& report) { write_file(path, to_json(report)); }
+
+}  // namespace lightnet

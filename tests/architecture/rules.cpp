@@ -1,0 +1,201 @@
+#include "tests/architecture/rules.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <functional>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+
+namespace lightnet::house {
+namespace {
+
+using Names = std::set<std::string, std::less<>>;
+
+// Who may include whom, beside itself. Tests may include all.
+const std::map<std::string, Names, std::less<>> may_include{
+    {"core", {}},
+    {"nodes", {"core"}},
+    {"transport", {"core"}},
+    {"lua", {"core"}},
+    {"tools", {"core", "nodes", "transport", "lua"}},
+};
+
+/// A library, and the .cpp files that may include it.
+struct Home {
+    const char* library;
+    std::regex include;
+    std::regex files;
+};
+
+const std::array homes{
+    Home{"ZeroMQ", std::regex("zmq.*"), std::regex("transport/.*")},
+    Home{"msgpack", std::regex("msgpack.*"), std::regex("transport/.*")},
+    Home{"Lua", std::regex("(lua5.4/)?(lua|lauxlib|lualib)\\.(h|hpp)"), std::regex("lua/.*")},
+    Home{"Embree", std::regex("embree.*"), std::regex("core/scene/.*")},
+    Home{"OpenEXR", std::regex("(OpenEXR/|Imath/)?(Imf|Iex|Imath|half).*"),
+         std::regex("core/film/.*|core/scene/image_file\\.cpp")},
+    Home{"libpng", std::regex("png\\.h"), std::regex("core/film/.*|core/scene/image_file\\.cpp")},
+    Home{"libjpeg", std::regex("jpeglib\\.h"), std::regex("core/scene/image_file\\.cpp")},
+    Home{"Boost.Context", std::regex("boost/.*"), std::regex("core/runtime/.*")},
+    Home{"libsodium", std::regex("sodium.*"), std::regex("core/.*")},
+    Home{"CLI11", std::regex("CLI/.*"), std::regex("tools/.*")},
+    Home{"nlohmann JSON", std::regex("nlohmann/.*"), std::regex("(core|lua|tools|transport)/.*")},
+};
+
+std::string at(const SourceFile& file, std::size_t line, const std::string& why) {
+    return file.path + ":" + std::to_string(line) + ": " + why;
+}
+
+bool ends_with(std::string_view text, std::string_view end) {
+    return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
+}
+
+std::string room_of(std::string_view path) { return std::string(path.substr(0, path.find('/'))); }
+std::string folder_of(std::string_view path) { return std::string(path.substr(0, path.rfind('/'))); }
+
+std::vector<std::string> lines_of(std::string_view text) {
+    std::vector<std::string> lines;
+    std::istringstream stream{std::string(text)};
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    return lines;
+}
+
+/// One #include of a file.
+struct Include {
+    std::size_t line = 0;
+    bool own = false;  // "…", from the project's root
+    std::string name;
+};
+
+std::vector<Include> includes_of(const SourceFile& file) {
+    static const std::regex pattern(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"])");
+    std::vector<Include> found;
+    const auto lines = lines_of(file.text);
+    std::smatch match;
+    for (std::size_t i = 0; i < lines.size(); ++i)
+        if (std::regex_search(lines[i], match, pattern)) found.push_back({i + 1, match[1] == "\"", match[2]});
+    return found;
+}
+
+void check_own(const SourceFile& file, const Include& include, Complaints& complaints) {
+    const std::string from = room_of(file.path), to = room_of(include.name);
+    if (!may_include.contains(to))
+        complaints.push_back(at(file, include.line, "\"" + include.name + "\" is not written from the root"));
+    else if (from != to && !may_include.at(from).contains(to))
+        complaints.push_back(at(file, include.line, from + " does not see " + to));
+    else if (ends_with(include.name, ".cpp"))
+        complaints.push_back(at(file, include.line, "a .cpp file is not included"));
+}
+
+void check_foreign(const SourceFile& file, const Include& include, Complaints& complaints) {
+    const bool standard = include.name.find_first_of("./") == std::string::npos;
+    if (!standard && ends_with(file.path, ".hpp")) {
+        complaints.push_back(at(file, include.line, "<" + include.name + "> in a header"));
+        return;
+    }
+    for (const Home& home : homes)
+        if (std::regex_match(include.name, home.include) && !std::regex_match(file.path, home.files))
+            complaints.push_back(at(file, include.line, std::string(home.library) + " is not at home here"));
+}
+
+// One behind the comment that begins at `at`; `at` if none does.
+std::size_t end_of_comment(std::string_view text, std::size_t at) {
+    const auto begin = text.substr(at, 2);
+    if (begin == "//") return std::min(text.find('\n', at), text.size());
+    if (begin == "/*") return std::min(text.find("*/", at + 2), text.size() - 2) + 2;
+    return at;
+}
+
+// One behind the string or character that begins at `at`; `at` if none does.
+std::size_t end_of_literal(std::string_view text, std::size_t at) {
+    const bool in_number = text[at] == '\'' && at > 0 && std::isalnum(static_cast<unsigned char>(text[at - 1]));
+    if ((text[at] != '"' && text[at] != '\'') || in_number) return at;
+    std::size_t end = at + 1;
+    while (end < text.size() && text[end] != text[at] && text[end] != '\n') end += text[end] == '\\' ? 2 : 1;
+    return std::min(end + 1, text.size());
+}
+
+void blank(std::string& text, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+        if (text[i] != '\n') text[i] = ' ';
+}
+
+}  // namespace
+
+Complaints stray_includes(const SourceFile& file) {
+    Complaints complaints;
+    if (!may_include.contains(room_of(file.path))) return complaints;
+    for (const Include& include : includes_of(file))
+        (include.own ? check_own : check_foreign)(file, include, complaints);
+    return complaints;
+}
+
+Complaints words_of_distribution(const SourceFile& file) {
+    static const std::regex words(
+        R"(\b(zmq\w*|msgpack|j?thread|thread_local|(\w+_)?mutex|atomic\w*|(shared_)?future|promise|async|condition_variable\w*|)"
+        R"(\w*semaphore|latch|barrier|co_await|co_yield|co_return|coroutine|socket|fork|boost/context|boost::context)\b)");
+    Complaints complaints;
+    const auto lines = lines_of(code_only(file.text));
+    std::smatch match;
+    for (std::size_t i = 0; i < lines.size(); ++i)
+        if (std::regex_search(lines[i], match, words))
+            complaints.push_back(at(file, i + 1, "a node knows nothing of '" + match.str() + "'"));
+    return complaints;
+}
+
+Complaints bad_header(const SourceFile& file) {
+    Complaints complaints;
+    if (!ends_with(file.path, ".hpp")) return complaints;
+    const auto lines = lines_of(code_only(file.text));
+    if (std::find(lines.begin(), lines.end(), "#pragma once") == lines.end())
+        complaints.push_back(at(file, 1, "no #pragma once"));
+    for (std::size_t i = 0; i < lines.size(); ++i)
+        if (lines[i].find("using namespace") != std::string::npos)
+            complaints.push_back(at(file, i + 1, "using namespace in a header"));
+    return complaints;
+}
+
+Complaints too_long(const SourceFile& file, std::size_t most_lines) {
+    const std::size_t lines = lines_of(file.text).size();
+    if (lines <= most_lines) return {};
+    return {at(file, most_lines + 1, std::to_string(lines) + " lines are too long for one file")};
+}
+
+Complaints folder_circles(const std::vector<SourceFile>& files, std::string_view room) {
+    std::map<std::string, Names> sees;
+    for (const SourceFile& file : files)
+        if (room_of(file.path) == room)
+            for (const Include& include : includes_of(file))
+                if (include.own && room_of(include.name) == room && folder_of(include.name) != folder_of(file.path))
+                    sees[folder_of(file.path)].insert(folder_of(include.name));
+
+    Complaints complaints;
+    for (const auto& [start, unused] : sees) {
+        Names reached;
+        const std::function<void(const std::string&)> visit = [&](const std::string& folder) {
+            for (const auto& next : sees[folder])
+                if (reached.insert(next).second) visit(next);
+        };
+        visit(start);
+        if (reached.contains(start)) complaints.push_back(start + " includes itself through other folders");
+    }
+    return complaints;
+}
+
+std::string code_only(std::string_view text) {
+    std::string code(text);
+    for (std::size_t i = 0; i < text.size();) {
+        const std::size_t comment = end_of_comment(text, i), literal = end_of_literal(text, i);
+        if (comment > i)
+            blank(code, i, comment);
+        else if (literal > i)
+            blank(code, i + 1, literal - 1);
+        i = std::max({i + 1, comment, literal});
+    }
+    return code;
+}
+
+}  // namespace lightnet::house

@@ -1,0 +1,38 @@
+// The rules of the house as functions from text to complaints, so that each can be shown to bite.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lightnet::house {
+
+/// A file of the project: its path from the root ("core/film/film.hpp") and its text.
+struct SourceFile {
+    std::string path;
+    std::string text;
+};
+
+/// What is wrong, as "path:line: why".
+using Complaints = std::vector<std::string>;
+
+/// Includes that leave the room map, that bring a third party out of its home, or that a header must not have.
+Complaints stray_includes(const SourceFile& file);
+
+/// Words of distribution (threads, sockets, serializers, coroutines) in the code of a node; comments may say anything.
+Complaints words_of_distribution(const SourceFile& file);
+
+/// A header without #pragma once, or with a `using namespace`.
+Complaints bad_header(const SourceFile& file);
+
+/// A file of more lines than the house allows.
+Complaints too_long(const SourceFile& file, std::size_t most_lines);
+
+/// Folders below `room` whose files include each other in a circle.
+Complaints folder_circles(const std::vector<SourceFile>& files, std::string_view room);
+
+/// `text` with its comments and the contents of its string literals blanked; lines stay where they are.
+std::string code_only(std::string_view text);
+
+}  // namespace lightnet::house

@@ -1,0 +1,104 @@
+// Each rule of the house bites: a planted breach is found, and what is allowed is not.
+#include "tests/architecture/rules.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace lightnet::house {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+TEST(Rooms, CoreSeesNobody) {
+    EXPECT_THAT(stray_includes({"core/graph/check.cpp", "\n#include \"lua/load_graph.hpp\"\n"}),
+                ElementsAre("core/graph/check.cpp:2: core does not see lua"));
+    EXPECT_THAT(stray_includes({"core/graph/check.cpp", "#include \"core/graph/graph.hpp\"\n#include <vector>\n"}),
+                IsEmpty());
+}
+
+TEST(Rooms, NodesTransportAndLuaNeverSeeEachOther) {
+    for (const std::string from : {"nodes", "transport", "lua"})
+        for (const std::string to : {"nodes", "transport", "lua", "tools", "tests"})
+            if (from != to) {
+                EXPECT_THAT(stray_includes({from + "/x.cpp", "#include \"" + to + "/y.hpp\""}), SizeIs(1));
+            }
+}
+
+TEST(Rooms, ToolsSeeAll) {
+    EXPECT_THAT(stray_includes({"tools/lightnet.cpp",
+                                "#include \"core/error.hpp\"\n#include \"nodes/standard.hpp\"\n"
+                                "#include \"transport/host.hpp\"\n#include \"lua/load.hpp\"\n"}),
+                IsEmpty());
+}
+
+TEST(Rooms, KeepIncludesFromTheRoot) {
+    EXPECT_THAT(stray_includes({"core/film/film.cpp", "#include \"film.hpp\""}), SizeIs(1));
+    EXPECT_THAT(stray_includes({"nodes/x.cpp", "#  include \"../transport/packet.hpp\""}), SizeIs(1));
+    EXPECT_THAT(stray_includes({"nodes/x.cpp", "#include \"nodes/combine.cpp\""}), SizeIs(1));
+}
+
+TEST(Homes, KeepEachLibraryInOneRoom) {
+    EXPECT_THAT(stray_includes({"core/runtime/place.cpp", "#include <zmq.hpp>"}), SizeIs(1));
+    EXPECT_THAT(stray_includes({"transport/sockets.cpp", "#include <zmq.hpp>\n#include <msgpack.hpp>"}), IsEmpty());
+    EXPECT_THAT(stray_includes({"tools/lightnet.cpp", "#include <lua5.4/lua.h>"}), SizeIs(1));
+    EXPECT_THAT(stray_includes({"lua/load_graph.cpp", "#include <lua.hpp>\n#include <lauxlib.h>"}), IsEmpty());
+    EXPECT_THAT(stray_includes({"nodes/ray_tracer.cpp", "#include <embree3/rtcore.h>"}), SizeIs(1));
+    EXPECT_THAT(stray_includes({"core/scene/scene.cpp", "#include <embree3/rtcore.h>"}), IsEmpty());
+    EXPECT_THAT(stray_includes({"core/scene/scene.cpp", "#include <ImfHeader.h>"}), SizeIs(1));
+    EXPECT_THAT(stray_includes({"core/scene/image_file.cpp", "#include <ImfHeader.h>\n#include <jpeglib.h>"}),
+                IsEmpty());
+    EXPECT_THAT(stray_includes({"nodes/combine.cpp", "#include <boost/context/fiber.hpp>"}), SizeIs(1));
+}
+
+TEST(Homes, KeepThirdPartiesOutOfHeaders) {
+    EXPECT_THAT(stray_includes({"transport/sockets.hpp", "#include <zmq.hpp>"}),
+                ElementsAre("transport/sockets.hpp:1: <zmq.hpp> in a header"));
+    EXPECT_THAT(stray_includes({"core/error.hpp", "#include <fmt/format.h>"}), SizeIs(1));
+    EXPECT_THAT(stray_includes({"core/error.hpp", "#include <string>"}), IsEmpty());
+}
+
+TEST(Nodes, HaveNothingOfDistributionInTheirCode) {
+    for (const std::string word : {"std::thread t;", "std::jthread t;", "std::mutex m;", "std::shared_mutex m;",
+                                   "std::atomic<int> n;", "std::atomic_int n;", "std::future<int> f;", "co_await x;",
+                                   "std::async(f);", "thread_local int n;", "#include <condition_variable>",
+                                   "zmq_send(s);", "msgpack::pack(b, q);", "#include <boost/context/fiber.hpp>"})
+        EXPECT_THAT(words_of_distribution({"nodes/x.cpp", word}), SizeIs(1)) << word;
+}
+
+TEST(Nodes, MaySpeakOfAnythingInWords) {
+    EXPECT_THAT(words_of_distribution({"nodes/x.cpp",
+                                       "// no mutex is needed here\n/* a\n thread */ int a;\n"
+                                       "throw Error(\"a promise\"); int threads_of_light;\n"}),
+                IsEmpty());
+}
+
+TEST(CodeOnly, BlanksCommentsAndTextButKeepsLines) {
+    EXPECT_EQ(code_only("a // b\nc /* d\ne */ f \"g\\\"h\" 'i' 1'000"), "a     \nc     \n     f \"    \" ' ' 1'000");
+}
+
+TEST(Headers, GuardThemselvesAndOpenNoNamespace) {
+    EXPECT_THAT(bad_header({"core/x.hpp", "// a\nint x;\n"}), ElementsAre(HasSubstr("no #pragma once")));
+    EXPECT_THAT(bad_header({"core/x.hpp", "#pragma once\nusing namespace std;\n"}),
+                ElementsAre(HasSubstr("core/x.hpp:2")));
+    EXPECT_THAT(bad_header({"core/x.hpp", "#pragma once\n"}), IsEmpty());
+    EXPECT_THAT(bad_header({"core/x.cpp", "int x;\n"}), IsEmpty());
+}
+
+TEST(Files, AreShort) {
+    EXPECT_THAT(too_long({"core/x.cpp", "1\n2\n3\n"}, 3), IsEmpty());
+    EXPECT_THAT(too_long({"core/x.cpp", "1\n2\n3\n4\n"}, 3), SizeIs(1));
+}
+
+TEST(Folders, DoNotIncludeEachOther) {
+    const SourceFile up{"core/graph/a.hpp", "#include \"core/light/b.hpp\""};
+    const SourceFile down{"core/light/b.hpp", "#include \"core/math/c.hpp\""};
+    const SourceFile back{"core/math/c.hpp", "#include \"core/graph/a.hpp\""};
+    EXPECT_THAT(folder_circles({up, down}, "core"), IsEmpty());
+    EXPECT_THAT(folder_circles({up, down, back}, "core"), SizeIs(3));
+}
+
+}  // namespace
+}  // namespace lightnet::house

@@ -1,0 +1,180 @@
+// Pictures in files: the same bytes, the exact sum, and never half a file.
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <png.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstring>
+#include <functional>
+#include <limits>
+
+#include "core/error.hpp"
+#include "core/film/atomic_file.hpp"
+#include "core/film/exr.hpp"
+#include "core/film/png.hpp"
+#include "tests/film/pictures.hpp"
+
+namespace lightnet {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+std::vector<std::string> names_in(const TemporaryFolder& folder) {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+        names.push_back(entry.path().filename());
+    return names;
+}
+
+bool same_bits(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
+    return a.size() == b.size() && !std::memcmp(a.data(), b.data(), a.size() * sizeof(Rgb));
+}
+
+TEST(Exr, ReadsBackWhatItWrote) {
+    const TemporaryFolder folder;
+    const Picture picture = noisy_picture(33, 17);
+    write_exr(folder / "x.exr", picture);
+    EXPECT_TRUE(read_exr(folder / "x.exr") == picture);
+}
+
+TEST(Exr, HoldsABeautyThatIsExactlyTheSumOfItsLayers) {
+    const TemporaryFolder folder;
+    write_exr(folder / "x.exr", noisy_picture(64, 64));
+    const Picture read = read_exr(folder / "x.exr");
+    ASSERT_EQ(read.layers.size(), 3u);
+    std::vector<Rgb> sum = read.layers[0].pixels;
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = sum[i] + read.layers[1].pixels[i] + read.layers[2].pixels[i];
+    EXPECT_TRUE(same_bits(sum, read.beauty));
+}
+
+TEST(Exr, HasTheSameBytesEachTimeAndWherever) {
+    const TemporaryFolder folder, elsewhere;
+    const Picture picture = noisy_picture(50, 40);
+    write_exr(folder / "x.exr", picture);
+    write_exr(elsewhere / "another_name.exr", picture);
+    EXPECT_EQ(content_of(folder / "x.exr"), content_of(elsewhere / "another_name.exr"));
+    EXPECT_EQ(exr_of(picture), content_of(folder / "x.exr"));
+}
+
+TEST(Exr, SaysNothingOfWhenWhereOrByWhom) {
+    const TemporaryFolder folder;
+    write_exr(folder / "x.exr", noisy_picture(4, 4));
+    const Imf::InputFile file((folder / "x.exr").c_str());
+    std::vector<std::string> attributes;
+    for (auto one = file.header().begin(); one != file.header().end(); ++one) attributes.emplace_back(one.name());
+    EXPECT_THAT(attributes, ::testing::UnorderedElementsAre("channels", "compression", "dataWindow", "displayWindow",
+                                                            "layers", "lineOrder", "pixelAspectRatio",
+                                                            "screenWindowCenter", "screenWindowWidth"));
+}
+
+TEST(Exr, NeedsNoLayers) {
+    const TemporaryFolder folder;
+    const Picture picture{2, 1, {{1, 2, 3}, {4, 5, 6}}, {}};
+    write_exr(folder / "x.exr", picture);
+    EXPECT_TRUE(read_exr(folder / "x.exr") == picture);
+}
+
+TEST(Exr, SaysWhichFileItCannotRead) {
+    const TemporaryFolder folder;
+    write_file(folder / "x.exr", "no picture");
+    try {
+        read_exr(folder / "x.exr");
+        FAIL() << "read something";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("x.exr"));
+    }
+    EXPECT_THROW(read_exr(folder / "absent.exr"), Error);
+}
+
+std::vector<std::uint8_t> decoded(const std::string& bytes) {
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    EXPECT_TRUE(png_image_begin_read_from_memory(&image, bytes.data(), bytes.size())) << image.message;
+    image.format = PNG_FORMAT_RGB;
+    std::vector<std::uint8_t> values(PNG_IMAGE_SIZE(image));
+    EXPECT_TRUE(png_image_finish_read(&image, nullptr, values.data(), 0, nullptr)) << image.message;
+    return values;
+}
+
+TEST(Png, ClipsAndFollowsTheCurveOfSrgb) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const Picture picture{3, 1, {{0, 0.0031308f, 0.18f}, {0.5f, 1, 7}, {-1, nan, 0.001f}}, {}};
+    EXPECT_THAT(decoded(png_of(picture)), ::testing::ElementsAre(0, 10, 118, 188, 255, 255, 0, 0, 3));
+}
+
+TEST(Png, HasTheSameBytesEachTime) { EXPECT_EQ(png_of(noisy_picture(20, 10)), png_of(noisy_picture(20, 10))); }
+
+TEST(WriteFile, ReplacesAFileWhole) {
+    const TemporaryFolder folder;
+    write_file(folder / "x", "old");
+    write_file(folder / "x", "new");
+    EXPECT_EQ(content_of(folder / "x"), "new");
+    EXPECT_THAT(names_in(folder), ::testing::ElementsAre("x"));
+}
+
+TEST(WriteFile, GivesTheFileTheRightsOfAnyOther) {
+    const TemporaryFolder folder;
+    const mode_t before = ::umask(022);
+    write_file(folder / "x", "new");
+    ::umask(before);
+    struct stat about {};
+    ASSERT_EQ(::stat((folder / "x").c_str(), &about), 0);
+    EXPECT_EQ(about.st_mode & 0777, 0644u);
+}
+
+// Runs `act` in a child whose files may have at most `limit` bytes: a disk that is full. 0: it threw Error.
+int outcome_on_a_full_disk(rlim_t limit, const std::function<void()>& act) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+        std::signal(SIGXFSZ, SIG_IGN);
+        const rlimit files{limit, limit};
+        ::setrlimit(RLIMIT_FSIZE, &files);
+        try {
+            act();
+        } catch (const Error&) {
+            ::_exit(0);
+        }
+        ::_exit(1);
+    }
+    int status = -1;
+    ::waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+TEST(WriteFile, LeavesTheOldPictureWholeWhenTheDiskIsFull) {
+    const TemporaryFolder folder;
+    const Picture picture = noisy_picture(8, 8);
+    write_exr(folder / "x.exr", picture);
+    EXPECT_EQ(outcome_on_a_full_disk(4096, [&] { write_exr(folder / "x.exr", noisy_picture(128, 128)); }), 0);
+    EXPECT_TRUE(read_exr(folder / "x.exr") == picture);
+    EXPECT_THAT(names_in(folder), ::testing::ElementsAre("x.exr"));
+}
+
+TEST(WriteFile, SaysWhatIsWrongWithTheFolder) {
+    const TemporaryFolder folder;
+    try {
+        write_file(folder / "absent" / "x.exr", "bytes");
+        FAIL() << "wrote something";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("absent/x.exr: can't be written: No such file or directory"));
+    }
+    EXPECT_THAT(names_in(folder), IsEmpty());
+}
+
+TEST(WriteFile, LeavesNothingBehindWhenItCannotRename) {
+    const TemporaryFolder folder;
+    std::filesystem::create_directories(folder / "x.exr");
+    write_file(folder / "x.exr" / "inside", "keeps the folder from being replaced");
+    EXPECT_THROW(write_file(folder / "x.exr", "bytes"), Error);
+    EXPECT_THAT(names_in(folder), ::testing::ElementsAre("x.exr"));
+}
+
+}  // namespace
+}  // namespace lightnet

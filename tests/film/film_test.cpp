@@ -1,0 +1,158 @@
+// The film gives the same bytes whatever the tiles do.
+#include "core/film/film.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+#include <random>
+#include <set>
+
+#include "core/error.hpp"
+#include "tests/film/pictures.hpp"
+
+namespace lightnet {
+namespace {
+
+const FilmFormat format{37, 21, {"emission", "direct", "bounce"}, 100};  // 7 blocks, the last one of 4 samples
+
+// What a renderer would answer: noise that depends on pixel, block and layer alone.
+std::vector<Rgb> rendered(const Tile& tile) {
+    std::vector<Rgb> pixels;
+    for (std::uint32_t y = tile.y; y < tile.y + tile.height; ++y)
+        for (std::uint32_t x = tile.x; x < tile.x + tile.width; ++x)
+            for (const Rgb& colour : noise(format.layers.size(), (y * 64 + x) * 8 + tile.block()))
+                pixels.push_back(colour);
+    return pixels;
+}
+
+Picture picture_of(std::vector<Tile> tiles) {
+    Film film(format);
+    for (const Tile& tile : tiles) film.add(tile, rendered(tile));
+    EXPECT_TRUE(film.complete());
+    return film.picture();
+}
+
+std::vector<Tile> tiles(std::uint32_t size) { return tiles_of(format.width, format.height, size, format.samples); }
+
+TEST(Tiles, CoverEachSampleOfEachPixelOnce) {
+    for (const std::uint32_t size : {1u, 5u, 16u, 64u}) {
+        std::vector<std::uint32_t> samples(format.width * format.height);
+        for (const Tile& tile : tiles(size))
+            for (std::uint32_t y = tile.y; y < tile.y + tile.height; ++y)
+                for (std::uint32_t x = tile.x; x < tile.x + tile.width; ++x)
+                    samples.at(y * format.width + x) += tile.samples;
+        EXPECT_THAT(samples, ::testing::Each(format.samples));
+    }
+}
+
+TEST(Tiles, AreHandedOutBlockByBlock) {
+    const auto all = tiles(8);
+    EXPECT_TRUE(std::is_sorted(all.begin(), all.end(),
+                               [](const Tile& a, const Tile& b) { return a.first_sample < b.first_sample; }));
+    EXPECT_EQ(all.size(), 7u * 5 * 3);
+}
+
+TEST(Tiles, AreNeighboursWhenTheyFollowEachOther) {
+    const auto all = tiles_of(64, 64, 8, 1);
+    for (std::size_t i = 1; i < all.size(); ++i)
+        EXPECT_EQ(std::abs(int(all[i].x) - int(all[i - 1].x)) + std::abs(int(all[i].y) - int(all[i - 1].y)), 8);
+}
+
+TEST(Tiles, AreNoneForNothing) {
+    EXPECT_THAT(tiles_of(0, 5, 8, 1), ::testing::IsEmpty());
+    EXPECT_THAT(tiles_of(5, 5, 8, 0), ::testing::IsEmpty());
+}
+
+TEST(Film, GivesTheSameBytesInAnyOrderOfArrival) {
+    const Picture in_order = picture_of(tiles(8));
+    for (const unsigned seed : {1u, 2u, 3u}) {
+        auto shuffled = tiles(8);
+        std::shuffle(shuffled.begin(), shuffled.end(), std::mt19937(seed));
+        EXPECT_TRUE(picture_of(shuffled) == in_order);
+    }
+    auto backwards = tiles(8);
+    std::reverse(backwards.begin(), backwards.end());
+    EXPECT_TRUE(picture_of(backwards) == in_order);
+}
+
+TEST(Film, GivesTheSameBytesForAnyTileSize) {
+    const Picture by_eight = picture_of(tiles(8));
+    for (const std::uint32_t size : {1u, 3u, 16u, 64u}) EXPECT_TRUE(picture_of(tiles(size)) == by_eight);
+}
+
+TEST(Film, FoldsBlocksInTheOrderOfTheirIndex) {
+    // In float32 these three give 1 in the order of their index, and 0 in the opposite one.
+    Film film({1, 1, {"emission"}, 48});
+    const std::vector<Rgb> block[3] = {{{1e8f, 0, 0}}, {{-1e8f, 0, 0}}, {{1, 0, 0}}};
+    for (const std::uint32_t b : {2u, 1u, 0u})
+        film.add({0, 0, 1, 1, b * samples_per_block, samples_per_block}, block[b]);
+    EXPECT_EQ(film.picture().beauty[0].r, 1.0f / 48);
+}
+
+TEST(Film, TakesTheFirstOfTwoEqualTiles) {
+    Film film({1, 1, {"emission"}, 32});
+    const Tile first{0, 0, 1, 1, 0, 16}, second{0, 0, 1, 1, 16, 16};
+    const std::vector<Rgb> one{{1, 1, 1}}, nine{{9, 9, 9}};
+    EXPECT_TRUE(film.add(second, one));
+    EXPECT_FALSE(film.add(second, nine));  // while it waits for its turn
+    EXPECT_TRUE(film.add(first, one));
+    EXPECT_FALSE(film.add(first, nine));
+    EXPECT_FALSE(film.add(second, nine));  // after it was added
+    EXPECT_TRUE(film.complete());
+    EXPECT_EQ(film.picture().beauty[0].r, 2.0f / 32);
+}
+
+TEST(Film, CountsWhatIsNotFiniteAsBlack) {
+    Film film({2, 1, {"emission", "direct"}, 16});
+    const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
+    film.add({0, 0, 2, 1, 0, 16}, std::vector<Rgb>{{16, 0, 0}, {0, nan, 1}, {0, infinity, 0}, {32, 0, 0}});
+    EXPECT_THAT(film.lost(), ::testing::ElementsAre(1, 1));
+    EXPECT_EQ(film.picture().beauty, (std::vector<Rgb>{{1, 0, 0}, {2, 0, 0}}));
+}
+
+TEST(Film, ShowsWhatIsThereWhileItGrows) {
+    Film film({2, 1, {"emission"}, 20});
+    const std::vector<Rgb> sixteen{{16, 16, 16}};
+    film.add({0, 0, 1, 1, 0, 16}, sixteen);
+    EXPECT_FALSE(film.complete());
+    EXPECT_EQ(film.done(), 0.25);
+    EXPECT_EQ(film.picture().beauty, (std::vector<Rgb>{{1, 1, 1}, {0, 0, 0}}));
+}
+
+TEST(Film, ScalesEachLayerAndAddsThemUpAfterwards) {
+    Film film({1, 1, {"emission", "direct"}, 1});
+    film.add({0, 0, 1, 1, 0, 1}, std::vector<Rgb>{{0.1f, 1, 2}, {0.2f, 1, 2}});
+    const Picture picture = film.picture(0.3f);
+    EXPECT_EQ(picture.layers[0].pixels[0].r, 0.1f * 0.3f);
+    EXPECT_EQ(picture.beauty[0].r, 0.1f * 0.3f + 0.2f * 0.3f);
+}
+
+TEST(Film, RefusesTilesThatAreNoneOfItsOwn) {
+    Film film({8, 8, {"emission"}, 20});
+    const auto refuses = [&](const Tile& tile, std::size_t colours) {
+        EXPECT_THROW(film.add(tile, std::vector<Rgb>(colours)), Error);
+    };
+    refuses({4, 0, 8, 8, 0, 16}, 64);            // outside
+    refuses({0xffffffffu, 0, 2, 8, 0, 16}, 16);  // outside, if sums did not overflow
+    refuses({0, 0, 0, 8, 0, 16}, 0);             // empty
+    refuses({0, 0, 8, 8, 3, 16}, 64);            // no block
+    refuses({0, 0, 8, 8, 16, 16}, 64);           // more samples than the last block has
+    refuses({0, 0, 8, 8, 32, 16}, 64);           // no such block
+    refuses({0, 0, 8, 8, 0, 16}, 63);            // a colour is missing
+    film.add({0, 0, 4, 4, 0, 16}, std::vector<Rgb>(16));
+    refuses({2, 2, 4, 4, 16, 4}, 16);  // of another tiling
+    EXPECT_TRUE(film.add({4, 4, 4, 4, 0, 16}, std::vector<Rgb>(16)));
+}
+
+TEST(Film, RefusesToBeNothing) {
+    EXPECT_THROW(Film({0, 1, {"emission"}, 1}), Error);
+    EXPECT_THROW(Film({1, 1, {}, 1}), Error);
+    EXPECT_THROW(Film({1, 1, {"emission"}, 0}), Error);
+    EXPECT_THROW(Film({1, 1, {"emission", "emission"}, 1}), Error);
+}
+
+}  // namespace
+}  // namespace lightnet

@@ -1,0 +1,60 @@
+// Small pictures and folders to test with.
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
+#include <string>
+
+#include "core/film/picture.hpp"
+
+namespace lightnet {
+
+/// A folder that is gone at the end of the test.
+class TemporaryFolder {
+public:
+    TemporaryFolder() {
+        std::string name = (std::filesystem::temp_directory_path() / "lightnet-test-XXXXXX").string();
+        path_ = ::mkdtemp(name.data());
+    }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    ~TemporaryFolder() { std::filesystem::remove_all(path_); }
+    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+    const std::filesystem::path& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+};
+
+inline std::string content_of(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Noise of any brightness between 1e-3 and 1e3, always the same.
+inline std::vector<Rgb> noise(std::size_t pixels, std::uint32_t seed) {
+    std::mt19937 random(seed);
+    const auto value = [&] {
+        const float bits = static_cast<float>(random() >> 8) * 0x1p-24f;
+        return (bits + 0.001f) * static_cast<float>(1u << (random() % 10));
+    };
+    std::vector<Rgb> result(pixels);
+    for (Rgb& pixel : result) pixel = {value(), value(), value()};
+    return result;
+}
+
+/// A picture of noise in three layers, one of them with a long name.
+inline Picture noisy_picture(std::uint32_t width, std::uint32_t height) {
+    const std::size_t pixels = std::size_t{width} * height;
+    Picture picture{width, height, {}, {}};
+    picture.layers = {{"emission", noise(pixels, 1)},
+                      {"Zenith", noise(pixels, 2)},
+                      {"a_node_whose_name_is_longer_than_31_letters", noise(pixels, 3)}};
+    picture.beauty = sum_of(picture.layers);
+    return picture;
+}
+
+}  // namespace lightnet

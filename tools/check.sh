@@ -1,0 +1,17 @@
+#!/usr/bin/env bash
+# The one check script: formatting, warnings, headers that compile alone, tests. `tools/check.sh --fix` formats first.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+mapfile -t files < <(git ls-files --cached --others --exclude-standard '*.cpp' '*.hpp')
+if ! command -v clang-format >/dev/null; then
+    echo "formatting is not checked: there is no clang-format here (Debian: clang-format)"
+elif [ "${1-}" = --fix ]; then
+    clang-format -i "${files[@]}"
+else
+    clang-format --dry-run -Werror "${files[@]}"
+fi
+
+tools/build.sh dev
+tools/build.sh dev all_verify_interface_header_sets
+ctest --test-dir build/dev --parallel "$(nproc)" --output-on-failure -LE '^(slow|fuzz|bench)$' </dev/null

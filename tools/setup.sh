@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# Installs what lightnet is built from, where Debian's packages are and we may; elsewhere names them.
+# The one place that lists the packages.
+set -euo pipefail
+
+packages=(
+    build-essential cmake ninja-build pkg-config        # the build
+    libembree-dev libopenexr-dev libpng-dev libjpeg62-turbo-dev     # rays and pictures
+    libboost-context-dev libzmq3-dev cppzmq-dev libmsgpack-cxx-dev libsodium-dev libxxhash-dev   # fibers, sockets, hashes
+    liblua5.4-dev libfmt-dev libcli11-dev nlohmann-json3-dev        # graphs, text, command lines, JSON
+    libgtest-dev libgmock-dev libbenchmark-dev          # tests and benchmarks
+)
+
+if [ "${1-}" = --list ]; then
+    printf '%s\n' "${packages[@]}"
+    exit 0
+fi
+
+if ! command -v dpkg-query >/dev/null; then
+    echo "lightnet is built from these packages of Debian 12; please see that their likes are here:" >&2
+    echo "  ${packages[*]}" >&2
+    exit 0   # CMake names what it misses
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+    state=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true)
+    [ "$state" = installed ] || missing+=("$package")
+done
+[ ${#missing[@]} -gt 0 ] || exit 0
+
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+    if ! command -v sudo >/dev/null || ! sudo -v; then
+        echo "please install these packages, as root:" >&2
+        echo "  apt-get install --no-install-recommends ${missing[*]}" >&2
+        exit 1
+    fi
+    as_root=(sudo)
+fi
+
+echo "installing ${missing[*]}"
+"${as_root[@]}" apt-get update -qq
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -qq -y --no-install-recommends "${missing[@]}" >/dev/null
