@@ -1,15 +1,33 @@
 // Finds everything that is wrong with a graph, before any work starts.
 #pragma once
 
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
 #include "core/graph/graph.hpp"
 #include "core/graph/hosts.hpp"
 #include "core/graph/kind.hpp"
 
 namespace lightnet {
 
-/// The graph with defaults filled in. Throws UserError that names *all* problems, each with file, line, the node's name
-/// and a suggestion: unknown kind or parameter, wrong type or range, missing input, wrong role of an input, duplicate
-/// name, cycle, no or several renderers, and nodes in `hosts` that the graph does not have.
+/// What check() finds.
+struct Examined {
+    Graph graph;                        // with defaults filled in
+    std::vector<Problem> problems;      // all of them, in the order of the files' lines; empty: the graph is sound
+    std::vector<Problem> warnings;      // what works, but is probably not meant: nodes that the picture doesn't need
+};
+
+/// Finds everything that is wrong: unknown kind or parameter, wrong type or range, missing input, wrong role of an
+/// input, duplicate name, cycle, no or several renderers, and what `hosts` says of nodes that the graph doesn't have.
+/// Opens no file.
+Examined examine(const Graph& graph, const Registry& registry, const Hosts& hosts = {});
+
+/// The graph with defaults filled in. Throws UserError that names *all* problems of examine(), each with file, line,
+/// the node's name and a suggestion.
 Graph check(const Graph& graph, const Registry& registry, const Hosts& hosts = {});
+
+/// Problems of the graph's file first, then of other files, each in the order of lines.
+void sort_by_line(std::vector<Problem>& problems, const std::string& first_file);
 
 }  // namespace lightnet

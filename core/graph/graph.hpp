@@ -31,14 +31,21 @@ struct Graph {
 
     /// Index of the node called `name`.
     std::optional<std::size_t> find(std::string_view name) const;
-    /// Indices of the nodes that `node` asks, in graph order (its entries, then NodeRef parameters other than scenes
-    /// do not count: only entries are inputs).
+    /// Indices of the nodes that `node` asks, in the order of its entries. Parameters (a scene) are no inputs.
     std::vector<std::size_t> inputs_of(std::size_t node) const;
 };
 
-/// Canonical text (JSON) of a graph: the same graph gives the same bytes. For pipes, plans and hashes.
+/// Per node, how far it is above the leaves: 0 without inputs, else one more than its highest input. Throws Error on
+/// a cycle, which check() would have named.
+std::vector<unsigned> ranks_of(const Graph& graph);
+
+/// Per node, whether the picture of `renderer` needs it: the renderer itself, what it asks, and the scenes of these.
+std::vector<bool> used_nodes(const Graph& graph, std::size_t renderer);
+
+/// Canonical text (JSON) of a graph: the same graph gives the same bytes. For pipes, plans and hashes. Throws Error
+/// when a text in it isn't UTF-8.
 std::string to_json(const Graph& graph);
-/// Reads it back. Throws Error on anything else.
+/// Reads it back. Throws Error on anything else, and on more than 16 MiB or 32 levels of nesting.
 Graph graph_from_json(std::string_view text);
 
 }  // namespace lightnet

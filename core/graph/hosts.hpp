@@ -26,6 +26,7 @@ struct Hosts {
     friend bool operator==(const Hosts&, const Hosts&) = default;
 };
 
+/// Canonical text of hosts, and back; limits and errors as for graphs.
 std::string to_json(const Hosts& hosts);
 Hosts hosts_from_json(std::string_view text);
 

@@ -1,6 +1,7 @@
 // What a node can be: the schema of one kind, which feeds validation, `describe` and the maker of the node.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -22,6 +23,9 @@ enum class Role { light, image, scene };
 
 enum class ParamType { number, integer, flag, text, numbers, film, scene };
 
+std::string_view to_string(Role role);
+std::string_view to_string(ParamType type);
+
 /// One parameter of a kind.
 struct Param {
     std::string name;
@@ -33,6 +37,7 @@ struct Param {
     double most = std::numeric_limits<double>::infinity();
     std::vector<std::string> choices = {};          // for text: what it may be; empty: anything
     bool optional = false;                          // may be absent without a default
+    bool per_input = false;                         // for numbers: exactly one for each input of the node
 };
 
 /// One kind of node.
@@ -48,7 +53,8 @@ struct Kind {
     std::function<std::unique_ptr<Renderer>(const NodeContext&)> make_renderer = {};
 };
 
-/// All kinds that a program knows. Given by main, in order of name; nothing registers itself.
+/// All kinds that a program knows, in order of name. Given by main; nothing registers itself. The kind Scene, which
+/// is data and no node that anybody makes, is always among them.
 class Registry {
 public:
     explicit Registry(std::vector<Kind> kinds);

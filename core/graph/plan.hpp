@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/graph/graph.hpp"
@@ -49,6 +50,7 @@ Plan plan(const Graph& graph, const Registry& registry, const Hosts& hosts, cons
 /// The index of the renderer whose picture the run makes.
 std::size_t renderer_of(const Graph& graph, const Registry& registry);
 
+/// Canonical text of a plan, and back; limits and errors as for graphs.
 std::string to_json(const Plan& plan);
 Plan plan_from_json(std::string_view text);
 

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -29,5 +30,12 @@ struct Value {
     std::variant<bool, double, std::string, NodeRef, Table> data;
     friend bool operator==(const Value&, const Value&) = default;
 };
+
+/// As few digits as tell the number from all others; integers without a point or an exponent.
+std::string number_text(double number);
+/// As one would write it in a graph file, for messages.
+std::string to_string(const Value& value);
+/// "a number", "a text" …, for messages.
+std::string_view type_name(const Value& value);
 
 }  // namespace lightnet

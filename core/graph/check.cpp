@@ -1,0 +1,206 @@
+#include "core/graph/check.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <tuple>
+
+#include "core/graph/check_hosts.hpp"
+#include "core/graph/check_params.hpp"
+
+namespace lightnet {
+namespace {
+
+std::string quoted(const std::string& text) { return "'" + text + "'"; }
+
+std::string count_text(std::size_t count) { return std::to_string(count) + (count == 1 ? " input" : " inputs"); }
+
+bool identifier(const std::string& name) {
+    const auto letter = [](unsigned char c) { return std::isalpha(c) || c == '_'; };
+    return !name.empty() && name.size() <= 64 && letter(name[0]) &&
+           std::all_of(name.begin(), name.end(), [&](unsigned char c) { return letter(c) || std::isdigit(c); });
+}
+
+/// Looks at one graph, and collects what is wrong with it.
+class Examination {
+public:
+    Examination(const Graph& graph, const Registry& registry) : given_(graph), registry_(registry) {
+        for (const auto& node : graph.nodes) names_.push_back(node.name);
+        for (const auto& kind : registry.kinds()) kinds_.push_back(kind.name);
+    }
+
+    Examined run() {
+        found_.graph = given_;
+        check_names();
+        for (std::size_t node = 0; node < given_.nodes.size(); ++node) check_node(node);
+        check_cycles();
+        check_renderers();
+        return std::move(found_);
+    }
+
+private:
+    void complain(const Node& node, const std::string& what) {
+        found_.problems.push_back({node.where, node.kind + " " + quoted(node.name) + ": " + what});
+    }
+
+    void check_names() {
+        std::map<std::string, const Node*> seen;
+        for (const auto& node : given_.nodes) {
+            if (!identifier(node.name)) complain(node, "a name is made of letters, digits and _, at most 64");
+            const auto [first, added] = seen.emplace(node.name, &node);
+            if (!added)
+                complain(node, "the name is taken by the " + first->second->kind + " of line " +
+                                   std::to_string(first->second->where.line));
+            if (node.name == "emission")
+                complain(node, "the name is reserved for the layer of light that the renderer sees itself");
+        }
+    }
+
+    void check_node(std::size_t index) {
+        Node& node = found_.graph.nodes[index];
+        const Kind* kind = registry_.find(node.kind);
+        const auto say = [&](const std::string& what) { complain(node, what); };
+        if (!kind) say("unknown kind" + suggest(node.kind, kinds_));
+        if (kind && kind->role == Role::scene) check_scene(node);
+        else check_inputs(node, kind);
+        if (kind) check_params(node, *kind, given_, say);
+    }
+
+    void check_scene(const Node& node) {
+        if (node.entries.size() != 1 || !std::holds_alternative<std::string>(node.entries[0].data))
+            complain(node, "takes the name of one file: Scene { \"file.pbrt\" }");
+    }
+
+    // Of an unknown kind nothing is known but that its inputs must be there.
+    void check_inputs(const Node& node, const Kind* kind) {
+        for (std::size_t i = 0; i < node.entries.size(); ++i) check_input(node, i, kind);
+        if (!kind) return;
+        const std::size_t count = node.entries.size();
+        if (count < kind->least_inputs)
+            complain(node, "needs at least " + count_text(kind->least_inputs) + ", has " + std::to_string(count));
+        if (count > kind->most_inputs)
+            complain(node, kind->most_inputs == 0 ? "takes no inputs, has " + std::to_string(count)
+                                                  : "takes at most " + count_text(kind->most_inputs) + ", has " +
+                                                        std::to_string(count));
+    }
+
+    void check_input(const Node& node, std::size_t index, const Kind* kind) {
+        const Value& entry = node.entries[index];
+        const std::string which = "input " + std::to_string(index + 1);
+        const auto* ref = std::get_if<NodeRef>(&entry.data);
+        if (!ref) return complain(node, which + " is " + std::string(type_name(entry)) + ", but must be a node");
+        const auto input = given_.find(ref->name);
+        if (!input) return complain(node, "no node called " + quoted(ref->name) + suggest(ref->name, names_));
+        const Kind* gives = registry_.find(given_.nodes[*input].kind);
+        if (!kind || !gives || gives->role == Role::light) return;
+        const std::string hint = gives->role == Role::scene ? " (write scene = " + ref->name + ")" : "";
+        complain(node, which + ", " + quoted(ref->name) + ", gives " +
+                           (gives->role == Role::image ? "an image" : "a scene") + ", but light is wanted" +
+                           hint);
+    }
+
+    // Depth first; a node that is met again on the way to itself closes a cycle, which is told once.
+    void check_cycles() {
+        state_.assign(given_.nodes.size(), State::fresh);
+        for (std::size_t node = 0; node < given_.nodes.size(); ++node)
+            if (state_[node] == State::fresh) walk(node);
+    }
+
+    // By hand instead of by recursion: a long chain of nodes mustn't cost the stack.
+    void walk(std::size_t start) {
+        std::vector<std::pair<std::size_t, std::vector<std::size_t>>> path;
+        const auto enter = [&](std::size_t node) {
+            state_[node] = State::open;
+            path.emplace_back(node, given_.inputs_of(node));
+            std::reverse(path.back().second.begin(), path.back().second.end());
+        };
+        enter(start);
+        while (!path.empty()) {
+            auto& [node, left] = path.back();
+            if (left.empty()) {
+                state_[node] = State::done;
+                path.pop_back();
+                continue;
+            }
+            const std::size_t input = left.back();
+            left.pop_back();
+            if (state_[input] == State::fresh) enter(input);
+            else if (state_[input] == State::open) tell_cycle(path, input);
+        }
+    }
+
+    void tell_cycle(const std::vector<std::pair<std::size_t, std::vector<std::size_t>>>& path, std::size_t closing) {
+        const auto first =
+            std::find_if(path.begin(), path.end(), [&](const auto& step) { return step.first == closing; });
+        std::string names;
+        for (auto step = first; step != path.end(); ++step) names += given_.nodes[step->first].name + " → ";
+        complain(given_.nodes[closing], "asks itself: " + names + given_.nodes[closing].name);
+    }
+
+    void check_renderers() {
+        const Node* first = nullptr;
+        bool unknown = false;
+        for (const auto& node : given_.nodes) {
+            const Kind* kind = registry_.find(node.kind);
+            unknown = unknown || !kind;
+            if (!kind || kind->role != Role::image) continue;
+            if (first) complain(node, "a second renderer; " + quoted(first->name) + " makes the picture already");
+            if (!first) first = &node;
+        }
+        // an unknown kind may well be the renderer, misspelt
+        if (!first && !unknown) found_.problems.push_back({{given_.file, 0}, "no renderer" + renderers_text()});
+    }
+
+    std::string renderers_text() const {
+        std::string text;
+        for (const auto& kind : registry_.kinds())
+            if (kind.role == Role::image) text += (text.empty() ? "" : " or ") + kind.name;
+        return text.empty() ? "" : ": one node must make the picture, a " + text;
+    }
+
+    enum class State { fresh, open, done };
+
+    const Graph& given_;
+    const Registry& registry_;
+    std::vector<std::string> names_, kinds_;
+    std::vector<State> state_;
+    Examined found_;
+};
+
+std::vector<Problem> unused_nodes(const Graph& graph, const Registry& registry) {
+    std::vector<Problem> warnings;
+    for (std::size_t node = 0; node < graph.nodes.size(); ++node) {
+        if (registry.find(graph.nodes[node].kind)->role != Role::image) continue;
+        const auto used = used_nodes(graph, node);
+        for (std::size_t other = 0; other < used.size(); ++other)
+            if (const auto& [name, kind, entries, params, where] = graph.nodes[other]; !used[other])
+                warnings.push_back({where, kind + " " + quoted(name) + ": the picture doesn't need it"});
+    }
+    return warnings;
+}
+
+}  // namespace
+
+void sort_by_line(std::vector<Problem>& problems, const std::string& first_file) {
+    const auto key = [&](const Problem& problem) {
+        return std::tuple(problem.where.file != first_file, problem.where.file, problem.where.line);
+    };
+    std::stable_sort(problems.begin(), problems.end(),
+                     [&](const Problem& a, const Problem& b) { return key(a) < key(b); });
+}
+
+Examined examine(const Graph& graph, const Registry& registry, const Hosts& hosts) {
+    Examined found = Examination(graph, registry).run();
+    check_hosts(hosts, graph, registry, found.problems);
+    sort_by_line(found.problems, graph.file);
+    if (found.problems.empty()) found.warnings = unused_nodes(graph, registry);
+    return found;
+}
+
+Graph check(const Graph& graph, const Registry& registry, const Hosts& hosts) {
+    Examined found = examine(graph, registry, hosts);
+    if (!found.problems.empty()) throw UserError(std::move(found.problems));
+    return std::move(found.graph);
+}
+
+}  // namespace lightnet

@@ -1,0 +1,76 @@
+#include "core/graph/check_hosts.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <set>
+
+#include "core/graph/check_params.hpp"
+
+namespace lightnet {
+namespace {
+
+constexpr int most_places = 1024;   // of one host; more is a slip of the pen
+
+std::string quoted(const std::string& text) { return "'" + text + "'"; }
+
+/// One entry of the hosts file, and what is said of it.
+class EntryCheck {
+public:
+    EntryCheck(const HostEntry& entry, std::vector<Problem>& problems) : entry_(entry), problems_(problems) {}
+
+    void complain(const std::string& what) const {
+        problems_.push_back({entry_.where, "place " + quoted(entry_.endpoint) + ": " + what});
+    }
+
+    void replica(const std::string& name, int count) const {
+        if (count < 1 || count > most_places)
+            complain("of " + quoted(name) + " it must hold 1 … " + std::to_string(most_places) + " replicas, not " +
+                     std::to_string(count));
+        else if (entry_.places > 0 && count > entry_.places)
+            complain(std::to_string(count) + " replicas of " + quoted(name) + " need as many places, but it has " +
+                     std::to_string(entry_.places));
+    }
+
+private:
+    const HostEntry& entry_;
+    std::vector<Problem>& problems_;
+};
+
+}  // namespace
+
+std::optional<Address> address_of(std::string_view endpoint) {
+    constexpr std::string_view scheme = "tcp://";
+    if (!endpoint.starts_with(scheme)) return std::nullopt;
+    endpoint.remove_prefix(scheme.size());
+    const auto colon = endpoint.rfind(':');
+    if (colon == std::string_view::npos || colon == 0) return std::nullopt;
+    const std::string_view host = endpoint.substr(0, colon), digits = endpoint.substr(colon + 1);
+    int port = 0;
+    const auto [end, fault] = std::from_chars(digits.begin(), digits.end(), port);
+    if (fault != std::errc{} || end != digits.end() || port < 1 || port > 65535) return std::nullopt;
+    if (host.find_first_of(" \t/*") != std::string_view::npos) return std::nullopt;
+    return Address{std::string(host), port};
+}
+
+void check_hosts(const Hosts& hosts, const Graph& graph, const Registry& registry, std::vector<Problem>& problems) {
+    std::vector<std::string> names;
+    for (const auto& node : graph.nodes)
+        if (node.kind != "Scene") names.push_back(node.name);
+    std::set<std::string> seen;
+    for (const auto& entry : hosts.hosts) {
+        const EntryCheck check(entry, problems);
+        if (!address_of(entry.endpoint)) check.complain("a host is named like tcp://host:7777");
+        if (!seen.insert(entry.endpoint).second) check.complain("the host stands here twice");
+        if (entry.places < 0 || entry.places > most_places)
+            check.complain("'places' must be 1 … " + std::to_string(most_places));
+        for (const auto& [name, count] : entry.replicas) {
+            const auto node = graph.find(name);
+            const Kind* kind = node ? registry.find(graph.nodes[*node].kind) : nullptr;
+            if (!node) check.complain("no node called " + quoted(name) + suggest(name, names));
+            else if (kind && kind->role == Role::scene) check.complain(quoted(name) + " is a scene, which every host has");
+            else check.replica(name, count);
+        }
+    }
+}
+
+}  // namespace lightnet

@@ -1,0 +1,27 @@
+// Holds a hosts file against the graph that it spreads.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/graph/graph.hpp"
+#include "core/graph/hosts.hpp"
+#include "core/graph/kind.hpp"
+
+namespace lightnet {
+
+/// Adds to `problems`: endpoints that are none or stand there twice, nodes that the graph doesn't have or that no
+/// host can hold, counts out of range.
+void check_hosts(const Hosts& hosts, const Graph& graph, const Registry& registry, std::vector<Problem>& problems);
+
+/// Host and port of "tcp://host:port"; empty where it isn't one.
+struct Address {
+    std::string host;
+    int port = 0;
+};
+std::optional<Address> address_of(std::string_view endpoint);
+
+}  // namespace lightnet

@@ -1,0 +1,169 @@
+#include "core/graph/check_params.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/graph/film_format.hpp"
+#include "core/suggestion.hpp"
+
+namespace lightnet {
+namespace {
+
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+std::string quoted(const std::string& text) { return "'" + text + "'"; }
+
+std::string joined(const std::vector<std::string>& words) {
+    std::string text;
+    for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
+    return text;
+}
+
+std::string_view wanted(ParamType type) {
+    switch (type) {
+        case ParamType::number: return "a number";
+        case ParamType::integer: return "an integer";
+        case ParamType::flag: return "true or false";
+        case ParamType::text: return "a text";
+        case ParamType::numbers: return "a table of numbers";
+        case ParamType::film: return "a table like { width, height, file = \"picture.exr\" }";
+        case ParamType::scene: return "a Scene";
+    }
+    return "";
+}
+
+// What a number must be: "1 … 64 samples", "at least 0 m".
+std::string range_text(const Param& param) {
+    const std::string unit = param.unit.empty() ? "" : " " + param.unit;
+    if (param.most == unlimited) return "at least " + number_text(param.least) + unit;
+    if (param.least == -unlimited) return "at most " + number_text(param.most) + unit;
+    return number_text(param.least) + " … " + number_text(param.most) + unit;
+}
+
+/// One parameter of one node, and what is said of it.
+class ParamCheck {
+public:
+    ParamCheck(const Param& param, const Node& node, const Graph& graph, const Complain& complain)
+        : param_(param), node_(node), graph_(graph), complain_(complain) {}
+
+    void operator()(const Value& value) const {
+        switch (param_.type) {
+            case ParamType::number:
+            case ParamType::integer: number(value, quoted(param_.name), param_.type == ParamType::integer); break;
+            case ParamType::flag: as<bool>(value); break;
+            case ParamType::text: text(value); break;
+            case ParamType::numbers: numbers(value); break;
+            case ParamType::film: film(value); break;
+            case ParamType::scene: scene(value); break;
+        }
+    }
+
+private:
+    template <class T>
+    const T* as(const Value& value) const {
+        const T* found = std::get_if<T>(&value.data);
+        if (!found) wrong_type(value);
+        return found;
+    }
+
+    void wrong_type(const Value& value) const {
+        complain_(quoted(param_.name) + " must be " + std::string(wanted(param_.type)) + ", not " +
+                  std::string(type_name(value)));
+    }
+
+    void number(const Value& value, const std::string& name, bool integral) const {
+        const auto* found = std::get_if<double>(&value.data);
+        if (!found) {
+            complain_(name + " must be " + (integral ? "an integer" : "a number") + ", not " +
+                      std::string(type_name(value)));
+        } else if (!std::isfinite(*found)) {
+            complain_(name + " must be a finite number, not " + number_text(*found));
+        } else if (integral && std::trunc(*found) != *found) {
+            complain_(name + " must be an integer, not " + number_text(*found));
+        } else if (*found < param_.least || *found > param_.most) {
+            complain_(name + " is " + number_text(*found) + ", but must be " + range_text(param_));
+        }
+    }
+
+    void text(const Value& value) const {
+        const auto* found = as<std::string>(value);
+        const auto& choices = param_.choices;
+        if (!found || choices.empty() || std::find(choices.begin(), choices.end(), *found) != choices.end()) return;
+        complain_(quoted(param_.name) + " can't be " + quoted(*found) + suggest(*found, choices));
+    }
+
+    void numbers(const Value& value) const {
+        const auto* table = as<Table>(value);
+        if (!table) return;
+        if (!table->named.empty()) complain_(quoted(param_.name) + " must be a table of numbers without keys");
+        for (std::size_t i = 0; i < table->list.size(); ++i)
+            number(table->list[i], "entry " + std::to_string(i + 1) + " of " + quoted(param_.name), false);
+        if (param_.per_input && table->list.size() != node_.entries.size())
+            complain_(quoted(param_.name) + " must have one number for each of the " +
+                      std::to_string(node_.entries.size()) + " inputs, not " + std::to_string(table->list.size()));
+    }
+
+    void film(const Value& value) const {
+        const auto* table = as<Table>(value);
+        if (!table) return;
+        if (table->list.size() != 2) complain_(quoted(param_.name) + " must be " + std::string(wanted(param_.type)));
+        for (const auto& side : table->list) {
+            const auto* pixels = std::get_if<double>(&side.data);
+            if (!pixels || std::trunc(*pixels) != *pixels || *pixels < 1 || *pixels > longest_side)
+                complain_(quoted(param_.name) + " has a side of " + to_string(side) + ", but must be 1 … " +
+                          std::to_string(longest_side) + " pixels");
+        }
+        for (const auto& [name, entry] : table->named) {
+            if (name != "file")
+                complain_(quoted(param_.name) + " has an unknown entry " + quoted(name) + suggest(name, {"file"}));
+            else if (!std::holds_alternative<std::string>(entry.data))
+                complain_("'file' of " + quoted(param_.name) + " must be a text, not " + std::string(type_name(entry)));
+        }
+    }
+
+    void scene(const Value& value) const {
+        const auto* ref = std::get_if<NodeRef>(&value.data);
+        if (!ref) return wrong_type(value);
+        const auto found = graph_.find(ref->name);
+        if (!found) {
+            std::vector<std::string> scenes;
+            for (const auto& node : graph_.nodes)
+                if (node.kind == "Scene") scenes.push_back(node.name);
+            complain_("no scene called " + quoted(ref->name) + suggest(ref->name, scenes));
+        } else if (const auto& kind = graph_.nodes[*found].kind; kind != "Scene") {
+            complain_(quoted(param_.name) + " must be a Scene, but " + quoted(ref->name) + " is a " + kind);
+        }
+    }
+
+    const Param& param_;
+    const Node& node_;
+    const Graph& graph_;
+    const Complain& complain_;
+};
+
+}  // namespace
+
+std::string suggest(const std::string& word, const std::vector<std::string>& known) {
+    if (auto guess = did_you_mean(word, known); !guess.empty()) return guess;
+    return known.empty() ? "" : " (there is: " + joined(known) + ")";
+}
+
+void check_params(Node& node, const Kind& kind, const Graph& graph, const Complain& complain) {
+    std::vector<std::string> names;
+    for (const auto& param : kind.params) names.push_back(param.name);
+    for (const auto& [name, value] : node.params)
+        if (std::find(names.begin(), names.end(), name) == names.end())
+            complain("unknown parameter " + quoted(name) + suggest(name, names));
+    for (const auto& param : kind.params) {
+        const auto given = node.params.find(param.name);
+        if (given != node.params.end())
+            ParamCheck(param, node, graph, complain)(given->second);
+        else if (param.initial)
+            node.params.emplace(param.name, *param.initial);
+        else if (!param.optional)
+            complain("parameter " + quoted(param.name) + " is missing: " + param.help);
+    }
+}
+
+}  // namespace lightnet

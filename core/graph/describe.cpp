@@ -1,0 +1,75 @@
+#include "core/graph/describe.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace lightnet {
+namespace {
+
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+std::string padded(std::string text, std::size_t width) {
+    text.resize(std::max(text.size(), width), ' ');
+    return text;
+}
+
+std::string inputs_text(const Kind& kind) {
+    if (kind.role == Role::scene) return "the name of one file";
+    const std::size_t least = kind.least_inputs, most = kind.most_inputs;
+    if (most == 0) return "none";
+    if (least == most) return std::to_string(least) + " that " + (least == 1 ? "gives" : "give") + " light";
+    if (most == std::numeric_limits<std::size_t>::max()) return std::to_string(least) + " or more that give light";
+    return std::to_string(least) + " … " + std::to_string(most) + " that give light";
+}
+
+std::string range_text(const Param& param) {
+    if (!param.choices.empty()) {
+        std::string text;
+        for (const auto& choice : param.choices) text += (text.empty() ? "" : " | ") + to_string(Value{choice});
+        return text;
+    }
+    if (param.type == ParamType::film) return "{ width, height, file = \"picture.exr\" }, sides in pixels";
+    if (param.least == -unlimited && param.most == unlimited) return "";
+    if (param.most == unlimited) return "at least " + number_text(param.least);
+    if (param.least == -unlimited) return "at most " + number_text(param.most);
+    return number_text(param.least) + " … " + number_text(param.most);
+}
+
+std::string default_text(const Param& param) {
+    if (param.initial) return "default " + to_string(*param.initial);
+    return param.optional ? "optional" : "must be given";
+}
+
+std::string param_text(const Param& param, std::size_t width) {
+    std::string facts{to_string(param.type)};
+    for (const auto& fact : {param.unit.empty() ? "" : "in " + param.unit, default_text(param), range_text(param),
+                             std::string(param.per_input ? "one for each input" : "")})
+        if (!fact.empty()) facts += ", " + fact;
+    return "  " + padded(param.name, width) + "  " + facts + "\n  " + padded("", width) + "  " + param.help + "\n";
+}
+
+}  // namespace
+
+std::string describe(const Registry& registry) {
+    std::size_t width = 0;
+    for (const auto& kind : registry.kinds()) width = std::max(width, kind.name.size());
+    std::string text;
+    for (const auto& kind : registry.kinds())
+        text += padded(kind.name, width) + "  " + padded(std::string(to_string(kind.role)), 5) + "  " + kind.help + "\n";
+    return text;
+}
+
+std::string describe(const Kind& kind) {
+    std::string text = kind.name + ": " + kind.help + "\n";
+    text += "gives: " + std::string(to_string(kind.role)) + "\n";
+    text += "inputs: " + inputs_text(kind) + "\n";
+    if (kind.linear) text += "linear: the layers of its inputs pass through\n";
+    if (kind.params.empty()) return text + "parameters: none\n";
+    text += "parameters:\n";
+    std::size_t width = 0;
+    for (const auto& param : kind.params) width = std::max(width, param.name.size());
+    for (const auto& param : kind.params) text += param_text(param, width);
+    return text;
+}
+
+}  // namespace lightnet

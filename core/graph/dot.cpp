@@ -1,0 +1,228 @@
+#include "core/graph/dot.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+namespace lightnet {
+namespace {
+
+std::string escaped(std::string_view text) {
+    std::string out = "\"";
+    for (const char c : text) {
+        if (c == '\n') {
+            out += "\\n";
+            continue;
+        }
+        if (c == '"' || c == '\\') out += '\\';
+        out += c;
+    }
+    return out + '"';
+}
+
+/// What the two kinds of drawing share: the text, and what is known of the graph.
+class Drawing {
+protected:
+    Drawing(const Graph& graph, const Registry& registry)
+        : graph_(graph), registry_(registry), layers_(layers_of(graph, registry)), renderer_(renderer_of(graph, registry)) {
+        text_ = "digraph lightnet {\n"
+                "  rankdir=LR;\n"
+                "  node [shape=box, style=rounded, fontname=\"Helvetica\"];\n"
+                "  edge [fontname=\"Helvetica\", fontsize=10];\n";
+    }
+
+    std::string take() { return std::move(text_) + "}\n"; }
+
+    Role role(std::size_t node) const { return registry_.find(graph_.nodes[node].kind)->role; }
+
+    void line(int depth, const std::string& what) { text_ += std::string(2 * static_cast<std::size_t>(depth), ' ') + what + "\n"; }
+
+    void draw_node(int depth, const std::string& id, std::size_t node) {
+        const auto& [name, kind, entries, params, where] = graph_.nodes[node];
+        if (role(node) == Role::scene)
+            return line(depth, id + " [shape=note, label=" + escaped(name + "\n" + scene_name(node)) + "];");
+        const bool image = role(node) == Role::image;
+        line(depth, id + " [label=" + escaped(name + "\n" + kind) + (image ? ", penwidth=2" : "") + "];");
+    }
+
+    void edge(const std::string& from, const std::string& to, const std::string& label, const char* more = "") {
+        line(1, from + " -> " + to + " [label=" + escaped(label) + more + "];");
+    }
+
+    // What travels to a light operator, and what comes back.
+    std::string light(std::size_t node) const {
+        const std::size_t colours = layers_.of_node[node].size();
+        return colours == 1 ? "Query → Rgb" : "Query → " + std::to_string(colours) + " × Rgb";
+    }
+
+    static constexpr const char* tiles = "Tile → Pixels";
+
+    std::string scene_name(std::size_t node) const {
+        return std::get<std::string>(graph_.nodes[node].entries.at(0).data);
+    }
+
+    // The scenes that a node's parameters name.
+    std::vector<std::size_t> scenes_of(std::size_t node) const {
+        std::vector<std::size_t> scenes;
+        for (const auto& [key, value] : graph_.nodes[node].params)
+            if (const auto* ref = std::get_if<NodeRef>(&value.data))
+                if (const auto scene = graph_.find(ref->name)) scenes.push_back(*scene);
+        return scenes;
+    }
+
+    const Graph& graph_;
+    const Registry& registry_;
+    const Layers layers_;
+    const std::size_t renderer_;
+
+private:
+    std::string text_;
+};
+
+/// The graph as its file says it: one box per node.
+class GraphDrawing : Drawing {
+public:
+    using Drawing::Drawing;
+    GraphDrawing(const Graph& graph, const Registry& registry) : Drawing(graph, registry) {}
+
+    std::string draw() {
+        line(1, "launcher [shape=cds, label=\"launcher\"];");
+        for (std::size_t node = 0; node < graph_.nodes.size(); ++node) draw_node(1, id(node), node);
+        edge("launcher", id(renderer_), std::string(tiles) + "\ncall");
+        for (std::size_t node = 0; node < graph_.nodes.size(); ++node) {
+            for (const std::size_t input : graph_.inputs_of(node)) edge(id(node), id(input), light(input) + "\ncall");
+            for (const std::size_t scene : scenes_of(node)) edge(id(node), id(scene), "scene", ", style=dashed");
+        }
+        return take();
+    }
+
+private:
+    std::string id(std::size_t node) const { return "node_" + graph_.nodes[node].name; }
+};
+
+/// The graph as it runs: one box per replica, and a multiplexer wherever an asker has a choice.
+class PlanDrawing : Drawing {
+public:
+    PlanDrawing(const Graph& graph, const Registry& registry, const Plan& plan,
+                const std::map<std::string, std::string>& host_labels)
+        : Drawing(graph, registry), plan_(plan), host_labels_(host_labels) {}
+
+    std::string draw() {
+        line(1, "compound=true;");
+        line(1, "launcher [shape=cds, label=\"launcher\"];");
+        draw_hosts();
+        draw_tiles();
+        for (std::uint32_t place = 0; place < plan_.places.size(); ++place)
+            for (std::size_t node = 0; node < graph_.nodes.size(); ++node)
+                if (holds(place, node)) draw_asks(place, node);
+        return take();
+    }
+
+private:
+    std::string id(std::size_t node, std::uint32_t place) const {
+        return "node_" + graph_.nodes[node].name + "_" + std::to_string(place);
+    }
+    std::string multiplexer_id(std::size_t node, std::uint32_t place) const {
+        return "choose_" + graph_.nodes[node].name + "_" + std::to_string(place);
+    }
+
+    bool holds(std::uint32_t place, std::size_t node) const {
+        const auto& places = plan_.places_of[node];
+        return std::find(places.begin(), places.end(), place) != places.end();
+    }
+
+    // Whether a node of the place asks `node`, and has several replicas to choose from, none beside it.
+    bool chooses(std::uint32_t place, std::size_t node) const {
+        if (holds(place, node) || plan_.places_of[node].size() < 2) return false;
+        for (std::size_t asker = 0; asker < graph_.nodes.size(); ++asker) {
+            const auto inputs = graph_.inputs_of(asker);
+            if (holds(place, asker) && std::find(inputs.begin(), inputs.end(), node) != inputs.end()) return true;
+        }
+        return false;
+    }
+
+    const char* way(std::uint32_t from, std::uint32_t to) const {
+        return plan_.places[from].host == plan_.places[to].host ? "inproc bundles" : "tcp bundles";
+    }
+
+    std::string host_label(const std::string& host) const {
+        const auto label = host_labels_.find(host);
+        if (label != host_labels_.end()) return label->second;
+        return host.empty() ? "this process" : host;
+    }
+
+    void draw_hosts() {
+        for (std::uint32_t place = 0; place < plan_.places.size(); ++place) {
+            const std::string& host = plan_.places[place].host;
+            if (place == 0 || plan_.places[place - 1].host != host) {
+                if (place > 0) line(1, "}");
+                line(1, "subgraph cluster_host_" + std::to_string(hosts_drawn_++) + " {");
+                line(2, "label=" + escaped(host_label(host)) + "; style=filled; color=lightgrey;");
+            }
+            draw_place(place);
+        }
+        if (!plan_.places.empty()) line(1, "}");
+    }
+
+    void draw_place(std::uint32_t place) {
+        line(2, "subgraph cluster_place_" + std::to_string(place) + " {");
+        line(3, "label=" + escaped("place " + std::to_string(plan_.places[place].index)) +
+                    "; style=\"filled,rounded\"; color=white;");
+        for (std::size_t node = 0; node < graph_.nodes.size(); ++node) {
+            if (holds(place, node)) draw_node(3, id(node, place), node);
+            if (chooses(place, node)) draw_multiplexer(3, multiplexer_id(node, place), node);
+        }
+        line(2, "}");
+    }
+
+    void draw_multiplexer(int depth, const std::string& id, std::size_t node) {
+        const std::string label = graph_.nodes[node].name + " × " + std::to_string(plan_.places_of[node].size());
+        line(depth, id + " [shape=trapezium, style=solid, label=" + escaped(label) + "];");
+    }
+
+    void draw_tiles() {
+        const auto& places = plan_.places_of[renderer_];
+        std::string from = "launcher";
+        if (places.size() > 1) {
+            from = "choose_" + graph_.nodes[renderer_].name;
+            draw_multiplexer(1, from, renderer_);
+            edge("launcher", from, std::string(tiles) + "\ncall");
+        }
+        for (const auto place : places)
+            edge(from, id(renderer_, place), std::string(tiles) + "\n" + (plan_.places[place].host.empty() ? "inproc" : "tcp"));
+    }
+
+    void draw_asks(std::uint32_t place, std::size_t node) {
+        for (const std::size_t input : graph_.inputs_of(node)) {
+            const auto& replicas = plan_.places_of[input];
+            if (holds(place, input)) edge(id(node, place), id(input, place), light(input) + "\ncall");
+            else if (replicas.size() == 1)
+                edge(id(node, place), id(input, replicas[0]), light(input) + "\n" + way(place, replicas[0]));
+            else edge(id(node, place), multiplexer_id(input, place), light(input) + "\ncall");
+        }
+        // the node stands for all that the place asks of its own multiplexers
+        for (const std::size_t input : graph_.inputs_of(node))
+            if (chooses(place, input) && first_asker(place, input) == node)
+                for (const auto replica : plan_.places_of[input])
+                    edge(multiplexer_id(input, place), id(input, replica), light(input) + "\n" + way(place, replica));
+    }
+
+    std::size_t first_asker(std::uint32_t place, std::size_t input) const {
+        for (std::size_t asker = 0;; ++asker) {
+            const auto inputs = graph_.inputs_of(asker);
+            if (holds(place, asker) && std::find(inputs.begin(), inputs.end(), input) != inputs.end()) return asker;
+        }
+    }
+
+    const Plan& plan_;
+    const std::map<std::string, std::string>& host_labels_;
+    int hosts_drawn_ = 0;
+};
+
+}  // namespace
+
+std::string to_dot(const Graph& graph, const Registry& registry, const Plan* plan,
+                   const std::map<std::string, std::string>& host_labels) {
+    return plan ? PlanDrawing(graph, registry, *plan, host_labels).draw() : GraphDrawing(graph, registry).draw();
+}
+
+}  // namespace lightnet

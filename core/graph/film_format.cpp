@@ -1,0 +1,40 @@
+#include "core/graph/film_format.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "core/graph/plan.hpp"
+
+namespace lightnet {
+namespace {
+
+// The value of the renderer's parameter of that type, whatever the kind calls it.
+const Value& param_of(const Graph& graph, const Registry& registry, ParamType type) {
+    const Node& renderer = graph.nodes[renderer_of(graph, registry)];
+    for (const auto& param : registry.find(renderer.kind)->params)
+        if (param.type == type)
+            if (const auto at = renderer.params.find(param.name); at != renderer.params.end()) return at->second;
+    throw Error(renderer.name, "has no " + std::string(to_string(type)));
+}
+
+}  // namespace
+
+FilmFormat film_format(const Graph& graph, const Registry& registry) {
+    const auto& film = std::get<Table>(param_of(graph, registry, ParamType::film).data);
+    const auto side = [&](std::size_t i) { return static_cast<std::uint32_t>(std::get<double>(film.list.at(i).data)); };
+    const auto file = film.named.find("file");
+    return {side(0), side(1), file == film.named.end() ? "" : std::get<std::string>(file->second.data)};
+}
+
+std::string scene_file(const Graph& graph, const Registry& registry) {
+    const auto& ref = std::get<NodeRef>(param_of(graph, registry, ParamType::scene).data);
+    const auto scene = graph.find(ref.name);
+    if (!scene) throw Error(graph.file, "no scene called '" + ref.name + "'");
+    return beside_graph(graph, std::get<std::string>(graph.nodes[*scene].entries.at(0).data));
+}
+
+std::string beside_graph(const Graph& graph, const std::string& path) {
+    return (std::filesystem::path(graph.file).parent_path() / path).lexically_normal().string();
+}
+
+}  // namespace lightnet

@@ -1,0 +1,32 @@
+// The size of the picture, and where it goes.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "core/graph/graph.hpp"
+#include "core/graph/kind.hpp"
+
+namespace lightnet {
+
+/// `film = { width, height, file = "x.exr" }`
+struct FilmFormat {
+    std::uint32_t width = 0, height = 0;    // pixels
+    std::string file;                       // "" where the graph names none
+    friend bool operator==(const FilmFormat&, const FilmFormat&) = default;
+};
+
+/// Width and height of a picture are at most this many pixels.
+inline constexpr std::uint32_t longest_side = 16384;
+
+/// The film of a checked graph's renderer.
+FilmFormat film_format(const Graph& graph, const Registry& registry);
+
+/// The scene file of a checked graph's renderer: as the graph names it, taken from the graph's folder.
+std::string scene_file(const Graph& graph, const Registry& registry);
+
+/// A scene file as `graph` names it, taken from the graph's folder.
+std::string beside_graph(const Graph& graph, const std::string& path);
+
+}  // namespace lightnet

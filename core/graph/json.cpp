@@ -1,0 +1,252 @@
+#include "core/graph/json.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <limits>
+
+#include "core/graph/graph.hpp"
+#include "core/graph/hosts.hpp"
+#include "core/graph/plan.hpp"
+
+// Everything is written by hand and read by exact shape: what has more or fewer keys than it should is not ours.
+namespace lightnet {
+namespace {
+
+using Json = nlohmann::json;   // its objects are sorted by key, hence the text canonical
+
+constexpr std::size_t most_bytes = std::size_t{16} << 20;
+constexpr int most_depth = 32;
+
+[[noreturn]] void malformed(const std::string& what) { throw Error("malformed JSON", what); }
+
+Json parse(std::string_view text) {
+    if (text.size() > most_bytes) malformed("more than 16 MiB");
+    const auto guard = [](int depth, Json::parse_event_t, Json&) {
+        if (depth > most_depth) malformed("nested too deeply");
+        return true;
+    };
+    try {
+        return Json::parse(text, guard);
+    } catch (const Json::exception& error) {
+        malformed(error.what());
+    }
+}
+
+std::string dump(const Json& json) {
+    try {
+        return json.dump();
+    } catch (const Json::exception&) {
+        throw Error("a text in it is not UTF-8");
+    }
+}
+
+const Json& member(const Json& object, const char* key) {
+    const auto at = object.find(key);
+    if (at == object.end()) malformed(std::string("no '") + key + "'");
+    return *at;
+}
+
+const Json& object_of(const Json& json, std::size_t keys) {
+    if (!json.is_object() || json.size() != keys) malformed("an object with other keys was expected");
+    return json;
+}
+
+const Json& array_of(const Json& json) {
+    if (!json.is_array()) malformed("an array was expected");
+    return json;
+}
+
+const std::string& text_of(const Json& json) {
+    if (!json.is_string()) malformed("a text was expected");
+    return json.get_ref<const std::string&>();
+}
+
+template <class Integer>
+Integer integer_of(const Json& json) {
+    if (!json.is_number_integer()) malformed("an integer was expected");
+    const auto value = json.get<std::int64_t>();
+    if (value < 0 || value > std::int64_t{std::numeric_limits<Integer>::max()}) malformed("an integer is out of range");
+    return static_cast<Integer>(value);
+}
+
+Json json_of(const SourceLine& where) { return Json::array({where.file, where.line}); }
+
+SourceLine where_of(const Json& json) {
+    if (array_of(json).size() != 2) malformed("a file and a line were expected");
+    return {text_of(json[0]), integer_of<int>(json[1])};
+}
+
+// JSON has no name for what isn't finite.
+Json json_of(double number) {
+    if (std::isfinite(number)) return number;
+    return {{"number", std::isnan(number) ? "nan" : number > 0 ? "inf" : "-inf"}};
+}
+
+double odd_number_of(const std::string& name) {
+    if (name == "nan") return std::numeric_limits<double>::quiet_NaN();
+    if (name == "inf") return std::numeric_limits<double>::infinity();
+    if (name == "-inf") return -std::numeric_limits<double>::infinity();
+    malformed("'" + name + "' is no number");
+}
+
+Json json_of(const Value& value);
+
+Json json_of(const List& list) {
+    Json json = Json::array();
+    for (const auto& value : list) json.push_back(json_of(value));
+    return json;
+}
+
+Json json_of(const std::map<std::string, Value>& named) {
+    Json json = Json::object();
+    for (const auto& [name, value] : named) json[name] = json_of(value);
+    return json;
+}
+
+struct ToJson {
+    Json operator()(bool flag) const { return flag; }
+    Json operator()(double number) const { return json_of(number); }
+    Json operator()(const std::string& text) const { return text; }
+    Json operator()(const NodeRef& ref) const { return {{"node", ref.name}}; }
+    Json operator()(const Table& table) const {
+        return {{"list", json_of(table.list)}, {"named", json_of(table.named)}};
+    }
+};
+
+Json json_of(const Value& value) { return std::visit(ToJson{}, value.data); }
+
+Value value_of(const Json& json);
+
+List list_of(const Json& json) {
+    List list;
+    for (const auto& value : array_of(json)) list.push_back(value_of(value));
+    return list;
+}
+
+std::map<std::string, Value> named_of(const Json& json) {
+    if (!json.is_object()) malformed("an object was expected");
+    std::map<std::string, Value> named;
+    for (const auto& [name, value] : json.items()) named.emplace(name, value_of(value));
+    return named;
+}
+
+Value value_of(const Json& json) {
+    if (json.is_boolean()) return {json.get<bool>()};
+    if (json.is_number()) return {json.get<double>()};
+    if (json.is_string()) return {text_of(json)};
+    if (!json.is_object()) malformed("a value was expected");
+    if (json.contains("node")) return {NodeRef{text_of(member(object_of(json, 1), "node"))}};
+    if (json.contains("number")) return {odd_number_of(text_of(member(object_of(json, 1), "number")))};
+    object_of(json, 2);
+    return {Table{list_of(member(json, "list")), named_of(member(json, "named"))}};
+}
+
+Json json_of(const Node& node) {
+    return {{"name", node.name},
+            {"kind", node.kind},
+            {"entries", json_of(node.entries)},
+            {"params", json_of(node.params)},
+            {"where", json_of(node.where)}};
+}
+
+Node node_of(const Json& json) {
+    object_of(json, 5);
+    return {text_of(member(json, "name")), text_of(member(json, "kind")), list_of(member(json, "entries")),
+            named_of(member(json, "params")), where_of(member(json, "where"))};
+}
+
+HostEntry host_of(const Json& json) {
+    object_of(json, 4);
+    HostEntry host{text_of(member(json, "endpoint")), {}, integer_of<int>(member(json, "places")),
+                   where_of(member(json, "where"))};
+    const auto& replicas = member(json, "replicas");
+    if (!replicas.is_object()) malformed("an object was expected");
+    for (const auto& [name, count] : replicas.items()) host.replicas.emplace(name, integer_of<int>(count));
+    return host;
+}
+
+}  // namespace
+
+std::string to_json(const Graph& graph) {
+    Json nodes = Json::array();
+    for (const auto& node : graph.nodes) nodes.push_back(json_of(node));
+    return dump({{"file", graph.file}, {"nodes", std::move(nodes)}});
+}
+
+Graph graph_from_json(std::string_view text) {
+    const Json json = parse(text);
+    object_of(json, 2);
+    Graph graph{text_of(member(json, "file")), {}};
+    for (const auto& node : array_of(member(json, "nodes"))) graph.nodes.push_back(node_of(node));
+    return graph;
+}
+
+std::string to_json(const Hosts& hosts) {
+    Json list = Json::array();
+    for (const auto& host : hosts.hosts)
+        list.push_back({{"endpoint", host.endpoint},
+                        {"replicas", host.replicas},
+                        {"places", host.places},
+                        {"where", json_of(host.where)}});
+    return dump({{"file", hosts.file}, {"hosts", std::move(list)}});
+}
+
+Hosts hosts_from_json(std::string_view text) {
+    const Json json = parse(text);
+    object_of(json, 2);
+    Hosts hosts{text_of(member(json, "file")), {}};
+    for (const auto& host : array_of(member(json, "hosts"))) hosts.hosts.push_back(host_of(host));
+    return hosts;
+}
+
+std::string to_json(const Plan& plan) {
+    Json places = Json::array();
+    for (const auto& place : plan.places) places.push_back(Json::array({place.host, place.index}));
+    return dump({{"places", std::move(places)}, {"places_of", plan.places_of}});
+}
+
+Plan plan_from_json(std::string_view text) {
+    const Json json = parse(text);
+    object_of(json, 2);
+    Plan plan;
+    for (const auto& place : array_of(member(json, "places"))) {
+        if (array_of(place).size() != 2) malformed("a host and an index were expected");
+        plan.places.push_back({text_of(place[0]), integer_of<std::uint32_t>(place[1])});
+    }
+    for (const auto& places : array_of(member(json, "places_of"))) {
+        auto& held = plan.places_of.emplace_back();
+        for (const auto& place : array_of(places)) {
+            held.push_back(integer_of<std::uint32_t>(place));
+            if (held.back() >= plan.places.size()) malformed("a node is held by a place that isn't there");
+        }
+    }
+    return plan;
+}
+
+std::string to_json(const std::vector<Problem>& problems) {
+    Json list = Json::array();
+    for (const auto& problem : problems) list.push_back(Json::array({json_of(problem.where), problem.what}));
+    return list.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::vector<Problem> problems_from_json(std::string_view text) {
+    const Json json = parse(text);
+    std::vector<Problem> problems;
+    for (const auto& problem : array_of(json)) {
+        if (array_of(problem).size() != 2) malformed("a line and a text were expected");
+        problems.push_back({where_of(problem[0]), text_of(problem[1])});
+    }
+    return problems;
+}
+
+bool is_utf8(std::string_view text) {
+    try {
+        static_cast<void>(Json(text).dump());
+        return true;
+    } catch (const Json::exception&) {
+        return false;
+    }
+}
+
+}  // namespace lightnet

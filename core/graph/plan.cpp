@@ -1,0 +1,104 @@
+#include "core/graph/plan.hpp"
+
+#include <algorithm>
+
+namespace lightnet {
+namespace {
+
+/// Fills a plan host by host.
+class Planner {
+public:
+    Planner(const Graph& graph, const Registry& registry) : graph_(graph), placed_(graph.nodes.size(), false) {
+        plan_.places_of.resize(graph.nodes.size());
+        const auto used = used_nodes(graph, renderer_of(graph, registry));
+        for (std::size_t node = 0; node < graph.nodes.size(); ++node)
+            placed_[node] = used[node] && registry.find(graph.nodes[node].kind)->role != Role::scene;
+    }
+
+    /// Every place of the host holds every node.
+    void whole_network(const std::string& host, std::uint32_t places) {
+        for (std::uint32_t index = 0; index < places; ++index) {
+            const auto place = add_place(host, index);
+            for (std::size_t node = 0; node < placed_.size(); ++node)
+                if (placed_[node]) hold(node, place);
+        }
+    }
+
+    /// Deals the named nodes out to the places of the host, the least busy place first; places without a node are
+    /// not made.
+    void named_nodes(const HostEntry& entry, std::uint32_t places) {
+        const std::size_t first = plan_.places.size();
+        for (std::size_t node = 0; node < placed_.size(); ++node) {
+            const auto wanted = entry.replicas.find(graph_.nodes[node].name);
+            if (wanted == entry.replicas.end() || !placed_[node]) continue;
+            places = std::max(places, static_cast<std::uint32_t>(wanted->second));
+            for (int replica = 0; replica < wanted->second; ++replica)
+                hold(node, least_busy(entry.endpoint, first, places, node));
+        }
+    }
+
+    /// Nodes that nobody holds go to the place that holds the fewest.
+    void rescue_homeless() {
+        for (std::size_t node = 0; node < placed_.size(); ++node)
+            if (placed_[node] && plan_.places_of[node].empty()) {
+                const auto fewest = std::min_element(held_.begin(), held_.end());
+                hold(node, static_cast<std::uint32_t>(fewest - held_.begin()));
+            }
+    }
+
+    bool empty() const { return plan_.places.empty(); }
+
+    Plan take() {
+        for (auto& places : plan_.places_of) std::sort(places.begin(), places.end());
+        return std::move(plan_);
+    }
+
+private:
+    std::uint32_t add_place(const std::string& host, std::uint32_t index) {
+        plan_.places.push_back({host, index});
+        held_.push_back(0);
+        return static_cast<std::uint32_t>(plan_.places.size() - 1);
+    }
+
+    void hold(std::size_t node, std::uint32_t place) {
+        plan_.places_of[node].push_back(place);
+        ++held_[place];
+    }
+
+    // A place of the host that doesn't hold `node` yet: a new one while there may be more, else the least busy one.
+    std::uint32_t least_busy(const std::string& host, std::size_t first, std::uint32_t most, std::size_t node) {
+        const auto count = static_cast<std::uint32_t>(plan_.places.size() - first);
+        if (count < most) return add_place(host, count);
+        const auto& holders = plan_.places_of[node];
+        std::size_t best = plan_.places.size();
+        for (std::size_t place = first; place < plan_.places.size(); ++place) {
+            if (std::find(holders.begin(), holders.end(), place) != holders.end()) continue;
+            if (best == plan_.places.size() || held_[place] < held_[best]) best = place;
+        }
+        return static_cast<std::uint32_t>(best);
+    }
+
+    const Graph& graph_;
+    Plan plan_;
+    std::vector<bool> placed_;          // per node: the picture needs it, and a place must hold it
+    std::vector<std::size_t> held_;     // per place: how many nodes it holds
+};
+
+}  // namespace
+
+Plan plan(const Graph& graph, const Registry& registry, const Hosts& hosts, const std::vector<HostOffer>& offers) {
+    Planner planner(graph, registry);
+    for (const auto& offer : offers) {
+        const auto entry = std::find_if(hosts.hosts.begin(), hosts.hosts.end(),
+                                        [&](const HostEntry& host) { return host.endpoint == offer.endpoint; });
+        const bool named = entry != hosts.hosts.end();
+        const auto places = named && entry->places > 0 ? static_cast<std::uint32_t>(entry->places) : offer.places;
+        if (named && !entry->replicas.empty()) planner.named_nodes(*entry, places);
+        else planner.whole_network(offer.endpoint, places);
+    }
+    if (planner.empty()) throw Error("no host offers a place");
+    planner.rescue_homeless();
+    return planner.take();
+}
+
+}  // namespace lightnet

@@ -1,0 +1,176 @@
+#include "lua/child.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/time.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <exception>
+
+#include "core/error.hpp"
+#include "core/graph/value.hpp"
+
+namespace lightnet::lua {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Length = std::uint64_t;   // goes before the text, so that an answer cut short is no answer
+
+/// An end of a pipe.
+class Descriptor {
+public:
+    explicit Descriptor(int number) : number_(number) {}
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    ~Descriptor() { close(); }
+    int number() const { return number_; }
+    void close() {
+        if (number_ >= 0) ::close(number_);
+        number_ = -1;
+    }
+
+private:
+    int number_;
+};
+
+/// The child, killed and buried at the latest when this goes.
+class Process {
+public:
+    explicit Process(pid_t id) : id_(id) {}
+    Process(const Process&) = delete;
+    Process& operator=(const Process&) = delete;
+    ~Process() { end(); }
+
+    /// Its wait status. Killing one that has ended by itself changes nothing.
+    int end() {
+        if (id_ < 0) return status_;
+        ::kill(id_, SIGKILL);
+        while (::waitpid(id_, &status_, 0) < 0 && errno == EINTR) {
+        }
+        id_ = -1;
+        return status_;
+    }
+
+private:
+    pid_t id_;
+    int status_ = 0;
+};
+
+void limit(__rlimit_resource what, rlim_t most) {
+    const rlimit limits{most, most};
+    ::setrlimit(what, &limits);
+}
+
+void default_signals() {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPROF, SIGXCPU, SIGPIPE}) ::signal(signal, SIG_DFL);
+    sigset_t none;
+    sigemptyset(&none);
+    ::sigprocmask(SIG_SETMASK, &none, nullptr);
+}
+
+// A timer ends the processor time to the millisecond; the kernel's limit, in whole seconds, is the second belt.
+void limit_processor(double seconds) {
+    const double whole = std::floor(seconds);
+    const itimerval once{{0, 0}, {static_cast<time_t>(whole), static_cast<suseconds_t>((seconds - whole) * 1e6)}};
+    ::setitimer(ITIMER_PROF, &once, nullptr);
+    limit(RLIMIT_CPU, static_cast<rlim_t>(whole) + 2);
+}
+
+void write_all(int file, const void* data, std::size_t size) {
+    const char* at = static_cast<const char*>(data);
+    while (size > 0) {
+        const ssize_t written = ::write(file, at, size);
+        if (written < 0 && errno != EINTR) ::_exit(1);
+        if (written <= 0) continue;
+        at += written;
+        size -= static_cast<std::size_t>(written);
+    }
+}
+
+[[noreturn]] void be_child(pid_t parent, int out, const Budget& budget, const std::function<std::string()>& work) {
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (::getppid() != parent) ::_exit(1);   // it died before we could ask
+    ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
+    default_signals();
+    constexpr int pipe = 3;
+    if (out != pipe) ::dup2(out, pipe);
+    ::close_range(pipe + 1, ~0U, 0);
+    ::close(STDIN_FILENO);
+    ::close(STDOUT_FILENO);
+    limit(RLIMIT_CORE, 0);
+    limit(RLIMIT_FSIZE, 0);
+    limit_processor(budget.cpu_seconds);
+    try {
+        const std::string text = work();
+        if (text.size() > budget.output) ::_exit(2);
+        const Length length = text.size();
+        write_all(pipe, &length, sizeof length);
+        write_all(pipe, text.data(), text.size());
+        ::_exit(0);
+    } catch (const std::exception&) {
+        ::_exit(1);   // the parent says that there was no answer
+    }
+}
+
+// Reads to the end of the pipe, or until the time or the size is over. False: the time is over.
+bool receive(int file, const Budget& budget, std::string& text) {
+    const auto end = Clock::now() + std::chrono::duration<double>(budget.wall_seconds);
+    std::array<char, 65536> buffer;
+    while (text.size() <= budget.output + sizeof(Length)) {
+        const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now()).count();
+        if (left <= 0) return false;
+        pollfd ready{file, POLLIN, 0};
+        if (::poll(&ready, 1, static_cast<int>(left)) <= 0) continue;
+        const ssize_t size = ::read(file, buffer.data(), buffer.size());
+        if (size == 0) return true;
+        if (size > 0) text.append(buffer.data(), static_cast<std::size_t>(size));
+        else if (errno != EINTR) return true;
+    }
+    return true;
+}
+
+[[noreturn]] void no_answer(int status, const Budget& budget) {
+    if (WIFSIGNALED(status)) {
+        const int signal = WTERMSIG(status);
+        if (signal == SIGPROF || signal == SIGXCPU)
+            throw Error("takes more than " + number_text(budget.cpu_seconds) + " s of processor time");
+        throw Error(std::string("its evaluation was ended by a signal: ") + ::strsignal(signal));
+    }
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 2)
+        throw Error("gives more than " + std::to_string(budget.output >> 20) + " MiB");
+    throw Error("its evaluation ended without an answer");
+}
+
+}  // namespace
+
+std::string in_child(const Budget& budget, const std::function<std::string()>& work) {
+    std::array<int, 2> ends{};
+    if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw Error("pipe", std::strerror(errno));
+    Descriptor in(ends[0]), out(ends[1]);
+    const pid_t parent = ::getpid();
+    const pid_t id = ::fork();
+    if (id < 0) throw Error("fork", std::strerror(errno));
+    if (id == 0) be_child(parent, out.number(), budget, work);
+    Process child(id);
+    out.close();
+    std::string text;
+    if (!receive(in.number(), budget, text)) throw Error("takes more than " + number_text(budget.wall_seconds) + " s");
+    const int status = child.end();
+    Length length = 0;
+    if (text.size() < sizeof length) no_answer(status, budget);
+    std::memcpy(&length, text.data(), sizeof length);
+    if (length != text.size() - sizeof length) no_answer(status, budget);
+    return text.substr(sizeof length);
+}
+
+}  // namespace lightnet::lua

@@ -1,0 +1,187 @@
+#include "lua/graph_script.hpp"
+
+#include <cctype>
+#include <utility>
+
+#include "core/graph/json.hpp"
+#include "core/suggestion.hpp"
+#include "lua/guarded.hpp"
+
+namespace lightnet::lua {
+namespace {
+
+constexpr const char* node_type = "lightnet.node";
+constexpr std::size_t most_values = 200000;               // numbers, texts and tables of a whole graph
+constexpr std::size_t most_bytes = std::size_t{4} << 20;  // of its texts
+constexpr int most_depth = 12;                            // of tables in tables
+
+// Until all nodes have their names, a reference goes by the node's number; no name of a file's can begin like this.
+constexpr char by_number = '\x01';
+
+std::string quoted(const std::string& text) { return "'" + text + "'"; }
+
+}  // namespace
+
+GraphScript::GraphScript(Sandbox& sandbox, std::map<std::string, std::string> constants)
+    : Globals(sandbox, std::move(constants)) {
+    luaL_newmetatable(L_, node_type);
+    lua_pushliteral(L_, "node");
+    lua_setfield(L_, -2, "__name");
+    lua_pushboolean(L_, 0);
+    lua_setfield(L_, -2, "__metatable");
+    lua_pop(L_, 1);
+}
+
+const std::size_t* GraphScript::node_at(lua_State* L, int index) const {
+    return static_cast<const std::size_t*>(luaL_testudata(L, index, node_type));
+}
+
+int GraphScript::call(lua_State* L, Unknown& callee) {
+    callee.taken = true;
+    const std::string name = callee.name;
+    if (lua_gettop(L) == 2 && lua_istable(L, 2)) return make_node(L, name);
+    if (std::isupper(static_cast<unsigned char>(name[0])))
+        throw Error(name, "takes one table: " + name + " { inputs, key = value }");
+    throw Error("there is no function called " + quoted(name));
+}
+
+int GraphScript::make_node(lua_State* L, const std::string& kind) {
+    count(kind.size());
+    Made made;
+    made.node.kind = kind;
+    made.node.where = sandbox_.caller();
+    take_entries(L, made);
+    take_params(L, made);
+    made_.push_back(std::move(made));
+    auto* number = static_cast<std::size_t*>(lua_newuserdatauv(L, sizeof(std::size_t), 0));
+    *number = made_.size() - 1;
+    luaL_setmetatable(L, node_type);
+    return 1;
+}
+
+void GraphScript::take_entries(lua_State* L, Made& made) {
+    const auto size = lua_rawlen(L, 2);
+    for (lua_Unsigned i = 1; i <= size; ++i) {
+        if (lua_rawgeti(L, 2, static_cast<lua_Integer>(i)) == LUA_TNIL)
+            made.complaints.push_back("entry " + std::to_string(i) + " is nil");
+        else try {
+                made.node.entries.push_back(value_at(L, -1, 0));
+            } catch (const UserError& error) {
+                made.complaints.push_back("entry " + std::to_string(i) + " " + error.what());
+            }
+        lua_settop(L, 2);
+    }
+}
+
+void GraphScript::take_params(lua_State* L, Made& made) {
+    const auto size = static_cast<lua_Integer>(lua_rawlen(L, 2));
+    for (lua_pushnil(L); lua_next(L, 2); lua_settop(L, 3)) {
+        if (lua_isinteger(L, 3) && lua_tointeger(L, 3) >= 1 && lua_tointeger(L, 3) <= size) continue;
+        if (lua_isinteger(L, 3)) {
+            made.complaints.push_back("an entry before the one at " + std::to_string(lua_tointeger(L, 3)) + " is nil");
+        } else if (lua_type(L, 3) != LUA_TSTRING) {
+            made.complaints.push_back("a parameter goes by a name");
+        } else try {
+                const std::string key = text_at(L, 3);
+                made.node.params.emplace(key, value_at(L, 4, 0));
+            } catch (const UserError& error) {
+                made.complaints.push_back("parameter " + quoted(lua_tostring(L, 3)) + " " + error.what());
+            }
+    }
+}
+
+// Throws UserError, whose place says nothing, when the value can't stand in a graph.
+Value GraphScript::value_at(lua_State* L, int index, int depth) {
+    count(0);
+    switch (lua_type(L, index)) {
+        case LUA_TBOOLEAN: return {lua_toboolean(L, index) != 0};
+        case LUA_TNUMBER: return {static_cast<double>(lua_tonumber(L, index))};
+        case LUA_TSTRING: return {text_at(L, index)};
+        case LUA_TTABLE: return {table_at(L, lua_absindex(L, index), depth + 1)};
+        default: break;
+    }
+    if (const auto* node = node_at(L, index)) return {NodeRef{by_number + std::to_string(*node)}};
+    if (Unknown* const later = unknown_at(index)) {
+        later->taken = true;
+        return {NodeRef{later->name}};
+    }
+    throw UserError({}, std::string("is a ") + luaL_typename(L, index));
+}
+
+Table GraphScript::table_at(lua_State* L, int index, int depth) {
+    if (depth > most_depth) throw UserError({}, "has tables in tables without end");
+    luaL_checkstack(L, 4, "tables in tables");
+    Table table;
+    const auto size = lua_rawlen(L, index);
+    for (lua_Unsigned i = 1; i <= size; ++i, lua_pop(L, 1)) {
+        lua_rawgeti(L, index, static_cast<lua_Integer>(i));
+        table.list.push_back(value_at(L, -1, depth));
+    }
+    const int top = lua_gettop(L);
+    for (lua_pushnil(L); lua_next(L, index); lua_settop(L, top + 1)) {
+        if (lua_isinteger(L, top + 1) && lua_tointeger(L, top + 1) >= 1 &&
+            lua_tointeger(L, top + 1) <= static_cast<lua_Integer>(size))
+            continue;
+        if (lua_type(L, top + 1) != LUA_TSTRING) throw UserError({}, "has a key that is neither a place nor a name");
+        const std::string key = text_at(L, top + 1);
+        table.named.emplace(key, value_at(L, top + 2, depth));
+    }
+    return table;
+}
+
+std::string GraphScript::text_at(lua_State* L, int index) {
+    std::size_t size = 0;
+    const char* const text = lua_tolstring(L, index, &size);
+    count(size);
+    if (!is_utf8({text, size})) throw UserError({}, "is not a text in UTF-8");
+    return {text, size};
+}
+
+void GraphScript::count(std::size_t bytes) {
+    bytes_ += bytes;
+    if (++values_ > most_values) throw Error("a graph has at most " + std::to_string(most_values) + " values");
+    if (bytes_ > most_bytes) throw Error("the texts of a graph have at most 4 MiB");
+}
+
+void GraphScript::assigned(lua_State* L, const std::string& name) {
+    const auto* number = node_at(L, 3);
+    if (!number) return;
+    Node& node = made_[*number].node;
+    named_.emplace(name, *number);
+    if (!node.name.empty()) return;
+    node.name = is_utf8(name) ? name : "?";
+    order_.push_back(*number);
+}
+
+void GraphScript::resolve(Value& value) const {
+    if (auto* ref = std::get_if<NodeRef>(&value.data)) {
+        if (ref->name[0] == by_number) ref->name = made_[std::stoul(ref->name.substr(1))].node.name;
+        else if (const auto at = named_.find(ref->name); at != named_.end()) ref->name = made_[at->second].node.name;
+    } else if (auto* table = std::get_if<Table>(&value.data)) {
+        for (auto& entry : table->list) resolve(entry);
+        for (auto& [key, entry] : table->named) resolve(entry);
+    }
+}
+
+Graph GraphScript::finish() {
+    Graph graph{sandbox_.file(), {}};
+    std::vector<std::string> names;
+    for (const std::size_t number : order_) {
+        Node node = made_[number].node;
+        for (auto& entry : node.entries) resolve(entry);
+        for (auto& [key, value] : node.params) resolve(value);
+        names.push_back(node.name);
+        graph.nodes.push_back(std::move(node));
+    }
+    for (const auto& [node, complaints] : made_) {
+        for (const auto& what : complaints)
+            complain(node.where, node.kind + (node.name.empty() ? "" : " " + quoted(node.name)) + ": " + what);
+        if (node.name.empty())
+            complain(node.where, node.kind + ": the node has no name; write name = " + node.kind +
+                                     " { … }, without local and not inside another table");
+    }
+    Globals::finish(names);
+    return graph;
+}
+
+}  // namespace lightnet::lua

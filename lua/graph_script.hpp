@@ -1,0 +1,47 @@
+// Turns what a graph file does into a graph.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/graph/graph.hpp"
+#include "lua/globals.hpp"
+
+namespace lightnet::lua {
+
+/// Makes a node of every `Kind { … }`, and gives it the name of the first global that it is assigned to.
+class GraphScript final : public Globals {
+public:
+    GraphScript(Sandbox& sandbox, std::map<std::string, std::string> constants);
+
+    /// The nodes, in the order in which they were named. Problems are complete after this.
+    Graph finish();
+
+private:
+    struct Made {
+        Node node;                              // nameless until assigned
+        std::vector<std::string> complaints;    // told when the name is known
+    };
+
+    int call(lua_State* L, Unknown& callee) override;
+    void assigned(lua_State* L, const std::string& name) override;
+
+    int make_node(lua_State* L, const std::string& kind);
+    void take_entries(lua_State* L, Made& made);
+    void take_params(lua_State* L, Made& made);
+    Value value_at(lua_State* L, int index, int depth);
+    Table table_at(lua_State* L, int index, int depth);
+    std::string text_at(lua_State* L, int index);
+    void count(std::size_t bytes);
+    const std::size_t* node_at(lua_State* L, int index) const;
+    void resolve(Value& value) const;
+
+    std::vector<Made> made_;
+    std::vector<std::size_t> order_;                  // indices into made_, as they were named
+    std::map<std::string, std::size_t> named_;        // all names of nodes, second ones too
+    std::size_t values_ = 0, bytes_ = 0;              // of all that was taken so far
+};
+
+}  // namespace lightnet::lua

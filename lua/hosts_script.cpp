@@ -1,0 +1,76 @@
+#include "lua/hosts_script.hpp"
+
+#include <utility>
+
+#include "core/graph/json.hpp"
+#include "lua/guarded.hpp"
+
+namespace lightnet::lua {
+namespace {
+
+constexpr std::size_t most_hosts = 10000;
+
+std::string quoted(const std::string& text) { return "'" + text + "'"; }
+
+}  // namespace
+
+HostsScript::HostsScript(Sandbox& sandbox, std::map<std::string, std::string> constants)
+    : Globals(sandbox, std::move(constants)), hosts_{sandbox.file(), {}} {
+    offer("place", &HostsScript::place);
+}
+
+int HostsScript::call(lua_State*, Unknown& callee) {
+    callee.taken = true;
+    throw Error("a hosts file knows only place \"tcp://host:port\" { node = replicas }, not " + quoted(callee.name));
+}
+
+// place "endpoint" gives the function that takes the table.
+int HostsScript::place(lua_State* L) {
+    return guarded(L, [&] {
+        auto& script = *static_cast<HostsScript*>(lua_touserdata(L, lua_upvalueindex(1)));
+        if (lua_gettop(L) != 1 || lua_type(L, 1) != LUA_TSTRING || !is_utf8(lua_tostring(L, 1)))
+            throw Error("place takes the host first: place \"tcp://host:port\" { node = replicas }");
+        auto& hosts = script.hosts_.hosts;
+        if (hosts.size() >= most_hosts) throw Error("too many hosts");
+        hosts.push_back({lua_tostring(L, 1), {}, 0, script.sandbox_.caller()});
+        lua_pushvalue(L, lua_upvalueindex(1));
+        lua_pushinteger(L, static_cast<lua_Integer>(hosts.size() - 1));
+        lua_pushcclosure(L, &HostsScript::fill, 2);
+        return 1;
+    });
+}
+
+int HostsScript::fill(lua_State* L) {
+    return guarded(L, [&] {
+        auto& script = *static_cast<HostsScript*>(lua_touserdata(L, lua_upvalueindex(1)));
+        auto& entry = script.hosts_.hosts.at(static_cast<std::size_t>(lua_tointeger(L, lua_upvalueindex(2))));
+        if (lua_gettop(L) != 1 || !lua_istable(L, 1))
+            throw Error("place " + quoted(entry.endpoint) + " takes a table: { node = replicas }");
+        script.take_replicas(L, entry);
+        return 0;
+    });
+}
+
+void HostsScript::take_replicas(lua_State* L, HostEntry& entry) {
+    const std::string who = "place " + quoted(entry.endpoint) + ": ";
+    for (lua_pushnil(L); lua_next(L, 1); lua_settop(L, 2)) {
+        if (lua_type(L, 2) != LUA_TSTRING || !is_utf8(lua_tostring(L, 2))) {
+            complain(entry.where, who + "nodes go by name: { node = replicas }");
+            continue;
+        }
+        const std::string name = lua_tostring(L, 2);
+        int integral = 0;
+        const lua_Integer count = lua_type(L, 3) == LUA_TNUMBER ? lua_tointegerx(L, 3, &integral) : 0;
+        if (!integral || count < 0 || count > 1'000'000)
+            complain(entry.where, who + "how many " + quoted(name) + "? A positive integer is wanted");
+        else if (name == "places") entry.places = static_cast<int>(count);
+        else entry.replicas[name] = static_cast<int>(count);
+    }
+}
+
+Hosts HostsScript::finish() {
+    Globals::finish({"place"});
+    return std::move(hosts_);
+}
+
+}  // namespace lightnet::lua

@@ -1,0 +1,30 @@
+// Turns what a hosts file does into hosts.
+#pragma once
+
+#include <cstddef>
+
+#include "core/graph/hosts.hpp"
+#include "lua/globals.hpp"
+
+namespace lightnet::lua {
+
+/// Makes an entry of every `place "tcp://host:port" { … }`.
+class HostsScript final : public Globals {
+public:
+    HostsScript(Sandbox& sandbox, std::map<std::string, std::string> constants);
+
+    /// The entries, in the order of the file. Problems are complete after this.
+    Hosts finish();
+
+private:
+    int call(lua_State* L, Unknown& callee) override;
+    void assigned(lua_State*, const std::string&) override {}
+
+    static int place(lua_State* L);
+    static int fill(lua_State* L);
+    void take_replicas(lua_State* L, HostEntry& entry);
+
+    Hosts hosts_;
+};
+
+}  // namespace lightnet::lua

@@ -1,0 +1,56 @@
+// Reads what users write: graph files and hosts files, in Lua 5.4.
+//
+// A file is run in a child process that sees no io, os, package, debug, load or other process's descriptors, and that
+// is killed when its budget ends. What comes back is data; the Lua state ends with the child.
+//
+// A graph file: `name = Kind { inputs…, key = value… }`. The global on the left names the node; nodes stand in the
+// graph in the order in which they are named; an input may be named further down. A node without a name of its own
+// (local, or written inside another node) is an error, because layers, hosts and random numbers go by names; a second
+// global for the same node is only another way to write it. Other globals are constants, which `-D name=value`
+// overrides. A name that the file uses but nobody gives is a problem, never silently nil.
+//
+// A hosts file: `place "tcp://host:7777" { node = replicas… }`; without a table, or with an empty one, each place of
+// the host holds the whole network; `places = N` in it says how many places the host has.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/graph/graph.hpp"
+#include "core/graph/hosts.hpp"
+
+namespace lightnet {
+
+/// What a file may cost, and which of its constants are overridden.
+struct LuaOptions {
+    std::map<std::string, std::string> constants = {};   // -D name=value; the type is that of the file's own value
+    double cpu_seconds = 5;                              // processor time
+    double wall_seconds = 10;
+    std::size_t memory = std::size_t{256} << 20;         // bytes of Lua values
+};
+
+/// A graph as its file gives it, and what is wrong with the file besides. For those who tell all problems at once.
+struct GraphFile {
+    Graph graph;
+    std::vector<Problem> problems;
+};
+
+/// Forks, so call it before threads are started. Throws UserError when the file can't be run to its end.
+GraphFile read_graph(const std::string& file, const LuaOptions& options = {});
+
+/// As read_graph(), but throws UserError when there is any problem.
+Graph load_graph(const std::string& file, const LuaOptions& options = {});
+
+/// As load_graph(), for a text that stands for the file called `file`.
+Graph parse_graph(const std::string& text, const std::string& file, const LuaOptions& options = {});
+
+/// Reads a hosts file; as load_graph() otherwise.
+Hosts load_hosts(const std::string& file, const LuaOptions& options = {});
+
+/// As load_hosts(), for a text that stands for the file called `file`.
+Hosts parse_hosts(const std::string& text, const std::string& file, const LuaOptions& options = {});
+
+}  // namespace lightnet
