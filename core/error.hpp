@@ -17,7 +17,8 @@ struct SourceLine {
 /// One thing that is wrong: where, and what would be right.
 struct Problem {
     SourceLine where;
-    std::string what;     // lower case, no full stop: "PhotonMap 'caustics': unknown parameter 'photns' (did you mean 'photons'?)"
+    std::string
+        what;  // lower case, no full stop: "PhotonMap 'caustics': unknown parameter 'photns' (did you mean 'photons'?)"
     friend bool operator==(const Problem&, const Problem&) = default;
 };
 
@@ -28,7 +29,8 @@ std::string to_string(const Problem& problem);
 class UserError : public std::runtime_error {
 public:
     explicit UserError(std::vector<Problem> problems);
-    UserError(SourceLine where, std::string what) : UserError(std::vector<Problem>{{std::move(where), std::move(what)}}) {}
+    UserError(SourceLine where, std::string what)
+        : UserError(std::vector<Problem>{{std::move(where), std::move(what)}}) {}
     const std::vector<Problem>& problems() const { return problems_; }
 
 private:

@@ -1,5 +1,7 @@
 #include "core/light/inputs.hpp"
 
+#include <utility>
+
 namespace lightnet {
 namespace {
 

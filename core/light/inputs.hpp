@@ -13,9 +13,9 @@ namespace lightnet {
 
 /// One input of a node, in the order in which the graph lists them.
 struct Input {
-    std::string name;                       // of the node that answers
-    Port* port = nullptr;                   // owned by the place
-    std::vector<std::uint32_t> layers{0};   // which of the asker's layers each colour of an answer belongs to
+    std::string name;                      // of the node that answers
+    Port* port = nullptr;                  // owned by the place
+    std::vector<std::uint32_t> layers{0};  // which of the asker's layers each colour of an answer belongs to
 
     std::size_t width() const { return layers.size(); }
 };
@@ -42,8 +42,8 @@ private:
 /// What one input answered: `input->width()` colours per question, side by side.
 struct Part {
     const Input* input = nullptr;
-    std::size_t index = 0;         // of the input
-    std::size_t layers = 1;        // of the asker
+    std::size_t index = 0;   // of the input
+    std::size_t layers = 1;  // of the asker
     std::vector<Rgb> answers;
 };
 

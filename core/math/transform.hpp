@@ -48,7 +48,8 @@ inline Vec3 transform_normal(const Matrix& inverse, Vec3 n) {
 inline bool swaps_handedness(const Matrix& t) {
     const auto& m = t.m;
     return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
-               m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]) < 0;
+               m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]) <
+           0;
 }
 
 }  // namespace lightnet

@@ -18,9 +18,9 @@ public:
     Ray ray(float x, float y) const;
 
 private:
-    Matrix to_world_;
-    Vec3 origin_;
-    float left_ = -1, top_ = 1, pixel_x_ = 0, pixel_y_ = 0, depth_ = 1;
+    Vec3 origin_;                           // all in world space
+    Vec3 corner_{-1, 1, 1};                 // from the eye to the picture's upper left corner, one unit of screen away
+    Vec3 right_{2, 0, 0}, down_{0, -2, 0};  // per pixel
 };
 
 }  // namespace lightnet

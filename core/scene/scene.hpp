@@ -20,8 +20,8 @@ namespace lightnet {
 
 /// How the scene is built. The same values on every host of a run, as the bytes of its answers may depend on them.
 struct SceneOptions {
-    std::string isa = "avx2";              // Embree's instruction set
-    std::uint32_t width = 0, height = 0;   // of the picture; 0: as the scene says
+    std::string isa = "avx2";             // Embree's instruction set
+    std::uint32_t width = 0, height = 0;  // of the picture; 0: as the scene says
 };
 
 /// Built once per process and shared by all its places: every member may be called from any thread.
@@ -49,13 +49,19 @@ public:
     /// Radiance arriving from infinity, from `direction` (unit, away from the eye).
     Rgb environment(Vec3 direction) const;
 
-    /// Chooses a light and a point on it, seen from `from`. None: no light can reach the point by this sample.
+    /// Chooses a lamp and a point on it, seen from `from`. None: no lamp can reach the point by this sample.
     std::optional<LightSample> sample_light(Vec3 from, float choice, Vec2 u) const;
-    /// Density with which sample_light() finds the emitting point `on`, which lies in `direction` from `from`.
+    /// Density with which sample_light() finds the emitting point `on`, which lies in `direction` from `from`. 0 if it
+    /// is not on a lamp.
     float light_pdf(Vec3 from, Vec3 direction, const SurfacePoint& on) const;
-    /// The same for the environment.
+    /// The same for the environment. Always 0 for a constant one, which sample_light() never chooses.
     float environment_pdf(Vec3 direction) const;
     bool has_environment() const;
+    bool has_lamps() const;
+    /// Could the ray end where light comes from? False is certain, true is a guess that is cheaper than tracing it.
+    bool may_shine(const Ray& ray) const;
+    /// Is nothing between the surface point and a point of a lamp?
+    bool visible(const SurfacePoint& from, const LightSample& lamp) const;
 
     const Camera& camera() const;
     const FilmData& film() const;

@@ -10,16 +10,17 @@ namespace lightnet {
 
 /// Derived from a Hit or a Query alone, so it's the same on every host.
 struct SurfacePoint {
-    Vec3 position;                  // world space
-    Vec3 normal;                    // geometric, unit; the side on which a one-sided lamp shines
-    Frame shading;                  // z: shading normal, on the side of `normal`
-    Vec2 uv;                        // texture coordinates
-    std::uint32_t geometry = 0;     // index into the scene's shapes
+    Vec3 position;               // world space
+    Vec3 normal;                 // geometric, unit; the side on which a one-sided lamp shines
+    Frame shading;               // z: shading normal, on the side of `normal`
+    Vec2 uv;                     // texture coordinates
+    std::uint32_t geometry = 0;  // index into the scene's shapes
     std::uint32_t primitive = 0;
+    float offset = 0;  // metres: beyond the rounding errors of `position`
 
     /// Where a ray into `direction` starts: off the surface, on the side into which it goes.
     Vec3 origin_towards(Vec3 direction) const {
-        return offset_ray_origin(position, dot(direction, normal) < 0 ? -normal : normal);
+        return position + normal * (dot(direction, normal) < 0 ? -offset : offset);
     }
 };
 

@@ -1,0 +1,34 @@
+// Glass: reflects and refracts, smooth or with GGX microfacets (Walter et al. 2007). The normal points outside.
+#pragma once
+
+#include "core/bsdf/ggx.hpp"
+#include "core/bsdf/scattering.hpp"
+
+namespace lightnet {
+
+/// Transmitted radiance is scaled by the square of the ratio of indices, as radiance is.
+struct DielectricBsdf {
+    static constexpr bool two_sided = false;
+    float eta = 1.5f;  // inside over outside
+    Ggx facets;
+
+    bool smooth() const { return eta == 1 || is_specular(facets.alpha_u, facets.alpha_v); }
+    std::uint8_t lobes() const { return smooth() ? lobe::specular : lobe::glossy; }
+    BsdfValue evaluate(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const;
+    std::optional<BsdfSample> sample(Vec3 outgoing, float choice, Vec2 u, std::uint8_t lobes) const;
+
+private:
+    std::optional<BsdfSample> sample_smooth(Vec3 outgoing, float choice) const;
+};
+
+/// A pane of glass whose two sides are taken together: nothing is bent.
+struct ThinDielectricBsdf {
+    static constexpr bool two_sided = true;
+    float eta = 1.5f;
+
+    std::uint8_t lobes() const { return lobe::specular; }
+    BsdfValue evaluate(Vec3, Vec3, std::uint8_t) const { return {}; }
+    std::optional<BsdfSample> sample(Vec3 outgoing, float choice, Vec2 u, std::uint8_t lobes) const;
+};
+
+}  // namespace lightnet

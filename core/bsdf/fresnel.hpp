@@ -1,0 +1,73 @@
+// How much light a flat interface reflects.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/math/rgb.hpp"
+#include "core/math/vec.hpp"
+
+namespace lightnet {
+
+/// Unpolarised reflectance of a dielectric. `cosine` of the arriving direction, positive outside; `eta` inside over
+/// outside. 1 where all is reflected.
+inline float fresnel_dielectric(float cosine, float eta) {
+    cosine = std::clamp(cosine, -1.0f, 1.0f);
+    if (cosine < 0) {
+        eta = 1 / eta;
+        cosine = -cosine;
+    }
+    const float sine2_t = (1 - cosine * cosine) / (eta * eta);
+    if (sine2_t >= 1) return 1;
+    const float cosine_t = std::sqrt(1 - sine2_t);
+    const float parallel = (eta * cosine - cosine_t) / (eta * cosine + cosine_t);
+    const float perpendicular = (cosine - eta * cosine_t) / (cosine + eta * cosine_t);
+    return 0.5f * (parallel * parallel + perpendicular * perpendicular);
+}
+
+/// The same of a conductor with the complex index eta + i k, for cosine in [0,1].
+/// Lagarde 2013, "Memo on Fresnel equations", as in pbrt.
+inline float fresnel_conductor(float cosine, float eta, float k) {
+    cosine = std::clamp(cosine, 0.0f, 1.0f);
+    const float cos2 = cosine * cosine, sin2 = 1 - cos2;
+    const float t0 = eta * eta - k * k - sin2;
+    const float a2_plus_b2 = std::sqrt(t0 * t0 + 4 * eta * eta * k * k);
+    const float t1 = a2_plus_b2 + cos2;
+    const float a = std::sqrt(std::max(0.0f, 0.5f * (a2_plus_b2 + t0)));
+    const float t2 = 2 * cosine * a;
+    const float perpendicular = (t1 - t2) / (t1 + t2);
+    const float t3 = cos2 * a2_plus_b2 + sin2 * sin2;
+    const float t4 = t2 * sin2;
+    const float parallel = perpendicular * (t3 - t4) / (t3 + t4);
+    return std::clamp(0.5f * (perpendicular + parallel), 0.0f, 1.0f);
+}
+
+inline Rgb fresnel_conductor(float cosine, Rgb eta, Rgb k) {
+    return {fresnel_conductor(cosine, eta.r, k.r), fresnel_conductor(cosine, eta.g, k.g),
+            fresnel_conductor(cosine, eta.b, k.b)};
+}
+
+inline Vec3 reflect(Vec3 w, Vec3 n) { return n * (2 * dot(w, n)) - w; }
+
+/// A refracted direction.
+struct Refracted {
+    Vec3 direction;
+    float eta = 1;          // index on its side over the index on the arriving side
+    bool possible = false;  // false: total internal reflection
+};
+
+/// Refracts `w` (away from the surface) at the microfacet `n`; `eta` inside over outside, where `n` points outside.
+inline Refracted refract(Vec3 w, Vec3 n, float eta) {
+    float cosine = dot(w, n);
+    if (cosine < 0) {
+        eta = 1 / eta;
+        cosine = -cosine;
+        n = -n;
+    }
+    const float sine2_t = std::max(0.0f, 1 - cosine * cosine) / (eta * eta);
+    if (sine2_t >= 1) return {};
+    const float cosine_t = std::sqrt(1 - sine2_t);
+    return {n * (cosine / eta - cosine_t) - w * (1 / eta), eta, true};
+}
+
+}  // namespace lightnet

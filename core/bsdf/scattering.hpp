@@ -1,0 +1,37 @@
+// What the models of scattering share.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/light/query.hpp"
+#include "core/math/rgb.hpp"
+#include "core/math/vec.hpp"
+
+namespace lightnet {
+
+/// A sampled direction of incoming light.
+struct BsdfSample {
+    Vec3 incoming;          // unit, world space, away from the surface
+    Rgb weight;             // f × |cos| / pdf
+    float pdf = 0;          // per steradian, over all lobes asked for; meaningless for a specular lobe
+    std::uint8_t lobe = 0;  // the one that was sampled: one of lobe::diffuse, glossy, specular
+    bool transmitted = false;
+    float eta = 1;  // of a refraction: index on the incoming side over the one on the outgoing side
+};
+
+/// What a BSDF says of a pair of directions.
+struct BsdfValue {
+    Rgb value;      // f × |cos incoming|, sr⁻¹
+    float pdf = 0;  // per steradian
+};
+
+/// A GGX roughness below this is taken for a perfect mirror. One threshold for renderer, light operators and checks.
+inline constexpr float specular_alpha = 1e-3f;
+
+inline bool is_specular(float alpha_u, float alpha_v) { return alpha_u < specular_alpha && alpha_v < specular_alpha; }
+
+// Each model is a value with the three members of Bsdf, in local coordinates: the shading normal is +z. For models
+// whose `two_sided` is true, outgoing.z > 0 always, and both sides of the surface look alike.
+
+}  // namespace lightnet

@@ -1,0 +1,35 @@
+// Names for contents: equal hashes mean equal bytes.
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace lightnet {
+
+/// A 32-byte BLAKE2b digest. A value; the default one (all zero) names nothing.
+struct Hash {
+    std::array<unsigned char, 32> bytes{};
+    friend bool operator==(const Hash&, const Hash&) = default;
+    friend auto operator<=>(const Hash&, const Hash&) = default;
+};
+
+Hash content_hash(std::span<const std::byte> content);
+Hash content_hash(std::string_view text);
+
+/// 64 lower-case hexadecimal digits.
+std::string to_hex(const Hash& hash);
+/// The reverse; nothing if `text` is not exactly 64 hexadecimal digits.
+std::optional<Hash> hash_from_hex(std::string_view text);
+
+}  // namespace lightnet
+
+template <>
+struct std::hash<lightnet::Hash> {
+    std::size_t operator()(const lightnet::Hash& name) const noexcept;
+};

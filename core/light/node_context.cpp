@@ -1,0 +1,48 @@
+#include "core/light/node_context.hpp"
+
+#include "core/error.hpp"
+
+#include <cmath>
+
+namespace lightnet {
+namespace {
+
+template <class T>
+const T& as(const Node& node, const std::string& param, const Value& value, const char* what) {
+    if (const auto* data = std::get_if<T>(&value.data)) return *data;
+    throw Error(node.kind + " '" + node.name + "'", "parameter '" + param + "' is not " + what);
+}
+
+}  // namespace
+
+NodeContext::NodeContext(const Node& node, Inputs inputs, const Scene& scene, std::uint64_t seed)
+    : node_(node), inputs_(std::move(inputs)), scene_(scene), seed_(seed) {}
+
+const Value& NodeContext::value(const std::string& param) const {
+    const auto found = node_.params.find(param);
+    if (found == node_.params.end())
+        throw Error(node_.kind + " '" + node_.name + "'",
+                    "parameter '" + param + "' is neither given nor in its schema");
+    return found->second;
+}
+
+double NodeContext::number(const std::string& param) const {
+    return as<double>(node_, param, value(param), "a number");
+}
+
+std::int64_t NodeContext::integer(const std::string& param) const { return std::llround(number(param)); }
+
+bool NodeContext::flag(const std::string& param) const { return as<bool>(node_, param, value(param), "true or false"); }
+
+const std::string& NodeContext::text(const std::string& param) const {
+    return as<std::string>(node_, param, value(param), "text");
+}
+
+std::vector<double> NodeContext::numbers(const std::string& param) const {
+    std::vector<double> result;
+    for (const auto& entry : as<Table>(node_, param, value(param), "a list of numbers").list)
+        result.push_back(as<double>(node_, param, entry, "a list of numbers"));
+    return result;
+}
+
+}  // namespace lightnet

@@ -1,0 +1,55 @@
+// Makes the nodes of a network out of its graph.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "core/graph/graph.hpp"
+#include "core/graph/kind.hpp"
+#include "core/graph/plan.hpp"
+#include "core/light/inputs.hpp"
+#include "core/light/light_op.hpp"
+#include "core/light/renderer.hpp"
+#include "core/scene/scene.hpp"
+
+namespace lightnet {
+
+/// A network that can be assembled: a checked graph and what its nodes are made from. Constant, shared by all places
+/// of a process.
+struct Network {
+    Graph graph;
+    const Registry& registry;
+    std::shared_ptr<const Scene> scene;
+    std::uint64_t seed = 0;
+    Layers layers = layers_of(graph, registry);
+
+    const Kind& kind_of(std::size_t node) const { return *registry.find(graph.nodes[node].kind); }
+    /// Colours per answer when nothing is added up.
+    std::size_t width_of(std::size_t node) const;
+};
+
+/// The nodes of one place, made when first needed.
+class Assembly {
+public:
+    /// Gives the port through which nodes of this place ask `node` for `width` colours per question. The port must
+    /// outlive the assembly.
+    using PortTo = std::function<Port*(std::size_t node, std::size_t width)>;
+
+    Assembly(const Network& network, PortTo port_to) : network_(network), port_to_(std::move(port_to)) {}
+
+    const LightOp& light(std::size_t node);
+    const Renderer& renderer(std::size_t node);
+
+private:
+    Inputs inputs_of(std::size_t node);
+
+    const Network& network_;
+    PortTo port_to_;
+    std::map<std::size_t, std::unique_ptr<LightOp>> lights_;
+    std::map<std::size_t, std::unique_ptr<Renderer>> renderers_;
+};
+
+}  // namespace lightnet

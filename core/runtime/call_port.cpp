@@ -1,0 +1,56 @@
+#include "core/runtime/call_port.hpp"
+
+#include <xmmintrin.h>
+#include <algorithm>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace lightnet {
+namespace {
+
+constexpr std::size_t piece = 1024;
+
+// Flush-to-zero, denormals-are-zero and rounding must be those that every place starts with.
+void check_float_mode() {
+    constexpr unsigned modes = 0xffc0, usual = 0x1f80;
+    if ((_mm_getcsr() & modes) != usual) {
+        _mm_setcsr(usual);
+        throw Error("the node changed the floating-point mode of its thread");
+    }
+}
+
+}  // namespace
+
+CallPort::CallPort(const LightOp& node, std::size_t layers, std::size_t width, std::uint64_t& count,
+                   std::function<void()> pause)
+    : node_(node), layers_(layers), width_(width), count_(count), pause_(std::move(pause)) {}
+
+Port::Ticket CallPort::begin(std::span<const Query> questions, std::span<Rgb> answers) {
+    for (std::size_t first = 0; first < questions.size(); first += piece) {
+        const std::size_t n = std::min(piece, questions.size() - first);
+        if (pause_) pause_();
+        answer(node_, layers_, width_, questions.subspan(first, n), answers.subspan(first * width_, n * width_));
+    }
+    count_ += questions.size();
+    return 0;
+}
+
+void answer(const LightOp& node, std::size_t layers, std::size_t width, std::span<const Query> questions,
+            std::span<Rgb> answers) {
+    if (width == layers) {
+        std::fill(answers.begin(), answers.end(), Rgb{});
+        node.light(questions, answers);
+    } else {
+        std::vector<Rgb> apart(questions.size() * layers);
+        node.light(questions, apart);
+        for (std::size_t q = 0; q < questions.size(); ++q) {
+            Rgb sum = apart[q * layers];
+            for (std::size_t k = 1; k < layers; ++k) sum += apart[q * layers + k];
+            answers[q] = sum;
+        }
+    }
+    check_float_mode();
+}
+
+}  // namespace lightnet

@@ -1,0 +1,31 @@
+// What moves messages between places: the seam between the runtime and the transports.
+#pragma once
+
+#include <chrono>
+#include <optional>
+
+#include "core/runtime/counters.hpp"
+#include "core/runtime/message.hpp"
+
+namespace lightnet {
+
+/// One per place, used by its thread only. Nothing here blocks but wait(). Delivery is not promised: a message may be
+/// lost with the place it was meant for, and only the reply tells that an ask has arrived.
+class Carrier {
+public:
+    virtual ~Carrier() = default;
+    /// Sends an ask. False: `to` can't take it now, and `message` is untouched.
+    virtual bool ask(const PlaceAt& to, Message& message) = 0;
+    /// Sends a reply or a failure along the route of the ask. A reply that can't be delivered is dropped.
+    virtual void reply(Message message) = 0;
+    /// What has arrived, if anything.
+    virtual std::optional<Message> receive() = 0;
+    /// Returns when something may have arrived, or after `most`.
+    virtual void wait(std::chrono::nanoseconds most) = 0;
+    /// Forgets about a place that is gone.
+    virtual void forget(const PlaceAt& place) = 0;
+    /// Where the carrier counts bytes and refusals.
+    virtual const Counters& counters() const = 0;
+};
+
+}  // namespace lightnet

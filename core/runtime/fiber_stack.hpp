@@ -1,0 +1,36 @@
+// Memory for the stacks of fibers: committed as it is used, with a guard page that turns an overflow into a message.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace lightnet {
+
+/// The usable part of one stack; the guard page lies below.
+struct StackMemory {
+    std::byte* lowest = nullptr;
+    std::size_t size = 0;
+};
+
+/// Maps one stack and its guard page. Throws std::bad_alloc when the system gives no more.
+StackMemory map_stack(std::size_t size);
+void unmap_stack(const StackMemory& stack) noexcept;
+
+/// From now on, a write into the guard page of the stack that `running` names on this thread ends the process with a
+/// sentence that says whose stack ran out. `running` must live as long as the guard.
+class StackGuard {
+public:
+    struct Running {
+        StackMemory stack;
+        const char* owner = "";
+    };
+    explicit StackGuard(const Running& running);
+    ~StackGuard();
+    StackGuard(const StackGuard&) = delete;
+    StackGuard& operator=(const StackGuard&) = delete;
+
+private:
+    std::vector<std::byte> signal_stack_;
+};
+
+}  // namespace lightnet

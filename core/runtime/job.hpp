@@ -1,0 +1,48 @@
+// What is to be computed: all that a host must know to take part in a run, and nothing of who else does.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/graph/graph.hpp"
+#include "core/hash.hpp"
+#include "core/runtime/assembly.hpp"
+#include "core/runtime/place.hpp"
+#include "core/scene/files.hpp"
+#include "core/scene/scene_data.hpp"
+
+namespace lightnet {
+
+/// A file of the scene, by the name under which the scene asks for it.
+struct JobFile {
+    std::string path;
+    Hash hash;
+    std::uint64_t size = 0;  // bytes
+    friend bool operator==(const JobFile&, const JobFile&) = default;
+};
+
+/// A value: goes to hosts as text.
+struct Job {
+    Graph graph;                 // checked
+    std::string scene;           // path of the scene file
+    std::vector<JobFile> files;  // that reading the scene opens
+    std::uint64_t seed = 0;
+    std::string isa;                      // of Embree
+    std::uint32_t width = 0, height = 0;  // of the picture, pixels
+    PlaceRules rules;
+    friend bool operator==(const Job&, const Job&) = default;
+};
+
+std::string to_json(const Job& job);
+/// Throws Error on anything but a job.
+Job job_from_json(std::string_view text);
+
+/// Reads the scene and builds everything that the places of a process share.
+std::shared_ptr<const Network> build_network(const Job& job, const Registry& registry, Files& files);
+/// The same from a scene that has been read.
+std::shared_ptr<const Network> build_network(const Job& job, const Registry& registry, SceneData scene);
+
+}  // namespace lightnet

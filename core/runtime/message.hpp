@@ -1,0 +1,67 @@
+// What places say to each other, before a carrier turns it into bytes or hands it over as it is.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/film/tile.hpp"
+#include "core/graph/plan.hpp"
+#include "core/light/query.hpp"
+#include "core/math/rgb.hpp"
+
+namespace lightnet {
+
+/// How busy an answerer is; rides on every reply.
+struct Load {
+    std::uint32_t fill = 0;        // questions that wait there
+    std::uint32_t service_ns = 0;  // measured time per question; 0: not known yet
+    friend bool operator==(const Load&, const Load&) = default;
+};
+
+/// The questions of one bundle. Shared and constant: the asker keeps them until the reply is there.
+template <class Question>
+using Questions = std::shared_ptr<const std::vector<Question>>;
+
+/// How a reply finds its way back; only carriers look inside.
+struct Route {
+    std::vector<std::string> hops;
+};
+
+struct Message {
+    enum class Type : std::uint8_t {
+        ask,      // questions for `node`
+        reply,    // answers to them
+        failure,  // there will be none: `text` says why
+        plan,     // who answers for which node from now on
+        stop,     // end the run: to a place
+    };
+
+    Type type = Type::ask;
+    std::uint64_t run = 0;      // messages of other runs are dropped
+    std::uint32_t channel = 0;  // the asker's; comes back with the reply
+    std::uint64_t bundle = 0;   // unique per channel
+    std::uint32_t node = 0;     // index in the graph
+    std::uint32_t width = 1;    // colours per question that are wanted
+    std::variant<std::monostate, Questions<Query>, Questions<Tile>> questions;
+    std::vector<Rgb> answers;
+    Load load;
+    std::string text;
+    std::shared_ptr<const Plan> plan;
+    Route route;  // of an ask that has arrived
+};
+
+/// How many colours answer one question when each has `width`.
+inline std::size_t answers_to(const Query&, std::size_t width) { return width; }
+inline std::size_t answers_to(const Tile& tile, std::size_t width) { return tile.pixels() * width; }
+
+template <class Question>
+std::size_t answers_to(const std::vector<Question>& questions, std::size_t width) {
+    std::size_t sum = 0;
+    for (const auto& question : questions) sum += answers_to(question, width);
+    return sum;
+}
+
+}  // namespace lightnet

@@ -1,0 +1,110 @@
+// A place: one thread that owns its nodes, its fibers and its sockets.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/runtime/assembly.hpp"
+#include "core/runtime/bundle_port.hpp"
+#include "core/runtime/call_port.hpp"
+#include "core/runtime/carrier.hpp"
+#include "core/runtime/fiber.hpp"
+#include "core/runtime/remote_channel.hpp"
+
+namespace lightnet {
+
+/// Sizes that decide how fast a run is, and never what it computes.
+struct PlaceRules {
+    BundleRules bundles;
+    Credit credit;
+    std::size_t spare_fibers = 16;  // beside the one that each node has for itself
+    bool call_own_nodes = true;     // false: even a node of the same place is asked by bundles (for tests)
+    friend bool operator==(const PlaceRules&, const PlaceRules&) = default;
+};
+
+/// Answers for its nodes until it is told to stop. Nothing is shared between places but the network, which is constant.
+///
+/// No graph can make places wait for each other for ever: a bundle whose node has no fiber running is always given
+/// one, bundles of the lowest rank (the longest way down to a node that asks nobody) go first, and the asker has kept
+/// room for the reply. So the nodes that ask nobody always finish, then those that ask only them, and so on.
+class Place {
+public:
+    Place(const Network& network, const PlaceAt& me, const Plan& plan, std::uint64_t run, PlaceRules rules,
+          Carrier& carrier);
+    ~Place();
+    Place(const Place&) = delete;
+    Place& operator=(const Place&) = delete;
+
+    /// Serves until a stop message arrives or `stop` is set. Once, on the thread that made the place. Counts the
+    /// bundles and tiles that it answers in `progress`: a sign of life for other threads.
+    void serve(const std::atomic<bool>& stop, std::atomic<std::uint64_t>& progress);
+    Counters counters() const;
+
+private:
+    using Clock = std::chrono::steady_clock;
+    struct Inbox {
+        std::deque<Message> waiting;
+        std::size_t questions = 0;  // in `waiting`
+        std::size_t fibers = 0;     // that answer for this node now
+        double service_ns = 0;      // per question, smoothed
+    };
+
+    // The port to a node of other places, and its channels to each of them.
+    struct Remote {
+        std::size_t node;
+        std::unique_ptr<BundlePort> port;
+        std::map<std::pair<std::string, std::uint32_t>, std::uint32_t> channels;  // place → index in channels_
+    };
+
+    void assemble(std::size_t node);
+    Port* port_to(std::size_t node, std::size_t width);
+    void use(const Plan& plan);
+    void connect(Remote& remote);
+    void take_in();
+    void take(Message message);
+    bool step();
+    bool start_next(bool images);
+    bool may_start(std::size_t node) const;
+    void answer(Message& message);
+    std::vector<Rgb> light_answers(const Message& message);
+    std::vector<Rgb> pixel_answers(const Message& message);
+    void pause();
+    bool flush(bool idle);
+    std::chrono::nanoseconds patience() const;
+    Load load_of(std::size_t node) const;
+    std::string my_name() const;
+
+    const Network& network_;
+    PlaceAt me_;
+    Plan plan_;
+    std::uint64_t run_;
+    PlaceRules rules_;
+    Carrier& carrier_;
+    Counters counters_;
+    std::uint64_t rays_before_;
+    const std::atomic<bool>* stop_ = nullptr;
+    std::atomic<std::uint64_t>* progress_ = nullptr;
+    bool stopping_ = false;
+
+    Fibers fibers_;
+    std::deque<Fibers::Fiber*> ready_;   // whose answers are there
+    std::deque<Fibers::Fiber*> paused_;  // that made way for others
+    std::size_t spare_in_use_ = 0;
+    Clock::time_point last_look_{};
+
+    std::vector<Inbox> inboxes_;        // by node
+    std::vector<std::size_t> by_rank_;  // nodes, lowest rank first
+    std::vector<std::unique_ptr<CallPort>> call_ports_;
+    std::map<std::pair<std::size_t, std::size_t>, Remote> remotes_;  // by node and width
+    std::vector<std::unique_ptr<RemoteChannel<Query>>> channels_;
+    Assembly assembly_;
+};
+
+}  // namespace lightnet

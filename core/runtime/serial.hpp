@@ -1,0 +1,32 @@
+// The whole network in one thread: function calls and nothing else, with plain stack traces.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "core/runtime/assembly.hpp"
+#include "core/runtime/call_port.hpp"
+#include "core/runtime/counters.hpp"
+
+namespace lightnet {
+
+/// Renders tiles one after the other on the caller's thread. Opens no socket and makes no fiber.
+class SerialRun {
+public:
+    explicit SerialRun(const Network& network);
+
+    /// All samples of the tile's block: see Renderer::render.
+    std::vector<Rgb> render(const Tile& tile);
+    Counters counters() const;
+
+private:
+    const Network& network_;
+    std::size_t image_;
+    Counters counters_;
+    std::uint64_t rays_before_;
+    std::vector<std::unique_ptr<CallPort>> ports_;
+    Assembly assembly_;
+};
+
+}  // namespace lightnet

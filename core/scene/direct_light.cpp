@@ -1,0 +1,29 @@
+#include "core/scene/direct_light.hpp"
+
+namespace lightnet {
+
+Rgb light_by_lamp(const Scene& scene, const Gathering& at, Samples& samples, Heuristic heuristic) {
+    const float choice = samples.next();
+    const Vec2 u = samples.next_2d();
+    if (!(at.lobes & lobe::rough) || !scene.has_lamps()) return {};
+    const auto lamp = scene.sample_light(at.point.position, choice, u);
+    if (!lamp) return {};
+    const auto [value, pdf] = at.bsdf.value_and_pdf(at.outgoing, lamp->direction, at.lobes);
+    if (is_black(value) || !scene.visible(at.point, *lamp)) return {};
+    return value * lamp->radiance * (share(heuristic, lamp->pdf, pdf) / lamp->pdf);
+}
+
+Rgb light_by_bsdf(const Scene& scene, Vec3 from, const BsdfSample& sample, const SurfacePoint* end,
+                  Heuristic heuristic) {
+    const bool certain = sample.lobe == lobe::specular;  // no lamp sample can find this direction
+    if (!end) {
+        const float other = certain ? 0 : scene.environment_pdf(sample.incoming);
+        return scene.environment(sample.incoming) * share(heuristic, sample.pdf, other);
+    }
+    const Rgb emitted = scene.emission(*end, -sample.incoming);
+    if (is_black(emitted)) return {};
+    const float other = certain ? 0 : scene.light_pdf(from, sample.incoming, *end);
+    return emitted * share(heuristic, sample.pdf, other);
+}
+
+}  // namespace lightnet

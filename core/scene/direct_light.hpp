@@ -1,0 +1,40 @@
+// Light that arrives at a surface point straight from lamps and environment: what operators of light share.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/math/rgb.hpp"
+#include "core/math/samples.hpp"
+#include "core/scene/scene.hpp"
+
+namespace lightnet {
+
+/// How two ways to find the same light share it. Veach 1997, section 9.2.
+enum class Heuristic { balance, power };
+
+/// Weight of the way with density `mine`, when `other` is the density of the other way.
+inline float share(Heuristic heuristic, float mine, float other) {
+    if (other == 0) return 1;
+    const float ratio = other / mine;
+    return 1 / (1 + (heuristic == Heuristic::power ? ratio * ratio : ratio));
+}
+
+/// A point as its light is gathered.
+struct Gathering {
+    const SurfacePoint& point;
+    const Bsdf& bsdf;
+    Vec3 outgoing;
+    std::uint8_t lobes;
+};
+
+/// Radiance that one sampled point of a lamp sends to `at` and on into its direction; weighted against finding it by
+/// a direction from the BSDF. Uses two dimensions.
+Rgb light_by_lamp(const Scene& scene, const Gathering& at, Samples& samples, Heuristic heuristic);
+
+/// Radiance that arrives from where a ray into `sample.incoming` ended (nothing there: the environment), times the
+/// weight of having found it by the BSDF. Without the sample's own weight.
+Rgb light_by_bsdf(const Scene& scene, Vec3 from, const BsdfSample& sample, const SurfacePoint* end,
+                  Heuristic heuristic);
+
+}  // namespace lightnet

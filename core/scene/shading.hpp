@@ -1,0 +1,38 @@
+// From the name of a surface point to all that shading needs.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/bsdf/bsdf.hpp"
+#include "core/scene/scene_data.hpp"
+#include "core/scene/surface.hpp"
+
+namespace lightnet {
+
+/// The surfaces of a scene. Any thread may ask.
+class Shading {
+public:
+    /// Keeps looking at `data`. Throws Error where a material names a texture that isn't there.
+    explicit Shading(const SceneData& data);
+
+    /// The point with these coordinates (see Query) on a primitive of a shape.
+    SurfacePoint point(std::uint32_t geometry, std::uint32_t primitive, float u, float v) const;
+    Bsdf bsdf(const SurfacePoint& point) const;
+
+private:
+    struct Needs {
+        bool uv = false;       // an image is looked up
+        bool tangent = false;  // roughness depends on the direction
+    };
+    SurfacePoint on_mesh(const Mesh& mesh, Needs needs, std::uint32_t primitive, float u, float v) const;
+    SurfacePoint on_sphere(const Sphere& sphere, Needs needs, float u, float v) const;
+    Bsdf::Model model(std::uint32_t material, Vec2 uv) const;
+
+    const SceneData& data_;
+    std::vector<Needs> needs_;                        // by shape
+    std::vector<std::unique_ptr<const Coat>> coats_;  // by material
+};
+
+}  // namespace lightnet

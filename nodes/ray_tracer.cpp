@@ -1,0 +1,169 @@
+// The renderer: finds what each pixel sees, and asks how bright it is.
+#include <algorithm>
+
+#include "core/graph/kind.hpp"
+#include "core/light/node_context.hpp"
+#include "core/light/renderer.hpp"
+#include "core/math/samples.hpp"
+#include "core/scene/scene.hpp"
+
+namespace lightnet {
+namespace {
+
+/// Follows rays from the eye through mirrors and glass. Where a surface scatters in other ways too it asks its lighting
+/// input about those; what shines by itself it adds to layer 0. Samples are spread over the square of the pixel (a box
+/// filter). Questions leave in large chunks.
+class RayTracer final : public Renderer {
+public:
+    explicit RayTracer(const NodeContext& here)
+        : scene_(here.scene()),
+          inputs_(here.inputs()),
+          key_(here.key()),
+          seed_(here.seed()),
+          max_depth_(static_cast<std::uint32_t>(here.integer("max_depth"))) {}
+
+    void render(const Tile& tile, std::span<Rgb> pixels) const override {
+        const std::size_t at_once = std::max<std::size_t>(1, samples_at_once / std::max(1u, tile.samples));
+        for (std::size_t first = 0; first < tile.pixels(); first += at_once)
+            render_some(tile, first, std::min(tile.pixels(), first + at_once), pixels);
+    }
+
+private:
+    /// Questions about what some pixels see, in order of pixel, sample and depth.
+    struct Seen {
+        std::vector<Query> questions;
+        std::vector<std::size_t> pixels;  // whose the answers are
+        std::vector<Rgb> weights;         // what reaches the eye of them
+    };
+    /// One sample of a pixel.
+    struct Look {
+        std::size_t pixel;
+        Key key;
+        std::uint32_t sample;
+    };
+
+    void render_some(const Tile& tile, std::size_t first, std::size_t last, std::span<Rgb> pixels) const {
+        std::vector<Look> looks;
+        std::vector<Ray> rays;
+        looks.reserve((last - first) * tile.samples);
+        rays.reserve((last - first) * tile.samples);
+        for (std::size_t pixel = first; pixel < last; ++pixel) {
+            const auto x = tile.x + static_cast<std::uint32_t>(pixel % tile.width);
+            const auto y = tile.y + static_cast<std::uint32_t>(pixel / tile.width);
+            const Key key = pixel_key(seed_, x, y);
+            for (std::uint32_t s = 0; s < tile.samples; ++s) {
+                const Look& look = looks.emplace_back(Look{pixel, key, tile.first_sample + s});
+                const Vec2 u = Samples(key, look.sample).next_2d();
+                rays.push_back(scene_.camera().ray(float(x) + u.x, float(y) + u.y));
+            }
+        }
+        std::vector<std::optional<Hit>> hits(rays.size());
+        scene_.intersect(rays, hits);
+
+        Seen seen;
+        seen.questions.reserve(looks.size());
+        seen.pixels.reserve(looks.size());
+        seen.weights.reserve(looks.size());
+        for (std::size_t i = 0; i < looks.size(); ++i)
+            pixels[looks[i].pixel * inputs_.layers()] += follow(looks[i], rays[i], hits[i], seen);
+        if (!seen.questions.empty()) add_answers(seen, pixels);
+    }
+
+    /// Follows one ray until no mirror or glass carries it on. Returns what shines by itself on the way.
+    Rgb follow(const Look& look, Ray ray, std::optional<Hit> hit, Seen& seen) const {
+        Rgb emitted, weight{1, 1, 1};
+        float squeezed = 1;  // by refraction, which is no loss: roulette must not see it
+        for (std::uint32_t depth = 0;; ++depth) {
+            if (!hit) return emitted + weight * scene_.environment(ray.direction);
+            const SurfacePoint point = scene_.surface(*hit);
+            const Bsdf bsdf = scene_.bsdf(point);
+            const Vec3 outgoing = -ray.direction;
+            const std::uint8_t lobes = bsdf.lobes();
+            emitted += weight * scene_.emission(point, outgoing);
+            if (lobes & lobe::rough) {
+                seen.questions.push_back(question(look, *hit, outgoing, lobes & lobe::rough, depth));
+                seen.pixels.push_back(look.pixel);
+                seen.weights.push_back(weight);
+            }
+            if (!(lobes & lobe::specular) || depth >= max_depth_) return emitted;
+
+            Samples samples(child(look.key, chain_key, depth), look.sample);
+            const float choice = samples.next();
+            const auto sample = bsdf.sample(outgoing, choice, samples.next_2d(), lobe::specular);
+            if (!sample) return emitted;
+            weight *= sample->weight;
+            squeezed *= sample->eta * sample->eta;
+            // Faint reflections are followed seldom, and count more for it.
+            const float chance = std::min(1.0f, max_component(weight) * squeezed * 10);
+            if (!(samples.next() < chance)) return emitted;
+            weight *= 1 / chance;
+            ray = {point.origin_towards(sample->incoming), sample->incoming};
+            hit = scene_.intersect(ray);
+        }
+    }
+
+    Query question(const Look& look, const Hit& hit, Vec3 outgoing, int lobes, std::uint32_t depth) const {
+        return {.stream = child(look.key, key_, depth),
+                .instance = hit.instance,
+                .geometry = hit.geometry,
+                .primitive = hit.primitive,
+                .u = hit.u,
+                .v = hit.v,
+                .outgoing = outgoing,
+                .sample = look.sample,
+                .lobes = static_cast<std::uint8_t>(lobes),
+                .depth = static_cast<std::uint8_t>(std::min(depth, 255u))};
+    }
+
+    void add_answers(const Seen& seen, std::span<Rgb> pixels) const {
+        const Part part = ask(inputs_, 0, seen.questions);
+        const std::size_t width = part.input->width();
+        for (std::size_t q = 0; q < seen.questions.size(); ++q)
+            for (std::size_t k = 0; k < width; ++k)
+                pixels[seen.pixels[q] * inputs_.layers() + part.input->layers[k]] +=
+                    part.answers[q * width + k] * seen.weights[q];
+    }
+
+    static constexpr std::size_t samples_at_once = 4096;
+    static constexpr Key chain_key = key_of("chain of mirrors");
+
+    const Scene& scene_;
+    Inputs inputs_;
+    Key key_;
+    std::uint64_t seed_;
+    std::uint32_t max_depth_;
+};
+
+}  // namespace
+
+Kind ray_tracer_kind() {
+    return {
+        .name = "RayTracer",
+        .role = Role::image,
+        .help =
+            "makes the picture: follows rays from the eye through mirrors and glass, and asks how bright things are",
+        .least_inputs = 1,
+        .most_inputs = 1,
+        .params =
+            {
+                {.name = "scene", .type = ParamType::scene, .help = "what is seen"},
+                {.name = "film", .type = ParamType::film, .help = "width, height, and file of the picture"},
+                {.name = "samples",
+                 .type = ParamType::integer,
+                 .help = "rays from the eye per pixel",
+                 .unit = "samples",
+                 .initial = Value{16.0},
+                 .least = 1,
+                 .most = 1 << 24},
+                {.name = "max_depth",
+                 .type = ParamType::integer,
+                 .help = "how many mirrors or panes in a row a ray is followed through",
+                 .initial = Value{100.0},
+                 .least = 0,
+                 .most = 255},
+            },
+        .make_renderer = [](const NodeContext& here) { return std::make_unique<RayTracer>(here); },
+    };
+}
+
+}  // namespace lightnet

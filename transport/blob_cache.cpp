@@ -1,0 +1,94 @@
+#include "transport/blob_cache.hpp"
+
+#include <unistd.h>
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
+#include "core/error.hpp"
+#include "core/film/atomic_file.hpp"
+
+namespace lightnet {
+namespace {
+
+namespace fs = std::filesystem;
+
+Bytes read_file(const std::string& path) {
+    std::ifstream in(path, std::ios::binary | std::ios::ate);
+    if (!in) return nullptr;
+    auto bytes = std::make_shared<std::vector<std::byte>>(static_cast<std::size_t>(in.tellg()));
+    in.seekg(0);
+    in.read(reinterpret_cast<char*>(bytes->data()), static_cast<std::streamsize>(bytes->size()));
+    return in ? bytes : nullptr;
+}
+
+}  // namespace
+
+BlobCache::BlobCache(std::string folder, std::uint64_t most_bytes)
+    : folder_(std::move(folder)), most_bytes_(most_bytes) {
+    std::error_code error;
+    fs::create_directories(folder_, error);
+    if (error) throw Error(folder_, "no folder for the cache can be made: " + error.message());
+    fs::permissions(folder_, fs::perms::owner_all, error);
+}
+
+std::string BlobCache::path_of(const Hash& hash) const { return folder_ + "/" + to_hex(hash); }
+
+bool BlobCache::has(const Hash& hash) const { return read(hash) != nullptr; }
+
+Bytes BlobCache::read(const Hash& hash) const {
+    const auto path = path_of(hash);
+    auto bytes = read_file(path);
+    std::error_code ignored;
+    if (!bytes) return nullptr;
+    if (content_hash(*bytes) != hash) {
+        fs::remove(path, ignored);
+        return nullptr;
+    }
+    fs::last_write_time(path, fs::file_time_type::clock::now(), ignored);
+    return bytes;
+}
+
+void BlobCache::keep(const Hash& hash, std::span<const std::byte> bytes) {
+    write_file(path_of(hash), {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+void BlobCache::trim() const {
+    struct Entry {
+        fs::path path;
+        std::uint64_t size;
+        fs::file_time_type used;
+    };
+    std::vector<Entry> entries;
+    std::uint64_t sum = 0;
+    std::error_code error;
+    for (const auto& file : fs::directory_iterator(folder_, error)) {
+        const auto size = file.file_size(error);
+        if (error) continue;
+        entries.push_back({file.path(), size, file.last_write_time(error)});
+        sum += size;
+    }
+    std::sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) { return a.used < b.used; });
+    for (const auto& entry : entries) {
+        if (sum <= most_bytes_) return;
+        if (fs::remove(entry.path, error)) sum -= entry.size;
+    }
+}
+
+std::string default_cache_folder() {
+    if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache) return std::string(cache) + "/lightnet";
+    if (const char* home = std::getenv("HOME"); home && *home) return std::string(home) + "/.cache/lightnet";
+    return "/tmp/lightnet-cache-" + std::to_string(getuid());
+}
+
+Bytes BlobFiles::read(const std::string& path) {
+    const auto found = std::find_if(files_.begin(), files_.end(), [&](const auto& file) { return file.path == path; });
+    if (found == files_.end()) throw Error(path, "no such file among those that were sent");
+    auto bytes = cache_.read(found->hash);
+    if (!bytes) throw Error(path, "the cache has lost it");
+    return bytes;
+}
+
+}  // namespace lightnet

@@ -1,0 +1,51 @@
+// Bytes by their content hash, kept on the worker's disk from run to run.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/hash.hpp"
+#include "core/runtime/job.hpp"
+#include "core/scene/files.hpp"
+
+namespace lightnet {
+
+/// A folder of blobs, one file each, named by hash. Several processes may share it: files appear by renaming, and what
+/// is read is verified. One thread at a time.
+class BlobCache {
+public:
+    /// Makes the folder (mode 0700) if need be. Throws Error when that can't be.
+    explicit BlobCache(std::string folder, std::uint64_t most_bytes = std::uint64_t{4} << 30);
+
+    bool has(const Hash& hash) const;
+    /// The blob, verified: a damaged one is removed and none is given.
+    Bytes read(const Hash& hash) const;
+    /// Keeps a blob. Throws Error when the disk refuses.
+    void keep(const Hash& hash, std::span<const std::byte> bytes);
+    /// Removes the blobs that were not read for the longest time until the folder is within its limit.
+    void trim() const;
+
+private:
+    std::string path_of(const Hash& hash) const;
+    std::string folder_;
+    std::uint64_t most_bytes_;
+};
+
+/// Where blobs are kept when nothing else is said: $XDG_CACHE_HOME/lightnet, or ~/.cache/lightnet.
+std::string default_cache_folder();
+
+/// The files of a job, read from a cache instead of the user's disk.
+class BlobFiles final : public Files {
+public:
+    BlobFiles(const BlobCache& cache, const std::vector<JobFile>& files) : cache_(cache), files_(files) {}
+    Bytes read(const std::string& path) override;
+
+private:
+    const BlobCache& cache_;
+    const std::vector<JobFile>& files_;
+};
+
+}  // namespace lightnet

@@ -1,0 +1,228 @@
+#include "transport/cluster.hpp"
+
+#include <algorithm>
+#include <deque>
+#include <set>
+#include <zmq.hpp>
+
+#include "core/error.hpp"
+#include "core/runtime/fingerprint.hpp"
+#include "transport/host_link.hpp"
+#include "transport/sockets.hpp"
+
+namespace lightnet {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using State = HostLink::State;
+
+Told told_of(const Cluster::Options& options) {
+    Told told{options.run, options.job.isa, fingerprint(options.job.isa), to_json(options.job), {}};
+    for (const auto& file : options.job.files) told.blobs[file.hash] = options.files.at(file.path);
+    return told;
+}
+
+}  // namespace
+
+struct Cluster::Links {
+    Options options;
+    Told told;
+    zmq::context_t context{1};
+    std::optional<zmq::socket_t> joining;  // where hosts dial in
+    std::vector<std::unique_ptr<HostLink>> links;
+    std::map<std::string, State> states;  // as last told
+    Plan plan;
+    std::deque<Message> arrived;
+    Counters counters;
+
+    explicit Links(Options given) : options(std::move(given)), told(told_of(options)) {
+        plan.places_of.resize(options.job.graph.nodes.size());
+        if (!options.listen.empty()) {
+            joining.emplace(answering_socket(context));
+            joining->bind(options.listen);
+        }
+        for (const auto& endpoint : options.endpoints) add(endpoint);
+    }
+
+    HostLink* find(const std::string& endpoint) {
+        for (auto& link : links)
+            if (link->endpoint() == endpoint) return link.get();
+        return nullptr;
+    }
+    void add(const std::string& endpoint) {
+        if (!find(endpoint)) links.push_back(std::make_unique<HostLink>(context, told, endpoint));
+    }
+
+    // Offers of all hosts that are at least so far, in the order in which they were named.
+    std::vector<HostOffer> offers(bool ready_only) const {
+        std::vector<HostOffer> offers;
+        for (const auto& link : links) {
+            const auto state = link->state();
+            const bool greeted = state == State::greeted || state == State::sending || state == State::building;
+            if (state == State::ready || (!ready_only && greeted)) offers.push_back({link->endpoint(), link->places()});
+        }
+        return offers;
+    }
+
+    void look() {
+        const auto now = Clock::now();
+        take_joiners();
+        const auto expected = offers(false);
+        const std::string begin_plan = expected.empty() ? "" : to_json(options.plan(expected));
+        for (auto& link : links) {
+            link->tick(now, begin_plan);
+            for (auto [any, message] = link->receive(now, counters); any;
+                 std::tie(any, message) = link->receive(now, counters))
+                if (message) arrived.push_back(std::move(*message));
+        }
+        tell_changes();
+    }
+
+    void take_joiners() {
+        if (!joining) return;
+        while (auto frames = receive_frames(*joining)) {
+            if (frames->size() != 3) continue;
+            const auto header = packet::read_header(bytes_of((*frames)[1]), bytes_of((*frames)[2]));
+            const auto fields = header ? packet::unpack_fields(bytes_of((*frames)[2])) : std::nullopt;
+            if (!fields || header->type != packet::Type::join) continue;
+            add(fields->text("endpoint"));
+            frames->resize(1);
+            append(*frames, packet::pack(packet::Type::joined, told.run, {}));
+            send_frames(*joining, *frames);
+        }
+    }
+
+    // Hosts that became ready or are no more: a new plan, for them, for the master, and a line for the user.
+    void tell_changes() {
+        bool changed = false;
+        for (auto& link : links) {
+            const auto before = states.contains(link->endpoint()) ? states[link->endpoint()] : State::calling;
+            const auto state = states[link->endpoint()] = link->state();
+            if (state == before) continue;
+            if (state == State::ready) options.say(link->endpoint() + " is ready");
+            if (state == State::refused) options.say(link->endpoint() + " takes no part: " + link->reason());
+            if (before == State::ready && state != State::refused)
+                options.say(link->endpoint() + " is lost: " + link->reason() + "; its work is asked again elsewhere");
+            changed |= state == State::ready || before == State::ready;
+        }
+        if (!changed) return;
+        const auto there = offers(true);
+        plan = there.empty() ? Plan{{}, std::vector<std::vector<std::uint32_t>>(options.job.graph.nodes.size())}
+                             : options.plan(there);
+        const auto text = to_json(plan);
+        for (auto& link : links)
+            if (link->state() == State::ready) link->send_plan(text);
+        Message message;
+        message.type = Message::Type::plan;
+        message.run = options.run;
+        message.plan = std::make_shared<const Plan>(plan);
+        arrived.push_back(std::move(message));
+    }
+
+    std::string reasons() const {
+        std::string text;
+        for (const auto& link : links)
+            text += "\n  " + link->endpoint() + ": " + (link->reason().empty() ? "does not answer" : link->reason());
+        return text;
+    }
+};
+
+Cluster::Cluster(Options options) : links_(std::make_unique<Links>(std::move(options))) {}
+Cluster::~Cluster() = default;
+
+void Cluster::gather(std::chrono::milliseconds patience, const std::atomic<bool>& cancelled) {
+    const auto begun = Clock::now();
+    std::string said;
+    while (!cancelled) {
+        wait(std::chrono::milliseconds(20));
+        bool ready = false, pending = false, absent = false, busy = false;
+        for (const auto& link : links_->links) {
+            if (link->broken()) throw Error(link->endpoint(), link->reason());
+            ready |= link->state() == State::ready;
+            absent |= link->state() == State::calling;
+            busy |= link->state() == State::greeted && !link->reason().empty();
+            pending |= link->state() == State::sending || link->state() == State::building;
+        }
+        if (busy && said.empty())
+            links_->options.say(said = "waiting for hosts that serve another run" + links_->reasons());
+        const bool patient = Clock::now() - begun < patience;
+        if (pending || (patient && (absent || busy || links_->links.empty()))) continue;
+        if (ready) return;
+        if (!busy) throw NoWorker("no worker can be reached:" + links_->reasons());
+    }
+}
+
+std::vector<HostOffer> Cluster::ready() const { return links_->offers(true); }
+const Plan& Cluster::plan() const { return links_->plan; }
+void Cluster::add(const std::string& endpoint) { links_->add(endpoint); }
+
+void Cluster::lost(const std::string& endpoint) {
+    if (auto* link = links_->find(endpoint); link && link->state() != State::calling)
+        link->lose(Clock::now(), "its process has ended");
+    links_->tell_changes();
+}
+
+std::string Cluster::join_endpoint() const {
+    return links_->joining ? links_->joining->get(zmq::sockopt::last_endpoint) : std::string();
+}
+
+Counters Cluster::finish() {
+    std::set<HostLink*> open;
+    for (auto& link : links_->links)
+        if (link->state() != State::calling && link->state() != State::refused) {
+            link->send_end();
+            open.insert(link.get());
+        }
+    const auto end = Clock::now() + std::chrono::seconds(1);
+    Counters sum = links_->counters;
+    while (!open.empty() && Clock::now() < end) {
+        for (auto* link : std::set(open)) {
+            while (link->receive(Clock::now(), links_->counters).first) {
+            }
+            if (link->ended()) {
+                sum += *link->ended();
+                open.erase(link);
+            }
+        }
+        if (!open.empty()) wait(std::chrono::milliseconds(5));
+    }
+    return sum;
+}
+
+bool Cluster::ask(const PlaceAt& to, Message& message) {
+    auto* link = links_->find(to.host);
+    return link && link->state() == State::ready && link->send(message, to.index, links_->counters);
+}
+
+void Cluster::reply(Message) {}  // nobody asks the launcher
+
+std::optional<Message> Cluster::receive() {
+    links_->look();
+    if (links_->arrived.empty()) return std::nullopt;
+    Message message = std::move(links_->arrived.front());
+    links_->arrived.pop_front();
+    return message;
+}
+
+void Cluster::wait(std::chrono::nanoseconds most) {
+    links_->look();
+    if (!links_->arrived.empty()) return;
+    std::vector<zmq::pollitem_t> items;
+    bool sending = false;
+    for (auto& link : links_->links) {
+        sending |= link->state() == State::sending;
+        for (auto* socket : link->sockets()) items.push_back({socket->handle(), 0, ZMQ_POLLIN, 0});
+    }
+    if (links_->joining) items.push_back({links_->joining->handle(), 0, ZMQ_POLLIN, 0});
+    const auto ms = std::clamp(std::chrono::ceil<std::chrono::milliseconds>(most), std::chrono::milliseconds(1),
+                               std::chrono::milliseconds(sending ? 5 : 100));
+    try {
+        zmq::poll(items, ms);
+    } catch (const zmq::error_t& error) {
+        if (error.num() != EINTR) throw;
+    }
+}
+
+const Counters& Cluster::counters() const { return links_->counters; }
+
+}  // namespace lightnet

@@ -1,0 +1,69 @@
+// The hosts of a run, as the launcher sees them.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/graph/plan.hpp"
+#include "core/runtime/carrier.hpp"
+#include "core/runtime/job.hpp"
+
+namespace lightnet {
+
+/// Brings hosts into the run, keeps their leases, and carries the master's asks to them. A host that is lost, stops or
+/// comes late changes the plan: the new one goes to every host, and comes out of receive(). Used by one thread, which
+/// must look in (receive() or wait()) several times a second, as it also sends the heartbeats.
+class Cluster final : public Carrier {
+public:
+    struct Options {
+        std::uint64_t run = 0;
+        std::vector<std::string> endpoints;  // of hosts to call
+        std::string listen;                  // where hosts may join; empty: nowhere
+        Job job;
+        std::map<std::string, Bytes> files;                       // the scene's, by path
+        std::function<Plan(const std::vector<HostOffer>&)> plan;  // for the hosts that are there
+        std::function<void(const std::string&)> say = [](const std::string&) {};
+    };
+    explicit Cluster(Options options);
+    ~Cluster() override;
+
+    /// Returns when every host is ready, refused, or has been absent for `patience`; at least one must be ready by
+    /// then. Throws NoWorker when none is, Error when the job can't be served.
+    void gather(std::chrono::milliseconds patience, const std::atomic<bool>& cancelled);
+    /// The hosts that are ready.
+    std::vector<HostOffer> ready() const;
+    const Plan& plan() const;
+    /// Calls one more host.
+    void add(const std::string& endpoint);
+    /// A host whose process is known to have ended.
+    void lost(const std::string& endpoint);
+    /// Where hosts may join, with the port that the system chose.
+    std::string join_endpoint() const;
+    /// Ends the run on all hosts and returns what they counted. Waits for about a second at most.
+    Counters finish();
+
+    bool ask(const PlaceAt& to, Message& message) override;
+    void reply(Message message) override;
+    std::optional<Message> receive() override;
+    void wait(std::chrono::nanoseconds most) override;
+    void forget(const PlaceAt&) override {}
+    const Counters& counters() const override;
+
+private:
+    struct Links;
+    std::unique_ptr<Links> links_;
+};
+
+/// No host can be reached (exit code 3).
+class NoWorker : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+}  // namespace lightnet

@@ -1,0 +1,217 @@
+#include "transport/host_link.hpp"
+
+#include <algorithm>
+#include <zmq.hpp>
+
+#include "core/build_info.hpp"
+#include "transport/sockets.hpp"
+
+namespace lightnet {
+namespace {
+
+using packet::Fields;
+using packet::Type;
+
+constexpr auto call_interval = std::chrono::milliseconds(200);
+constexpr auto busy_interval = std::chrono::seconds(1);
+constexpr auto ping_interval = std::chrono::milliseconds(400);
+constexpr auto lease = std::chrono::milliseconds(1500);
+constexpr std::size_t chunk_size = 256 << 10;
+constexpr std::size_t chunks_under_way = 16;
+
+}  // namespace
+
+HostLink::HostLink(zmq::context_t& context, const Told& told, std::string endpoint)
+    : context_(context),
+      told_(told),
+      endpoint_(std::move(endpoint)),
+      lane_(std::make_unique<zmq::socket_t>(asking_socket(context, endpoint_))),
+      bulk_(std::make_unique<zmq::socket_t>(asking_socket(context, endpoint_))) {}
+
+HostLink::~HostLink() = default;
+
+std::vector<zmq::socket_t*> HostLink::sockets() { return {lane_.get(), bulk_.get()}; }
+
+void HostLink::send(Type type, const Fields& fields) {
+    Frames frames;
+    append(frames, packet::pack(type, told_.run, fields));
+    send_frames(*lane_, frames);
+}
+
+void HostLink::tick(Time now, const std::string& plan) {
+    if (state_ == State::refused) return;
+    if (state_ != State::calling) heartbeat(now);
+    if (now >= next_call_ && state_ == State::calling) {
+        next_call_ = now + call_interval;
+        send(Type::hello, Fields{}.set("build", build_id()).set("isa", told_.isa));
+    } else if (now >= next_call_ && state_ == State::greeted) {
+        next_call_ = now + busy_interval;
+        send(Type::begin, Fields{}.set("job", told_.job).set("plan", plan).set("you", endpoint_));
+    }
+    if (state_ == State::sending) send_blobs();
+}
+
+void HostLink::heartbeat(Time now) {
+    if (now - heard_ > lease) return lose(now, "it does not answer");
+    if (now < next_ping_) return;
+    next_ping_ = now + ping_interval;
+    send(Type::ping, {});
+}
+
+void HostLink::lose(Time now, const std::string& why) {
+    state_ = State::calling;
+    reason_ = why;
+    next_call_ = now + call_interval;
+    chunks_.clear();
+    chunks_out_ = 0;
+    // New sockets: nothing that was meant for the lost one may reach the next.
+    lane_ = std::make_unique<zmq::socket_t>(asking_socket(context_, endpoint_));
+    bulk_ = std::make_unique<zmq::socket_t>(asking_socket(context_, endpoint_));
+}
+
+std::pair<bool, std::optional<Message>> HostLink::receive(Time now, Counters& counters) {
+    auto frames = receive_frames(*lane_);
+    if (!frames) frames = receive_frames(*bulk_);
+    if (!frames) return {false, std::nullopt};
+    if (frames->size() != 2) {
+        ++counters.broken_packets;
+        return {true, std::nullopt};
+    }
+    const auto header_bytes = bytes_of((*frames)[0]), body = bytes_of((*frames)[1]);
+    const auto header = packet::read_header(header_bytes, body);
+    if (!header) {
+        const auto theirs = packet::claimed_version(header_bytes);
+        if (theirs && *theirs != packet::version) {
+            state_ = State::refused;
+            reason_ = "it speaks protocol version " + std::to_string(*theirs) + ", we speak " +
+                      std::to_string(packet::version);
+        }
+        ++counters.broken_packets;
+        return {true, std::nullopt};
+    }
+    heard_ = now;
+    if (header->type < Type::hello) {
+        counters.bytes += header_bytes.size() + body.size();
+        return {true, packet::unpack(header_bytes, body)};
+    }
+    if (const auto fields = packet::unpack_fields(body)) control(header->type, *fields, now);
+    return {true, std::nullopt};
+}
+
+void HostLink::control(Type type, const Fields& fields, Time now) {
+    switch (type) {
+        case Type::welcome:
+            if (state_ == State::calling) welcome(fields);
+            next_call_ = now;
+            return;
+        case Type::refuse:
+            reason_ = fields.text("text");
+            if (!fields.number("busy")) state_ = State::refused;
+            return;
+        case Type::need:
+            if (state_ != State::greeted) return;
+            reason_.clear();
+            queue_blobs(fields.text("hashes"));
+            state_ = chunks_.empty() ? State::building : State::sending;
+            return;
+        case Type::blob_taken:
+            if (state_ != State::sending) return;
+            --chunks_out_;
+            if (chunks_.empty() && chunks_out_ == 0) state_ = State::building;
+            return;
+        case Type::ready:
+            if (state_ == State::building || state_ == State::sending) state_ = State::ready;
+            return;
+        case Type::broken:
+            broken_ = true;
+            reason_ = fields.text("text");
+            state_ = State::refused;
+            return;
+        case Type::pong:
+            if (fields.number("incarnation") != incarnation_)
+                lose(now, "it was started anew");
+            else if (state_ != State::greeted && fields.number("run") != told_.run)
+                lose(now, "it gave the run up");
+            return;
+        case Type::leaving:
+            state_ = State::refused;
+            reason_ = "it was told to stop";
+            send_end();
+            return;
+        case Type::ended: {
+            Counters counters;
+            counters.rays = fields.number("rays"), counters.local_questions = fields.number("local_questions");
+            counters.questions = fields.number("questions"), counters.bundles = fields.number("bundles");
+            counters.bytes = fields.number("bytes"), counters.tiles = fields.number("tiles");
+            counters.asked_again = fields.number("asked_again"), counters.late_replies = fields.number("late_replies");
+            counters.refused_sends = fields.number("refused_sends");
+            counters.broken_packets = fields.number("broken_packets");
+            ended_ = counters;
+            return;
+        }
+        default:
+            return;
+    }
+}
+
+void HostLink::welcome(const Fields& fields) {
+    if (fields.number("fingerprint") != told_.fingerprint) {
+        state_ = State::refused;
+        reason_ = "it computes differently (its rays or its mathematical library give other last bits)";
+        return;
+    }
+    places_ = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(fields.number("places"), 1, 1024));
+    incarnation_ = fields.number("incarnation");
+    state_ = State::greeted;
+}
+
+void HostLink::queue_blobs(const std::string& hashes) {
+    constexpr std::size_t digits = 64;
+    for (std::size_t at = 0; at + digits <= hashes.size(); at += digits) {
+        const auto hash = hash_from_hex(std::string_view(hashes).substr(at, digits));
+        const auto blob = hash ? told_.blobs.find(*hash) : told_.blobs.end();
+        if (blob == told_.blobs.end()) continue;
+        std::uint64_t offset = 0;
+        do {
+            chunks_.push_back({*hash, offset});
+            offset += chunk_size;
+        } while (offset < blob->second->size());
+    }
+}
+
+void HostLink::send_blobs() {
+    while (!chunks_.empty() && chunks_out_ < chunks_under_way) {
+        const auto& [hash, offset] = chunks_.front();
+        const auto& blob = *told_.blobs.at(hash);
+        const std::string_view bytes(reinterpret_cast<const char*>(blob.data()) + offset,
+                                     std::min<std::size_t>(chunk_size, blob.size() - offset));
+        Frames frames;
+        append(frames, packet::pack(Type::blob, told_.run,
+                                    Fields{}
+                                        .set("hash", to_hex(hash))
+                                        .set("offset", offset)
+                                        .set("total", blob.size())
+                                        .set("bytes", bytes)));
+        if (!send_frames(*bulk_, frames)) return;
+        ++chunks_out_;
+        chunks_.pop_front();
+    }
+}
+
+bool HostLink::send(Message& message, std::uint32_t place, Counters& counters) {
+    Frames frames;
+    append(frames, packet::pack(message, place));
+    const std::size_t size = frames[0].size() + frames[1].size();
+    if (!send_frames(*lane_, frames)) {
+        ++counters.refused_sends;
+        return false;
+    }
+    counters.bytes += size;
+    return true;
+}
+
+void HostLink::send_plan(const std::string& plan) { send(Type::plan, Fields{}.set("plan", plan)); }
+
+void HostLink::send_end() { send(Type::end, {}); }
+
+}  // namespace lightnet

@@ -1,0 +1,409 @@
+#include "transport/packet.hpp"
+
+#include <array>
+#include <bit>
+#include <cstring>
+#include <memory>
+#include <msgpack.hpp>
+#include <type_traits>
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+namespace lightnet::packet {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "columns are little-endian, and copied as they are");
+
+using Bytes = std::vector<std::byte>;
+using View = std::span<const std::byte>;
+
+// ---- header ---------------------------------------------------------------------------------------------------------
+
+class Writer {
+public:
+    explicit Writer(Bytes& out) : out_(out) {}
+    template <class T>
+    void put(T value) {
+        const auto* bytes = reinterpret_cast<const std::byte*>(&value);
+        out_.insert(out_.end(), bytes, bytes + sizeof value);
+    }
+
+private:
+    Bytes& out_;
+};
+
+class Reader {
+public:
+    explicit Reader(View in) : in_(in) {}
+    template <class T>
+    T get() {
+        T value;
+        std::memcpy(&value, in_.data(), sizeof value);
+        in_ = in_.subspan(sizeof value);
+        return value;
+    }
+
+private:
+    View in_;
+};
+
+constexpr std::size_t checksum_at = header_size - sizeof(std::uint64_t);
+
+std::uint64_t checksum(View header, View body) {
+    return XXH3_64bits_withSeed(body.data(), body.size(), XXH3_64bits(header.data(), checksum_at));
+}
+
+Bytes write_header(const Header& header, View body) {
+    Bytes out;
+    out.reserve(header_size);
+    Writer writer(out);
+    writer.put(magic);
+    writer.put(version);
+    writer.put(static_cast<std::uint8_t>(header.type));
+    writer.put(std::uint8_t{0});
+    writer.put(header.run);
+    writer.put(header.bundle);
+    writer.put(header.channel);
+    writer.put(header.node);
+    writer.put(header.place);
+    writer.put(header.width);
+    writer.put(header.count);
+    writer.put(header.fill);
+    writer.put(header.service_ns);
+    writer.put(static_cast<std::uint32_t>(body.size()));
+    writer.put(checksum(out, body));
+    return out;
+}
+
+// ---- body -----------------------------------------------------------------------------------------------------------
+
+// What msgpack writes to.
+struct Sink {
+    Bytes& out;
+    void write(const char* data, std::size_t size) {
+        const auto* bytes = reinterpret_cast<const std::byte*>(data);
+        out.insert(out.end(), bytes, bytes + size);
+    }
+};
+
+using Packer = msgpack::packer<Sink>;
+
+void pack_text(Packer& packer, std::string_view text) {
+    packer.pack_str(static_cast<std::uint32_t>(text.size()));
+    packer.pack_str_body(text.data(), static_cast<std::uint32_t>(text.size()));
+}
+
+// One column of a bundle: `size` bytes at `offset` of each question.
+struct Column {
+    const char* name;
+    std::size_t offset, size;
+};
+
+template <class Question>
+constexpr std::array<Column, 0> columns{};
+
+template <>
+constexpr std::array columns<Query>{Column{"stream", offsetof(Query, stream), 8},
+                                    Column{"instance", offsetof(Query, instance), 4},
+                                    Column{"geometry", offsetof(Query, geometry), 4},
+                                    Column{"primitive", offsetof(Query, primitive), 4},
+                                    Column{"uv", offsetof(Query, u), 8},
+                                    Column{"outgoing", offsetof(Query, outgoing), 12},
+                                    Column{"sample", offsetof(Query, sample), 4},
+                                    Column{"flags", offsetof(Query, lobes), 4}};
+
+template <>
+constexpr std::array columns<Tile>{Column{"x", offsetof(Tile, x), 4},
+                                   Column{"y", offsetof(Tile, y), 4},
+                                   Column{"width", offsetof(Tile, width), 4},
+                                   Column{"height", offsetof(Tile, height), 4},
+                                   Column{"first", offsetof(Tile, first_sample), 4},
+                                   Column{"samples", offsetof(Tile, samples), 4}};
+
+// A loop whose copies have a constant size.
+template <std::size_t Size>
+void copy_strided(std::byte* to, std::size_t to_step, const std::byte* from, std::size_t from_step, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) std::memcpy(to + i * to_step, from + i * from_step, Size);
+}
+
+void copy_column(std::size_t size, std::byte* to, std::size_t to_step, const std::byte* from, std::size_t from_step,
+                 std::size_t count) {
+    switch (size) {
+        case 4:
+            return copy_strided<4>(to, to_step, from, from_step, count);
+        case 8:
+            return copy_strided<8>(to, to_step, from, from_step, count);
+        default:
+            return copy_strided<12>(to, to_step, from, from_step, count);
+    }
+}
+
+template <class Question>
+void pack_columns(const std::vector<Question>& questions, Bytes& body) {
+    body.reserve(questions.size() * sizeof(Question) + 256);
+    Sink sink{body};
+    Packer packer(sink);
+    packer.pack_map(columns<Question>.size());
+    for (const auto& column : columns<Question>) {
+        pack_text(packer, column.name);
+        const std::size_t size = questions.size() * column.size;
+        packer.pack_bin(static_cast<std::uint32_t>(size));
+        const std::size_t at = body.size();
+        body.resize(at + size);
+        copy_column(column.size, body.data() + at, column.size,
+                    reinterpret_cast<const std::byte*>(questions.data()) + column.offset, sizeof(Question),
+                    questions.size());
+    }
+}
+
+// A msgpack map whose values lie in `body`; nothing is copied but the tree of at most 64 entries.
+class Map {
+public:
+    explicit Map(View body) {
+        constexpr auto by_reference = [](msgpack::type::object_type, std::size_t, void*) { return true; };
+        const msgpack::unpack_limit limit(64, 64, most_bytes, most_bytes, 0, 3);
+        try {
+            std::size_t used = 0;
+            handle_ = msgpack::unpack(reinterpret_cast<const char*>(body.data()), body.size(), used, by_reference,
+                                      nullptr, limit);
+            good_ = used == body.size() && handle_.get().type == msgpack::type::MAP;
+        } catch (const std::exception&) {
+            good_ = false;  // msgpack says what is wrong by its own exceptions; to us the packet is broken
+        }
+    }
+    bool good() const { return good_; }
+    std::span<const msgpack::object_kv> entries() const {
+        const auto& map = handle_.get().via.map;
+        return {map.ptr, map.size};
+    }
+    static std::string_view key(const msgpack::object_kv& entry) {
+        if (entry.key.type != msgpack::type::STR) return {};
+        return {entry.key.via.str.ptr, entry.key.via.str.size};
+    }
+    /// The bytes of a `bin`; none when there is no such key.
+    std::optional<View> bytes(std::string_view name) const {
+        for (const auto& entry : entries())
+            if (key(entry) == name && entry.val.type == msgpack::type::BIN)
+                return View(reinterpret_cast<const std::byte*>(entry.val.via.bin.ptr), entry.val.via.bin.size);
+        return std::nullopt;
+    }
+
+private:
+    msgpack::object_handle handle_;
+    bool good_ = false;
+};
+
+template <class Question>
+std::optional<Questions<Question>> unpack_columns(const Header& header, View body) {
+    if (header.count == 0 || header.count > most_questions || body.size() > most_bytes) return std::nullopt;
+    const Map map(body);
+    if (!map.good()) return std::nullopt;
+    // Every column is there and has its size: only then room is made for the questions.
+    std::array<View, columns<Question>.size()> found;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const auto bytes = map.bytes(columns<Question>[i].name);
+        if (!bytes || bytes->size() != header.count * columns<Question>[i].size) return std::nullopt;
+        found[i] = *bytes;
+    }
+    auto questions = std::make_shared<std::vector<Question>>(header.count);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const auto& column = columns<Question>[i];
+        copy_column(column.size, reinterpret_cast<std::byte*>(questions->data()) + column.offset, sizeof(Question),
+                    found[i].data(), column.size, header.count);
+    }
+    return questions;
+}
+
+bool sane(const Tile& tile) {
+    constexpr std::uint32_t most = 1 << 16;
+    return tile.width > 0 && tile.height > 0 && tile.pixels() <= most && tile.x < most && tile.y < most &&
+           tile.samples > 0 && tile.samples <= samples_per_block && tile.first_sample % samples_per_block == 0;
+}
+
+void pack_rgb(const std::vector<Rgb>& answers, Bytes& body) {
+    const std::size_t size = answers.size() * sizeof(Rgb);
+    body.reserve(size + 16);
+    Sink sink{body};
+    Packer packer(sink);
+    packer.pack_map(1);
+    pack_text(packer, "rgb");
+    packer.pack_bin(static_cast<std::uint32_t>(size));
+    packer.pack_bin_body(reinterpret_cast<const char*>(answers.data()), static_cast<std::uint32_t>(size));
+}
+
+Packet finish(const Header& header, Bytes body) { return {write_header(header, body), std::move(body)}; }
+
+Message message_of(const Header& header) {
+    Message message;
+    message.run = header.run;
+    message.channel = header.channel;
+    message.bundle = header.bundle;
+    message.node = header.node;
+    message.width = header.width;
+    message.load = {header.fill, header.service_ns};
+    return message;
+}
+
+}  // namespace
+
+std::optional<std::uint16_t> claimed_version(View header) {
+    if (header.size() < 6) return std::nullopt;
+    Reader reader(header);
+    if (reader.get<std::uint32_t>() != magic) return std::nullopt;
+    return reader.get<std::uint16_t>();
+}
+
+std::optional<Header> peek_header(View bytes) {
+    if (bytes.size() != header_size || claimed_version(bytes) != version) return std::nullopt;
+    Reader reader(bytes.subspan(6));
+    const auto type = reader.get<std::uint8_t>();
+    reader.get<std::uint8_t>();
+    if (type == 0 || type > static_cast<std::uint8_t>(Type::last)) return std::nullopt;
+    Header header;
+    header.type = static_cast<Type>(type);
+    header.run = reader.get<std::uint64_t>();
+    header.bundle = reader.get<std::uint64_t>();
+    header.channel = reader.get<std::uint32_t>();
+    header.node = reader.get<std::uint32_t>();
+    header.place = reader.get<std::uint32_t>();
+    header.width = reader.get<std::uint32_t>();
+    header.count = reader.get<std::uint32_t>();
+    header.fill = reader.get<std::uint32_t>();
+    header.service_ns = reader.get<std::uint32_t>();
+    return header;
+}
+
+std::optional<Header> read_header(View bytes, View body) {
+    auto header = peek_header(bytes);
+    if (!header || body.size() > most_bytes) return std::nullopt;
+    Reader tail(bytes.subspan(checksum_at - sizeof(std::uint32_t)));
+    if (tail.get<std::uint32_t>() != body.size()) return std::nullopt;
+    if (tail.get<std::uint64_t>() != checksum(bytes, body)) return std::nullopt;
+    return header;
+}
+
+Packet pack(const Message& message, std::uint32_t place) {
+    Header header;
+    header.run = message.run, header.bundle = message.bundle, header.channel = message.channel;
+    header.node = message.node, header.place = place, header.width = message.width;
+    header.fill = message.load.fill, header.service_ns = message.load.service_ns;
+    Bytes body;
+    if (message.type == Message::Type::reply) {
+        header.type = Type::answers;
+        header.count = static_cast<std::uint32_t>(message.answers.size());
+        pack_rgb(message.answers, body);
+    } else if (message.type == Message::Type::failure) {
+        header.type = Type::failure;
+        return finish(header, pack(Type::failure, message.run, Fields{}.set("text", message.text)).body);
+    } else if (const auto* queries = std::get_if<Questions<Query>>(&message.questions)) {
+        header.type = Type::ask_light;
+        header.count = static_cast<std::uint32_t>((*queries)->size());
+        pack_columns(**queries, body);
+    } else {
+        const auto& tiles = std::get<Questions<Tile>>(message.questions);
+        header.type = Type::ask_pixels;
+        header.count = static_cast<std::uint32_t>(tiles->size());
+        pack_columns(*tiles, body);
+    }
+    return finish(header, std::move(body));
+}
+
+std::optional<Message> unpack(View header_bytes, View body) {
+    const auto header = read_header(header_bytes, body);
+    if (!header) return std::nullopt;
+    Message message = message_of(*header);
+    switch (header->type) {
+        case Type::ask_light: {
+            auto questions = unpack_columns<Query>(*header, body);
+            if (!questions) return std::nullopt;
+            message.questions = std::move(*questions);
+            return message;
+        }
+        case Type::ask_pixels: {
+            auto questions = unpack_columns<Tile>(*header, body);
+            if (!questions) return std::nullopt;
+            for (const auto& tile : **questions)
+                if (!sane(tile)) return std::nullopt;
+            message.questions = std::move(*questions);
+            return message;
+        }
+        case Type::answers: {
+            const Map map(body);
+            if (!map.good()) return std::nullopt;
+            const auto rgb = map.bytes("rgb");
+            if (!rgb || rgb->size() != header->count * sizeof(Rgb)) return std::nullopt;
+            message.type = Message::Type::reply;
+            message.answers.resize(header->count);
+            if (!rgb->empty()) std::memcpy(message.answers.data(), rgb->data(), rgb->size());
+            return message;
+        }
+        case Type::failure: {
+            const auto fields = unpack_fields(body);
+            if (!fields) return std::nullopt;
+            message.type = Message::Type::failure;
+            message.text = fields->text("text");
+            return message;
+        }
+        default:
+            return std::nullopt;
+    }
+}
+
+Fields& Fields::set(const std::string& key, std::uint64_t number) {
+    numbers[key] = number;
+    return *this;
+}
+
+Fields& Fields::set(const std::string& key, std::string_view text) {
+    texts[key] = text;
+    return *this;
+}
+
+std::uint64_t Fields::number(const std::string& key) const {
+    const auto found = numbers.find(key);
+    return found == numbers.end() ? 0 : found->second;
+}
+
+const std::string& Fields::text(const std::string& key) const {
+    static const std::string empty;
+    const auto found = texts.find(key);
+    return found == texts.end() ? empty : found->second;
+}
+
+Packet pack(Type type, std::uint64_t run, const Fields& fields) {
+    Bytes body;
+    Sink sink{body};
+    Packer packer(sink);
+    packer.pack_map(static_cast<std::uint32_t>(fields.numbers.size() + fields.texts.size()));
+    for (const auto& [key, number] : fields.numbers) {
+        pack_text(packer, key);
+        packer.pack(number);
+    }
+    for (const auto& [key, text] : fields.texts) {
+        pack_text(packer, key);
+        packer.pack_bin(static_cast<std::uint32_t>(text.size()));
+        packer.pack_bin_body(text.data(), static_cast<std::uint32_t>(text.size()));
+    }
+    Header header;
+    header.type = type;
+    header.run = run;
+    return finish(header, std::move(body));
+}
+
+std::optional<Fields> unpack_fields(View body) {
+    if (body.size() > most_bytes) return std::nullopt;
+    const Map map(body);
+    if (!map.good()) return std::nullopt;
+    Fields fields;
+    for (const auto& entry : map.entries()) {
+        const std::string key(Map::key(entry));
+        if (key.empty()) continue;
+        if (entry.val.type == msgpack::type::POSITIVE_INTEGER)
+            fields.numbers[key] = entry.val.via.u64;
+        else if (entry.val.type == msgpack::type::BIN)
+            fields.texts[key] = std::string(entry.val.via.bin.ptr, entry.val.via.bin.size);
+    }
+    return fields;
+}
+
+}  // namespace lightnet::packet

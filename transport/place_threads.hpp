@@ -1,0 +1,52 @@
+// The places of one process, each a thread of its own.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/runtime/assembly.hpp"
+#include "core/runtime/place.hpp"
+
+namespace zmq {
+class context_t;
+class socket_t;
+}  // namespace zmq
+
+namespace lightnet {
+
+/// Starts a thread per place of `host`, and stops them. Used by one thread.
+class PlaceThreads {
+public:
+    PlaceThreads(zmq::context_t& context, std::shared_ptr<const Network> network, std::uint64_t run, std::string host,
+                 std::uint32_t count, Plan plan, PlaceRules rules);
+    /// Stops and joins.
+    ~PlaceThreads();
+    PlaceThreads(const PlaceThreads&) = delete;
+    PlaceThreads& operator=(const PlaceThreads&) = delete;
+
+    /// True when all places are assembled and serve. Throws Error when one could not be. Returns at once.
+    bool ready();
+    /// Waits for ready().
+    void wait_until_ready();
+    /// Tells every place who answers for which node from now on.
+    void use(const Plan& plan);
+    /// Stops all places and returns what they counted. After this nothing else may be called.
+    Counters stop();
+
+    std::uint32_t count() const;
+    /// Bundles and tiles answered so far, by all.
+    std::uint64_t progress() const;
+    /// The socket that leads to a place; replies to what is sent there come back on it.
+    zmq::socket_t& to(std::uint32_t place);
+    /// The socket on which places report; becomes readable when ready() may have changed.
+    zmq::socket_t& reports();
+
+private:
+    struct Threads;
+    std::unique_ptr<Threads> threads_;
+};
+
+}  // namespace lightnet

@@ -1,0 +1,54 @@
+// Small things that every user of a socket needs. For the .cpp files of this folder.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/runtime/message.hpp"
+#include "transport/packet.hpp"
+
+namespace zmq {
+class context_t;
+class message_t;
+class socket_t;
+}  // namespace zmq
+
+namespace lightnet {
+
+/// The frames of one message, route first.
+using Frames = std::vector<zmq::message_t>;
+
+/// A socket that binds and answers: knows its peers, refuses those that are gone, never blocks, never lingers.
+zmq::socket_t answering_socket(zmq::context_t& context);
+/// A socket that connects and asks: one peer only, sends nothing before the peer is there, says hello by itself after
+/// each reconnection.
+zmq::socket_t asking_socket(zmq::context_t& context, const std::string& endpoint);
+
+/// Sends all frames or none. False: the peer is gone or its queue is full.
+bool send_frames(zmq::socket_t& socket, Frames& frames);
+/// One whole message, if there is one.
+std::optional<Frames> receive_frames(zmq::socket_t& socket);
+
+zmq::message_t frame_of(std::span<const std::byte> bytes);
+zmq::message_t frame_of(const std::string& bytes);
+/// Moves the bytes into the frame: no copy.
+zmq::message_t frame_of(std::vector<std::byte>&& bytes);
+/// Hands a message over as it is, within the process: the frame owns it, so it can't leak, whatever becomes of the
+/// frame.
+zmq::message_t frame_of(Message&& message);
+/// Takes such a message out of its frame.
+Message take_message(zmq::message_t& frame);
+/// Puts the packet behind `frames`.
+void append(Frames& frames, packet::Packet packet);
+
+std::span<const std::byte> bytes_of(const zmq::message_t& frame);
+std::string text_of(const zmq::message_t& frame);
+
+/// Sizes that were agreed on never fill a queue of this many messages; if one is full, something is wrong, and counted.
+inline constexpr int high_water_mark = 4096;
+
+}  // namespace lightnet

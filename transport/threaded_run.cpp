@@ -1,0 +1,31 @@
+#include "transport/threaded_run.hpp"
+
+#include <zmq.hpp>
+
+#include "transport/place_threads.hpp"
+#include "transport/zmq_carrier.hpp"
+
+namespace lightnet {
+
+struct ThreadedRun::Parts {
+    zmq::context_t context{0};  // inproc needs no thread of ZeroMQ's own
+    PlaceThreads places;
+    ZmqCarrier carrier;
+
+    Parts(std::shared_ptr<const Network> network, std::uint64_t run, Plan plan, PlaceRules rules)
+        : places(context, std::move(network), run, "", static_cast<std::uint32_t>(plan.places.size()), plan, rules),
+          carrier(context, {run, "", false, 0}) {
+        places.wait_until_ready();
+    }
+};
+
+ThreadedRun::ThreadedRun(std::shared_ptr<const Network> network, std::uint64_t run, Plan plan, PlaceRules rules)
+    : parts_(std::make_unique<Parts>(std::move(network), run, std::move(plan), rules)) {}
+
+ThreadedRun::~ThreadedRun() = default;
+
+Carrier& ThreadedRun::carrier() { return parts_->carrier; }
+
+Counters ThreadedRun::stop() { return parts_->places.stop(); }
+
+}  // namespace lightnet

@@ -1,0 +1,29 @@
+// The network on several threads of this process.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "core/runtime/assembly.hpp"
+#include "core/runtime/carrier.hpp"
+#include "core/runtime/place.hpp"
+
+namespace lightnet {
+
+/// N places in threads of this process, and the carrier with which the caller asks them. Used by one thread.
+class ThreadedRun {
+public:
+    /// Returns when all places are ready.
+    ThreadedRun(std::shared_ptr<const Network> network, std::uint64_t run, Plan plan, PlaceRules rules);
+    ~ThreadedRun();
+
+    Carrier& carrier();
+    /// Stops all places and returns what they counted.
+    Counters stop();
+
+private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace lightnet

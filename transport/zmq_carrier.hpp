@@ -1,0 +1,44 @@
+// The carrier of a place: inproc:// to places of the same process, tcp:// to those of other hosts.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "core/runtime/carrier.hpp"
+
+namespace zmq {
+class context_t;
+}
+
+namespace lightnet {
+
+/// How the sockets of one run inside one process are called. `run` keeps runs apart.
+std::string inproc_endpoint(std::uint64_t run, std::uint32_t place);
+
+/// Within the process a message is handed over by pointer. To another host it goes as a packet, to the one port of
+/// that host, whose door hands it on to the place. Belongs to one thread.
+class ZmqCarrier final : public Carrier {
+public:
+    struct Ends {
+        std::uint64_t run = 0;
+        std::string host;         // of this process, as in PlaceAt
+        bool answers = true;      // false: only asks, as the master does
+        std::uint32_t place = 0;  // whose messages arrive here
+    };
+    ZmqCarrier(zmq::context_t& context, Ends ends);
+    ~ZmqCarrier() override;
+
+    bool ask(const PlaceAt& to, Message& message) override;
+    void reply(Message message) override;
+    std::optional<Message> receive() override;
+    void wait(std::chrono::nanoseconds most) override;
+    void forget(const PlaceAt& place) override;
+    const Counters& counters() const override;
+
+private:
+    struct Sockets;
+    std::unique_ptr<Sockets> sockets_;
+};
+
+}  // namespace lightnet
