@@ -166,14 +166,14 @@ std::string Cluster::join_endpoint() const {
     return links_->joining ? links_->joining->get(zmq::sockopt::last_endpoint) : std::string();
 }
 
-Counters Cluster::finish() {
+Counters Cluster::finish(std::chrono::milliseconds patience) {
     std::set<HostLink*> open;
     for (auto& link : links_->links)
         if (link->state() != State::calling && link->state() != State::refused) {
             link->send_end();
             open.insert(link.get());
         }
-    const auto end = Clock::now() + std::chrono::seconds(1);
+    const auto end = Clock::now() + patience;
     Counters sum = links_->counters;
     while (!open.empty() && Clock::now() < end) {
         for (auto* link : std::set(open)) {
