@@ -84,10 +84,10 @@ struct Cluster::Links {
             if (frames->size() != 3) continue;
             const auto header = packet::read_header(bytes_of((*frames)[1]), bytes_of((*frames)[2]));
             const auto fields = header ? packet::unpack_fields(bytes_of((*frames)[2])) : std::nullopt;
-            if (!fields || header->kind != packet::Kind::join) continue;
+            if (!fields || header->type != packet::Type::join) continue;
             add(fields->text("endpoint"));
             frames->resize(1);
-            append(*frames, packet::pack(packet::Kind::joined, told.run, {}));
+            append(*frames, packet::pack(packet::Type::joined, told.run, {}));
             send_frames(*joining, *frames);
         }
     }
@@ -113,7 +113,7 @@ struct Cluster::Links {
         for (auto& link : links)
             if (link->state() == State::ready) link->send_plan(text);
         Message message;
-        message.kind = Message::Kind::plan;
+        message.type = Message::Type::plan;
         message.run = options.run;
         message.plan = std::make_shared<const Plan>(plan);
         arrived.push_back(std::move(message));
@@ -166,14 +166,14 @@ std::string Cluster::join_endpoint() const {
     return links_->joining ? links_->joining->get(zmq::sockopt::last_endpoint) : std::string();
 }
 
-Counters Cluster::finish() {
+Counters Cluster::finish(std::chrono::milliseconds patience) {
     std::set<HostLink*> open;
     for (auto& link : links_->links)
         if (link->state() != State::calling && link->state() != State::refused) {
             link->send_end();
             open.insert(link.get());
         }
-    const auto end = Clock::now() + std::chrono::seconds(1);
+    const auto end = Clock::now() + patience;
     Counters sum = links_->counters;
     while (!open.empty() && Clock::now() < end) {
         for (auto* link : std::set(open)) {

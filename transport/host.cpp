@@ -17,7 +17,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 using packet::Fields;
-using packet::Kind;
+using packet::Type;
 
 constexpr auto launcher_lease = std::chrono::seconds(4);    // without a word, its run is over
 constexpr auto leaving_deadline = std::chrono::seconds(5);  // for the launcher to let us go
@@ -28,7 +28,7 @@ std::uint64_t random_number() {
     return (std::uint64_t{device()} << 32) | device();
 }
 
-bool is_work(Kind kind) { return kind < Kind::hello; }
+bool is_work(Type type) { return type < Type::hello; }
 
 }  // namespace
 
@@ -64,10 +64,10 @@ struct Host::Door {
 
     std::string endpoint() const { return socket.get(zmq::sockopt::last_endpoint); }
 
-    void send(const std::string& route, Kind kind, std::uint64_t id, const Fields& fields) {
+    void send(const std::string& route, Type type, std::uint64_t id, const Fields& fields) {
         Frames frames;
         frames.push_back(frame_of(route));
-        append(frames, packet::pack(kind, id, fields));
+        append(frames, packet::pack(type, id, fields));
         send_frames(socket, frames);
     }
 
@@ -94,7 +94,7 @@ void Host::serve(const std::atomic<bool>& stop) {
         const auto now = Clock::now();
         if (stop && !door.leaving) {
             door.leaving = now;
-            if (door.run) door.send(door.launcher, Kind::leaving, door.run->id(), {});
+            if (door.run) door.send(door.launcher, Type::leaving, door.run->id(), {});
         }
         if (door.leaving && (!door.run || now - *door.leaving > leaving_deadline)) break;
         while (auto frames = receive_frames(door.socket)) door.arrived(std::move(*frames));
@@ -118,13 +118,13 @@ void Host::Door::arrived(Frames frames) {
     if (!header) {
         const auto theirs = packet::claimed_version(header_bytes);
         if (theirs && *theirs != packet::version)
-            send(route, Kind::refuse, 0,
+            send(route, Type::refuse, 0,
                  Fields{}.set("text", "protocol version " + std::to_string(packet::version) + " is spoken here, not " +
                                           std::to_string(*theirs)));
         ++broken_packets;
         return;
     }
-    if (is_work(header->kind)) {  // not looked into: the place checks and decodes
+    if (is_work(header->type)) {  // not looked into: the place checks and decodes
         if (!run || header->run != run->id() || !run->serving() || header->place >= run->places()->count()) return;
         send_frames(run->places()->to(header->place), frames);
         return;
@@ -138,7 +138,7 @@ void Host::Door::arrived(Frames frames) {
     try {
         control(route, *header, *fields);
     } catch (const std::exception& error) {
-        send(route, Kind::broken, header->run, Fields{}.set("text", error.what()));
+        send(route, Type::broken, header->run, Fields{}.set("text", error.what()));
         if (run && run->id() == header->run) drop_run(error.what());
     }
 }
@@ -146,23 +146,23 @@ void Host::Door::arrived(Frames frames) {
 void Host::Door::control(const std::string& route, const packet::Header& header, const Fields& fields) {
     const bool ours = run && header.run == run->id();
     if (ours) heard = Clock::now();
-    switch (header.kind) {
-        case Kind::hello:
+    switch (header.type) {
+        case Type::hello:
             return greet(route, fields);
-        case Kind::begin:
+        case Type::begin:
             return begin(route, header.run, fields);
-        case Kind::blob:
+        case Type::blob:
             return take_blob(route, header.run, fields);
-        case Kind::ping:
-            return send(route, Kind::pong, header.run,
+        case Type::ping:
+            return send(route, Type::pong, header.run,
                         Fields{}
                             .set("incarnation", incarnation)
                             .set("run", run ? run->id() : 0)
                             .set("progress", run && run->places() ? run->places()->progress() : 0));
-        case Kind::plan:
+        case Type::plan:
             if (ours) run->use(plan_from_json(fields.text("plan")));
             return;
-        case Kind::end:
+        case Type::end:
             return end(route, header.run);
         default:
             return;
@@ -170,12 +170,12 @@ void Host::Door::control(const std::string& route, const packet::Header& header,
 }
 
 void Host::Door::greet(const std::string& route, const Fields& fields) {
-    if (leaving) return send(route, Kind::refuse, 0, Fields{}.set("text", "it is stopping"));
+    if (leaving) return send(route, Type::refuse, 0, Fields{}.set("text", "it is stopping"));
     if (fields.text("build") != build_id())
         return send(
-            route, Kind::refuse, 0,
+            route, Type::refuse, 0,
             Fields{}.set("text", "builds differ: it runs " + build_id() + ", the launcher " + fields.text("build")));
-    send(route, Kind::welcome, 0,
+    send(route, Type::welcome, 0,
          Fields{}
              .set("places", options.places)
              .set("incarnation", incarnation)
@@ -184,7 +184,7 @@ void Host::Door::greet(const std::string& route, const Fields& fields) {
 
 void Host::Door::begin(const std::string& route, std::uint64_t id, const Fields& fields) {
     if (run && run->id() != id)
-        return send(route, Kind::refuse, id, Fields{}.set("text", "it serves another run").set("busy", 1));
+        return send(route, Type::refuse, id, Fields{}.set("text", "it serves another run").set("busy", 1));
     if (!run) {
         HostedRun::Given given{id, fields.text("you"), options.places, plan_from_json(fields.text("plan")),
                                job_from_json(fields.text("job"))};
@@ -196,15 +196,15 @@ void Host::Door::begin(const std::string& route, std::uint64_t id, const Fields&
     run->use(plan_from_json(fields.text("plan")));
     std::string missing;
     for (const auto& hash : run->missing()) missing += to_hex(hash);
-    send(route, Kind::need, id, Fields{}.set("hashes", missing));
-    if (run->serving()) send(route, Kind::ready, id, {});  // the launcher had lost sight of us
+    send(route, Type::need, id, Fields{}.set("hashes", missing));
+    if (run->serving()) send(route, Type::ready, id, {});  // the launcher had lost sight of us
 }
 
 void Host::Door::take_blob(const std::string& route, std::uint64_t id, const Fields& fields) {
     const auto hash = hash_from_hex(fields.text("hash"));
     if (!run || run->id() != id || !hash) return;
     if (run->take_blob(*hash, fields.number("offset"), fields.number("total"), fields.text("bytes")))
-        send(route, Kind::blob_taken, id,
+        send(route, Type::blob_taken, id,
              Fields{}.set("hash", fields.text("hash")).set("offset", fields.number("offset")));
 }
 
@@ -217,7 +217,7 @@ void Host::Door::end(const std::string& route, std::uint64_t id) {
     }
     Fields fields;
     for (const auto& [name, count] : counters.named()) fields.set(name, count);
-    send(route, Kind::ended, id, fields);
+    send(route, Type::ended, id, fields);
 }
 
 void Host::Door::drop_run(const std::string& why) {
@@ -229,9 +229,9 @@ void Host::Door::drop_run(const std::string& why) {
 void Host::Door::advance() {
     if (!run) return;
     try {
-        if (run->advance()) send(launcher, Kind::ready, run->id(), {});
+        if (run->advance()) send(launcher, Type::ready, run->id(), {});
     } catch (const std::exception& error) {
-        send(launcher, Kind::broken, run->id(), Fields{}.set("text", error.what()));
+        send(launcher, Type::broken, run->id(), Fields{}.set("text", error.what()));
         drop_run(error.what());
     }
 }
@@ -249,7 +249,7 @@ void Host::Door::keep_joining(Clock::time_point now) {
     if (now < next_join) return;
     next_join = now + join_interval;
     Frames frames;
-    append(frames, packet::pack(Kind::join, 0, Fields{}.set("endpoint", endpoint())));
+    append(frames, packet::pack(Type::join, 0, Fields{}.set("endpoint", endpoint())));
     send_frames(*joining, frames);
 }
 

@@ -10,7 +10,7 @@ namespace lightnet {
 namespace {
 
 using packet::Fields;
-using packet::Kind;
+using packet::Type;
 
 constexpr auto call_interval = std::chrono::milliseconds(200);
 constexpr auto busy_interval = std::chrono::seconds(1);
@@ -32,9 +32,9 @@ HostLink::~HostLink() = default;
 
 std::vector<zmq::socket_t*> HostLink::sockets() { return {lane_.get(), bulk_.get()}; }
 
-void HostLink::send(Kind kind, const Fields& fields) {
+void HostLink::send(Type type, const Fields& fields) {
     Frames frames;
-    append(frames, packet::pack(kind, told_.run, fields));
+    append(frames, packet::pack(type, told_.run, fields));
     send_frames(*lane_, frames);
 }
 
@@ -43,10 +43,10 @@ void HostLink::tick(Time now, const std::string& plan) {
     if (state_ != State::calling) heartbeat(now);
     if (now >= next_call_ && state_ == State::calling) {
         next_call_ = now + call_interval;
-        send(Kind::hello, Fields{}.set("build", build_id()).set("isa", told_.isa));
+        send(Type::hello, Fields{}.set("build", build_id()).set("isa", told_.isa));
     } else if (now >= next_call_ && state_ == State::greeted) {
         next_call_ = now + busy_interval;
-        send(Kind::begin, Fields{}.set("job", told_.job).set("plan", plan).set("you", endpoint_));
+        send(Type::begin, Fields{}.set("job", told_.job).set("plan", plan).set("you", endpoint_));
     }
     if (state_ == State::sending) send_blobs();
 }
@@ -55,7 +55,7 @@ void HostLink::heartbeat(Time now) {
     if (now - heard_ > lease) return lose(now, "it does not answer");
     if (now < next_ping_) return;
     next_ping_ = now + ping_interval;
-    send(Kind::ping, {});
+    send(Type::ping, {});
 }
 
 void HostLink::lose(Time now, const std::string& why) {
@@ -90,55 +90,55 @@ std::pair<bool, std::optional<Message>> HostLink::receive(Time now, Counters& co
         return {true, std::nullopt};
     }
     heard_ = now;
-    if (header->kind < Kind::hello) {
+    if (header->type < Type::hello) {
         counters.bytes += header_bytes.size() + body.size();
         return {true, packet::unpack(header_bytes, body)};
     }
-    if (const auto fields = packet::unpack_fields(body)) control(header->kind, *fields, now);
+    if (const auto fields = packet::unpack_fields(body)) control(header->type, *fields, now);
     return {true, std::nullopt};
 }
 
-void HostLink::control(Kind kind, const Fields& fields, Time now) {
-    switch (kind) {
-        case Kind::welcome:
+void HostLink::control(Type type, const Fields& fields, Time now) {
+    switch (type) {
+        case Type::welcome:
             if (state_ == State::calling) welcome(fields);
             next_call_ = now;
             return;
-        case Kind::refuse:
+        case Type::refuse:
             reason_ = fields.text("text");
             if (!fields.number("busy")) state_ = State::refused;
             return;
-        case Kind::need:
+        case Type::need:
             if (state_ != State::greeted) return;
             reason_.clear();
             queue_blobs(fields.text("hashes"));
             state_ = chunks_.empty() ? State::building : State::sending;
             return;
-        case Kind::blob_taken:
+        case Type::blob_taken:
             if (state_ != State::sending) return;
             --chunks_out_;
             if (chunks_.empty() && chunks_out_ == 0) state_ = State::building;
             return;
-        case Kind::ready:
+        case Type::ready:
             if (state_ == State::building || state_ == State::sending) state_ = State::ready;
             return;
-        case Kind::broken:
+        case Type::broken:
             broken_ = true;
             reason_ = fields.text("text");
             state_ = State::refused;
             return;
-        case Kind::pong:
+        case Type::pong:
             if (fields.number("incarnation") != incarnation_)
                 lose(now, "it was started anew");
             else if (state_ != State::greeted && fields.number("run") != told_.run)
                 lose(now, "it gave the run up");
             return;
-        case Kind::leaving:
+        case Type::leaving:
             state_ = State::refused;
             reason_ = "it was told to stop";
             send_end();
             return;
-        case Kind::ended: {
+        case Type::ended: {
             Counters counters;
             counters.rays = fields.number("rays"), counters.local_questions = fields.number("local_questions");
             counters.questions = fields.number("questions"), counters.bundles = fields.number("bundles");
@@ -186,7 +186,7 @@ void HostLink::send_blobs() {
         const std::string_view bytes(reinterpret_cast<const char*>(blob.data()) + offset,
                                      std::min<std::size_t>(chunk_size, blob.size() - offset));
         Frames frames;
-        append(frames, packet::pack(Kind::blob, told_.run,
+        append(frames, packet::pack(Type::blob, told_.run,
                                     Fields{}
                                         .set("hash", to_hex(hash))
                                         .set("offset", offset)
@@ -210,8 +210,8 @@ bool HostLink::send(Message& message, std::uint32_t place, Counters& counters) {
     return true;
 }
 
-void HostLink::send_plan(const std::string& plan) { send(Kind::plan, Fields{}.set("plan", plan)); }
+void HostLink::send_plan(const std::string& plan) { send(Type::plan, Fields{}.set("plan", plan)); }
 
-void HostLink::send_end() { send(Kind::end, {}); }
+void HostLink::send_end() { send(Type::end, {}); }
 
 }  // namespace lightnet

@@ -66,8 +66,8 @@ public:
     std::vector<zmq::socket_t*> sockets();
 
 private:
-    void send(packet::Kind kind, const packet::Fields& fields);
-    void control(packet::Kind kind, const packet::Fields& fields, Time now);
+    void send(packet::Type type, const packet::Fields& fields);
+    void control(packet::Type type, const packet::Fields& fields, Time now);
     void welcome(const packet::Fields& fields);
     void queue_blobs(const std::string& hashes);
     void send_blobs();

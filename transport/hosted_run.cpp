@@ -8,7 +8,7 @@
 
 namespace lightnet {
 
-HostedRun::HostedRun(zmq::context_t& context, const BlobCache& cache, const Registry& registry, Given given)
+HostedRun::HostedRun(zmq::context_t& context, BlobCache& cache, const Registry& registry, Given given)
     : context_(context), cache_(cache), registry_(registry), given_(std::move(given)) {
     for (const auto& file : given_.job.files)
         if (!cache_.has(file.hash)) missing_.insert(file.hash);

@@ -29,7 +29,7 @@ public:
         Plan plan;
         Job job;
     };
-    HostedRun(zmq::context_t& context, const BlobCache& cache, const Registry& registry, Given given);
+    HostedRun(zmq::context_t& context, BlobCache& cache, const Registry& registry, Given given);
     ~HostedRun();
 
     std::uint64_t id() const { return given_.id; }
@@ -49,7 +49,7 @@ private:
     std::uint64_t size_of(const Hash& hash) const;
 
     zmq::context_t& context_;
-    const BlobCache& cache_;
+    BlobCache& cache_;
     const Registry& registry_;
     Given given_;
     std::set<Hash> missing_;

@@ -59,7 +59,7 @@ Bytes write_header(const Header& header, View body) {
     Writer writer(out);
     writer.put(magic);
     writer.put(version);
-    writer.put(static_cast<std::uint8_t>(header.kind));
+    writer.put(static_cast<std::uint8_t>(header.type));
     writer.put(std::uint8_t{0});
     writer.put(header.run);
     writer.put(header.bundle);
@@ -256,11 +256,11 @@ std::optional<std::uint16_t> claimed_version(View header) {
 std::optional<Header> peek_header(View bytes) {
     if (bytes.size() != header_size || claimed_version(bytes) != version) return std::nullopt;
     Reader reader(bytes.subspan(6));
-    const auto kind = reader.get<std::uint8_t>();
+    const auto type = reader.get<std::uint8_t>();
     reader.get<std::uint8_t>();
-    if (kind == 0 || kind > static_cast<std::uint8_t>(Kind::last)) return std::nullopt;
+    if (type == 0 || type > static_cast<std::uint8_t>(Type::last)) return std::nullopt;
     Header header;
-    header.kind = static_cast<Kind>(kind);
+    header.type = static_cast<Type>(type);
     header.run = reader.get<std::uint64_t>();
     header.bundle = reader.get<std::uint64_t>();
     header.channel = reader.get<std::uint32_t>();
@@ -288,20 +288,20 @@ Packet pack(const Message& message, std::uint32_t place) {
     header.node = message.node, header.place = place, header.width = message.width;
     header.fill = message.load.fill, header.service_ns = message.load.service_ns;
     Bytes body;
-    if (message.kind == Message::Kind::reply) {
-        header.kind = Kind::answers;
+    if (message.type == Message::Type::reply) {
+        header.type = Type::answers;
         header.count = static_cast<std::uint32_t>(message.answers.size());
         pack_rgb(message.answers, body);
-    } else if (message.kind == Message::Kind::failure) {
-        header.kind = Kind::failure;
-        return finish(header, pack(Kind::failure, message.run, Fields{}.set("text", message.text)).body);
+    } else if (message.type == Message::Type::failure) {
+        header.type = Type::failure;
+        return finish(header, pack(Type::failure, message.run, Fields{}.set("text", message.text)).body);
     } else if (const auto* queries = std::get_if<Questions<Query>>(&message.questions)) {
-        header.kind = Kind::ask_light;
+        header.type = Type::ask_light;
         header.count = static_cast<std::uint32_t>((*queries)->size());
         pack_columns(**queries, body);
     } else {
         const auto& tiles = std::get<Questions<Tile>>(message.questions);
-        header.kind = Kind::ask_pixels;
+        header.type = Type::ask_pixels;
         header.count = static_cast<std::uint32_t>(tiles->size());
         pack_columns(*tiles, body);
     }
@@ -312,14 +312,14 @@ std::optional<Message> unpack(View header_bytes, View body) {
     const auto header = read_header(header_bytes, body);
     if (!header) return std::nullopt;
     Message message = message_of(*header);
-    switch (header->kind) {
-        case Kind::ask_light: {
+    switch (header->type) {
+        case Type::ask_light: {
             auto questions = unpack_columns<Query>(*header, body);
             if (!questions) return std::nullopt;
             message.questions = std::move(*questions);
             return message;
         }
-        case Kind::ask_pixels: {
+        case Type::ask_pixels: {
             auto questions = unpack_columns<Tile>(*header, body);
             if (!questions) return std::nullopt;
             for (const auto& tile : **questions)
@@ -327,20 +327,20 @@ std::optional<Message> unpack(View header_bytes, View body) {
             message.questions = std::move(*questions);
             return message;
         }
-        case Kind::answers: {
+        case Type::answers: {
             const Map map(body);
             if (!map.good()) return std::nullopt;
             const auto rgb = map.bytes("rgb");
             if (!rgb || rgb->size() != header->count * sizeof(Rgb)) return std::nullopt;
-            message.kind = Message::Kind::reply;
+            message.type = Message::Type::reply;
             message.answers.resize(header->count);
             if (!rgb->empty()) std::memcpy(message.answers.data(), rgb->data(), rgb->size());
             return message;
         }
-        case Kind::failure: {
+        case Type::failure: {
             const auto fields = unpack_fields(body);
             if (!fields) return std::nullopt;
-            message.kind = Message::Kind::failure;
+            message.type = Message::Type::failure;
             message.text = fields->text("text");
             return message;
         }
@@ -370,7 +370,7 @@ const std::string& Fields::text(const std::string& key) const {
     return found == texts.end() ? empty : found->second;
 }
 
-Packet pack(Kind kind, std::uint64_t run, const Fields& fields) {
+Packet pack(Type type, std::uint64_t run, const Fields& fields) {
     Bytes body;
     Sink sink{body};
     Packer packer(sink);
@@ -385,7 +385,7 @@ Packet pack(Kind kind, std::uint64_t run, const Fields& fields) {
         packer.pack_bin_body(text.data(), static_cast<std::uint32_t>(text.size()));
     }
     Header header;
-    header.kind = kind;
+    header.type = type;
     header.run = run;
     return finish(header, std::move(body));
 }

@@ -28,7 +28,7 @@ inline constexpr std::size_t header_size = 64;
 inline constexpr std::size_t most_questions = 1 << 16;  // in one bundle
 inline constexpr std::size_t most_bytes = 64 << 20;     // in one body
 
-enum class Kind : std::uint8_t {
+enum class Type : std::uint8_t {
     // work: goes through to a place
     ask_light = 1,  // columns of Query → answers
     ask_pixels,     // columns of Tile → answers
@@ -57,7 +57,7 @@ enum class Kind : std::uint8_t {
 
 /// The fixed part of a packet. Never trusted before magic, version, size and checksum have been checked.
 struct Header {
-    Kind kind = Kind::ping;
+    Type type = Type::ping;
     std::uint64_t run = 0;
     std::uint64_t bundle = 0;
     std::uint32_t channel = 0;
@@ -101,7 +101,7 @@ public:
     friend bool operator==(const Fields&, const Fields&) = default;
 };
 
-Packet pack(Kind kind, std::uint64_t run, const Fields& fields);
+Packet pack(Type type, std::uint64_t run, const Fields& fields);
 /// The fields of a control packet whose header has been read. None: damaged.
 std::optional<Fields> unpack_fields(std::span<const std::byte> body);
 

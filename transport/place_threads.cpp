@@ -104,7 +104,7 @@ void PlaceThreads::use(const Plan& plan) {
     const auto shared = std::make_shared<const Plan>(plan);
     for (auto& socket : threads_->to) {
         Message message;
-        message.kind = Message::Kind::plan;
+        message.type = Message::Type::plan;
         message.run = threads_->run;
         message.plan = shared;
         Frames frames;
@@ -118,7 +118,7 @@ Counters PlaceThreads::stop() {
     t.stop = true;
     for (auto& socket : t.to) {  // wakes those that wait for messages
         Message message;
-        message.kind = Message::Kind::stop;
+        message.type = Message::Type::stop;
         message.run = t.run;
         Frames frames;
         frames.push_back(frame_of(std::move(message)));

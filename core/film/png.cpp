@@ -17,7 +17,7 @@ std::uint8_t srgb(float linear) {
     if (!(linear > 0)) return 0;
     if (linear >= 1) return 255;
     const float curve = linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
-    return static_cast<std::uint8_t>(curve * 255 + 0.5f);
+    return static_cast<std::uint8_t>(std::lround(curve * 255));
 }
 
 }  // namespace

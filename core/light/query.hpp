@@ -27,7 +27,7 @@ struct Query {
     std::uint32_t geometry = 0;   // index into the scene's shapes
     std::uint32_t primitive = 0;  // triangle of a mesh; 0 for a sphere
     float u = 0, v = 0;           // barycentric; for spheres the octahedral normal
-    Vec3 outgoing;                // unit, world space, away from the surface
+    Vec3 outgoing{};              // unit, world space, away from the surface
     std::uint32_t sample = 0;     // index of the sample within `stream`
     std::uint8_t lobes = lobe::rough;
     std::uint8_t depth = 0;      // scattering events between the eye and this point

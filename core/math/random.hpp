@@ -31,7 +31,8 @@ constexpr Key key_of(std::string_view name) {
 
 /// The root of everything that is computed for one pixel.
 constexpr Key pixel_key(std::uint64_t seed, std::uint32_t x, std::uint32_t y) {
-    return child(mix(seed), (std::uint64_t{y} << 32) | x);
+    // added, so that seed and pixel can't change places
+    return child(mix(seed + 0x9e3779b97f4a7c15ull), (std::uint64_t{y} << 32) | x);
 }
 
 }  // namespace lightnet

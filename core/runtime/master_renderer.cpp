@@ -50,10 +50,10 @@ bool MasterRenderer::work(std::chrono::nanoseconds most) {
         carrier_.wait(std::min<std::chrono::nanoseconds>(left, std::chrono::milliseconds(again_.empty() ? 100 : 2)));
         while (auto message = carrier_.receive()) {
             if (message->run != job_.run) continue;
-            if (message->kind == Message::Kind::plan) {
+            if (message->type == Message::Type::plan) {
                 use(*message->plan);
             } else if (message->channel < channels_.size() &&
-                       (message->kind == Message::Kind::reply || message->kind == Message::Kind::failure)) {
+                       (message->type == Message::Type::reply || message->type == Message::Type::failure)) {
                 channels_[message->channel]->arrived(*message);
             }
             if (!error_.empty()) throw Error(error_);

@@ -31,7 +31,7 @@ struct Route {
 };
 
 struct Message {
-    enum class Kind : std::uint8_t {
+    enum class Type : std::uint8_t {
         ask,      // questions for `node`
         reply,    // answers to them
         failure,  // there will be none: `text` says why
@@ -39,7 +39,7 @@ struct Message {
         stop,     // end the run: to a place
     };
 
-    Kind kind = Kind::ask;
+    Type type = Type::ask;
     std::uint64_t run = 0;      // messages of other runs are dropped
     std::uint32_t channel = 0;  // the asker's; comes back with the reply
     std::uint64_t bundle = 0;   // unique per channel

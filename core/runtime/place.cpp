@@ -151,8 +151,8 @@ void Place::take_in() {
 }
 
 void Place::take(Message message) {
-    switch (message.kind) {
-        case Message::Kind::ask: {
+    switch (message.type) {
+        case Message::Type::ask: {
             if (message.run != run_ || message.node >= inboxes_.size()) return;
             auto& inbox = inboxes_[message.node];
             std::visit(
@@ -164,14 +164,14 @@ void Place::take(Message message) {
             inbox.waiting.push_back(std::move(message));
             return;
         }
-        case Message::Kind::reply:
-        case Message::Kind::failure:
+        case Message::Type::reply:
+        case Message::Type::failure:
             if (message.run == run_ && message.channel < channels_.size()) channels_[message.channel]->arrived(message);
             return;
-        case Message::Kind::plan:
+        case Message::Type::plan:
             if (message.run == run_ && message.plan) use(*message.plan);
             return;
-        case Message::Kind::stop:
+        case Message::Type::stop:
             if (message.run == run_) stopping_ = true;
             return;
     }
@@ -190,12 +190,12 @@ void Place::answer(Message& message) {
     std::size_t count = 1;
     try {
         reply.answers = pixels ? pixel_answers(message) : light_answers(message);
-        reply.kind = Message::Kind::reply;
+        reply.type = Message::Type::reply;
         if (!pixels) count = std::get<Questions<Query>>(message.questions)->size();
     } catch (const Cancelled&) {
         throw;
     } catch (const std::exception& error) {
-        reply.kind = Message::Kind::failure;
+        reply.type = Message::Type::failure;
         reply.text = "'" + network_.graph.nodes[message.node].name + "' on " + my_name() + ": " + error.what();
     }
     const double ns =

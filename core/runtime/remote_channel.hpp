@@ -41,7 +41,7 @@ public:
 
     bool send(const Bundle<Question>& bundle) override {
         Message message;
-        message.kind = Message::Kind::ask;
+        message.type = Message::Type::ask;
         message.run = ends_.run;
         message.channel = ends_.channel;
         message.bundle = next_;
@@ -76,7 +76,7 @@ public:
         const Bundle<Question> bundle = std::move(found->second);
         sent_.erase(found);
         outstanding_ -= bundle.questions->size();
-        if (message.kind == Message::Kind::failure) {
+        if (message.type == Message::Type::failure) {
             bundle.owner->failed(bundle, message.text);
         } else if (message.answers.size() != answers_to(*bundle.questions, bundle.width)) {
             bundle.owner->failed(bundle, "the answer of " + ends_.place.host + " has a wrong size");

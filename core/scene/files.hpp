@@ -32,7 +32,7 @@ private:
     std::map<std::string, Bytes> seen_;
 };
 
-/// `path` as written inside `from`: relative to the folder of `from`, unless absolute.
+/// `path` as written inside the file `from`: relative to the folder of `from`, unless absolute. Without "." and "..".
 std::string beside(const std::string& from, const std::string& path);
 
 }  // namespace lightnet

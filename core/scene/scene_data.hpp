@@ -25,12 +25,13 @@ struct Image {
 
 enum class Wrap { repeat, clamp, black };
 
-/// A colour over the surface: constant, or an image looked up by texture coordinates (bilinear) times a scale.
+/// A colour over the surface: constant, or an image looked up by texture coordinates (bilinear) times a scale. (0, 0) is
+/// the image's lower left corner, (1, 1) its upper right one. Values below 0 count as 0.
 struct Texture {
     Rgb scale{1, 1, 1};                        // the colour itself when there is no image
     std::shared_ptr<const Image> image;        // shared by all textures of one file
     Wrap wrap = Wrap::repeat;
-    bool invert = false;                       // 1 - value
+    bool invert = false;                       // 1 - scale × image instead
     Vec2 uv_scale{1, 1}, uv_offset{0, 0};      // looked up at uv × scale + offset
 };
 
@@ -76,14 +77,15 @@ struct Mesh {
     std::vector<Vec3> normals;                 // shading normals per vertex, or empty
     std::vector<Vec2> uvs;                     // per vertex, or empty
     std::vector<std::array<std::uint32_t, 3>> triangles;
-    bool flip_normals = false;                 // geometric normal against the order of vertices
+    bool flip_normals = false;                 // geometric normal against the order of vertices; with shading normals
+                                               // a reader orders them so that both lie on the same side
 };
 
 struct Sphere {
     Vec3 center;
     float radius = 1;                          // metres
     bool flip_normals = false;                 // normal inwards
-    Matrix to_world;                           // rotation for texture coordinates
+    Matrix to_world;                           // its own axes, for texture coordinates: orthonormal, nothing moved
 };
 
 struct Shape {

@@ -119,7 +119,7 @@ SurfacePoint Shading::on_sphere(const Sphere& sphere, Needs needs, float u, floa
     SurfacePoint point;
     point.position = sphere.center + outwards * sphere.radius;
     point.normal = sphere.flip_normals ? -outwards : outwards;
-    point.offset = 0x1p-18f * (largest(sphere.center) + sphere.radius);
+    point.offset = 0x1p-20f * (largest(sphere.center) + sphere.radius);
     point.shading = Frame::around(point.normal);
     if (!needs.uv && !needs.tangent) return point;
 

@@ -20,6 +20,11 @@ constexpr std::size_t usual_most = 400;
 // Files that may be longer, each with its reason.
 const std::map<std::string, std::size_t> longer{};
 
+SourceFile read(const std::filesystem::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    return {path.lexically_relative(LIGHTNET_SOURCE_DIR), {std::istreambuf_iterator<char>(stream), {}}};
+}
+
 std::vector<SourceFile> files_of(const std::string& room) {
     const std::filesystem::path root = LIGHTNET_SOURCE_DIR;
     std::vector<SourceFile> files;
@@ -27,8 +32,7 @@ std::vector<SourceFile> files_of(const std::string& room) {
     for (const auto& entry : std::filesystem::recursive_directory_iterator(root / room)) {
         const auto kind = entry.path().extension();
         if (!entry.is_regular_file() || (kind != ".cpp" && kind != ".hpp" && kind != ".lua")) continue;
-        std::ifstream stream(entry.path(), std::ios::binary);
-        files.push_back({entry.path().lexically_relative(root), {std::istreambuf_iterator<char>(stream), {}}});
+        files.push_back(read(entry.path()));
     }
     std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) { return a.path < b.path; });
     return files;
@@ -61,6 +65,11 @@ TEST(Project, KeepsDistributionOutOfNodes) {
 TEST(Project, HasHeadersThatGuardThemselves) { EXPECT_THAT(all_complaints(all_files(), bad_header), IsEmpty()); }
 
 TEST(Project, HasNoFoldersThatIncludeEachOther) { EXPECT_THAT(folder_circles(files_of("core"), "core"), IsEmpty()); }
+
+TEST(Project, HasDocumentsThatShowItsCode) {
+    for (const char* document : {"README.md", "CONTRIBUTING.md"})
+        EXPECT_THAT(stale_cuts(read(std::filesystem::path(LIGHTNET_SOURCE_DIR) / document), all_files()), IsEmpty());
+}
 
 TEST(Project, HasShortFiles) {
     Complaints all;

@@ -36,16 +36,16 @@ const std::array homes{
     Home{"Lua", std::regex("(lua5.4/)?(lua|lauxlib|lualib)\\.(h|hpp)"), std::regex("lua/.*")},
     Home{"Embree", std::regex("embree.*"), std::regex("core/scene/.*")},
     Home{"OpenEXR", std::regex("(OpenEXR/|Imath/)?(Imf|Iex|Imath|half).*"),
-         std::regex("core/film/.*|core/scene/image_file\\.cpp")},
-    Home{"libpng", std::regex("png\\.h"), std::regex("core/film/.*|core/scene/image_file\\.cpp")},
-    Home{"libjpeg", std::regex("jpeglib\\.h"), std::regex("core/scene/image_file\\.cpp")},
+         std::regex("core/film/.*|core/scene/image_\\w+\\.cpp")},
+    Home{"libpng", std::regex("png\\.h"), std::regex("core/film/.*|core/scene/image_\\w+\\.cpp")},
+    Home{"libjpeg", std::regex("jpeglib\\.h"), std::regex("core/scene/image_\\w+\\.cpp")},
     Home{"Boost.Context", std::regex("boost/.*"), std::regex("core/runtime/.*")},
     Home{"libsodium", std::regex("sodium.*"), std::regex("core/.*")},
     Home{"CLI11", std::regex("CLI/.*"), std::regex("tools/.*")},
     Home{"nlohmann JSON", std::regex("nlohmann/.*"), std::regex("(core|lua|tools|transport)/.*")},
 };
 
-std::string at(const SourceFile& file, std::size_t line, const std::string& why) {
+std::string at_line(const SourceFile& file, std::size_t line, const std::string& why) {
     return file.path + ":" + std::to_string(line) + ": " + why;
 }
 
@@ -83,22 +83,22 @@ std::vector<Include> includes_of(const SourceFile& file) {
 void check_own(const SourceFile& file, const Include& include, Complaints& complaints) {
     const std::string from = room_of(file.path), to = room_of(include.name);
     if (!may_include.contains(to))
-        complaints.push_back(at(file, include.line, "\"" + include.name + "\" is not written from the root"));
+        complaints.push_back(at_line(file, include.line, "\"" + include.name + "\" is not written from the root"));
     else if (from != to && !may_include.at(from).contains(to))
-        complaints.push_back(at(file, include.line, from + " does not see " + to));
+        complaints.push_back(at_line(file, include.line, from + " does not see " + to));
     else if (ends_with(include.name, ".cpp"))
-        complaints.push_back(at(file, include.line, "a .cpp file is not included"));
+        complaints.push_back(at_line(file, include.line, "a .cpp file is not included"));
 }
 
 void check_foreign(const SourceFile& file, const Include& include, Complaints& complaints) {
     const bool standard = include.name.find_first_of("./") == std::string::npos;
     if (!standard && ends_with(file.path, ".hpp")) {
-        complaints.push_back(at(file, include.line, "<" + include.name + "> in a header"));
+        complaints.push_back(at_line(file, include.line, "<" + include.name + "> in a header"));
         return;
     }
     for (const Home& home : homes)
         if (std::regex_match(include.name, home.include) && !std::regex_match(file.path, home.files))
-            complaints.push_back(at(file, include.line, std::string(home.library) + " is not at home here"));
+            complaints.push_back(at_line(file, include.line, std::string(home.library) + " is not at home here"));
 }
 
 // One behind the comment that begins at `at`; `at` if none does.
@@ -142,7 +142,7 @@ Complaints words_of_distribution(const SourceFile& file) {
     std::smatch match;
     for (std::size_t i = 0; i < lines.size(); ++i)
         if (std::regex_search(lines[i], match, words))
-            complaints.push_back(at(file, i + 1, "a node knows nothing of '" + match.str() + "'"));
+            complaints.push_back(at_line(file, i + 1, "a node knows nothing of '" + match.str() + "'"));
     return complaints;
 }
 
@@ -151,23 +151,23 @@ Complaints bad_header(const SourceFile& file) {
     if (!ends_with(file.path, ".hpp")) return complaints;
     const auto lines = lines_of(code_only(file.text));
     if (std::find(lines.begin(), lines.end(), "#pragma once") == lines.end())
-        complaints.push_back(at(file, 1, "no #pragma once"));
+        complaints.push_back(at_line(file, 1, "no #pragma once"));
     for (std::size_t i = 0; i < lines.size(); ++i)
         if (lines[i].find("using namespace") != std::string::npos)
-            complaints.push_back(at(file, i + 1, "using namespace in a header"));
+            complaints.push_back(at_line(file, i + 1, "using namespace in a header"));
     return complaints;
 }
 
 Complaints too_long(const SourceFile& file, std::size_t most_lines) {
     const std::size_t lines = lines_of(file.text).size();
     if (lines <= most_lines) return {};
-    return {at(file, most_lines + 1, std::to_string(lines) + " lines are too long for one file")};
+    return {at_line(file, most_lines + 1, std::to_string(lines) + " lines are too long for one file")};
 }
 
 Complaints folder_circles(const std::vector<SourceFile>& files, std::string_view room) {
     std::map<std::string, Names> sees;
     for (const SourceFile& file : files)
-        if (room_of(file.path) == room)
+        if (room_of(file.path) == room && ends_with(file.path, ".hpp"))
             for (const Include& include : includes_of(file))
                 if (include.own && room_of(include.name) == room && folder_of(include.name) != folder_of(file.path))
                     sees[folder_of(file.path)].insert(folder_of(include.name));
@@ -181,6 +181,27 @@ Complaints folder_circles(const std::vector<SourceFile>& files, std::string_view
         };
         visit(start);
         if (reached.contains(start)) complaints.push_back(start + " includes itself through other folders");
+    }
+    return complaints;
+}
+
+Complaints stale_cuts(const SourceFile& document, const std::vector<SourceFile>& files) {
+    Complaints complaints;
+    const std::string_view text = document.text, opening = "<!-- cut from ", closing = " -->\n```cpp\n";
+    for (std::size_t at = text.find(opening); at != text.npos; at = text.find(opening, at + 1)) {
+        const std::size_t name = at + opening.size(), name_end = text.find(closing, name);
+        const std::size_t code = name_end + closing.size(), code_end = text.find("```\n", code);
+        const auto line =
+            1 + static_cast<std::size_t>(std::count(text.begin(), text.begin() + std::ptrdiff_t(at), '\n'));
+        if (name_end == text.npos || code_end == text.npos) {
+            complaints.push_back(at_line(document, line, "no code follows"));
+            continue;
+        }
+        const auto path = text.substr(name, name_end - name);
+        const bool fresh = std::ranges::any_of(files, [&](const SourceFile& file) {
+            return file.path == path && file.text.find(text.substr(code, code_end - code)) != file.text.npos;
+        });
+        if (!fresh) complaints.push_back(at_line(document, line, std::string(path) + " says something else"));
     }
     return complaints;
 }

@@ -29,8 +29,11 @@ Complaints bad_header(const SourceFile& file);
 /// A file of more lines than the house allows.
 Complaints too_long(const SourceFile& file, std::size_t most_lines);
 
-/// Folders below `room` whose files include each other in a circle.
+/// Folders below `room` whose headers include each other in a circle. A .cpp file may know who uses it.
 Complaints folder_circles(const std::vector<SourceFile>& files, std::string_view room);
+
+/// Code blocks of a document that are not, word for word, in the file that they say they are `<!-- cut from -->`.
+Complaints stale_cuts(const SourceFile& document, const std::vector<SourceFile>& files);
 
 /// `text` with its comments and the contents of its string literals blanked; lines stay where they are.
 std::string code_only(std::string_view text);

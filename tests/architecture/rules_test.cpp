@@ -48,7 +48,7 @@ TEST(Homes, KeepEachLibraryInOneRoom) {
     EXPECT_THAT(stray_includes({"nodes/ray_tracer.cpp", "#include <embree3/rtcore.h>"}), SizeIs(1));
     EXPECT_THAT(stray_includes({"core/scene/scene.cpp", "#include <embree3/rtcore.h>"}), IsEmpty());
     EXPECT_THAT(stray_includes({"core/scene/scene.cpp", "#include <ImfHeader.h>"}), SizeIs(1));
-    EXPECT_THAT(stray_includes({"core/scene/image_file.cpp", "#include <ImfHeader.h>\n#include <jpeglib.h>"}),
+    EXPECT_THAT(stray_includes({"core/scene/image_jpeg.cpp", "#include <ImfHeader.h>\n#include <jpeglib.h>"}),
                 IsEmpty());
     EXPECT_THAT(stray_includes({"nodes/combine.cpp", "#include <boost/context/fiber.hpp>"}), SizeIs(1));
 }
@@ -90,6 +90,16 @@ TEST(Headers, GuardThemselvesAndOpenNoNamespace) {
 TEST(Files, AreShort) {
     EXPECT_THAT(too_long({"core/x.cpp", "1\n2\n3\n"}, 3), IsEmpty());
     EXPECT_THAT(too_long({"core/x.cpp", "1\n2\n3\n4\n"}, 3), SizeIs(1));
+}
+
+TEST(Documents, ShowCodeAsItStandsInTheFile) {
+    const std::vector<SourceFile> files{{"nodes/x.cpp", "// x\nint a;\nint b;\n"}};
+    const std::string begin = "text\n<!-- cut from nodes/x.cpp -->\n```cpp\n", end = "```\nmore\n";
+    EXPECT_THAT(stale_cuts({"A.md", begin + "int a;\nint b;\n" + end}, files), IsEmpty());
+    EXPECT_THAT(stale_cuts({"A.md", begin + "int a;\nint c;\n" + end}, files),
+                ElementsAre("A.md:2: nodes/x.cpp says something else"));
+    EXPECT_THAT(stale_cuts({"A.md", "<!-- cut from nodes/x.cpp -->\nint a;\n"}, files), SizeIs(1));
+    EXPECT_THAT(stale_cuts({"A.md", begin + "int a;\n" + end}, {}), SizeIs(1));
 }
 
 TEST(Folders, DoNotIncludeEachOther) {

@@ -1,8 +1,8 @@
 // A lighting network of one thread, put together by hand: nodes of a scene that ask each other by calls.
 #pragma once
 
-#include <memory>
 #include <map>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>

@@ -1,0 +1,31 @@
+// One decoder per picture format; only image_file.cpp chooses among them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/scene/scene_data.hpp"
+
+namespace lightnet::decoders {
+
+using Input = std::span<const std::byte>;
+
+/// Samples as they stand in the file, row by row from the top, not yet linear.
+struct Raster {
+    std::uint32_t width = 0, height = 0;
+    int channels = 3;                 // 3, or 4 with alpha
+    bool wide = false;                // 16 bits per sample instead of 8
+    std::vector<std::uint8_t> bytes;  // 16-bit samples: high byte first
+};
+
+Raster read_jpeg(Input bytes);
+Raster read_png(Input bytes);
+Image read_exr(Input bytes);
+Image read_hdr(Input bytes);
+
+/// Throws Error unless a picture of that size is worth allocating.
+void check_size(std::int64_t width, std::int64_t height);
+
+}  // namespace lightnet::decoders

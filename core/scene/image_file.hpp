@@ -1,0 +1,24 @@
+// Pictures read from files, for textures: JPEG, PNG, OpenEXR and Radiance HDR.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "core/scene/scene_data.hpp"
+
+namespace lightnet {
+
+/// How the numbers of an 8- or 16-bit picture stand for light. Pictures of floats are always linear.
+struct Encoding {
+    enum class Curve { srgb, linear, gamma };
+    Curve curve = Curve::srgb;
+    float gamma = 1;  // of Curve::gamma: linear = value^gamma
+    friend bool operator==(const Encoding&, const Encoding&) = default;
+};
+
+/// Decodes a picture; its format is told by its first bytes. Throws Error (without a file name) when it is broken, of
+/// no known kind, or has more than 2²⁶ pixels.
+Image read_image(std::span<const std::byte> bytes, const Encoding& encoding = {});
+
+}  // namespace lightnet

@@ -1,0 +1,126 @@
+// What the statements of a pbrt file mean: executes them one by one, and ends with a scene.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/scene/pbrt/camera.hpp"
+#include "core/scene/pbrt/lights.hpp"
+#include "core/scene/pbrt/shapes.hpp"
+#include "core/scene/pbrt/sources.hpp"
+#include "core/scene/pbrt/syntax.hpp"
+#include "core/scene/pbrt/textures.hpp"
+#include "core/scene/scene_data.hpp"
+
+namespace lightnet::pbrt {
+
+/// Holds pbrt's graphics state and the scene so far. Include and Import are not its business.
+class Builder {
+public:
+    explicit Builder(const Sources& sources);
+    Builder(const Builder&) = delete;
+    Builder& operator=(const Builder&) = delete;
+
+    void execute(Statement& statement);
+    /// Import: what it changes in the graphics state ends with its file.
+    void enter();
+    void leave();
+    /// To be called at the end: what was promised, but did not come, is reported.
+    void finish();
+    SceneData take() { return std::move(scene_); }
+
+private:
+    using Handler = void (Builder::*)(Statement&);
+    static const std::map<std::string, Handler>& handlers();
+
+    /// pbrt's graphics state.
+    struct State {
+        Matrix to_world;
+        bool reversed = false;
+        bool active = true;  // ActiveTransform: false when only the end of the time is meant
+        std::uint32_t material = 0;
+        std::optional<AreaLight> lamp;
+        std::map<std::string, std::vector<Parameter>> defaults;  // of Attribute, by what they are for
+    };
+    enum class Block { attribute, transform, object, import };
+    struct Saved {
+        Block block;
+        State state;
+        SourceLine where;
+    };
+    /// A material that somebody has named, perhaps before it was made.
+    struct Named {
+        std::uint32_t index = 0;
+        bool made = false;
+        SourceLine first_use;
+    };
+    struct Object {
+        std::vector<Shape> shapes;
+    };
+
+    void look_at(Statement&);
+    void translate(Statement&);
+    void scale(Statement&);
+    void rotate(Statement&);
+    void transform(Statement&);
+    void concat_transform(Statement&);
+    void identity(Statement&);
+    void coordinate_system(Statement&);
+    void coord_sys_transform(Statement&);
+    void active_transform(Statement&);
+    void apply(const Matrix& matrix);
+
+    void attribute_begin(Statement&);
+    void attribute_end(Statement&);
+    void transform_begin(Statement&);
+    void transform_end(Statement&);
+    void attribute(Statement&);
+    void reverse_orientation(Statement&);
+    void world_begin(Statement&);
+    void ignored(Statement&);
+    void medium(Statement&);
+    void color_space(Statement&);
+    void push(Block block, const SourceLine& where);
+    std::optional<Saved> pop(Block block, const char* what, const SourceLine& where);
+
+    void camera(Statement&);
+    void film(Statement&);
+
+    void material(Statement&);
+    void make_named_material(Statement&);
+    void named_material(Statement&);
+    void texture(Statement&);
+    Material material_of(const std::string& type, Parameters& parameters);
+    Named& named(const std::string& name, const SourceLine& where);
+
+    void area_light(Statement&);
+    void light(Statement&);
+    void shape(Statement&);
+    void object_begin(Statement&);
+    void object_end(Statement&);
+    void object_instance(Statement&);
+    void add_shape(Shape shape);
+    void drop_interfaces();
+    void emit(Shape shape, const AreaLight& lamp, bool each_triangle);
+    bool room_for(const Shape& shape, const SourceLine& where);
+
+    Sources sources_;
+    SceneData scene_;
+    Textures textures_;
+    State state_;
+    std::vector<Saved> stack_;
+    bool in_world_ = false;
+    float exposure_ = 1;
+    std::map<std::string, Matrix> systems_;
+    std::map<std::string, Named> named_;
+    std::vector<bool> interfaces_;  // by material: not there at all
+    std::map<std::string, Object> objects_;
+    Object* open_object_ = nullptr;
+    std::uint64_t triangles_ = 0;
+};
+
+}  // namespace lightnet::pbrt

@@ -1,0 +1,25 @@
+// pbrt's camera and film.
+#pragma once
+
+#include <string>
+
+#include "core/math/transform.hpp"
+#include "core/scene/pbrt/parameters.hpp"
+#include "core/scene/scene_data.hpp"
+
+namespace lightnet::pbrt {
+
+/// A camera, and how long its shutter is open.
+struct Shot {
+    CameraData camera;
+    float exposure = 1;  // seconds
+};
+
+/// `to_world` is the inverse of the transform at the Camera statement.
+Shot make_camera(const std::string& type, Parameters& parameters, const Matrix& to_world);
+
+/// The film, its scale without the exposure time: with a sensor of ISO 100 and one second a light of `rgb L` [l l l],
+/// seen directly, has the value l.
+FilmData make_film(const std::string& type, Parameters& parameters);
+
+}  // namespace lightnet::pbrt

@@ -1,0 +1,15 @@
+// The way in for scenes.
+#pragma once
+
+#include <string>
+
+#include "core/scene/files.hpp"
+#include "core/scene/scene_data.hpp"
+
+namespace lightnet {
+
+/// The scene in the file at `path`; its ending tells the language (".pbrt"). Opens files only through `files`. Throws
+/// UserError with all that is wrong; what was not taken literally stands in the scene's warnings.
+SceneData read_scene(Files& files, const std::string& path);
+
+}  // namespace lightnet

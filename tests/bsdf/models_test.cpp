@@ -1,0 +1,196 @@
+// What holds for every model of scattering.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <ostream>
+#include <vector>
+
+#include "core/bsdf/bsdf.hpp"
+#include "core/math/samples.hpp"
+#include "core/math/sampling.hpp"
+
+namespace lightnet {
+namespace {
+
+const Coat smooth_coat(1.5f, 0, 0), rough_coat(1.5f, 0.3f, 0.3f);
+
+struct Case {
+    const char* name;
+    Bsdf::Model model;
+    friend std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
+};
+
+const std::vector<Case> cases{
+    {"diffuse", DiffuseBsdf{{0.8f, 0.5f, 0.2f}}},
+    {"mirror", ConductorBsdf{{1, 1, 1}, absorption_for({0.9f, 0.8f, 0.7f}), {}}},
+    {"rough_conductor", ConductorBsdf{{0.2f, 0.9f, 1.1f}, {3.9f, 2.4f, 2.2f}, {0.3f, 0.3f}}},
+    {"anisotropic_conductor", ConductorBsdf{{0.2f, 0.9f, 1.1f}, {3.9f, 2.4f, 2.2f}, {0.1f, 0.5f}}},
+    {"glass", DielectricBsdf{1.5f, {}}},
+    {"rough_glass", DielectricBsdf{1.5f, {0.3f, 0.3f}}},
+    {"anisotropic_glass", DielectricBsdf{1.5f, {0.15f, 0.4f}}},
+    {"pane", ThinDielectricBsdf{1.5f}},
+    {"plastic", CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &smooth_coat}},
+    {"rough_plastic", CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &rough_coat}},
+};
+
+class EveryModel : public testing::TestWithParam<Case> {
+protected:
+    // The shading frame is turned, so that world and local coordinates differ.
+    const Frame frame = Frame::around(normalize({0.3f, -0.5f, 0.8f}));
+    const Bsdf bsdf{frame, frame.z, GetParam().model};
+
+    Vec3 direction(float cosine, float turn) const {
+        const float sine = std::sqrt(1 - cosine * cosine);
+        return normalize(frame.to_world({sine * std::cos(turn), sine * std::sin(turn), cosine}));
+    }
+    std::vector<Vec3> outgoing() const {
+        return {direction(0.95f, 0.3f), direction(0.5f, 2), direction(0.2f, 4), direction(-0.6f, 1)};
+    }
+};
+
+// Sum over a grid of equal solid angles.
+template <class Function>
+double integral(const Frame& frame, Function value, int rows = 400, int columns = 800) {
+    double sum = 0;
+    for (int i = 0; i < rows; ++i)
+        for (int j = 0; j < columns; ++j) {
+            const float z = -1 + 2 * (float(i) + 0.5f) / float(rows);
+            const float turn = 2 * pi * (float(j) + 0.5f) / float(columns), sine = std::sqrt(1 - z * z);
+            sum += value(normalize(frame.to_world({sine * std::cos(turn), sine * std::sin(turn), z})));
+        }
+    return sum * 4 * pi / rows / columns;
+}
+
+constexpr std::uint32_t tries = 1 << 16;
+
+std::optional<BsdfSample> draw(const Bsdf& bsdf, Vec3 outgoing, std::uint32_t i, std::uint8_t lobes = lobe::all) {
+    Samples samples(11, i);
+    const float choice = samples.next();
+    return bsdf.sample(outgoing, choice, samples.next_2d(), lobes);
+}
+
+TEST_P(EveryModel, NeverGivesMoreThanItGot) {
+    for (const Vec3 o : outgoing()) {
+        double sum = 0;
+        for (std::uint32_t i = 0; i < tries; ++i)
+            if (const auto s = draw(bsdf, o, i)) {
+                ASSERT_TRUE(finite(s->weight) && finite(s->incoming) && s->pdf >= 0);
+                sum += max_component(s->weight) * s->eta * s->eta;
+            }
+        EXPECT_LE(sum / tries, 1.002);
+    }
+}
+
+TEST_P(EveryModel, SamplesWithTheDensityThatItStates) {
+    for (const Vec3 o : outgoing()) {
+        std::uint32_t found = 0;
+        for (std::uint32_t i = 0; i < tries; ++i)
+            if (const auto s = draw(bsdf, o, i); s && s->lobe != lobe::specular) ++found;
+        const double stated = integral(frame, [&](Vec3 i) { return bsdf.pdf(o, i, lobe::all); });
+        EXPECT_NEAR(double(found) / tries, stated, 5e-3);
+    }
+}
+
+TEST_P(EveryModel, AlbedoBySamplesIsTheAlbedoByQuadrature) {
+    for (const Vec3 o : outgoing()) {
+        double sum = 0;
+        for (std::uint32_t i = 0; i < tries; ++i)
+            if (const auto s = draw(bsdf, o, i); s && s->lobe != lobe::specular) sum += s->weight.g;
+        const double stated = integral(frame, [&](Vec3 i) { return bsdf.evaluate(o, i, lobe::all).g; });
+        EXPECT_NEAR(sum / tries, stated, 5e-3);
+    }
+}
+
+TEST_P(EveryModel, WeightIsValueOverDensity) {
+    for (const Vec3 o : outgoing())
+        for (std::uint32_t i = 0; i < 2000; ++i) {
+            const auto s = draw(bsdf, o, i);
+            if (!s || s->lobe == lobe::specular || s->pdf < 1e-4f) continue;
+            const auto [value, pdf] = bsdf.value_and_pdf(o, s->incoming, lobe::all);
+            EXPECT_NEAR(pdf / s->pdf, 1, 0.02);  // directions went to world space and back
+            EXPECT_NEAR(s->weight.r * s->pdf, value.r, 0.02f * value.r + 1e-5f);
+            EXPECT_EQ(s->transmitted, dot(s->incoming, frame.z) * dot(o, frame.z) < 0);
+        }
+}
+
+// Pearson's test on cells of equal solid angle; cells with few expected samples are put together.
+TEST_P(EveryModel, PassesTheChiSquareTest) {
+    constexpr int rows = 20, columns = 20, fine = 12;
+    for (const Vec3 o : outgoing()) {
+        std::vector<double> seen(rows * columns), expected(rows * columns);
+        for (std::uint32_t i = 0; i < tries; ++i) {
+            // independent numbers: stratified ones would fit too well
+            const auto u = [&](Key k) { return float(child(k, i) >> 40) * 0x1p-24f; };
+            const auto s = bsdf.sample(o, u(1), {u(2), u(3)}, lobe::all);
+            if (!s || s->lobe == lobe::specular) continue;
+            const Vec3 w = frame.to_local(s->incoming);
+            const int row = std::clamp(int((w.z + 1) / 2 * rows), 0, rows - 1);
+            const float turn = std::atan2(w.y, w.x);
+            ++seen[row * columns +
+                   std::clamp(int((turn < 0 ? turn + 2 * pi : turn) / (2 * pi) * columns), 0, columns - 1)];
+        }
+        for (int i = 0; i < rows * fine; ++i)
+            for (int j = 0; j < columns * fine; ++j) {
+                const float z = -1 + 2 * (float(i) + 0.5f) / (rows * fine), sine = std::sqrt(1 - z * z);
+                const float turn = 2 * pi * (float(j) + 0.5f) / (columns * fine);
+                const Vec3 w = normalize(frame.to_world({sine * std::cos(turn), sine * std::sin(turn), z}));
+                expected[i / fine * columns + j / fine] +=
+                    double{bsdf.pdf(o, w, lobe::all)} * 4 * pi / (rows * columns * fine * fine) * tries;
+            }
+        double chi = 0, rest_seen = 0, rest_expected = 0;
+        int cells = 0;
+        for (std::size_t c = 0; c < seen.size(); ++c) {
+            rest_seen += seen[c];
+            rest_expected += expected[c];
+            if (rest_expected < 20) continue;
+            chi += (rest_seen - rest_expected) * (rest_seen - rest_expected) / rest_expected;
+            ++cells;
+            rest_seen = rest_expected = 0;
+        }
+        EXPECT_LE(chi, cells + 5 * std::sqrt(2.0 * cells) + 10) << cells << " cells";
+    }
+}
+
+TEST_P(EveryModel, IsReciprocal) {
+    for (std::uint32_t k = 0; k < 2000; ++k) {
+        Samples samples(5, k);
+        const Vec3 a = sphere(samples.next_2d()), b = sphere(samples.next_2d());
+        const float cos_a = std::fabs(dot(a, frame.z)), cos_b = std::fabs(dot(b, frame.z));
+        if (cos_a < 0.05f || cos_b < 0.05f) continue;
+        // radiance in glass is larger by η², so f/η² is what both ways share
+        const auto scale = [&](Vec3 w) {
+            const auto* glass = std::get_if<DielectricBsdf>(&GetParam().model);
+            return glass && dot(w, frame.z) < 0 ? glass->eta * glass->eta : 1.0f;
+        };
+        const float there = bsdf.evaluate(a, b, lobe::all).r / cos_b / scale(a);
+        const float back = bsdf.evaluate(b, a, lobe::all).r / cos_a / scale(b);
+        EXPECT_NEAR(there, back, 2e-3f * there + 1e-5f);
+    }
+}
+
+TEST_P(EveryModel, IsTheSumOfItsLobes) {
+    for (std::uint32_t k = 0; k < 500; ++k) {
+        Samples samples(6, k);
+        const Vec3 a = sphere(samples.next_2d()), b = sphere(samples.next_2d());
+        const Rgb sum = bsdf.evaluate(a, b, lobe::diffuse) + bsdf.evaluate(a, b, lobe::glossy);
+        EXPECT_FLOAT_EQ(sum.r, bsdf.evaluate(a, b, lobe::all).r);
+        EXPECT_TRUE(is_black(bsdf.evaluate(a, b, lobe::specular)));
+        EXPECT_EQ(bsdf.pdf(a, b, lobe::specular), 0);
+    }
+}
+
+TEST_P(EveryModel, SamplesOnlyTheLobesAskedFor) {
+    for (const std::uint8_t mask : {lobe::diffuse, lobe::glossy, lobe::specular})
+        for (std::uint32_t i = 0; i < 200; ++i) {
+            const auto s = draw(bsdf, direction(0.7f, 1), i, mask);
+            EXPECT_TRUE(!s || s->lobe == mask);
+            EXPECT_TRUE(!s || (bsdf.lobes() & mask));
+        }
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, EveryModel, testing::ValuesIn(cases),
+                         [](const auto& instance) { return std::string(instance.param.name); });
+
+}  // namespace
+}  // namespace lightnet

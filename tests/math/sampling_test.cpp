@@ -1,0 +1,78 @@
+#include "core/math/sampling.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/math/frame.hpp"
+#include "core/math/octahedral.hpp"
+#include "core/math/samples.hpp"
+
+namespace lightnet {
+namespace {
+
+constexpr std::uint32_t many = 1 << 14;
+
+template <class Function>
+double mean(Function value) {
+    double sum = 0;
+    for (std::uint32_t i = 0; i < many; ++i) sum += value(Samples(7, i).next_2d());
+    return sum / many;
+}
+
+TEST(Sampling, SineAndCosineMatchTheLibrary) {
+    for (float x = -pi / 4; x <= pi / 4; x += 1e-3f) {
+        const auto [sine, cosine] = sine_cosine_near_zero(x);
+        EXPECT_NEAR(sine, std::sin(x), 2e-7f);
+        EXPECT_NEAR(cosine, std::cos(x), 2e-7f);
+    }
+}
+
+TEST(Sampling, FillsTheDiskEvenly) {
+    EXPECT_NEAR(mean([](Vec2 u) { return disk(u).x; }), 0, 1e-3);
+    EXPECT_NEAR(mean([](Vec2 u) { return disk(u).x * disk(u).x; }), 0.25, 1e-3);
+    EXPECT_NEAR(mean([](Vec2 u) { return disk(u).x * disk(u).y; }), 0, 1e-3);
+    EXPECT_NEAR(mean([](Vec2 u) { return std::hypot(disk(u).x, disk(u).y) < 0.5f; }), 0.25, 1e-3);
+}
+
+TEST(Sampling, WeighsTheHemisphereByTheCosine) {
+    EXPECT_NEAR(mean([](Vec2 u) { return cosine_hemisphere(u).z; }), 2.0 / 3, 1e-3);
+    EXPECT_NEAR(mean([](Vec2 u) { return length(cosine_hemisphere(u)); }), 1, 1e-6);
+}
+
+TEST(Sampling, FillsConesEvenly) {
+    for (const float opening : {1e-7f, 1e-3f, 0.5f, 1.0f, 2.0f}) {
+        EXPECT_NEAR(mean([&](Vec2 u) { return (1 - cone(u, opening).z) / opening; }), 0.5,
+                    opening < 1e-6f ? 0.3 : 1e-3);
+        EXPECT_NEAR(mean([&](Vec2 u) { return length(cone(u, opening)); }), 1, 1e-6);
+        // x² has mean sin²/2 over the cone: (opening - opening²/3)/... by integration
+        const double x2 = opening / 2.0 - double{opening} * opening / 6;
+        EXPECT_NEAR(mean([&](Vec2 u) { return cone(u, opening).x * cone(u, opening).x; }) / x2, 1, 1e-2);
+    }
+}
+
+TEST(Sampling, FillsTrianglesEvenly) {
+    EXPECT_NEAR(mean([](Vec2 u) { return triangle(u).x; }), 1.0 / 3, 1e-3);
+    EXPECT_NEAR(mean([](Vec2 u) { return triangle(u).y; }), 1.0 / 3, 1e-3);
+    EXPECT_NEAR(mean([](Vec2 u) { return triangle(u).x * triangle(u).y; }), 1.0 / 12, 1e-3);
+    EXPECT_NEAR(mean([](Vec2 u) { return triangle(u).x * triangle(u).x; }), 1.0 / 6, 1e-3);
+}
+
+TEST(Octahedral, ComesBackToTheSameDirection) {
+    for (std::uint32_t i = 0; i < many; ++i) {
+        const Vec3 n = sphere(Samples(3, i).next_2d());
+        EXPECT_NEAR(length(from_octahedral(to_octahedral(n)) - n), 0, 4e-7f);
+    }
+    for (const Vec3 n : {Vec3{0, 0, -1}, Vec3{0, 0, 1}, Vec3{-1, 0, 0}, Vec3{0, -1, 0}})
+        EXPECT_EQ(from_octahedral(to_octahedral(n)), n);
+}
+
+TEST(Frame, IsOrthonormalAroundAnyNormal) {
+    for (std::uint32_t i = 0; i < many; ++i) {
+        const Frame frame = Frame::around(sphere(Samples(3, i).next_2d()));
+        EXPECT_NEAR(dot(frame.x, frame.y), 0, 1e-6f);
+        EXPECT_NEAR(dot(frame.x, frame.z), 0, 1e-6f);
+        EXPECT_NEAR(length(cross(frame.x, frame.y) - frame.z), 0, 1e-6f);
+    }
+}
+
+}  // namespace
+}  // namespace lightnet

@@ -1,0 +1,118 @@
+// Rooms whose light is known exactly.
+#include <gtest/gtest.h>
+
+#include "tests/support/rig.hpp"
+#include "tests/support/small_scenes.hpp"
+
+namespace lightnet {
+namespace {
+
+using namespace test;
+
+struct Measured {
+    double mean = 0, error = 0;  // standard deviation of the mean, from the pixels, which are independent
+};
+
+Measured measure(const Renderer& renderer, std::uint32_t size, std::uint32_t samples) {
+    const auto pixels = picture(renderer, size, size, samples);
+    double sum = 0, squares = 0;
+    for (const Rgb& pixel : pixels) {
+        sum += pixel.g;
+        squares += double{pixel.g} * pixel.g;
+    }
+    const double n = double(pixels.size()), mean = sum / n;
+    return {mean, std::sqrt(std::max(0.0, squares / n - mean * mean) / (n - 1))};
+}
+
+// In a closed room of albedo ρ whose walls emit 1, all is 1 + ρ + ρ² + … = 1 / (1 - ρ) bright. The bound is four
+// standard deviations of the mean: one run in 16,000 would fail by chance, and the run is always the same one.
+class Furnace : public testing::TestWithParam<float> {};
+
+TEST_P(Furnace, IsAsBrightAsTheSeriesSays) {
+    const float albedo = GetParam();
+    const Scene scene(furnace(albedo, 1));
+    Rig rig(scene);
+    const auto renderer = rig.path_tracer();
+    const auto [mean, error] = measure(*renderer, 24, 64);
+    EXPECT_NEAR(mean, 1 / (1 - albedo), 4 * error + 1e-5);
+    EXPECT_LT(error * (1 - albedo), 5e-3) << "the bound says too little";
+}
+
+TEST_P(Furnace, IsAsBrightWithoutRouletteAndWithDepthLimitAsTheFiniteSeriesSays) {
+    const float albedo = GetParam();
+    const Scene scene(furnace(albedo, 1));
+    Rig rig(scene);
+    // emission, direct light, and light by way of up to 3 surfaces
+    const auto renderer = rig.path_tracer({}, {{"max_depth", Value{3.0}}, {"roulette_depth", Value{100.0}}});
+    const auto [mean, error] = measure(*renderer, 24, 32);
+    double series = 0;
+    for (int i = 0; i <= 4; ++i) series += std::pow(double{albedo}, i);
+    EXPECT_NEAR(mean, series, 4 * error + 1e-5);
+    EXPECT_LT(error / series, 5e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Albedo, Furnace, testing::Values(0.5f, 0.8f));
+
+// Everything white under a white sky is as bright as the sky, whatever it is made of.
+TEST(WhiteSky, HidesAnythingThatLosesNothing) {
+    SceneData data;
+    data.environments.push_back({{1, 1, 1}});
+    data.camera = camera({0, 2, 6}, {0, 0.5f, 0}, 40);
+    add(data, quad({-20, 0, -20}, {0, 0, 40}, {40, 0, 0}), diffuse(data, 1));
+    add(data, ball({-1.2f, 1, 0}, 0.9f), material(data, DielectricMaterial{}));
+    add(data, ball({1.2f, 1, 0}, 0.9f), material(data, CoatedDiffuseMaterial{colour(data, {1, 1, 1})}));
+    add(data, ball({0, 0.5f, 1.5f}, 0.4f), material(data, ThinDielectricMaterial{}));
+    const Scene scene(data);
+    Rig rig(scene);
+    const auto [mean, error] = measure(*rig.path_tracer(), 24, 64);
+    EXPECT_NEAR(mean, 1, 4 * error + 1e-3);  // the chain of reflections inside glass is cut at some depth
+    EXPECT_LT(error, 5e-3);
+}
+
+TEST(PathTracing, LeavesDirectLightToOthers) {
+    SceneData data;
+    add(data, quad({-50, 0, -50}, {0, 0, 100}, {100, 0, 0}), diffuse(data, 0.6f));
+    data.environments.push_back({{2, 2, 2}});
+    const Scene scene(data);
+    Rig rig(scene);
+    const Query question{.u = 0.5f, .outgoing = {0, 1, 0}};
+    std::vector<Rgb> answers(1);
+    rig.add("PathTracing", "bounce").light(std::span(&question, 1), answers);
+    EXPECT_TRUE(is_black(answers[0]));
+}
+
+// A lamp seen in a mirror lights the floor: no direct light, so it counts as indirect.
+TEST(PathTracing, CountsLightByWayOfMirrors) {
+    SceneData data;
+    const auto black = diffuse(data, 0);
+    add(data, quad({-1, 0, -1}, {0, 0, 2}, {2, 0, 0}), diffuse(data, 0.5f));
+    add(data, quad({-50, 10, -50}, {100, 0, 0}, {0, 0, 100}), mirror(data, 0.8f));
+    add(data, quad({-200, -5, -200}, {0, 0, 400}, {400, 0, 0}), black).emission = AreaEmission{{1, 1, 1}, false};
+    const Scene scene(data);
+    Rig rig(scene);
+    const Query question{.v = 0.5f, .outgoing = {0, 1, 0}};
+    ASSERT_NEAR(length(scene.surface(question).position), 0, 1e-5f);
+    std::vector<Query> questions(4096, question);
+    for (std::uint32_t i = 0; i < questions.size(); ++i) questions[i].sample = i;
+    std::vector<Rgb> direct(questions.size()), bounce(questions.size());
+    rig.add("DirectLighting", "direct").light(questions, direct);
+    rig.add("PathTracing", "bounce").light(questions, bounce);
+    double sum = 0;
+    for (std::size_t i = 0; i < questions.size(); ++i) {
+        EXPECT_TRUE(is_black(direct[i]));
+        sum += bounce[i].g;
+    }
+    // the mirror's square, less what the floor itself hides: near 0.5 × 0.8
+    EXPECT_NEAR(sum / double(questions.size()), 0.4, 0.02);
+}
+
+TEST(PathTracing, GivesTheSameBytesTwice) {
+    const Scene scene(furnace(0.5f, 1));
+    Rig first(scene, 3), second(scene, 3), other(scene, 4);
+    const auto a = picture(*first.path_tracer(), 8, 8, 4), b = picture(*second.path_tracer(), 8, 8, 4);
+    EXPECT_EQ(a, b);
+    EXPECT_NE(a, picture(*other.path_tracer(), 8, 8, 4));
+}
+
+}  // namespace
+}  // namespace lightnet

@@ -1,0 +1,140 @@
+#include "core/runtime/bundle_port.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "tests/support/fake_channel.hpp"
+
+namespace lightnet {
+namespace {
+
+using testing::FakeChannel;
+
+// A port whose bundles go to a channel that the test answers by hand.
+class BundlePortTest : public ::testing::Test {
+protected:
+    BundlePortTest() { port.replicas().use({&channel}); }
+
+    std::vector<Query> questions(std::uint32_t count) {
+        std::vector<Query> queries(count);
+        for (auto& query : queries) query.sample = next++;
+        return queries;
+    }
+    // Asks in a fiber of its own, and checks the answers when they are there.
+    void ask(std::uint32_t count) {
+        fibers.start("asker", [this, count] {
+            const auto queries = questions(count);
+            std::vector<Rgb> answers(queries.size());
+            port.finish(port.begin(queries, answers));
+            for (std::size_t i = 0; i < queries.size(); ++i)
+                EXPECT_EQ(answers[i].r, static_cast<float>(queries[i].sample));
+            ++answered;
+        });
+    }
+    void run_ready() {
+        while (!ready.empty()) {
+            auto* fiber = ready.back();
+            ready.pop_back();
+            fibers.resume(fiber);
+        }
+    }
+    bool flush_idle() { return port.flush(BundlePort::Clock::now(), true); }
+
+    Fibers fibers;
+    std::vector<Fibers::Fiber*> ready;
+    FakeChannel<Query> channel;
+    BundleRules rules{8, std::chrono::microseconds(1000000), 2};
+    BundlePort port{fibers, [this](Fibers::Fiber* fiber) { ready.push_back(fiber); }, 1, rules};
+    std::uint32_t next = 0;
+    int answered = 0;
+};
+
+TEST_F(BundlePortTest, GathersTheQuestionsOfSeveralAskersInOneBundle) {
+    ask(2);
+    ask(3);
+    EXPECT_TRUE(channel.sent.empty()) << "not full, and not idle";
+    EXPECT_TRUE(flush_idle());
+    ASSERT_EQ(channel.sent.size(), 1u);
+    EXPECT_EQ(channel.sent.front().questions->size(), 5u);
+    channel.answer();
+    run_ready();
+    EXPECT_EQ(answered, 2);
+}
+
+TEST_F(BundlePortTest, SendsFullBundlesAtOnceAndSplitsLongAsks) {
+    ask(20);
+    ASSERT_EQ(channel.sent.size(), 2u);
+    EXPECT_EQ(channel.sent[0].questions->size(), 8u);
+    channel.answer();
+    channel.answer();
+    flush_idle();
+    ASSERT_EQ(channel.sent.size(), 1u);
+    EXPECT_EQ(answered, 0);
+    channel.answer();
+    run_ready();
+    EXPECT_EQ(answered, 1);
+}
+
+TEST_F(BundlePortTest, AsksAgainWhatCameBackUnanswered) {
+    ask(3);
+    flush_idle();
+    auto lost = channel.take();
+    lost.owner->returned(lost);
+    EXPECT_TRUE(port.flush(BundlePort::Clock::now(), false)) << "it is due at once";
+    channel.answer();
+    run_ready();
+    EXPECT_EQ(answered, 1);
+}
+
+TEST_F(BundlePortTest, KeepsABundleThatTheChannelRefuses) {
+    channel.refuse = true;
+    ask(8);
+    EXPECT_TRUE(channel.sent.empty());
+    channel.refuse = false;
+    flush_idle();
+    channel.answer();
+    run_ready();
+    EXPECT_EQ(answered, 1);
+}
+
+TEST_F(BundlePortTest, WaitsWhileTwoSmallBundlesAreOut) {
+    ask(1), flush_idle();
+    ask(1), flush_idle();
+    ask(1), flush_idle();
+    EXPECT_EQ(channel.sent.size(), 2u) << "replies that come back in pieces would fragment the next bundles";
+}
+
+TEST_F(BundlePortTest, ThrowsWhereTheAnswerWasAwaited) {
+    std::string what;
+    fibers.start("asker", [&] {
+        const auto queries = questions(2);
+        std::vector<Rgb> answers(2);
+        const auto ticket = port.begin(queries, answers);
+        try {
+            port.finish(ticket);
+        } catch (const Error& error) {
+            what = error.what();
+        }
+    });
+    flush_idle();
+    const auto bundle = channel.take();
+    bundle.owner->failed(bundle, "'bounce' on onyx2: out of photons");
+    run_ready();
+    EXPECT_EQ(what, "'bounce' on onyx2: out of photons");
+}
+
+TEST_F(BundlePortTest, ForgetsAnAskThatWasGivenUp) {
+    {
+        const auto queries = questions(8);
+        std::vector<Rgb> answers(8);
+        port.abandon(port.begin(queries, answers));
+    }
+    ask(8);
+    channel.answer();  // writes nowhere
+    channel.answer();
+    run_ready();
+    EXPECT_EQ(answered, 1);
+}
+
+}  // namespace
+}  // namespace lightnet

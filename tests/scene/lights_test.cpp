@@ -1,0 +1,135 @@
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "core/math/samples.hpp"
+#include "core/math/sampling.hpp"
+#include "core/scene/direct_light.hpp"
+#include "core/scene/scene.hpp"
+#include "tests/support/small_scenes.hpp"
+
+namespace lightnet {
+namespace {
+
+using namespace test;
+
+constexpr std::uint32_t many = 1 << 14;
+
+std::optional<LightSample> draw(const Scene& scene, Vec3 from, std::uint32_t i) {
+    Samples samples(1, i);
+    const float choice = samples.next();
+    return scene.sample_light(from, choice, samples.next_2d());
+}
+
+// The mean of 1/density is the solid angle that all lamps fill.
+double solid_angle(const Scene& scene, Vec3 from) {
+    double sum = 0;
+    for (std::uint32_t i = 0; i < many; ++i)
+        if (const auto lamp = draw(scene, from, i)) sum += 1 / lamp->pdf;
+    return sum / many;
+}
+
+Scene one_lamp(std::variant<Mesh, Sphere> geometry, bool two_sided = false) {
+    SceneData data;
+    add(data, std::move(geometry), diffuse(data, 0)).emission = AreaEmission{{1, 1, 1}, two_sided};
+    return Scene(std::move(data));
+}
+
+TEST(Lights, FillTheSolidAngleOfASquare) {
+    const Scene scene = one_lamp(quad({-1, -1, 2}, {0, 2, 0}, {2, 0, 0}));
+    // 4 asin(a b / sqrt((a² + d²)(b² + d²))) for half sides a, b and distance d
+    EXPECT_NEAR(solid_angle(scene, {0, 0, 0}), 4 * std::asin(1.0 / 5), 2e-3);
+    EXPECT_NEAR(solid_angle(scene, {0, 0, 1}), 4 * std::asin(1.0 / 2), 5e-3);
+    EXPECT_EQ(solid_angle(scene, {0, 0, 3}), 0);  // behind it
+}
+
+TEST(Lights, FillTheSolidAngleOfABallHoweverSmall) {
+    for (const float radius : {1e-3f, 0.03f, 0.5f, 1.9f}) {
+        const Scene scene = one_lamp(ball({0, 2, 0}, radius));
+        const double sine2 = radius * radius / 4.0;
+        EXPECT_NEAR(solid_angle(scene, {0, 0, 0}) / (2 * pi * sine2 / (1 + std::sqrt(1 - sine2))), 1, 1e-4);
+    }
+}
+
+TEST(Lights, FillAllDirectionsInsideABall) {
+    Sphere inwards = ball({0, 0, 0}, 2);
+    inwards.flip_normals = true;
+    const Scene scene = one_lamp(inwards);
+    EXPECT_NEAR(solid_angle(scene, {0.5f, 0.3f, 0}), 4 * pi, 2e-2);
+    EXPECT_EQ(solid_angle(one_lamp(ball({0, 0, 0}, 2)), {0.5f, 0.3f, 0}), 0);  // shines outwards only
+}
+
+TEST(Lights, StateTheSameDensityForAPointHoweverItIsFound) {
+    SceneData data;
+    const auto black = diffuse(data, 0);
+    add(data, quad({-1, -1, 2}, {0, 2, 0}, {2, 0.5f, 0}), black).emission = AreaEmission{{3, 3, 3}, false};
+    add(data, ball({3, 0, 0}, 0.4f), black).emission = AreaEmission{{10, 1, 1}, false};
+    add(data, room(), black);
+    add(data, ball({-2, 0, -2}, 0.05f), black).emission = AreaEmission{{1, 5, 1}, true};
+    const Scene scene(data);
+    const Vec3 from{0.3f, -0.4f, -0.5f};
+    std::size_t checked = 0;
+    for (std::uint32_t i = 0; i < many; ++i) {
+        const auto lamp = draw(scene, from, i);
+        if (!lamp) continue;
+        const auto hit = scene.intersect({from, lamp->direction});
+        if (!hit) continue;
+        const SurfacePoint end = scene.surface(*hit);
+        if (is_black(scene.emission(end, -lamp->direction)) || length(end.position - lamp->position) > 1e-3f) continue;
+        ASSERT_NEAR(scene.light_pdf(from, lamp->direction, end) / lamp->pdf, 1, 2e-2f);
+        ++checked;
+    }
+    EXPECT_GT(checked, many / 3);
+}
+
+TEST(Lights, AreChosenByPower) {
+    SceneData data;
+    const auto black = diffuse(data, 0);
+    add(data, quad({0, 0, 5}, {0, 1, 0}, {1, 0, 0}), black).emission = AreaEmission{{1, 1, 1}, false};
+    add(data, quad({2, 0, 5}, {0, 1, 0}, {1, 0, 0}), black).emission = AreaEmission{{3, 3, 3}, false};
+    add(data, quad({4, 0, 5}, {0, 2, 0}, {1, 0, 0}), black).emission = AreaEmission{{2, 2, 2}, true};
+    const Scene scene(data);
+    std::map<int, double> count;
+    for (std::uint32_t i = 0; i < many; ++i)
+        if (const auto lamp = draw(scene, {2, 0, 0}, i)) count[int(lamp->position.x / 2)] += 12.0 / many;
+    EXPECT_NEAR(count[0], 1, 0.05);
+    EXPECT_NEAR(count[1], 3, 0.05);
+    EXPECT_NEAR(count[2], 8, 0.05);
+}
+
+TEST(Lights, NeverChooseAConstantEnvironment) {
+    SceneData data;
+    data.environments.push_back({{1, 2, 3}});
+    const Scene scene(data);
+    EXPECT_TRUE(scene.has_environment());
+    EXPECT_FALSE(draw(scene, {0, 0, 0}, 0));
+    EXPECT_EQ(scene.environment_pdf({0, 0, 1}), 0);
+    EXPECT_EQ(scene.environment({0, 0, 1}), (Rgb{1, 2, 3}));
+}
+
+TEST(Lights, RuleOutOnlyRaysThatCannotMeetThem) {
+    SceneData data;
+    const auto black = diffuse(data, 0);
+    add(data, quad({-1, -1, 2}, {0, 2, 0}, {2, 0, 0}), black).emission = AreaEmission{{1, 1, 1}, false};
+    add(data, ball({3, 0, 0}, 0.4f), black).emission = AreaEmission{{1, 1, 1}, false};
+    const Scene scene(data);
+    std::size_t ruled_out = 0;
+    for (std::uint32_t i = 0; i < many; ++i) {
+        const Ray ray{{0, 0, 0}, sphere(Samples(1, i).next_2d())};
+        if (scene.may_shine(ray)) continue;
+        ++ruled_out;
+        ASSERT_FALSE(scene.occluded(ray));
+    }
+    EXPECT_GT(ruled_out, many / 2);
+}
+
+TEST(Heuristics, SharesOfBothWaysAddUpToOne) {
+    for (const auto heuristic : {Heuristic::balance, Heuristic::power})
+        for (const float p : {1e-20f, 1e-3f, 1.0f, 1e5f, 1e25f})
+            for (const float q : {1e-3f, 2.0f, 1e4f})
+                EXPECT_NEAR(share(heuristic, p, q) + share(heuristic, q, p), 1, 1e-6f);
+    EXPECT_EQ(share(Heuristic::power, 0.5f, 0), 1);
+}
+
+}  // namespace
+}  // namespace lightnet

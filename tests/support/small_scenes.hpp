@@ -1,0 +1,94 @@
+// Scenes of a few shapes, made in code.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <variant>
+
+#include "core/scene/scene_data.hpp"
+
+namespace lightnet::test {
+
+inline TextureId colour(SceneData& data, Rgb value) {
+    data.textures.emplace_back().scale = value;
+    return TextureId(data.textures.size() - 1);
+}
+
+template <class Model>
+std::uint32_t material(SceneData& data, Model model) {
+    data.materials.push_back({"", std::move(model)});
+    return std::uint32_t(data.materials.size() - 1);
+}
+
+inline std::uint32_t diffuse(SceneData& data, float albedo) {
+    return material(data, DiffuseMaterial{colour(data, {albedo, albedo, albedo})});
+}
+
+inline std::uint32_t mirror(SceneData& data, float reflectance) {
+    ConductorMaterial metal;
+    metal.reflectance = colour(data, {reflectance, reflectance, reflectance});
+    return material(data, metal);
+}
+
+inline Shape& add(SceneData& data, std::variant<Mesh, Sphere> geometry, std::uint32_t of) {
+    return data.shapes.emplace_back(Shape{std::move(geometry), of, {}, {}});
+}
+
+/// A parallelogram; its normal is that of `a` × `b`.
+inline Mesh quad(Vec3 corner, Vec3 a, Vec3 b) {
+    Mesh mesh;
+    mesh.positions = {corner, corner + a, corner + a + b, corner + b};
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    return mesh;
+}
+
+inline Sphere ball(Vec3 center, float radius) {
+    Sphere sphere;
+    sphere.center = center;
+    sphere.radius = radius;
+    return sphere;
+}
+
+/// A unit cube seen from inside, [0,1]³; normals inwards.
+inline Mesh room() {
+    Mesh mesh;
+    const auto wall = [&](Vec3 corner, Vec3 a, Vec3 b) {
+        const auto first = std::uint32_t(mesh.positions.size());
+        for (const Vec3 p : {corner, corner + a, corner + a + b, corner + b}) mesh.positions.push_back(p);
+        mesh.triangles.push_back({first, first + 1, first + 2});
+        mesh.triangles.push_back({first, first + 2, first + 3});
+    };
+    const Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+    wall({0, 0, 0}, y, z);
+    wall({1, 0, 0}, z, y);
+    wall({0, 0, 0}, z, x);
+    wall({0, 1, 0}, x, z);
+    wall({0, 0, 0}, x, y);
+    wall({0, 0, 1}, y, x);
+    return mesh;
+}
+
+/// A camera at `eye` that looks at `target`, y upwards.
+inline CameraData camera(Vec3 eye, Vec3 target, float fov) {
+    const Vec3 z = normalize(target - eye), x = normalize(cross(z, {0, 1, 0})), y = cross(x, z);
+    CameraData camera;
+    camera.fov = fov;
+    for (std::size_t i = 0; i < 3; ++i) {
+        camera.to_world.m[i][0] = x[i];
+        camera.to_world.m[i][1] = y[i];
+        camera.to_world.m[i][2] = z[i];
+        camera.to_world.m[i][3] = eye[i];
+    }
+    return camera;
+}
+
+/// The room with walls that shine, seen from inside.
+inline SceneData furnace(float albedo, float emission) {
+    SceneData data;
+    add(data, room(), diffuse(data, albedo)).emission = AreaEmission{{emission, emission, emission}, false};
+    data.camera = camera({0.3f, 0.4f, 0.2f}, {0.8f, 0.6f, 0.9f}, 80);
+    return data;
+}
+
+}  // namespace lightnet::test

@@ -1,0 +1,71 @@
+#include "transport/blob_cache.hpp"
+
+#include <gtest/gtest.h>
+
+#include <stdlib.h>
+#include <filesystem>
+#include <fstream>
+
+#include "core/error.hpp"
+
+namespace lightnet {
+namespace {
+
+namespace fs = std::filesystem;
+
+class BlobCacheTest : public ::testing::Test {
+protected:
+    BlobCacheTest() {
+        std::string name = (fs::temp_directory_path() / "lightnet-blobs-XXXXXX").string();
+        folder = mkdtemp(name.data());
+    }
+    ~BlobCacheTest() override { fs::remove_all(folder); }
+    static std::vector<std::byte> bytes(const std::string& text) {
+        const auto* data = reinterpret_cast<const std::byte*>(text.data());
+        return {data, data + text.size()};
+    }
+    fs::path folder;
+};
+
+TEST_F(BlobCacheTest, KeepsBytesByTheirHash) {
+    BlobCache cache(folder);
+    const auto blob = bytes("a mesh");
+    const auto hash = content_hash(blob);
+    EXPECT_FALSE(cache.has(hash));
+    cache.keep(hash, blob);
+    EXPECT_EQ(*BlobCache(folder).read(hash), blob) << "another process finds it";
+}
+
+TEST_F(BlobCacheTest, GivesNoDamagedBytesAndRemovesThem) {
+    BlobCache cache(folder);
+    const auto blob = bytes("a texture");
+    cache.keep(content_hash(blob), blob);
+    std::ofstream(folder / to_hex(content_hash(blob))) << "something else";
+    EXPECT_FALSE(cache.has(content_hash(blob)));
+    EXPECT_TRUE(fs::is_empty(folder));
+}
+
+TEST_F(BlobCacheTest, RemovesWhatWasNotReadForTheLongestTime) {
+    BlobCache cache(folder, 20);
+    const auto old = bytes("0123456789"), recent = bytes("abcdefghij"), last = bytes("ABCDEFGHIJ");
+    for (const auto& blob : {old, recent, last}) cache.keep(content_hash(blob), blob);
+    const auto now = fs::file_time_type::clock::now();
+    fs::last_write_time(folder / to_hex(content_hash(old)), now - std::chrono::hours(2));
+    cache.trim();
+    EXPECT_FALSE(cache.has(content_hash(old)));
+    EXPECT_TRUE(cache.has(content_hash(recent)));
+    EXPECT_TRUE(cache.has(content_hash(last)));
+}
+
+TEST_F(BlobCacheTest, ReadsTheFilesOfAJobAndNoOthers) {
+    BlobCache cache(folder);
+    const auto blob = bytes("WorldBegin");
+    cache.keep(content_hash(blob), blob);
+    const std::vector<JobFile> files{{"scenes/box.pbrt", content_hash(blob), blob.size()}};
+    BlobFiles sent(cache, files);
+    EXPECT_EQ(*sent.read("scenes/box.pbrt"), blob);
+    EXPECT_THROW(sent.read("/etc/passwd"), Error);
+}
+
+}  // namespace
+}  // namespace lightnet

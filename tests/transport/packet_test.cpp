@@ -1,0 +1,162 @@
+#include "transport/packet.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <random>
+
+namespace lightnet {
+namespace {
+
+using packet::Fields;
+using packet::Packet;
+using packet::Type;
+
+Message light_ask(std::size_t count) {
+    auto queries = std::make_shared<std::vector<Query>>(count);
+    std::uint32_t n = 1;
+    for (auto& q : *queries) {
+        q = {0x0123456789abcdefull + n,
+             n,
+             2 * n,
+             3 * n,
+             0.25f,
+             0.5f,
+             {1.0f, -2.0f, static_cast<float>(n)},
+             5 * n,
+             lobe::rough,
+             3,
+             4,
+             5};
+        ++n;
+    }
+    Message message;
+    message.run = 77, message.channel = 3, message.bundle = 12, message.node = 4, message.width = 2;
+    message.questions = Questions<Query>(queries);
+    return message;
+}
+
+Message tile_ask() {
+    Message message;
+    message.questions = Questions<Tile>(
+        std::make_shared<const std::vector<Tile>>(std::vector<Tile>{{0, 16, 32, 16, 16, 16}, {32, 16, 8, 16, 32, 5}}));
+    return message;
+}
+
+Message reply() {
+    Message message;
+    message.type = Message::Type::reply;
+    message.run = 77;
+    message.answers = {{1, 2, 3}, {4, 5, 6}};
+    message.load = {9, 1234};
+    return message;
+}
+
+Message failure() {
+    Message message;
+    message.type = Message::Type::failure;
+    message.text = "'bounce' on onyx2: no photons";
+    return message;
+}
+
+TEST(Packet, BringsQuestionsBackBitForBit) {
+    const auto sent = light_ask(300);
+    const auto packed = packet::pack(sent, 5);
+    const auto got = packet::unpack(packed.header, packed.body);
+    ASSERT_TRUE(got);
+    EXPECT_EQ(*std::get<Questions<Query>>(got->questions), *std::get<Questions<Query>>(sent.questions));
+    EXPECT_EQ(got->run, 77u);
+    EXPECT_EQ(got->channel, 3u);
+    EXPECT_EQ(got->bundle, 12u);
+    EXPECT_EQ(got->node, 4u);
+    EXPECT_EQ(got->width, 2u);
+    EXPECT_EQ(packet::peek_header(packed.header)->place, 5u);
+}
+
+TEST(Packet, TakesAtMost48BytesPerQuestionAndAFewPerBundle) {
+    const auto packed = packet::pack(light_ask(256), 0);
+    EXPECT_LE(packed.body.size() + packed.header.size(), 256 * sizeof(Query) + 192);
+}
+
+TEST(Packet, BringsTilesAnswersAndFailuresBack) {
+    const auto tiles = packet::pack(tile_ask(), 0);
+    EXPECT_EQ(*std::get<Questions<Tile>>(packet::unpack(tiles.header, tiles.body)->questions),
+              *std::get<Questions<Tile>>(tile_ask().questions));
+    const auto answers = packet::pack(reply(), 0);
+    const auto got = packet::unpack(answers.header, answers.body);
+    EXPECT_EQ(got->type, Message::Type::reply);
+    EXPECT_EQ(got->answers, reply().answers);
+    EXPECT_EQ(got->load, reply().load);
+    const auto failed = packet::pack(failure(), 0);
+    EXPECT_EQ(packet::unpack(failed.header, failed.body)->text, failure().text);
+}
+
+TEST(Packet, BringsControlFieldsBackAndIgnoresUnknownOnes) {
+    const auto fields = Fields{}.set("places", 4).set("build", "0.1.0").set("future", 9);
+    const auto packed = packet::pack(Type::welcome, 3, fields);
+    const auto header = packet::read_header(packed.header, packed.body);
+    ASSERT_TRUE(header);
+    EXPECT_EQ(header->type, Type::welcome);
+    const auto got = packet::unpack_fields(packed.body);
+    ASSERT_TRUE(got);
+    EXPECT_EQ(*got, fields);
+    EXPECT_EQ(got->number("absent"), 0u);
+    EXPECT_EQ(got->text("absent"), "");
+}
+
+std::vector<Packet> corpus() {
+    std::vector<Packet> packets;
+    for (const auto& message : {light_ask(3), tile_ask(), reply(), failure()})
+        packets.push_back(packet::pack(message, 0));
+    packets.push_back(packet::pack(Type::hello, 1, Fields{}.set("build", "x").set("n", 5)));
+    return packets;
+}
+
+bool accepted(const std::vector<std::byte>& header, const std::vector<std::byte>& body) {
+    return packet::unpack(header, body) || (packet::read_header(header, body) && packet::unpack_fields(body));
+}
+
+TEST(Packet, IsRefusedWhenCutAnywhere) {
+    for (const auto& whole : corpus()) {
+        for (std::size_t size = 0; size < whole.body.size(); ++size)
+            EXPECT_FALSE(accepted(whole.header, {whole.body.begin(), whole.body.begin() + static_cast<long>(size)}));
+        for (std::size_t size = 0; size < whole.header.size(); ++size)
+            EXPECT_FALSE(accepted({whole.header.begin(), whole.header.begin() + static_cast<long>(size)}, whole.body));
+    }
+}
+
+TEST(Packet, IsRefusedWhenAnyBitIsFlipped) {
+    for (const auto& whole : corpus())
+        for (std::size_t bit = 0; bit < 8 * (whole.header.size() + whole.body.size()); ++bit) {
+            auto bad = whole;
+            auto& byte = bit / 8 < bad.header.size() ? bad.header[bit / 8] : bad.body[bit / 8 - bad.header.size()];
+            byte ^= std::byte{1} << (bit % 8);
+            EXPECT_FALSE(accepted(bad.header, bad.body)) << "bit " << bit;
+        }
+}
+
+TEST(Packet, BodyOfGarbageNeverCrashesAndNeverAllocatesMuch) {
+    std::mt19937 random(1);
+    for (int round = 0; round < 20000; ++round) {
+        std::vector<std::byte> body(random() % 64);
+        for (auto& byte : body) byte = static_cast<std::byte>(random());
+        packet::unpack_fields(body);
+    }
+    // An array that claims four billion entries, and nesting without end.
+    const std::vector<std::byte> claim{std::byte{0xdd}, std::byte{0xff}, std::byte{0xff}, std::byte{0xff},
+                                       std::byte{0xff}};
+    EXPECT_FALSE(packet::unpack_fields(claim));
+    EXPECT_FALSE(packet::unpack_fields(std::vector<std::byte>(1 << 20, std::byte{0x91})));
+}
+
+TEST(Packet, NamesTheVersionThatAStrangerSpeaks) {
+    auto packed = packet::pack(Type::hello, 0, {});
+    const std::uint16_t future = 9;
+    std::memcpy(packed.header.data() + 4, &future, sizeof future);
+    EXPECT_FALSE(packet::peek_header(packed.header));
+    EXPECT_EQ(packet::claimed_version(packed.header), 9);
+    EXPECT_FALSE(packet::claimed_version(std::vector<std::byte>(64, std::byte{'G'})));
+}
+
+}  // namespace
+}  // namespace lightnet
