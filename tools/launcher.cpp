@@ -23,9 +23,11 @@ RunRequest request_of(const Options& options, const Registry& registry, Loaded l
     request.hosts = std::move(loaded.hosts);
     request.seed = options.seed;
     request.progress = options.progress;
+    request.listen = options.listen;
+    request.tuning = options.tuning;
     request.threads = options.threads.value_or(1);
     request.local_workers = options.local_workers.value_or(0);
-    if (!options.hosts.empty()) request.mode = Mode::hosts;
+    if (!options.hosts.empty() || !options.listen.empty()) request.mode = Mode::hosts;
     else if (options.local_workers) request.mode = Mode::local_workers;
     else if (options.threads) request.mode = Mode::threads;
     return request;
