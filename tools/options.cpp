@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "core/build_info.hpp"
-#include "core/graph/film_format.hpp"
+#include "core/graph/graph_film.hpp"
 #include "core/suggestion.hpp"
 #include "tools/exit_code.hpp"
 #include "tools/reach.hpp"

@@ -12,7 +12,7 @@
 
 #include "core/build_info.hpp"
 #include "core/error.hpp"
-#include "core/graph/film_format.hpp"
+#include "core/graph/graph_film.hpp"
 #include "core/hash.hpp"
 #include "core/runtime/fingerprint.hpp"
 #include "core/runtime/job.hpp"
@@ -60,11 +60,11 @@ RunReport first_page(const RunRequest& request, const FilmFormat& film) {
     report.graph_hash = to_hex(content_hash(to_json(request.graph)));
     report.mode = name_of(request.mode);
     report.versions["lightnet"] = build_id();
-    report.settings = {{"samples", std::to_string(film.samples)},
-                       {"size", fmt::format("{}x{}", film.width, film.height)},
-                       {"seed", std::to_string(request.seed)},
-                       {"tile", std::to_string(request.tuning.tile)},
-                       {"bundle", std::to_string(request.tuning.bundle)}};
+    report.settings["samples"] = std::to_string(film.samples);
+    report.settings["size"] = fmt::format("{}x{}", film.width, film.height);
+    report.settings["seed"] = std::to_string(request.seed);
+    report.settings["tile"] = std::to_string(request.tuning.tile);
+    report.settings["bundle"] = std::to_string(request.tuning.bundle);
     return report;
 }
 
@@ -104,7 +104,7 @@ private:
 };
 
 FilmFormat Run::format() const {
-    const auto film = film_format(request_.graph, registry_);
+    const auto film = film_of(request_.graph, registry_);
     const auto& samples = request_.graph.nodes[image_].params.at("samples");
     return {film.width, film.height, layers_of(request_.graph, registry_).film,
             static_cast<std::uint32_t>(std::get<double>(samples.data))};
