@@ -140,8 +140,10 @@ void Cluster::gather(std::chrono::milliseconds patience, const std::atomic<bool>
             if (link->broken()) throw Error(link->endpoint(), link->reason());
             ready |= link->state() == State::ready;
             absent |= link->state() == State::calling;
-            busy |= link->state() == State::greeted && !link->reason().empty();
-            pending |= link->state() == State::sending || link->state() == State::building;
+            const bool greeted = link->state() == State::greeted;
+            busy |= greeted && !link->reason().empty();
+            pending |= (greeted && link->reason().empty()) || link->state() == State::sending ||
+                       link->state() == State::building;
         }
         if (busy && said.empty())
             links_->options.say(said = "waiting for hosts that serve another run" + links_->reasons());
