@@ -51,7 +51,8 @@ int main(int argc, char** argv) {
         return lightnet::exit_code::usage;
     }
     if (parent) live_no_longer_than(parent);
-    if (!quiet && !parent) options.log = [](const std::string& text) { std::cerr << "lightnetd: " << text << std::endl; };
+    if (!quiet && !parent)
+        options.log = [](const std::string& text) { std::cerr << "lightnetd: " << text << std::endl; };
     try {
         const auto& stop = lightnet::watch_signals();
         const lightnet::Registry registry{lightnet::standard_nodes()};

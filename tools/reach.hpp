@@ -16,8 +16,9 @@ inline bool stays_on_this_machine(std::string_view endpoint) {
 
 /// Why `option` is refused.
 inline std::string beyond_this_machine(const std::string& option) {
-    return option + " can be reached from other machines, and packets are neither encrypted nor signed; say --insecure "
-                    "if that network is yours alone";
+    return option +
+           " can be reached from other machines, and packets are neither encrypted nor signed; say --insecure "
+           "if that network is yours alone";
 }
 
 }  // namespace lightnet

@@ -32,9 +32,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
-constexpr auto host_patience = 5s;     // for hosts that do not answer when the run begins
-constexpr auto empty_patience = 10s;   // for a host to come when none is left
-constexpr auto drain_deadline = 5s;    // for tiles that are under way when the run is told to stop
+constexpr auto host_patience = 5s;    // for hosts that do not answer when the run begins
+constexpr auto empty_patience = 10s;  // for a host to come when none is left
+constexpr auto drain_deadline = 5s;   // for tiles that are under way when the run is told to stop
 
 std::uint64_t random_number() {
     std::random_device device;  // names a run; nothing that is computed depends on it
@@ -48,9 +48,12 @@ std::string daemon_program() {
 
 const char* name_of(Mode mode) {
     switch (mode) {
-        case Mode::serial: return "serial";
-        case Mode::threads: return "threads";
-        default: return "network";
+        case Mode::serial:
+            return "serial";
+        case Mode::threads:
+            return "threads";
+        default:
+            return "network";
     }
 }
 

@@ -7,7 +7,7 @@
 namespace lightnet {
 namespace {
 
-Signals signals;   // a handler can reach nothing else
+Signals signals;  // a handler can reach nothing else
 
 void on_signal(int signal) {
     if (signals.any.exchange(true)) _exit(130);

@@ -50,7 +50,7 @@ struct Cluster::Links {
         return nullptr;
     }
     void add(const std::string& endpoint) {
-        if (!find(endpoint)) links.push_back(std::make_unique<HostLink>(context, told, endpoint));
+        if (!find(endpoint)) links.push_back(std::make_unique<HostLink>(context, told, counters, endpoint));
     }
 
     // Offers of all hosts that are at least so far, in the order in which they were named.
@@ -71,8 +71,7 @@ struct Cluster::Links {
         const std::string begin_plan = expected.empty() ? "" : to_json(options.plan(expected));
         for (auto& link : links) {
             link->tick(now, begin_plan);
-            for (auto [any, message] = link->receive(now, counters); any;
-                 std::tie(any, message) = link->receive(now, counters))
+            for (auto [any, message] = link->receive(now); any; std::tie(any, message) = link->receive(now))
                 if (message) arrived.push_back(std::move(*message));
         }
         tell_changes();
@@ -149,7 +148,10 @@ void Cluster::gather(std::chrono::milliseconds patience, const std::atomic<bool>
             links_->options.say(said = "waiting for hosts that serve another run" + links_->reasons());
         const bool patient = Clock::now() - begun < patience;
         if (pending || (patient && (absent || busy || links_->links.empty()))) continue;
-        if (ready) return;
+        if (ready) {
+            links_->arrived.clear();  // plans on the way here; plan() is the one that counts
+            return;
+        }
         if (!busy) throw NoWorker("no worker can be reached:" + links_->reasons());
     }
 }
@@ -179,7 +181,7 @@ Counters Cluster::finish(std::chrono::milliseconds patience) {
     Counters sum = links_->counters;
     while (!open.empty() && Clock::now() < end) {
         for (auto* link : std::set(open)) {
-            while (link->receive(Clock::now(), links_->counters).first) {
+            while (link->receive(Clock::now()).first) {
             }
             if (link->ended()) {
                 sum += *link->ended();
@@ -193,7 +195,7 @@ Counters Cluster::finish(std::chrono::milliseconds patience) {
 
 bool Cluster::ask(const PlaceAt& to, Message& message) {
     auto* link = links_->find(to.host);
-    return link && link->state() == State::ready && link->send(message, to.index, links_->counters);
+    return link && link->state() == State::ready && link->send(message, to.index);
 }
 
 void Cluster::reply(Message) {}  // nobody asks the launcher

@@ -13,6 +13,7 @@ using packet::Fields;
 using packet::Type;
 
 constexpr auto call_interval = std::chrono::milliseconds(200);
+constexpr auto connect_interval = std::chrono::milliseconds(5);
 constexpr auto busy_interval = std::chrono::seconds(1);
 constexpr auto ping_interval = std::chrono::milliseconds(400);
 constexpr auto lease = std::chrono::milliseconds(1500);
@@ -21,9 +22,10 @@ constexpr std::size_t chunks_under_way = 16;
 
 }  // namespace
 
-HostLink::HostLink(zmq::context_t& context, const Told& told, std::string endpoint)
+HostLink::HostLink(zmq::context_t& context, const Told& told, Counters& counters, std::string endpoint)
     : context_(context),
       told_(told),
+      counters_(counters),
       endpoint_(std::move(endpoint)),
       lane_(std::make_unique<zmq::socket_t>(asking_socket(context, endpoint_))),
       bulk_(std::make_unique<zmq::socket_t>(asking_socket(context, endpoint_))) {}
@@ -32,18 +34,18 @@ HostLink::~HostLink() = default;
 
 std::vector<zmq::socket_t*> HostLink::sockets() { return {lane_.get(), bulk_.get()}; }
 
-void HostLink::send(Type type, const Fields& fields) {
+bool HostLink::send(Type type, const Fields& fields) {
     Frames frames;
     append(frames, packet::pack(type, told_.run, fields));
-    send_frames(*lane_, frames);
+    return send_frames(*lane_, frames);
 }
 
 void HostLink::tick(Time now, const std::string& plan) {
     if (state_ == State::refused) return;
     if (state_ != State::calling) heartbeat(now);
     if (now >= next_call_ && state_ == State::calling) {
-        next_call_ = now + call_interval;
-        send(Type::hello, Fields{}.set("build", build_id()).set("isa", told_.isa));
+        const bool connected = send(Type::hello, Fields{}.set("build", build_id()).set("isa", told_.isa));
+        next_call_ = now + (connected ? call_interval : connect_interval);
     } else if (now >= next_call_ && state_ == State::greeted) {
         next_call_ = now + busy_interval;
         send(Type::begin, Fields{}.set("job", told_.job).set("plan", plan).set("you", endpoint_));
@@ -69,12 +71,12 @@ void HostLink::lose(Time now, const std::string& why) {
     bulk_ = std::make_unique<zmq::socket_t>(asking_socket(context_, endpoint_));
 }
 
-std::pair<bool, std::optional<Message>> HostLink::receive(Time now, Counters& counters) {
+std::pair<bool, std::optional<Message>> HostLink::receive(Time now) {
     auto frames = receive_frames(*lane_);
     if (!frames) frames = receive_frames(*bulk_);
     if (!frames) return {false, std::nullopt};
     if (frames->size() != 2) {
-        ++counters.broken_packets;
+        ++counters_.broken_packets;
         return {true, std::nullopt};
     }
     const auto header_bytes = bytes_of((*frames)[0]), body = bytes_of((*frames)[1]);
@@ -86,12 +88,12 @@ std::pair<bool, std::optional<Message>> HostLink::receive(Time now, Counters& co
             reason_ = "it speaks protocol version " + std::to_string(*theirs) + ", we speak " +
                       std::to_string(packet::version);
         }
-        ++counters.broken_packets;
+        ++counters_.broken_packets;
         return {true, std::nullopt};
     }
     heard_ = now;
     if (header->type < Type::hello) {
-        counters.bytes += header_bytes.size() + body.size();
+        counters_.bytes += header_bytes.size() + body.size();
         return {true, packet::unpack(header_bytes, body)};
     }
     if (const auto fields = packet::unpack_fields(body)) control(header->type, *fields, now);
@@ -193,20 +195,21 @@ void HostLink::send_blobs() {
                                         .set("total", blob.size())
                                         .set("bytes", bytes)));
         if (!send_frames(*bulk_, frames)) return;
+        counters_.file_bytes += bytes.size();
         ++chunks_out_;
         chunks_.pop_front();
     }
 }
 
-bool HostLink::send(Message& message, std::uint32_t place, Counters& counters) {
+bool HostLink::send(Message& message, std::uint32_t place) {
     Frames frames;
     append(frames, packet::pack(message, place));
     const std::size_t size = frames[0].size() + frames[1].size();
     if (!send_frames(*lane_, frames)) {
-        ++counters.refused_sends;
+        ++counters_.refused_sends;
         return false;
     }
-    counters.bytes += size;
+    counters_.bytes += size;
     return true;
 }
 

@@ -39,7 +39,8 @@ public:
     using Time = std::chrono::steady_clock::time_point;
     enum class State { calling, greeted, sending, building, ready, refused };
 
-    HostLink(zmq::context_t& context, const Told& told, std::string endpoint);
+    /// Counts what it sends and receives in `counters`, which must outlive it.
+    HostLink(zmq::context_t& context, const Told& told, Counters& counters, std::string endpoint);
     ~HostLink();
 
     const std::string& endpoint() const { return endpoint_; }
@@ -56,8 +57,8 @@ public:
     void tick(Time now, const std::string& plan);
     /// Takes one message from the host, if there is one, and gives it on if it is work: then `.second`. `.first`:
     /// anything came.
-    std::pair<bool, std::optional<Message>> receive(Time now, Counters& counters);
-    bool send(Message& message, std::uint32_t place, Counters& counters);
+    std::pair<bool, std::optional<Message>> receive(Time now);
+    bool send(Message& message, std::uint32_t place);
     void send_plan(const std::string& plan);
     void send_end();
     /// The host is gone; calls it again.
@@ -66,7 +67,7 @@ public:
     std::vector<zmq::socket_t*> sockets();
 
 private:
-    void send(packet::Type type, const packet::Fields& fields);
+    bool send(packet::Type type, const packet::Fields& fields);
     void control(packet::Type type, const packet::Fields& fields, Time now);
     void welcome(const packet::Fields& fields);
     void queue_blobs(const std::string& hashes);
@@ -75,6 +76,7 @@ private:
 
     zmq::context_t& context_;
     const Told& told_;
+    Counters& counters_;
     std::string endpoint_;
     std::unique_ptr<zmq::socket_t> lane_, bulk_;  // work and control; files
     State state_ = State::calling;

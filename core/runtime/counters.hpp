@@ -14,6 +14,7 @@ struct Counters {
     std::uint64_t questions = 0;        // sent to another place
     std::uint64_t bundles = 0;          // sent to another place
     std::uint64_t bytes = 0;            // sent and received over sockets between hosts
+    std::uint64_t file_bytes = 0;       // of scene files, sent to hosts that did not have them
     std::uint64_t tiles = 0;            // rendered
     std::uint64_t asked_again = 0;      // bundles whose first place was lost
     std::uint64_t late_replies = 0;     // of bundles that were answered already; dropped
@@ -22,7 +23,8 @@ struct Counters {
 
     Counters& operator+=(const Counters& more) {
         rays += more.rays, local_questions += more.local_questions, questions += more.questions;
-        bundles += more.bundles, bytes += more.bytes, tiles += more.tiles, asked_again += more.asked_again;
+        bundles += more.bundles, bytes += more.bytes, file_bytes += more.file_bytes, tiles += more.tiles,
+            asked_again += more.asked_again;
         late_replies += more.late_replies, refused_sends += more.refused_sends, broken_packets += more.broken_packets;
         return *this;
     }
@@ -32,6 +34,7 @@ struct Counters {
                 {"questions", questions},
                 {"bundles", bundles},
                 {"bytes", bytes},
+                {"file_bytes", file_bytes},
                 {"tiles", tiles},
                 {"asked_again", asked_again},
                 {"late_replies", late_replies},
