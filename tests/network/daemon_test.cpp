@@ -1,0 +1,172 @@
+// A daemon and its port: who is served, who is refused, what stays behind.
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <random>
+#include <zmq.hpp>
+
+#include "core/build_info.hpp"
+#include "tests/network/daemons.hpp"
+#include "transport/packet.hpp"
+
+namespace lightnet::testing {
+namespace {
+
+using packet::Fields;
+using packet::Packet;
+using packet::Type;
+using std::chrono::seconds;
+
+const std::vector<std::string> tiny{"--size", "16x16", "--samples", "1", "--progress", "none"};
+
+// Speaks to a daemon as a launcher would, or worse.
+class Stranger {
+public:
+    explicit Stranger(const std::string& endpoint) : socket_(context_, zmq::socket_type::dealer) {
+        socket_.set(zmq::sockopt::linger, 0);
+        socket_.set(zmq::sockopt::rcvtimeo, 5000);
+        socket_.connect(endpoint);
+    }
+    void send(const Packet& packet) {
+        socket_.send(zmq::const_buffer(packet.header.data(), packet.header.size()), zmq::send_flags::sndmore);
+        socket_.send(zmq::const_buffer(packet.body.data(), packet.body.size()));
+    }
+    void send(const std::string& bytes) { socket_.send(zmq::const_buffer(bytes.data(), bytes.size())); }
+    std::pair<Type, Fields> receive() {
+        zmq::message_t header, body;
+        if (!socket_.recv(header) || !socket_.recv(body)) return {Type::ping, {}};
+        const auto view = [](const zmq::message_t& m) {
+            return std::span(static_cast<const std::byte*>(m.data()), m.size());
+        };
+        const auto read = packet::read_header(view(header), view(body));
+        const auto fields = packet::unpack_fields(view(body));
+        return {read ? read->type : Type::ping, fields ? *fields : Fields{}};
+    }
+
+private:
+    zmq::context_t context_;
+    zmq::socket_t socket_;
+};
+
+Packet hello(const std::string& build) {
+    return packet::pack(Type::hello, 0, Fields{}.set("build", build).set("isa", "sse4.2"));
+}
+
+class DaemonTest : public ::testing::Test {
+protected:
+    std::string hosts_file() {
+        std::ofstream(folder / "hosts.lua") << "place \"" << daemon.endpoint << "\" {}\n";
+        return folder / "hosts.lua";
+    }
+    Launch launch_there() {
+        auto words = tiny;
+        words.insert(words.end(), {"--hosts", hosts_file()});
+        return launch(graph_file("cornell.lua"), folder, words);
+    }
+    TempFolder folder;
+    Daemon daemon{folder};
+};
+
+TEST_F(DaemonTest, WelcomesALauncherOfItsOwnBuild) {
+    Stranger launcher(daemon.endpoint);
+    launcher.send(hello(build_id()));
+    const auto [type, fields] = launcher.receive();
+    EXPECT_EQ(type, Type::welcome);
+    EXPECT_EQ(fields.number("places"), 1u);
+    EXPECT_NE(fields.number("fingerprint"), 0u);
+}
+
+TEST_F(DaemonTest, RefusesAnotherBuildAndNamesBoth) {
+    Stranger launcher(daemon.endpoint);
+    launcher.send(hello("9.9.9 (somewhere else)"));
+    const auto [type, fields] = launcher.receive();
+    EXPECT_EQ(type, Type::refuse);
+    EXPECT_NE(fields.text("text").find("9.9.9 (somewhere else)"), std::string::npos);
+    EXPECT_NE(fields.text("text").find(build_id()), std::string::npos);
+}
+
+TEST_F(DaemonTest, RefusesAnotherProtocolVersionAndNamesBoth) {
+    auto packet = hello(build_id());
+    packet.header[4] = std::byte{9};
+    Stranger launcher(daemon.endpoint);
+    launcher.send(packet);
+    const auto [type, fields] = launcher.receive();
+    EXPECT_EQ(type, Type::refuse);
+    EXPECT_NE(fields.text("text").find("version 1 is spoken here, not 9"), std::string::npos) << fields.text("text");
+}
+
+TEST_F(DaemonTest, RefusesAJobThatIsNone) {
+    Stranger launcher(daemon.endpoint);
+    launcher.send(packet::pack(Type::begin, 5, Fields{}.set("job", "{}").set("plan", "[1").set("you", "x")));
+    EXPECT_EQ(launcher.receive().first, Type::broken);
+    EXPECT_EQ(launch_there().code, 0) << "and serves the next run";
+}
+
+TEST_F(DaemonTest, OutlivesGarbageAndServesOn) {
+    std::mt19937 random(3);
+    {
+        Stranger stranger(daemon.endpoint);
+        for (int i = 0; i < 500; ++i) {
+            std::string junk(random() % 200, '\0');
+            for (auto& c : junk) c = static_cast<char>(random());
+            stranger.send(junk);
+            auto packet = hello(build_id());
+            packet.header[random() % packet.header.size()] ^= static_cast<std::byte>(1 + random() % 255);
+            stranger.send(packet);
+            packet = hello(build_id());
+            packet.body.resize(random() % packet.body.size());
+            stranger.send(packet);
+        }
+        stranger.send(hello(build_id()));
+        while (stranger.receive().first != Type::welcome) {
+        }
+    }
+    EXPECT_EQ(launch_there().code, 0);
+}
+
+TEST_F(DaemonTest, ServesRunAfterRunAndIsSentFilesOnce) {
+    const auto first = launch_there(), second = launch_there();
+    ASSERT_EQ(first.code, 0) << first.said;
+    ASSERT_EQ(second.code, 0) << second.said;
+    EXPECT_TRUE(first.picture == second.picture);
+    EXPECT_GT(counter(first.report, "file_bytes"), 0);
+    EXPECT_EQ(counter(second.report, "file_bytes"), 0) << "the second run sends hashes only";
+}
+
+TEST_F(DaemonTest, ServesOneRunAtATimeAndTellsTheOtherToWait) {
+    auto words = launch_words(graph_file("cornell.lua"), folder / "long.exr",
+                              {"--size", "128x128", "--samples", "64", "--progress", "json", "--hosts", hosts_file()});
+    Process first(words);
+    ASSERT_TRUE(first.wait_for("\"done\"")) << first.output();
+    const auto second = launch_there();
+    EXPECT_EQ(second.code, 0);
+    EXPECT_NE(second.said.find("serves another run"), std::string::npos) << second.said;
+    EXPECT_EQ(first.wait(), 0) << first.output();
+}
+
+TEST_F(DaemonTest, LeavesNothingBehindWhenItStops) {
+    ASSERT_EQ(launch_there().code, 0);
+    daemon.process->signal(SIGTERM);
+    EXPECT_EQ(daemon.process->wait(seconds(2)), 0);
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "cache"))
+        EXPECT_EQ(entry.path().filename().string().size(), 64u) << entry.path() << " is no blob";
+}
+
+TEST(Daemon, ThatIsNotThereEndsTheRunWithCode3) {
+    const TempFolder folder;
+    std::ofstream(folder / "hosts.lua") << "place \"tcp://127.0.0.1:1\" {}\n";
+    auto words = tiny;
+    words.insert(words.end(), {"--hosts", (folder / "hosts.lua").string()});
+    const auto run = launch(graph_file("cornell.lua"), folder, words);
+    EXPECT_EQ(run.code, 3);
+    EXPECT_NE(run.said.find("tcp://127.0.0.1:1: does not answer"), std::string::npos) << run.said;
+}
+
+TEST(Daemon, ListensBeyondItsMachineOnlyWhenToldThatThisIsInsecure) {
+    Process daemon({program("lightnetd"), "--listen", "tcp://0.0.0.0:*"});
+    EXPECT_EQ(daemon.wait(seconds(5)), 2);
+    EXPECT_NE(daemon.output().find("--insecure"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace lightnet::testing

@@ -1,0 +1,73 @@
+// Daemons and launches for tests.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tests/support/process.hpp"
+
+namespace lightnet::testing {
+
+inline std::string program(const std::string& name) { return std::string(LIGHTNET_PROGRAMS) + "/" + name; }
+inline std::string graph_file(const std::string& name) { return std::string(LIGHTNET_SOURCE_DIR) + "/graphs/" + name; }
+
+/// A lightnetd on a port of its own (or on `listen`).
+class Daemon {
+public:
+    explicit Daemon(const TempFolder& folder, int places = 1, const std::string& listen = "tcp://127.0.0.1:*",
+                    std::vector<std::string> more = {}) {
+        std::vector<std::string> words{program("lightnetd"),   "--listen", listen,          "--places",
+                                       std::to_string(places), "--cache",  folder / "cache"};
+        words.insert(words.end(), more.begin(), more.end());
+        process = std::make_unique<Process>(words);
+        const std::string before = "listening on ";
+        EXPECT_TRUE(process->wait_for("\n")) << process->output();
+        const auto at = process->output().find(before);
+        if (at == std::string::npos) return;
+        endpoint = process->output().substr(at + before.size(), process->output().find('\n', at) - at - before.size());
+    }
+    std::unique_ptr<Process> process;
+    std::string endpoint;
+};
+
+/// Renders a graph with these words behind it; the bytes of the EXR file.
+struct Launch {
+    int code = -1;
+    std::string said, picture, report;
+};
+
+inline std::vector<std::string> launch_words(const std::string& graph, const std::filesystem::path& out,
+                                             const std::vector<std::string>& more) {
+    std::vector<std::string> words{program("lightnet"), "run", graph, "-o", out.string()};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+inline Launch finish(Process& process, const std::filesystem::path& out) {
+    Launch launch;
+    launch.code = process.wait();
+    launch.said = process.output();
+    if (launch.code != 0) return launch;
+    launch.picture = bytes_of(out);
+    launch.report = bytes_of(std::filesystem::path(out).replace_filename("run.json"));
+    return launch;
+}
+
+inline Launch launch(const std::string& graph, const TempFolder& folder, const std::vector<std::string>& more) {
+    const auto out = folder / "picture.exr";
+    Process process(launch_words(graph, out, more));
+    return finish(process, out);
+}
+
+/// The number behind `"name": ` in a run.json.
+inline double counter(const std::string& report, const std::string& name) {
+    const auto at = report.find("\"" + name + "\": ");
+    EXPECT_NE(at, std::string::npos) << name;
+    return at == std::string::npos ? -1 : std::stod(report.substr(at + name.size() + 4));
+}
+
+}  // namespace lightnet::testing

@@ -1,0 +1,178 @@
+// Workers that are lost, hang, leave and come in the middle of a run: the bytes stay the same.
+#include <gtest/gtest.h>
+
+#include <csignal>
+
+#include "tests/network/daemons.hpp"
+
+namespace lightnet::testing {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using Clock = std::chrono::steady_clock;
+
+// Long enough that something can happen in the middle.
+const std::vector<std::string> some_seconds{"--size",     "128x128", "--samples", "128",
+                                            "--progress", "json",    "--tile",    "16"};
+
+class Loss : public ::testing::Test {
+protected:
+    static void SetUpTestSuite() {
+        const TempFolder folder;
+        auto words = some_seconds;
+        words.insert(words.end(), {"--threads", "2"});
+        reference = new std::string(launch(graph_file("cornell.lua"), folder, words).picture);
+        ASSERT_FALSE(reference->empty());
+    }
+    static void TearDownTestSuite() { delete reference; }
+
+    std::string hosts_file(const std::vector<std::string>& places) {
+        std::ofstream out(folder / "hosts.lua");
+        for (const auto& place : places) out << "place " << place << "\n";
+        return folder / "hosts.lua";
+    }
+    static std::string whole(const std::string& endpoint) { return "\"" + endpoint + "\" { places = 1 }"; }
+
+    std::unique_ptr<Process> start(const std::vector<std::string>& places, std::vector<std::string> more = {}) {
+        auto words = some_seconds;
+        words.insert(words.end(), {"--hosts", hosts_file(places)});
+        words.insert(words.end(), more.begin(), more.end());
+        return std::make_unique<Process>(launch_words(graph_file("cornell.lua"), out, words));
+    }
+    // Some tiles are done, and many are not.
+    static ::testing::AssertionResult in_the_middle(Process& run) {
+        return run.wait_for("\"done\":2") || run.wait_for("\"done\":1") ? ::testing::AssertionSuccess()
+                                                                        : ::testing::AssertionFailure() << run.output();
+    }
+    Launch expect_same(Process& run) {
+        auto end = finish(run, out);
+        EXPECT_EQ(end.code, 0) << end.said;
+        EXPECT_TRUE(end.picture == *reference) << "the bytes differ\n" << end.said;
+        return end;
+    }
+
+    static std::string* reference;
+    TempFolder folder;
+    std::filesystem::path out = folder / "picture.exr";
+};
+std::string* Loss::reference = nullptr;
+
+TEST_F(Loss, OfAKilledDaemonChangesNoByte) {
+    const Daemon one(folder), two(folder);
+    const auto run = start({whole(one.endpoint), whole(two.endpoint)});
+    ASSERT_TRUE(in_the_middle(*run));
+    two.process->signal(SIGKILL);
+    const auto end = expect_same(*run);
+    EXPECT_GT(counter(end.report, "asked_again"), 0) << "it should have had work";
+    EXPECT_NE(end.said.find("is lost"), std::string::npos) << end.said;
+}
+
+TEST_F(Loss, OfALocalWorkerIsNoticedAtOnce) {
+    auto words = some_seconds;
+    words.insert(words.end(), {"--local-workers", "2"});
+    Process run(launch_words(graph_file("cornell.lua"), out, words));
+    ASSERT_TRUE(in_the_middle(run));
+    const auto workers =
+        processes_with("lightnetd --listen tcp://127.0.0.1:* --places 1 --parent " + std::to_string(run.id()));
+    ASSERT_EQ(workers.size(), 2u);
+    ::kill(workers[0], SIGKILL);
+    expect_same(run);
+}
+
+TEST_F(Loss, OfAHostThatHangsAndComesBackChangesNoByte) {
+    const Daemon one(folder), two(folder);
+    const auto run = start({whole(one.endpoint), whole(two.endpoint)});
+    ASSERT_TRUE(in_the_middle(*run));
+    two.process->signal(SIGSTOP);
+    const auto begun = Clock::now();
+    ASSERT_TRUE(run->wait_for("is lost")) << run->output();
+    EXPECT_LT(Clock::now() - begun, milliseconds(2500));
+    two.process->signal(SIGCONT);
+    expect_same(*run);
+}
+
+TEST_F(Loss, OfTheOnlyHostOfAnOperatorMovesItElsewhere) {
+    const Daemon one(folder), two(folder);
+    const auto run = start({"\"" + one.endpoint + "\" { image = 1, lighting = 1, direct = 1 }",
+                            "\"" + two.endpoint + "\" { bounce = 1 }"});
+    ASSERT_TRUE(in_the_middle(*run));
+    two.process->signal(SIGKILL);
+    expect_same(*run);
+}
+
+TEST_F(Loss, OfAllHostsEndsTheRunWithTheNameOfWhatHasNoPlace) {
+    const Daemon one(folder);
+    const auto run = start({whole(one.endpoint)});
+    ASSERT_TRUE(in_the_middle(*run));
+    one.process->signal(SIGKILL);
+    EXPECT_EQ(run->wait(seconds(30)), 1);
+    EXPECT_NE(run->output().find("node 'image' has no place"), std::string::npos) << run->output();
+}
+
+TEST_F(Loss, IsMadeGoodByADaemonThatStartsInTheMiddle) {
+    const Daemon one(folder);
+    auto two = std::make_unique<Daemon>(folder);
+    const auto endpoint = two->endpoint;
+    two.reset();  // its port is free again
+    const auto run = start({whole(one.endpoint), whole(endpoint)});
+    ASSERT_TRUE(in_the_middle(*run));
+    const Daemon late(folder, 1, endpoint);
+    ASSERT_TRUE(run->wait_for(endpoint + " is ready")) << run->output();
+    one.process->signal(SIGKILL);  // so the late one has to finish the picture
+    expect_same(*run);
+}
+
+TEST_F(Loss, IsMadeGoodByADaemonThatDialsIn) {
+    const Daemon one(folder);
+    const auto run = start({whole(one.endpoint)}, {"--listen", "tcp://127.0.0.1:*"});
+    const std::string before = "hosts may join at ";
+    ASSERT_TRUE(run->wait_for(before) && in_the_middle(*run)) << run->output();
+    const auto at = run->output().find(before) + before.size();
+    const auto launcher = run->output().substr(at, run->output().find_first_of("\"\n", at) - at);
+    const Daemon joined(folder, 1, "tcp://127.0.0.1:*", {"--join", launcher});
+    ASSERT_TRUE(run->wait_for(joined.endpoint + " is ready")) << run->output();
+    expect_same(*run);
+}
+
+TEST_F(Loss, OfADaemonThatIsToldToStopIsOrderly) {
+    const Daemon one(folder), two(folder);
+    const auto run = start({whole(one.endpoint), whole(two.endpoint)});
+    ASSERT_TRUE(in_the_middle(*run));
+    two.process->signal(SIGTERM);
+    EXPECT_EQ(two.process->wait(seconds(6)), 0);
+    expect_same(*run);
+}
+
+TEST_F(Loss, OfPatienceEndsEverythingWithinASecond) {
+    auto words = some_seconds;
+    words.insert(words.end(), {"--local-workers", "2"});
+    Process run(launch_words(graph_file("cornell.lua"), out, words));
+    ASSERT_TRUE(in_the_middle(run));
+    const auto mark = "--parent " + std::to_string(run.id());
+    EXPECT_EQ(processes_with(mark).size(), 2u);
+    const auto begun = Clock::now();
+    run.signal(SIGINT);
+    EXPECT_EQ(run.wait(seconds(10)), 130) << run.output();
+    EXPECT_LT(Clock::now() - begun, seconds(1));
+    EXPECT_TRUE(processes_with(mark).empty()) << "no process may stay behind";
+    EXPECT_FALSE(std::filesystem::exists(out)) << "no half picture";
+    EXPECT_NE(bytes_of(folder / "run.json").find("cancelled"), std::string::npos);
+}
+
+TEST_F(Loss, OfTheLauncherEndsItsDaemons) {
+    auto words = some_seconds;
+    words.insert(words.end(), {"--local-workers", "2"});
+    Process run(launch_words(graph_file("cornell.lua"), out, words));
+    ASSERT_TRUE(in_the_middle(run));
+    const auto mark = "--parent " + std::to_string(run.id());
+    run.signal(SIGKILL);
+    run.wait();
+    const auto end = Clock::now() + seconds(2);
+    while (!processes_with(mark).empty() && Clock::now() < end) {
+    }
+    EXPECT_TRUE(processes_with(mark).empty());
+}
+
+}  // namespace
+}  // namespace lightnet::testing

@@ -1,0 +1,107 @@
+// The flagship: each graph in graphs/ runs serial, threaded and networked, and gives the same bytes.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "tests/network/daemons.hpp"
+
+namespace lightnet::testing {
+namespace {
+
+const std::vector<std::string> small{"--size", "64x64", "--samples", "4", "--progress", "none"};
+
+std::vector<std::string> with(std::vector<std::string> words, const std::vector<std::string>& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+std::vector<std::string> graph_files() {
+    std::vector<std::string> files;
+    for (const auto& entry : std::filesystem::directory_iterator(std::string(LIGHTNET_SOURCE_DIR) + "/graphs"))
+        if (entry.path().extension() == ".lua") files.push_back(entry.path().filename());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+// The names of the nodes that may be placed: what stands left of "Kind {", but for scenes.
+std::vector<std::string> nodes_of(const std::string& graph) {
+    std::vector<std::string> names;
+    std::istringstream lines(bytes_of(graph));
+    for (std::string line; std::getline(lines, line);) {
+        const auto equals = line.find(" = "), brace = line.find('{');
+        if (line.starts_with("--") || equals == std::string::npos || brace == std::string::npos || equals > brace)
+            continue;
+        const auto name = line.substr(0, line.find_first_of(" ="));
+        if (line.find("Scene", equals) == std::string::npos) names.push_back(name);
+    }
+    return names;
+}
+
+class SameImage : public ::testing::TestWithParam<std::string> {
+protected:
+    SameImage() : graph(graph_file(GetParam())), serial(launch(graph, folder, small)) {}
+
+    void expect_same(const Launch& other, const std::string& how) {
+        EXPECT_EQ(other.code, 0) << how << "\n" << other.said;
+        EXPECT_TRUE(other.picture == serial.picture) << how << ": the bytes differ";
+    }
+    // Each node on one or two of the daemons, so that every question travels somewhere.
+    std::string spread(const std::vector<std::string>& endpoints) {
+        const auto file = folder / "spread.lua";
+        std::ofstream out(file);
+        std::vector<std::string> tables(endpoints.size());
+        std::size_t turn = 0;
+        for (const auto& node : nodes_of(graph)) {
+            tables[turn % tables.size()] += node + " = 1, ";
+            if (turn % 3 != 1) tables[(turn + 1) % tables.size()] += node + " = 1, ";
+            turn += 1;
+        }
+        for (std::size_t i = 0; i < endpoints.size(); ++i)
+            out << "place \"" << endpoints[i] << "\" { " << tables[i] << "}\n";
+        return file;
+    }
+
+    TempFolder folder;
+    std::string graph;
+    Launch serial;
+};
+
+TEST_P(SameImage, InThreadsOfAnyNumber) {
+    ASSERT_EQ(serial.code, 0) << serial.said;
+    for (const std::string threads : {"1", "2", "3"})
+        for (const std::string tile : {"32", "11"})
+            expect_same(launch(graph, folder, with(small, {"--threads", threads, "--tile", tile})),
+                        threads + " threads, tiles of " + tile);
+}
+
+TEST_P(SameImage, OnDaemonsOfAnyNumber) {
+    ASSERT_EQ(serial.code, 0) << serial.said;
+    for (const std::string workers : {"1", "2", "3"})
+        expect_same(launch(graph, folder, with(small, {"--local-workers", workers})), workers + " daemons");
+}
+
+TEST_P(SameImage, WithOperatorsSpreadOverHosts) {
+    ASSERT_EQ(serial.code, 0) << serial.said;
+    const Daemon one(folder), two(folder), three(folder);
+    for (const auto& endpoints :
+         {std::vector{one.endpoint, two.endpoint}, std::vector{one.endpoint, two.endpoint, three.endpoint}}) {
+        const auto hosts = spread(endpoints);
+        for (const std::string bundle : {"512", "37", "1"}) {
+            // Bundles of one question, one under way, and one fiber per node: the narrowest way there is.
+            const std::string credit = bundle == "1" ? "1" : "8", fibers = bundle == "1" ? "0" : "16";
+            const auto far = launch(graph, folder,
+                                    with(small, {"--hosts", hosts, "--bundle", bundle, "--credit", credit,
+                                                 "--spare-fibers", fibers, "--tile", "16"}));
+            expect_same(far, std::to_string(endpoints.size()) + " hosts, bundles of " + bundle);
+            EXPECT_GT(counter(far.report, "questions"), 0) << "questions should have travelled";
+            EXPECT_EQ(counter(far.report, "broken_packets"), 0);
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryGraph, SameImage, ::testing::ValuesIn(graph_files()),
+                         [](const auto& info) { return std::filesystem::path(info.param).stem().string(); });
+
+}  // namespace
+}  // namespace lightnet::testing

@@ -1,0 +1,116 @@
+#include "tests/support/process.hpp"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+extern char** environ;
+
+namespace lightnet::testing {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+Process::Process(std::vector<std::string> words) {
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
+    std::vector<char*> argv;
+    for (auto& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
+    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    const int error = posix_spawn(&id_, words[0].c_str(), &actions, nullptr, argv.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    close(ends[1]);
+    out_ = ends[0];
+    if (error) throw std::runtime_error("can't start " + words[0]);
+}
+
+Process::~Process() {
+    if (!ended_) {
+        ::kill(id_, SIGKILL);
+        ::waitpid(id_, nullptr, 0);
+    }
+    close(out_);
+}
+
+void Process::signal(int number) const { ::kill(id_, number); }
+
+bool Process::read_some(milliseconds most) {
+    pollfd item{out_, POLLIN, 0};
+    if (poll(&item, 1, static_cast<int>(most.count())) <= 0) return true;
+    char buffer[4096];
+    const auto n = read(out_, buffer, sizeof buffer);
+    if (n > 0) output_.append(buffer, static_cast<std::size_t>(n));
+    return n > 0;
+}
+
+bool Process::wait_for(const std::string& text, milliseconds most) {
+    const auto end = Clock::now() + most;
+    while (output_.find(text) == std::string::npos) {
+        if (Clock::now() > end || !read_some(milliseconds(20))) return output_.find(text) != std::string::npos;
+    }
+    return true;
+}
+
+int Process::wait(milliseconds most) {
+    const auto end = Clock::now() + most;
+    while (!ended_ && Clock::now() < end) {
+        if (!read_some(milliseconds(10))) poll(nullptr, 0, 1);  // closed its outputs; its end is near
+        int status = 0;
+        if (waitpid(id_, &status, WNOHANG) != id_) continue;
+        ended_ = true;
+        code_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+        fcntl(out_, F_SETFL, O_NONBLOCK);
+        while (read_some(milliseconds(0))) {
+            pollfd item{out_, POLLIN, 0};
+            if (poll(&item, 1, 0) <= 0) break;
+        }
+    }
+    return code_;
+}
+
+TempFolder::TempFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "lightnet-test-XXXXXX").string();
+    path_ = mkdtemp(name.data());
+}
+
+TempFolder::~TempFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+}
+
+std::string bytes_of(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    EXPECT_TRUE(in) << file << " is not there";
+    std::ostringstream bytes;
+    bytes << in.rdbuf();
+    return bytes.str();
+}
+
+std::vector<int> processes_with(const std::string& text) {
+    std::vector<int> found;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+        const auto name = entry.path().filename().string();
+        if (!std::all_of(name.begin(), name.end(), [](char c) { return c >= '0' && c <= '9'; })) continue;
+        std::ifstream in(entry.path() / "cmdline", std::ios::binary);
+        std::string line((std::istreambuf_iterator<char>(in)), {});
+        std::replace(line.begin(), line.end(), '\0', ' ');
+        if (line.find(text) != std::string::npos && std::stoi(name) != getpid()) found.push_back(std::stoi(name));
+    }
+    return found;
+}
+
+}  // namespace lightnet::testing

@@ -1,0 +1,54 @@
+// Programs as users run them: started, watched, hurt.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace lightnet::testing {
+
+/// A child process whose output is collected. Killed, with a grudge, when the object ends first.
+class Process {
+public:
+    explicit Process(std::vector<std::string> words);
+    ~Process();
+    Process(const Process&) = delete;
+    Process& operator=(const Process&) = delete;
+
+    int id() const { return id_; }
+    void signal(int number) const;
+    /// Reads output until it holds `text`. False: the process ended, or `most` passed, before it did.
+    bool wait_for(const std::string& text, std::chrono::milliseconds most = std::chrono::seconds(20));
+    /// Waits for the end: the exit code, 128 + signal if one ended it, -1 if it still runs after `most`.
+    int wait(std::chrono::milliseconds most = std::chrono::seconds(60));
+    /// What it has said so far, to both outputs.
+    const std::string& output() const { return output_; }
+
+private:
+    bool read_some(std::chrono::milliseconds most);
+    int id_ = 0, out_ = -1;
+    bool ended_ = false;
+    int code_ = -1;
+    std::string output_;
+};
+
+/// A folder that goes with the test.
+class TempFolder {
+public:
+    TempFolder();
+    ~TempFolder();
+    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+    const std::filesystem::path& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+};
+
+/// All bytes of a file; fails the test when there is none.
+std::string bytes_of(const std::filesystem::path& file);
+
+/// Processes of this user whose command line holds `text`.
+std::vector<int> processes_with(const std::string& text);
+
+}  // namespace lightnet::testing
