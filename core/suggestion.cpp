@@ -40,6 +40,9 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
     const std::string* found = nullptr;
     for (const auto& candidate : known) {
         if (candidate.empty() || candidate.size() > longest_word) continue;
+        // so many letters at least must come or go
+        const auto [shorter, longer] = std::minmax(word.size(), candidate.size());
+        if (longer - shorter >= best) continue;
         const std::size_t d = distance(word, candidate);
         if (d >= best || d >= word.size()) continue;
         best = d;
