@@ -41,8 +41,7 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
     for (const auto& candidate : known) {
         if (candidate.empty() || candidate.size() > longest_word) continue;
         // so many letters at least must come or go
-        const auto [shorter, longer] = std::minmax(word.size(), candidate.size());
-        if (longer - shorter >= best) continue;
+        if (std::max(word.size(), candidate.size()) >= std::min(word.size(), candidate.size()) + best) continue;
         const std::size_t d = distance(word, candidate);
         if (d >= best || d >= word.size()) continue;
         best = d;
