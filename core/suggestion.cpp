@@ -40,6 +40,8 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
     const std::string* found = nullptr;
     for (const auto& candidate : known) {
         if (candidate.empty() || candidate.size() > longest_word) continue;
+        // so many letters at least must come or go
+        if (std::max(word.size(), candidate.size()) >= std::min(word.size(), candidate.size()) + best) continue;
         const std::size_t d = distance(word, candidate);
         if (d >= best || d >= word.size()) continue;
         best = d;

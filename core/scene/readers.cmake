@@ -1,13 +1,13 @@
 # The readers of scenes, and the formats that they read.
 target_sources(lightnet_core
   PRIVATE
-    files.cpp report.cpp ply.cpp spectra.cpp read_scene.cpp
+    files.cpp report.cpp ply.cpp ply_header.cpp spectra.cpp read_scene.cpp
     image_file.cpp image_jpeg.cpp image_png.cpp image_exr.cpp image_hdr.cpp
     pbrt/tokenizer.cpp pbrt/parameters.cpp pbrt/syntax.cpp pbrt/transforms.cpp pbrt/sources.cpp pbrt/baking.cpp
     pbrt/textures.cpp pbrt/quadrics.cpp pbrt/shapes.cpp pbrt/materials.cpp pbrt/lights.cpp pbrt/camera.cpp
     pbrt/builder.cpp pbrt/builder_world.cpp pbrt/pbrt.cpp
   PUBLIC FILE_SET HEADERS FILES
-    report.hpp ply.hpp spectra.hpp read_scene.hpp image_file.hpp image_decoders.hpp
+    report.hpp ply.hpp ply_header.hpp spectra.hpp read_scene.hpp image_file.hpp image_decoders.hpp
     pbrt/tokenizer.hpp pbrt/parameters.hpp pbrt/syntax.hpp pbrt/transforms.hpp pbrt/sources.hpp pbrt/baking.hpp
     pbrt/textures.hpp pbrt/quadrics.hpp pbrt/shapes.hpp pbrt/materials.hpp pbrt/lights.hpp pbrt/camera.hpp
     pbrt/builder.hpp pbrt/pbrt.hpp)

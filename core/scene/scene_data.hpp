@@ -25,8 +25,8 @@ struct Image {
 
 enum class Wrap { repeat, clamp, black };
 
-/// A colour over the surface: constant, or an image looked up by texture coordinates (bilinear) times a scale. (0, 0) is
-/// the image's lower left corner, (1, 1) its upper right one. Values below 0 count as 0.
+/// A colour over the surface: constant, or an image looked up by texture coordinates (bilinear) times a scale. (0, 0)
+/// is the image's lower left corner, (1, 1) its upper right one. Values below 0 count as 0.
 struct Texture {
     Rgb scale{1, 1, 1};                        // the colour itself when there is no image
     std::shared_ptr<const Image> image;        // shared by all textures of one file

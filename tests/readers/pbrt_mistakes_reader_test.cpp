@@ -193,6 +193,13 @@ TEST(PbrtMistakes, InOtherFilesBearTheirNames) {
                 HasSubstr("scene.pbrt:2: 'a.png': not a picture of a known kind"));
 }
 
+TEST(PbrtMistakes, OfHugeNumbersAreNamed) {
+    EXPECT_THAT(errors_of_world("AreaLightSource \"diffuse\" \"rgb L\" [ 1e30 1 1 ] \"float scale\" 1e30"),
+                HasSubstr("the light is infinitely bright"));
+    EXPECT_THAT(errors_of_world("Scale 1e30 1e30 1e30 Shape \"sphere\" \"float radius\" 1e30"),
+                HasSubstr("centre or radius is not finite"));
+}
+
 TEST(PbrtMistakes, EndAtAHundred) {
     std::string text;
     for (int i = 0; i < 1000; ++i) text += "Shape \"spere\"\n";
@@ -227,6 +234,15 @@ TEST(PbrtWarnings, NameParametersWithoutAnEffect) {
     EXPECT_THAT(warnings_of(read_world("Shape \"sphere\" \"float radiu\" 2")),
                 HasSubstr("scene.pbrt:2: Shape 'sphere': parameter 'radiu' is unknown here and has no effect (did you "
                           "mean 'radius'?)"));
+}
+
+TEST(PbrtWarnings, NameShapesWithoutTriangles) {
+    const MemoryFiles files{{"a.ply",
+                             "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty "
+                             "float z\nelement face 0\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n"}};
+    const auto scene = read_world("Shape \"plymesh\" \"string filename\" \"a.ply\"", files);
+    EXPECT_TRUE(scene.shapes.empty());
+    EXPECT_THAT(warnings_of(scene), HasSubstr("scene.pbrt:2: a shape without any triangle is left out"));
 }
 
 TEST(PbrtWarnings, AreCountedWhereTheyRepeat) {

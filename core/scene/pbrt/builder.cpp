@@ -104,7 +104,7 @@ void Builder::leave() {
 void Builder::finish() {
     for (const auto& open : stack_) sources_.report.error(open.where, "this block is never closed");
     for (const auto& [name, material] : named_) {
-        if (material.made) continue;
+        if (material.made || sources_.report.full()) continue;
         std::vector<std::string> known;
         for (const auto& [other, made] : named_)
             if (made.made) known.push_back(other);
@@ -229,7 +229,7 @@ void Builder::attribute(Statement& s) {
     }
     auto& defaults = state_.defaults[target];
     for (const auto& parameter : s.parameters.all()) {
-        std::erase_if(defaults, [&](const Parameter& p) { return p.name == parameter.name; });
+        std::erase_if(defaults, [&](const auto& p) { return p->name == parameter->name; });
         defaults.push_back(parameter);
     }
 }

@@ -44,7 +44,8 @@ private:
         bool active = true;  // ActiveTransform: false when only the end of the time is meant
         std::uint32_t material = 0;
         std::optional<AreaLight> lamp;
-        std::map<std::string, std::vector<Parameter>> defaults;  // of Attribute, by what they are for
+        std::map<std::string, std::vector<std::shared_ptr<const Parameter>>>
+            defaults;  // of Attribute, by what they are for
     };
     enum class Block { attribute, transform, object, import };
     struct Saved {
@@ -120,7 +121,7 @@ private:
     std::vector<bool> interfaces_;  // by material: not there at all
     std::map<std::string, Object> objects_;
     Object* open_object_ = nullptr;
-    std::uint64_t triangles_ = 0;
+    std::uint64_t size_ = 0;  // so far, in vertices and triangles
 };
 
 }  // namespace lightnet::pbrt

@@ -11,9 +11,11 @@
 namespace lightnet::pbrt {
 namespace {
 
-std::uint64_t triangles_of(const Shape& shape) {
+/// What it takes of memory, counted in vertices and triangles.
+std::uint64_t size_of(const Shape& shape) {
+    constexpr std::uint64_t least = 16;
     const auto* mesh = std::get_if<Mesh>(&shape.geometry);
-    return mesh ? mesh->triangles.size() : 1;
+    return least + (mesh ? mesh->triangles.size() + mesh->positions.size() : 0);
 }
 
 /// One triangle of a mesh, alone.
@@ -120,9 +122,16 @@ void Builder::shape(Statement& s) {
 
 /// `each_triangle`: for pbrt every triangle of a mesh is a lamp of its own, with the power that was asked for.
 void Builder::emit(Shape shape, const AreaLight& lamp, bool each_triangle) {
+    constexpr std::size_t most_lamps = 1 << 16;
     const auto* mesh = std::get_if<Mesh>(&shape.geometry);
+    const double area = area_of(shape.geometry);
     if (!lamp.power || !each_triangle || !mesh) {
-        shape.emission = lamp.on(area_of(shape.geometry));
+        shape.emission = lamp.on(area);
+        return add_shape(std::move(shape));
+    }
+    if (mesh->triangles.size() > most_lamps) {
+        sources_.report.warn(shape.where, "the power of so many triangles is spread evenly over all of them");
+        shape.emission = lamp.on(area / double(mesh->triangles.size()));
         return add_shape(std::move(shape));
     }
     for (std::size_t i = 0; i < mesh->triangles.size(); ++i) {
@@ -133,19 +142,23 @@ void Builder::emit(Shape shape, const AreaLight& lamp, bool each_triangle) {
 }
 
 bool Builder::room_for(const Shape& shape, const SourceLine& where) {
-    constexpr std::uint64_t most_triangles = std::uint64_t{1} << 26;  // about 4 GB, and as much again in Embree
-    const std::uint64_t more = triangles_of(shape);
-    if (triangles_ + more > most_triangles) {
-        if (triangles_ <= most_triangles)
-            sources_.report.error(where, "the scene has more than 2^26 triangles, its instances counted");
-        triangles_ = most_triangles + 1;
-        return false;
+    constexpr std::uint64_t most = std::uint64_t{1} << 27;  // about 4 GB, and as much again in Embree
+    const std::uint64_t more = size_of(shape);
+    if (size_ + more <= most) {
+        size_ += more;
+        return true;
     }
-    triangles_ += more;
-    return true;
+    if (size_ <= most)
+        sources_.report.error(where, "the scene has more than 2^27 vertices and triangles, its instances counted");
+    size_ = most + 1;
+    return false;
 }
 
 void Builder::add_shape(Shape shape) {
+    if (const auto* mesh = std::get_if<Mesh>(&shape.geometry); mesh && mesh->triangles.empty()) {
+        sources_.report.warn(shape.where, "a shape without any triangle is left out");
+        return;
+    }
     if (!room_for(shape, shape.where)) return;
     (open_object_ ? open_object_->shapes : scene_.shapes).push_back(std::move(shape));
 }

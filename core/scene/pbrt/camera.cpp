@@ -46,7 +46,7 @@ Shot make_camera(const std::string& type, Parameters& parameters, const Matrix& 
         const bool known = type == "orthographic" || type == "realistic" || type == "spherical";
         parameters.error(known ? fmt::format("cameras of type '{}' are not supported; there is 'perspective'", type)
                                : fmt::format("unknown camera '{}'{}", type, did_you_mean(type, {"perspective"})));
-        for (const auto& p : parameters.all()) parameters.ignore({p.name});
+        parameters.ignore_all();
         return shot;
     }
     shot.camera.fov = parameters.number("fov", 90);

@@ -24,7 +24,10 @@ std::optional<Rgb> radiance(Parameters& parameters, const Sources& sources) {
     }
     const float scale = parameters.number("scale", 1);
     if (scale < 0) parameters.error("'scale' must not be negative");
-    return colour * std::max(scale, 0.0f);
+    const Rgb radiance = colour * std::max(scale, 0.0f);
+    if (finite(radiance)) return radiance;
+    parameters.error("the light is infinitely bright");
+    return std::nullopt;
 }
 
 /// Mean over all directions of a picture around the scene: square ones have equal areas, others rows of latitude.
@@ -54,7 +57,7 @@ std::optional<AreaLight> make_area_light(const std::string& type, Parameters& pa
                                          const Sources& sources) {
     if (type != "diffuse") {
         parameters.error(fmt::format("unknown area light '{}' (there is 'diffuse')", type));
-        for (const auto& p : parameters.all()) parameters.ignore({p.name});
+        parameters.ignore_all();
         return std::nullopt;
     }
     AreaLight light;
@@ -82,7 +85,7 @@ std::optional<EnvironmentData> make_light(const std::string& type, Parameters& p
         parameters.error(
             known ? fmt::format("lights of type '{}' are not supported; there are 'infinite' and area lights", type)
                   : fmt::format("unknown light '{}'{}", type, did_you_mean(type, {"infinite"})));
-        for (const auto& p : parameters.all()) parameters.ignore({p.name});
+        parameters.ignore_all();
         return std::nullopt;
     }
     auto colour = radiance(parameters, sources);

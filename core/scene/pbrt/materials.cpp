@@ -198,7 +198,7 @@ Material make_material(const std::string& type, Parameters& parameters, const Ma
     if (parameters.find("normalmap")) parameters.warn("bumps by 'normalmap' are left out");
     if (const auto maker = makers().find(type); maker != makers().end()) return maker->second(parameters, sources);
     parameters.error(fmt::format("unknown material '{}'{}", type, hint(type)));
-    for (const auto& p : parameters.all()) parameters.ignore({p.name});
+    parameters.ignore_all();
     parameters.ignore({"reflectance"});
     Texture constant;
     constant.scale = grey;

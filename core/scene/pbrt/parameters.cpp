@@ -63,27 +63,30 @@ Parameters::Parameters(std::string owner, SourceLine where, Report& report)
     : owner_(std::move(owner)), where_(std::move(where)), report_(&report) {}
 
 void Parameters::add(Parameter parameter) {
-    const auto same = [&](const Parameter& p) { return p.name == parameter.name; };
-    if (const auto first = std::find_if(parameters_.begin(), parameters_.end(), same); first != parameters_.end()) {
+    constexpr std::size_t most_parameters = 256;
+    const auto same = [&](const auto& p) { return p->name == parameter.name; };
+    if (parameters_.size() == most_parameters) {
+        report_->error(parameter.where, owner_ + ": too many parameters");
+    } else if (std::any_of(parameters_.begin(), parameters_.end(), same)) {
         report_->error(parameter.where, fmt::format("{}: parameter '{}' is given twice", owner_, parameter.name));
-        return;
+    } else {
+        parameters_.push_back(std::make_shared<const Parameter>(std::move(parameter)));
+        own_ = parameters_.size();
     }
-    parameters_.push_back(std::move(parameter));
-    own_ = parameters_.size();
 }
 
-void Parameters::inherit(const std::vector<Parameter>& defaults) {
+void Parameters::inherit(const std::vector<std::shared_ptr<const Parameter>>& defaults) {
     for (const auto& parameter : defaults) {
-        const auto same = [&](const Parameter& p) { return p.name == parameter.name; };
+        const auto same = [&](const auto& p) { return p->name == parameter->name; };
         if (std::none_of(parameters_.begin(), parameters_.end(), same)) parameters_.push_back(parameter);
     }
 }
 
 const Parameter* Parameters::find(std::string_view name) {
     asked_.emplace(name);
-    const auto same = [&](const Parameter& p) { return p.name == name; };
+    const auto same = [&](const auto& p) { return p->name == name; };
     const auto found = std::find_if(parameters_.begin(), parameters_.end(), same);
-    return found == parameters_.end() ? nullptr : &*found;
+    return found == parameters_.end() ? nullptr : found->get();
 }
 
 const Parameter* Parameters::find(std::string_view name, Type type) {
@@ -153,10 +156,14 @@ void Parameters::ignore(std::initializer_list<std::string_view> names) {
     for (const auto name : names) asked_.emplace(name);
 }
 
+void Parameters::ignore_all() {
+    for (const auto& p : parameters_) asked_.insert(p->name);
+}
+
 void Parameters::warn_unused() const {
     const std::vector<std::string> known(asked_.begin(), asked_.end());
     for (std::size_t i = 0; i < own_; ++i) {
-        const auto& p = parameters_[i];
+        const auto& p = *parameters_[i];
         if (asked_.contains(p.name)) continue;
         report_->warn(p.where, fmt::format("{}: parameter '{}' is unknown here and has no effect{}", owner_, p.name,
                                            did_you_mean(p.name, known)));

@@ -3,7 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
+#include <initializer_list>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -58,8 +59,8 @@ public:
 
     void add(Parameter parameter);
     /// Values for names that the statement itself doesn't give (pbrt's Attribute statement).
-    void inherit(const std::vector<Parameter>& defaults);
-    const std::vector<Parameter>& all() const { return parameters_; }
+    void inherit(const std::vector<std::shared_ptr<const Parameter>>& defaults);
+    const std::vector<std::shared_ptr<const Parameter>>& all() const { return parameters_; }
 
     /// The parameter of that name, whatever its type.
     const Parameter* find(std::string_view name);
@@ -73,6 +74,8 @@ public:
     std::string text(std::string_view name, const std::string& fallback);
     std::vector<Vec3> triples(std::string_view name, Type type);
     std::vector<Vec2> pairs(std::string_view name, Type type);
+    /// Nobody looks at the rest of this statement.
+    void ignore_all();
     /// Names that may stand there without any effect on what is read here.
     void ignore(std::initializer_list<std::string_view> names);
 
@@ -92,7 +95,7 @@ private:
     std::string owner_;
     SourceLine where_;
     Report* report_;
-    std::vector<Parameter> parameters_;
+    std::vector<std::shared_ptr<const Parameter>> parameters_;
     std::size_t own_ = 0;  // the first so many are the statement's own
     std::set<std::string, std::less<>> asked_;
 };

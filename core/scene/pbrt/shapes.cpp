@@ -179,7 +179,11 @@ std::optional<Geometry> sphere(Parameters& parameters, const Sources&, const Pla
     const bool whole = part.z_min <= -radius && part.z_max >= radius && part.phi_max >= full_turn;
     if (whole && scale) {
         const Vec3 center = transform_point(placement.to_world, {});
-        return Sphere{center, float(radius * *scale), placement.flips(), axes_of(placement.to_world, *scale)};
+        const float size = float(radius * *scale);
+        if (finite(center) && std::isfinite(size) && size > 0)
+            return Sphere{center, size, placement.flips(), axes_of(placement.to_world, *scale)};
+        parameters.error("centre or radius is not finite after the transforms");
+        return std::nullopt;
     }
     parameters.warn(whole ? "a sphere that is scaled unevenly is cut into triangles"
                           : "a part of a sphere is cut into triangles");
@@ -220,7 +224,7 @@ std::optional<Geometry> make_shape(const std::string& type, Parameters& paramete
         alpha && (alpha->type != Type::number || alpha->numbers[0] < 1))
         parameters.warn("transparency by 'alpha' is left out");
     if (type == "curve") {
-        for (const auto& p : parameters.all()) parameters.ignore({p.name});
+        parameters.ignore_all();
         parameters.warn("curves are left out");
         return std::nullopt;
     }
@@ -229,7 +233,7 @@ std::optional<Geometry> make_shape(const std::string& type, Parameters& paramete
     std::vector<std::string> known;
     for (const auto& [name, maker] : makers()) known.push_back(name);
     parameters.error("unknown shape" + did_you_mean(type, known));
-    for (const auto& p : parameters.all()) parameters.ignore({p.name});
+    parameters.ignore_all();
     return std::nullopt;
 }
 

@@ -183,30 +183,50 @@ void Syntax::read_parameters(Statement& statement) {
 }
 
 void Syntax::read_parameter(Statement& statement, const Token& declaration) {
-    const SourceLine where = tokens_.here();
+    const std::string& owner = statement.parameters.owner();
+    Parameter parameter;
+    parameter.where = tokens_.here();
+    bool good = declare(parameter, declaration, owner);
+    const std::size_t count = read_values(parameter, good);
+    if (!good) return;
+    if (count == 0) {
+        report_.error(parameter.where, fmt::format("{}: parameter '{}' has no value", owner, parameter.name));
+    } else if (parameter.numbers.size() % width_of(parameter.type) != 0) {
+        report_.error(
+            parameter.where,
+            fmt::format("{}: parameter '{}' of type {} has {} numbers, which is no multiple of {}", owner,
+                        parameter.name, name_of(parameter.type), parameter.numbers.size(), width_of(parameter.type)));
+    } else {
+        statement.parameters.add(std::move(parameter));
+    }
+}
+
+bool Syntax::declare(Parameter& parameter, const Token& declaration, const std::string& owner) {
     const std::string text = unescape(declaration.raw);
     const auto type_end = text.find_first_of(" \t");
     const auto name_start = text.find_first_not_of(" \t", type_end);
-    Parameter parameter;
-    parameter.where = where;
-    bool good = false;
     if (type_end == std::string::npos || name_start == std::string::npos) {
-        report_.error(where, fmt::format("{}: a parameter is written \"type name\", not \"{}\"",
-                                         statement.parameters.owner(), shortened(text)));
-    } else {
-        const std::string word = text.substr(0, type_end);
-        parameter.name = text.substr(name_start, text.find_last_not_of(" \t") + 1 - name_start);
-        const auto type = type_named(word);
-        good = type.has_value();
-        if (!type)
-            report_.error(where,
-                          fmt::format("{}: parameter '{}' has the unknown type '{}'{}", statement.parameters.owner(),
-                                      shortened(parameter.name), shortened(word), did_you_mean(word, type_names())));
-        else if (name_of(*type) != word)
-            report_.warn(where, fmt::format("type '{}' is an older spelling, read as '{}'", word, name_of(*type)));
-        parameter.type = type.value_or(Type::text);
+        report_.error(parameter.where,
+                      fmt::format("{}: a parameter is written \"type name\", not \"{}\"", owner, shortened(text)));
+        return false;
     }
+    const std::string word = text.substr(0, type_end);
+    parameter.name = text.substr(name_start, text.find_last_not_of(" \t") + 1 - name_start);
+    const auto type = type_named(word);
+    if (!type) {
+        report_.error(parameter.where,
+                      fmt::format("{}: parameter '{}' has the unknown type '{}'{}", owner, shortened(parameter.name),
+                                  shortened(word), did_you_mean(word, type_names())));
+        return false;
+    }
+    if (name_of(*type) != word)
+        report_.warn(parameter.where,
+                     fmt::format("type '{}' is an older spelling, read as '{}'", word, name_of(*type)));
+    parameter.type = *type;
+    return true;
+}
 
+std::size_t Syntax::read_values(Parameter& parameter, bool& good) {
     const bool bracket = tokens_.peek() && tokens_.peek()->kind == Token::Kind::open;
     if (bracket) tokens_.next();
     std::size_t count = 0;
@@ -224,17 +244,7 @@ void Syntax::read_parameter(Statement& statement, const Token& declaration) {
     if (bracket && closed) tokens_.next();
     if (bracket && !closed)
         report_.error(tokens_.here(), fmt::format("parameter '{}': ']' is missing", shortened(parameter.name)));
-    if (!good) return;
-    if (count == 0) {
-        report_.error(where,
-                      fmt::format("{}: parameter '{}' has no value", statement.parameters.owner(), parameter.name));
-    } else if (parameter.numbers.size() % width_of(parameter.type) != 0) {
-        report_.error(where, fmt::format("{}: parameter '{}' of type {} has {} numbers, which is no multiple of {}",
-                                         statement.parameters.owner(), parameter.name, name_of(parameter.type),
-                                         parameter.numbers.size(), width_of(parameter.type)));
-    } else {
-        statement.parameters.add(std::move(parameter));
-    }
+    return count;
 }
 
 bool Syntax::read_value(Parameter& parameter, const Token& token) {

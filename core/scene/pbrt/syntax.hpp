@@ -35,6 +35,9 @@ private:
     bool read_numbers(Statement& statement, int count);
     void read_parameters(Statement& statement);
     void read_parameter(Statement& statement, const Token& declaration);
+    bool declare(Parameter& parameter, const Token& declaration, const std::string& owner);
+    /// How many values there are; `good` becomes false at the first broken one, which is reported.
+    std::size_t read_values(Parameter& parameter, bool& good);
     bool read_value(Parameter& parameter, const Token& token);
     bool read_number_value(Parameter& parameter, const Token& token);
     void skip_to_directive();

@@ -26,6 +26,9 @@ std::vector<std::string> names_of(const std::map<std::string, Value, std::less<>
     return names;
 }
 
+/// Far outside, floats can't tell pixels apart, and integers would overflow.
+float tame(float coordinate) { return std::isfinite(coordinate) ? std::clamp(coordinate, -0x1p20f, 0x1p20f) : 0.0f; }
+
 Rgb texel(const Image& image, Wrap wrap, std::int64_t x, std::int64_t y) {
     const std::int64_t w = image.width, h = image.height;
     const bool outside = x < 0 || y < 0 || x >= w || y >= h;
@@ -56,8 +59,8 @@ void lay(Texture& texture, Parameters& parameters) {
 Rgb look_up(const Texture& texture, Vec2 uv) {
     if (!texture.image) return inverted(texture, texture.scale);
     const Image& image = *texture.image;
-    const float u = uv.x * texture.uv_scale.x + texture.uv_offset.x,
-                v = uv.y * texture.uv_scale.y + texture.uv_offset.y;
+    const float u = tame(uv.x * texture.uv_scale.x + texture.uv_offset.x);
+    const float v = tame(uv.y * texture.uv_scale.y + texture.uv_offset.y);
     const float x = u * float(image.width) - 0.5f, y = (1 - v) * float(image.height) - 0.5f;
     const float fx = std::floor(x), fy = std::floor(y), dx = x - fx, dy = y - fy;
     const auto at = [&](int i, int j) {
@@ -85,12 +88,17 @@ void Textures::define(const std::string& name, const std::string& kind, const st
     }
     Named& named = kind == "float" ? floats_ : spectra_;
     if (named.contains(name)) parameters.error("a texture of that name and kind is there already");
-    Texture texture = make(type, named, parameters);
+    Texture texture = sources_.report.full() ? constant({}) : make(type, named, parameters);
     if (kind == "float" && texture.image)
         texture = bake({texture}, [](std::span<const Rgb> in) {
                       const float mean = (in[0].r + in[0].g + in[0].b) / 3;
                       return Rgb{mean, mean, mean};
                   }).texture;
+    // made of others: not yet counted
+    const auto same = [&](const auto& known) { return known.second == texture.image; };
+    if (texture.image && std::none_of(images_.begin(), images_.end(), same) &&
+        !room_for(*texture.image, parameters.where()))
+        texture = constant({0.5f, 0.5f, 0.5f});
     named.insert_or_assign(name, std::move(texture));
 }
 
@@ -103,7 +111,7 @@ Texture Textures::make(const std::string& type, Named& named, Parameters& parame
     static const std::vector<std::string> known{"imagemap", "constant", "scale", "mix", "checkerboard"};
     static const std::vector<std::string> unsupported{"bilerp", "directionmix", "dots",  "fbm",
                                                       "marble", "ptex",         "windy", "wrinkled"};
-    for (const auto& p : parameters.all()) parameters.ignore({p.name});
+    parameters.ignore_all();
     if (std::find(unsupported.begin(), unsupported.end(), type) != unsupported.end())
         parameters.warn(fmt::format("textures of class '{}' are not supported; grey 0.5 stands for it", type));
     else
@@ -187,7 +195,7 @@ Texture Textures::checkerboard(Named& named, Parameters& parameters) {
     lay(laid, parameters);
     if (parameters.integer("dimension", 2) != 2) parameters.warn("only checkerboards of dimension 2 are supported");
     const auto first = [](float s, float t) {
-        return (std::int64_t(std::floor(s)) + std::int64_t(std::floor(t))) % 2 == 0;
+        return (std::int64_t(std::floor(tame(s))) + std::int64_t(std::floor(tame(t)))) % 2 == 0;
     };
     if (a.image || b.image) {
         parameters.warn("a checkerboard of pictures is approximated by 1024 x 1024 pixels");
@@ -262,6 +270,14 @@ std::optional<float> Textures::number(Parameters& parameters, std::string_view n
     return mean_of(*found).r;
 }
 
+bool Textures::room_for(const Image& image, const SourceLine& where) {
+    constexpr std::uint64_t most = std::uint64_t{1} << 28;  // 3 GB
+    if (pixels_ > most) return false;
+    pixels_ += image.pixels.size();
+    if (pixels_ > most) sources_.report.error(where, "the pictures of the scene have more than 2^28 pixels in all");
+    return pixels_ <= most;
+}
+
 std::shared_ptr<const Image> Textures::image(const std::string& name, const Encoding& encoding,
                                              const SourceLine& where) {
     const auto key = std::pair(sources_.path(name), fmt::format("{} {}", int(encoding.curve), encoding.gamma));
@@ -272,6 +288,7 @@ std::shared_ptr<const Image> Textures::image(const std::string& name, const Enco
         } catch (const Error& problem) {
             sources_.report.error(where, fmt::format("'{}': {}", name, problem.what()));
         }
+    if (decoded && !room_for(*decoded, where)) decoded = nullptr;
     images_.emplace(key, decoded);
     return decoded;
 }

@@ -1,7 +1,7 @@
 // pbrt's textures, made into the two kinds that a scene has: a constant, or a picture.
 #pragma once
 
-#include <functional>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
@@ -49,12 +49,14 @@ private:
     Texture checkerboard(Named& named, Parameters& parameters);
     Texture input(Named& named, Parameters& parameters, std::string_view name, float fallback);
     const Texture* find(const Named& named, const Parameter& parameter);
+    bool room_for(const Image& image, const SourceLine& where);
     Encoding encoding_of(Parameters& parameters);
 
     const Sources& sources_;
     SceneData& scene_;
     Named floats_, spectra_;
     std::map<std::pair<std::string, std::string>, std::shared_ptr<const Image>> images_;  // by path and encoding
+    std::uint64_t pixels_ = 0;  // of all pictures
 };
 
 }  // namespace lightnet::pbrt
