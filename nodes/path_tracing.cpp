@@ -46,7 +46,7 @@ private:
         Rgb sum, weight{1, 1, 1};
         float squeezed = 1;  // by refraction, which is no loss: roulette must not see it
         for (std::uint32_t depth = 1;; ++depth) {
-            const float choice = samples.next();
+            const float choice = bsdf.chooses() ? samples.next() : samples.skip();
             const auto sample = bsdf.sample(outgoing, choice, samples.next_2d(), lobes);
             if (!sample) return sum;
             weight *= sample->weight;
