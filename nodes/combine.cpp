@@ -39,7 +39,8 @@ Kind combine_kind() {
         .params = {{.name = "weights",
                     .type = ParamType::numbers,
                     .help = "one per input; none: all 1",
-                    .initial = Value{Table{}}}},
+                    .initial = Value{Table{}},
+                    .per_input = true}},
         .make_light = [](const NodeContext& here) { return std::make_unique<Combine>(here); },
     };
 }

@@ -140,8 +140,10 @@ void Cluster::gather(std::chrono::milliseconds patience, const std::atomic<bool>
             if (link->broken()) throw Error(link->endpoint(), link->reason());
             ready |= link->state() == State::ready;
             absent |= link->state() == State::calling;
-            busy |= link->state() == State::greeted && !link->reason().empty();
-            pending |= link->state() == State::sending || link->state() == State::building;
+            const bool greeted = link->state() == State::greeted;
+            busy |= greeted && !link->reason().empty();
+            pending |= (greeted && link->reason().empty()) || link->state() == State::sending ||
+                       link->state() == State::building;
         }
         if (busy && said.empty())
             links_->options.say(said = "waiting for hosts that serve another run" + links_->reasons());
@@ -166,14 +168,14 @@ std::string Cluster::join_endpoint() const {
     return links_->joining ? links_->joining->get(zmq::sockopt::last_endpoint) : std::string();
 }
 
-Counters Cluster::finish() {
+Counters Cluster::finish(std::chrono::milliseconds patience) {
     std::set<HostLink*> open;
     for (auto& link : links_->links)
         if (link->state() != State::calling && link->state() != State::refused) {
             link->send_end();
             open.insert(link.get());
         }
-    const auto end = Clock::now() + std::chrono::seconds(1);
+    const auto end = Clock::now() + patience;
     Counters sum = links_->counters;
     while (!open.empty() && Clock::now() < end) {
         for (auto* link : std::set(open)) {

@@ -45,8 +45,8 @@ public:
     void lost(const std::string& endpoint);
     /// Where hosts may join, with the port that the system chose.
     std::string join_endpoint() const;
-    /// Ends the run on all hosts and returns what they counted. Waits for about a second at most.
-    Counters finish();
+    /// Ends the run on all hosts and returns what they counted, as far as they say so within `patience`.
+    Counters finish(std::chrono::milliseconds patience = std::chrono::seconds(1));
 
     bool ask(const PlaceAt& to, Message& message) override;
     void reply(Message message) override;

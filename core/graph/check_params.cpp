@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/graph/film_format.hpp"
+#include "core/graph/graph_film.hpp"
 #include "core/suggestion.hpp"
 
 namespace lightnet {
@@ -48,6 +48,9 @@ public:
         : param_(param), node_(node), graph_(graph), complain_(complain) {}
 
     void operator()(const Value& value) const {
+        if (const auto* ref = std::get_if<NodeRef>(&value.data);
+            ref && param_.type != ParamType::scene && !graph_.find(ref->name))
+            return complain_(quoted(param_.name) + ": nothing is called " + quoted(ref->name));
         switch (param_.type) {
             case ParamType::number:
             case ParamType::integer: number(value, quoted(param_.name), param_.type == ParamType::integer); break;
@@ -99,7 +102,7 @@ private:
         if (!table->named.empty()) complain_(quoted(param_.name) + " must be a table of numbers without keys");
         for (std::size_t i = 0; i < table->list.size(); ++i)
             number(table->list[i], "entry " + std::to_string(i + 1) + " of " + quoted(param_.name), false);
-        if (param_.per_input && table->list.size() != node_.entries.size())
+        if (param_.per_input && !table->list.empty() && table->list.size() != node_.entries.size())
             complain_(quoted(param_.name) + " must have one number for each of the " +
                       std::to_string(node_.entries.size()) + " inputs, not " + std::to_string(table->list.size()));
     }
@@ -132,7 +135,7 @@ private:
                 if (node.kind == "Scene") scenes.push_back(node.name);
             complain_("no scene called " + quoted(ref->name) + suggest(ref->name, scenes));
         } else if (const auto& kind = graph_.nodes[*found].kind; kind != "Scene") {
-            complain_(quoted(param_.name) + " must be a Scene, but " + quoted(ref->name) + " is a " + kind);
+            complain_(quoted(param_.name) + " must be a Scene, but " + quoted(ref->name) + " is of kind " + kind);
         }
     }
 

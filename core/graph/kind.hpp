@@ -37,7 +37,7 @@ struct Param {
     double most = std::numeric_limits<double>::infinity();
     std::vector<std::string> choices = {};          // for text: what it may be; empty: anything
     bool optional = false;                          // may be absent without a default
-    bool per_input = false;                         // for numbers: exactly one for each input of the node
+    bool per_input = false;                         // for numbers: one for each input of the node, or none at all
 };
 
 /// One kind of node.

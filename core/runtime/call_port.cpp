@@ -9,7 +9,7 @@
 namespace lightnet {
 namespace {
 
-constexpr std::size_t piece = 1024;
+constexpr std::size_t piece = 256;
 
 // Flush-to-zero, denormals-are-zero and rounding must be those that every place starts with.
 void check_float_mode() {

@@ -37,13 +37,19 @@ public:
     /// Hands out tiles and takes in pixels until all are there, or for about `most`. True when all are there. Throws
     /// Error when a node failed.
     bool work(std::chrono::nanoseconds most);
+    /// Hands out no more tiles.
+    void drain() { next_ = job_.tiles.size(), again_.clear(), draining_ = true; }
+    /// Tiles that are handed out and not answered.
+    std::size_t outstanding() const { return replicas_.outstanding(); }
     /// Places that render now.
     std::size_t renderers() const { return replicas_.size(); }
     const Counters& counters() const { return counters_; }
 
     void answered(const Bundle<Tile>& bundle, std::vector<Rgb> pixels) override;
     void failed(const Bundle<Tile>& bundle, const std::string& why) override;
-    void returned(Bundle<Tile> bundle) override { again_.push_back(std::move(bundle)); }
+    void returned(Bundle<Tile> bundle) override {
+        if (!draining_) again_.push_back(std::move(bundle));
+    }
 
 private:
     void hand_out();
@@ -58,6 +64,7 @@ private:
     std::deque<Bundle<Tile>> again_;  // came back unanswered
     std::size_t next_ = 0;            // tile to hand out
     std::size_t unanswered_;
+    bool draining_ = false;
     std::string error_;
 };
 

@@ -14,7 +14,8 @@ namespace lightnet {
 /// Renders tiles one after the other on the caller's thread. Opens no socket and makes no fiber.
 class SerialRun {
 public:
-    explicit SerialRun(const Network& network);
+    /// `pause` is called often; it may throw to end the work.
+    explicit SerialRun(const Network& network, std::function<void()> pause = {});
 
     /// All samples of the tile's block: see Renderer::render.
     std::vector<Rgb> render(const Tile& tile);

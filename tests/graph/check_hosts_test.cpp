@@ -1,0 +1,57 @@
+#include "core/graph/check_hosts.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/parse.hpp"
+
+namespace lightnet {
+namespace {
+
+using testing::HasSubstr;
+
+std::string problems_with_hosts(const std::string& hosts) {
+    return test::problems_of("sky = Ambient {}\nbox = Scene { 'b.pbrt' }\n"
+                             "image = RayTracer { sky, scene = box, film = { 8, 8 } }",
+                             parse_hosts(hosts, "hosts.lua"));
+}
+
+TEST(CheckHosts, AcceptsWhatCanRun) {
+    EXPECT_EQ(problems_with_hosts("place 'tcp://a:7777' { sky = 2, image = 1 }\nplace 'tcp://b:7777'"), "");
+}
+
+TEST(CheckHosts, SuggestsTheNodeYouMeant) {
+    EXPECT_EQ(problems_with_hosts("\nplace 'tcp://a:7777' { skye = 1 }"),
+              "hosts.lua:2: place 'tcp://a:7777': no node called 'skye' (did you mean 'sky'?)");
+}
+
+TEST(CheckHosts, KeepsScenesOutOfIt) {
+    EXPECT_THAT(problems_with_hosts("place 'tcp://a:7777' { box = 1 }"), HasSubstr("'box' is a scene, which every host has"));
+}
+
+TEST(CheckHosts, WantsAnEndpoint) {
+    for (const char* endpoint : {"onyx1", "tcp://onyx1", "tcp://:7", "tcp://a:0", "tcp://a:70000", "tcp://a:7x", "udp://a:7",
+                                 "tcp://a b:7", "tcp://*:7"})
+        EXPECT_THAT(problems_with_hosts("place '" + std::string(endpoint) + "' {}"), HasSubstr("tcp://host:7777")) << endpoint;
+}
+
+TEST(CheckHosts, WantsEachHostOnce) {
+    EXPECT_THAT(problems_with_hosts("place 'tcp://a:7' {}\nplace 'tcp://a:7' {}"),
+                HasSubstr("hosts.lua:2: place 'tcp://a:7': the host stands here twice"));
+}
+
+TEST(CheckHosts, WantsCountsThatMakeSense) {
+    EXPECT_THAT(problems_with_hosts("place 'tcp://a:7' { sky = 0 }"), HasSubstr("it must hold 1 … 1024 replicas, not 0"));
+    EXPECT_THAT(problems_with_hosts("place 'tcp://a:7' { sky = 3, places = 2 }"), HasSubstr("need as many places, but it has 2"));
+    EXPECT_THAT(problems_with_hosts("place 'tcp://a:7' { places = 5000 }"), HasSubstr("'places' must be 1 … 1024"));
+}
+
+TEST(Address, IsTakenApart) {
+    const auto address = address_of("tcp://onyx1.lab:7777");
+    ASSERT_TRUE(address);
+    EXPECT_EQ(address->host, "onyx1.lab");
+    EXPECT_EQ(address->port, 7777);
+}
+
+}  // namespace
+}  // namespace lightnet

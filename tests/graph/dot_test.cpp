@@ -1,0 +1,121 @@
+#include "core/graph/dot.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <filesystem>
+
+#include "tests/support/parse.hpp"
+
+namespace lightnet {
+namespace {
+
+using test::fake_registry;
+using test::sound_graph;
+using testing::HasSubstr;
+using testing::Not;
+
+// Runs `dot` over a text, and tells its exit status.
+int status_of_dot(const std::string& text) {
+    FILE* const dot = ::popen("/usr/bin/dot -Tsvg > /dev/null", "w");
+    std::fwrite(text.data(), 1, text.size(), dot);
+    return ::pclose(dot);
+}
+
+Graph two_lights() { return sound_graph("a = Ambient {} b = Ambient {} lighting = Combine { a, b }"); }
+
+std::string dot_with(const std::string& hosts, const std::vector<HostOffer>& offers) {
+    const Graph graph = two_lights();
+    const Plan where = plan(graph, fake_registry(), parse_hosts(hosts, "hosts.lua"), offers);
+    return to_dot(graph, fake_registry(), &where);
+}
+
+std::string dot_of_two_hosts() {
+    return dot_with("place 'tcp://x:1' { a = 2, lighting = 1 }\nplace 'tcp://y:1' { a = 1, b = 1, image = 2 }",
+                    {{"tcp://x:1", 1}, {"tcp://y:1", 1}});
+}
+
+TEST(Dot, DrawsAGraph) {
+    EXPECT_EQ(to_dot(two_lights(), fake_registry()), R"dot(digraph lightnet {
+  rankdir=LR;
+  node [shape=box, style=rounded, fontname="Helvetica"];
+  edge [fontname="Helvetica", fontsize=10];
+  launcher [shape=cds, label="launcher"];
+  node_a [label="a\nAmbient"];
+  node_b [label="b\nAmbient"];
+  node_lighting [label="lighting\nCombine"];
+  node_scene [shape=note, label="scene\nbox.pbrt"];
+  node_image [label="image\nRayTracer", penwidth=2];
+  launcher -> node_image [label="Tile → Pixels\ncall"];
+  node_lighting -> node_a [label="Query → Rgb\ncall"];
+  node_lighting -> node_b [label="Query → Rgb\ncall"];
+  node_image -> node_lighting [label="Query → 2 × Rgb\ncall"];
+  node_image -> node_scene [label="scene", style=dashed];
+}
+)dot");
+}
+
+TEST(Dot, DrawsAPlan) {
+    EXPECT_EQ(dot_with("place 'tcp://x:1' { a = 1, lighting = 1 }\nplace 'tcp://y:1' { a = 1, b = 1, image = 1 }",
+                       {{"tcp://x:1", 1}, {"tcp://y:1", 1}}),
+              R"dot(digraph lightnet {
+  rankdir=LR;
+  node [shape=box, style=rounded, fontname="Helvetica"];
+  edge [fontname="Helvetica", fontsize=10];
+  launcher [shape=cds, label="launcher"];
+  subgraph cluster_host_0 {
+    label="tcp://x:1"; style=filled; color=lightgrey;
+    subgraph cluster_place_0 {
+      label="place 0"; style="filled,rounded"; color=white;
+      node_a_0 [label="a\nAmbient"];
+      node_lighting_0 [label="lighting\nCombine"];
+    }
+  }
+  subgraph cluster_host_1 {
+    label="tcp://y:1"; style=filled; color=lightgrey;
+    subgraph cluster_place_1 {
+      label="place 0"; style="filled,rounded"; color=white;
+      node_a_1 [label="a\nAmbient"];
+      node_b_1 [label="b\nAmbient"];
+      node_image_1 [label="image\nRayTracer", penwidth=2];
+    }
+  }
+  launcher -> node_image_1 [label="Tile → Pixels\ntcp"];
+  node_lighting_0 -> node_a_0 [label="Query → Rgb\ncall"];
+  node_lighting_0 -> node_b_1 [label="Query → Rgb\ntcp bundles"];
+  node_image_1 -> node_lighting_0 [label="Query → 2 × Rgb\ntcp bundles"];
+}
+)dot");
+}
+
+TEST(Dot, ShowsMultiplexersWhereAnAskerHasAChoice) {
+    const std::string dot = dot_with("place 'tcp://x:1' { a = 2, b = 1 }\nplace 'tcp://y:1' { lighting = 1, image = 2 }",
+                                     {{"tcp://x:1", 1}, {"tcp://y:1", 1}});
+    EXPECT_THAT(dot, HasSubstr("choose_a_2 [shape=trapezium, style=solid, label=\"a × 2\"];"));
+    EXPECT_THAT(dot, HasSubstr("node_lighting_2 -> choose_a_2 [label=\"Query → Rgb\\ncall\"];"));
+    EXPECT_THAT(dot, HasSubstr("choose_a_2 -> node_a_0 [label=\"Query → Rgb\\ntcp bundles\"];"));
+    EXPECT_THAT(dot, HasSubstr("choose_a_2 -> node_a_1 [label=\"Query → Rgb\\ntcp bundles\"];"));
+    EXPECT_THAT(dot, HasSubstr("launcher -> choose_image [label=\"Tile → Pixels\\ncall\"];"));
+    EXPECT_THAT(dot, HasSubstr("node_image_3 -> node_lighting_2 [label=\"Query → 2 × Rgb\\ninproc bundles\"];"));
+}
+
+TEST(Dot, ShowsOnePlaceNextToTheOther) {
+    const Plan where = plan(two_lights(), fake_registry(), {}, {{"", 2}});
+    const std::string dot = to_dot(two_lights(), fake_registry(), &where, {{"", "here \"and\\now\""}});
+    EXPECT_THAT(dot, HasSubstr("label=\"here \\\"and\\\\now\\\"\""));
+    EXPECT_THAT(dot, HasSubstr("choose_image -> node_image_1 [label=\"Tile → Pixels\\ninproc\"];"));
+    EXPECT_THAT(dot, HasSubstr("node_image_1 -> node_lighting_1 [label=\"Query → 2 × Rgb\\ncall\"];"));
+    EXPECT_THAT(dot, Not(HasSubstr("choose_lighting")));
+}
+
+TEST(Dot, IsReadByGraphviz) {
+    if (!std::filesystem::exists("/usr/bin/dot")) GTEST_SKIP() << "no Graphviz here";
+    Graph odd = two_lights();
+    odd.nodes[3].entries[0] = {std::string("a \"quoted\"\\path\nwith <b>odd</b> signs.pbrt")};
+    EXPECT_EQ(status_of_dot(to_dot(odd, fake_registry())), 0);
+    EXPECT_EQ(status_of_dot(dot_of_two_hosts()), 0);
+}
+
+}  // namespace
+}  // namespace lightnet

@@ -1,0 +1,38 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/graph/plan.hpp"
+#include "tests/support/parse.hpp"
+
+namespace lightnet {
+namespace {
+
+using test::fake_registry;
+using test::sound_graph;
+using testing::ElementsAre;
+
+TEST(Layers, AreTheTerminalsOfAdditivePathsInGraphOrder) {
+    const Graph graph = sound_graph("direct = Ambient {} caustics = Ambient {}\n"
+                                    "first = Combine { caustics, direct }\n"
+                                    "bounce = Cache { first }\n"
+                                    "lighting = Combine { bounce, first }");
+    const Layers layers = layers_of(graph, fake_registry());
+    EXPECT_THAT(layers.film, ElementsAre("emission", "direct", "caustics", "bounce"));
+    EXPECT_THAT(layers.of_node, ElementsAre(ElementsAre(0), ElementsAre(1), ElementsAre(0, 1), ElementsAre(3),
+                                            ElementsAre(0, 1, 3), ElementsAre(), ElementsAre(0, 1, 3)));
+}
+
+TEST(Layers, CountANodeOnceHoweverManyWaysLeadToIt) {
+    const Graph graph = sound_graph("a = Ambient {} b = Combine { a, a } lighting = Combine { a, b }");
+    EXPECT_THAT(layers_of(graph, fake_registry()).film, ElementsAre("emission", "a"));
+}
+
+TEST(Layers, LeaveOutWhatANodeKeepsToItself) {
+    const Graph graph = sound_graph("a = Ambient {} sum = Combine { a, a } lighting = Cache { sum }");
+    const Layers layers = layers_of(graph, fake_registry());
+    EXPECT_THAT(layers.film, ElementsAre("emission", "lighting"));
+    EXPECT_THAT(layers.of_node[1], ElementsAre(1)) << "inside, a sum is one colour";
+}
+
+}  // namespace
+}  // namespace lightnet

@@ -1,0 +1,84 @@
+#include "core/graph/plan.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/support/parse.hpp"
+
+namespace lightnet {
+namespace {
+
+using test::fake_registry;
+using test::sound_graph;
+using testing::ElementsAre;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+// nodes: 0 a, 1 b, 2 lighting, 3 scene, 4 image
+Graph graph() { return sound_graph("a = Ambient {} b = Ambient {} lighting = Combine { a, b }"); }
+
+Plan plan_for(const std::string& hosts, const std::vector<HostOffer>& offers) {
+    return plan(graph(), fake_registry(), parse_hosts(hosts, "hosts.lua"), offers);
+}
+
+TEST(Plan, GivesEachPlaceTheWholeNetworkByDefault) {
+    const Plan where = plan(graph(), fake_registry(), {}, {{"", 3}});
+    EXPECT_THAT(where.places, ElementsAre(PlaceAt{"", 0}, PlaceAt{"", 1}, PlaceAt{"", 2}));
+    EXPECT_THAT(where.places_of, ElementsAre(ElementsAre(0, 1, 2), ElementsAre(0, 1, 2), ElementsAre(0, 1, 2), IsEmpty(),
+                                             ElementsAre(0, 1, 2)));
+}
+
+TEST(Plan, GivesEveryReplicaAPlace) {
+    const Plan where = plan_for("place 'tcp://x:1' { a = 3, b = 1, lighting = 1, image = 1 }", {{"tcp://x:1", 1}});
+    EXPECT_THAT(where.places_of[0], SizeIs(3));
+    EXPECT_THAT(std::set(where.places_of[0].begin(), where.places_of[0].end()), SizeIs(3)) << "each its own";
+    for (const std::size_t node : {1, 2, 4}) EXPECT_THAT(where.places_of[node], SizeIs(1));
+    EXPECT_THAT(where.places, SizeIs(3));
+}
+
+TEST(Plan, SpreadsNodesOverHosts) {
+    const Plan where = plan_for("place 'tcp://x:1' { a = 1, lighting = 1 }\nplace 'tcp://y:1' { a = 1, b = 1, image = 1 }",
+                                {{"tcp://x:1", 1}, {"tcp://y:1", 2}});
+    EXPECT_THAT(where.places, ElementsAre(PlaceAt{"tcp://x:1", 0}, PlaceAt{"tcp://y:1", 0}, PlaceAt{"tcp://y:1", 1}));
+    EXPECT_THAT(where.places_of, ElementsAre(ElementsAre(0, 1), ElementsAre(2), ElementsAre(0), IsEmpty(), ElementsAre(1)));
+}
+
+TEST(Plan, MakesNoPlaceWithoutANode) {
+    EXPECT_THAT(plan_for("place 'tcp://x:1' { a = 1, b = 1, lighting = 1, image = 1 }", {{"tcp://x:1", 16}}).places, SizeIs(4));
+}
+
+TEST(Plan, RecreatesNodesOfAbsentHostsWhereTheFewestAre) {
+    const Plan where = plan_for("place 'tcp://x:1' { a = 1, lighting = 1 }\nplace 'tcp://y:1' { image = 1 }\n"
+                                "place 'tcp://gone:1' { b = 2 }",
+                                {{"tcp://x:1", 1}, {"tcp://y:1", 1}});
+    EXPECT_THAT(where.places_of[1], ElementsAre(1));
+}
+
+TEST(Plan, KeepsReplicasThatAreLeft) {
+    const Plan where = plan_for("place 'tcp://x:1' { a = 1, b = 1, lighting = 1, image = 1 }\nplace 'tcp://gone:1' { a = 1 }",
+                                {{"tcp://x:1", 1}});
+    EXPECT_THAT(where.places_of[0], ElementsAre(0));
+}
+
+TEST(Plan, GivesWhoeverJoinsTheWholeNetwork) {
+    const Plan where = plan_for("place 'tcp://x:1' { a = 1 }", {{"tcp://x:1", 1}, {"tcp://new:1", 1}});
+    EXPECT_THAT(where.places_of[0], ElementsAre(0, 1));
+    EXPECT_THAT(where.places_of[4], ElementsAre(1));
+}
+
+TEST(Plan, TakesTheNumberOfPlacesFromTheHostsFile) {
+    EXPECT_THAT(plan_for("place 'tcp://x:1' { places = 2 }", {{"tcp://x:1", 8}}).places, SizeIs(2));
+    EXPECT_THAT(plan_for("place 'tcp://x:1'", {{"tcp://x:1", 8}}).places, SizeIs(8));
+}
+
+TEST(Plan, LeavesOutWhatThePictureDoesNotNeed) {
+    const Graph idle = sound_graph("idle = Ambient {} lighting = Ambient {}");
+    EXPECT_THAT(plan(idle, fake_registry(), {}, {{"", 2}}).places_of[0], IsEmpty());
+}
+
+TEST(Plan, WantsAPlace) { EXPECT_THROW(plan(graph(), fake_registry(), {}, {}), Error); }
+
+}  // namespace
+}  // namespace lightnet

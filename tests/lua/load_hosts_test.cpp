@@ -1,0 +1,46 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "lua/load_graph.hpp"
+#include "tests/support/parse.hpp"
+
+namespace lightnet {
+namespace {
+
+using testing::HasSubstr;
+
+std::string error_in(const std::string& text) {
+    return test::error_of([&] { parse_hosts(text, "hosts.lua"); });
+}
+
+TEST(LoadHosts, MakesAnEntryOfEachPlace) {
+    const Hosts hosts = parse_hosts("place 'tcp://a:7777' { sky = 2, image = 1 }\nplace 'tcp://b:7777' { places = 4 }\nplace 'tcp://c:7777'",
+                                    "hosts.lua");
+    EXPECT_EQ(hosts, (Hosts{"hosts.lua",
+                            {{"tcp://a:7777", {{"sky", 2}, {"image", 1}}, 0, {"hosts.lua", 1}},
+                             {"tcp://b:7777", {}, 4, {"hosts.lua", 2}},
+                             {"tcp://c:7777", {}, 0, {"hosts.lua", 3}}}}));
+}
+
+TEST(LoadHosts, ComputesHosts) {
+    const Hosts hosts = parse_hosts("for i = 1, 3 do place('tcp://onyx' .. i .. ':7777') { sky = i } end", "hosts.lua");
+    ASSERT_EQ(hosts.hosts.size(), 3u);
+    EXPECT_EQ(hosts.hosts[2].endpoint, "tcp://onyx3:7777");
+    EXPECT_EQ(hosts.hosts[2].replicas.at("sky"), 3);
+}
+
+TEST(LoadHosts, WantsWholeNumbersOfReplicas) {
+    EXPECT_THAT(error_in("place 'tcp://a:7' { sky = 1.5 }"), HasSubstr("hosts.lua:1: place 'tcp://a:7': how many 'sky'?"));
+    EXPECT_THAT(error_in("place 'tcp://a:7' { sky = 'two' }"), HasSubstr("how many 'sky'?"));
+    EXPECT_THAT(error_in("place 'tcp://a:7' { 'sky' }"), HasSubstr("nodes go by name"));
+}
+
+TEST(LoadHosts, KnowsNothingButPlaces) {
+    EXPECT_THAT(error_in("\nsky = Ambient {}"), HasSubstr("hosts.lua:2: a hosts file knows only place"));
+    EXPECT_THAT(error_in("place { sky = 1 }"), HasSubstr("place takes the host first"));
+    EXPECT_THAT(error_in("place 'tcp://a:7' (2)"), HasSubstr("takes a table"));
+    EXPECT_THAT(error_in("local x = plac"), HasSubstr("nothing is called 'plac' (did you mean 'place'?)"));
+}
+
+}  // namespace
+}  // namespace lightnet

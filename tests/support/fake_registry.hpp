@@ -1,0 +1,66 @@
+// Kinds without algorithms, for tests of graphs that nobody renders.
+#pragma once
+
+#include <limits>
+
+#include "core/graph/kind.hpp"
+
+namespace lightnet::test {
+
+inline Param count_param(const char* name, double initial) {
+    return {.name = name,
+            .type = ParamType::integer,
+            .help = "how many",
+            .unit = "samples",
+            .initial = Value{initial},
+            .least = 1,
+            .most = 64};
+}
+
+/// Gives light, by itself: `rays`, an optional `reach`, and `paths` of two kinds.
+inline Kind ambient() {
+    Kind kind{.name = "Ambient", .help = "light from everywhere"};
+    kind.params = {count_param("rays", 4),
+                   {.name = "reach", .help = "how far", .unit = "m", .least = 0, .optional = true},
+                   {.name = "paths",
+                    .type = ParamType::text,
+                    .help = "which light",
+                    .initial = Value{std::string("all")},
+                    .choices = {"all", "caustic"}},
+                   {.name = "soft", .type = ParamType::flag, .help = "without edges", .initial = Value{false}}};
+    return kind;
+}
+
+/// Sums light.
+inline Kind combine() {
+    Kind kind{.name = "Combine", .help = "sums its inputs"};
+    kind.least_inputs = 1;
+    kind.most_inputs = std::numeric_limits<std::size_t>::max();
+    kind.linear = true;
+    kind.params = {{.name = "weights",
+                    .type = ParamType::numbers,
+                    .help = "one per input",
+                    .initial = Value{Table{}},
+                    .per_input = true}};
+    return kind;
+}
+
+/// Does something to its input that isn't linear.
+inline Kind cache() {
+    Kind kind{.name = "Cache", .help = "remembers light"};
+    kind.least_inputs = kind.most_inputs = 1;
+    return kind;
+}
+
+inline Kind ray_tracer() {
+    Kind kind{.name = "RayTracer", .role = Role::image, .help = "makes the picture"};
+    kind.least_inputs = kind.most_inputs = 1;
+    kind.params = {{.name = "scene", .type = ParamType::scene, .help = "what is seen"},
+                   {.name = "film", .type = ParamType::film, .help = "size and file of the picture"},
+                   count_param("samples", 16)};
+    return kind;
+}
+
+inline Registry fake_registry() { return Registry({ray_tracer(), ambient(), combine(), cache()}); }
+
+}  // namespace lightnet::test

@@ -1,0 +1,123 @@
+#include "tools/launcher.hpp"
+
+#include <algorithm>
+#include <ostream>
+
+#include "core/graph/check_params.hpp"
+#include "core/graph/describe.hpp"
+#include "core/graph/dot.hpp"
+#include "core/graph/graph_film.hpp"
+#include "core/graph/plan.hpp"
+#include "tools/exit_code.hpp"
+#include "tools/loading.hpp"
+#include "tools/overrides.hpp"
+
+namespace lightnet {
+namespace {
+
+RunRequest request_of(const Options& options, const Registry& registry, Loaded loaded) {
+    RunRequest request;
+    request.scene = scene_file(loaded.graph, registry);
+    request.output = output_file(loaded.graph, registry, options);
+    request.graph = std::move(loaded.graph);
+    request.hosts = std::move(loaded.hosts);
+    request.seed = options.seed;
+    request.progress = options.progress;
+    request.listen = options.listen;
+    request.tuning = options.tuning;
+    request.threads = options.threads.value_or(1);
+    request.local_workers = options.local_workers.value_or(0);
+    if (!options.hosts.empty() || !options.listen.empty()) request.mode = Mode::hosts;
+    else if (options.local_workers) request.mode = Mode::local_workers;
+    else if (options.threads) request.mode = Mode::threads;
+    return request;
+}
+
+// What hosts will offer isn't known before they are asked: at least what the file says of them.
+std::vector<HostOffer> likely_offers(const Options& options, const Hosts& hosts) {
+    if (options.threads) return {{"", *options.threads}};
+    std::vector<HostOffer> offers;
+    for (const auto& host : hosts.hosts) offers.push_back({host.endpoint, static_cast<std::uint32_t>(std::max(host.places, 1))});
+    return offers;
+}
+
+void warn(const std::vector<Problem>& warnings, std::ostream& err) {
+    for (const auto& warning : warnings) err << "warning: " << to_string(warning) << '\n';
+}
+
+}  // namespace
+
+int Launcher::operator()(const std::vector<std::string>& arguments) const {
+    try {
+        const auto parsed = parse_options(arguments);
+        if (const auto* finished = std::get_if<Finished>(&parsed)) {
+            out << finished->out;
+            err << finished->err;
+            return finished->code;
+        }
+        return perform(std::get<Options>(parsed));
+    } catch (const UserError& error) {
+        err << error.what() << '\n';
+        return exit_code::usage;
+    } catch (const std::exception& error) {
+        err << "lightnet: " << error.what() << '\n';
+        return exit_code::failed;
+    }
+}
+
+int Launcher::perform(const Options& options) const {
+    switch (options.verb) {
+        case Verb::run: return perform_run(options);
+        case Verb::check: return perform_check(options);
+        case Verb::dot: return perform_dot(options);
+        case Verb::describe: return perform_describe(options);
+    }
+    return exit_code::usage;
+}
+
+int Launcher::perform_run(const Options& options) const {
+    Loaded loaded = load(options, registry, true);
+    warn(loaded.warnings, err);
+    return run(request_of(options, registry, std::move(loaded)));
+}
+
+int Launcher::perform_check(const Options& options) const {
+    const Loaded loaded = load(options, registry, true);
+    warn(loaded.warnings, err);
+    const auto format = film_of(loaded.graph, registry);
+    out << options.graph << ": sound: " << loaded.graph.nodes.size() << " nodes, " << format.width << "x" << format.height
+        << ", layers";
+    for (const auto& layer : layers_of(loaded.graph, registry).film) out << ' ' << layer;
+    out << '\n';
+    return exit_code::done;
+}
+
+int Launcher::perform_dot(const Options& options) const {
+    const Loaded loaded = load(options, registry, false);
+    warn(loaded.warnings, err);
+    const auto offers = likely_offers(options, loaded.hosts);
+    if (offers.empty()) {
+        out << to_dot(loaded.graph, registry);
+    } else {
+        const Plan where = plan(loaded.graph, registry, loaded.hosts, offers);
+        out << to_dot(loaded.graph, registry, &where);
+    }
+    return exit_code::done;
+}
+
+int Launcher::perform_describe(const Options& options) const {
+    if (options.kind.empty()) {
+        out << describe(registry);
+        return exit_code::done;
+    }
+    if (const Kind* kind = registry.find(options.kind)) {
+        out << describe(*kind);
+        return exit_code::done;
+    }
+    std::vector<std::string> known;
+    for (const auto& kind : registry.kinds()) known.push_back(kind.name);
+    err << "lightnet: there is no kind '" << options.kind << "'" << suggest(options.kind, known) << '\n';
+    return exit_code::usage;
+}
+
+}  // namespace lightnet

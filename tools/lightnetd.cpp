@@ -1,0 +1,66 @@
+// The worker daemon: lends the cores of its host to one run after the other.
+#include <CLI/CLI.hpp>
+
+#include <sys/prctl.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <iostream>
+#include <string>
+
+#include "core/build_info.hpp"
+#include "core/error.hpp"
+#include "nodes/standard_nodes.hpp"
+#include "tools/exit_code.hpp"
+#include "tools/reach.hpp"
+#include "tools/signals.hpp"
+#include "transport/host.hpp"
+
+namespace {
+
+// Ends with the launcher that started it, however that ends.
+void live_no_longer_than(int parent) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) _exit(0);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("lightnetd: renders for others. Serves one run at a time, run after run, until it is told to stop.");
+    lightnet::Host::Options options;
+    bool insecure = false, quiet = false;
+    int parent = 0;
+    app.add_option("--listen", options.listen, "where launchers find it; port * lets the system choose")
+        ->capture_default_str();
+    app.add_option("--join", options.join, "endpoint of a launcher to report to");
+    app.add_option("--places", options.places, "threads that render; 0: one per core")->capture_default_str();
+    app.add_option("--cache", options.cache, "folder for files of scenes (default: ~/.cache/lightnet)");
+    app.add_flag("--insecure", insecure, "listen beyond this machine: whoever reaches the port can have it render");
+    app.add_flag("--quiet", quiet, "say nothing but where it listens");
+    app.add_option("--parent", parent, "end when this process ends")->group("");
+    app.set_version_flag("--version", "lightnetd " + lightnet::build_id());
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? lightnet::exit_code::done : lightnet::exit_code::usage;
+    }
+    if (!insecure && !lightnet::stays_on_this_machine(options.listen)) {
+        std::cerr << "lightnetd: " << lightnet::beyond_this_machine("--listen " + options.listen) << '\n';
+        return lightnet::exit_code::usage;
+    }
+    if (parent) live_no_longer_than(parent);
+    if (!quiet && !parent) options.log = [](const std::string& text) { std::cerr << "lightnetd: " << text << std::endl; };
+    try {
+        const auto& stop = lightnet::watch_signals();
+        const lightnet::Registry registry{lightnet::standard_nodes()};
+        lightnet::Host host(options, registry);
+        std::cout << "listening on " << host.endpoint() << std::endl;
+        host.serve(stop.any);
+        return 0;
+    } catch (const std::exception& error) {
+        std::cerr << "lightnetd: " << error.what() << '\n';
+        return 1;
+    }
+}

@@ -1,0 +1,65 @@
+#include "tools/loading.hpp"
+
+#include <netdb.h>
+
+#include <fstream>
+#include <filesystem>
+
+#include "core/graph/check.hpp"
+#include "core/graph/check_hosts.hpp"
+#include "core/graph/graph_film.hpp"
+#include "lua/load_graph.hpp"
+#include "tools/overrides.hpp"
+
+namespace lightnet {
+namespace {
+
+// Scenes are read much later, perhaps elsewhere; that a file is there can be said at once.
+void check_scene_files(const Graph& graph, std::vector<Problem>& problems) {
+    for (const auto& node : graph.nodes) {
+        if (node.kind != "Scene" || node.entries.size() != 1) continue;
+        const auto* path = std::get_if<std::string>(&node.entries[0].data);
+        if (!path) continue;
+        const std::string file = beside_graph(graph, *path);
+        std::error_code ignored;
+        if (!std::filesystem::is_regular_file(file, ignored) || !std::ifstream(file))
+            problems.push_back({node.where, "Scene '" + node.name + "': can't read '" + file + "'"});
+    }
+}
+
+// A name server that doesn't answer proves nothing.
+bool surely_unknown(const std::string& host) {
+    addrinfo* found = nullptr;
+    const int fault = ::getaddrinfo(host.c_str(), nullptr, nullptr, &found);
+    if (fault == 0) ::freeaddrinfo(found);
+    return fault == EAI_NONAME;
+}
+
+void check_names(const Hosts& hosts, std::vector<Problem>& problems) {
+    for (const auto& entry : hosts.hosts)
+        if (const auto address = address_of(entry.endpoint); address && surely_unknown(address->host))
+            problems.push_back({entry.where, "place '" + entry.endpoint + "': no host is called '" + address->host + "'"});
+}
+
+}  // namespace
+
+Loaded load(const Options& options, const Registry& registry, bool names_of_hosts) {
+    GraphFile file = read_graph(options.graph, {.constants = options.constants});
+    std::vector<Problem> problems = std::move(file.problems);
+    Hosts hosts;
+    try {
+        if (!options.hosts.empty()) hosts = load_hosts(options.hosts);
+    } catch (const UserError& error) {
+        problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+    override_picture(file.graph, registry, options);
+    Examined found = examine(file.graph, registry, hosts);
+    problems.insert(problems.end(), found.problems.begin(), found.problems.end());
+    check_scene_files(file.graph, problems);
+    if (names_of_hosts) check_names(hosts, problems);
+    sort_by_line(problems, file.graph.file);
+    if (!problems.empty()) throw UserError(std::move(problems));
+    return {std::move(found.graph), std::move(hosts), std::move(found.warnings)};
+}
+
+}  // namespace lightnet

@@ -1,0 +1,25 @@
+// From the names of files to what may run.
+#pragma once
+
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/graph/graph.hpp"
+#include "core/graph/hosts.hpp"
+#include "core/graph/kind.hpp"
+#include "tools/options.hpp"
+
+namespace lightnet {
+
+/// A sound graph, and where it runs.
+struct Loaded {
+    Graph graph;                       // checked
+    Hosts hosts;                       // empty without a hosts file
+    std::vector<Problem> warnings;
+};
+
+/// Reads the files that the options name, applies what they override, and checks all of it. Throws UserError that
+/// names all problems of the graph, of the hosts and of the way to the scene. `names_of_hosts`: look hosts up, too.
+Loaded load(const Options& options, const Registry& registry, bool names_of_hosts);
+
+}  // namespace lightnet

@@ -1,0 +1,209 @@
+#include "tools/options.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <sstream>
+
+#include "core/build_info.hpp"
+#include "core/graph/graph_film.hpp"
+#include "core/suggestion.hpp"
+#include "tools/exit_code.hpp"
+#include "tools/reach.hpp"
+
+namespace lightnet {
+namespace {
+
+const std::vector<std::pair<std::string, Verb>> verbs{
+    {"run", Verb::run}, {"check", Verb::check}, {"dot", Verb::dot}, {"describe", Verb::describe}};
+
+std::optional<std::uint32_t> side_of(std::string_view text) {
+    std::uint32_t side = 0;
+    const auto [end, fault] = std::from_chars(text.begin(), text.end(), side);
+    if (fault != std::errc{} || end != text.end() || side < 1 || side > longest_side) return std::nullopt;
+    return side;
+}
+
+std::optional<PictureSize> size_of(std::string_view text) {
+    const auto cross = text.find('x');
+    if (cross == std::string_view::npos) return std::nullopt;
+    const auto width = side_of(text.substr(0, cross)), height = side_of(text.substr(cross + 1));
+    if (!width || !height) return std::nullopt;
+    return PictureSize{*width, *height};
+}
+
+/// The grammar of the command line, and what it fills.
+class Grammar {
+public:
+    Grammar() : app_("A lighting network: one graph, serial, threaded or networked, the same picture.", "lightnet") {
+        app_.set_version_flag("--version", "lightnet " + version());
+        app_.require_subcommand(1);
+        app_.footer("exit codes: 0 done, 1 the run failed, 2 usage, graph or scene error, 3 no worker reachable, "
+                    "130 interrupted");
+        add_run();
+        add_check();
+        add_dot();
+        add_describe();
+    }
+
+    std::variant<Options, Finished> parse(std::vector<std::string> arguments) {
+        if (auto unknown = unknown_verb(arguments)) return *unknown;
+        const std::vector<std::string> typed = arguments;
+        std::reverse(arguments.begin(), arguments.end());   // so the library wants them
+        try {
+            app_.parse(arguments);
+        } catch (const CLI::Success& done) {
+            std::ostringstream out, err;
+            app_.exit(done, out, err);
+            return Finished{exit_code::done, out.str(), err.str()};
+        } catch (const CLI::ExtrasError&) {
+            return usage(unknown_argument(typed));
+        } catch (const CLI::ParseError& error) {
+            return usage(error.what());
+        }
+        for (const auto& [name, verb] : verbs)
+            if (app_.got_subcommand(name)) options_.verb = verb;
+        if (!options_.listen.empty() && !options_.insecure && !stays_on_this_machine(options_.listen))
+            return usage(beyond_this_machine("--listen " + options_.listen));
+        return options_;
+    }
+
+private:
+    static Finished usage(const std::string& what) {
+        return {exit_code::usage, "", "lightnet: " + what + "\n" + "try: lightnet --help\n"};
+    }
+
+    // The library would only say that a verb is missing.
+    std::optional<Finished> unknown_verb(const std::vector<std::string>& arguments) const {
+        if (arguments.empty()) return Finished{exit_code::usage, "", app_.help()};
+        if (arguments[0].starts_with('-')) return std::nullopt;
+        std::vector<std::string> known;
+        for (const auto& [name, verb] : verbs) known.push_back(name);
+        if (std::find(known.begin(), known.end(), arguments[0]) != known.end()) return std::nullopt;
+        return usage("there is no verb '" + arguments[0] + "'" + did_you_mean(arguments[0], known));
+    }
+
+    std::string unknown_argument(const std::vector<std::string>& typed) const {
+        const auto chosen = app_.get_subcommands();
+        const CLI::App& verb = chosen.empty() ? app_ : *chosen.front();
+        std::vector<std::string> known;
+        for (const auto* option : verb.get_options())
+            for (const auto& name : option->get_lnames()) known.push_back("--" + name);
+        for (const auto& argument : typed) {
+            const std::string name = argument.substr(0, argument.find('='));
+            if (name.starts_with("--") && std::find(known.begin(), known.end(), name) == known.end())
+                return "there is no option '" + name + "'" + did_you_mean(name, known);
+        }
+        const auto left = app_.remaining(true);
+        return "what is '" + (left.empty() ? std::string() : left.front()) + "' for?";
+    }
+
+    void add_graph(CLI::App& verb) {
+        verb.add_option("GRAPH", options_.graph, "the graph file")->required();
+        // one value each time, or it would take the graph's name as well
+        verb.add_option_function<std::vector<std::string>>(
+                "-D", [this](const std::vector<std::string>& given) { add_constants(given); },
+                "override a constant of the graph file (may be repeated)")
+            ->type_name("NAME=VALUE")
+            ->expected(1)
+            ->allow_extra_args(false)
+            ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    }
+
+    void add_constants(const std::vector<std::string>& given) {
+        for (const auto& one : given) {
+            const auto equals = one.find('=');
+            if (equals == std::string::npos || equals == 0) throw CLI::ValidationError("-D", "wants NAME=VALUE, not " + one);
+            options_.constants[one.substr(0, equals)] = one.substr(equals + 1);
+        }
+    }
+
+    CLI::Option* add_hosts(CLI::App& verb) {
+        return verb.add_option("--hosts", options_.hosts, "the hosts file: where nodes run")->type_name("FILE");
+    }
+
+    CLI::Option* add_threads(CLI::App& verb) {
+        return verb.add_option("--threads", options_.threads, "places in this process")
+            ->type_name("N")
+            ->check(CLI::Range(1, 1024));
+    }
+
+    void add_picture(CLI::App& verb) {
+        verb.add_option("--samples", options_.samples, "samples per pixel, instead of the graph's")
+            ->type_name("N")
+            ->check(CLI::PositiveNumber);
+        verb.add_option_function<std::string>(
+                "--size", [this](const std::string& text) { options_.size = size_of(text); },
+                "size of the picture, instead of the graph's")
+            ->type_name("WxH")
+            ->check([](const std::string& text) { return size_of(text) ? "" : "a size is like 640x480, not " + text; });
+    }
+
+    void add_run() {
+        CLI::App& verb = *app_.add_subcommand("run", "render a graph");
+        add_graph(verb);
+        add_picture(verb);
+        auto* const hosts = add_hosts(verb);
+        auto* const threads = add_threads(verb)->excludes(hosts);
+        verb.add_option("--local-workers", options_.local_workers, "daemons to start on this machine")
+            ->type_name("N")
+            ->check(CLI::Range(1, 1024))
+            ->excludes(hosts)
+            ->excludes(threads);
+        verb.add_option("-o,--output", options_.output, "the picture, instead of the graph's")->type_name("OUT.exr");
+        verb.add_option("--seed", options_.seed, "root of all random numbers")->type_name("N");
+        verb.add_option_function<std::string>(
+                "--progress", [this](const std::string& text) { options_.progress = *progress_mode(text); },
+                "how progress is shown")
+            ->type_name("auto|bar|plain|json|none")
+            ->check(CLI::IsMember({"auto", "bar", "plain", "json", "none"}));
+        verb.add_option("--listen", options_.listen, "where lightnetd --join may join, even in the middle of the run")
+            ->type_name("tcp://HOST:PORT")
+            ->excludes(threads);
+        verb.add_flag("--insecure", options_.insecure, "listen beyond this machine, on a network that is yours alone");
+        add_tuning(verb);
+    }
+
+    // The picture does not depend on any of these.
+    void add_tuning(CLI::App& verb) {
+        auto& tuning = options_.tuning;
+        const auto add = [&](const char* name, std::uint32_t& value, int least, int most, const char* help) {
+            verb.add_option(name, value, help)->type_name("N")->check(CLI::Range(least, most))->group("Tuning");
+        };
+        add("--tile", tuning.tile, 1, 256, "pixels along a side of a tile");
+        add("--bundle", tuning.bundle, 1, 65536, "questions in a full bundle");
+        add("--credit", tuning.credit, 1, 1024, "bundles under way to one place, per node asked");
+        add("--spare-fibers", tuning.spare_fibers, 0, 4096, "fibers of a place beside one per node");
+    }
+
+    void add_check() {
+        CLI::App& verb = *app_.add_subcommand("check", "find everything that is wrong with a graph");
+        add_graph(verb);
+        add_picture(verb);
+        add_hosts(verb);
+    }
+
+    void add_dot() {
+        CLI::App& verb = *app_.add_subcommand("dot", "draw a graph, in the language of Graphviz");
+        add_graph(verb);
+        auto* const hosts = add_hosts(verb);
+        add_threads(verb)->excludes(hosts);
+    }
+
+    void add_describe() {
+        CLI::App& verb = *app_.add_subcommand("describe", "list the kinds of nodes, or tell all of one");
+        verb.add_option("KIND", options_.kind, "the kind to tell of");
+    }
+
+    CLI::App app_;
+    Options options_;
+};
+
+}  // namespace
+
+std::variant<Options, Finished> parse_options(const std::vector<std::string>& arguments) {
+    return Grammar().parse(arguments);
+}
+
+}  // namespace lightnet

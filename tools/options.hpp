@@ -1,0 +1,52 @@
+// What the user typed.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/film/progress.hpp"
+#include "tools/run.hpp"
+
+namespace lightnet {
+
+enum class Verb { run, check, dot, describe };
+
+/// Width and height, pixels.
+struct PictureSize {
+    std::uint32_t width = 0, height = 0;
+    friend bool operator==(const PictureSize&, const PictureSize&) = default;
+};
+
+/// The command line, taken apart. What wasn't given is absent.
+struct Options {
+    Verb verb = Verb::run;
+    std::string graph;                               // file
+    std::string hosts;                               // file; "": none
+    std::optional<std::uint32_t> threads;            // places in this process
+    std::optional<std::uint32_t> local_workers;      // daemons to start here
+    std::string output;                              // file; "": as the graph says
+    std::optional<std::uint32_t> samples;            // per pixel
+    std::optional<PictureSize> size;
+    std::uint64_t seed = 0;
+    std::map<std::string, std::string> constants;    // -D
+    ProgressMode progress = ProgressMode::automatic;
+    std::string listen;                              // endpoint where hosts may join
+    bool insecure = false;                           // even beyond this machine
+    Tuning tuning;
+    std::string kind;                                // for describe; "": all
+};
+
+/// The command line leaves nothing to do: print, and exit with `code`.
+struct Finished {
+    int code = 0;
+    std::string out, err;
+};
+
+/// Takes a command line (without the program's name) apart. Flags may stand in any order after the verb.
+std::variant<Options, Finished> parse_options(const std::vector<std::string>& arguments);
+
+}  // namespace lightnet

@@ -1,0 +1,37 @@
+#include "tools/overrides.hpp"
+
+#include <filesystem>
+
+#include "core/graph/graph_film.hpp"
+
+namespace lightnet {
+namespace {
+
+// A film that is wrong stays as it is, so that check() can say so.
+void set_size(Value& film, const PictureSize& size) {
+    if (auto* table = std::get_if<Table>(&film.data))
+        table->list = {{static_cast<double>(size.width)}, {static_cast<double>(size.height)}};
+}
+
+}  // namespace
+
+void override_picture(Graph& graph, const Registry& registry, const Options& options) {
+    for (auto& node : graph.nodes) {
+        const Kind* kind = registry.find(node.kind);
+        if (!kind || kind->role != Role::image) continue;
+        for (const auto& param : kind->params) {
+            if (options.samples && param.name == "samples")
+                node.params[param.name] = {static_cast<double>(*options.samples)};
+            if (options.size && param.type == ParamType::film)
+                set_size(node.params.try_emplace(param.name, Value{Table{}}).first->second, *options.size);
+        }
+    }
+}
+
+std::string output_file(const Graph& graph, const Registry& registry, const Options& options) {
+    if (!options.output.empty()) return options.output;
+    if (const auto file = film_of(graph, registry).file; !file.empty()) return file;
+    return std::filesystem::path(graph.file).stem().string() + ".exr";
+}
+
+}  // namespace lightnet

@@ -1,0 +1,18 @@
+// Puts what the command line says in place of what the graph says.
+#pragma once
+
+#include <string>
+
+#include "core/graph/graph.hpp"
+#include "core/graph/kind.hpp"
+#include "tools/options.hpp"
+
+namespace lightnet {
+
+/// Writes --samples and --size into the renderers of an unchecked graph.
+void override_picture(Graph& graph, const Registry& registry, const Options& options);
+
+/// Where the picture of a checked graph goes: -o, else the film's file, else the graph's name with .exr, here.
+std::string output_file(const Graph& graph, const Registry& registry, const Options& options);
+
+}  // namespace lightnet
