@@ -37,7 +37,7 @@ private:
     }
 
     Rgb from_direction(const Gathering& at, Samples& samples) const {
-        const float choice = samples.next();
+        const float choice = at.bsdf.chooses() ? samples.next() : samples.skip();
         const auto sample = at.bsdf.sample(at.outgoing, choice, samples.next_2d(), at.lobes);
         if (!sample) return {};
         const Ray ray{at.point.origin_towards(sample->incoming), sample->incoming};

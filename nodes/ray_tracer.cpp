@@ -88,7 +88,7 @@ private:
             if (!(lobes & lobe::specular) || depth >= max_depth_) return emitted;
 
             Samples samples(child(look.key, chain_key, depth), look.sample);
-            const float choice = samples.next();
+            const float choice = bsdf.chooses() ? samples.next() : samples.skip();
             const auto sample = bsdf.sample(outgoing, choice, samples.next_2d(), lobe::specular);
             if (!sample) return emitted;
             weight *= sample->weight;

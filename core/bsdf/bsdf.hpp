@@ -22,12 +22,15 @@ namespace lightnet {
 /// transmission goes to the other one, whatever the shading normal says, so that no light leaks.
 class Bsdf {
 public:
+    /// The first two have nothing to choose from.
     using Model = std::variant<DiffuseBsdf, ConductorBsdf, DielectricBsdf, ThinDielectricBsdf, CoatedDiffuseBsdf>;
 
     Bsdf(const Frame& shading, Vec3 normal, const Model& model) : shading_(shading), normal_(normal), model_(model) {}
 
     /// Which lobes the surface has.
     std::uint8_t lobes() const;
+    /// Does sample() look at its `choice`?
+    bool chooses() const { return model_.index() > 1; }
     /// f × |cos incoming| for the non-specular lobes among `lobes`, sr⁻¹; and the density with which sample() with the
     /// same `lobes` finds `incoming`, per steradian. Both exactly 0 for specular lobes.
     BsdfValue value_and_pdf(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const;

@@ -1,7 +1,8 @@
-// A perfectly diffuse reflector.
+// A perfectly diffuse reflector. All in the header: it is what most surfaces are.
 #pragma once
 
 #include "core/bsdf/scattering.hpp"
+#include "core/math/sampling.hpp"
 
 namespace lightnet {
 
@@ -10,8 +11,19 @@ struct DiffuseBsdf {
     Rgb albedo;
 
     std::uint8_t lobes() const { return lobe::diffuse; }
-    BsdfValue evaluate(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const;
-    std::optional<BsdfSample> sample(Vec3 outgoing, float choice, Vec2 u, std::uint8_t lobes) const;
+
+    BsdfValue evaluate(Vec3, Vec3 incoming, std::uint8_t lobes) const {
+        if (!(lobes & lobe::diffuse) || incoming.z <= 0) return {};
+        const float pdf = incoming.z * inverse_pi;
+        return {albedo * pdf, pdf};
+    }
+
+    std::optional<BsdfSample> sample(Vec3, float, Vec2 u, std::uint8_t lobes) const {
+        if (!(lobes & lobe::diffuse)) return {};
+        const Vec3 incoming = cosine_hemisphere(u);
+        if (incoming.z <= 0) return {};
+        return BsdfSample{incoming, albedo, incoming.z * inverse_pi, lobe::diffuse};
+    }
 };
 
 }  // namespace lightnet

@@ -15,7 +15,12 @@ public:
     Samples(Key key, std::uint32_t index) : key_(key), index_(index) {}
 
     Vec2 next_2d() { return sobol_point(mix(key_ + 0xd1342543de82ef95ull * ++dimension_), index_); }
-    float next() { return next_2d().x; }
+    float next() { return sobol_coordinate(mix(key_ + 0xd1342543de82ef95ull * ++dimension_), index_); }
+    /// Passes over a dimension that isn't needed here, so that later ones keep their places.
+    float skip() {
+        ++dimension_;
+        return 0;
+    }
 
 private:
     Key key_;

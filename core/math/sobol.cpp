@@ -6,8 +6,7 @@ namespace lightnet {
 namespace {
 
 constexpr std::uint32_t reverse_bits(std::uint32_t x) {
-    x = (x << 16) | (x >> 16);
-    x = ((x & 0x00ff00ffu) << 8) | ((x & 0xff00ff00u) >> 8);
+    x = __builtin_bswap32(x);
     x = ((x & 0x0f0f0f0fu) << 4) | ((x & 0xf0f0f0f0u) >> 4);
     x = ((x & 0x33333333u) << 2) | ((x & 0xccccccccu) >> 2);
     return ((x & 0x55555555u) << 1) | ((x & 0xaaaaaaaau) >> 1);
@@ -40,19 +39,36 @@ constexpr auto second_dimension = [] {
     return table;
 }();
 
+struct Seeds {
+    std::uint32_t order, first, second;
+};
+
+constexpr Seeds seeds_of(Key key) {
+    const std::uint64_t other = mix(key + 0x9e3779b97f4a7c15ull);
+    return {static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(other),
+            static_cast<std::uint32_t>(other >> 32)};
+}
+
+// The first dimension is the index with its bits reversed, so its scramble starts without a reversal.
+constexpr std::uint32_t first_dimension(std::uint32_t shuffled, std::uint32_t seed) {
+    return reverse_bits(laine_karras(shuffled, seed));
+}
+
 constexpr float to_unit(std::uint32_t x) { return static_cast<float>(x >> 8) * 0x1p-24f; }
 
 }  // namespace
 
 Vec2 sobol_point(Key key, std::uint32_t index) {
-    const std::uint64_t other = mix(key + 0x9e3779b97f4a7c15ull);
-    const std::uint32_t i = owen_scramble(index, static_cast<std::uint32_t>(key));
+    const Seeds seeds = seeds_of(key);
+    const std::uint32_t i = owen_scramble(index, seeds.order);
     const std::uint32_t second = second_dimension[0][i & 255] ^ second_dimension[1][i >> 8 & 255] ^
                                  second_dimension[2][i >> 16 & 255] ^ second_dimension[3][i >> 24];
-    // The first dimension is the index with its bits reversed, so its scramble starts without a reversal.
-    const std::uint32_t x = reverse_bits(laine_karras(i, static_cast<std::uint32_t>(other)));
-    const std::uint32_t y = owen_scramble(second, static_cast<std::uint32_t>(other >> 32));
-    return {to_unit(x), to_unit(y)};
+    return {to_unit(first_dimension(i, seeds.first)), to_unit(owen_scramble(second, seeds.second))};
+}
+
+float sobol_coordinate(Key key, std::uint32_t index) {
+    const Seeds seeds = seeds_of(key);
+    return to_unit(first_dimension(owen_scramble(index, seeds.order), seeds.first));
 }
 
 }  // namespace lightnet

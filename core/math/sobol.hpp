@@ -13,4 +13,7 @@ namespace lightnet {
 /// indices is stratified in [0,1)². Different keys give independent sequences.
 Vec2 sobol_point(Key key, std::uint32_t index);
 
+/// Its first coordinate alone, for less.
+float sobol_coordinate(Key key, std::uint32_t index);
+
 }  // namespace lightnet

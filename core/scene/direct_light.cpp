@@ -3,9 +3,13 @@
 namespace lightnet {
 
 Rgb light_by_lamp(const Scene& scene, const Gathering& at, Samples& samples, Heuristic heuristic) {
-    const float choice = samples.next();
+    const bool useless = !(at.lobes & at.bsdf.lobes() & lobe::rough) || !scene.has_lamps();
+    const float choice = useless || !scene.has_many_lamps() ? samples.skip() : samples.next();
+    if (useless) {
+        samples.skip();
+        return {};
+    }
     const Vec2 u = samples.next_2d();
-    if (!(at.lobes & lobe::rough) || !scene.has_lamps()) return {};
     const auto lamp = scene.sample_light(at.point.position, choice, u);
     if (!lamp) return {};
     const auto [value, pdf] = at.bsdf.value_and_pdf(at.outgoing, lamp->direction, at.lobes);

@@ -2,6 +2,7 @@
 
 #include "core/math/frame.hpp"
 #include "core/math/sampling.hpp"
+#include "core/scene/triangle.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,11 +12,6 @@
 
 namespace lightnet {
 namespace {
-
-float area_of(const Mesh& mesh, std::uint32_t triangle) {
-    const auto [a, b, c] = corners(mesh, triangle);
-    return 0.5f * length(cross(b - a, c - a));
-}
 
 // A ball around all triangles: the middle of their box, and the farthest corner.
 std::pair<Vec3, float> ball_around(const Mesh& mesh) {
@@ -66,24 +62,6 @@ bool inside(const Sphere& sphere, float distance2) { return distance2 <= sphere.
 
 }  // namespace
 
-Corners corners(const Mesh& mesh, std::uint32_t triangle) {
-    const auto [a, b, c] = mesh.triangles[triangle];
-    return {mesh.positions[a], mesh.positions[b], mesh.positions[c]};
-}
-
-Vec3 geometric_normal(const Mesh& mesh, std::uint32_t triangle) {
-    const auto [a, b, c] = corners(mesh, triangle);
-    const Vec3 n = cross(b - a, c - a);
-    const float size = length(n);
-    if (!(size > 0)) return {0, 0, 1};
-    bool flip = mesh.flip_normals;
-    if (!mesh.normals.empty()) {
-        const auto [i, j, k] = mesh.triangles[triangle];
-        flip = dot(n, mesh.normals[i] + mesh.normals[j] + mesh.normals[k]) < 0;
-    }
-    return n * ((flip ? -1 : 1) / size);
-}
-
 Lights::Lights(const std::vector<Shape>& shapes) : lamp_of_(shapes.size(), no_lamp) {
     std::vector<double> powers;
     for (std::size_t s = 0; s < shapes.size(); ++s) {
@@ -92,8 +70,12 @@ Lights::Lights(const std::vector<Shape>& shapes) : lamp_of_(shapes.size(), no_la
         Lamp lamp;
         lamp.shape = &shape;
         if (const auto* mesh = std::get_if<Mesh>(&shape.geometry)) {
-            std::vector<double> areas(mesh->triangles.size());
-            for (std::size_t t = 0; t < areas.size(); ++t) areas[t] = area_of(*mesh, std::uint32_t(t));
+            std::vector<double> areas;
+            for (std::uint32_t t = 0; t < mesh->triangles.size(); ++t) {
+                const Corners at = corners(*mesh, t);
+                lamp.facets.push_back({at.a, at.b - at.a, at.c - at.a, geometric_normal(*mesh, t, at)});
+                areas.push_back(0.5 * length(cross(at.b - at.a, at.c - at.a)));
+            }
             lamp.area = float(running_shares(areas, lamp.ends));
             std::tie(lamp.center, lamp.radius) = ball_around(*mesh);
         } else {
@@ -114,17 +96,14 @@ Lights::Lights(const std::vector<Shape>& shapes) : lamp_of_(shapes.size(), no_la
 
 std::optional<LightSample> Lights::sample(Vec3 from, float choice, Vec2 u) const {
     if (lamps_.empty()) return {};
-    const Lamp& lamp = lamps_[pick(ends_, choice)];
+    const Lamp& lamp = lamps_[many() ? pick(ends_, choice) : 0];
     return std::holds_alternative<Mesh>(lamp.shape->geometry) ? on_mesh(lamp, from, u) : on_sphere(lamp, from, u);
 }
 
 std::optional<LightSample> Lights::on_mesh(const Lamp& lamp, Vec3 from, Vec2 u) const {
-    const auto& mesh = std::get<Mesh>(lamp.shape->geometry);
-    const auto which = std::uint32_t(pick(lamp.ends, u.x));
-    const auto [a, b, c] = corners(mesh, which);
+    const auto& [corner, first_edge, second_edge, normal] = lamp.facets[pick(lamp.ends, u.x)];
     const Vec2 at = triangle(u);
-    const Vec3 position = a * (1 - at.x - at.y) + b * at.x + c * at.y;
-    const Vec3 normal = geometric_normal(mesh, which);
+    const Vec3 position = corner + first_edge * at.x + second_edge * at.y;
     const Vec3 way = position - from;
     const float distance2 = length_squared(way);
     const Vec3 direction = way / std::sqrt(distance2);

@@ -31,6 +31,8 @@ public:
     explicit Lights(const std::vector<Shape>& shapes);
 
     bool empty() const { return lamps_.empty(); }
+    /// There is more than one to choose from.
+    bool many() const { return lamps_.size() > 1; }
     /// None: no light can reach the point by this sample.
     std::optional<LightSample> sample(Vec3 from, float choice, Vec2 u) const;
     /// Density with which sample() finds the emitting point `on`, which lies in `direction` from `from`. 0: not a lamp.
@@ -39,13 +41,18 @@ public:
     bool may_meet(const Ray& ray) const;
 
 private:
+    /// A triangle of a lamp.
+    struct Facet {
+        Vec3 corner, first_edge, second_edge, normal;
+    };
     struct Lamp {
         const Shape* shape = nullptr;
-        float chance = 0;         // to be chosen
-        float area = 0;           // m²
-        Vec3 center;              // of a ball around it
-        float radius = 0;         // of that ball, m
-        std::vector<float> ends;  // of a mesh: share of the area up to and with each triangle
+        float chance = 0;           // to be chosen
+        float area = 0;             // m²
+        Vec3 center;                // of a ball around it
+        float radius = 0;           // of that ball, m
+        std::vector<Facet> facets;  // of a mesh
+        std::vector<float> ends;    // share of the area up to and with each facet
     };
     std::optional<LightSample> on_mesh(const Lamp& lamp, Vec3 from, Vec2 u) const;
     std::optional<LightSample> on_sphere(const Lamp& lamp, Vec3 from, Vec2 u) const;
@@ -55,14 +62,5 @@ private:
     std::vector<std::uint32_t> lamp_of_;  // by shape; no_lamp
     static constexpr std::uint32_t no_lamp = 0xffffffffu;
 };
-
-/// A triangle of a mesh.
-struct Corners {
-    Vec3 a, b, c;
-};
-Corners corners(const Mesh& mesh, std::uint32_t triangle);
-
-/// Unit normal of a triangle, on the side of the mesh's shading normals; without them by the order of its vertices.
-Vec3 geometric_normal(const Mesh& mesh, std::uint32_t triangle);
 
 }  // namespace lightnet

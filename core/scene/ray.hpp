@@ -10,8 +10,8 @@ namespace lightnet {
 
 struct Ray {
     Vec3 origin;
-    Vec3 direction;                                             // unit
-    float far = std::numeric_limits<float>::infinity();         // metres along the direction
+    Vec3 direction;                                      // unit
+    float far = std::numeric_limits<float>::infinity();  // metres along the direction
 };
 
 /// What names a point of a surface: no more than a Query carries.
@@ -19,8 +19,8 @@ struct Hit {
     std::uint32_t instance = 0xffffffffu;
     std::uint32_t geometry = 0;
     std::uint32_t primitive = 0;
-    float u = 0, v = 0;         // barycentric; for spheres the octahedral normal
-    float distance = 0;         // along the ray; not part of the name
+    float u = 0, v = 0;  // barycentric; for spheres the octahedral normal
+    float distance = 0;  // along the ray; not part of the name
 };
 
 }  // namespace lightnet

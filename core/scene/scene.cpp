@@ -110,6 +110,7 @@ float Scene::light_pdf(Vec3 from, Vec3 direction, const SurfacePoint& on) const 
 float Scene::environment_pdf(Vec3) const { return 0; }
 bool Scene::has_environment() const { return !is_black(built_->sky); }
 bool Scene::has_lamps() const { return !built_->lights.empty(); }
+bool Scene::has_many_lamps() const { return built_->lights.many(); }
 
 bool Scene::may_shine(const Ray& ray) const { return has_environment() || built_->lights.may_meet(ray); }
 

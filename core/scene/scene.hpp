@@ -58,6 +58,7 @@ public:
     float environment_pdf(Vec3 direction) const;
     bool has_environment() const;
     bool has_lamps() const;
+    bool has_many_lamps() const;
     /// Could the ray end where light comes from? False is certain, true is a guess that is cheaper than tracing it.
     bool may_shine(const Ray& ray) const;
     /// Is nothing between the surface point and a point of a lamp?

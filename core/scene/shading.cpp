@@ -3,8 +3,8 @@
 #include "core/error.hpp"
 #include "core/math/octahedral.hpp"
 #include "core/math/sampling.hpp"
-#include "core/scene/lights.hpp"
 #include "core/scene/textures.hpp"
+#include "core/scene/triangle.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -45,6 +45,15 @@ Ggx facets_of(float alpha_u, float alpha_v) {
 
 float largest(Vec3 v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
 
+// Rounding of a point grows with the coordinates of the shape: fully for spheres, far less for triangles.
+float least_offset(const Shape& shape) {
+    if (const auto* sphere = std::get_if<Sphere>(&shape.geometry))
+        return 0x1p-20f * (largest(sphere->center) + sphere->radius);
+    float reach = 0;
+    for (const Vec3 p : std::get<Mesh>(shape.geometry).positions) reach = std::max(reach, largest(p));
+    return 0x1p-21f * reach;
+}
+
 // The frame around `z` whose x axis lies along `tangent`.
 Frame frame_along(Vec3 z, Vec3 tangent) {
     const Vec3 x = tangent - z * dot(z, tangent);
@@ -76,7 +85,12 @@ Shading::Shading(const SceneData& data) : data_(data) {
         const auto* coated = std::get_if<CoatedDiffuseMaterial>(&material.model);
         coats_.push_back(coated ? std::make_unique<Coat>(coated->eta, coated->alpha_u, coated->alpha_v) : nullptr);
     }
-    for (const auto& shape : data.shapes) needs_.push_back(of_material[shape.material]);
+    for (std::uint32_t i = 0; i < data.materials.size(); ++i)
+        plain_.push_back(of_material[i].uv ? std::nullopt : std::optional(model_at(i, {})));
+    for (const auto& shape : data.shapes) {
+        needs_.push_back(of_material[shape.material]);
+        needs_.back().offset = least_offset(shape);
+    }
 }
 
 SurfacePoint Shading::point(std::uint32_t geometry, std::uint32_t primitive, float u, float v) const {
@@ -95,10 +109,8 @@ SurfacePoint Shading::on_mesh(const Mesh& mesh, Needs needs, std::uint32_t primi
     const float w = 1 - u - v;
     SurfacePoint point;
     point.position = at.a * w + at.b * u + at.c * v;
-    point.normal = geometric_normal(mesh, primitive);
-    // Rounding grows with the coordinates of the point, and, far less, with those of the corners.
-    const float corner = std::max({largest(at.a), largest(at.b), largest(at.c)});
-    point.offset = 0x1p-16f * std::max(largest(point.position), corner / 32);
+    point.normal = geometric_normal(mesh, primitive, at);
+    point.offset = std::max(0x1p-16f * largest(point.position), needs.offset);
 
     Vec3 shading = point.normal;
     if (!mesh.normals.empty()) {
@@ -119,7 +131,7 @@ SurfacePoint Shading::on_sphere(const Sphere& sphere, Needs needs, float u, floa
     SurfacePoint point;
     point.position = sphere.center + outwards * sphere.radius;
     point.normal = sphere.flip_normals ? -outwards : outwards;
-    point.offset = 0x1p-20f * (largest(sphere.center) + sphere.radius);
+    point.offset = needs.offset;
     point.shading = Frame::around(point.normal);
     if (!needs.uv && !needs.tangent) return point;
 
@@ -137,10 +149,12 @@ SurfacePoint Shading::on_sphere(const Sphere& sphere, Needs needs, float u, floa
 }
 
 Bsdf Shading::bsdf(const SurfacePoint& point) const {
-    return {point.shading, point.normal, model(data_.shapes[point.geometry].material, point.uv)};
+    const std::uint32_t material = data_.shapes[point.geometry].material;
+    if (const auto& plain = plain_[material]) return {point.shading, point.normal, *plain};
+    return {point.shading, point.normal, model_at(material, point.uv)};
 }
 
-Bsdf::Model Shading::model(std::uint32_t material, Vec2 uv) const {
+Bsdf::Model Shading::model_at(std::uint32_t material, Vec2 uv) const {
     const auto colour = [&](TextureId texture) { return look_up(data_.textures[texture], uv); };
     const auto albedo = [&](TextureId texture) {
         const Rgb c = colour(texture);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/bsdf/bsdf.hpp"
@@ -25,14 +26,16 @@ private:
     struct Needs {
         bool uv = false;       // an image is looked up
         bool tangent = false;  // roughness depends on the direction
+        float offset = 0;      // least distance by which rays must leave the shape, m
     };
     SurfacePoint on_mesh(const Mesh& mesh, Needs needs, std::uint32_t primitive, float u, float v) const;
     SurfacePoint on_sphere(const Sphere& sphere, Needs needs, float u, float v) const;
-    Bsdf::Model model(std::uint32_t material, Vec2 uv) const;
+    Bsdf::Model model_at(std::uint32_t material, Vec2 uv) const;
 
     const SceneData& data_;
     std::vector<Needs> needs_;                        // by shape
     std::vector<std::unique_ptr<const Coat>> coats_;  // by material
+    std::vector<std::optional<Bsdf::Model>> plain_;   // by material: the same everywhere, as no image is looked up
 };
 
 }  // namespace lightnet
