@@ -4,9 +4,9 @@
 namespace lightnet::exit_code {
 
 inline constexpr int done = 0;
-inline constexpr int failed = 1;         // the run
-inline constexpr int usage = 2;          // command line, graph or scene
-inline constexpr int no_worker = 3;      // none reachable
+inline constexpr int failed = 1;     // the run
+inline constexpr int usage = 2;      // command line, graph or scene
+inline constexpr int no_worker = 3;  // none reachable
 inline constexpr int interrupted = 130;
 
 }  // namespace lightnet::exit_code

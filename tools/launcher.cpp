@@ -25,9 +25,12 @@ RunRequest request_of(const Options& options, const Registry& registry, Loaded l
     request.progress = options.progress;
     request.threads = options.threads.value_or(1);
     request.local_workers = options.local_workers.value_or(0);
-    if (!options.hosts.empty()) request.mode = Mode::hosts;
-    else if (options.local_workers) request.mode = Mode::local_workers;
-    else if (options.threads) request.mode = Mode::threads;
+    if (!options.hosts.empty())
+        request.mode = Mode::hosts;
+    else if (options.local_workers)
+        request.mode = Mode::local_workers;
+    else if (options.threads)
+        request.mode = Mode::threads;
     return request;
 }
 
@@ -35,7 +38,8 @@ RunRequest request_of(const Options& options, const Registry& registry, Loaded l
 std::vector<HostOffer> likely_offers(const Options& options, const Hosts& hosts) {
     if (options.threads) return {{"", *options.threads}};
     std::vector<HostOffer> offers;
-    for (const auto& host : hosts.hosts) offers.push_back({host.endpoint, static_cast<std::uint32_t>(std::max(host.places, 1))});
+    for (const auto& host : hosts.hosts)
+        offers.push_back({host.endpoint, static_cast<std::uint32_t>(std::max(host.places, 1))});
     return offers;
 }
 
@@ -65,10 +69,14 @@ int Launcher::operator()(const std::vector<std::string>& arguments) const {
 
 int Launcher::perform(const Options& options) const {
     switch (options.verb) {
-        case Verb::run: return perform_run(options);
-        case Verb::check: return perform_check(options);
-        case Verb::dot: return perform_dot(options);
-        case Verb::describe: return perform_describe(options);
+        case Verb::run:
+            return perform_run(options);
+        case Verb::check:
+            return perform_check(options);
+        case Verb::dot:
+            return perform_dot(options);
+        case Verb::describe:
+            return perform_describe(options);
     }
     return exit_code::usage;
 }
@@ -83,8 +91,8 @@ int Launcher::perform_check(const Options& options) const {
     const Loaded loaded = load(options, registry, true);
     warn(loaded.warnings, err);
     const auto format = film_format(loaded.graph, registry);
-    out << options.graph << ": sound: " << loaded.graph.nodes.size() << " nodes, " << format.width << "x" << format.height
-        << ", layers";
+    out << options.graph << ": sound: " << loaded.graph.nodes.size() << " nodes, " << format.width << "x"
+        << format.height << ", layers";
     for (const auto& layer : layers_of(loaded.graph, registry).film) out << ' ' << layer;
     out << '\n';
     return exit_code::done;

@@ -15,9 +15,9 @@ namespace lightnet {
 /// What the launcher is made of.
 struct Launcher {
     const Registry& registry;
-    std::function<int(const RunRequest&)> run;   // renders; an exit code
-    std::ostream& out;                           // data
-    std::ostream& err;                           // messages
+    std::function<int(const RunRequest&)> run;  // renders; an exit code
+    std::ostream& out;                          // data
+    std::ostream& err;                          // messages
 
     /// Runs a command line (without the program's name) and returns the exit code; never throws.
     int operator()(const std::vector<std::string>& arguments) const;

@@ -2,8 +2,8 @@
 
 #include <netdb.h>
 
-#include <fstream>
 #include <filesystem>
+#include <fstream>
 
 #include "core/graph/check.hpp"
 #include "core/graph/check_hosts.hpp"
@@ -38,7 +38,8 @@ bool surely_unknown(const std::string& host) {
 void check_names(const Hosts& hosts, std::vector<Problem>& problems) {
     for (const auto& entry : hosts.hosts)
         if (const auto address = address_of(entry.endpoint); address && surely_unknown(address->host))
-            problems.push_back({entry.where, "place '" + entry.endpoint + "': no host is called '" + address->host + "'"});
+            problems.push_back(
+                {entry.where, "place '" + entry.endpoint + "': no host is called '" + address->host + "'"});
 }
 
 }  // namespace

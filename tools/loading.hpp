@@ -13,8 +13,8 @@ namespace lightnet {
 
 /// A sound graph, and where it runs.
 struct Loaded {
-    Graph graph;                       // checked
-    Hosts hosts;                       // empty without a hosts file
+    Graph graph;  // checked
+    Hosts hosts;  // empty without a hosts file
     std::vector<Problem> warnings;
 };
 

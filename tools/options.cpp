@@ -38,8 +38,9 @@ public:
     Grammar() : app_("A lighting network: one graph, serial, threaded or networked, the same picture.", "lightnet") {
         app_.set_version_flag("--version", "lightnet " + version());
         app_.require_subcommand(1);
-        app_.footer("exit codes: 0 done, 1 the run failed, 2 usage, graph or scene error, 3 no worker reachable, "
-                    "130 interrupted");
+        app_.footer(
+            "exit codes: 0 done, 1 the run failed, 2 usage, graph or scene error, 3 no worker reachable, "
+            "130 interrupted");
         add_run();
         add_check();
         add_dot();
@@ -49,7 +50,7 @@ public:
     std::variant<Options, Finished> parse(std::vector<std::string> arguments) {
         if (auto unknown = unknown_verb(arguments)) return *unknown;
         const std::vector<std::string> typed = arguments;
-        std::reverse(arguments.begin(), arguments.end());   // so the library wants them
+        std::reverse(arguments.begin(), arguments.end());  // so the library wants them
         try {
             app_.parse(arguments);
         } catch (const CLI::Success& done) {
@@ -111,7 +112,8 @@ private:
     void add_constants(const std::vector<std::string>& given) {
         for (const auto& one : given) {
             const auto equals = one.find('=');
-            if (equals == std::string::npos || equals == 0) throw CLI::ValidationError("-D", "wants NAME=VALUE, not " + one);
+            if (equals == std::string::npos || equals == 0)
+                throw CLI::ValidationError("-D", "wants NAME=VALUE, not " + one);
             options_.constants[one.substr(0, equals)] = one.substr(equals + 1);
         }
     }
@@ -149,7 +151,9 @@ private:
             ->excludes(hosts)
             ->excludes(threads);
         verb.add_option("-o,--output", options_.output, "the picture, instead of the graph's")->type_name("OUT.exr");
-        verb.add_option("--seed", options_.seed, "root of all random numbers")->type_name("N");
+        verb.add_option("--seed", options_.seed, "root of all random numbers")
+            ->type_name("N")
+            ->check(CLI::NonNegativeNumber);  // or -1 would be a very large number
         verb.add_option_function<std::string>(
                 "--progress", [this](const std::string& text) { options_.progress = *progress_mode(text); },
                 "how progress is shown")

@@ -23,17 +23,17 @@ struct PictureSize {
 /// The command line, taken apart. What wasn't given is absent.
 struct Options {
     Verb verb = Verb::run;
-    std::string graph;                               // file
-    std::string hosts;                               // file; "": none
-    std::optional<std::uint32_t> threads;            // places in this process
-    std::optional<std::uint32_t> local_workers;      // daemons to start here
-    std::string output;                              // file; "": as the graph says
-    std::optional<std::uint32_t> samples;            // per pixel
+    std::string graph;                           // file
+    std::string hosts;                           // file; "": none
+    std::optional<std::uint32_t> threads;        // places in this process
+    std::optional<std::uint32_t> local_workers;  // daemons to start here
+    std::string output;                          // file; "": as the graph says
+    std::optional<std::uint32_t> samples;        // per pixel
     std::optional<PictureSize> size;
     std::uint64_t seed = 0;
-    std::map<std::string, std::string> constants;    // -D
+    std::map<std::string, std::string> constants;  // -D
     ProgressMode progress = ProgressMode::automatic;
-    std::string kind;                                // for describe; "": all
+    std::string kind;  // for describe; "": all
 };
 
 /// The command line leaves nothing to do: print, and exit with `code`.

@@ -16,13 +16,13 @@ enum class Mode { serial, threads, hosts, local_workers };
 
 /// A run, ready to go.
 struct RunRequest {
-    Graph graph;                           // checked; --samples and --size are in it
-    Hosts hosts;                           // mode hosts: at least one; else empty
+    Graph graph;  // checked; --samples and --size are in it
+    Hosts hosts;  // mode hosts: at least one; else empty
     Mode mode = Mode::serial;
-    std::uint32_t threads = 1;             // mode threads: places in this process
-    std::uint32_t local_workers = 0;       // mode local_workers: daemons to start
-    std::string scene;                     // file, as seen from here
-    std::string output;                    // "x.exr", as seen from here
+    std::uint32_t threads = 1;        // mode threads: places in this process
+    std::uint32_t local_workers = 0;  // mode local_workers: daemons to start
+    std::string scene;                // file, as seen from here
+    std::string output;               // "x.exr", as seen from here
     std::uint64_t seed = 0;
     ProgressMode progress = ProgressMode::automatic;
 };

@@ -22,8 +22,9 @@ class Bench {
 public:
     Bench() {
         folder_.write("box.pbrt", "");
-        graph = folder_.write("graph.lua", "rays = 4\nlighting = Ambient { rays = rays }\nscene = Scene { 'box.pbrt' }\n"
-                                           "image = RayTracer { lighting, scene = scene, film = { 8, 4, file = 'x.exr' } }");
+        graph = folder_.write("graph.lua",
+                              "rays = 4\nlighting = Ambient { rays = rays }\nscene = Scene { 'box.pbrt' }\n"
+                              "image = RayTracer { lighting, scene = scene, film = { 8, 4, file = 'x.exr' } }");
     }
 
     int operator()(std::vector<std::string> words) {
@@ -61,7 +62,8 @@ TEST(Launcher, RunsASoundGraph) {
 
 TEST(Launcher, OverridesWhatTheGraphSays) {
     Bench lightnet;
-    lightnet({"run", lightnet.graph, "--samples", "3", "--size", "20x10", "-o", "y.exr", "-D", "rays=9", "--threads", "2"});
+    lightnet(
+        {"run", lightnet.graph, "--samples", "3", "--size", "20x10", "-o", "y.exr", "-D", "rays=9", "--threads", "2"});
     ASSERT_EQ(lightnet.runs.size(), 1u) << lightnet.err;
     const RunRequest& run = lightnet.runs[0];
     EXPECT_EQ(film_format(run.graph, test::fake_registry()), (FilmFormat{20, 10, "x.exr"}));
@@ -82,9 +84,10 @@ TEST(Launcher, KnowsTheHosts) {
 
 TEST(Launcher, RunsNothingThatIsWrong) {
     Bench lightnet;
-    const std::string bad = lightnet.write("bad.lua", "lighting = Ambient { ray = 1 }\nscene = Scene { 'bix.pbrt' }\n"
-                                                      "image = RayTracer { lighting, scene = scene, film = { 8, 4 } }\n"
-                                                      "local odd = Ambient {}");
+    const std::string bad = lightnet.write("bad.lua",
+                                           "lighting = Ambient { ray = 1 }\nscene = Scene { 'bix.pbrt' }\n"
+                                           "image = RayTracer { lighting, scene = scene, film = { 8, 4 } }\n"
+                                           "local odd = Ambient {}");
     const std::string hosts = lightnet.write("h.lua", "place 'tcp://127.0.0.1:7777' { imag = 1 }");
     EXPECT_EQ(lightnet({"run", bad, "--hosts", hosts}), 2);
     EXPECT_THAT(lightnet.runs, IsEmpty());
@@ -92,7 +95,8 @@ TEST(Launcher, RunsNothingThatIsWrong) {
     EXPECT_THAT(lightnet.err, HasSubstr(":1: Ambient 'lighting': unknown parameter 'ray' (did you mean 'rays'?)\n"));
     EXPECT_THAT(lightnet.err, HasSubstr(":2: Scene 'scene': can't read '"));
     EXPECT_THAT(lightnet.err, HasSubstr(":4: Ambient: the node has no name"));
-    EXPECT_THAT(lightnet.err, HasSubstr("h.lua:1: place 'tcp://127.0.0.1:7777': no node called 'imag' (did you mean 'image'?)\n"));
+    EXPECT_THAT(lightnet.err,
+                HasSubstr("h.lua:1: place 'tcp://127.0.0.1:7777': no node called 'imag' (did you mean 'image'?)\n"));
 }
 
 TEST(Launcher, DoubtsHostsThatCannotBe) {
@@ -115,8 +119,9 @@ TEST(Launcher, ChecksWithoutRunning) {
 
 TEST(Launcher, WarnsOfIdleNodes) {
     Bench lightnet;
-    const std::string graph = lightnet.write("idle.lua", "a = Ambient {} b = Ambient {}\nscene = Scene { 'box.pbrt' }\n"
-                                                         "image = RayTracer { a, scene = scene, film = { 8, 4 } }");
+    const std::string graph = lightnet.write("idle.lua",
+                                             "a = Ambient {} b = Ambient {}\nscene = Scene { 'box.pbrt' }\n"
+                                             "image = RayTracer { a, scene = scene, film = { 8, 4 } }");
     EXPECT_EQ(lightnet({"check", graph}), 0);
     EXPECT_THAT(lightnet.err, StartsWith("warning: "));
     EXPECT_EQ(lightnet({"run", graph}), 7);
@@ -130,7 +135,9 @@ TEST(Launcher, DrawsGraphsAndPlans) {
     EXPECT_THAT(lightnet.out, Not(HasSubstr("cluster")));
     EXPECT_EQ(lightnet({"dot", lightnet.graph, "--threads", "2"}), 0);
     EXPECT_THAT(lightnet.out, HasSubstr("cluster_place_1"));
-    EXPECT_EQ(lightnet({"dot", lightnet.graph, "--hosts", lightnet.write("h.lua", "place 'tcp://onyx1:7777' { places = 2 }")}), 0);
+    EXPECT_EQ(lightnet({"dot", lightnet.graph, "--hosts",
+                        lightnet.write("h.lua", "place 'tcp://onyx1:7777' { places = 2 }")}),
+              0);
     EXPECT_THAT(lightnet.out, HasSubstr("label=\"tcp://onyx1:7777\""));
 }
 

@@ -45,8 +45,9 @@ TEST(Options, AreAbsentWhereNothingIsSaid) {
 }
 
 TEST(Options, StandInAnyOrder) {
-    for (const Words& words : {Words{"run", "g.lua", "--threads", "4", "-o", "x.exr", "--samples", "9", "--size", "64x48", "--seed", "7"},
-                               Words{"run", "--size=64x48", "--seed", "7", "--samples=9", "-o", "x.exr", "--threads", "4", "g.lua"}}) {
+    for (const Words& words :
+         {Words{"run", "g.lua", "--threads", "4", "-o", "x.exr", "--samples", "9", "--size", "64x48", "--seed", "7"},
+          Words{"run", "--size=64x48", "--seed", "7", "--samples=9", "-o", "x.exr", "--threads", "4", "g.lua"}}) {
         const Options options = options_of(words);
         EXPECT_EQ(options.graph, "g.lua");
         EXPECT_EQ(options.threads, 4u);
@@ -77,21 +78,25 @@ TEST(Options, ChooseHowProgressIsShown) {
 }
 
 TEST(Options, SuggestTheVerbYouMeant) {
-    EXPECT_EQ(usage_error({"rnu", "g.lua"}), "lightnet: there is no verb 'rnu' (did you mean 'run'?)\ntry: lightnet --help\n");
+    EXPECT_EQ(usage_error({"rnu", "g.lua"}),
+              "lightnet: there is no verb 'rnu' (did you mean 'run'?)\ntry: lightnet --help\n");
     EXPECT_THAT(usage_error({"chekc"}), HasSubstr("(did you mean 'check'?)"));
 }
 
 TEST(Options, SuggestTheOptionYouMeant) {
-    EXPECT_THAT(usage_error({"run", "g.lua", "--thread", "2"}), HasSubstr("there is no option '--thread' (did you mean '--threads'?)"));
+    EXPECT_THAT(usage_error({"run", "g.lua", "--thread", "2"}),
+                HasSubstr("there is no option '--thread' (did you mean '--threads'?)"));
     EXPECT_THAT(usage_error({"run", "g.lua", "--sample=2"}), HasSubstr("(did you mean '--samples'?)"));
     EXPECT_THAT(usage_error({"run", "g.lua", "other.lua"}), HasSubstr("what is 'other.lua' for?"));
 }
 
 TEST(Options, RefuseNumbersThatMakeNoSense) {
-    for (const Words& words : {Words{"run", "g.lua", "--threads", "0"}, Words{"run", "g.lua", "--threads", "many"},
-                               Words{"run", "g.lua", "--samples", "-1"}, Words{"run", "g.lua", "--size", "64"},
-                               Words{"run", "g.lua", "--size", "0x64"}, Words{"run", "g.lua", "--size", "64x1e9"},
-                               Words{"run", "g.lua", "--seed", "-1"}, Words{"run", "g.lua", "--local-workers", "0"}, Words{"run"}})
+    for (const Words& words :
+         {Words{"run", "g.lua", "--threads", "0"}, Words{"run", "g.lua", "--threads", "many"},
+          Words{"run", "g.lua", "--samples", "-1"}, Words{"run", "g.lua", "--samples", "4294967297"},
+          Words{"run", "g.lua", "--samples", "1.5"}, Words{"run", "g.lua", "--size", "64"},
+          Words{"run", "g.lua", "--size", "0x64"}, Words{"run", "g.lua", "--size", "64x1e9"},
+          Words{"run", "g.lua", "--seed", "-1"}, Words{"run", "g.lua", "--local-workers", "0"}, Words{"run"}})
         EXPECT_THAT(usage_error(words), StartsWith("lightnet: ")) << words.back();
 }
 
