@@ -6,7 +6,7 @@
 #include "core/graph/check_params.hpp"
 #include "core/graph/describe.hpp"
 #include "core/graph/dot.hpp"
-#include "core/graph/film_format.hpp"
+#include "core/graph/graph_film.hpp"
 #include "core/graph/plan.hpp"
 #include "tools/exit_code.hpp"
 #include "tools/loading.hpp"
@@ -23,9 +23,11 @@ RunRequest request_of(const Options& options, const Registry& registry, Loaded l
     request.hosts = std::move(loaded.hosts);
     request.seed = options.seed;
     request.progress = options.progress;
+    request.listen = options.listen;
+    request.tuning = options.tuning;
     request.threads = options.threads.value_or(1);
     request.local_workers = options.local_workers.value_or(0);
-    if (!options.hosts.empty())
+    if (!options.hosts.empty() || !options.listen.empty())
         request.mode = Mode::hosts;
     else if (options.local_workers)
         request.mode = Mode::local_workers;
@@ -90,7 +92,7 @@ int Launcher::perform_run(const Options& options) const {
 int Launcher::perform_check(const Options& options) const {
     const Loaded loaded = load(options, registry, true);
     warn(loaded.warnings, err);
-    const auto format = film_format(loaded.graph, registry);
+    const auto format = film_of(loaded.graph, registry);
     out << options.graph << ": sound: " << loaded.graph.nodes.size() << " nodes, " << format.width << "x"
         << format.height << ", layers";
     for (const auto& layer : layers_of(loaded.graph, registry).film) out << ' ' << layer;

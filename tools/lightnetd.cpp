@@ -12,17 +12,12 @@
 #include "core/build_info.hpp"
 #include "core/error.hpp"
 #include "nodes/standard_nodes.hpp"
+#include "tools/exit_code.hpp"
+#include "tools/reach.hpp"
 #include "tools/signals.hpp"
 #include "transport/host.hpp"
 
 namespace {
-
-// Anyone on this machine may reach it; nobody else.
-bool loopback(const std::string& endpoint) {
-    for (const char* own : {"tcp://127.", "tcp://localhost:", "tcp://[::1]:", "ipc://"})
-        if (endpoint.rfind(own, 0) == 0) return true;
-    return false;
-}
 
 // Ends with the launcher that started it, however that ends.
 void live_no_longer_than(int parent) {
@@ -49,13 +44,11 @@ int main(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
+        return app.exit(error) == 0 ? lightnet::exit_code::done : lightnet::exit_code::usage;
     }
-    if (!loopback(options.listen) && !insecure) {
-        std::cerr << "lightnetd: --listen " << options.listen
-                  << " can be reached from other machines, and packets are neither encrypted nor signed; say --insecure "
-                     "if that network is yours alone\n";
-        return 2;
+    if (!insecure && !lightnet::stays_on_this_machine(options.listen)) {
+        std::cerr << "lightnetd: " << lightnet::beyond_this_machine("--listen " + options.listen) << '\n';
+        return lightnet::exit_code::usage;
     }
     if (parent) live_no_longer_than(parent);
     if (!quiet && !parent) options.log = [](const std::string& text) { std::cerr << "lightnetd: " << text << std::endl; };

@@ -7,7 +7,7 @@
 
 #include "core/graph/check.hpp"
 #include "core/graph/check_hosts.hpp"
-#include "core/graph/film_format.hpp"
+#include "core/graph/graph_film.hpp"
 #include "lua/load_graph.hpp"
 #include "tools/overrides.hpp"
 

@@ -7,9 +7,10 @@
 #include <sstream>
 
 #include "core/build_info.hpp"
-#include "core/graph/film_format.hpp"
+#include "core/graph/graph_film.hpp"
 #include "core/suggestion.hpp"
 #include "tools/exit_code.hpp"
+#include "tools/reach.hpp"
 
 namespace lightnet {
 namespace {
@@ -64,6 +65,8 @@ public:
         }
         for (const auto& [name, verb] : verbs)
             if (app_.got_subcommand(name)) options_.verb = verb;
+        if (!options_.listen.empty() && !options_.insecure && !stays_on_this_machine(options_.listen))
+            return usage(beyond_this_machine("--listen " + options_.listen));
         return options_;
     }
 
@@ -159,6 +162,23 @@ private:
                 "how progress is shown")
             ->type_name("auto|bar|plain|json|none")
             ->check(CLI::IsMember({"auto", "bar", "plain", "json", "none"}));
+        verb.add_option("--listen", options_.listen, "where lightnetd --join may join, even in the middle of the run")
+            ->type_name("tcp://HOST:PORT")
+            ->excludes(threads);
+        verb.add_flag("--insecure", options_.insecure, "listen beyond this machine, on a network that is yours alone");
+        add_tuning(verb);
+    }
+
+    // The picture does not depend on any of these.
+    void add_tuning(CLI::App& verb) {
+        auto& tuning = options_.tuning;
+        const auto add = [&](const char* name, std::uint32_t& value, int least, int most, const char* help) {
+            verb.add_option(name, value, help)->type_name("N")->check(CLI::Range(least, most))->group("Tuning");
+        };
+        add("--tile", tuning.tile, 1, 256, "pixels along a side of a tile");
+        add("--bundle", tuning.bundle, 1, 65536, "questions in a full bundle");
+        add("--credit", tuning.credit, 1, 1024, "bundles under way to one place, per node asked");
+        add("--spare-fibers", tuning.spare_fibers, 0, 4096, "fibers of a place beside one per node");
     }
 
     void add_check() {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/film/progress.hpp"
+#include "tools/run.hpp"
 
 namespace lightnet {
 
@@ -33,6 +34,9 @@ struct Options {
     std::uint64_t seed = 0;
     std::map<std::string, std::string> constants;  // -D
     ProgressMode progress = ProgressMode::automatic;
+    std::string listen;     // endpoint where hosts may join
+    bool insecure = false;  // even beyond this machine
+    Tuning tuning;
     std::string kind;  // for describe; "": all
 };
 

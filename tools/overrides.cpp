@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "core/graph/film_format.hpp"
+#include "core/graph/graph_film.hpp"
 
 namespace lightnet {
 namespace {
@@ -30,7 +30,7 @@ void override_picture(Graph& graph, const Registry& registry, const Options& opt
 
 std::string output_file(const Graph& graph, const Registry& registry, const Options& options) {
     if (!options.output.empty()) return options.output;
-    if (const auto file = film_format(graph, registry).file; !file.empty()) return file;
+    if (const auto file = film_of(graph, registry).file; !file.empty()) return file;
     return std::filesystem::path(graph.file).stem().string() + ".exr";
 }
 

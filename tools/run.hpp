@@ -14,6 +14,14 @@ namespace lightnet {
 /// Where the places of a run are.
 enum class Mode { serial, threads, hosts, local_workers };
 
+/// Sizes that decide how fast a run is, and never what it computes.
+struct Tuning {
+    std::uint32_t tile = 32;          // pixels along a side of a tile
+    std::uint32_t bundle = 512;       // questions in a full bundle
+    std::uint32_t credit = 8;         // bundles under way to one place, for each node that is asked
+    std::uint32_t spare_fibers = 16;  // of a place, beside the one that each node has for itself
+};
+
 /// A run, ready to go.
 struct RunRequest {
     Graph graph;  // checked; --samples and --size are in it
@@ -21,8 +29,10 @@ struct RunRequest {
     Mode mode = Mode::serial;
     std::uint32_t threads = 1;        // mode threads: places in this process
     std::uint32_t local_workers = 0;  // mode local_workers: daemons to start
-    std::string scene;                // file, as seen from here
-    std::string output;               // "x.exr", as seen from here
+    std::string listen;               // endpoint where hosts may join; "": nowhere
+    Tuning tuning;
+    std::string scene;   // file, as seen from here
+    std::string output;  // "x.exr", as seen from here
     std::uint64_t seed = 0;
     ProgressMode progress = ProgressMode::automatic;
 };

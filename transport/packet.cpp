@@ -4,10 +4,11 @@
 #include <bit>
 #include <cstring>
 #include <memory>
-#include <msgpack.hpp>
 #include <type_traits>
 #define XXH_INLINE_ALL
 #include <xxhash.h>
+
+#include "transport/body.hpp"
 
 namespace lightnet::packet {
 namespace {
@@ -77,22 +78,6 @@ Bytes write_header(const Header& header, View body) {
 
 // ---- body -----------------------------------------------------------------------------------------------------------
 
-// What msgpack writes to.
-struct Sink {
-    Bytes& out;
-    void write(const char* data, std::size_t size) {
-        const auto* bytes = reinterpret_cast<const std::byte*>(data);
-        out.insert(out.end(), bytes, bytes + size);
-    }
-};
-
-using Packer = msgpack::packer<Sink>;
-
-void pack_text(Packer& packer, std::string_view text) {
-    packer.pack_str(static_cast<std::uint32_t>(text.size()));
-    packer.pack_str_body(text.data(), static_cast<std::uint32_t>(text.size()));
-}
-
 // One column of a bundle: `size` bytes at `offset` of each question.
 struct Column {
     const char* name;
@@ -141,62 +126,17 @@ void copy_column(std::size_t size, std::byte* to, std::size_t to_step, const std
 template <class Question>
 void pack_columns(const std::vector<Question>& questions, Bytes& body) {
     body.reserve(questions.size() * sizeof(Question) + 256);
-    Sink sink{body};
-    Packer packer(sink);
-    packer.pack_map(columns<Question>.size());
-    for (const auto& column : columns<Question>) {
-        pack_text(packer, column.name);
-        const std::size_t size = questions.size() * column.size;
-        packer.pack_bin(static_cast<std::uint32_t>(size));
-        const std::size_t at = body.size();
-        body.resize(at + size);
-        copy_column(column.size, body.data() + at, column.size,
+    BodyWriter writer(body, columns<Question>.size());
+    for (const auto& column : columns<Question>)
+        copy_column(column.size, writer.room(column.name, questions.size() * column.size).data(), column.size,
                     reinterpret_cast<const std::byte*>(questions.data()) + column.offset, sizeof(Question),
                     questions.size());
-    }
 }
-
-// A msgpack map whose values lie in `body`; nothing is copied but the tree of at most 64 entries.
-class Map {
-public:
-    explicit Map(View body) {
-        constexpr auto by_reference = [](msgpack::type::object_type, std::size_t, void*) { return true; };
-        const msgpack::unpack_limit limit(64, 64, most_bytes, most_bytes, 0, 3);
-        try {
-            std::size_t used = 0;
-            handle_ = msgpack::unpack(reinterpret_cast<const char*>(body.data()), body.size(), used, by_reference,
-                                      nullptr, limit);
-            good_ = used == body.size() && handle_.get().type == msgpack::type::MAP;
-        } catch (const std::exception&) {
-            good_ = false;  // msgpack says what is wrong by its own exceptions; to us the packet is broken
-        }
-    }
-    bool good() const { return good_; }
-    std::span<const msgpack::object_kv> entries() const {
-        const auto& map = handle_.get().via.map;
-        return {map.ptr, map.size};
-    }
-    static std::string_view key(const msgpack::object_kv& entry) {
-        if (entry.key.type != msgpack::type::STR) return {};
-        return {entry.key.via.str.ptr, entry.key.via.str.size};
-    }
-    /// The bytes of a `bin`; none when there is no such key.
-    std::optional<View> bytes(std::string_view name) const {
-        for (const auto& entry : entries())
-            if (key(entry) == name && entry.val.type == msgpack::type::BIN)
-                return View(reinterpret_cast<const std::byte*>(entry.val.via.bin.ptr), entry.val.via.bin.size);
-        return std::nullopt;
-    }
-
-private:
-    msgpack::object_handle handle_;
-    bool good_ = false;
-};
 
 template <class Question>
 std::optional<Questions<Question>> unpack_columns(const Header& header, View body) {
     if (header.count == 0 || header.count > most_questions || body.size() > most_bytes) return std::nullopt;
-    const Map map(body);
+    const BodyReader map(body);
     if (!map.good()) return std::nullopt;
     // Every column is there and has its size: only then room is made for the questions.
     std::array<View, columns<Question>.size()> found;
@@ -221,14 +161,8 @@ bool sane(const Tile& tile) {
 }
 
 void pack_rgb(const std::vector<Rgb>& answers, Bytes& body) {
-    const std::size_t size = answers.size() * sizeof(Rgb);
-    body.reserve(size + 16);
-    Sink sink{body};
-    Packer packer(sink);
-    packer.pack_map(1);
-    pack_text(packer, "rgb");
-    packer.pack_bin(static_cast<std::uint32_t>(size));
-    packer.pack_bin_body(reinterpret_cast<const char*>(answers.data()), static_cast<std::uint32_t>(size));
+    body.reserve(answers.size() * sizeof(Rgb) + 16);
+    BodyWriter(body, 1).bytes("rgb", std::as_bytes(std::span(answers)));
 }
 
 Packet finish(const Header& header, Bytes body) { return {write_header(header, body), std::move(body)}; }
@@ -328,7 +262,7 @@ std::optional<Message> unpack(View header_bytes, View body) {
             return message;
         }
         case Type::answers: {
-            const Map map(body);
+            const BodyReader map(body);
             if (!map.good()) return std::nullopt;
             const auto rgb = map.bytes("rgb");
             if (!rgb || rgb->size() != header->count * sizeof(Rgb)) return std::nullopt;
@@ -372,18 +306,9 @@ const std::string& Fields::text(const std::string& key) const {
 
 Packet pack(Type type, std::uint64_t run, const Fields& fields) {
     Bytes body;
-    Sink sink{body};
-    Packer packer(sink);
-    packer.pack_map(static_cast<std::uint32_t>(fields.numbers.size() + fields.texts.size()));
-    for (const auto& [key, number] : fields.numbers) {
-        pack_text(packer, key);
-        packer.pack(number);
-    }
-    for (const auto& [key, text] : fields.texts) {
-        pack_text(packer, key);
-        packer.pack_bin(static_cast<std::uint32_t>(text.size()));
-        packer.pack_bin_body(text.data(), static_cast<std::uint32_t>(text.size()));
-    }
+    BodyWriter writer(body, fields.numbers.size() + fields.texts.size());
+    for (const auto& [name, number] : fields.numbers) writer.number(name, number);
+    for (const auto& [name, text] : fields.texts) writer.bytes(name, std::as_bytes(std::span(text)));
     Header header;
     header.type = type;
     header.run = run;
@@ -392,17 +317,12 @@ Packet pack(Type type, std::uint64_t run, const Fields& fields) {
 
 std::optional<Fields> unpack_fields(View body) {
     if (body.size() > most_bytes) return std::nullopt;
-    const Map map(body);
+    const BodyReader map(body);
     if (!map.good()) return std::nullopt;
     Fields fields;
-    for (const auto& entry : map.entries()) {
-        const std::string key(Map::key(entry));
-        if (key.empty()) continue;
-        if (entry.val.type == msgpack::type::POSITIVE_INTEGER)
-            fields.numbers[key] = entry.val.via.u64;
-        else if (entry.val.type == msgpack::type::BIN)
-            fields.texts[key] = std::string(entry.val.via.bin.ptr, entry.val.via.bin.size);
-    }
+    for (const auto& [name, number] : map.all_numbers()) fields.set(std::string(name), number);
+    for (const auto& [name, bytes] : map.all_bytes())
+        fields.set(std::string(name), {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     return fields;
 }
 

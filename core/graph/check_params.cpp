@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/graph/film_format.hpp"
+#include "core/graph/graph_film.hpp"
 #include "core/suggestion.hpp"
 
 namespace lightnet {

@@ -18,6 +18,31 @@ std::size_t page_size() {
     return size;
 }
 
+}  // namespace
+
+StackMemory map_stack(std::size_t size) {
+    const std::size_t guard = page_size();
+    const std::size_t whole = (size + guard - 1) / guard * guard + guard;
+    void* memory =
+        mmap(nullptr, whole, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_STACK, -1, 0);
+    if (memory == MAP_FAILED) throw std::bad_alloc();
+    auto* lowest = static_cast<std::byte*>(memory);
+    if (mprotect(lowest, guard, PROT_NONE) != 0) {
+        munmap(memory, whole);
+        throw std::bad_alloc();
+    }
+    return {lowest + guard, whole - guard};
+}
+
+void unmap_stack(const StackMemory& stack) noexcept { munmap(stack.lowest - page_size(), stack.size + page_size()); }
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+// The sanitizers bring handlers and signal stacks of their own.
+StackGuard::StackGuard(const Running& running) { running_here = &running; }
+StackGuard::~StackGuard() { running_here = nullptr; }
+#else
+namespace {
+
 void say(const char* text) { (void)!write(STDERR_FILENO, text, std::strlen(text)); }
 
 // Runs on the signal stack: async-signal-safe calls only.
@@ -56,27 +81,6 @@ void use_signal_stack(std::byte* memory, std::size_t size) {
 
 }  // namespace
 
-StackMemory map_stack(std::size_t size) {
-    const std::size_t guard = page_size();
-    const std::size_t whole = (size + guard - 1) / guard * guard + guard;
-    void* memory =
-        mmap(nullptr, whole, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_STACK, -1, 0);
-    if (memory == MAP_FAILED) throw std::bad_alloc();
-    auto* lowest = static_cast<std::byte*>(memory);
-    if (mprotect(lowest, guard, PROT_NONE) != 0) {
-        munmap(memory, whole);
-        throw std::bad_alloc();
-    }
-    return {lowest + guard, whole - guard};
-}
-
-void unmap_stack(const StackMemory& stack) noexcept { munmap(stack.lowest - page_size(), stack.size + page_size()); }
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-// The sanitizers bring handlers and signal stacks of their own.
-StackGuard::StackGuard(const Running& running) { running_here = &running; }
-StackGuard::~StackGuard() { running_here = nullptr; }
-#else
 StackGuard::StackGuard(const Running& running) : signal_stack_(64 * 1024) {
     running_here = &running;
     use_signal_stack(signal_stack_.data(), signal_stack_.size());

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "core/graph/film_format.hpp"
+#include "core/graph/graph_film.hpp"
 #include "tests/support/parse.hpp"
 
 namespace lightnet {
@@ -183,7 +183,7 @@ TEST(Examine, WarnsOfNodesThatThePictureDoesNotNeed) {
 }
 
 TEST(FilmFormat, IsTheOneOfTheRenderer) {
-    EXPECT_EQ(film_format(sound_graph("lighting = Ambient {}"), fake_registry()), (FilmFormat{8, 4, ""}));
+    EXPECT_EQ(film_of(sound_graph("lighting = Ambient {}"), fake_registry()), (GraphFilm{8, 4, ""}));
 }
 
 TEST(SceneFile, LiesBesideTheGraph) {

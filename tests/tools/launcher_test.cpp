@@ -5,7 +5,7 @@
 
 #include <sstream>
 
-#include "core/graph/film_format.hpp"
+#include "core/graph/graph_film.hpp"
 #include "tests/support/fake_registry.hpp"
 #include "tests/support/folder.hpp"
 
@@ -66,7 +66,7 @@ TEST(Launcher, OverridesWhatTheGraphSays) {
         {"run", lightnet.graph, "--samples", "3", "--size", "20x10", "-o", "y.exr", "-D", "rays=9", "--threads", "2"});
     ASSERT_EQ(lightnet.runs.size(), 1u) << lightnet.err;
     const RunRequest& run = lightnet.runs[0];
-    EXPECT_EQ(film_format(run.graph, test::fake_registry()), (FilmFormat{20, 10, "x.exr"}));
+    EXPECT_EQ(film_of(run.graph, test::fake_registry()), (GraphFilm{20, 10, "x.exr"}));
     EXPECT_EQ(run.graph.nodes[2].params.at("samples"), Value{3.0});
     EXPECT_EQ(run.graph.nodes[0].params.at("rays"), Value{9.0});
     EXPECT_EQ(run.output, "y.exr");

@@ -11,17 +11,17 @@
 namespace lightnet {
 
 /// `film = { width, height, file = "x.exr" }`
-struct FilmFormat {
+struct GraphFilm {
     std::uint32_t width = 0, height = 0;  // pixels
     std::string file;                     // "" where the graph names none
-    friend bool operator==(const FilmFormat&, const FilmFormat&) = default;
+    friend bool operator==(const GraphFilm&, const GraphFilm&) = default;
 };
 
 /// Width and height of a picture are at most this many pixels.
 inline constexpr std::uint32_t longest_side = 16384;
 
 /// The film of a checked graph's renderer.
-FilmFormat film_format(const Graph& graph, const Registry& registry);
+GraphFilm film_of(const Graph& graph, const Registry& registry);
 
 /// The scene file of a checked graph's renderer: as the graph names it, taken from the graph's folder.
 std::string scene_file(const Graph& graph, const Registry& registry);

@@ -1,4 +1,4 @@
-#include "core/graph/film_format.hpp"
+#include "core/graph/graph_film.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -19,7 +19,7 @@ const Value& param_of(const Graph& graph, const Registry& registry, ParamType ty
 
 }  // namespace
 
-FilmFormat film_format(const Graph& graph, const Registry& registry) {
+GraphFilm film_of(const Graph& graph, const Registry& registry) {
     const auto& film = std::get<Table>(param_of(graph, registry, ParamType::film).data);
     const auto side = [&](std::size_t i) { return static_cast<std::uint32_t>(std::get<double>(film.list.at(i).data)); };
     const auto file = film.named.find("file");

@@ -1,0 +1,188 @@
+// What pbrt's statements do: transforms, blocks, files, camera, film.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/pbrt_text.hpp"
+
+namespace lightnet::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+void expect_near(Vec3 a, Vec3 b) {
+    EXPECT_NEAR(a.x, b.x, 1e-5f);
+    EXPECT_NEAR(a.y, b.y, 1e-5f);
+    EXPECT_NEAR(a.z, b.z, 1e-5f);
+}
+
+Vec3 first_vertex(const std::string& statements) { return mesh_of(read_world(statements)).positions[1]; }
+
+TEST(PbrtTransforms, ApplyTheLatestFirst) {
+    expect_near(first_vertex("Translate 5 0 0 Scale 2 2 2 " + triangle), {7, 0, 0});
+    expect_near(first_vertex("Scale 2 2 2 Translate 5 0 0 " + triangle), {12, 0, 0});
+}
+
+TEST(PbrtTransforms, RotateByDegreesAroundAnAxis) {
+    expect_near(first_vertex("Rotate 90 0 0 1 " + triangle), {0, 1, 0});
+    expect_near(first_vertex("Rotate 90 0 3 0 " + triangle), {0, 0, -1});
+}
+
+TEST(PbrtTransforms, TakeMatricesColumnByColumn) {
+    expect_near(first_vertex("Transform [ 1 0 0 0  0 1 0 0  0 0 1 0  5 6 7 1 ] " + triangle), {6, 6, 7});
+    expect_near(first_vertex("Scale 2 2 2 ConcatTransform [ 1 0 0 0 0 1 0 0 0 0 1 0 5 0 0 1 ] " + triangle),
+                {12, 0, 0});
+    expect_near(first_vertex("Translate 9 9 9 Identity " + triangle), {1, 0, 0});
+}
+
+TEST(PbrtTransforms, ComeBackAtTheEndOfABlock) {
+    expect_near(first_vertex("AttributeBegin Translate 5 0 0 AttributeEnd " + triangle), {1, 0, 0});
+    expect_near(first_vertex("TransformBegin Translate 5 0 0 TransformEnd " + triangle), {1, 0, 0});
+}
+
+TEST(PbrtTransforms, HaveNames) {
+    expect_near(
+        first_vertex("Translate 5 0 0 CoordinateSystem \"here\" Identity CoordSysTransform \"here\" " + triangle),
+        {6, 0, 0});
+    // the camera's system leads from the camera into the world
+    const auto scene =
+        read_text("Translate 0 0 5 Camera \"perspective\" WorldBegin CoordSysTransform \"camera\" " + triangle);
+    expect_near(mesh_of(scene).positions[0], {0, 0, -5});
+}
+
+TEST(PbrtTransforms, OfTheEndOfTheTimeAreLeftOut) {
+    const auto scene =
+        read_world("ActiveTransform EndTime Translate 5 0 0 ActiveTransform All Translate 0 1 0 " + triangle);
+    expect_near(mesh_of(scene).positions[1], {1, 1, 0});
+    EXPECT_THAT(warnings_of(scene), HasSubstr("motion is left out"));
+}
+
+TEST(PbrtCamera, LooksAlongZWithXToTheRight) {
+    const auto camera = read_text("LookAt 1 2 3  1 2 13  0 1 0 Camera \"perspective\" WorldBegin").camera;
+    expect_near(transform_point(camera.to_world, {0, 0, 0}), {1, 2, 3});
+    expect_near(transform_direction(camera.to_world, {0, 0, 1}), {0, 0, 1});
+    expect_near(transform_direction(camera.to_world, {1, 0, 0}), {1, 0, 0});
+    expect_near(transform_direction(camera.to_world, {0, 1, 0}), {0, 1, 0});
+}
+
+TEST(PbrtCamera, IsMirroredByAScaleBeforeIt) {
+    const auto camera = read_text("Scale -1 1 1 LookAt 1 2 3  1 2 13  0 1 0 Camera \"perspective\" WorldBegin").camera;
+    expect_near(transform_point(camera.to_world, {0, 0, 0}), {1, 2, 3});
+    expect_near(transform_direction(camera.to_world, {0, 0, 1}), {0, 0, 1});
+    expect_near(transform_direction(camera.to_world, {1, 0, 0}), {-1, 0, 0});
+}
+
+TEST(PbrtCamera, HasAScreenOnlyWhenOneIsGiven) {
+    EXPECT_FALSE(read_text("Camera \"perspective\" \"float fov\" 30 WorldBegin").camera.screen_given);
+    const auto wide = read_text("Camera \"perspective\" \"float frameaspectratio\" 2 WorldBegin").camera;
+    EXPECT_TRUE(wide.screen_given);
+    EXPECT_EQ(wide.screen, (std::array<float, 4>{-2, 2, -1, 1}));
+    const auto tall = read_text("Camera \"perspective\" \"float frameaspectratio\" 0.5 WorldBegin").camera;
+    EXPECT_EQ(tall.screen, (std::array<float, 4>{-1, 1, -2, 2}));
+    const auto window = read_text("Camera \"perspective\" \"float screenwindow\" [ 0 1 -1 0 ] WorldBegin").camera;
+    EXPECT_EQ(window.screen, (std::array<float, 4>{0, 1, -1, 0}));
+}
+
+TEST(PbrtFilm, HasSizeCropAndScale) {
+    const auto film = read_text(
+                          "Film \"rgb\" \"integer xresolution\" 320 \"integer yresolution\" [ 200 ] \"float iso\" 200\n"
+                          "\"float cropwindow\" [ 0 .5 .25 1 ] \"string sensor\" \"cie1931\"\n"
+                          "Camera \"perspective\" \"float shutteropen\" 0.5 \"float shutterclose\" 1 WorldBegin")
+                          .film;
+    EXPECT_EQ(film.width, 320u);
+    EXPECT_EQ(film.height, 200u);
+    EXPECT_EQ(film.scale, 1);  // twice the sensitivity, half the time
+    EXPECT_EQ(film.crop, (std::array<float, 4>{0, 0.5f, 0.25f, 1}));
+}
+
+TEST(PbrtFilm, HasTheSizeThatPbrtGivesIt) {
+    const auto film = read_text("WorldBegin").film;
+    EXPECT_EQ(film.width, 1280u);
+    EXPECT_EQ(film.height, 720u);
+    EXPECT_EQ(film.scale, 1);
+}
+
+TEST(PbrtFiles, IncludeEachOther) {
+    const MemoryFiles files{{"parts/ball.pbrt", "Translate 1 0 0 " + ball}};
+    const auto scene = read_world("Include \"parts/ball.pbrt\" " + ball, files);
+    ASSERT_THAT(scene.shapes, SizeIs(2));
+    expect_near(sphere_of(scene, 1).center, {1, 0, 0});  // what an included file does stays
+    EXPECT_EQ(scene.shapes[0].where, (SourceLine{"parts/ball.pbrt", 1}));
+}
+
+TEST(PbrtFiles, ImportWithoutAnEffectOnWhatFollows) {
+    const MemoryFiles files{{"ball.pbrt", "Translate 1 0 0 " + ball}};
+    const auto scene = read_world("Import \"ball.pbrt\" " + ball, files);
+    expect_near(sphere_of(scene, 0).center, {1, 0, 0});
+    expect_near(sphere_of(scene, 1).center, {0, 0, 0});
+}
+
+TEST(PbrtFiles, AreRelativeToTheMainOne) {
+    MemoryFiles files{{"a/scene.pbrt", "WorldBegin Include \"deep/one.pbrt\""},
+                      {"a/deep/one.pbrt", "Include \"two.pbrt\""},
+                      {"a/two.pbrt", ball}};
+    EXPECT_THAT(read_scene(files, "a/scene.pbrt").shapes, SizeIs(1));
+}
+
+TEST(PbrtFiles, MayBeginWithAByteOrderMarkAndHaveOtherLineEnds) {
+    const auto scene = read_text("\xEF\xBB\xBFWorldBegin\r\n# remark\r\n" + ball);
+    ASSERT_THAT(scene.shapes, SizeIs(1));
+    EXPECT_EQ(scene.shapes[0].where.line, 3);
+}
+
+TEST(PbrtBlocks, KeepMaterialLampAndOrientation) {
+    const auto scene =
+        read_world("AttributeBegin Material \"dielectric\" AreaLightSource \"diffuse\" ReverseOrientation " + ball +
+                   "AttributeEnd " + ball);
+    EXPECT_TRUE(scene.shapes[0].emission);
+    EXPECT_TRUE(sphere_of(scene, 0).flip_normals);
+    EXPECT_FALSE(scene.shapes[1].emission);
+    EXPECT_FALSE(sphere_of(scene, 1).flip_normals);
+    EXPECT_EQ(model_of<DielectricMaterial>(scene, 0).eta, 1.5f);
+    EXPECT_EQ(colour_of(scene, model_of<DiffuseMaterial>(scene, 1).reflectance), (Rgb{0.5f, 0.5f, 0.5f}));
+}
+
+TEST(PbrtAttributes, FillInWhatAStatementLeavesOut) {
+    const auto scene = read_world(
+        "Attribute \"shape\" \"float radius\" 3\nAttribute \"material\" \"rgb reflectance\" [ 1 0 0 ]\n"
+        "Material \"diffuse\"\n" +
+        ball + "Shape \"sphere\" \"float radius\" 5");
+    EXPECT_EQ(sphere_of(scene, 0).radius, 3);
+    EXPECT_EQ(sphere_of(scene, 1).radius, 5);
+    EXPECT_EQ(colour_of(scene, model_of<DiffuseMaterial>(scene).reflectance), (Rgb{1, 0, 0}));
+    EXPECT_THAT(scene.warnings, IsEmpty());
+}
+
+TEST(PbrtObjects, StandWhereTheirInstancesAre) {
+    const auto scene = read_world("ObjectBegin \"pair\" Translate 0 1 0 " + ball + triangle +
+                                  "ObjectEnd\n"
+                                  "Translate 5 0 0 ObjectInstance \"pair\" Translate 5 0 0 ObjectInstance \"pair\"");
+    ASSERT_THAT(scene.shapes, SizeIs(4));
+    expect_near(sphere_of(scene, 0).center, {5, 1, 0});
+    expect_near(mesh_of(scene, 3).positions[1], {11, 1, 0});
+    EXPECT_THAT(scene.warnings, IsEmpty());
+}
+
+TEST(PbrtObjects, KeepTheSideOfTheirNormalsInAMirror) {
+    const auto scene =
+        read_world("ObjectBegin \"o\" " + triangle + ball + "ObjectEnd Scale -1 1 1 ObjectInstance \"o\"");
+    expect_near(normal_of(mesh_of(scene, 0)), {0, 0, 1});
+    EXPECT_FALSE(sphere_of(scene, 1).flip_normals);
+}
+
+TEST(PbrtObjects, BecomeMeshesWhenBallsAreSquashed) {
+    const auto scene = read_world("ObjectBegin \"o\" " + ball + "ObjectEnd Scale 1 2 3 ObjectInstance \"o\"");
+    EXPECT_GT(mesh_of(scene).triangles.size(), 1000u);
+}
+
+TEST(PbrtStatements, ThatConcernSamplingHaveNoEffect) {
+    const auto scene = read_text(
+        "Option \"bool disablepixeljitter\" true\nIntegrator \"path\" \"integer maxdepth\" 5\n"
+        "Sampler \"zsobol\" \"integer pixelsamples\" 64\nPixelFilter \"box\"\nAccelerator \"bvh\"\n"
+        "ColorSpace \"srgb\"\nTransformTimes 0 1\nWorldBegin");
+    EXPECT_THAT(scene.warnings, IsEmpty());
+}
+
+}  // namespace
+}  // namespace lightnet::test

@@ -1,0 +1,205 @@
+// pbrt's materials and textures.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/scene/pbrt/textures.hpp"
+#include "tests/support/pbrt_text.hpp"
+
+namespace lightnet::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// Two by two pixels, upper row 1 and 0.5, lower row 0.25 and 0.
+MemoryFiles pictures() {
+    return MemoryFiles{{"p.hdr", std::string("#?RADIANCE\n\n-Y 2 +X 2\n") +
+                                     std::string("\x80\x80\x80\x81\x80\x80\x80\x80\x80\x80\x80\x7f\0\0\0\0", 16)}};
+}
+
+SceneData with(const std::string& material, MemoryFiles files = {}) {
+    return read_world(material + "\n" + ball, std::move(files));
+}
+
+Texture reflectance(const std::string& textures, const std::string& type = "texture reflectance",
+                    const std::string& value = "\"t\"") {
+    const auto scene = with(textures + " Material \"diffuse\" \"" + type + "\" " + value, pictures());
+    return scene.textures.at(model_of<DiffuseMaterial>(scene).reflectance);
+}
+
+TEST(PbrtMaterials, MayBeDiffuse) {
+    const auto scene = with("Material \"diffuse\" \"rgb reflectance\" [ .1 .2 .3 ]");
+    EXPECT_EQ(colour_of(scene, model_of<DiffuseMaterial>(scene).reflectance), (Rgb{0.1f, 0.2f, 0.3f}));
+    EXPECT_THAT(scene.warnings, IsEmpty());
+}
+
+TEST(PbrtMaterials, MayBeConductors) {
+    const auto silver = with(
+        "Material \"conductor\" \"float roughness\" 0.0025 \"spectrum eta\" \"metal-Ag-eta\" \"spectrum k\" "
+        "\"metal-Ag-k\"");
+    const auto& model = model_of<ConductorMaterial>(silver);
+    EXPECT_NEAR(model.alpha_u, 0.05f, 1e-6f);  // remapped: the square root
+    EXPECT_NEAR(model.alpha_v, 0.05f, 1e-6f);
+    EXPECT_NEAR(colour_of(silver, model.k).g, 3.122485f, 1e-6f);
+    EXPECT_FALSE(model.reflectance);
+    EXPECT_THAT(silver.warnings, IsEmpty());
+}
+
+TEST(PbrtMaterials, MayHaveTwoRoughnessesAsTheyAre) {
+    const auto scene =
+        with("Material \"conductor\" \"float uroughness\" .1 \"float vroughness\" .2 \"bool remaproughness\" false");
+    EXPECT_EQ(model_of<ConductorMaterial>(scene).alpha_u, 0.1f);
+    EXPECT_EQ(model_of<ConductorMaterial>(scene).alpha_v, 0.2f);
+    EXPECT_NEAR(colour_of(scene, model_of<ConductorMaterial>(scene).eta).r, 0.200438f, 1e-6f);  // copper
+}
+
+TEST(PbrtMaterials, MayBeConductorsOfAColour) {
+    const auto scene = with("Material \"conductor\" \"rgb reflectance\" [ .9 .8 .7 ]");
+    EXPECT_EQ(colour_of(scene, model_of<ConductorMaterial>(scene).reflectance.value()), (Rgb{0.9f, 0.8f, 0.7f}));
+}
+
+TEST(PbrtMaterials, MayHaveSpectraInFiles) {
+    MemoryFiles files{{"spds/x.spd", "300 2\n800 2\n"}};
+    const auto scene =
+        with("Material \"conductor\" \"spectrum eta\" \"spds/x.spd\" \"spectrum k\" [ 300 3 800 3 ]", files);
+    EXPECT_NEAR(colour_of(scene, model_of<ConductorMaterial>(scene).eta).b, 2, 1e-5f);
+    EXPECT_NEAR(colour_of(scene, model_of<ConductorMaterial>(scene).k).r, 3, 1e-5f);
+}
+
+TEST(PbrtMaterials, MayBeGlass) {
+    EXPECT_EQ(model_of<DielectricMaterial>(with("Material \"dielectric\"")).eta, 1.5f);
+    EXPECT_EQ(model_of<DielectricMaterial>(with("Material \"dielectric\" \"float eta\" 1.33")).eta, 1.33f);
+    EXPECT_EQ(model_of<ThinDielectricMaterial>(with("Material \"thindielectric\" \"float eta\" 1.2")).eta, 1.2f);
+    const auto named = with("Material \"dielectric\" \"spectrum eta\" \"glass-BK7\"");
+    EXPECT_NEAR(model_of<DielectricMaterial>(named).eta, 1.5185f, 1e-4f);
+    EXPECT_THAT(warnings_of(named), HasSubstr("dispersion is left out"));
+}
+
+TEST(PbrtMaterials, MayBeCoated) {
+    const auto scene = with("Material \"coateddiffuse\" \"rgb reflectance\" [ .07 .09 .13 ] \"float roughness\" .01");
+    EXPECT_NEAR(model_of<CoatedDiffuseMaterial>(scene).alpha_u, 0.1f, 1e-6f);
+    EXPECT_EQ(model_of<CoatedDiffuseMaterial>(scene).eta, 1.5f);
+    EXPECT_THAT(scene.warnings, IsEmpty());
+}
+
+TEST(PbrtMaterials, WithoutAMatchAreTheNearest) {
+    const std::string lead = "scene.pbrt:2: Material ";
+    EXPECT_THAT(warnings_of(with("Material \"coatedconductor\"")), HasSubstr(lead + "'coatedconductor': the coat"));
+    EXPECT_THAT(warnings_of(with("Material \"diffusetransmission\"")),
+                HasSubstr(lead + "'diffusetransmission': the light through"));
+    EXPECT_THAT(warnings_of(with("Material \"subsurface\"")), HasSubstr(lead + "'subsurface': subsurface scattering"));
+    EXPECT_THAT(warnings_of(with("Material \"hair\"")), HasSubstr(lead + "'hair': scattering by hair"));
+    EXPECT_THAT(warnings_of(with("Material \"measured\" \"string filename\" \"x.bsdf\"")),
+                HasSubstr(lead + "'measured': measured"));
+}
+
+TEST(PbrtMaterials, MixWhenTheyCan) {
+    const std::string parts =
+        "MakeNamedMaterial \"a\" \"string type\" \"diffuse\" \"rgb reflectance\" [ 0 0 0 ]\n"
+        "MakeNamedMaterial \"b\" \"string type\" \"diffuse\" \"rgb reflectance\" [ 1 1 1 ]\n"
+        "MakeNamedMaterial \"c\" \"string type\" \"dielectric\"\n";
+    const auto exact = with(parts + "Material \"mix\" \"string materials\" [ \"a\" \"b\" ] \"float amount\" .25");
+    EXPECT_EQ(colour_of(exact, model_of<DiffuseMaterial>(exact).reflectance), (Rgb{0.25f, 0.25f, 0.25f}));
+    const auto rough = with(parts + "Material \"mix\" \"string materials\" [ \"a\" \"c\" ] \"float amount\" .75");
+    EXPECT_EQ(model_of<DielectricMaterial>(rough).eta, 1.5f);
+    EXPECT_THAT(warnings_of(rough), HasSubstr("'c', the larger part, is taken alone"));
+}
+
+TEST(PbrtMaterials, MayBeNamedBeforeTheyAreMade) {
+    const auto scene =
+        read_world("NamedMaterial \"glass\" " + ball + "MakeNamedMaterial \"glass\" \"string type\" \"dielectric\"");
+    EXPECT_EQ(model_of<DielectricMaterial>(scene).eta, 1.5f);
+    EXPECT_EQ(scene.materials[scene.shapes[0].material].name, "glass");
+}
+
+TEST(PbrtTextures, MayBeConstant) {
+    EXPECT_EQ(reflectance("Texture \"t\" \"spectrum\" \"constant\" \"rgb value\" [ .1 .2 .3 ]").scale,
+              (Rgb{0.1f, 0.2f, 0.3f}));
+}
+
+TEST(PbrtTextures, MayBePictures) {
+    const Texture t = reflectance(
+        "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"p.hdr\" \"string wrap\" \"clamp\" \"float "
+        "uscale\" 2\n"
+        "\"float vdelta\" .5 \"bool invert\" true \"string filter\" \"trilinear\"");
+    ASSERT_TRUE(t.image);
+    EXPECT_EQ(t.image->width, 2u);
+    EXPECT_EQ(t.image->pixels[0], (Rgb{1, 1, 1}));
+    EXPECT_EQ(t.image->pixels[2], (Rgb{0.25f, 0.25f, 0.25f}));
+    EXPECT_EQ(t.wrap, Wrap::clamp);
+    EXPECT_TRUE(t.invert);
+    EXPECT_EQ(t.uv_scale, (Vec2{2, 1}));
+    EXPECT_EQ(t.uv_offset, (Vec2{0, 0.5f}));
+}
+
+TEST(PbrtTextures, ShareThePictureOfAFile) {
+    const auto scene = with(
+        "Texture \"a\" \"spectrum\" \"imagemap\" \"string filename\" \"p.hdr\"\n"
+        "Texture \"b\" \"spectrum\" \"imagemap\" \"string filename\" \"./p.hdr\" \"float scale\" .5\n"
+        "Material \"diffuse\" \"texture reflectance\" \"a\"\n" +
+            ball + "Material \"diffuse\" \"texture reflectance\" \"b\"",
+        pictures());
+    const auto& a = scene.textures.at(model_of<DiffuseMaterial>(scene, 0).reflectance);
+    const auto& b = scene.textures.at(model_of<DiffuseMaterial>(scene, 1).reflectance);
+    EXPECT_EQ(a.image, b.image);
+    EXPECT_EQ(b.scale, (Rgb{0.5f, 0.5f, 0.5f}));
+}
+
+const std::string picture = "Texture \"p\" \"spectrum\" \"imagemap\" \"string filename\" \"p.hdr\" ";
+
+TEST(PbrtTextures, LieWithTheirLowerEdgeAtZero) {
+    const Texture t = reflectance(picture + "Texture \"t\" \"spectrum\" \"scale\" \"texture tex\" \"p\"");
+    EXPECT_NEAR(pbrt::look_up(t, {0.25f, 0.75f}).r, 1, 1e-6f);      // upper left
+    EXPECT_NEAR(pbrt::look_up(t, {0.25f, 0.25f}).r, 0.25f, 1e-6f);  // lower left
+    EXPECT_NEAR(pbrt::look_up(t, {0.5f, 0.75f}).r, 0.75f, 1e-6f);   // between two pixels
+    EXPECT_NEAR(pbrt::look_up(t, {1.25f, -0.25f}).r, 1, 1e-6f);     // repeated
+}
+
+TEST(PbrtTextures, MayBeScaled) {
+    EXPECT_EQ(
+        reflectance(picture + "Texture \"t\" \"spectrum\" \"scale\" \"texture tex\" \"p\" \"float scale\" .5").scale.r,
+        0.5f);
+    const Texture product =
+        reflectance(picture +
+                    "Texture \"f\" \"float\" \"imagemap\" \"string filename\" \"p.hdr\"\n"
+                    "Texture \"t\" \"spectrum\" \"scale\" \"texture tex\" \"p\" \"texture scale\" \"f\"");
+    EXPECT_NEAR(pbrt::look_up(product, {0.75f, 0.75f}).g, 0.25f, 1e-6f);
+}
+
+TEST(PbrtTextures, MayBeMixed) {
+    const Texture t = reflectance(
+        picture +
+        "Texture \"t\" \"spectrum\" \"mix\" \"texture tex1\" \"p\" \"rgb tex2\" [ 1 0 0 ] \"float amount\" .25");
+    EXPECT_NEAR(pbrt::look_up(t, {0.75f, 0.25f}).r, 0.25f, 1e-6f);
+    EXPECT_NEAR(pbrt::look_up(t, {0.25f, 0.75f}).g, 0.75f, 1e-6f);
+}
+
+TEST(PbrtTextures, MayBeCheckerboards) {
+    const Texture t = reflectance(
+        "Texture \"t\" \"spectrum\" \"checkerboard\" \"float uscale\" 4 \"float vscale\" 2 \"rgb tex1\" [ 1 0 0 ] "
+        "\"rgb tex2\" [ 0 1 0 ]");
+    EXPECT_EQ(pbrt::look_up(t, {0.125f, 0.25f}), (Rgb{1, 0, 0}));
+    EXPECT_EQ(pbrt::look_up(t, {0.375f, 0.25f}), (Rgb{0, 1, 0}));
+    EXPECT_EQ(pbrt::look_up(t, {0.375f, 0.75f}), (Rgb{1, 0, 0}));
+    EXPECT_EQ(pbrt::look_up(t, {0.125f, 1.75f}), (Rgb{0, 1, 0}));
+}
+
+TEST(PbrtTextures, OfARoughnessGiveTheirMean) {
+    const auto scene = with(
+        "Texture \"f\" \"float\" \"imagemap\" \"string filename\" \"p.hdr\"\n"
+        "Material \"conductor\" \"texture roughness\" \"f\" \"bool remaproughness\" false",
+        pictures());
+    EXPECT_NEAR(model_of<ConductorMaterial>(scene).alpha_u, 0.4375f, 1e-6f);
+    EXPECT_THAT(warnings_of(scene), HasSubstr("the mean of its texture is taken"));
+}
+
+TEST(PbrtTextures, OfUnsupportedClassesAreGrey) {
+    const auto scene = with(
+        "Texture \"t\" \"spectrum\" \"marble\" \"integer octaves\" 8 Material \"diffuse\" \"texture reflectance\" "
+        "\"t\"");
+    EXPECT_EQ(colour_of(scene, model_of<DiffuseMaterial>(scene).reflectance), (Rgb{0.5f, 0.5f, 0.5f}));
+    EXPECT_THAT(warnings_of(scene), HasSubstr("textures of class 'marble' are not supported; grey 0.5 stands for it"));
+}
+
+}  // namespace
+}  // namespace lightnet::test

@@ -1,0 +1,220 @@
+// pbrt's shapes and lights: where they are, which side is which, how bright they shine.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "tests/support/pbrt_text.hpp"
+
+namespace lightnet::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+constexpr float pi = std::numbers::pi_v<float>;
+
+void expect_near(Vec3 a, Vec3 b) {
+    EXPECT_NEAR(a.x, b.x, 1e-5f);
+    EXPECT_NEAR(a.y, b.y, 1e-5f);
+    EXPECT_NEAR(a.z, b.z, 1e-5f);
+}
+
+double area_of(const Mesh& mesh) {
+    double area = 0;
+    for (const auto& t : mesh.triangles)
+        area += 0.5 *
+                length(cross(mesh.positions[t[1]] - mesh.positions[t[0]], mesh.positions[t[2]] - mesh.positions[t[0]]));
+    return area;
+}
+
+TEST(PbrtNormals, OfATriangleFollowTheOrderOfItsCorners) {
+    expect_near(normal_of(mesh_of(read_world(triangle))), {0, 0, 1});
+}
+
+TEST(PbrtNormals, AreTurnedByReverseOrientation) {
+    expect_near(normal_of(mesh_of(read_world("ReverseOrientation " + triangle))), {0, 0, -1});
+}
+
+TEST(PbrtNormals, KeepTheirSideInAMirror) {
+    // mirrored, the corners run the other way round; pbrt turns the normal back
+    expect_near(normal_of(mesh_of(read_world("Scale -1 1 1 " + triangle))), {0, 0, 1});
+    expect_near(normal_of(mesh_of(read_world("ReverseOrientation Scale -1 1 1 " + triangle))), {0, 0, -1});
+}
+
+TEST(PbrtNormals, FollowTheShadingNormals) {
+    const std::string against =
+        "Shape \"trianglemesh\" \"point3 P\" [ 0 0 0 1 0 0 0 1 0 ] \"normal N\" [ 0 0 -1 0 0 -1 0 0 -1 ]\n";
+    const auto scene =
+        read_world(against + "AttributeBegin ReverseOrientation " + against + "AttributeEnd Scale -1 1 1 " + against);
+    expect_near(normal_of(mesh_of(scene, 0)), {0, 0, -1});
+    expect_near(mesh_of(scene, 0).normals[0], {0, 0, -1});
+    expect_near(normal_of(mesh_of(scene, 1)), {0, 0, 1});
+    expect_near(mesh_of(scene, 1).normals[0], {0, 0, 1});
+    expect_near(normal_of(mesh_of(scene, 2)), {0, 0, -1});
+}
+
+TEST(PbrtNormals, GoByTheInverseTranspose) {
+    const auto scene = read_world(
+        "Scale 2 1 1 Shape \"trianglemesh\" \"point3 P\" [ 0 0 0 1 -1 0 0 0 1 ] \"normal N\" [ 1 1 0 1 1 0 1 1 0 ]");
+    const float s = 1 / std::sqrt(5.0f);
+    expect_near(mesh_of(scene).normals[0], {s, 2 * s, 0});
+}
+
+TEST(PbrtNormals, ThatAreZeroAreReplaced) {
+    const auto scene =
+        read_world("Shape \"trianglemesh\" \"point3 P\" [ 0 0 0 1 0 0 0 1 0 ] \"normal N\" [ 0 0 0 0 0 1 0 0 1 ]");
+    expect_near(mesh_of(scene).normals[0], {0, 0, 1});
+}
+
+TEST(PbrtMeshes, HaveTextureCoordinates) {
+    const auto scene =
+        read_world("Shape \"trianglemesh\" \"point3 P\" [ 0 0 0 1 0 0 0 1 0 ] \"point2 uv\" [ 0 0 1 0 0 1 ]");
+    EXPECT_THAT(mesh_of(scene).uvs, ElementsAre(Vec2{0, 0}, Vec2{1, 0}, Vec2{0, 1}));
+}
+
+TEST(PbrtMeshes, MayBeInPlyFiles) {
+    const MemoryFiles files{{"m/a.ply",
+                             "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                             "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+                             "end_header\n0 0 0 1 0 0 0 1 0 3 0 1 2"}};
+    expect_near(
+        mesh_of(read_world("Translate 0 0 4 Shape \"plymesh\" \"string filename\" \"m/a.ply\"", files)).positions[2],
+        {0, 1, 4});
+}
+
+TEST(PbrtPatches, AreTwoTrianglesEach) {
+    const auto scene = read_world("Shape \"bilinearmesh\" \"point3 P\" [ 0 0 0  1 0 0  0 1 0  1 1 0 ]");
+    ASSERT_THAT(mesh_of(scene).triangles, SizeIs(2));
+    EXPECT_NEAR(area_of(mesh_of(scene)), 1, 1e-6);
+    expect_near(normal_of(mesh_of(scene), 0), {0, 0, 1});
+    expect_near(normal_of(mesh_of(scene), 1), {0, 0, 1});
+    EXPECT_THAT(scene.warnings, IsEmpty());
+}
+
+TEST(PbrtPatches, WarnWhenTheyAreNotFlat) {
+    const auto scene = read_world("Shape \"bilinearmesh\" \"point3 P\" [ 0 0 0  1 0 0  0 1 0  1 1 1 ]");
+    EXPECT_THAT(warnings_of(scene), HasSubstr("scene.pbrt:2: Shape 'bilinearmesh': a bilinear patch that is not flat"));
+}
+
+TEST(PbrtSpheres, AreScaledAndMoved) {
+    const auto scene = read_world("Translate 1 2 3 Scale 2 2 2 Rotate 30 1 1 0 Shape \"sphere\" \"float radius\" 1.5");
+    expect_near(sphere_of(scene).center, {1, 2, 3});
+    EXPECT_NEAR(sphere_of(scene).radius, 3, 1e-5f);
+    EXPECT_FALSE(sphere_of(scene).flip_normals);
+    EXPECT_THAT(scene.warnings, IsEmpty());
+}
+
+TEST(PbrtSpheres, AreTurnedInsideOutByAMirrorAsInPbrt) {
+    EXPECT_TRUE(sphere_of(read_world("Scale 1 1 -1 " + ball)).flip_normals);
+    EXPECT_FALSE(sphere_of(read_world("ReverseOrientation Scale 1 1 -1 " + ball)).flip_normals);
+}
+
+TEST(PbrtSpheres, AreCutIntoTrianglesWhenTheyMustBe) {
+    const auto scene =
+        read_world("AttributeBegin Scale 1 1 2 " + ball + "AttributeEnd Shape \"sphere\" \"float zmin\" 0");
+    EXPECT_THAT(warnings_of(scene), HasSubstr("a sphere that is scaled unevenly"));
+    EXPECT_THAT(warnings_of(scene), HasSubstr("a part of a sphere"));
+    EXPECT_NEAR(area_of(mesh_of(scene, 1)), 2 * pi, 0.01);
+    // normals outwards
+    const Mesh& half = mesh_of(scene, 1);
+    for (std::size_t i = 0; i < half.positions.size(); ++i) EXPECT_GT(dot(half.positions[i], half.normals[i]), 0.99f);
+}
+
+TEST(PbrtDisks, KeepTheirAreaAndFaceUp) {
+    const auto scene =
+        read_world("Shape \"disk\" \"float radius\" 2 \"float height\" 3 Shape \"disk\" \"float innerradius\" 0.5");
+    EXPECT_NEAR(area_of(mesh_of(scene, 0)), 4 * pi, 1e-4);
+    EXPECT_NEAR(area_of(mesh_of(scene, 1)), 0.75 * pi, 1e-4);
+    for (std::size_t i = 0; i < mesh_of(scene, 0).triangles.size(); i += 2)
+        expect_near(normal_of(mesh_of(scene, 0), i), {0, 0, 1});
+    EXPECT_EQ(mesh_of(scene, 0).positions[0].z, 3);
+}
+
+TEST(PbrtCylinders, HaveNormalsOutwards) {
+    const auto scene = read_world("Shape \"cylinder\" \"float radius\" 2 \"float zmin\" 0 \"float zmax\" 3");
+    EXPECT_NEAR(area_of(mesh_of(scene)), 12 * pi, 0.02);
+    expect_near(mesh_of(scene).normals[0], {1, 0, 0});
+    EXPECT_GT(normal_of(mesh_of(scene)).x, 0.9f);
+}
+
+Rgb lamp(const std::string& parameters, const std::string& shape = ball) {
+    return read_world("AreaLightSource \"diffuse\" " + parameters + "\n" + shape)
+        .shapes.at(0)
+        .emission.value()
+        .radiance;
+}
+
+TEST(PbrtLamps, ShineAsTheirNumbersSay) {
+    EXPECT_EQ(lamp("\"rgb L\" [ 1 2 3 ]"), (Rgb{1, 2, 3}));
+    EXPECT_EQ(lamp("\"rgb L\" [ 1 2 3 ] \"float scale\" 10"), (Rgb{10, 20, 30}));
+    EXPECT_EQ(lamp(""), (Rgb{1, 1, 1}));
+    EXPECT_EQ(lamp("\"spectrum L\" \"stdillum-D65\" \"float scale\" 4"), (Rgb{4, 4, 4}));
+}
+
+TEST(PbrtLamps, OfASpectrumHaveLuminanceOne) {
+    EXPECT_NEAR(luminance(lamp("\"blackbody L\" 2700")), 1, 1e-5f);
+    EXPECT_NEAR(luminance(lamp("\"spectrum L\" [ 400 0 500 8 600 15.6 700 18.4 ] \"float scale\" 3")), 3, 1e-5f);
+}
+
+TEST(PbrtLamps, MayShineOnBothSides) {
+    EXPECT_FALSE(read_world("AreaLightSource \"diffuse\" " + ball).shapes[0].emission->two_sided);
+    EXPECT_TRUE(read_world("AreaLightSource \"diffuse\" \"bool twosided\" true " + ball).shapes[0].emission->two_sided);
+}
+
+TEST(PbrtLamps, HaveThePowerThatIsAskedFor) {
+    // a diffuse lamp of radiance L and area A sends out π A L
+    EXPECT_NEAR(lamp("\"float power\" 100").r * 4 * pi * pi, 100, 1e-3);
+    const std::string patch = "Shape \"bilinearmesh\" \"point3 P\" [ 0 0 0  2 0 0  0 2 0  2 2 0 ]";
+    EXPECT_NEAR(lamp("\"float power\" 100", patch).r * 4 * pi, 100, 1e-3);
+    EXPECT_NEAR(lamp("\"float power\" 100 \"bool twosided\" true", patch).r * 8 * pi, 100, 1e-3);
+}
+
+TEST(PbrtLamps, OfAMeshHaveThatPowerInEachTriangleAsInPbrt) {
+    const auto scene = read_world(
+        "AreaLightSource \"diffuse\" \"float power\" 10\n"
+        "Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 0 1 3 ] \"point3 P\" [ 0 0 0  1 0 0  0 1 0  0 4 0 ]");
+    ASSERT_THAT(scene.shapes, SizeIs(2));
+    EXPECT_NEAR(scene.shapes[0].emission->radiance.r, 10 / (0.5f * pi), 1e-4f);
+    EXPECT_NEAR(scene.shapes[1].emission->radiance.r, 10 / (2 * pi), 1e-4f);
+}
+
+TEST(PbrtLamps, DoNotShineInsideOfObjects) {
+    const auto scene =
+        read_world("ObjectBegin \"o\" AreaLightSource \"diffuse\" " + ball + "ObjectEnd ObjectInstance \"o\"");
+    EXPECT_FALSE(scene.shapes.at(0).emission);
+    EXPECT_THAT(warnings_of(scene), HasSubstr("lamps inside of an object don't shine"));
+}
+
+TEST(PbrtEnvironments, AreConstant) {
+    const auto scene = read_world("LightSource \"infinite\" \"rgb L\" [ 1 2 3 ] \"float scale\" 2");
+    ASSERT_THAT(scene.environments, SizeIs(1));
+    EXPECT_EQ(scene.environments[0].radiance, (Rgb{2, 4, 6}));
+}
+
+TEST(PbrtEnvironments, OfAnIlluminanceShareItOverTheHemisphere) {
+    EXPECT_NEAR(read_world("LightSource \"infinite\" \"float illuminance\" 10").environments[0].radiance.g, 10 / pi,
+                1e-5f);
+}
+
+TEST(PbrtEnvironments, OfAPictureAreItsMean) {
+    // two rows, three columns would be latitudes: equal weights by symmetry
+    const MemoryFiles files(
+        {{"sky.hdr", std::string("#?RADIANCE\n\n-Y 2 +X 1\n") + std::string("\x80\x80\x80\x81\x40\x40\x40\x81", 8)}});
+    const auto scene = read_world("LightSource \"infinite\" \"string filename\" \"sky.hdr\" \"float scale\" 2", files);
+    EXPECT_NEAR(scene.environments.at(0).radiance.r, 1.5f, 1e-5f);
+    EXPECT_THAT(warnings_of(scene), HasSubstr("its mean is taken"));
+}
+
+TEST(PbrtShapes, WithInterfacesOnlyAreLeftOut) {
+    const auto scene =
+        read_world("Material \"interface\" " + ball + ball + "NamedMaterial \"air\" " + ball +
+                   "MakeNamedMaterial \"air\" \"string type\" \"interface\" Material \"diffuse\" " + ball);
+    EXPECT_THAT(scene.shapes, SizeIs(1));
+    EXPECT_THAT(warnings_of(scene), HasSubstr("is left out (3 times)"));
+}
+
+}  // namespace
+}  // namespace lightnet::test

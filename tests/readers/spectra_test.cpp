@@ -1,0 +1,68 @@
+#include "core/scene/spectra.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+
+namespace lightnet {
+namespace {
+
+using testing::FloatNear;
+
+TEST(Spectra, GiveTheSameValueEverywhereAsGrey) {
+    const std::vector<SpectrumPoint> half{{400, 0.5f}, {700, 0.5f}};
+    const Rgb colour = surface_colour(half);
+    EXPECT_NEAR(colour.r, 0.5f, 1e-6f);
+    EXPECT_NEAR(colour.g, 0.5f, 1e-6f);
+    EXPECT_NEAR(colour.b, 0.5f, 1e-6f);
+}
+
+TEST(Spectra, GiveLongWavelengthsAsRed) {
+    const std::vector<SpectrumPoint> red{{590, 0}, {610, 1}};
+    const Rgb colour = surface_colour(red);
+    EXPECT_GT(colour.r, 0.7f);
+    EXPECT_LT(colour.g, 0.15f);
+    EXPECT_LT(colour.b, 0.1f);
+}
+
+TEST(Spectra, GiveLightsLuminanceOne) {
+    const std::vector<SpectrumPoint> sodium{{585, 0}, {590, 30}, {595, 0}};
+    EXPECT_NEAR(luminance(light_colour(sodium)), 1, 1e-5f);
+    EXPECT_EQ(light_colour({}), (Rgb{0, 0, 0}));
+}
+
+TEST(Blackbodies, TurnFromRedToBlue) {
+    for (const float kelvin : {1000.0f, 2700.0f, 6500.0f, 20000.0f})
+        EXPECT_NEAR(luminance(blackbody_colour(kelvin)), 1, 1e-5f) << kelvin;
+    const Rgb warm = blackbody_colour(2700), day = blackbody_colour(6500), cold = blackbody_colour(20000);
+    EXPECT_GT(warm.r, 2 * warm.g);
+    EXPECT_LT(warm.b, 0.5f * warm.g);
+    EXPECT_NEAR(day.r, 1, 0.05f);
+    EXPECT_NEAR(day.b, 1, 0.05f);
+    EXPECT_GT(cold.b, 1.3f * cold.r);
+}
+
+TEST(NamedSpectra, KnowMetalsGlassesAndDaylight) {
+    EXPECT_NEAR(named_index("metal-Ag-eta")->r, 0.155265f, 1e-6f);
+    EXPECT_NEAR(named_index("metal-Al-k")->b, 4.837001f, 1e-6f);
+    EXPECT_NEAR(named_index("glass-BK7")->g, 1.5185f, 1e-4f);
+    EXPECT_EQ(named_light("stdillum-D65"), (Rgb{1, 1, 1}));
+    EXPECT_FALSE(named_index("metal-Unobtainium-eta"));
+    EXPECT_FALSE(named_light("metal-Ag-eta"));
+}
+
+TEST(SpectrumTables, AreReadInPairs) {
+    const auto points = read_spd("# a remark\n400 1.5\n500\t2\r\n");
+    ASSERT_EQ(points.size(), 2u);
+    EXPECT_EQ(points[1].wavelength, 500);
+    EXPECT_EQ(points[1].value, 2);
+}
+
+TEST(SpectrumTables, AreRefusedWhenBroken) {
+    for (const char* text : {"", "400", "400 1 300 2", "400 one", "400 nan", "400 1e999"})
+        EXPECT_THROW(read_spd(text), Error) << text;
+}
+
+}  // namespace
+}  // namespace lightnet

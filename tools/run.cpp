@@ -1,0 +1,266 @@
+#include "tools/run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <iostream>
+#include <random>
+#include <thread>
+
+#include "core/build_info.hpp"
+#include "core/error.hpp"
+#include "core/graph/graph_film.hpp"
+#include "core/hash.hpp"
+#include "core/runtime/fingerprint.hpp"
+#include "core/runtime/job.hpp"
+#include "core/runtime/master_renderer.hpp"
+#include "core/runtime/serial.hpp"
+#include "core/scene/read_scene.hpp"
+#include "tools/exit_code.hpp"
+#include "tools/run_book.hpp"
+#include "tools/signals.hpp"
+#include "transport/cluster.hpp"
+#include "transport/local_workers.hpp"
+#include "transport/threaded_run.hpp"
+
+namespace lightnet {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+
+constexpr auto host_patience = 5s;     // for hosts that do not answer when the run begins
+constexpr auto empty_patience = 10s;   // for a host to come when none is left
+constexpr auto drain_deadline = 5s;    // for tiles that are under way when the run is told to stop
+
+std::uint64_t random_number() {
+    std::random_device device;  // names a run; nothing that is computed depends on it
+    return (std::uint64_t{device()} << 32) | device();
+}
+
+// lightnetd stands beside the launcher.
+std::string daemon_program() {
+    return std::filesystem::read_symlink("/proc/self/exe").replace_filename("lightnetd").string();
+}
+
+const char* name_of(Mode mode) {
+    switch (mode) {
+        case Mode::serial: return "serial";
+        case Mode::threads: return "threads";
+        default: return "network";
+    }
+}
+
+RunReport first_page(const RunRequest& request, const FilmFormat& film) {
+    RunReport report;
+    report.graph = request.graph.file;
+    report.graph_hash = to_hex(content_hash(to_json(request.graph)));
+    report.mode = name_of(request.mode);
+    report.versions["lightnet"] = build_id();
+    report.settings["samples"] = std::to_string(film.samples);
+    report.settings["size"] = fmt::format("{}x{}", film.width, film.height);
+    report.settings["seed"] = std::to_string(request.seed);
+    report.settings["tile"] = std::to_string(request.tuning.tile);
+    report.settings["bundle"] = std::to_string(request.tuning.bundle);
+    return report;
+}
+
+// One run of a checked graph, from its scene to its files.
+class Run {
+public:
+    Run(const RunRequest& request, const Registry& registry)
+        : request_(request),
+          registry_(registry),
+          signals_(watch_signals()),
+          image_(renderer_of(request.graph, registry)),
+          format_(format()),
+          tiles_(tiles_of(format_.width, format_.height, request.tuning.tile, format_.samples)),
+          book_(format_, request.progress, tiles_.size(), first_page(request, format_)) {}
+
+    int perform();
+
+private:
+    FilmFormat format() const;
+    Job make_job(const DiskFiles& files) const;
+    void render_serially(SceneData scene);
+    void render_in_threads(SceneData scene);
+    void render_on_hosts(const DiskFiles& files);
+    void hand_out(Carrier& carrier, const Plan& plan, const std::function<void(const MasterRenderer&)>& look_around);
+    std::uint32_t tiles_per_place(const Plan& plan) const;
+    bool stopped() const { return signals_.any; }
+
+    const RunRequest& request_;
+    const Registry& registry_;
+    const Signals& signals_;
+    std::size_t image_;
+    FilmFormat format_;
+    std::vector<Tile> tiles_;
+    RunBook book_;
+    Job job_;
+    const std::uint64_t id_ = random_number();
+};
+
+FilmFormat Run::format() const {
+    const auto film = film_of(request_.graph, registry_);
+    const auto& samples = request_.graph.nodes[image_].params.at("samples");
+    return {film.width, film.height, layers_of(request_.graph, registry_).film,
+            static_cast<std::uint32_t>(std::get<double>(samples.data))};
+}
+
+Job Run::make_job(const DiskFiles& files) const {
+    Job job;
+    job.graph = request_.graph;
+    job.scene = request_.scene;
+    for (const auto& [path, bytes] : files.seen()) job.files.push_back({path, content_hash(*bytes), bytes->size()});
+    job.seed = request_.seed;
+    job.isa = usual_isa();
+    job.width = format_.width;
+    job.height = format_.height;
+    job.rules.bundles.questions = request_.tuning.bundle;
+    job.rules.credit.bundles = request_.tuning.credit;
+    job.rules.spare_fibers = request_.tuning.spare_fibers;
+    return job;
+}
+
+int Run::perform() {
+    try {
+        book_.phase("load");
+        DiskFiles files;
+        auto scene = read_scene(files, request_.scene);
+        for (const auto& warning : scene.warnings) book_.warn(to_string(warning));
+        const float scale = scene.film.scale;
+        job_ = make_job(files);
+        if (request_.mode == Mode::serial)
+            render_serially(std::move(scene));
+        else if (request_.mode == Mode::threads)
+            render_in_threads(std::move(scene));
+        else
+            render_on_hosts(files);
+        if (stopped()) {
+            book_.write_report(request_.output, "cancelled");
+            std::cerr << "cancelled; no picture was written\n";
+            return exit_code::interrupted;
+        }
+        book_.phase("write");
+        book_.write_picture(request_.output, scale);
+        book_.write_report(request_.output, "done");
+        return exit_code::done;
+    } catch (const UserError&) {
+        throw;
+    } catch (const NoWorker& error) {
+        book_.write_report(request_.output, "failed");
+        std::cerr << "lightnet: " << error.what() << '\n';
+        return exit_code::no_worker;
+    } catch (...) {
+        book_.write_report(request_.output, "failed");
+        throw;
+    }
+}
+
+void Run::render_serially(SceneData scene) {
+    book_.phase("prepare");
+    const auto network = build_network(job_, registry_, std::move(scene));
+    SerialRun run(*network, [this] {
+        if (stopped()) throw Cancelled{};
+    });
+    book_.use(Plan{{PlaceAt{}}, std::vector<std::vector<std::uint32_t>>(job_.graph.nodes.size(), {0})}, job_.graph);
+    book_.phase("render");
+    try {
+        for (const auto& tile : tiles_) {
+            if (stopped()) break;
+            book_.take(tile, run.render(tile));
+        }
+    } catch (const Cancelled&) {
+    }
+    book_.count(run.counters());
+}
+
+void Run::render_in_threads(SceneData scene) {
+    book_.phase("prepare");
+    const auto network = build_network(job_, registry_, std::move(scene));
+    const Plan plan = lightnet::plan(job_.graph, registry_, {}, {{"", request_.threads}});
+    ThreadedRun run(network, id_, plan, job_.rules);
+    book_.use(plan, job_.graph);
+    book_.phase("render");
+    hand_out(run.carrier(), plan, [](const MasterRenderer&) {});
+    book_.count(run.stop());
+}
+
+// How many tiles are under way per place: one that renders and one that waits, or, where lighting is elsewhere, as many
+// as keep the questions of several together.
+std::uint32_t Run::tiles_per_place(const Plan& plan) const {
+    const auto& images = plan.places_of[image_];
+    const bool alone = std::all_of(plan.places_of.begin(), plan.places_of.end(),
+                                   [&](const auto& places) { return places.empty() || places == images; });
+    return alone ? 2 : 6;
+}
+
+void Run::hand_out(Carrier& carrier, const Plan& plan, const std::function<void(const MasterRenderer&)>& look_around) {
+    MasterRenderer::Job job;
+    job.run = id_;
+    job.image = static_cast<std::uint32_t>(image_);
+    job.width = static_cast<std::uint32_t>(format_.layers.size());
+    job.tiles = tiles_;
+    const auto tiles = tiles_per_place(plan);
+    job.credit = {tiles, tiles};
+    MasterRenderer master(std::move(job), carrier,
+                          [this](const Tile& tile, std::span<const Rgb> pixels) { book_.take(tile, pixels); });
+    master.use(plan);
+    while (!stopped() && !master.work(50ms)) look_around(master);
+    if (signals_.terminated) {
+        master.drain();
+        const auto end = Clock::now() + drain_deadline;
+        while (master.outstanding() > 0 && Clock::now() < end && !signals_.interrupted) master.work(50ms);
+    }
+    book_.count(master.counters());
+}
+
+void Run::render_on_hosts(const DiskFiles& files) {
+    book_.phase("prepare");
+    std::optional<LocalWorkers> workers;
+    Cluster::Options options;
+    options.run = id_;
+    options.job = job_;
+    options.files = files.seen();
+    options.listen = request_.listen;
+    for (const auto& host : request_.hosts.hosts) options.endpoints.push_back(host.endpoint);
+    if (request_.local_workers) {
+        const auto places = std::max(1u, std::thread::hardware_concurrency() / request_.local_workers);
+        workers.emplace(daemon_program(), request_.local_workers, places);
+        for (const auto& endpoint : workers->endpoints()) options.endpoints.push_back(endpoint);
+    }
+    options.plan = [this](const std::vector<HostOffer>& offers) {
+        return lightnet::plan(job_.graph, registry_, request_.hosts, offers);
+    };
+    options.say = [this](const std::string& text) { book_.say(text); };
+
+    Cluster cluster(std::move(options));
+    if (!request_.listen.empty()) book_.say("hosts may join at " + cluster.join_endpoint());
+    cluster.gather(host_patience, signals_.any);
+    if (stopped()) {
+        cluster.finish(300ms);
+        return;
+    }
+    book_.use(cluster.plan(), job_.graph);
+    book_.phase("render");
+    auto last_host = Clock::now();
+    hand_out(cluster, cluster.plan(), [&](const MasterRenderer& master) {
+        if (workers)
+            for (const auto& endpoint : workers->ended()) cluster.lost(endpoint);
+        if (master.renderers() > 0) last_host = Clock::now();
+        if (Clock::now() - last_host > empty_patience)
+            throw Error("node '" + job_.graph.nodes[image_].name + "' has no place any more, and no host came within " +
+                        std::to_string(empty_patience.count()) + " s");
+    });
+    book_.use(cluster.plan(), job_.graph);
+    book_.count(cluster.finish(stopped() ? 300ms : 1000ms));
+}
+
+}  // namespace
+
+int run(const RunRequest& request, const Registry& registry) { return Run(request, registry).perform(); }
+
+}  // namespace lightnet

@@ -1,0 +1,50 @@
+// Keeps the books of a run: the film, the progress, and what goes into run.json.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "core/film/film.hpp"
+#include "core/film/progress.hpp"
+#include "core/film/run_report.hpp"
+#include "core/graph/plan.hpp"
+#include "core/runtime/counters.hpp"
+
+namespace lightnet {
+
+/// One thread's. Tiles come in, files go out.
+class RunBook {
+public:
+    RunBook(FilmFormat format, ProgressMode progress, std::uint64_t tiles, RunReport report);
+
+    /// Another part of the run begins; the one before has ended.
+    void phase(const std::string& name);
+    void say(const std::string& text) { progress_.say(text); }
+    void warn(const std::string& text);
+    /// Pixels of a tile.
+    void take(const Tile& tile, std::span<const Rgb> pixels);
+    /// Who holds what, from now on.
+    void use(const Plan& plan, const Graph& graph);
+    void count(const Counters& counters) { counters_ += counters; }
+
+    /// Writes x.exr, x.png and run.json beside them, each whole or not at all. `scale` is what the scene's film makes
+    /// of radiance. Says what was written.
+    void write_picture(const std::string& exr, float scale);
+    /// Writes run.json beside `exr`.
+    void write_report(const std::string& exr, const std::string& outcome);
+
+private:
+    void end_phase(std::chrono::steady_clock::time_point now);
+
+    Film film_;
+    RunReport report_;
+    Progress progress_;
+    Counters counters_;
+    std::uint64_t tiles_ = 0, repeated_ = 0;
+    std::optional<std::chrono::steady_clock::time_point> phase_begun_;
+};
+
+}  // namespace lightnet
