@@ -24,7 +24,7 @@ namespace lightnet::lua {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using Length = std::uint64_t;   // goes before the text, so that an answer cut short is no answer
+using Length = std::uint64_t;  // goes before the text, so that an answer cut short is no answer
 
 /// An end of a pipe.
 class Descriptor {
@@ -99,7 +99,7 @@ void write_all(int file, const void* data, std::size_t size) {
 
 [[noreturn]] void be_child(pid_t parent, int out, const Budget& budget, const std::function<std::string()>& work) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (::getppid() != parent) ::_exit(1);   // it died before we could ask
+    if (::getppid() != parent) ::_exit(1);  // it died before we could ask
     ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
     default_signals();
     constexpr int pipe = 3;
@@ -118,7 +118,7 @@ void write_all(int file, const void* data, std::size_t size) {
         write_all(pipe, text.data(), text.size());
         ::_exit(0);
     } catch (const std::exception&) {
-        ::_exit(1);   // the parent says that there was no answer
+        ::_exit(1);  // the parent says that there was no answer
     }
 }
 
@@ -133,8 +133,10 @@ bool receive(int file, const Budget& budget, std::string& text) {
         if (::poll(&ready, 1, static_cast<int>(left)) <= 0) continue;
         const ssize_t size = ::read(file, buffer.data(), buffer.size());
         if (size == 0) return true;
-        if (size > 0) text.append(buffer.data(), static_cast<std::size_t>(size));
-        else if (errno != EINTR) return true;
+        if (size > 0)
+            text.append(buffer.data(), static_cast<std::size_t>(size));
+        else if (errno != EINTR)
+            return true;
     }
     return true;
 }

@@ -11,7 +11,7 @@ namespace lightnet::lua {
 struct Budget {
     double cpu_seconds = 5;
     double wall_seconds = 10;
-    std::size_t output = std::size_t{16} << 20;   // bytes
+    std::size_t output = std::size_t{16} << 20;  // bytes
 };
 
 /// Forks, runs `work` in the child and returns its text. The child has no open file but standard error, can't write

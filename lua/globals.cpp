@@ -10,41 +10,55 @@ namespace lightnet::lua {
 namespace {
 
 constexpr const char* unknown_type = "lightnet.unknown";
-constexpr const char* store = "lightnet.globals";   // where the globals really are, in the registry
+constexpr const char* store = "lightnet.globals";  // where the globals really are, in the registry
 constexpr const char* owner = "lightnet.owner";
 constexpr std::size_t most_unknowns = 100000;
 
-bool push_number(lua_State* L, const std::string& text) { return lua_stringtonumber(L, text.c_str()) == text.size() + 1; }
+bool push_number(lua_State* L, const std::string& text) {
+    return lua_stringtonumber(L, text.c_str()) == text.size() + 1;
+}
 
 // Pushes `text` as a value of the type of the value on top of the stack, or, false, nothing.
 bool push_like_top(lua_State* L, const std::string& text) {
     switch (lua_type(L, -1)) {
-        case LUA_TSTRING: lua_pushlstring(L, text.data(), text.size()); return true;
-        case LUA_TNUMBER: return push_number(L, text);
+        case LUA_TSTRING:
+            lua_pushlstring(L, text.data(), text.size());
+            return true;
+        case LUA_TNUMBER:
+            return push_number(L, text);
         case LUA_TBOOLEAN:
             if (text != "true" && text != "false") return false;
             lua_pushboolean(L, text == "true");
             return true;
-        default: return false;
+        default:
+            return false;
     }
 }
 
 // Of a value that the file only reads, the look tells the type.
 void push_by_look(lua_State* L, const std::string& text) {
-    if (text == "true" || text == "false") lua_pushboolean(L, text == "true");
-    else if (!push_number(L, text)) lua_pushlstring(L, text.data(), text.size());
+    if (text == "true" || text == "false")
+        lua_pushboolean(L, text == "true");
+    else if (!push_number(L, text))
+        lua_pushlstring(L, text.data(), text.size());
 }
 
 bool plain_type(int type) { return type == LUA_TSTRING || type == LUA_TNUMBER || type == LUA_TBOOLEAN; }
 
 const char* type_in_words(int type) {
     switch (type) {
-        case LUA_TSTRING: return "a text";
-        case LUA_TNUMBER: return "a number";
-        case LUA_TBOOLEAN: return "true or false";
-        case LUA_TTABLE: return "a table";
-        case LUA_TFUNCTION: return "a function";
-        default: return "a node";
+        case LUA_TSTRING:
+            return "a text";
+        case LUA_TNUMBER:
+            return "a number";
+        case LUA_TBOOLEAN:
+            return "true or false";
+        case LUA_TTABLE:
+            return "a table";
+        case LUA_TFUNCTION:
+            return "a function";
+        default:
+            return "a node";
     }
 }
 
@@ -63,7 +77,7 @@ void Globals::install() {
     lua_setfield(L, LUA_REGISTRYINDEX, owner);
 
     luaL_newmetatable(L, unknown_type);
-    lua_pushliteral(L, "nil");   // so that Lua itself says "attempt to index a nil value (global 'x')"
+    lua_pushliteral(L, "nil");  // so that Lua itself says "attempt to index a nil value (global 'x')"
     lua_setfield(L, -2, "__name");
     lua_pushcfunction(L, &Globals::call_unknown);
     lua_setfield(L, -2, "__call");
@@ -157,8 +171,8 @@ void Globals::override_constant(lua_State* L, const std::string& name) {
     const int type = lua_type(L, -1);
     if (push_like_top(L, constants_.at(name))) return lua_replace(L, -2);
     const std::string given = "-D " + name + "=" + constants_.at(name) + ": the file gives ";
-    complain(sandbox_.caller(), given + type_in_words(type) +
-                                    (plain_type(type) ? ", and so must -D" : ", which -D can't override"));
+    complain(sandbox_.caller(),
+             given + type_in_words(type) + (plain_type(type) ? ", and so must -D" : ", which -D can't override"));
 }
 
 void Globals::finish(const std::vector<std::string>& named) {
@@ -167,8 +181,10 @@ void Globals::finish(const std::vector<std::string>& named) {
     std::set<std::pair<std::string, int>> told;
     for (const auto& [name, where, taken] : unknowns_) {
         if (taken || !told.emplace(where.file + ":" + name, where.line).second) continue;
-        if (plain_.contains(name)) complain(where, "'" + name + "' is used before it has a value");
-        else complain(where, "nothing is called '" + name + "'" + did_you_mean(name, known));
+        if (plain_.contains(name))
+            complain(where, "'" + name + "' is used before it has a value");
+        else
+            complain(where, "nothing is called '" + name + "'" + did_you_mean(name, known));
     }
     std::vector<std::string> constants;
     for (const auto& [name, where] : plain_) constants.push_back(name);

@@ -28,7 +28,7 @@ protected:
     struct Unknown {
         std::string name;
         SourceLine where;
-        bool taken = false;   // somebody knows what it stands for
+        bool taken = false;  // somebody knows what it stands for
     };
 
     /// The Unknown at that place of the stack, or null.
@@ -39,7 +39,8 @@ protected:
     virtual void assigned(lua_State* L, const std::string& name) = 0;
     /// Makes a function of `self` a global that files may call.
     void offer(const char* name, int (*function)(lua_State*));
-    /// Complains of all that was read in vain, and of overrides that met nothing. `named`: other names one may have meant.
+    /// Complains of all that was read in vain, and of overrides that met nothing. `named`: other names one may have
+    /// meant.
     void finish(const std::vector<std::string>& named);
     void complain(SourceLine where, std::string what) { problems_.push_back({std::move(where), std::move(what)}); }
 
@@ -57,9 +58,9 @@ private:
     int write(lua_State* L);
     void override_constant(lua_State* L, const std::string& name);
 
-    const std::map<std::string, std::string> constants_;   // -D
-    std::map<std::string, bool> met_;                      // overrides that the file reads or gives
-    std::map<std::string, SourceLine> plain_;              // constants of the file
+    const std::map<std::string, std::string> constants_;  // -D
+    std::map<std::string, bool> met_;                     // overrides that the file reads or gives
+    std::map<std::string, SourceLine> plain_;             // constants of the file
     std::vector<Unknown> unknowns_;
     std::vector<Problem> problems_;
 };

@@ -64,7 +64,8 @@ void GraphScript::take_entries(lua_State* L, Made& made) {
     for (lua_Unsigned i = 1; i <= size; ++i) {
         if (lua_rawgeti(L, 2, static_cast<lua_Integer>(i)) == LUA_TNIL)
             made.complaints.push_back("entry " + std::to_string(i) + " is nil");
-        else try {
+        else
+            try {
                 made.node.entries.push_back(value_at(L, -1, 0));
             } catch (const UserError& error) {
                 made.complaints.push_back("entry " + std::to_string(i) + " " + error.what());
@@ -81,7 +82,8 @@ void GraphScript::take_params(lua_State* L, Made& made) {
             made.complaints.push_back("an entry before the one at " + std::to_string(lua_tointeger(L, 3)) + " is nil");
         } else if (lua_type(L, 3) != LUA_TSTRING) {
             made.complaints.push_back("a parameter goes by a name");
-        } else try {
+        } else
+            try {
                 const std::string key = text_at(L, 3);
                 made.node.params.emplace(key, value_at(L, 4, 0));
             } catch (const UserError& error) {
@@ -94,11 +96,16 @@ void GraphScript::take_params(lua_State* L, Made& made) {
 Value GraphScript::value_at(lua_State* L, int index, int depth) {
     count(0);
     switch (lua_type(L, index)) {
-        case LUA_TBOOLEAN: return {lua_toboolean(L, index) != 0};
-        case LUA_TNUMBER: return {static_cast<double>(lua_tonumber(L, index))};
-        case LUA_TSTRING: return {text_at(L, index)};
-        case LUA_TTABLE: return {table_at(L, lua_absindex(L, index), depth + 1)};
-        default: break;
+        case LUA_TBOOLEAN:
+            return {lua_toboolean(L, index) != 0};
+        case LUA_TNUMBER:
+            return {static_cast<double>(lua_tonumber(L, index))};
+        case LUA_TSTRING:
+            return {text_at(L, index)};
+        case LUA_TTABLE:
+            return {table_at(L, lua_absindex(L, index), depth + 1)};
+        default:
+            break;
     }
     if (const auto* node = node_at(L, index)) return {NodeRef{by_number + std::to_string(*node)}};
     if (Unknown* const later = unknown_at(index)) {
@@ -155,8 +162,10 @@ void GraphScript::assigned(lua_State* L, const std::string& name) {
 
 void GraphScript::resolve(Value& value) const {
     if (auto* ref = std::get_if<NodeRef>(&value.data)) {
-        if (ref->name[0] == by_number) ref->name = made_[std::stoul(ref->name.substr(1))].node.name;
-        else if (const auto at = named_.find(ref->name); at != named_.end()) ref->name = made_[at->second].node.name;
+        if (ref->name[0] == by_number)
+            ref->name = made_[std::stoul(ref->name.substr(1))].node.name;
+        else if (const auto at = named_.find(ref->name); at != named_.end())
+            ref->name = made_[at->second].node.name;
     } else if (auto* table = std::get_if<Table>(&value.data)) {
         for (auto& entry : table->list) resolve(entry);
         for (auto& [key, entry] : table->named) resolve(entry);

@@ -21,8 +21,8 @@ public:
 
 private:
     struct Made {
-        Node node;                              // nameless until assigned
-        std::vector<std::string> complaints;    // told when the name is known
+        Node node;                            // nameless until assigned
+        std::vector<std::string> complaints;  // told when the name is known
     };
 
     int call(lua_State* L, Unknown& callee) override;
@@ -39,9 +39,9 @@ private:
     void resolve(Value& value) const;
 
     std::vector<Made> made_;
-    std::vector<std::size_t> order_;                  // indices into made_, as they were named
-    std::map<std::string, std::size_t> named_;        // all names of nodes, second ones too
-    std::size_t values_ = 0, bytes_ = 0;              // of all that was taken so far
+    std::vector<std::size_t> order_;            // indices into made_, as they were named
+    std::map<std::string, std::size_t> named_;  // all names of nodes, second ones too
+    std::size_t values_ = 0, bytes_ = 0;        // of all that was taken so far
 };
 
 }  // namespace lightnet::lua

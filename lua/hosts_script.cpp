@@ -63,8 +63,10 @@ void HostsScript::take_replicas(lua_State* L, HostEntry& entry) {
         const lua_Integer count = lua_type(L, 3) == LUA_TNUMBER ? lua_tointegerx(L, 3, &integral) : 0;
         if (!integral || count < 0 || count > 1'000'000)
             complain(entry.where, who + "how many " + quoted(name) + "? A positive integer is wanted");
-        else if (name == "places") entry.places = static_cast<int>(count);
-        else entry.replicas[name] = static_cast<int>(count);
+        else if (name == "places")
+            entry.places = static_cast<int>(count);
+        else
+            entry.replicas[name] = static_cast<int>(count);
     }
 }
 

@@ -20,7 +20,7 @@ struct Answer {
     std::vector<Problem> problems;
 };
 
-using Text = std::function<std::string()>;   // read in the child, so that an endless file costs only the child
+using Text = std::function<std::string()>;  // read in the child, so that an endless file costs only the child
 
 // A JSON text has no line break in it, so one keeps the two apart.
 std::string pack(const Answer& answer) { return to_json(answer.problems) + "\n" + answer.value; }
@@ -90,13 +90,17 @@ GraphFile read_graph(const std::string& file, const LuaOptions& options) { retur
 Graph load_graph(const std::string& file, const LuaOptions& options) { return sound(read_graph(file, options)); }
 
 Graph parse_graph(const std::string& text, const std::string& file, const LuaOptions& options) {
-    return sound(read(file, [&] { return text; }, options));
+    return sound(read(
+        file, [&] { return text; }, options));
 }
 
-Hosts load_hosts(const std::string& file, const LuaOptions& options) { return sound_hosts(file, text_of(file), options); }
+Hosts load_hosts(const std::string& file, const LuaOptions& options) {
+    return sound_hosts(file, text_of(file), options);
+}
 
 Hosts parse_hosts(const std::string& text, const std::string& file, const LuaOptions& options) {
-    return sound_hosts(file, [&] { return text; }, options);
+    return sound_hosts(
+        file, [&] { return text; }, options);
 }
 
 }  // namespace lightnet

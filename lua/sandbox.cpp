@@ -1,7 +1,7 @@
 #include "lua/sandbox.hpp"
 
-#include <lua.hpp>
 #include <unistd.h>
+#include <lua.hpp>
 
 #include <algorithm>
 #include <cctype>
@@ -101,7 +101,7 @@ Sandbox& Sandbox::of(lua_State* L) { return **static_cast<Sandbox**>(lua_getextr
 
 void* Sandbox::allocate(void* self, void* block, std::size_t old_size, std::size_t new_size) {
     auto& box = *static_cast<Sandbox*>(self);
-    if (!block) old_size = 0;   // else it tells what is made, not how large it was
+    if (!block) old_size = 0;  // else it tells what is made, not how large it was
     if (new_size == 0) {
         std::free(block);
         box.used_ -= old_size;
@@ -243,7 +243,7 @@ int Sandbox::require(lua_State* L, const std::string& name) {
     try {
         load(L, text, path);
     } catch (const Error&) {
-        lua_error(L);   // as it stands: it names the line of the required file
+        lua_error(L);  // as it stands: it names the line of the required file
     }
     lua_call(L, 0, 1);
     if (lua_isnil(L, -1)) {

@@ -55,9 +55,9 @@ private:
     std::string file_;
     std::size_t memory_, used_ = 0;
     std::size_t printed_ = 0;
-    std::vector<std::string> chunks_;     // files that were loaded
-    SourceLine last_error_;               // innermost line when the last error was thrown
-    std::map<std::string, bool> done_;    // required files; false: still running
+    std::vector<std::string> chunks_;   // files that were loaded
+    SourceLine last_error_;             // innermost line when the last error was thrown
+    std::map<std::string, bool> done_;  // required files; false: still running
     std::unique_ptr<lua_State, Close> state_;
 };
 

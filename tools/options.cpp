@@ -154,7 +154,9 @@ private:
             ->excludes(hosts)
             ->excludes(threads);
         verb.add_option("-o,--output", options_.output, "the picture, instead of the graph's")->type_name("OUT.exr");
-        verb.add_option("--seed", options_.seed, "root of all random numbers")->type_name("N");
+        verb.add_option("--seed", options_.seed, "root of all random numbers")
+            ->type_name("N")
+            ->check(CLI::NonNegativeNumber);  // or -1 would be a very large number
         verb.add_option_function<std::string>(
                 "--progress", [this](const std::string& text) { options_.progress = *progress_mode(text); },
                 "how progress is shown")

@@ -61,8 +61,10 @@ private:
         const Kind* kind = registry_.find(node.kind);
         const auto say = [&](const std::string& what) { complain(node, what); };
         if (!kind) say("unknown kind" + suggest(node.kind, kinds_));
-        if (kind && kind->role == Role::scene) check_scene(node);
-        else check_inputs(node, kind);
+        if (kind && kind->role == Role::scene)
+            check_scene(node);
+        else
+            check_inputs(node, kind);
         if (kind) check_params(node, *kind, given_, say);
     }
 
@@ -79,9 +81,9 @@ private:
         if (count < kind->least_inputs)
             complain(node, "needs at least " + count_text(kind->least_inputs) + ", has " + std::to_string(count));
         if (count > kind->most_inputs)
-            complain(node, kind->most_inputs == 0 ? "takes no inputs, has " + std::to_string(count)
-                                                  : "takes at most " + count_text(kind->most_inputs) + ", has " +
-                                                        std::to_string(count));
+            complain(node, kind->most_inputs == 0
+                               ? "takes no inputs, has " + std::to_string(count)
+                               : "takes at most " + count_text(kind->most_inputs) + ", has " + std::to_string(count));
     }
 
     void check_input(const Node& node, std::size_t index, const Kind* kind) {
@@ -95,8 +97,7 @@ private:
         if (!kind || !gives || gives->role == Role::light) return;
         const std::string hint = gives->role == Role::scene ? " (write scene = " + ref->name + ")" : "";
         complain(node, which + ", " + quoted(ref->name) + ", gives " +
-                           (gives->role == Role::image ? "an image" : "a scene") + ", but light is wanted" +
-                           hint);
+                           (gives->role == Role::image ? "an image" : "a scene") + ", but light is wanted" + hint);
     }
 
     // Depth first; a node that is met again on the way to itself closes a cycle, which is told once.
@@ -124,8 +125,10 @@ private:
             }
             const std::size_t input = left.back();
             left.pop_back();
-            if (state_[input] == State::fresh) enter(input);
-            else if (state_[input] == State::open) tell_cycle(path, input);
+            if (state_[input] == State::fresh)
+                enter(input);
+            else if (state_[input] == State::open)
+                tell_cycle(path, input);
         }
     }
 

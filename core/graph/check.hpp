@@ -13,9 +13,9 @@ namespace lightnet {
 
 /// What check() finds.
 struct Examined {
-    Graph graph;                        // with defaults filled in
-    std::vector<Problem> problems;      // all of them, in the order of the files' lines; empty: the graph is sound
-    std::vector<Problem> warnings;      // what works, but is probably not meant: nodes that the picture doesn't need
+    Graph graph;                    // with defaults filled in
+    std::vector<Problem> problems;  // all of them, in the order of the files' lines; empty: the graph is sound
+    std::vector<Problem> warnings;  // what works, but is probably not meant: nodes that the picture doesn't need
 };
 
 /// Finds everything that is wrong: unknown kind or parameter, wrong type or range, missing input, wrong role of an

@@ -9,7 +9,7 @@
 namespace lightnet {
 namespace {
 
-constexpr int most_places = 1024;   // of one host; more is a slip of the pen
+constexpr int most_places = 1024;  // of one host; more is a slip of the pen
 
 std::string quoted(const std::string& text) { return "'" + text + "'"; }
 
@@ -66,9 +66,12 @@ void check_hosts(const Hosts& hosts, const Graph& graph, const Registry& registr
         for (const auto& [name, count] : entry.replicas) {
             const auto node = graph.find(name);
             const Kind* kind = node ? registry.find(graph.nodes[*node].kind) : nullptr;
-            if (!node) check.complain("no node called " + quoted(name) + suggest(name, names));
-            else if (kind && kind->role == Role::scene) check.complain(quoted(name) + " is a scene, which every host has");
-            else check.replica(name, count);
+            if (!node)
+                check.complain("no node called " + quoted(name) + suggest(name, names));
+            else if (kind && kind->role == Role::scene)
+                check.complain(quoted(name) + " is a scene, which every host has");
+            else
+                check.replica(name, count);
         }
     }
 }

@@ -22,13 +22,20 @@ std::string joined(const std::vector<std::string>& words) {
 
 std::string_view wanted(ParamType type) {
     switch (type) {
-        case ParamType::number: return "a number";
-        case ParamType::integer: return "an integer";
-        case ParamType::flag: return "true or false";
-        case ParamType::text: return "a text";
-        case ParamType::numbers: return "a table of numbers";
-        case ParamType::film: return "a table like { width, height, file = \"picture.exr\" }";
-        case ParamType::scene: return "a Scene";
+        case ParamType::number:
+            return "a number";
+        case ParamType::integer:
+            return "an integer";
+        case ParamType::flag:
+            return "true or false";
+        case ParamType::text:
+            return "a text";
+        case ParamType::numbers:
+            return "a table of numbers";
+        case ParamType::film:
+            return "a table like { width, height, file = \"picture.exr\" }";
+        case ParamType::scene:
+            return "a Scene";
     }
     return "";
 }
@@ -53,12 +60,24 @@ public:
             return complain_(quoted(param_.name) + ": nothing is called " + quoted(ref->name));
         switch (param_.type) {
             case ParamType::number:
-            case ParamType::integer: number(value, quoted(param_.name), param_.type == ParamType::integer); break;
-            case ParamType::flag: as<bool>(value); break;
-            case ParamType::text: text(value); break;
-            case ParamType::numbers: numbers(value); break;
-            case ParamType::film: film(value); break;
-            case ParamType::scene: scene(value); break;
+            case ParamType::integer:
+                number(value, quoted(param_.name), param_.type == ParamType::integer);
+                break;
+            case ParamType::flag:
+                as<bool>(value);
+                break;
+            case ParamType::text:
+                text(value);
+                break;
+            case ParamType::numbers:
+                numbers(value);
+                break;
+            case ParamType::film:
+                film(value);
+                break;
+            case ParamType::scene:
+                scene(value);
+                break;
         }
     }
 

@@ -55,7 +55,8 @@ std::string describe(const Registry& registry) {
     for (const auto& kind : registry.kinds()) width = std::max(width, kind.name.size());
     std::string text;
     for (const auto& kind : registry.kinds())
-        text += padded(kind.name, width) + "  " + padded(std::string(to_string(kind.role)), 5) + "  " + kind.help + "\n";
+        text +=
+            padded(kind.name, width) + "  " + padded(std::string(to_string(kind.role)), 5) + "  " + kind.help + "\n";
     return text;
 }
 

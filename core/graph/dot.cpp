@@ -23,18 +23,24 @@ std::string escaped(std::string_view text) {
 class Drawing {
 protected:
     Drawing(const Graph& graph, const Registry& registry)
-        : graph_(graph), registry_(registry), layers_(layers_of(graph, registry)), renderer_(renderer_of(graph, registry)) {
-        text_ = "digraph lightnet {\n"
-                "  rankdir=LR;\n"
-                "  node [shape=box, style=rounded, fontname=\"Helvetica\"];\n"
-                "  edge [fontname=\"Helvetica\", fontsize=10];\n";
+        : graph_(graph),
+          registry_(registry),
+          layers_(layers_of(graph, registry)),
+          renderer_(renderer_of(graph, registry)) {
+        text_ =
+            "digraph lightnet {\n"
+            "  rankdir=LR;\n"
+            "  node [shape=box, style=rounded, fontname=\"Helvetica\"];\n"
+            "  edge [fontname=\"Helvetica\", fontsize=10];\n";
     }
 
     std::string take() { return std::move(text_) + "}\n"; }
 
     Role role(std::size_t node) const { return registry_.find(graph_.nodes[node].kind)->role; }
 
-    void line(int depth, const std::string& what) { text_ += std::string(2 * static_cast<std::size_t>(depth), ' ') + what + "\n"; }
+    void line(int depth, const std::string& what) {
+        text_ += std::string(2 * static_cast<std::size_t>(depth), ' ') + what + "\n";
+    }
 
     void draw_node(int depth, const std::string& id, std::size_t node) {
         const auto& [name, kind, entries, params, where] = graph_.nodes[node];
@@ -107,7 +113,6 @@ public:
         : Drawing(graph, registry), plan_(plan), host_labels_(host_labels) {}
 
     std::string draw() {
-        line(1, "compound=true;");
         line(1, "launcher [shape=cds, label=\"launcher\"];");
         draw_hosts();
         draw_tiles();
@@ -188,16 +193,19 @@ private:
             edge("launcher", from, std::string(tiles) + "\ncall");
         }
         for (const auto place : places)
-            edge(from, id(renderer_, place), std::string(tiles) + "\n" + (plan_.places[place].host.empty() ? "inproc" : "tcp"));
+            edge(from, id(renderer_, place),
+                 std::string(tiles) + "\n" + (plan_.places[place].host.empty() ? "inproc" : "tcp"));
     }
 
     void draw_asks(std::uint32_t place, std::size_t node) {
         for (const std::size_t input : graph_.inputs_of(node)) {
             const auto& replicas = plan_.places_of[input];
-            if (holds(place, input)) edge(id(node, place), id(input, place), light(input) + "\ncall");
+            if (holds(place, input))
+                edge(id(node, place), id(input, place), light(input) + "\ncall");
             else if (replicas.size() == 1)
                 edge(id(node, place), id(input, replicas[0]), light(input) + "\n" + way(place, replicas[0]));
-            else edge(id(node, place), multiplexer_id(input, place), light(input) + "\ncall");
+            else
+                edge(id(node, place), multiplexer_id(input, place), light(input) + "\ncall");
         }
         // the node stands for all that the place asks of its own multiplexers
         for (const std::size_t input : graph_.inputs_of(node))

@@ -15,18 +15,18 @@ namespace lightnet {
 
 /// One node of the graph: `name = Kind { inputs…, key = value… }`.
 struct Node {
-    std::string name;                        // what stands on the left
+    std::string name;  // what stands on the left
     std::string kind;
-    std::vector<Value> entries;              // what stands in the array part: inputs (NodeRef), or a scene's file name
-    std::map<std::string, Value> params;     // string keys; check() fills in the defaults
+    std::vector<Value> entries;           // what stands in the array part: inputs (NodeRef), or a scene's file name
+    std::map<std::string, Value> params;  // string keys; check() fills in the defaults
     SourceLine where;
     friend bool operator==(const Node&, const Node&) = default;
 };
 
 /// A graph, in the order of its file. Plain data: copyable, comparable, sendable.
 struct Graph {
-    std::string file;          // the graph file, as named by the user
-    std::vector<Node> nodes;   // in the order in which the file names them
+    std::string file;         // the graph file, as named by the user
+    std::vector<Node> nodes;  // in the order in which the file names them
     friend bool operator==(const Graph&, const Graph&) = default;
 
     /// Index of the node called `name`.

@@ -12,8 +12,8 @@ namespace lightnet {
 
 /// `film = { width, height, file = "x.exr" }`
 struct GraphFilm {
-    std::uint32_t width = 0, height = 0;    // pixels
-    std::string file;                       // "" where the graph names none
+    std::uint32_t width = 0, height = 0;  // pixels
+    std::string file;                     // "" where the graph names none
     friend bool operator==(const GraphFilm&, const GraphFilm&) = default;
 };
 

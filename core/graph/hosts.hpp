@@ -12,9 +12,9 @@ namespace lightnet {
 
 /// `place "tcp://onyx1:7777" { direct = 1, caustics = 2 }`
 struct HostEntry {
-    std::string endpoint;                    // "tcp://host:port"
-    std::map<std::string, int> replicas;     // node name → how many places of this host hold it; empty: the whole network
-    int places = 0;                          // 0: one per core that the host offers
+    std::string endpoint;                 // "tcp://host:port"
+    std::map<std::string, int> replicas;  // node name → how many places of this host hold it; empty: the whole network
+    int places = 0;                       // 0: one per core that the host offers
     SourceLine where;
     friend bool operator==(const HostEntry&, const HostEntry&) = default;
 };

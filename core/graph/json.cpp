@@ -13,7 +13,7 @@
 namespace lightnet {
 namespace {
 
-using Json = nlohmann::json;   // its objects are sorted by key, hence the text canonical
+using Json = nlohmann::json;  // its objects are sorted by key, hence the text canonical
 
 constexpr std::size_t most_bytes = std::size_t{16} << 20;
 constexpr int most_depth = 32;
@@ -158,7 +158,9 @@ Node node_of(const Json& json) {
 
 HostEntry host_of(const Json& json) {
     object_of(json, 4);
-    HostEntry host{text_of(member(json, "endpoint")), {}, integer_of<int>(member(json, "places")),
+    HostEntry host{text_of(member(json, "endpoint")),
+                   {},
+                   integer_of<int>(member(json, "places")),
                    where_of(member(json, "where"))};
     const auto& replicas = member(json, "replicas");
     if (!replicas.is_object()) malformed("an object was expected");

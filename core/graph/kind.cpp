@@ -36,22 +36,32 @@ const Kind* Registry::find(std::string_view name) const {
 
 std::string_view to_string(Role role) {
     switch (role) {
-        case Role::light: return "light";
-        case Role::image: return "image";
-        case Role::scene: return "scene";
+        case Role::light:
+            return "light";
+        case Role::image:
+            return "image";
+        case Role::scene:
+            return "scene";
     }
     return "";
 }
 
 std::string_view to_string(ParamType type) {
     switch (type) {
-        case ParamType::number: return "number";
-        case ParamType::integer: return "integer";
-        case ParamType::flag: return "flag";
-        case ParamType::text: return "text";
-        case ParamType::numbers: return "numbers";
-        case ParamType::film: return "film";
-        case ParamType::scene: return "scene";
+        case ParamType::number:
+            return "number";
+        case ParamType::integer:
+            return "integer";
+        case ParamType::flag:
+            return "flag";
+        case ParamType::text:
+            return "text";
+        case ParamType::numbers:
+            return "numbers";
+        case ParamType::film:
+            return "film";
+        case ParamType::scene:
+            return "scene";
     }
     return "";
 }

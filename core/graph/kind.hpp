@@ -30,24 +30,24 @@ std::string_view to_string(ParamType type);
 struct Param {
     std::string name;
     ParamType type = ParamType::number;
-    std::string help;                               // one line
-    std::string unit = {};                          // "m", "W·sr⁻¹·m⁻²", "samples", …; empty: none
-    std::optional<Value> initial = {};              // the default; none: must be given
+    std::string help;                   // one line
+    std::string unit = {};              // "m", "W·sr⁻¹·m⁻²", "samples", …; empty: none
+    std::optional<Value> initial = {};  // the default; none: must be given
     double least = -std::numeric_limits<double>::infinity();
     double most = std::numeric_limits<double>::infinity();
-    std::vector<std::string> choices = {};          // for text: what it may be; empty: anything
-    bool optional = false;                          // may be absent without a default
-    bool per_input = false;                         // for numbers: one for each input of the node, or none at all
+    std::vector<std::string> choices = {};  // for text: what it may be; empty: anything
+    bool optional = false;                  // may be absent without a default
+    bool per_input = false;                 // for numbers: one for each input of the node, or none at all
 };
 
 /// One kind of node.
 struct Kind {
-    std::string name;                               // "DirectLighting"
+    std::string name;  // "DirectLighting"
     Role role = Role::light;
-    std::string help;                               // what it does, one line
-    std::size_t least_inputs = 0;                   // light inputs, from the array part
+    std::string help;              // what it does, one line
+    std::size_t least_inputs = 0;  // light inputs, from the array part
     std::size_t most_inputs = 0;
-    bool linear = false;                            // answers with a weighted sum of its inputs: layers pass through
+    bool linear = false;  // answers with a weighted sum of its inputs: layers pass through
     std::vector<Param> params = {};
     std::function<std::unique_ptr<LightOp>(const NodeContext&)> make_light = {};
     std::function<std::unique_ptr<Renderer>(const NodeContext&)> make_renderer = {};

@@ -17,7 +17,8 @@ namespace {
 /// Collects terminals from the leaves up, for the nodes on additive paths only.
 class Terminals {
 public:
-    Terminals(const Graph& graph, const Registry& registry) : graph_(graph), registry_(registry), of_(graph.nodes.size()) {}
+    Terminals(const Graph& graph, const Registry& registry)
+        : graph_(graph), registry_(registry), of_(graph.nodes.size()) {}
 
     /// In graph order; every node comes here once.
     const std::vector<std::size_t>& below(std::size_t node) {

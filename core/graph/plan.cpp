@@ -80,8 +80,8 @@ private:
 
     const Graph& graph_;
     Plan plan_;
-    std::vector<bool> placed_;          // per node: the picture needs it, and a place must hold it
-    std::vector<std::size_t> held_;     // per place: how many nodes it holds
+    std::vector<bool> placed_;       // per node: the picture needs it, and a place must hold it
+    std::vector<std::size_t> held_;  // per place: how many nodes it holds
 };
 
 }  // namespace
@@ -93,8 +93,10 @@ Plan plan(const Graph& graph, const Registry& registry, const Hosts& hosts, cons
                                         [&](const HostEntry& host) { return host.endpoint == offer.endpoint; });
         const bool named = entry != hosts.hosts.end();
         const auto places = named && entry->places > 0 ? static_cast<std::uint32_t>(entry->places) : offer.places;
-        if (named && !entry->replicas.empty()) planner.named_nodes(*entry, places);
-        else planner.whole_network(offer.endpoint, places);
+        if (named && !entry->replicas.empty())
+            planner.named_nodes(*entry, places);
+        else
+            planner.whole_network(offer.endpoint, places);
     }
     if (planner.empty()) throw Error("no host offers a place");
     planner.rescue_homeless();

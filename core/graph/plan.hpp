@@ -15,8 +15,9 @@ namespace lightnet {
 
 /// What the picture's layers are, and which of them pass through each node. Depends on the graph alone.
 struct Layers {
-    std::vector<std::string> film;                    // "emission", then the terminals of the additive paths, graph order
-    std::vector<std::vector<std::size_t>> of_node;    // per node: the terminals (node indices) that its answers keep apart
+    std::vector<std::string> film;  // "emission", then the terminals of the additive paths, graph order
+    std::vector<std::vector<std::size_t>>
+        of_node;  // per node: the terminals (node indices) that its answers keep apart
 };
 
 /// Layers of a checked graph. A linear node on an additive path from the renderer keeps its terminals apart; every
@@ -25,15 +26,15 @@ Layers layers_of(const Graph& graph, const Registry& registry);
 
 /// Where one place is.
 struct PlaceAt {
-    std::string host;               // endpoint of its host; "" for places of this process
-    std::uint32_t index = 0;        // among the places of its host
+    std::string host;         // endpoint of its host; "" for places of this process
+    std::uint32_t index = 0;  // among the places of its host
     friend bool operator==(const PlaceAt&, const PlaceAt&) = default;
 };
 
 /// All places of a run, and which of them answer for each node.
 struct Plan {
     std::vector<PlaceAt> places;
-    std::vector<std::vector<std::uint32_t>> places_of;   // node index → places (indices) that hold it; scenes: none
+    std::vector<std::vector<std::uint32_t>> places_of;  // node index → places (indices) that hold it; scenes: none
     friend bool operator==(const Plan&, const Plan&) = default;
 };
 

@@ -33,7 +33,7 @@ struct TypeName {
 
 std::string number_text(double number) {
     std::array<char, 64> text{};
-    constexpr double longest_integer = 1e15;   // beyond it digits would be claimed that a double hasn't
+    constexpr double longest_integer = 1e15;  // beyond it digits would be claimed that a double hasn't
     const bool integral = std::trunc(number) == number && std::abs(number) < longest_integer;
     const auto end = integral ? std::to_chars(text.begin(), text.end(), static_cast<long long>(number))
                               : std::to_chars(text.begin(), text.end(), number);

@@ -11,9 +11,10 @@ namespace {
 using testing::HasSubstr;
 
 std::string problems_with_hosts(const std::string& hosts) {
-    return test::problems_of("sky = Ambient {}\nbox = Scene { 'b.pbrt' }\n"
-                             "image = RayTracer { sky, scene = box, film = { 8, 8 } }",
-                             parse_hosts(hosts, "hosts.lua"));
+    return test::problems_of(
+        "sky = Ambient {}\nbox = Scene { 'b.pbrt' }\n"
+        "image = RayTracer { sky, scene = box, film = { 8, 8 } }",
+        parse_hosts(hosts, "hosts.lua"));
 }
 
 TEST(CheckHosts, AcceptsWhatCanRun) {
@@ -26,13 +27,15 @@ TEST(CheckHosts, SuggestsTheNodeYouMeant) {
 }
 
 TEST(CheckHosts, KeepsScenesOutOfIt) {
-    EXPECT_THAT(problems_with_hosts("place 'tcp://a:7777' { box = 1 }"), HasSubstr("'box' is a scene, which every host has"));
+    EXPECT_THAT(problems_with_hosts("place 'tcp://a:7777' { box = 1 }"),
+                HasSubstr("'box' is a scene, which every host has"));
 }
 
 TEST(CheckHosts, WantsAnEndpoint) {
-    for (const char* endpoint : {"onyx1", "tcp://onyx1", "tcp://:7", "tcp://a:0", "tcp://a:70000", "tcp://a:7x", "udp://a:7",
-                                 "tcp://a b:7", "tcp://*:7"})
-        EXPECT_THAT(problems_with_hosts("place '" + std::string(endpoint) + "' {}"), HasSubstr("tcp://host:7777")) << endpoint;
+    for (const char* endpoint : {"onyx1", "tcp://onyx1", "tcp://:7", "tcp://a:0", "tcp://a:70000", "tcp://a:7x",
+                                 "udp://a:7", "tcp://a b:7", "tcp://*:7"})
+        EXPECT_THAT(problems_with_hosts("place '" + std::string(endpoint) + "' {}"), HasSubstr("tcp://host:7777"))
+            << endpoint;
 }
 
 TEST(CheckHosts, WantsEachHostOnce) {
@@ -41,8 +44,10 @@ TEST(CheckHosts, WantsEachHostOnce) {
 }
 
 TEST(CheckHosts, WantsCountsThatMakeSense) {
-    EXPECT_THAT(problems_with_hosts("place 'tcp://a:7' { sky = 0 }"), HasSubstr("it must hold 1 … 1024 replicas, not 0"));
-    EXPECT_THAT(problems_with_hosts("place 'tcp://a:7' { sky = 3, places = 2 }"), HasSubstr("need as many places, but it has 2"));
+    EXPECT_THAT(problems_with_hosts("place 'tcp://a:7' { sky = 0 }"),
+                HasSubstr("it must hold 1 … 1024 replicas, not 0"));
+    EXPECT_THAT(problems_with_hosts("place 'tcp://a:7' { sky = 3, places = 2 }"),
+                HasSubstr("need as many places, but it has 2"));
     EXPECT_THAT(problems_with_hosts("place 'tcp://a:7' { places = 5000 }"), HasSubstr("'places' must be 1 … 1024"));
 }
 

@@ -29,7 +29,8 @@ TEST(Check, FillsInDefaults) {
 }
 
 TEST(Check, SuggestsTheKindYouMeant) {
-    EXPECT_EQ(problems_of("sky = Ambeint {}\n" + rest), "graph.lua:1: Ambeint 'sky': unknown kind (did you mean 'Ambient'?)");
+    EXPECT_EQ(problems_of("sky = Ambeint {}\n" + rest),
+              "graph.lua:1: Ambeint 'sky': unknown kind (did you mean 'Ambient'?)");
 }
 
 TEST(Check, NamesTheKindsWhenNothingIsClose) {
@@ -48,10 +49,13 @@ TEST(Check, SuggestsTheNodeYouMeant) {
 }
 
 TEST(Check, WantsTheRightTypes) {
-    EXPECT_THAT(problems_of("sky = Ambient { rays = '4' }\n" + rest), HasSubstr("'rays' must be an integer, not a text"));
+    EXPECT_THAT(problems_of("sky = Ambient { rays = '4' }\n" + rest),
+                HasSubstr("'rays' must be an integer, not a text"));
     EXPECT_THAT(problems_of("sky = Ambient { rays = 2.5 }\n" + rest), HasSubstr("'rays' must be an integer, not 2.5"));
-    EXPECT_THAT(problems_of("sky = Ambient { reach = true }\n" + rest), HasSubstr("'reach' must be a number, not a flag"));
-    EXPECT_THAT(problems_of("sky = Ambient { soft = 1 }\n" + rest), HasSubstr("'soft' must be true or false, not a number"));
+    EXPECT_THAT(problems_of("sky = Ambient { reach = true }\n" + rest),
+                HasSubstr("'reach' must be a number, not a flag"));
+    EXPECT_THAT(problems_of("sky = Ambient { soft = 1 }\n" + rest),
+                HasSubstr("'soft' must be true or false, not a number"));
     EXPECT_THAT(problems_of("sky = Ambient { paths = 1 }\n" + rest), HasSubstr("'paths' must be a text, not a number"));
     EXPECT_THAT(problems_of("a = Ambient {} sky = Combine { a, weights = 2 }\n" + rest),
                 HasSubstr("'weights' must be a table of numbers, not a number"));
@@ -62,8 +66,10 @@ TEST(Check, WantsTheRightTypes) {
 TEST(Check, WantsNumbersInTheirRange) {
     EXPECT_EQ(problems_of("sky = Ambient { rays = 0 }\n" + rest),
               "graph.lua:1: Ambient 'sky': 'rays' is 0, but must be 1 … 64 samples");
-    EXPECT_THAT(problems_of("sky = Ambient { reach = -1 }\n" + rest), HasSubstr("'reach' is -1, but must be at least 0 m"));
-    EXPECT_THAT(problems_of("sky = Ambient { reach = math.huge }\n" + rest), HasSubstr("'reach' must be a finite number"));
+    EXPECT_THAT(problems_of("sky = Ambient { reach = -1 }\n" + rest),
+                HasSubstr("'reach' is -1, but must be at least 0 m"));
+    EXPECT_THAT(problems_of("sky = Ambient { reach = math.huge }\n" + rest),
+                HasSubstr("'reach' must be a finite number"));
     EXPECT_THAT(problems_of("sky = Ambient { reach = 0/0 }\n" + rest), HasSubstr("'reach' must be a finite number"));
 }
 
@@ -94,9 +100,12 @@ TEST(Check, WantsNodesAsInputs) {
 }
 
 TEST(Check, WantsLightAsInput) {
-    EXPECT_THAT(problems_of("sky = Combine { image }\n" + rest), HasSubstr("input 1, 'image', gives an image, but light is wanted"));
-    EXPECT_THAT(problems_of("sky = Ambient {}\nbox = Scene { 'b.pbrt' }\nimage = RayTracer { box, scene = box, film = { 8, 8 } }"),
-                HasSubstr("input 1, 'box', gives a scene, but light is wanted (write scene = box)"));
+    EXPECT_THAT(problems_of("sky = Combine { image }\n" + rest),
+                HasSubstr("input 1, 'image', gives an image, but light is wanted"));
+    EXPECT_THAT(
+        problems_of(
+            "sky = Ambient {}\nbox = Scene { 'b.pbrt' }\nimage = RayTracer { box, scene = box, film = { 8, 8 } }"),
+        HasSubstr("input 1, 'box', gives a scene, but light is wanted (write scene = box)"));
 }
 
 TEST(Check, WantsASceneAsScene) {
@@ -104,22 +113,27 @@ TEST(Check, WantsASceneAsScene) {
                 HasSubstr("'scene' must be a Scene, but 'sky' is of kind Ambient"));
     EXPECT_THAT(problems_of("sky = Ambient {}\nimage = RayTracer { sky, scene = 'box.pbrt', film = { 8, 8 } }"),
                 HasSubstr("'scene' must be a Scene, not a text"));
-    EXPECT_THAT(problems_of("sky = Ambient {} box = Scene { 'b.pbrt' }\nimage = RayTracer { sky, scene = bix, film = { 8, 8 } }"),
-                HasSubstr("no scene called 'bix' (did you mean 'box'?)"));
+    EXPECT_THAT(
+        problems_of(
+            "sky = Ambient {} box = Scene { 'b.pbrt' }\nimage = RayTracer { sky, scene = bix, film = { 8, 8 } }"),
+        HasSubstr("no scene called 'bix' (did you mean 'box'?)"));
 }
 
 TEST(Check, WantsOneFileInAScene) {
-    EXPECT_THAT(problems_of("sky = Ambient {} scene = Scene {} image = RayTracer { sky, scene = scene, film = { 8, 8 } }"),
-                HasSubstr("Scene 'scene': takes the name of one file"));
+    EXPECT_THAT(
+        problems_of("sky = Ambient {} scene = Scene {} image = RayTracer { sky, scene = scene, film = { 8, 8 } }"),
+        HasSubstr("Scene 'scene': takes the name of one file"));
 }
 
 TEST(Check, WantsAFilmWithTwoSides) {
-    const std::string start = "sky = Ambient {} scene = Scene { 'b.pbrt' } image = RayTracer { sky, scene = scene, film = ";
+    const std::string start =
+        "sky = Ambient {} scene = Scene { 'b.pbrt' } image = RayTracer { sky, scene = scene, film = ";
     EXPECT_THAT(problems_of(start + "{ 8 } }"), HasSubstr("'film' must be a table like { width, height"));
     EXPECT_THAT(problems_of(start + "{ 8, 0 } }"), HasSubstr("'film' has a side of 0, but must be 1 … 16384 pixels"));
     EXPECT_THAT(problems_of(start + "{ 8, 8, fiel = 'x.exr' } }"),
                 HasSubstr("'film' has an unknown entry 'fiel' (did you mean 'file'?)"));
-    EXPECT_THAT(problems_of(start + "{ 8, 8, file = 3 } }"), HasSubstr("'file' of 'film' must be a text, not a number"));
+    EXPECT_THAT(problems_of(start + "{ 8, 8, file = 3 } }"),
+                HasSubstr("'file' of 'film' must be a text, not a number"));
     EXPECT_EQ(problems_of(start + "{ 8, 8, file = 'x.exr' } }"), "");
 }
 
@@ -129,7 +143,8 @@ TEST(Check, FindsNamesThatAreTaken) {
 }
 
 TEST(Check, WantsNamesThatCanBeWritten) {
-    EXPECT_THAT(problems_of("_ENV['my sky'] = Ambient {}\nsky = Ambient {}\n" + rest), HasSubstr("a name is made of letters"));
+    EXPECT_THAT(problems_of("_ENV['my sky'] = Ambient {}\nsky = Ambient {}\n" + rest),
+                HasSubstr("a name is made of letters"));
     EXPECT_THAT(problems_of("emission = Ambient {}\nsky = Ambient {}\n" + rest), HasSubstr("the name is reserved"));
 }
 
@@ -141,15 +156,17 @@ TEST(Check, PrintsTheWayOfACycle) {
 
 TEST(Check, WantsOneRenderer) {
     EXPECT_EQ(problems_of("sky = Ambient {}"), "graph.lua: no renderer: one node must make the picture, a RayTracer");
-    EXPECT_THAT(problems_of("sky = Ambient {}\n" + rest + "\nother = RayTracer { sky, scene = scene, film = { 8, 8 } }"),
-                HasSubstr("graph.lua:3: RayTracer 'other': a second renderer; 'image' makes the picture already"));
+    EXPECT_THAT(
+        problems_of("sky = Ambient {}\n" + rest + "\nother = RayTracer { sky, scene = scene, film = { 8, 8 } }"),
+        HasSubstr("graph.lua:3: RayTracer 'other': a second renderer; 'image' makes the picture already"));
 }
 
 TEST(Check, TellsAllProblemsAtOnceInTheOrderOfLines) {
-    const std::string all = problems_of("sky = Ambient { rays = 0, lays = 1 }\n"
-                                        "sum = Combin { sky }\n"
-                                        "box = Scene { 'b.pbrt' }\n"
-                                        "image = RayTracer { sun, scene = box, film = { 8 }, samples = {} }");
+    const std::string all = problems_of(
+        "sky = Ambient { rays = 0, lays = 1 }\n"
+        "sum = Combin { sky }\n"
+        "box = Scene { 'b.pbrt' }\n"
+        "image = RayTracer { sun, scene = box, film = { 8 }, samples = {} }");
     EXPECT_EQ(std::count(all.begin(), all.end(), '\n') + 1, 6) << all;
     EXPECT_LT(all.find("graph.lua:1"), all.find("graph.lua:2"));
     EXPECT_LT(all.find("graph.lua:2"), all.find("graph.lua:4"));

@@ -90,8 +90,9 @@ TEST(Dot, DrawsAPlan) {
 }
 
 TEST(Dot, ShowsMultiplexersWhereAnAskerHasAChoice) {
-    const std::string dot = dot_with("place 'tcp://x:1' { a = 2, b = 1 }\nplace 'tcp://y:1' { lighting = 1, image = 2 }",
-                                     {{"tcp://x:1", 1}, {"tcp://y:1", 1}});
+    const std::string dot =
+        dot_with("place 'tcp://x:1' { a = 2, b = 1 }\nplace 'tcp://y:1' { lighting = 1, image = 2 }",
+                 {{"tcp://x:1", 1}, {"tcp://y:1", 1}});
     EXPECT_THAT(dot, HasSubstr("choose_a_2 [shape=trapezium, style=solid, label=\"a × 2\"];"));
     EXPECT_THAT(dot, HasSubstr("node_lighting_2 -> choose_a_2 [label=\"Query → Rgb\\ncall\"];"));
     EXPECT_THAT(dot, HasSubstr("choose_a_2 -> node_a_0 [label=\"Query → Rgb\\ntcp bundles\"];"));

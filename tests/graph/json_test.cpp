@@ -16,9 +16,7 @@ using test::error_of;
 using test::parse;
 using testing::HasSubstr;
 
-Graph graph_with(Value value) {
-    return {"g.lua", {{"a", "Ambient", {}, {{"x", std::move(value)}}, {"g.lua", 1}}}};
-}
+Graph graph_with(Value value) { return {"g.lua", {{"a", "Ambient", {}, {{"x", std::move(value)}}, {"g.lua", 1}}}}; }
 
 double number_after_a_round_trip(double number) {
     const Graph back = graph_from_json(to_json(graph_with({number})));
@@ -26,13 +24,15 @@ double number_after_a_round_trip(double number) {
 }
 
 TEST(GraphJson, ComesBackEqual) {
-    const Graph graph = parse("a = Ambient { rays = 3, soft = true, paths = 'caus\"tic\\\\ü' }\n"
-                              "b = Combine { a, a, weights = { 0.1, 2 }, nested = { x = { a, 'y' } } }");
+    const Graph graph = parse(
+        "a = Ambient { rays = 3, soft = true, paths = 'caus\"tic\\\\ü' }\n"
+        "b = Combine { a, a, weights = { 0.1, 2 }, nested = { x = { a, 'y' } } }");
     EXPECT_EQ(graph_from_json(to_json(graph)), graph);
 }
 
 TEST(GraphJson, IsTheSameBytesForTheSameGraph) {
-    const Graph one = parse("a = Ambient { rays = 3, soft = true }"), other = parse("a = Ambient { soft = true, rays = 3 }");
+    const Graph one = parse("a = Ambient { rays = 3, soft = true }"),
+                other = parse("a = Ambient { soft = true, rays = 3 }");
     EXPECT_EQ(to_json(one), to_json(other));
 }
 
@@ -43,7 +43,8 @@ TEST(GraphJson, KeepsEveryBitOfANumber) {
 }
 
 TEST(GraphJson, KeepsNumbersThatAreNotFinite) {
-    EXPECT_EQ(number_after_a_round_trip(std::numeric_limits<double>::infinity()), std::numeric_limits<double>::infinity());
+    EXPECT_EQ(number_after_a_round_trip(std::numeric_limits<double>::infinity()),
+              std::numeric_limits<double>::infinity());
     EXPECT_TRUE(std::isnan(number_after_a_round_trip(std::nan(""))));
 }
 
@@ -54,9 +55,9 @@ TEST(GraphJson, RefusesTextThatIsNotUtf8) {
 }
 
 TEST(GraphJson, RefusesWhatIsNoGraph) {
-    for (const char* text : {"", "{", "[]", "null", "{}", R"({"file":"g"})", R"({"file":1,"nodes":[]})",
-                             R"({"file":"g","nodes":[],"more":1})", R"({"file":"g","nodes":[{}]})",
-                             R"({"file":"g","nodes":{"a":1}})"})
+    for (const char* text :
+         {"", "{", "[]", "null", "{}", R"({"file":"g"})", R"({"file":1,"nodes":[]})",
+          R"({"file":"g","nodes":[],"more":1})", R"({"file":"g","nodes":[{}]})", R"({"file":"g","nodes":{"a":1}})"})
         EXPECT_THROW(graph_from_json(text), Error) << text;
 }
 
@@ -74,8 +75,9 @@ TEST(GraphJson, RefusesDepthAndSizeWithoutEnd) {
 TEST(HostsJson, ComesBackEqual) {
     const Hosts hosts{"h.lua", {{"tcp://a:1", {{"x", 2}}, 3, {"h.lua", 4}}, {"tcp://b:1", {}, 0, {"h.lua", 5}}}};
     EXPECT_EQ(hosts_from_json(to_json(hosts)), hosts);
-    EXPECT_THROW(hosts_from_json(R"({"file":"h","hosts":[{"endpoint":"e","replicas":{"x":-1},"places":0,"where":["h",1]}]})"),
-                 Error);
+    EXPECT_THROW(
+        hosts_from_json(R"({"file":"h","hosts":[{"endpoint":"e","replicas":{"x":-1},"places":0,"where":["h",1]}]})"),
+        Error);
 }
 
 TEST(PlanJson, ComesBackEqual) {

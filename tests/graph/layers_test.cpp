@@ -12,10 +12,11 @@ using test::sound_graph;
 using testing::ElementsAre;
 
 TEST(Layers, AreTheTerminalsOfAdditivePathsInGraphOrder) {
-    const Graph graph = sound_graph("direct = Ambient {} caustics = Ambient {}\n"
-                                    "first = Combine { caustics, direct }\n"
-                                    "bounce = Cache { first }\n"
-                                    "lighting = Combine { bounce, first }");
+    const Graph graph = sound_graph(
+        "direct = Ambient {} caustics = Ambient {}\n"
+        "first = Combine { caustics, direct }\n"
+        "bounce = Cache { first }\n"
+        "lighting = Combine { bounce, first }");
     const Layers layers = layers_of(graph, fake_registry());
     EXPECT_THAT(layers.film, ElementsAre("emission", "direct", "caustics", "bounce"));
     EXPECT_THAT(layers.of_node, ElementsAre(ElementsAre(0), ElementsAre(1), ElementsAre(0, 1), ElementsAre(3),

@@ -26,8 +26,8 @@ Plan plan_for(const std::string& hosts, const std::vector<HostOffer>& offers) {
 TEST(Plan, GivesEachPlaceTheWholeNetworkByDefault) {
     const Plan where = plan(graph(), fake_registry(), {}, {{"", 3}});
     EXPECT_THAT(where.places, ElementsAre(PlaceAt{"", 0}, PlaceAt{"", 1}, PlaceAt{"", 2}));
-    EXPECT_THAT(where.places_of, ElementsAre(ElementsAre(0, 1, 2), ElementsAre(0, 1, 2), ElementsAre(0, 1, 2), IsEmpty(),
-                                             ElementsAre(0, 1, 2)));
+    EXPECT_THAT(where.places_of, ElementsAre(ElementsAre(0, 1, 2), ElementsAre(0, 1, 2), ElementsAre(0, 1, 2),
+                                             IsEmpty(), ElementsAre(0, 1, 2)));
 }
 
 TEST(Plan, GivesEveryReplicaAPlace) {
@@ -39,26 +39,31 @@ TEST(Plan, GivesEveryReplicaAPlace) {
 }
 
 TEST(Plan, SpreadsNodesOverHosts) {
-    const Plan where = plan_for("place 'tcp://x:1' { a = 1, lighting = 1 }\nplace 'tcp://y:1' { a = 1, b = 1, image = 1 }",
-                                {{"tcp://x:1", 1}, {"tcp://y:1", 2}});
+    const Plan where =
+        plan_for("place 'tcp://x:1' { a = 1, lighting = 1 }\nplace 'tcp://y:1' { a = 1, b = 1, image = 1 }",
+                 {{"tcp://x:1", 1}, {"tcp://y:1", 2}});
     EXPECT_THAT(where.places, ElementsAre(PlaceAt{"tcp://x:1", 0}, PlaceAt{"tcp://y:1", 0}, PlaceAt{"tcp://y:1", 1}));
-    EXPECT_THAT(where.places_of, ElementsAre(ElementsAre(0, 1), ElementsAre(2), ElementsAre(0), IsEmpty(), ElementsAre(1)));
+    EXPECT_THAT(where.places_of,
+                ElementsAre(ElementsAre(0, 1), ElementsAre(2), ElementsAre(0), IsEmpty(), ElementsAre(1)));
 }
 
 TEST(Plan, MakesNoPlaceWithoutANode) {
-    EXPECT_THAT(plan_for("place 'tcp://x:1' { a = 1, b = 1, lighting = 1, image = 1 }", {{"tcp://x:1", 16}}).places, SizeIs(4));
+    EXPECT_THAT(plan_for("place 'tcp://x:1' { a = 1, b = 1, lighting = 1, image = 1 }", {{"tcp://x:1", 16}}).places,
+                SizeIs(4));
 }
 
 TEST(Plan, RecreatesNodesOfAbsentHostsWhereTheFewestAre) {
-    const Plan where = plan_for("place 'tcp://x:1' { a = 1, lighting = 1 }\nplace 'tcp://y:1' { image = 1 }\n"
-                                "place 'tcp://gone:1' { b = 2 }",
-                                {{"tcp://x:1", 1}, {"tcp://y:1", 1}});
+    const Plan where = plan_for(
+        "place 'tcp://x:1' { a = 1, lighting = 1 }\nplace 'tcp://y:1' { image = 1 }\n"
+        "place 'tcp://gone:1' { b = 2 }",
+        {{"tcp://x:1", 1}, {"tcp://y:1", 1}});
     EXPECT_THAT(where.places_of[1], ElementsAre(1));
 }
 
 TEST(Plan, KeepsReplicasThatAreLeft) {
-    const Plan where = plan_for("place 'tcp://x:1' { a = 1, b = 1, lighting = 1, image = 1 }\nplace 'tcp://gone:1' { a = 1 }",
-                                {{"tcp://x:1", 1}});
+    const Plan where =
+        plan_for("place 'tcp://x:1' { a = 1, b = 1, lighting = 1, image = 1 }\nplace 'tcp://gone:1' { a = 1 }",
+                 {{"tcp://x:1", 1}});
     EXPECT_THAT(where.places_of[0], ElementsAre(0));
 }
 

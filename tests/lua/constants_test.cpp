@@ -25,8 +25,10 @@ TEST(Constants, AreOverridden) {
 TEST(Constants, KeepTheTypeOfTheFile) {
     EXPECT_EQ(rays_with({{"n", "16"}}, "n = 'four'\nsky = Ambient { rays = n }"), Value{std::string("16")});
     EXPECT_EQ(rays_with({{"n", "true"}}, "n = false\nsky = Ambient { rays = n }"), Value{true});
-    EXPECT_EQ(error_with({{"n", "many"}}, "\nn = 4"), "graph.lua:2: -D n=many: the file gives a number, and so must -D");
-    EXPECT_EQ(error_with({{"n", "1"}}, "n = true"), "graph.lua:1: -D n=1: the file gives true or false, and so must -D");
+    EXPECT_EQ(error_with({{"n", "many"}}, "\nn = 4"),
+              "graph.lua:2: -D n=many: the file gives a number, and so must -D");
+    EXPECT_EQ(error_with({{"n", "1"}}, "n = true"),
+              "graph.lua:1: -D n=1: the file gives true or false, and so must -D");
 }
 
 TEST(Constants, HaveATypeByTheirLookWhereTheFileOnlyReadsThem) {
@@ -42,7 +44,8 @@ TEST(Constants, MustBeKnownToTheFile) {
 }
 
 TEST(Constants, AreNoNodes) {
-    EXPECT_THAT(error_with({{"sky", "1"}}, "sky = Ambient {}"), HasSubstr("-D sky=1: the file gives a node, which -D can't override"));
+    EXPECT_THAT(error_with({{"sky", "1"}}, "sky = Ambient {}"),
+                HasSubstr("-D sky=1: the file gives a node, which -D can't override"));
 }
 
 }  // namespace

@@ -26,10 +26,16 @@ std::vector<std::string> names_in(const Graph& graph) {
 }
 
 TEST(LoadGraph, MakesANodeOfEachConstructor) {
-    const Graph graph = parse("sky = Ambient { rays = 4, soft = true, paths = 'all' }\n"
-                              "sum = Combine { sky, sky, weights = { 0.5, 2 } }");
-    const Node sky{"sky", "Ambient", {}, {{"rays", {4.0}}, {"soft", {true}}, {"paths", {std::string("all")}}}, {"graph.lua", 1}};
-    const Node sum{"sum", "Combine", {{NodeRef{"sky"}}, {NodeRef{"sky"}}}, {{"weights", {Table{{{0.5}, {2.0}}, {}}}}}, {"graph.lua", 2}};
+    const Graph graph = parse(
+        "sky = Ambient { rays = 4, soft = true, paths = 'all' }\n"
+        "sum = Combine { sky, sky, weights = { 0.5, 2 } }");
+    const Node sky{
+        "sky", "Ambient", {}, {{"rays", {4.0}}, {"soft", {true}}, {"paths", {std::string("all")}}}, {"graph.lua", 1}};
+    const Node sum{"sum",
+                   "Combine",
+                   {{NodeRef{"sky"}}, {NodeRef{"sky"}}},
+                   {{"weights", {Table{{{0.5}, {2.0}}, {}}}}},
+                   {"graph.lua", 2}};
     EXPECT_EQ(graph, (Graph{"graph.lua", {sky, sum}}));
 }
 
@@ -65,8 +71,9 @@ TEST(LoadGraph, ComputesWithConstants) {
 }
 
 TEST(LoadGraph, GivesTheSameGraphEachTime) {
-    const std::string text = "for name, rays in pairs { e = 5, d = 4, c = 3, b = 2, a = 1, [2] = 7, [1] = 9 } do\n"
-                             "  _ENV['n' .. name] = Ambient { rays = rays + math.random(100) }\nend";
+    const std::string text =
+        "for name, rays in pairs { e = 5, d = 4, c = 3, b = 2, a = 1, [2] = 7, [1] = 9 } do\n"
+        "  _ENV['n' .. name] = Ambient { rays = rays + math.random(100) }\nend";
     const Graph first = parse(text);
     EXPECT_THAT(names_in(first), ElementsAre("n1", "n2", "na", "nb", "nc", "nd", "ne"));
     for (int i = 0; i < 5; ++i) EXPECT_EQ(parse(text), first);
@@ -74,7 +81,8 @@ TEST(LoadGraph, GivesTheSameGraphEachTime) {
 
 TEST(LoadGraph, WantsANameForEachNode) {
     EXPECT_EQ(error_in("\nlocal sky = Ambient {}"),
-              "graph.lua:2: Ambient: the node has no name; write name = Ambient { … }, without local and not inside another table");
+              "graph.lua:2: Ambient: the node has no name; write name = Ambient { … }, without local and not inside "
+              "another table");
     EXPECT_THAT(error_in("sum = Combine { Ambient {} }"), HasSubstr("graph.lua:1: Ambient: the node has no name"));
     EXPECT_THAT(error_in("all = { sky = Ambient {} }"), HasSubstr("graph.lua:1: Ambient: the node has no name"));
 }
@@ -88,7 +96,8 @@ TEST(LoadGraph, NamesWhatNobodyGives) {
 }
 
 TEST(LoadGraph, WantsOneTableForANode) {
-    EXPECT_THAT(error_in("sky = Ambient(4)"), HasSubstr("graph.lua:1: Ambient: takes one table: Ambient { inputs, key = value }"));
+    EXPECT_THAT(error_in("sky = Ambient(4)"),
+                HasSubstr("graph.lua:1: Ambient: takes one table: Ambient { inputs, key = value }"));
 }
 
 TEST(LoadGraph, WantsValuesThatCanStandInAGraph) {
@@ -97,7 +106,8 @@ TEST(LoadGraph, WantsValuesThatCanStandInAGraph) {
     EXPECT_THAT(error_in("sky = Ambient { print }"), HasSubstr("Ambient 'sky': entry 1 is a function"));
     EXPECT_THAT(error_in("sky = Ambient { name = '\\xff' }"), HasSubstr("parameter 'name' is not a text in UTF-8"));
     EXPECT_THAT(error_in("sky = Ambient { [true] = 1 }"), HasSubstr("a parameter goes by a name"));
-    EXPECT_THAT(error_in("local t = {} t.t = t\nsky = Ambient { x = t }"), HasSubstr("has tables in tables without end"));
+    EXPECT_THAT(error_in("local t = {} t.t = t\nsky = Ambient { x = t }"),
+                HasSubstr("has tables in tables without end"));
     EXPECT_THAT(error_in("a = Ambient {}\nsum = Combine { a, nil, a }"), HasSubstr("nil"));
 }
 
@@ -136,8 +146,9 @@ TEST(LoadGraph, ReadsAFileFromTheDisk) {
 TEST(Require, ReachesFilesBesideTheGraph) {
     const Folder folder;
     folder.write("parts/sky.lua", "\nsky = Ambient { rays = ... and 1 or 2 }\nreturn { rays = 7 }");
-    const std::string file =
-        folder.write("g.lua", "local part = require 'parts.sky'\nassert(part == require 'parts.sky')\nsum = Ambient { rays = part.rays }");
+    const std::string file = folder.write(
+        "g.lua",
+        "local part = require 'parts.sky'\nassert(part == require 'parts.sky')\nsum = Ambient { rays = part.rays }");
     const Graph graph = load_graph(file);
     EXPECT_THAT(names_in(graph), ElementsAre("sky", "sum"));
     EXPECT_EQ(graph.nodes[0].where, (SourceLine{folder.file("parts/sky.lua"), 2}));
@@ -170,7 +181,8 @@ TEST(Require, FindsCircles) {
     folder.write("a.lua", "require 'b'");
     folder.write("b.lua", "require 'a'");
     const std::string file = folder.write("g.lua", "require 'a'");
-    EXPECT_THAT(error_of([&] { load_graph(file); }), HasSubstr(folder.file("b.lua") + ":1: require \"a\": it requires itself"));
+    EXPECT_THAT(error_of([&] { load_graph(file); }),
+                HasSubstr(folder.file("b.lua") + ":1: require \"a\": it requires itself"));
 }
 
 }  // namespace

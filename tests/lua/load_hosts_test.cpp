@@ -14,8 +14,9 @@ std::string error_in(const std::string& text) {
 }
 
 TEST(LoadHosts, MakesAnEntryOfEachPlace) {
-    const Hosts hosts = parse_hosts("place 'tcp://a:7777' { sky = 2, image = 1 }\nplace 'tcp://b:7777' { places = 4 }\nplace 'tcp://c:7777'",
-                                    "hosts.lua");
+    const Hosts hosts = parse_hosts(
+        "place 'tcp://a:7777' { sky = 2, image = 1 }\nplace 'tcp://b:7777' { places = 4 }\nplace 'tcp://c:7777'",
+        "hosts.lua");
     EXPECT_EQ(hosts, (Hosts{"hosts.lua",
                             {{"tcp://a:7777", {{"sky", 2}, {"image", 1}}, 0, {"hosts.lua", 1}},
                              {"tcp://b:7777", {}, 4, {"hosts.lua", 2}},
@@ -30,7 +31,8 @@ TEST(LoadHosts, ComputesHosts) {
 }
 
 TEST(LoadHosts, WantsWholeNumbersOfReplicas) {
-    EXPECT_THAT(error_in("place 'tcp://a:7' { sky = 1.5 }"), HasSubstr("hosts.lua:1: place 'tcp://a:7': how many 'sky'?"));
+    EXPECT_THAT(error_in("place 'tcp://a:7' { sky = 1.5 }"),
+                HasSubstr("hosts.lua:1: place 'tcp://a:7': how many 'sky'?"));
     EXPECT_THAT(error_in("place 'tcp://a:7' { sky = 'two' }"), HasSubstr("how many 'sky'?"));
     EXPECT_THAT(error_in("place 'tcp://a:7' { 'sky' }"), HasSubstr("nodes go by name"));
 }

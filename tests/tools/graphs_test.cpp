@@ -1,0 +1,50 @@
+// The graphs that come with the project are sound.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "core/graph/check.hpp"
+#include "core/graph/plan.hpp"
+#include "lua/load_graph.hpp"
+#include "nodes/standard_nodes.hpp"
+
+namespace lightnet {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+const std::filesystem::path graphs = std::filesystem::path(LIGHTNET_SOURCE_DIR) / "graphs";
+
+Graph graph_called(const std::string& name) { return load_graph((graphs / name).string()); }
+
+TEST(Graphs, AreSound) {
+    const Registry registry(standard_nodes());
+    int count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(graphs)) {
+        if (entry.path().extension() != ".lua") continue;
+        ++count;
+        const Examined found = examine(load_graph(entry.path().string()), registry);
+        EXPECT_THAT(found.problems, IsEmpty()) << entry.path();
+        EXPECT_THAT(found.warnings, IsEmpty()) << entry.path();
+    }
+    EXPECT_GE(count, 4);
+}
+
+TEST(Graphs, RunOnTheHostsThatComeWithThem) {
+    const Registry registry(standard_nodes());
+    for (const char* hosts : {"hosts/two.lua", "hosts/spread.lua"})
+        EXPECT_THAT(examine(graph_called("cornell.lua"), registry, load_hosts((graphs / hosts).string())).problems, IsEmpty());
+}
+
+TEST(Graphs, HaveTheLayersThatTheySay) {
+    const Registry registry(standard_nodes());
+    EXPECT_THAT(layers_of(check(graph_called("cornell.lua"), registry), registry).film,
+                ElementsAre("emission", "direct", "bounce"));
+    EXPECT_THAT(layers_of(check(graph_called("weights.lua"), registry), registry).film,
+                ElementsAre("emission", "direct", "once", "often", "openness"));
+}
+
+}  // namespace
+}  // namespace lightnet

@@ -1,0 +1,164 @@
+#include "tools/launcher.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "core/graph/graph_film.hpp"
+#include "tests/support/fake_registry.hpp"
+#include "tests/support/folder.hpp"
+
+namespace lightnet {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::StartsWith;
+
+/// A launcher whose runs are only remembered.
+class Bench {
+public:
+    Bench() {
+        folder_.write("box.pbrt", "");
+        graph = folder_.write("graph.lua",
+                              "rays = 4\nlighting = Ambient { rays = rays }\nscene = Scene { 'box.pbrt' }\n"
+                              "image = RayTracer { lighting, scene = scene, film = { 8, 4, file = 'x.exr' } }");
+    }
+
+    int operator()(std::vector<std::string> words) {
+        std::ostringstream to_out, to_err;
+        const auto remember = [&](const RunRequest& request) {
+            runs.push_back(request);
+            return 7;
+        };
+        const int code = Launcher{registry_, remember, to_out, to_err}(words);
+        out = to_out.str();
+        err = to_err.str();
+        return code;
+    }
+
+    std::string write(const std::string& name, const std::string& text) { return folder_.write(name, text); }
+
+    std::string graph, out, err;
+    std::vector<RunRequest> runs;
+
+private:
+    const Registry registry_ = test::fake_registry();
+    const test::Folder folder_;
+};
+
+TEST(Launcher, RunsASoundGraph) {
+    Bench lightnet;
+    EXPECT_EQ(lightnet({"run", lightnet.graph}), 7) << "the run's own exit code";
+    ASSERT_EQ(lightnet.runs.size(), 1u);
+    const RunRequest& run = lightnet.runs[0];
+    EXPECT_EQ(run.mode, Mode::serial);
+    EXPECT_EQ(run.output, "x.exr");
+    EXPECT_THAT(run.scene, testing::EndsWith("/box.pbrt"));
+    EXPECT_EQ(run.graph.nodes[2].params.at("samples"), Value{16.0}) << "defaults are filled in";
+}
+
+TEST(Launcher, OverridesWhatTheGraphSays) {
+    Bench lightnet;
+    lightnet(
+        {"run", lightnet.graph, "--samples", "3", "--size", "20x10", "-o", "y.exr", "-D", "rays=9", "--threads", "2"});
+    ASSERT_EQ(lightnet.runs.size(), 1u) << lightnet.err;
+    const RunRequest& run = lightnet.runs[0];
+    EXPECT_EQ(film_of(run.graph, test::fake_registry()), (GraphFilm{20, 10, "x.exr"}));
+    EXPECT_EQ(run.graph.nodes[2].params.at("samples"), Value{3.0});
+    EXPECT_EQ(run.graph.nodes[0].params.at("rays"), Value{9.0});
+    EXPECT_EQ(run.output, "y.exr");
+    EXPECT_EQ(run.mode, Mode::threads);
+    EXPECT_EQ(run.threads, 2u);
+}
+
+TEST(Launcher, KnowsTheHosts) {
+    Bench lightnet;
+    lightnet({"run", lightnet.graph, "--hosts", lightnet.write("h.lua", "place 'tcp://127.0.0.1:7777' { image = 1 }")});
+    ASSERT_EQ(lightnet.runs.size(), 1u) << lightnet.err;
+    EXPECT_EQ(lightnet.runs[0].mode, Mode::hosts);
+    EXPECT_EQ(lightnet.runs[0].hosts.hosts.at(0).endpoint, "tcp://127.0.0.1:7777");
+}
+
+TEST(Launcher, RunsNothingThatIsWrong) {
+    Bench lightnet;
+    const std::string bad = lightnet.write("bad.lua",
+                                           "lighting = Ambient { ray = 1 }\nscene = Scene { 'bix.pbrt' }\n"
+                                           "image = RayTracer { lighting, scene = scene, film = { 8, 4 } }\n"
+                                           "local odd = Ambient {}");
+    const std::string hosts = lightnet.write("h.lua", "place 'tcp://127.0.0.1:7777' { imag = 1 }");
+    EXPECT_EQ(lightnet({"run", bad, "--hosts", hosts}), 2);
+    EXPECT_THAT(lightnet.runs, IsEmpty());
+    EXPECT_THAT(lightnet.out, IsEmpty());
+    EXPECT_THAT(lightnet.err, HasSubstr(":1: Ambient 'lighting': unknown parameter 'ray' (did you mean 'rays'?)\n"));
+    EXPECT_THAT(lightnet.err, HasSubstr(":2: Scene 'scene': can't read '"));
+    EXPECT_THAT(lightnet.err, HasSubstr(":4: Ambient: the node has no name"));
+    EXPECT_THAT(lightnet.err,
+                HasSubstr("h.lua:1: place 'tcp://127.0.0.1:7777': no node called 'imag' (did you mean 'image'?)\n"));
+}
+
+TEST(Launcher, DoubtsHostsThatCannotBe) {
+    Bench lightnet;
+    const std::string hosts = lightnet.write("h.lua", "place 'tcp://999.999.999.999:7777' {}");
+    const int code = lightnet({"check", lightnet.graph, "--hosts", hosts});
+    // without a name server nobody can tell
+    if (code != 0) {
+        EXPECT_THAT(lightnet.err, HasSubstr("h.lua:1: place 'tcp://999.999.999.999:7777': no host is called"));
+    }
+}
+
+TEST(Launcher, ChecksWithoutRunning) {
+    Bench lightnet;
+    EXPECT_EQ(lightnet({"check", lightnet.graph}), 0);
+    EXPECT_THAT(lightnet.out, HasSubstr("sound: 3 nodes, 8x4, layers emission lighting\n"));
+    EXPECT_THAT(lightnet.err, IsEmpty());
+    EXPECT_THAT(lightnet.runs, IsEmpty());
+}
+
+TEST(Launcher, WarnsOfIdleNodes) {
+    Bench lightnet;
+    const std::string graph = lightnet.write("idle.lua",
+                                             "a = Ambient {} b = Ambient {}\nscene = Scene { 'box.pbrt' }\n"
+                                             "image = RayTracer { a, scene = scene, film = { 8, 4 } }");
+    EXPECT_EQ(lightnet({"check", graph}), 0);
+    EXPECT_THAT(lightnet.err, StartsWith("warning: "));
+    EXPECT_EQ(lightnet({"run", graph}), 7);
+    EXPECT_EQ(lightnet.runs.at(0).output, "idle.exr") << "the film has no file, so the graph gives the name";
+}
+
+TEST(Launcher, DrawsGraphsAndPlans) {
+    Bench lightnet;
+    EXPECT_EQ(lightnet({"dot", lightnet.graph}), 0);
+    EXPECT_THAT(lightnet.out, StartsWith("digraph lightnet {"));
+    EXPECT_THAT(lightnet.out, Not(HasSubstr("cluster")));
+    EXPECT_EQ(lightnet({"dot", lightnet.graph, "--threads", "2"}), 0);
+    EXPECT_THAT(lightnet.out, HasSubstr("cluster_place_1"));
+    EXPECT_EQ(lightnet({"dot", lightnet.graph, "--hosts",
+                        lightnet.write("h.lua", "place 'tcp://onyx1:7777' { places = 2 }")}),
+              0);
+    EXPECT_THAT(lightnet.out, HasSubstr("label=\"tcp://onyx1:7777\""));
+}
+
+TEST(Launcher, DescribesKinds) {
+    Bench lightnet;
+    EXPECT_EQ(lightnet({"describe"}), 0);
+    EXPECT_THAT(lightnet.out, HasSubstr("RayTracer  image  makes the picture"));
+    EXPECT_EQ(lightnet({"describe", "Ambient"}), 0);
+    EXPECT_THAT(lightnet.out, HasSubstr("rays   integer, in samples, default 4"));
+    EXPECT_EQ(lightnet({"describe", "Ambeint"}), 2);
+    EXPECT_EQ(lightnet.err, "lightnet: there is no kind 'Ambeint' (did you mean 'Ambient'?)\n");
+}
+
+TEST(Launcher, ToldOfARunThatFailsExitsWithOne) {
+    Bench lightnet;
+    const Registry registry = test::fake_registry();
+    std::ostringstream out, err;
+    const auto fail = [](const RunRequest&) -> int { throw Error("bounce on onyx2", "it burns"); };
+    EXPECT_EQ((Launcher{registry, fail, out, err}({"run", lightnet.graph})), 1);
+    EXPECT_EQ(err.str(), "lightnet: bounce on onyx2: it burns\n");
+}
+
+}  // namespace
+}  // namespace lightnet

@@ -1,0 +1,119 @@
+#include "tools/options.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace lightnet {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Pair;
+using testing::StartsWith;
+using testing::UnorderedElementsAre;
+using Words = std::vector<std::string>;
+
+Options options_of(const Words& words) {
+    const auto parsed = parse_options(words);
+    if (const auto* finished = std::get_if<Finished>(&parsed)) ADD_FAILURE() << finished->out << finished->err;
+    const auto* options = std::get_if<Options>(&parsed);
+    return options ? *options : Options{};
+}
+
+Finished finished_of(const Words& words) {
+    const auto parsed = parse_options(words);
+    const auto* finished = std::get_if<Finished>(&parsed);
+    if (!finished) ADD_FAILURE() << "the command line was taken";
+    return finished ? *finished : Finished{};
+}
+
+// Every mistake is told on standard error, with exit code 2.
+std::string usage_error(const Words& words) {
+    const Finished finished = finished_of(words);
+    EXPECT_EQ(finished.code, 2);
+    EXPECT_THAT(finished.out, IsEmpty());
+    return finished.err;
+}
+
+TEST(Options, AreAbsentWhereNothingIsSaid) {
+    const Options options = options_of({"run", "g.lua"});
+    EXPECT_EQ(options.verb, Verb::run);
+    EXPECT_EQ(options.graph, "g.lua");
+    EXPECT_EQ(options.hosts, "");
+    EXPECT_FALSE(options.threads || options.local_workers || options.samples || options.size);
+    EXPECT_EQ(options.progress, ProgressMode::automatic);
+}
+
+TEST(Options, StandInAnyOrder) {
+    for (const Words& words :
+         {Words{"run", "g.lua", "--threads", "4", "-o", "x.exr", "--samples", "9", "--size", "64x48", "--seed", "7"},
+          Words{"run", "--size=64x48", "--seed", "7", "--samples=9", "-o", "x.exr", "--threads", "4", "g.lua"}}) {
+        const Options options = options_of(words);
+        EXPECT_EQ(options.graph, "g.lua");
+        EXPECT_EQ(options.threads, 4u);
+        EXPECT_EQ(options.output, "x.exr");
+        EXPECT_EQ(options.samples, 9u);
+        EXPECT_EQ(options.size, (PictureSize{64, 48}));
+        EXPECT_EQ(options.seed, 7u);
+    }
+}
+
+TEST(Options, TakeConstantsOneByOne) {
+    const Options options = options_of({"run", "-D", "a=1", "g.lua", "-Db=x=y", "-D", "c="});
+    EXPECT_EQ(options.graph, "g.lua");
+    EXPECT_THAT(options.constants, UnorderedElementsAre(Pair("a", "1"), Pair("b", "x=y"), Pair("c", "")));
+    EXPECT_THAT(usage_error({"run", "g.lua", "-D", "a"}), HasSubstr("wants NAME=VALUE"));
+}
+
+TEST(Options, SayWhereToRunOnce) {
+    EXPECT_EQ(options_of({"run", "g.lua", "--hosts", "h.lua"}).hosts, "h.lua");
+    EXPECT_EQ(options_of({"run", "g.lua", "--local-workers", "2"}).local_workers, 2u);
+    EXPECT_THAT(usage_error({"run", "g.lua", "--hosts", "h.lua", "--threads", "2"}), HasSubstr("excludes"));
+    EXPECT_THAT(usage_error({"run", "g.lua", "--local-workers", "2", "--threads", "2"}), HasSubstr("excludes"));
+}
+
+TEST(Options, ChooseHowProgressIsShown) {
+    EXPECT_EQ(options_of({"run", "g.lua", "--progress", "json"}).progress, ProgressMode::json);
+    EXPECT_THAT(usage_error({"run", "g.lua", "--progress", "loud"}), HasSubstr("--progress"));
+}
+
+TEST(Options, SuggestTheVerbYouMeant) {
+    EXPECT_EQ(usage_error({"rnu", "g.lua"}),
+              "lightnet: there is no verb 'rnu' (did you mean 'run'?)\ntry: lightnet --help\n");
+    EXPECT_THAT(usage_error({"chekc"}), HasSubstr("(did you mean 'check'?)"));
+}
+
+TEST(Options, SuggestTheOptionYouMeant) {
+    EXPECT_THAT(usage_error({"run", "g.lua", "--thread", "2"}),
+                HasSubstr("there is no option '--thread' (did you mean '--threads'?)"));
+    EXPECT_THAT(usage_error({"run", "g.lua", "--sample=2"}), HasSubstr("(did you mean '--samples'?)"));
+    EXPECT_THAT(usage_error({"run", "g.lua", "other.lua"}), HasSubstr("what is 'other.lua' for?"));
+}
+
+TEST(Options, RefuseNumbersThatMakeNoSense) {
+    for (const Words& words :
+         {Words{"run", "g.lua", "--threads", "0"}, Words{"run", "g.lua", "--threads", "many"},
+          Words{"run", "g.lua", "--samples", "-1"}, Words{"run", "g.lua", "--samples", "4294967297"},
+          Words{"run", "g.lua", "--samples", "1.5"}, Words{"run", "g.lua", "--size", "64"},
+          Words{"run", "g.lua", "--size", "0x64"}, Words{"run", "g.lua", "--size", "64x1e9"},
+          Words{"run", "g.lua", "--seed", "-1"}, Words{"run", "g.lua", "--local-workers", "0"}, Words{"run"}})
+        EXPECT_THAT(usage_error(words), StartsWith("lightnet: ")) << words.back();
+}
+
+TEST(Options, TellTheirUseOnStandardOutput) {
+    const Finished help = finished_of({"--help"});
+    EXPECT_EQ(help.code, 0);
+    EXPECT_THAT(help.out, HasSubstr("describe"));
+    EXPECT_THAT(help.err, IsEmpty());
+    EXPECT_THAT(finished_of({"run", "--help"}).out, HasSubstr("--local-workers"));
+    EXPECT_THAT(usage_error({}), HasSubstr("describe"));
+}
+
+TEST(Options, TellTheVersion) {
+    const Finished version = finished_of({"--version"});
+    EXPECT_EQ(version.code, 0);
+    EXPECT_THAT(version.out, StartsWith("lightnet "));
+}
+
+}  // namespace
+}  // namespace lightnet
