@@ -15,7 +15,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto bar_interval = 100ms, json_interval = 1000ms, plain_interval = 10000ms;
+constexpr auto bar_interval = 100ms, json_interval = 250ms, plain_interval = 10000ms;
 constexpr int bar_width = 30;
 
 double seconds(Progress::Time::duration time) { return std::chrono::duration<double>(time).count(); }
@@ -131,7 +131,6 @@ void Progress::line_of_json(std::string_view event, Time now) {
 }
 
 void Progress::say(std::string_view message) {
-    if (mode_ == ProgressMode::none) return;
     clear_bar();
     if (mode_ == ProgressMode::json) {
         const nlohmann::ordered_json line{{"event", "message"}, {"text", message}};

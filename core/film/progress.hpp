@@ -42,7 +42,7 @@ public:
     void found_done(std::uint64_t work, Time now);
     /// `done` is the whole work done so far.
     void update(std::uint64_t done, Time now);
-    /// Says something without tearing the bar apart.
+    /// Says something without tearing the bar apart. Said even where no progress is shown.
     void say(std::string_view message);
     /// The last line. A bar stays where it is if the work was not finished.
     void finish(Time now);

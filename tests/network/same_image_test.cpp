@@ -101,7 +101,7 @@ TEST_P(SameImage, WithOperatorsSpreadOverHosts) {
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryGraph, SameImage, ::testing::ValuesIn(graph_files()),
-                         [](const auto& info) { return std::filesystem::path(info.param).stem().string(); });
+                         [](const auto& graph) { return std::filesystem::path(graph.param).stem().string(); });
 
 }  // namespace
 }  // namespace lightnet::testing
