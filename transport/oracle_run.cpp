@@ -1,6 +1,7 @@
 #include "transport/oracle_run.hpp"
 
 #include <deque>
+#include <utility>
 
 #include "core/error.hpp"
 #include "transport/packet.hpp"
@@ -41,7 +42,7 @@ public:
     }
 
     std::optional<Message> receive() override {
-        if (tiles_done_ == tiles_.size()) {
+        if (tiles_done_ == tiles_.size() && !std::exchange(stopped_, true)) {
             Message stop;
             stop.type = Message::Type::stop;
             return stop;
@@ -73,6 +74,7 @@ private:
     std::deque<packet::Packet> packets_;
     std::size_t tiles_done_ = 0;
     unsigned turn_ = 0;
+    bool stopped_ = false;
     Counters counters_;
 };
 

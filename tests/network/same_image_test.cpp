@@ -100,6 +100,21 @@ TEST_P(SameImage, WithOperatorsSpreadOverHosts) {
     }
 }
 
+TEST(Serial, OpensNoSocketAndStartsNoThread) {
+    const TempFolder folder;
+    Process run(launch_words(graph_file("cornell.lua"), folder / "picture.exr",
+                             {"--size", "128x128", "--samples", "64", "--progress", "json"}));
+    ASSERT_TRUE(run.wait_for("\"event\":\"progress\"")) << run.output();
+    const auto process = std::filesystem::path("/proc") / std::to_string(run.id());
+    for (const auto& file : std::filesystem::directory_iterator(process / "fd")) {
+        std::error_code ignored;
+        EXPECT_EQ(std::filesystem::read_symlink(file.path(), ignored).string().find("socket:"), std::string::npos);
+    }
+    const std::filesystem::directory_iterator threads(process / "task"), end;
+    EXPECT_EQ(std::distance(threads, end), 1);
+    EXPECT_EQ(run.wait(), 0);
+}
+
 INSTANTIATE_TEST_SUITE_P(EveryGraph, SameImage, ::testing::ValuesIn(graph_files()),
                          [](const auto& graph) { return std::filesystem::path(graph.param).stem().string(); });
 

@@ -1,0 +1,145 @@
+// One process: the oracle that packs, parks and unpacks every ask, and places that serve each other.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <future>
+
+#include "core/film/film.hpp"
+#include "core/graph/check.hpp"
+#include "core/graph/graph_film.hpp"
+#include "core/runtime/fingerprint.hpp"
+#include "core/runtime/job.hpp"
+#include "core/runtime/master_renderer.hpp"
+#include "core/runtime/serial.hpp"
+#include "lua/load_graph.hpp"
+#include "nodes/standard_nodes.hpp"
+#include "transport/oracle_run.hpp"
+#include "transport/threaded_run.hpp"
+
+namespace lightnet {
+namespace {
+
+using Pixels = std::vector<Rgb>;
+
+// A shipped graph, small enough to be rendered many times.
+class Shipped {
+public:
+    explicit Shipped(const std::string& name, std::uint32_t size = 24, std::uint32_t samples = 4)
+        : registry(standard_nodes()), file(std::string(LIGHTNET_SOURCE_DIR) + "/graphs/" + name) {
+        Job job;
+        job.graph = check(load_graph(file), registry);
+        job.scene = scene_file(job.graph, registry);
+        job.isa = usual_isa();
+        job.width = job.height = size;
+        DiskFiles disk;
+        network = build_network(job, registry, disk);
+        tiles = tiles_of(size, size, 8, samples);
+    }
+
+    std::vector<Pixels> serial() const {
+        SerialRun run(*network);
+        std::vector<Pixels> pixels;
+        for (const auto& tile : tiles) pixels.push_back(run.render(tile));
+        return pixels;
+    }
+    std::vector<Pixels> oracle(PlaceRules rules) const {
+        std::vector<Pixels> pixels(tiles.size());
+        run_oracle(network, tiles, rules, [&](const Tile& tile, std::span<const Rgb> colours) {
+            pixels[index_of(tile)].assign(colours.begin(), colours.end());
+        });
+        return pixels;
+    }
+    std::vector<Pixels> threaded(const Plan& plan, PlaceRules rules, Counters* counters = nullptr) const {
+        std::vector<Pixels> pixels(tiles.size());
+        ThreadedRun run(network, 1, plan, rules);
+        MasterRenderer::Job job;
+        job.run = 1;
+        job.image = static_cast<std::uint32_t>(renderer_of(network->graph, registry));
+        job.width = static_cast<std::uint32_t>(network->layers.film.size());
+        job.tiles = tiles;
+        MasterRenderer master(job, run.carrier(), [&](const Tile& tile, std::span<const Rgb> colours) {
+            pixels[index_of(tile)].assign(colours.begin(), colours.end());
+        });
+        master.use(plan);
+        EXPECT_TRUE(master.work(std::chrono::seconds(30))) << "it hangs";
+        const auto counted = run.stop();
+        if (counters) *counters = counted;
+        return pixels;
+    }
+    std::size_t index_of(const Tile& tile) const {
+        return static_cast<std::size_t>(std::find(tiles.begin(), tiles.end(), tile) - tiles.begin());
+    }
+    std::size_t node(const std::string& name) const { return *network->graph.find(name); }
+
+    Registry registry;
+    std::string file;
+    std::shared_ptr<const Network> network;
+    std::vector<Tile> tiles;
+};
+
+class Oracle : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(Oracle, AgreesWithSerialBitForBit) {
+    const Shipped graph(GetParam());
+    const auto serial = graph.serial();
+    for (const std::size_t bundle : {1, 7, 512}) {
+        PlaceRules rules;
+        rules.bundles.questions = bundle;
+        rules.spare_fibers = bundle == 7 ? 0 : 16;
+        EXPECT_TRUE(graph.oracle(rules) == serial) << "bundles of " << bundle;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryGraph, Oracle,
+                         ::testing::Values("cornell.lua", "weights.lua", "ambient.lua", "direct.lua"),
+                         [](const auto& graph) { return std::filesystem::path(graph.param).stem().string(); });
+
+// image on both; lighting asks direct at the other place, which asks nobody; so each place asks and serves the other.
+Plan crossed(const Shipped& graph) {
+    Plan plan;
+    plan.places = {{"", 0}, {"", 1}};
+    plan.places_of.resize(graph.network->graph.nodes.size());
+    plan.places_of[graph.node("image")] = {0, 1};
+    plan.places_of[graph.node("lighting")] = {1};
+    plan.places_of[graph.node("direct")] = {0};
+    plan.places_of[graph.node("bounce")] = {0, 1};
+    return plan;
+}
+
+TEST(Places, ThatServeEachOtherWithOneFiberPerNodeAndCreditOneDoNotHang) {
+    const Shipped graph("cornell.lua");
+    PlaceRules narrow;
+    narrow.credit = {1, 1};
+    narrow.spare_fibers = 0;
+    for (const std::size_t bundle : {1, 64}) {
+        narrow.bundles.questions = bundle;
+        Counters counters;
+        EXPECT_TRUE(graph.threaded(crossed(graph), narrow, &counters) == graph.serial());
+        EXPECT_GT(counters.questions, 0u);
+        EXPECT_EQ(counters.bytes, 0u) << "within a process bundles are handed over by pointer";
+    }
+}
+
+TEST(Places, EndTheRunWithTheNameOfTheNodeThatThrew) {
+    const Shipped graph("cornell.lua");
+    ThreadedRun run(graph.network, 1, crossed(graph), {});
+    Message ask;  // a question about a surface that is not there
+    ask.run = 1;
+    ask.node = static_cast<std::uint32_t>(graph.node("lighting"));
+    ask.width = 2;
+    ask.questions = std::make_shared<const std::vector<Query>>(1, Query{.geometry = 999});
+    ASSERT_TRUE(run.carrier().ask({"", 1}, ask));
+    std::optional<Message> reply;
+    for (int i = 0; i < 100 && !reply; ++i) {
+        run.carrier().wait(std::chrono::milliseconds(100));
+        reply = run.carrier().receive();
+    }
+    ASSERT_TRUE(reply);
+    EXPECT_EQ(reply->type, Message::Type::failure);
+    EXPECT_NE(reply->text.find("'direct' on place 0"), std::string::npos) << reply->text;
+    EXPECT_NE(reply->text.find("a surface that isn't there"), std::string::npos) << reply->text;
+}
+
+}  // namespace
+}  // namespace lightnet
