@@ -1,5 +1,7 @@
 #include "lua/globals.hpp"
 
+#include <lua.hpp>
+
 #include <set>
 #include <utility>
 

@@ -1,11 +1,12 @@
 #include "lua/graph_script.hpp"
 
+#include <lua.hpp>
+
 #include <cctype>
 #include <utility>
 
 #include "core/graph/json.hpp"
 #include "core/suggestion.hpp"
-#include "lua/guarded.hpp"
 
 namespace lightnet::lua {
 namespace {

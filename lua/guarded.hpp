@@ -1,24 +1,14 @@
-// Lets C++ functions that throw be called from Lua. Included by .cpp files only.
+// Lets C++ functions that throw be called from Lua.
 #pragma once
 
-#include <lua.hpp>
+#include <functional>
 
-#include <exception>
+struct lua_State;
 
 namespace lightnet::lua {
 
 /// Runs `function` for Lua: an exception becomes an error of the line that called. Lua's own errors, which are
 /// exceptions of another kind, pass.
-template <class Function>
-int guarded(lua_State* L, Function function) {
-    try {
-        return function();
-    } catch (const std::exception& error) {
-        luaL_where(L, 1);
-        lua_pushstring(L, error.what());
-    }
-    lua_concat(L, 2);
-    return lua_error(L);
-}
+int guarded(lua_State* L, const std::function<int()>& function);
 
 }  // namespace lightnet::lua

@@ -1,5 +1,7 @@
 #include "lua/hosts_script.hpp"
 
+#include <lua.hpp>
+
 #include <utility>
 
 #include "core/graph/json.hpp"

@@ -1,0 +1,20 @@
+#include "lua/guarded.hpp"
+
+#include <lua.hpp>
+
+#include <exception>
+
+namespace lightnet::lua {
+
+int guarded(lua_State* L, const std::function<int()>& function) {
+    try {
+        return function();
+    } catch (const std::exception& error) {
+        luaL_where(L, 1);
+        lua_pushstring(L, error.what());
+    }
+    lua_concat(L, 2);
+    return lua_error(L);
+}
+
+}  // namespace lightnet::lua
