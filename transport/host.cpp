@@ -186,8 +186,12 @@ void Host::Door::begin(const std::string& route, std::uint64_t id, const Fields&
     if (run && run->id() != id)
         return send(route, Type::refuse, id, Fields{}.set("text", "it serves another run").set("busy", 1));
     if (!run) {
-        HostedRun::Given given{id, fields.text("you"), options.places, plan_from_json(fields.text("plan")),
-                               job_from_json(fields.text("job"))};
+        Plan plan = plan_from_json(fields.text("plan"));
+        // a hosts file may ask for more places than there are cores
+        const auto mine = std::count_if(plan.places.begin(), plan.places.end(),
+                                        [&](const PlaceAt& place) { return place.host == fields.text("you"); });
+        HostedRun::Given given{id, fields.text("you"), std::max(options.places, static_cast<std::uint32_t>(mine)),
+                               std::move(plan), job_from_json(fields.text("job"))};
         run = std::make_unique<HostedRun>(context, cache, registry, std::move(given));
         options.log("serves a run");
     }
