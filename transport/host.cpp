@@ -1,5 +1,6 @@
 #include "transport/host.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <random>
 #include <thread>

@@ -13,6 +13,7 @@
 #include "core/light/inputs.hpp"
 #include "core/light/light_op.hpp"
 #include "core/light/renderer.hpp"
+#include "core/runtime/call_port.hpp"
 #include "core/scene/scene.hpp"
 
 namespace lightnet {
@@ -41,6 +42,7 @@ public:
     Assembly(const Network& network, PortTo port_to) : network_(network), port_to_(std::move(port_to)) {}
 
     const LightOp& light(std::size_t node);
+    Called called(std::size_t node) { return {light(node), network_.graph.nodes[node].name, network_.width_of(node)}; }
     const Renderer& renderer(std::size_t node);
 
 private:

@@ -22,35 +22,35 @@ void check_float_mode() {
 
 }  // namespace
 
-CallPort::CallPort(const LightOp& node, std::size_t layers, std::size_t width, std::uint64_t& count,
-                   std::function<void()> pause)
-    : node_(node), layers_(layers), width_(width), count_(count), pause_(std::move(pause)) {}
+CallPort::CallPort(Called node, std::size_t width, std::uint64_t& count, std::function<void()> pause)
+    : node_(node), width_(width), count_(count), pause_(std::move(pause)) {}
 
 Port::Ticket CallPort::begin(std::span<const Query> questions, std::span<Rgb> answers) {
     for (std::size_t first = 0; first < questions.size(); first += piece) {
         const std::size_t n = std::min(piece, questions.size() - first);
         if (pause_) pause_();
-        answer(node_, layers_, width_, questions.subspan(first, n), answers.subspan(first * width_, n * width_));
+        answer(node_, width_, questions.subspan(first, n), answers.subspan(first * width_, n * width_));
     }
     count_ += questions.size();
     return 0;
 }
 
-void answer(const LightOp& node, std::size_t layers, std::size_t width, std::span<const Query> questions,
-            std::span<Rgb> answers) {
-    if (width == layers) {
+void answer(const Called& node, std::size_t width, std::span<const Query> questions, std::span<Rgb> answers) try {
+    if (width == node.layers) {
         std::fill(answers.begin(), answers.end(), Rgb{});
-        node.light(questions, answers);
+        node.light.light(questions, answers);
     } else {
-        std::vector<Rgb> apart(questions.size() * layers);
-        node.light(questions, apart);
+        std::vector<Rgb> apart(questions.size() * node.layers);
+        node.light.light(questions, apart);
         for (std::size_t q = 0; q < questions.size(); ++q) {
-            Rgb sum = apart[q * layers];
-            for (std::size_t k = 1; k < layers; ++k) sum += apart[q * layers + k];
+            Rgb sum = apart[q * node.layers];
+            for (std::size_t k = 1; k < node.layers; ++k) sum += apart[q * node.layers + k];
             answers[q] = sum;
         }
     }
     check_float_mode();
+} catch (const std::exception& error) {
+    throw Error("'" + node.name + "'", error.what());
 }
 
 }  // namespace lightnet

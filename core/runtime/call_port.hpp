@@ -3,36 +3,42 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 
 #include "core/light/light_op.hpp"
 #include "core/light/port.hpp"
 
 namespace lightnet {
 
+/// A node that can be called.
+struct Called {
+    const LightOp& light;
+    const std::string& name;  // as in the graph
+    std::size_t layers = 1;   // colours per answer when nothing is added up
+};
+
 /// Calls the node. Long asks are cut into pieces, between which the place may look at its sockets; an answer does not
 /// depend on its neighbours, so nobody can tell.
 class CallPort final : public Port {
 public:
-    /// `node` answers with `layers` colours per question; the asker wants `width`: as many, or one, their sum.
-    /// `pause` is called between pieces; it may be empty.
-    CallPort(const LightOp& node, std::size_t layers, std::size_t width, std::uint64_t& count,
-             std::function<void()> pause = {});
+    /// `width` colours per question are wanted: as many as the node has, or one, their sum. Counts questions in
+    /// `count`. `pause` is called between pieces; it may be empty.
+    CallPort(Called node, std::size_t width, std::uint64_t& count, std::function<void()> pause = {});
 
     Ticket begin(std::span<const Query> questions, std::span<Rgb> answers) override;
     void finish(Ticket) override {}
     void abandon(Ticket) noexcept override {}
 
 private:
-    const LightOp& node_;
-    std::size_t layers_, width_;
+    Called node_;
+    std::size_t width_;
     std::uint64_t& count_;
     std::function<void()> pause_;
 };
 
-/// Asks `node`, which keeps `layers` colours per question apart, and adds them up, first to last, when one is wanted.
-/// Throws Error when the node leaves the thread's floating-point mode changed: its own and all later answers would
-/// depend on where it ran.
-void answer(const LightOp& node, std::size_t layers, std::size_t width, std::span<const Query> questions,
-            std::span<Rgb> answers);
+/// Asks `node` and adds its layers up, first to last, when one colour is wanted. Throws Error with the node's name when
+/// it throws, and when it leaves the thread's floating-point mode changed: its own and all later answers would depend
+/// on where it ran.
+void answer(const Called& node, std::size_t width, std::span<const Query> questions, std::span<Rgb> answers);
 
 }  // namespace lightnet

@@ -58,10 +58,9 @@ Port* Place::port_to(std::size_t node, std::size_t width) {
     const auto& holders = plan_.places_of[node];
     const bool mine = std::any_of(holders.begin(), holders.end(), [&](auto i) { return plan_.places[i] == me_; });
     if (mine && rules_.call_own_nodes) {
-        const auto& light = assembly_.light(node);
+        const auto called = assembly_.called(node);
         return call_ports_
-            .emplace_back(std::make_unique<CallPort>(light, network_.width_of(node), width, counters_.local_questions,
-                                                     [this] { pause(); }))
+            .emplace_back(std::make_unique<CallPort>(called, width, counters_.local_questions, [this] { pause(); }))
             .get();
     }
     auto& remote = remotes_[{node, width}];
@@ -196,7 +195,9 @@ void Place::answer(Message& message) {
         throw;
     } catch (const std::exception& error) {
         reply.type = Message::Type::failure;
-        reply.text = "'" + network_.graph.nodes[message.node].name + "' on " + my_name() + ": " + error.what();
+        // What a light operator threw has its name already.
+        reply.text = (pixels ? "'" + network_.graph.nodes[message.node].name + "' " : std::string()) + "on " +
+                     my_name() + ": " + error.what();
     }
     const double ns =
         static_cast<double>(fibers_.running_time(fiber).count()) / static_cast<double>(std::max(count, std::size_t{1}));
@@ -215,7 +216,7 @@ std::vector<Rgb> Place::light_answers(const Message& message) {
     if (network_.kind_of(message.node).role != Role::light || (message.width != 1 && message.width != layers))
         throw Error("was asked for light in a way that its graph does not have");
     std::vector<Rgb> answers(questions.size() * message.width);
-    lightnet::answer(assembly_.light(message.node), layers, message.width, questions, answers);
+    lightnet::answer(assembly_.called(message.node), message.width, questions, answers);
     return answers;
 }
 

@@ -9,11 +9,8 @@ SerialRun::SerialRun(const Network& network, std::function<void()> pause)
       image_(renderer_of(network.graph, network.registry)),
       rays_before_(Scene::rays_of_this_thread()),
       assembly_(network, [this, pause = std::move(pause)](std::size_t node, std::size_t width) {
-          const auto& light = assembly_.light(node);
-          return ports_
-              .emplace_back(
-                  std::make_unique<CallPort>(light, network_.width_of(node), width, counters_.local_questions, pause))
-              .get();
+          const auto called = assembly_.called(node);
+          return ports_.emplace_back(std::make_unique<CallPort>(called, width, counters_.local_questions, pause)).get();
       }) {
     assembly_.renderer(image_);
 }

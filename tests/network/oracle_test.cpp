@@ -137,7 +137,7 @@ TEST(Places, EndTheRunWithTheNameOfTheNodeThatThrew) {
     }
     ASSERT_TRUE(reply);
     EXPECT_EQ(reply->type, Message::Type::failure);
-    EXPECT_NE(reply->text.find("'direct' on place 0"), std::string::npos) << reply->text;
+    EXPECT_NE(reply->text.find("on place 1: 'lighting': "), std::string::npos) << reply->text;
     EXPECT_NE(reply->text.find("a surface that isn't there"), std::string::npos) << reply->text;
 }
 
