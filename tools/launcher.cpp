@@ -8,6 +8,7 @@
 #include "core/graph/dot.hpp"
 #include "core/graph/graph_film.hpp"
 #include "core/graph/plan.hpp"
+#include "core/scene/read_scene.hpp"
 #include "tools/exit_code.hpp"
 #include "tools/loading.hpp"
 #include "tools/overrides.hpp"
@@ -92,6 +93,8 @@ int Launcher::perform_run(const Options& options) const {
 int Launcher::perform_check(const Options& options) const {
     const Loaded loaded = load(options, registry, true);
     warn(loaded.warnings, err);
+    DiskFiles files;
+    warn(read_scene(files, scene_file(loaded.graph, registry)).warnings, err);
     const auto format = film_of(loaded.graph, registry);
     out << options.graph << ": sound: " << loaded.graph.nodes.size() << " nodes, " << format.width << "x"
         << format.height << ", layers";

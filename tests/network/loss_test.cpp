@@ -160,6 +160,21 @@ TEST_F(Loss, OfPatienceEndsEverythingWithinASecond) {
     EXPECT_NE(bytes_of(folder / "run.json").find("cancelled"), std::string::npos);
 }
 
+TEST_F(Loss, OfTimeDrainsTheRunWithinItsDeadline) {
+    const Daemon one(folder), two(folder);
+    const auto run = start({whole(one.endpoint), whole(two.endpoint)});
+    ASSERT_TRUE(in_the_middle(*run));
+    run->signal(SIGTERM);
+    EXPECT_EQ(run->wait(seconds(8)), 130) << run->output();
+    EXPECT_FALSE(std::filesystem::exists(out));
+    EXPECT_NE(bytes_of(folder / "run.json").find("\"late_replies\": 0"), std::string::npos)
+        << "all that was out came in";
+    EXPECT_EQ(
+        launch(graph_file("direct.lua"), folder, {"--size", "8x8", "--hosts", hosts_file({whole(one.endpoint)})}).code,
+        0)
+        << "the daemons serve the next run";
+}
+
 TEST_F(Loss, OfTheLauncherEndsItsDaemons) {
     auto words = some_seconds;
     words.insert(words.end(), {"--local-workers", "2"});

@@ -9,7 +9,15 @@
 namespace lightnet::testing {
 namespace {
 
+#if defined(LIGHTNET_LARGE)
+const std::vector<std::string> small{"--size", "160x120", "--samples", "40", "--seed", "7", "--progress", "none"};
+const std::vector<std::string> threads_tried{"1", "2", "3", "4", "8"}, tiles_tried{"64", "32", "11", "3"};
+const std::vector<std::string> daemons_tried{"1", "2", "3", "4"}, bundles_tried{"4096", "512", "61", "37", "8", "1"};
+#else
 const std::vector<std::string> small{"--size", "64x64", "--samples", "4", "--progress", "none"};
+const std::vector<std::string> threads_tried{"1", "2", "3"}, tiles_tried{"32", "11"};
+const std::vector<std::string> daemons_tried{"1", "2", "3"}, bundles_tried{"512", "37", "1"};
+#endif
 
 std::vector<std::string> with(std::vector<std::string> words, const std::vector<std::string>& more) {
     words.insert(words.end(), more.begin(), more.end());
@@ -69,15 +77,15 @@ protected:
 
 TEST_P(SameImage, InThreadsOfAnyNumber) {
     ASSERT_EQ(serial.code, 0) << serial.said;
-    for (const std::string threads : {"1", "2", "3"})
-        for (const std::string tile : {"32", "11"})
+    for (const auto& threads : threads_tried)
+        for (const auto& tile : tiles_tried)
             expect_same(launch(graph, folder, with(small, {"--threads", threads, "--tile", tile})),
                         threads + " threads, tiles of " + tile);
 }
 
 TEST_P(SameImage, OnDaemonsOfAnyNumber) {
     ASSERT_EQ(serial.code, 0) << serial.said;
-    for (const std::string workers : {"1", "2", "3"})
+    for (const auto& workers : daemons_tried)
         expect_same(launch(graph, folder, with(small, {"--local-workers", workers})), workers + " daemons");
 }
 
@@ -87,7 +95,7 @@ TEST_P(SameImage, WithOperatorsSpreadOverHosts) {
     for (const auto& endpoints :
          {std::vector{one.endpoint, two.endpoint}, std::vector{one.endpoint, two.endpoint, three.endpoint}}) {
         const auto hosts = spread(endpoints);
-        for (const std::string bundle : {"512", "37", "1"}) {
+        for (const auto& bundle : bundles_tried) {
             // Bundles of one question, one under way, and one fiber per node: the narrowest way there is.
             const std::string credit = bundle == "1" ? "1" : "8", fibers = bundle == "1" ? "0" : "16";
             const auto far = launch(graph, folder,
