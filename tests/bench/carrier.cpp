@@ -222,14 +222,6 @@ void measure(const char* name, Carrier& carrier, const Plan& plan, const std::st
     figure(name, median(ratios), 0.6, true);
 }
 
-void measure_inproc(const Registry& kinds, const Job& job) {
-    const auto network = build_network(job, kinds, SceneData{});
-    const Plan plan = one_asks_the_other({"", 0}, {"", 1});
-    ThreadedRun run(network, run_id, plan, job.rules);
-    measure("carrier.inproc", run.carrier(), plan, "inproc://plain");
-    run.stop();
-}
-
 // A daemon in a thread.
 class HostThread {
 public:
@@ -249,11 +241,24 @@ private:
     std::jthread thread_{[this] { host_.serve(stop_); }};
 };
 
-void measure_tcp(const Registry& kinds, Job job, const Picture& picture) {
+}  // namespace
+
+void measure_inproc(const Picture& picture) {
+    const Registry kinds = asking_kinds();
+    const Job job = asking_job(picture);
+    const auto network = build_network(job, kinds, SceneData{});
+    const Plan plan = one_asks_the_other({"", 0}, {"", 1});
+    ThreadedRun run(network, run_id, plan, job.rules);
+    measure("carrier.inproc", run.carrier(), plan, "inproc://plain");
+    run.stop();
+}
+
+void measure_tcp(const Picture& picture) {
+    const Registry kinds = asking_kinds();
     const HostThread first(kinds), second(kinds);
     Cluster::Options options;
     options.run = run_id;
-    options.job = std::move(job);
+    options.job = asking_job(picture);
     options.files = picture.files;
     options.endpoints = {first.endpoint(), second.endpoint()};
     options.plan = [&](const std::vector<HostOffer>&) {
@@ -264,14 +269,6 @@ void measure_tcp(const Registry& kinds, Job job, const Picture& picture) {
     cluster.gather(5s, never);
     measure("carrier.tcp", cluster, cluster.plan(), "tcp://127.0.0.1:*");
     cluster.finish();
-}
-
-}  // namespace
-
-void measure_carrier(const Picture& picture) {
-    const Registry kinds = asking_kinds();
-    measure_inproc(kinds, asking_job(picture));
-    measure_tcp(kinds, asking_job(picture), picture);
 }
 
 }  // namespace lightnet::bench
