@@ -20,12 +20,26 @@ std::string inproc_endpoint(std::uint64_t run, std::uint32_t place) {
 }
 
 struct ZmqCarrier::Sockets {
+    // Looking into an empty socket costs a call of the system. So each is looked into until it is dry, and then not
+    // again before all are, or before wait() has found something in it.
+    struct Source {
+        zmq::socket_t socket;
+        bool dry = false;
+    };
+
     zmq::context_t& context;
     Ends ends;
-    std::optional<zmq::socket_t> answering;
-    std::map<std::string, zmq::socket_t> asking;  // by endpoint
+    std::optional<Source> answering;
+    std::map<std::string, Source> asking;  // by endpoint
     Counters counters;
     std::size_t next = 0;  // fair turns among the asking sockets
+
+    std::vector<Source*> all() {
+        std::vector<Source*> sources;
+        if (answering) sources.push_back(&*answering);
+        for (auto& [endpoint, source] : asking) sources.push_back(&source);
+        return sources;
+    }
 
     std::string endpoint_of(const PlaceAt& place) const {
         return place.host == ends.host ? inproc_endpoint(ends.run, place.index) : place.host;
@@ -33,8 +47,8 @@ struct ZmqCarrier::Sockets {
 
     zmq::socket_t& to(const std::string& endpoint) {
         const auto found = asking.find(endpoint);
-        if (found != asking.end()) return found->second;
-        return asking.emplace(endpoint, asking_socket(context, endpoint)).first->second;
+        if (found != asking.end()) return found->second.socket;
+        return asking.emplace(endpoint, Source{asking_socket(context, endpoint)}).first->second.socket;
     }
 
     std::optional<Message> from_packet(const Frames& frames, std::size_t first) {
@@ -66,8 +80,8 @@ struct ZmqCarrier::Sockets {
 ZmqCarrier::ZmqCarrier(zmq::context_t& context, Ends ends)
     : sockets_(new Sockets{context, std::move(ends), std::nullopt, {}, {}, 0}) {
     if (!sockets_->ends.answers) return;
-    sockets_->answering.emplace(answering_socket(context));
-    sockets_->answering->bind(inproc_endpoint(sockets_->ends.run, sockets_->ends.place));
+    sockets_->answering.emplace(Sockets::Source{answering_socket(context)});
+    sockets_->answering->socket.bind(inproc_endpoint(sockets_->ends.run, sockets_->ends.place));
 }
 
 ZmqCarrier::~ZmqCarrier() = default;
@@ -100,33 +114,45 @@ void ZmqCarrier::reply(Message message) {
     } else {
         frames.push_back(frame_of(std::move(message)));
     }
-    if (!send_frames(*sockets_->answering, frames)) ++sockets_->counters.refused_sends;
+    if (!send_frames(sockets_->answering->socket, frames)) ++sockets_->counters.refused_sends;
 }
 
 std::optional<Message> ZmqCarrier::receive() {
     auto& s = *sockets_;
+    const auto take = [](Sockets::Source& source, const auto& read) -> std::optional<Message> {
+        while (!source.dry) {
+            auto frames = receive_frames(source.socket);
+            if (!frames)
+                source.dry = true;
+            else if (auto message = read(std::move(*frames)))
+                return message;
+        }
+        return std::nullopt;
+    };
     if (s.answering)
-        while (auto frames = receive_frames(*s.answering))
-            if (auto message = s.from_asker(std::move(*frames))) return message;
+        if (auto message = take(*s.answering, [&](Frames frames) { return s.from_asker(std::move(frames)); }))
+            return message;
     for (std::size_t turn = 0; turn < s.asking.size(); ++turn) {
-        auto socket = s.asking.begin();
-        std::advance(socket, static_cast<std::ptrdiff_t>(s.next++ % s.asking.size()));
-        while (auto frames = receive_frames(socket->second))
-            if (auto message = s.from_answerer(std::move(*frames))) return message;
+        auto source = s.asking.begin();
+        std::advance(source, static_cast<std::ptrdiff_t>(s.next++ % s.asking.size()));
+        if (auto message = take(source->second, [&](Frames frames) { return s.from_answerer(std::move(frames)); }))
+            return message;
     }
+    for (auto* source : s.all()) source->dry = false;
     return std::nullopt;
 }
 
 void ZmqCarrier::wait(std::chrono::nanoseconds most) {
+    const auto sources = sockets_->all();
     std::vector<zmq::pollitem_t> items;
-    if (sockets_->answering) items.push_back({sockets_->answering->handle(), 0, ZMQ_POLLIN, 0});
-    for (auto& [endpoint, socket] : sockets_->asking) items.push_back({socket.handle(), 0, ZMQ_POLLIN, 0});
+    for (auto* source : sources) items.push_back({source->socket.handle(), 0, ZMQ_POLLIN, 0});
     const auto ms = std::chrono::ceil<std::chrono::milliseconds>(most);
     try {
         zmq::poll(items, std::max(ms, std::chrono::milliseconds(1)));
     } catch (const zmq::error_t& error) {
         if (error.num() != EINTR) throw;
     }
+    for (std::size_t i = 0; i < items.size(); ++i) sources[i]->dry = !(items[i].revents & ZMQ_POLLIN);
 }
 
 void ZmqCarrier::forget(const PlaceAt& place) { sockets_->asking.erase(sockets_->endpoint_of(place)); }

@@ -16,7 +16,7 @@ using List = std::vector<Value>;
 struct Table {
     List list;
     std::map<std::string, Value> named;
-    friend bool operator==(const Table&, const Table&) = default;
+    friend bool operator==(const Table&, const Table&);
 };
 
 /// Refers to another node by name.
@@ -30,6 +30,8 @@ struct Value {
     std::variant<bool, double, std::string, NodeRef, Table> data;
     friend bool operator==(const Value&, const Value&) = default;
 };
+
+inline bool operator==(const Table& a, const Table& b) { return a.list == b.list && a.named == b.named; }
 
 /// As few digits as tell the number from all others; integers without a point or an exponent.
 std::string number_text(double number);

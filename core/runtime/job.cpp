@@ -1,5 +1,6 @@
 #include "core/runtime/job.hpp"
 
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
@@ -8,6 +9,28 @@
 namespace lightnet {
 
 using Json = nlohmann::json;
+
+namespace {
+
+// A graph's own 32 levels, and those around it: what is nested deeper can't be told apart from an attack on the stack.
+constexpr int most_depth = 40;
+
+Json parse(std::string_view text) {
+    return Json::parse(text, [](int depth, Json::parse_event_t, const Json&) {
+        if (depth > most_depth) throw Error("not a job", "nested too deeply");
+        return true;
+    });
+}
+
+template <class Integer>
+Integer count_of(const Json& object, const char* key) {
+    const auto& number = object.at(key);
+    if (!number.is_number_unsigned() || number.get<std::uint64_t>() > std::numeric_limits<Integer>::max())
+        throw Error("not a job", std::string("'") + key + "' is no count");
+    return number.get<Integer>();
+}
+
+}  // namespace
 
 std::string to_json(const Job& job) {
     Json files = Json::array();
@@ -34,25 +57,26 @@ std::string to_json(const Job& job) {
 
 Job job_from_json(std::string_view text) {
     try {
-        const auto json = Json::parse(text);
+        const auto json = parse(text);
         Job job;
         job.graph = graph_from_json(json.at("graph").dump());
         job.scene = json.at("scene");
         for (const auto& file : json.at("files")) {
             const auto hash = hash_from_hex(file.at("hash").get<std::string>());
             if (!hash) throw Error("a file of the job has no proper hash");
-            job.files.push_back({file.at("path"), *hash, file.at("size")});
+            job.files.push_back({file.at("path"), *hash, count_of<std::uint64_t>(file, "size")});
         }
-        job.seed = json.at("seed");
+        job.seed = count_of<std::uint64_t>(json, "seed");
         job.isa = json.at("isa");
-        job.width = json.at("width");
-        job.height = json.at("height");
+        job.width = count_of<std::uint32_t>(json, "width");
+        job.height = count_of<std::uint32_t>(json, "height");
         const auto& rules = json.at("rules");
-        job.rules.bundles.questions = rules.at("questions");
-        job.rules.bundles.oldest = std::chrono::microseconds(rules.at("oldest_us").get<std::int64_t>());
-        job.rules.bundles.eager = rules.at("eager");
-        job.rules.credit = {rules.at("credit_bundles"), rules.at("credit_questions")};
-        job.rules.spare_fibers = rules.at("spare_fibers");
+        job.rules.bundles.questions = count_of<std::size_t>(rules, "questions");
+        job.rules.bundles.oldest = std::chrono::microseconds(count_of<std::uint32_t>(rules, "oldest_us"));
+        job.rules.bundles.eager = count_of<std::size_t>(rules, "eager");
+        job.rules.credit.bundles = count_of<std::size_t>(rules, "credit_bundles");
+        job.rules.credit.questions = count_of<std::size_t>(rules, "credit_questions");
+        job.rules.spare_fibers = count_of<std::size_t>(rules, "spare_fibers");
         job.rules.call_own_nodes = rules.at("call_own_nodes");
         return job;
     } catch (const Json::exception& error) {

@@ -16,6 +16,8 @@ template <class... Functions>
 struct Overloaded : Functions... {
     using Functions::operator()...;
 };
+template <class... Functions>
+Overloaded(Functions...) -> Overloaded<Functions...>;  // clang 14 can't find it out by itself
 
 std::vector<TextureId> textures_of(const Material& material) {
     return std::visit(Overloaded{[](const DiffuseMaterial& m) { return std::vector{m.reflectance}; },

@@ -1,0 +1,31 @@
+// What the framework costs: serial, threaded and networked runs beside loops that do without it. All figures are ratios
+// of what was measured in turns, in one run; medians over the rounds.
+// Arguments: serial, threads, network, inproc, tcp; without any, all of them.
+#include "tests/bench/overhead.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <string_view>
+
+#include "nodes/standard_nodes.hpp"
+
+int main(int argc, char** argv) {
+    namespace bench = lightnet::bench;
+    const auto wanted = [&](std::string_view group) {
+        return argc == 1 || std::any_of(argv + 1, argv + argc, [&](const char* word) { return group == word; });
+    };
+    try {
+        const lightnet::Registry registry{lightnet::standard_nodes()};
+        const bench::Picture small(registry, 128, 16), large(registry, 256, 32);
+        if (wanted("serial")) bench::measure_serial(small);
+        if (wanted("threads")) bench::measure_threads(large, registry);
+        if (wanted("network")) bench::measure_network(large, registry);
+        if (wanted("inproc")) bench::measure_inproc(small);
+        if (wanted("tcp")) bench::measure_tcp(small);
+        return 0;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "overhead: %s\n", error.what());
+        return 1;
+    }
+}

@@ -1,0 +1,61 @@
+// Two places, in threads and in daemons, beside two independent serial runs of half the work each.
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include "core/runtime/place.hpp"
+#include "tests/bench/figure.hpp"
+#include "tests/bench/overhead.hpp"
+#include "transport/cluster.hpp"
+#include "transport/local_workers.hpp"
+#include "transport/threaded_run.hpp"
+
+namespace lightnet::bench {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::uint64_t run_id = 1;
+constexpr int rounds = 9;
+
+void measure_efficiency(const char* name, const Picture& picture, Carrier& carrier, const Plan& plan) {
+    // The carrier is looked after all the time, or the hosts would think that their launcher is gone.
+    const auto look_after = [&] {
+        carrier.wait(20ms);
+        carrier.receive();
+    };
+    std::vector<double> efficiency;
+    for (int round = 0; round < rounds; ++round) {
+        const double independent = seconds_of_independent_halves(picture, look_after);
+        const double together = seconds_of_master(picture, run_id, carrier, plan);
+        efficiency.push_back(independent / together);
+    }
+    show("efficiency of two places", efficiency);
+    figure(name, median(efficiency), 0.97, true);
+}
+
+}  // namespace
+
+void measure_threads(const Picture& picture, const Registry& registry) {
+    const Plan two = plan(picture.job.graph, registry, {}, {{"", 2}});
+    ThreadedRun run(picture.network, run_id, two, picture.job.rules);
+    measure_efficiency("overhead.threads", picture, run.carrier(), two);
+    run.stop();
+}
+
+void measure_network(const Picture& picture, const Registry& registry) {
+    const LocalWorkers workers(LIGHTNET_DAEMON, 2, 1);
+    Cluster::Options options;
+    options.run = run_id;
+    options.job = picture.job;
+    options.files = picture.files;
+    options.endpoints = workers.endpoints();
+    options.plan = [&](const std::vector<HostOffer>& offers) { return plan(picture.job.graph, registry, {}, offers); };
+    Cluster cluster(std::move(options));
+    const std::atomic<bool> never{false};
+    cluster.gather(5s, never);
+    measure_efficiency("overhead.network", picture, cluster, cluster.plan());
+    cluster.finish();
+}
+
+}  // namespace lightnet::bench

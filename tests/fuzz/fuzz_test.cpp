@@ -1,0 +1,81 @@
+// The fuzz targets with damaged inputs that are the same on every machine.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/fuzz/targets.hpp"
+
+namespace lightnet::fuzz {
+namespace {
+
+std::span<const std::byte> bytes_of(const std::string& text) { return std::as_bytes(std::span(text)); }
+
+// Bytes flipped, cut out, repeated, brought in from another input or set to extremes.
+class Vandal {
+public:
+    explicit Vandal(std::vector<std::string> seeds) : seeds_(std::move(seeds)) {}
+
+    std::string next() {
+        std::string text = any_seed();
+        for (auto blows = 1 + below(4); blows > 0 && !text.empty(); --blows) hit(text);
+        return text;
+    }
+
+private:
+    std::size_t below(std::size_t n) { return random_() % n; }
+    const std::string& any_seed() { return seeds_[below(seeds_.size())]; }
+
+    void hit(std::string& text) {
+        const std::size_t at = below(text.size()), length = 1 + below(16);
+        switch (below(6)) {
+            case 0:
+                text[at] = static_cast<char>(text[at] ^ (1 << below(8)));
+                break;
+            case 1:
+                text[at] = "\0\xff\x7f\x80\xdd"[below(5)];
+                break;
+            case 2:
+                text.erase(at, length);
+                break;
+            case 3:
+                text.insert(at, text.substr(below(text.size()), length));
+                break;
+            case 4:
+                text.resize(at);
+                break;
+            default: {
+                const auto& other = any_seed();
+                text = text.substr(0, at) + other.substr(below(other.size()));
+            }
+        }
+    }
+
+    std::vector<std::string> seeds_;
+    std::mt19937_64 random_{1};
+};
+
+class Reading : public testing::TestWithParam<Target> {};
+
+TEST_P(Reading, TakesSoundInputs) {
+    for (const auto& seed : GetParam().seeds()) EXPECT_NO_THROW(GetParam().read(bytes_of(seed)));
+}
+
+TEST_P(Reading, TakesInputsThatAreCutAnywhere) {
+    for (const auto& seed : GetParam().seeds())
+        for (std::size_t size = 0; size < seed.size(); ++size)
+            EXPECT_NO_THROW(GetParam().read(bytes_of(seed.substr(0, size)))) << size;
+}
+
+TEST_P(Reading, TakesDamagedInputs) {
+    Vandal vandal(GetParam().seeds());
+    for (int round = 0; round < 5000; ++round) {
+        const auto text = vandal.next();
+        ASSERT_NO_THROW(GetParam().read(bytes_of(text))) << "round " << round << ":\n" << text;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, Reading, testing::ValuesIn(all_targets()),
+                         [](const auto& tested) { return tested.param.name; });
+
+}  // namespace
+}  // namespace lightnet::fuzz

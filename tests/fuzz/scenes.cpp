@@ -1,0 +1,68 @@
+#include "core/error.hpp"
+#include "core/scene/read_scene.hpp"
+#include "tests/fuzz/targets.hpp"
+#include "tests/support/memory_files.hpp"
+
+namespace lightnet::fuzz {
+namespace {
+
+void read(std::span<const std::byte> bytes) {
+    test::MemoryFiles files;
+    files.add("scene.pbrt", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    files.add("part.pbrt", "Include \"scene.pbrt\"\n");
+    files.add("mesh.ply", meshes().seeds().front());
+    try {
+        (void)read_scene(files, "scene.pbrt");
+    } catch (const UserError&) {
+    } catch (const Error&) {
+    }
+}
+
+std::vector<std::string> seeds() {
+    return {
+        R"(LookAt 0 0 5  0 0 0  0 1 0
+Camera "perspective" "float fov" [ 40 ]
+Film "rgb" "integer xresolution" 64 "integer yresolution" [ 32 ]
+Sampler "independent" "integer pixelsamples" [ 4 ]
+Integrator "path"
+WorldBegin
+MakeNamedMaterial "wall" "string type" "diffuse" "rgb reflectance" [ .5 .6 .7 ]
+AttributeBegin
+  AreaLightSource "diffuse" "rgb L" [ 5 5 5 ] "bool twosided" true
+  Translate 0 1 0
+  Shape "sphere" "float radius" .5
+AttributeEnd
+NamedMaterial "wall"
+Shape "trianglemesh" "point3 P" [ 0 0 0  1 0 0  0 1 0 ] "integer indices" [ 0 1 2 ] "normal N" [ 0 0 1 0 0 1 0 0 1 ]
+)",
+        R"(Transform [ 1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1 ]
+Camera "perspective" "float fov" 90 "string fovdist" "x" # a comment
+WorldBegin
+Texture "red" "spectrum" "constant" "rgb value" [ 1 0 0 ]
+Texture "half" "spectrum" "scale" "texture tex" "red" "float scale" .5
+Material "coateddiffuse" "texture reflectance" "half" "float roughness" 0.1
+ObjectBegin "thing"
+  Shape "plymesh" "string filename" "mesh.ply"
+  Shape "bilinearmesh" "point3 P" [ 0 0 0 1 0 0 0 1 0 1 1 0 ]
+ObjectEnd
+AttributeBegin
+  Rotate 30 0 0 1
+  Scale 2 2 -1
+  ReverseOrientation
+  ObjectInstance "thing"
+AttributeEnd
+Material "conductor" "spectrum eta" "metal-Cu-eta" "spectrum k" "metal-Cu-k"
+Shape "disk" "float radius" 2
+Material "dielectric" "float eta" 1.5
+Shape "cylinder" "float zmin" -1 "float zmax" 1
+LightSource "infinite" "blackbody L" 6500 "float scale" .1
+Include "part.pbrt"
+)",
+    };
+}
+
+}  // namespace
+
+Target scenes() { return {"scenes", read, seeds}; }
+
+}  // namespace lightnet::fuzz

@@ -1,0 +1,31 @@
+// Everything that reads what strangers send or write, as functions of plain bytes.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace lightnet::fuzz {
+
+/// Reads bytes in one way. Returns when they were read or properly refused; anything else is a bug.
+struct Target {
+    std::string name;
+    void (*read)(std::span<const std::byte>);
+    /// Sound inputs, from which damaged ones are made.
+    std::vector<std::string> (*seeds)();
+};
+
+/// Packets: the header's 64 bytes, then the body. Each is also read with its magic, size and checksum put right, or
+/// nothing would ever come past them.
+Target packets();
+/// Scenes in the language of pbrt, beside which a mesh lies.
+Target scenes();
+/// PLY files.
+Target meshes();
+/// JSON of graphs, plans, jobs and hosts. What is accepted must come back the same.
+Target texts();
+
+inline std::vector<Target> all_targets() { return {packets(), scenes(), meshes(), texts()}; }
+
+}  // namespace lightnet::fuzz
