@@ -5,11 +5,14 @@
 #include <zmq.hpp>
 
 #include "core/error.hpp"
+#include "core/graph/check.hpp"
 
 namespace lightnet {
 
 HostedRun::HostedRun(zmq::context_t& context, BlobCache& cache, const Registry& registry, Given given)
     : context_(context), cache_(cache), registry_(registry), given_(std::move(given)) {
+    check(given_.job.graph, registry_);  // it comes from outside, like the plan
+    use(given_.plan);
     for (const auto& file : given_.job.files)
         if (!cache_.has(file.hash)) missing_.insert(file.hash);
 }
@@ -59,6 +62,7 @@ bool HostedRun::advance() {
 }
 
 void HostedRun::use(const Plan& plan) {
+    if (!fits(plan, given_.job.graph)) throw Error("the plan does not fit the graph");
     given_.plan = plan;
     if (serving_) places_->use(plan);
 }

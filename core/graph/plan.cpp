@@ -103,4 +103,11 @@ Plan plan(const Graph& graph, const Registry& registry, const Hosts& hosts, cons
     return planner.take();
 }
 
+bool fits(const Plan& plan, const Graph& graph) {
+    const auto is_there = [&](std::uint32_t place) { return place < plan.places.size(); };
+    return plan.places_of.size() == graph.nodes.size() &&
+           std::all_of(plan.places_of.begin(), plan.places_of.end(),
+                       [&](const auto& places) { return std::all_of(places.begin(), places.end(), is_there); });
+}
+
 }  // namespace lightnet

@@ -48,6 +48,9 @@ struct HostOffer {
 /// holds the whole network. A node whose hosts are all absent is put on the place that holds the fewest nodes.
 Plan plan(const Graph& graph, const Registry& registry, const Hosts& hosts, const std::vector<HostOffer>& offers);
 
+/// Every node of the graph has a row, and every place that is named is there. Plans that arrive are checked.
+bool fits(const Plan& plan, const Graph& graph);
+
 /// The index of the renderer whose picture the run makes.
 std::size_t renderer_of(const Graph& graph, const Registry& registry);
 

@@ -6,6 +6,7 @@
 #include <zmq.hpp>
 
 #include "core/build_info.hpp"
+#include "core/graph/plan.hpp"
 #include "tests/network/daemons.hpp"
 #include "transport/packet.hpp"
 
@@ -98,6 +99,18 @@ TEST_F(DaemonTest, RefusesAnotherProtocolVersionAndNamesBoth) {
 TEST_F(DaemonTest, RefusesAJobThatIsNone) {
     Stranger launcher(daemon.endpoint);
     launcher.send(packet::pack(Type::begin, 5, Fields{}.set("job", "{}").set("plan", "[1").set("you", "x")));
+    EXPECT_EQ(launcher.receive().first, Type::broken);
+    // Well-formed, but the graph has a kind that is none, or the plan has no row for its nodes.
+    const std::string rest =
+        R"("scene":"","files":[],"seed":0,"isa":"sse4.2","width":8,"height":8,"rules":{"questions":1,
+        "oldest_us":1,"eager":1,"credit_bundles":1,"credit_questions":1,"spare_fibers":0,"call_own_nodes":true}})";
+    Graph strange;
+    strange.nodes = {{"a", "NoSuchKind", {}, {}, {}}};
+    launcher.send(packet::pack(Type::begin, 6,
+                               Fields{}
+                                   .set("job", "{\"graph\":" + to_json(strange) + "," + rest)
+                                   .set("plan", to_json(Plan{}))
+                                   .set("you", "x")));
     EXPECT_EQ(launcher.receive().first, Type::broken);
     EXPECT_EQ(launch_there().code, 0) << "and serves the next run";
 }
