@@ -26,6 +26,27 @@ Hash content_hash(std::span<const std::byte> content) {
 
 Hash content_hash(std::string_view text) { return content_hash(std::as_bytes(std::span{text})); }
 
+struct Hasher::State {
+    crypto_generichash_state sodium;
+};
+
+Hasher::Hasher() : state_(std::make_unique<State>()) {
+    crypto_generichash_init(&state_->sodium, nullptr, 0, sizeof(Hash::bytes));
+}
+
+Hasher::~Hasher() = default;
+Hasher::Hasher(Hasher&&) noexcept = default;
+
+void Hasher::add(std::span<const std::byte> piece) {
+    crypto_generichash_update(&state_->sodium, reinterpret_cast<const unsigned char*>(piece.data()), piece.size());
+}
+
+Hash Hasher::finish() {
+    Hash hash;
+    crypto_generichash_final(&state_->sodium, hash.bytes.data(), hash.bytes.size());
+    return hash;
+}
+
 std::string to_hex(const Hash& hash) {
     constexpr std::string_view digits = "0123456789abcdef";
     std::string text;

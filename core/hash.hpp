@@ -5,6 +5,7 @@
 #include <compare>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -21,6 +22,21 @@ struct Hash {
 
 Hash content_hash(std::span<const std::byte> content);
 Hash content_hash(std::string_view text);
+
+/// Hashes content that comes in pieces.
+class Hasher {
+public:
+    Hasher();
+    ~Hasher();
+    Hasher(Hasher&&) noexcept;
+    void add(std::span<const std::byte> piece);
+    /// The hash of all pieces, as content_hash() gives it. Once.
+    Hash finish();
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
 
 /// 64 lower-case hexadecimal digits.
 std::string to_hex(const Hash& hash);

@@ -188,7 +188,7 @@ void Run::render_in_threads(SceneData scene) {
     ThreadedRun run(network, id_, plan, job_.rules);
     book_.use(plan, job_.graph);
     book_.phase("render");
-    hand_out(run.carrier(), plan, [](const MasterRenderer&) {});
+    hand_out(run.carrier(), plan, [&](const MasterRenderer&) { run.check(); });
     book_.count(run.stop());
 }
 

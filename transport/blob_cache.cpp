@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <utility>
 
 #include "core/error.hpp"
-#include "core/film/atomic_file.hpp"
 
 namespace lightnet {
 namespace {
@@ -51,8 +51,42 @@ Bytes BlobCache::read(const Hash& hash) const {
     return bytes;
 }
 
-void BlobCache::keep(const Hash& hash, std::span<const std::byte> bytes) {
-    write_file(path_of(hash), {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+BlobCache::Incoming BlobCache::receive(const Hash& hash) const { return {path_of(hash), hash}; }
+
+BlobCache::Incoming::Incoming(std::string path, const Hash& hash)
+    : path_(std::move(path)),
+      partial_(path_ + ".part-" + std::to_string(getpid())),
+      hash_(hash),
+      file_(partial_, std::ios::binary | std::ios::trunc) {}
+
+BlobCache::Incoming::Incoming(Incoming&& other) noexcept
+    : path_(std::move(other.path_)),
+      partial_(std::exchange(other.partial_, {})),
+      hash_(other.hash_),
+      hasher_(std::move(other.hasher_)),
+      size_(other.size_),
+      file_(std::move(other.file_)) {}
+
+BlobCache::Incoming::~Incoming() {
+    std::error_code ignored;
+    if (!partial_.empty()) fs::remove(partial_, ignored);
+}
+
+void BlobCache::Incoming::add(std::span<const std::byte> piece) {
+    hasher_.add(piece);
+    size_ += piece.size();
+    file_.write(reinterpret_cast<const char*>(piece.data()), static_cast<std::streamsize>(piece.size()));
+    if (!file_) throw Error(partial_, "can't be written");
+}
+
+void BlobCache::Incoming::finish() {
+    if (hasher_.finish() != hash_) throw Error("a file of the scene arrived damaged");
+    file_.close();
+    std::error_code error;
+    if (file_.fail()) throw Error(partial_, "can't be written");
+    fs::rename(partial_, path_, error);
+    if (error) throw Error(path_, "can't be kept: " + error.message());
+    partial_.clear();
 }
 
 void BlobCache::trim() const {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <fstream>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,17 +15,38 @@
 namespace lightnet {
 
 /// A folder of blobs, one file each, named by hash. Several processes may share it: files appear by renaming, and what
-/// is read is verified. One thread at a time.
+/// is read is verified. Any thread.
 class BlobCache {
 public:
+    /// A blob on its way in.
+    class Incoming {
+    public:
+        ~Incoming();
+        Incoming(Incoming&& other) noexcept;
+        std::uint64_t size() const { return size_; }
+        /// Throws Error when the disk refuses.
+        void add(std::span<const std::byte> piece);
+        /// From now on it is in the cache. Throws Error when it is not what its name says.
+        void finish();
+
+    private:
+        friend class BlobCache;
+        Incoming(std::string path, const Hash& hash);
+        std::string path_, partial_;  // partial_ empty: nothing to remove
+        Hash hash_;
+        Hasher hasher_;
+        std::uint64_t size_ = 0;
+        std::ofstream file_;
+    };
+
     /// Makes the folder (mode 0700) if need be. Throws Error when that can't be.
     explicit BlobCache(std::string folder, std::uint64_t most_bytes = std::uint64_t{4} << 30);
 
     bool has(const Hash& hash) const;
     /// The blob, verified: a damaged one is removed and none is given.
     Bytes read(const Hash& hash) const;
-    /// Keeps a blob. Throws Error when the disk refuses.
-    void keep(const Hash& hash, std::span<const std::byte> bytes);
+    /// Room for a blob that comes in pieces. It is not synced: what is read is verified, and can be sent again.
+    Incoming receive(const Hash& hash) const;
     /// Removes the blobs that were not read for the longest time until the folder is within its limit.
     void trim() const;
 

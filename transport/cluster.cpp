@@ -67,10 +67,9 @@ struct Cluster::Links {
     void look() {
         const auto now = Clock::now();
         take_joiners();
-        const auto expected = offers(false);
-        const std::string begin_plan = expected.empty() ? "" : to_json(options.plan(expected));
+        const auto expected_plan = [&] { return to_json(options.plan(offers(false))); };
         for (auto& link : links) {
-            link->tick(now, begin_plan);
+            link->tick(now, expected_plan);
             for (auto [any, message] = link->receive(now); any; std::tie(any, message) = link->receive(now))
                 if (message) arrived.push_back(std::move(*message));
         }

@@ -76,6 +76,7 @@ struct Host::Door {
     void control(const std::string& route, const packet::Header& header, const Fields& fields);
     void greet(const std::string& route, const Fields& fields);
     void begin(const std::string& route, std::uint64_t id, const Fields& fields);
+    void tell_needs();
     void take_blob(const std::string& route, std::uint64_t id, const Fields& fields);
     void end(const std::string& route, std::uint64_t id);
     void drop_run(const std::string& why);
@@ -199,16 +200,21 @@ void Host::Door::begin(const std::string& route, std::uint64_t id, const Fields&
     launcher = route;
     heard = Clock::now();
     run->use(plan_from_json(fields.text("plan")));
+    run->expect_files_anew();
+    if (run->state() != HostedRun::State::looking) tell_needs();
+    if (run->serving()) send(route, Type::ready, id, {});  // the launcher had lost sight of us
+}
+
+void Host::Door::tell_needs() {
     std::string missing;
     for (const auto& hash : run->missing()) missing += to_hex(hash);
-    send(route, Type::need, id, Fields{}.set("hashes", missing));
-    if (run->serving()) send(route, Type::ready, id, {});  // the launcher had lost sight of us
+    send(launcher, Type::need, run->id(), Fields{}.set("hashes", missing));
 }
 
 void Host::Door::take_blob(const std::string& route, std::uint64_t id, const Fields& fields) {
     const auto hash = hash_from_hex(fields.text("hash"));
     if (!run || run->id() != id || !hash) return;
-    if (run->take_blob(*hash, fields.number("offset"), fields.number("total"), fields.text("bytes")))
+    if (run->take_blob(*hash, fields.number("offset"), fields.text("bytes")))
         send(route, Type::blob_taken, id,
              Fields{}.set("hash", fields.text("hash")).set("offset", fields.number("offset")));
 }
@@ -234,7 +240,10 @@ void Host::Door::drop_run(const std::string& why) {
 void Host::Door::advance() {
     if (!run) return;
     try {
-        if (run->advance()) send(launcher, Type::ready, run->id(), {});
+        while (run->advance()) {
+            if (run->state() == HostedRun::State::fetching) tell_needs();
+            if (run->serving()) send(launcher, Type::ready, run->id(), {});
+        }
     } catch (const std::exception& error) {
         send(launcher, Type::broken, run->id(), Fields{}.set("text", error.what()));
         drop_run(error.what());

@@ -40,7 +40,7 @@ bool HostLink::send(Type type, const Fields& fields) {
     return send_frames(*lane_, frames);
 }
 
-void HostLink::tick(Time now, const std::string& plan) {
+void HostLink::tick(Time now, const std::function<std::string()>& plan) {
     if (state_ == State::refused) return;
     if (state_ != State::calling) heartbeat(now);
     if (now >= next_call_ && state_ == State::calling) {
@@ -48,7 +48,7 @@ void HostLink::tick(Time now, const std::string& plan) {
         next_call_ = now + (connected ? call_interval : connect_interval);
     } else if (now >= next_call_ && state_ == State::greeted) {
         next_call_ = now + busy_interval;
-        send(Type::begin, Fields{}.set("job", told_.job).set("plan", plan).set("you", endpoint_));
+        send(Type::begin, Fields{}.set("job", told_.job).set("plan", plan()).set("you", endpoint_));
     }
     if (state_ == State::sending) send_blobs();
 }
@@ -189,11 +189,7 @@ void HostLink::send_blobs() {
                                      std::min<std::size_t>(chunk_size, blob.size() - offset));
         Frames frames;
         append(frames, packet::pack(Type::blob, told_.run,
-                                    Fields{}
-                                        .set("hash", to_hex(hash))
-                                        .set("offset", offset)
-                                        .set("total", blob.size())
-                                        .set("bytes", bytes)));
+                                    Fields{}.set("hash", to_hex(hash)).set("offset", offset).set("bytes", bytes)));
         if (!send_frames(*bulk_, frames)) return;
         counters_.file_bytes += bytes.size();
         ++chunks_out_;

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -53,8 +54,8 @@ public:
     /// Its counters, once it has ended the run.
     const std::optional<Counters>& ended() const { return ended_; }
 
-    /// Sends what is due.
-    void tick(Time now, const std::string& plan);
+    /// Sends what is due. `plan` gives the plan that is to be expected, as text; it is called when it is needed.
+    void tick(Time now, const std::function<std::string()>& plan);
     /// Takes one message from the host, if there is one, and gives it on if it is work: then `.second`. `.first`:
     /// anything came.
     std::pair<bool, std::optional<Message>> receive(Time now);

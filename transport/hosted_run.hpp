@@ -18,8 +18,8 @@
 
 namespace lightnet {
 
-/// Collects the files of a job, builds its network beside the caller's thread, and starts the places. Used by one
-/// thread, and never blocks it before stop().
+/// Looks for the files of a job in the cache, takes in those that are missing, builds the network, and starts the
+/// places. Used by one thread, which must stay free for heartbeats: what takes time happens beside it.
 class HostedRun {
 public:
     struct Given {
@@ -32,14 +32,19 @@ public:
     HostedRun(zmq::context_t& context, BlobCache& cache, const Registry& registry, Given given);
     ~HostedRun();
 
+    enum class State { looking, fetching, building, starting, serving };
+
     std::uint64_t id() const { return given_.id; }
-    /// Files that the cache does not have.
+    State state() const { return state_; }
+    bool serving() const { return state_ == State::serving; }
+    /// Files that the cache does not have; known when it no longer looks.
     const std::set<Hash>& missing() const { return missing_; }
-    /// Takes a piece of a file. True: it was wanted and fits. Throws Error when a whole file is not what it was named.
-    bool take_blob(const Hash& hash, std::uint64_t offset, std::uint64_t total, std::string_view bytes);
-    /// Goes on with what can go on. True when this made the places ready. Throws Error when they can't be.
+    /// The files will be sent from their beginnings.
+    void expect_files_anew() { incoming_.clear(); }
+    /// Takes a piece of a file. True: it is here now. Throws Error when a whole file is not what it was named.
+    bool take_blob(const Hash& hash, std::uint64_t offset, std::string_view bytes);
+    /// Goes on with what can go on. True when the state has changed. Throws Error when it can't go on.
     bool advance();
-    bool serving() const { return serving_; }
     /// Null until the places have been started.
     PlaceThreads* places() { return places_.get(); }
     void use(const Plan& plan);
@@ -52,11 +57,12 @@ private:
     BlobCache& cache_;
     const Registry& registry_;
     Given given_;
+    State state_ = State::looking;
+    std::future<std::set<Hash>> looking_;
     std::set<Hash> missing_;
-    std::map<Hash, std::vector<std::byte>> partial_;
+    std::map<Hash, BlobCache::Incoming> incoming_;
     std::future<std::shared_ptr<const Network>> building_;
     std::unique_ptr<PlaceThreads> places_;
-    bool serving_ = false;
 };
 
 }  // namespace lightnet

@@ -40,7 +40,7 @@ enum class Type : std::uint8_t {
     refuse,      //                             text: what differs, or who is being served
     begin,       // graph, plan, seed, rules, manifest of the scene's files
     need,        //                             hashes that are not in the host's cache
-    blob,        // hash, offset, total, bytes
+    blob,        // hash, offset, bytes
     blob_taken,  //                             hash, offset
     ready,       //                             all places are assembled
     broken,      //                             text: the run can't be served here

@@ -26,6 +26,8 @@ ThreadedRun::~ThreadedRun() = default;
 
 Carrier& ThreadedRun::carrier() { return parts_->carrier; }
 
+void ThreadedRun::check() { parts_->places.ready(); }
+
 Counters ThreadedRun::stop() { return parts_->places.stop(); }
 
 }  // namespace lightnet

@@ -18,6 +18,8 @@ public:
     ~ThreadedRun();
 
     Carrier& carrier();
+    /// Throws Error when a place has died.
+    void check();
     /// Stops all places and returns what they counted.
     Counters stop();
 

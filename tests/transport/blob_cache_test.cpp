@@ -24,22 +24,40 @@ protected:
         const auto* data = reinterpret_cast<const std::byte*>(text.data());
         return {data, data + text.size()};
     }
+    // As it comes over the wire: in pieces.
+    static void keep(const BlobCache& cache, const std::vector<std::byte>& blob) {
+        auto incoming = cache.receive(content_hash(blob));
+        for (std::size_t at = 0; at < blob.size(); at += 3)
+            incoming.add(std::span(blob).subspan(at, std::min<std::size_t>(3, blob.size() - at)));
+        incoming.finish();
+    }
     fs::path folder;
 };
+
+TEST_F(BlobCacheTest, RefusesWhatIsNotWhatItsNameSaysAndLeavesNothing) {
+    const BlobCache cache(folder);
+    {
+        auto incoming = cache.receive(content_hash(bytes("a mesh")));
+        incoming.add(bytes("a mash"));
+        EXPECT_THROW(incoming.finish(), Error);
+    }
+    cache.receive(content_hash(bytes("half"))).add(bytes("ha"));
+    EXPECT_TRUE(fs::is_empty(folder));
+}
 
 TEST_F(BlobCacheTest, KeepsBytesByTheirHash) {
     BlobCache cache(folder);
     const auto blob = bytes("a mesh");
     const auto hash = content_hash(blob);
     EXPECT_FALSE(cache.has(hash));
-    cache.keep(hash, blob);
+    keep(cache, blob);
     EXPECT_EQ(*BlobCache(folder).read(hash), blob) << "another process finds it";
 }
 
 TEST_F(BlobCacheTest, GivesNoDamagedBytesAndRemovesThem) {
     BlobCache cache(folder);
     const auto blob = bytes("a texture");
-    cache.keep(content_hash(blob), blob);
+    keep(cache, blob);
     std::ofstream(folder / to_hex(content_hash(blob))) << "something else";
     EXPECT_FALSE(cache.has(content_hash(blob)));
     EXPECT_TRUE(fs::is_empty(folder));
@@ -48,7 +66,7 @@ TEST_F(BlobCacheTest, GivesNoDamagedBytesAndRemovesThem) {
 TEST_F(BlobCacheTest, RemovesWhatWasNotReadForTheLongestTime) {
     BlobCache cache(folder, 20);
     const auto old = bytes("0123456789"), recent = bytes("abcdefghij"), last = bytes("ABCDEFGHIJ");
-    for (const auto& blob : {old, recent, last}) cache.keep(content_hash(blob), blob);
+    for (const auto& blob : {old, recent, last}) keep(cache, blob);
     const auto now = fs::file_time_type::clock::now();
     fs::last_write_time(folder / to_hex(content_hash(old)), now - std::chrono::hours(2));
     cache.trim();
@@ -60,7 +78,7 @@ TEST_F(BlobCacheTest, RemovesWhatWasNotReadForTheLongestTime) {
 TEST_F(BlobCacheTest, ReadsTheFilesOfAJobAndNoOthers) {
     BlobCache cache(folder);
     const auto blob = bytes("WorldBegin");
-    cache.keep(content_hash(blob), blob);
+    keep(cache, blob);
     const std::vector<JobFile> files{{"scenes/box.pbrt", content_hash(blob), blob.size()}};
     BlobFiles sent(cache, files);
     EXPECT_EQ(*sent.read("scenes/box.pbrt"), blob);
