@@ -26,7 +26,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-std::vector<std::string> names_in(const TemporaryFolder& folder) {
+std::vector<std::string> names_in(const Folder& folder) {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
         names.push_back(entry.path().filename());
@@ -38,14 +38,14 @@ bool same_bits(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
 }
 
 TEST(Exr, ReadsBackWhatItWrote) {
-    const TemporaryFolder folder;
+    const Folder folder;
     const Picture picture = noisy_picture(33, 17);
     write_exr(folder / "x.exr", picture);
     EXPECT_TRUE(read_exr(folder / "x.exr") == picture);
 }
 
 TEST(Exr, HoldsABeautyThatIsExactlyTheSumOfItsLayers) {
-    const TemporaryFolder folder;
+    const Folder folder;
     write_exr(folder / "x.exr", noisy_picture(64, 64));
     const Picture read = read_exr(folder / "x.exr");
     ASSERT_EQ(read.layers.size(), 3u);
@@ -55,7 +55,7 @@ TEST(Exr, HoldsABeautyThatIsExactlyTheSumOfItsLayers) {
 }
 
 TEST(Exr, HasTheSameBytesEachTimeAndWherever) {
-    const TemporaryFolder folder, elsewhere;
+    const Folder folder, elsewhere;
     const Picture picture = noisy_picture(50, 40);
     write_exr(folder / "x.exr", picture);
     write_exr(elsewhere / "another_name.exr", picture);
@@ -64,7 +64,7 @@ TEST(Exr, HasTheSameBytesEachTimeAndWherever) {
 }
 
 TEST(Exr, SaysNothingOfWhenWhereOrByWhom) {
-    const TemporaryFolder folder;
+    const Folder folder;
     write_exr(folder / "x.exr", noisy_picture(4, 4));
     const Imf::InputFile file((folder / "x.exr").c_str());
     std::vector<std::string> attributes;
@@ -75,14 +75,14 @@ TEST(Exr, SaysNothingOfWhenWhereOrByWhom) {
 }
 
 TEST(Exr, NeedsNoLayers) {
-    const TemporaryFolder folder;
+    const Folder folder;
     const Picture picture{2, 1, {{1, 2, 3}, {4, 5, 6}}, {}};
     write_exr(folder / "x.exr", picture);
     EXPECT_TRUE(read_exr(folder / "x.exr") == picture);
 }
 
 TEST(Exr, SaysWhichFileItCannotRead) {
-    const TemporaryFolder folder;
+    const Folder folder;
     write_file(folder / "x.exr", "no picture");
     try {
         read_exr(folder / "x.exr");
@@ -112,7 +112,7 @@ TEST(Png, ClipsAndFollowsTheCurveOfSrgb) {
 TEST(Png, HasTheSameBytesEachTime) { EXPECT_EQ(png_of(noisy_picture(20, 10)), png_of(noisy_picture(20, 10))); }
 
 TEST(WriteFile, ReplacesAFileWhole) {
-    const TemporaryFolder folder;
+    const Folder folder;
     write_file(folder / "x", "old");
     write_file(folder / "x", "new");
     EXPECT_EQ(content_of(folder / "x"), "new");
@@ -120,7 +120,7 @@ TEST(WriteFile, ReplacesAFileWhole) {
 }
 
 TEST(WriteFile, GivesTheFileTheRightsOfAnyOther) {
-    const TemporaryFolder folder;
+    const Folder folder;
     const mode_t before = ::umask(022);
     write_file(folder / "x", "new");
     ::umask(before);
@@ -149,7 +149,7 @@ int outcome_on_a_full_disk(rlim_t limit, const std::function<void()>& act) {
 }
 
 TEST(WriteFile, LeavesTheOldPictureWholeWhenTheDiskIsFull) {
-    const TemporaryFolder folder;
+    const Folder folder;
     const Picture picture = noisy_picture(8, 8);
     write_exr(folder / "x.exr", picture);
     EXPECT_EQ(outcome_on_a_full_disk(4096, [&] { write_exr(folder / "x.exr", noisy_picture(128, 128)); }), 0);
@@ -158,7 +158,7 @@ TEST(WriteFile, LeavesTheOldPictureWholeWhenTheDiskIsFull) {
 }
 
 TEST(WriteFile, SaysWhatIsWrongWithTheFolder) {
-    const TemporaryFolder folder;
+    const Folder folder;
     try {
         write_file(folder / "absent" / "x.exr", "bytes");
         FAIL() << "wrote something";
@@ -169,7 +169,7 @@ TEST(WriteFile, SaysWhatIsWrongWithTheFolder) {
 }
 
 TEST(WriteFile, LeavesNothingBehindWhenItCannotRename) {
-    const TemporaryFolder folder;
+    const Folder folder;
     std::filesystem::create_directories(folder / "x.exr");
     write_file(folder / "x.exr" / "inside", "keeps the folder from being replaced");
     EXPECT_THROW(write_file(folder / "x.exr", "bytes"), Error);

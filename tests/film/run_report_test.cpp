@@ -47,7 +47,7 @@ TEST(RunReport, SurvivesNamesInNoKnownEncoding) {
 }
 
 TEST(RunReport, IsWrittenToAFile) {
-    const TemporaryFolder folder;
+    const Folder folder;
     write_report(folder / "run.json", small_report());
     EXPECT_EQ(content_of(folder / "run.json"), to_json(small_report()));
 }

@@ -10,7 +10,7 @@
 #include "tests/network/daemons.hpp"
 #include "transport/packet.hpp"
 
-namespace lightnet::testing {
+namespace lightnet::test {
 namespace {
 
 using packet::Fields;
@@ -64,7 +64,7 @@ protected:
         words.insert(words.end(), {"--hosts", hosts_file()});
         return launch(graph_file("cornell.lua"), folder, words);
     }
-    TempFolder folder;
+    Folder folder;
     Daemon daemon{folder};
 };
 
@@ -166,7 +166,7 @@ TEST_F(DaemonTest, LeavesNothingBehindWhenItStops) {
 }
 
 TEST(Daemon, ThatIsNotThereEndsTheRunWithCode3) {
-    const TempFolder folder;
+    const Folder folder;
     std::ofstream(folder / "hosts.lua") << "place \"tcp://127.0.0.1:1\" {}\n";
     auto words = tiny;
     words.insert(words.end(), {"--hosts", (folder / "hosts.lua").string()});
@@ -182,4 +182,4 @@ TEST(Daemon, ListensBeyondItsMachineOnlyWhenToldThatThisIsInsecure) {
 }
 
 }  // namespace
-}  // namespace lightnet::testing
+}  // namespace lightnet::test

@@ -10,7 +10,7 @@
 
 #include "tests/support/process.hpp"
 
-namespace lightnet::testing {
+namespace lightnet::test {
 
 inline std::string program(const std::string& name) { return std::string(LIGHTNET_PROGRAMS) + "/" + name; }
 inline std::string graph_file(const std::string& name) { return std::string(LIGHTNET_SOURCE_DIR) + "/graphs/" + name; }
@@ -18,7 +18,7 @@ inline std::string graph_file(const std::string& name) { return std::string(LIGH
 /// A lightnetd on a port of its own (or on `listen`).
 class Daemon {
 public:
-    explicit Daemon(const TempFolder& folder, int places = 1, const std::string& listen = "tcp://127.0.0.1:*",
+    explicit Daemon(const Folder& folder, int places = 1, const std::string& listen = "tcp://127.0.0.1:*",
                     std::vector<std::string> more = {}) {
         std::vector<std::string> words{program("lightnetd"),   "--listen", listen,          "--places",
                                        std::to_string(places), "--cache",  folder / "cache"};
@@ -57,7 +57,7 @@ inline Launch finish(Process& process, const std::filesystem::path& out) {
     return launch;
 }
 
-inline Launch launch(const std::string& graph, const TempFolder& folder, const std::vector<std::string>& more) {
+inline Launch launch(const std::string& graph, const Folder& folder, const std::vector<std::string>& more) {
     const auto out = folder / "picture.exr";
     Process process(launch_words(graph, out, more));
     return finish(process, out);
@@ -70,4 +70,4 @@ inline double counter(const std::string& report, const std::string& name) {
     return at == std::string::npos ? -1 : std::stod(report.substr(at + name.size() + 4));
 }
 
-}  // namespace lightnet::testing
+}  // namespace lightnet::test

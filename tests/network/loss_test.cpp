@@ -5,7 +5,7 @@
 
 #include "tests/network/daemons.hpp"
 
-namespace lightnet::testing {
+namespace lightnet::test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -19,7 +19,7 @@ const std::vector<std::string> some_seconds{"--size",     "128x128", "--samples"
 class Loss : public ::testing::Test {
 protected:
     static void SetUpTestSuite() {
-        const TempFolder folder;
+        const Folder folder;
         auto words = some_seconds;
         words.insert(words.end(), {"--threads", "2"});
         reference = new std::string(launch(graph_file("cornell.lua"), folder, words).picture);
@@ -53,7 +53,7 @@ protected:
     }
 
     static std::string* reference;
-    TempFolder folder;
+    Folder folder;
     std::filesystem::path out = folder / "picture.exr";
 };
 std::string* Loss::reference = nullptr;
@@ -190,4 +190,4 @@ TEST_F(Loss, OfTheLauncherEndsItsDaemons) {
 }
 
 }  // namespace
-}  // namespace lightnet::testing
+}  // namespace lightnet::test

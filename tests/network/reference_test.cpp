@@ -13,7 +13,7 @@
 #include "core/film/exr.hpp"
 #include "tests/network/daemons.hpp"
 
-namespace lightnet::testing {
+namespace lightnet::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -59,7 +59,7 @@ protected:
     }
 
     fs::path home;
-    TempFolder folder;
+    Folder folder;
 };
 
 TEST_P(References, AgreeWithinTheirTolerances) {
@@ -96,4 +96,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& reference) { return reference.param.name; });
 
 }  // namespace
-}  // namespace lightnet::testing
+}  // namespace lightnet::test

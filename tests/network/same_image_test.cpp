@@ -6,7 +6,7 @@
 
 #include "tests/network/daemons.hpp"
 
-namespace lightnet::testing {
+namespace lightnet::test {
 namespace {
 
 #if defined(LIGHTNET_LARGE)
@@ -70,7 +70,7 @@ protected:
         return file;
     }
 
-    TempFolder folder;
+    Folder folder;
     std::string graph;
     Launch serial;
 };
@@ -109,7 +109,7 @@ TEST_P(SameImage, WithOperatorsSpreadOverHosts) {
 }
 
 TEST(Serial, OpensNoSocketAndStartsNoThread) {
-    const TempFolder folder;
+    const Folder folder;
     Process run(launch_words(graph_file("cornell.lua"), folder / "picture.exr",
                              {"--size", "128x128", "--samples", "64", "--progress", "json"}));
     ASSERT_TRUE(run.wait_for("\"event\":\"progress\"")) << run.output();
@@ -127,4 +127,4 @@ INSTANTIATE_TEST_SUITE_P(EveryGraph, SameImage, ::testing::ValuesIn(graph_files(
                          [](const auto& graph) { return std::filesystem::path(graph.param).stem().string(); });
 
 }  // namespace
-}  // namespace lightnet::testing
+}  // namespace lightnet::test

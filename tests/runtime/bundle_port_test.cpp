@@ -8,7 +8,7 @@
 namespace lightnet {
 namespace {
 
-using testing::FakeChannel;
+using test::FakeChannel;
 
 // A port whose bundles go to a channel that the test answers by hand.
 class BundlePortTest : public ::testing::Test {

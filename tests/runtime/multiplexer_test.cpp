@@ -7,7 +7,7 @@
 namespace lightnet {
 namespace {
 
-using testing::FakeChannel;
+using test::FakeChannel;
 
 Bundle<Query> bundle_of(std::size_t questions) {
     return {std::make_shared<const std::vector<Query>>(questions), nullptr, 0, 1};

@@ -7,7 +7,7 @@
 
 #include "core/runtime/channel.hpp"
 
-namespace lightnet::testing {
+namespace lightnet::test {
 
 /// Keeps the bundles that it is sent until the test answers them. An answer to query q is {q.sample, q.u, 1}.
 template <class Question>
@@ -54,4 +54,4 @@ private:
     double seconds_;
 };
 
-}  // namespace lightnet::testing
+}  // namespace lightnet::test

@@ -15,7 +15,7 @@
 
 extern char** environ;
 
-namespace lightnet::testing {
+namespace lightnet::test {
 
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
@@ -82,16 +82,6 @@ int Process::wait(milliseconds most) {
     return code_;
 }
 
-TempFolder::TempFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "lightnet-test-XXXXXX").string();
-    path_ = mkdtemp(name.data());
-}
-
-TempFolder::~TempFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-}
-
 std::string bytes_of(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);
     EXPECT_TRUE(in) << file << " is not there";
@@ -113,4 +103,4 @@ std::vector<int> processes_with(const std::string& text) {
     return found;
 }
 
-}  // namespace lightnet::testing
+}  // namespace lightnet::test

@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
-namespace lightnet::testing {
+#include "tests/support/folder.hpp"
+
+namespace lightnet::test {
 
 /// A child process whose output is collected. Killed, with a grudge, when the object ends first.
 class Process {
@@ -33,22 +35,10 @@ private:
     std::string output_;
 };
 
-/// A folder that goes with the test.
-class TempFolder {
-public:
-    TempFolder();
-    ~TempFolder();
-    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-    const std::filesystem::path& path() const { return path_; }
-
-private:
-    std::filesystem::path path_;
-};
-
 /// All bytes of a file; fails the test when there is none.
 std::string bytes_of(const std::filesystem::path& file);
 
 /// Processes of this user whose command line holds `text`.
 std::vector<int> processes_with(const std::string& text);
 
-}  // namespace lightnet::testing
+}  // namespace lightnet::test

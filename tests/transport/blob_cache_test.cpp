@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <stdlib.h>
 #include <filesystem>
 #include <fstream>
 
 #include "core/error.hpp"
+#include "tests/support/folder.hpp"
 
 namespace lightnet {
 namespace {
@@ -15,11 +15,6 @@ namespace fs = std::filesystem;
 
 class BlobCacheTest : public ::testing::Test {
 protected:
-    BlobCacheTest() {
-        std::string name = (fs::temp_directory_path() / "lightnet-blobs-XXXXXX").string();
-        folder = mkdtemp(name.data());
-    }
-    ~BlobCacheTest() override { fs::remove_all(folder); }
     static std::vector<std::byte> bytes(const std::string& text) {
         const auto* data = reinterpret_cast<const std::byte*>(text.data());
         return {data, data + text.size()};
@@ -31,7 +26,8 @@ protected:
             incoming.add(std::span(blob).subspan(at, std::min<std::size_t>(3, blob.size() - at)));
         incoming.finish();
     }
-    fs::path folder;
+    test::Folder home;
+    fs::path folder = home.path();
 };
 
 TEST_F(BlobCacheTest, RefusesWhatIsNotWhatItsNameSaysAndLeavesNothing) {
