@@ -15,6 +15,14 @@ add_library(lightnet_warnings INTERFACE)
 target_compile_options(lightnet_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wimplicit-fallthrough)
 
+# With a sanitizer (presets asan, tsan) every program knows how it is to behave, wherever it is started from.
+if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=")
+  add_library(sanitizer_options OBJECT "${PROJECT_SOURCE_DIR}/tests/support/sanitizer_options.cpp")
+  target_compile_definitions(sanitizer_options PRIVATE
+    LIGHTNET_TSAN_SUPPRESSIONS="${PROJECT_SOURCE_DIR}/tests/tsan.supp")
+  link_libraries("$<$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>:$<TARGET_OBJECTS:sanitizer_options>>")
+endif()
+
 # lightnet_library(NAME sources... HEADERS ... NEEDS libraries-in-our-headers HIDES libraries-inside-our-cpp-files)
 function(lightnet_library name)
   cmake_parse_arguments(PARSE_ARGV 1 LIB "" "" "HEADERS;NEEDS;HIDES")

@@ -25,7 +25,7 @@ class Stranger {
 public:
     explicit Stranger(const std::string& endpoint) : socket_(context_, zmq::socket_type::dealer) {
         socket_.set(zmq::sockopt::linger, 0);
-        socket_.set(zmq::sockopt::rcvtimeo, 5000);
+        socket_.set(zmq::sockopt::rcvtimeo, slowdown * 5000);
         socket_.connect(endpoint);
     }
     void send(const Packet& packet) {
@@ -160,7 +160,7 @@ TEST_F(DaemonTest, ServesOneRunAtATimeAndTellsTheOtherToWait) {
 TEST_F(DaemonTest, LeavesNothingBehindWhenItStops) {
     ASSERT_EQ(launch_there().code, 0);
     daemon.process->signal(SIGTERM);
-    EXPECT_EQ(daemon.process->wait(seconds(2)), 0);
+    EXPECT_EQ(daemon.process->wait(slowdown * seconds(2)), 0);
     for (const auto& entry : std::filesystem::directory_iterator(folder / "cache"))
         EXPECT_EQ(entry.path().filename().string().size(), 64u) << entry.path() << " is no blob";
 }
@@ -177,7 +177,7 @@ TEST(Daemon, ThatIsNotThereEndsTheRunWithCode3) {
 
 TEST(Daemon, ListensBeyondItsMachineOnlyWhenToldThatThisIsInsecure) {
     Process daemon({program("lightnetd"), "--listen", "tcp://0.0.0.0:*"});
-    EXPECT_EQ(daemon.wait(seconds(5)), 2);
+    EXPECT_EQ(daemon.wait(slowdown * seconds(5)), 2);
     EXPECT_NE(daemon.output().find("--insecure"), std::string::npos);
 }
 

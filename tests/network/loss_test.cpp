@@ -13,7 +13,7 @@ using std::chrono::seconds;
 using Clock = std::chrono::steady_clock;
 
 // Long enough that something can happen in the middle.
-const std::vector<std::string> some_seconds{"--size",     "128x128", "--samples", "256",
+const std::vector<std::string> some_seconds{"--size",     "128x128", "--samples", std::to_string(256 / slowdown),
                                             "--progress", "json",    "--tile",    "16"};
 
 class Loss : public ::testing::Test {
@@ -87,7 +87,7 @@ TEST_F(Loss, OfAHostThatHangsAndComesBackChangesNoByte) {
     two.process->signal(SIGSTOP);
     const auto begun = Clock::now();
     ASSERT_TRUE(run->wait_for("is lost")) << run->output();
-    EXPECT_LT(Clock::now() - begun, milliseconds(2500));
+    EXPECT_LT(Clock::now() - begun, slowdown * milliseconds(2500));
     two.process->signal(SIGCONT);
     expect_same(*run);
 }
@@ -106,7 +106,7 @@ TEST_F(Loss, OfAllHostsEndsTheRunWithTheNameOfWhatHasNoPlace) {
     const auto run = start({whole(one.endpoint)});
     ASSERT_TRUE(in_the_middle(*run));
     one.process->signal(SIGKILL);
-    EXPECT_EQ(run->wait(seconds(30)), 1);
+    EXPECT_EQ(run->wait(slowdown * seconds(30)), 1);
     EXPECT_NE(run->output().find("node 'image' has no place"), std::string::npos) << run->output();
 }
 
@@ -140,7 +140,7 @@ TEST_F(Loss, OfADaemonThatIsToldToStopIsOrderly) {
     const auto run = start({whole(one.endpoint), whole(two.endpoint)});
     ASSERT_TRUE(in_the_middle(*run));
     two.process->signal(SIGTERM);
-    EXPECT_EQ(two.process->wait(seconds(6)), 0);
+    EXPECT_EQ(two.process->wait(slowdown * seconds(6)), 0);
     expect_same(*run);
 }
 
@@ -153,8 +153,8 @@ TEST_F(Loss, OfPatienceEndsEverythingWithinASecond) {
     EXPECT_EQ(processes_with(mark).size(), 2u);
     const auto begun = Clock::now();
     run.signal(SIGINT);
-    EXPECT_EQ(run.wait(seconds(10)), 130) << run.output();
-    EXPECT_LT(Clock::now() - begun, seconds(1));
+    EXPECT_EQ(run.wait(slowdown * seconds(10)), 130) << run.output();
+    EXPECT_LT(Clock::now() - begun, slowdown * seconds(1));
     EXPECT_TRUE(processes_with(mark).empty()) << "no process may stay behind";
     EXPECT_FALSE(std::filesystem::exists(out)) << "no half picture";
     EXPECT_NE(bytes_of(folder / "run.json").find("cancelled"), std::string::npos);
@@ -183,7 +183,7 @@ TEST_F(Loss, OfTheLauncherEndsItsDaemons) {
     const auto mark = "--parent " + std::to_string(run.id());
     run.signal(SIGKILL);
     run.wait();
-    const auto end = Clock::now() + seconds(2);
+    const auto end = Clock::now() + slowdown * seconds(2);
     while (!processes_with(mark).empty() && Clock::now() < end) {
     }
     EXPECT_TRUE(processes_with(mark).empty());

@@ -14,6 +14,7 @@
 #include "core/runtime/serial.hpp"
 #include "lua/load_graph.hpp"
 #include "nodes/standard_nodes.hpp"
+#include "tests/support/slowdown.hpp"
 #include "transport/oracle_run.hpp"
 #include "transport/threaded_run.hpp"
 
@@ -62,7 +63,7 @@ public:
             pixels[index_of(tile)].assign(colours.begin(), colours.end());
         });
         master.use(plan);
-        EXPECT_TRUE(master.work(std::chrono::seconds(30))) << "it hangs";
+        EXPECT_TRUE(master.work(testing::slowdown * std::chrono::seconds(30))) << "it hangs";
         const auto counted = run.stop();
         if (counters) *counters = counted;
         return pixels;

@@ -20,18 +20,43 @@ namespace lightnet::test {
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
+namespace {
+
+// The environment of this process, but that sanitizers write what they find into files in `folder`: what is said in the
+// output of a process that is killed, or that nobody reads, would be lost.
+std::vector<std::string> environment(const std::filesystem::path& folder) {
+    std::vector<std::string> variables;
+    for (char** variable = environ; *variable; ++variable) variables.emplace_back(*variable);
+    for (const std::string name : {"ASAN_OPTIONS", "LSAN_OPTIONS", "TSAN_OPTIONS", "UBSAN_OPTIONS"}) {
+        const char* before = std::getenv(name.c_str());
+        const auto start = name + "=";
+        std::erase_if(variables, [&](const auto& variable) { return variable.starts_with(start); });
+        variables.push_back(start + (before ? before + std::string(":") : "") +
+                            "log_path=" + (folder / "report").string());
+    }
+    return variables;
+}
+
+std::vector<char*> pointers(std::vector<std::string>& words) {
+    std::vector<char*> pointers;
+    for (auto& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    return pointers;
+}
+
+}  // namespace
+
 Process::Process(std::vector<std::string> words) {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
-    std::vector<char*> argv;
-    for (auto& word : words) argv.push_back(word.data());
-    argv.push_back(nullptr);
+    auto variables = environment(reports_.path());
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    const int error = posix_spawn(&id_, words[0].c_str(), &actions, nullptr, argv.data(), environ);
+    const int error =
+        posix_spawn(&id_, words[0].c_str(), &actions, nullptr, pointers(words).data(), pointers(variables).data());
     posix_spawn_file_actions_destroy(&actions);
     close(ends[1]);
     out_ = ends[0];
@@ -44,6 +69,8 @@ Process::~Process() {
         ::waitpid(id_, nullptr, 0);
     }
     close(out_);
+    for (const auto& report : std::filesystem::directory_iterator(reports_.path()))
+        ADD_FAILURE() << "a sanitizer has found something\n" << bytes_of(report.path());
 }
 
 void Process::signal(int number) const { ::kill(id_, number); }

@@ -7,10 +7,12 @@
 #include <vector>
 
 #include "tests/support/folder.hpp"
+#include "tests/support/slowdown.hpp"
 
 namespace lightnet::test {
 
-/// A child process whose output is collected. Killed, with a grudge, when the object ends first.
+/// A child process whose output is collected. Killed, with a grudge, when the object ends first. Whatever a sanitizer
+/// finds in it, or in processes that it starts, fails the test: a run gets over the loss of a worker, a test must not.
 class Process {
 public:
     explicit Process(std::vector<std::string> words);
@@ -21,14 +23,15 @@ public:
     int id() const { return id_; }
     void signal(int number) const;
     /// Reads output until it holds `text`. False: the process ended, or `most` passed, before it did.
-    bool wait_for(const std::string& text, std::chrono::milliseconds most = std::chrono::seconds(20));
+    bool wait_for(const std::string& text, std::chrono::milliseconds most = slowdown * std::chrono::seconds(20));
     /// Waits for the end: the exit code, 128 + signal if one ended it, -1 if it still runs after `most`.
-    int wait(std::chrono::milliseconds most = std::chrono::seconds(60));
+    int wait(std::chrono::milliseconds most = slowdown * std::chrono::seconds(60));
     /// What it has said so far, to both outputs.
     const std::string& output() const { return output_; }
 
 private:
     bool read_some(std::chrono::milliseconds most);
+    Folder reports_;  // of sanitizers
     int id_ = 0, out_ = -1;
     bool ended_ = false;
     int code_ = -1;
