@@ -63,7 +63,7 @@ public:
             pixels[index_of(tile)].assign(colours.begin(), colours.end());
         });
         master.use(plan);
-        EXPECT_TRUE(master.work(testing::slowdown * std::chrono::seconds(30))) << "it hangs";
+        EXPECT_TRUE(master.work(test::slowdown * std::chrono::seconds(30))) << "it hangs";
         const auto counted = run.stop();
         if (counters) *counters = counted;
         return pixels;
