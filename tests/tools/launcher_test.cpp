@@ -21,7 +21,7 @@ using testing::StartsWith;
 class Bench {
 public:
     Bench() {
-        folder_.write("box.pbrt", "");
+        folder_.write("box.pbrt", "Camera \"perspective\"\nWorldBegin\nLightSource \"infinite\"\nShape \"sphere\"\n");
         graph = folder_.write("graph.lua",
                               "rays = 4\nlighting = Ambient { rays = rays }\nscene = Scene { 'box.pbrt' }\n"
                               "image = RayTracer { lighting, scene = scene, film = { 8, 4, file = 'x.exr' } }");
@@ -115,6 +115,14 @@ TEST(Launcher, ChecksWithoutRunning) {
     EXPECT_THAT(lightnet.out, HasSubstr("sound: 3 nodes, 8x4, layers emission lighting\n"));
     EXPECT_THAT(lightnet.err, IsEmpty());
     EXPECT_THAT(lightnet.runs, IsEmpty());
+}
+
+TEST(Launcher, ChecksTheSceneAsWell) {
+    Bench lightnet;
+    lightnet.write("box.pbrt", "WorldBegin\nShpae \"sphere\"\nShape \"sphere\" \"float radios\" 1\n");
+    EXPECT_EQ(lightnet({"check", lightnet.graph}), 2);
+    EXPECT_THAT(lightnet.err, HasSubstr("box.pbrt:2: "));
+    EXPECT_THAT(lightnet.err, HasSubstr("did you mean 'Shape'?"));
 }
 
 TEST(Launcher, WarnsOfIdleNodes) {
