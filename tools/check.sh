@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # The one check script: formatting, warnings, headers that compile alone, tests. `tools/check.sh --fix` formats first.
+# What touches threads, fibers or memory goes through tools/sanitize.sh as well.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

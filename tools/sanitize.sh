@@ -1,0 +1,11 @@
+#!/usr/bin/env bash
+# Builds with sanitizers and runs the tests under them; a finding fails a test. `tools/sanitize.sh tsan` (threads) or
+# `tools/sanitize.sh asan` (addresses, undefined behaviour, leaks) does one of the two; without a name, both.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+[ $# -gt 0 ] || set -- tsan asan
+for preset in "$@"; do
+    tools/build.sh "$preset"
+    ctest --test-dir "build/$preset" --parallel "$(nproc)" --output-on-failure -LE '^(slow|fuzz|bench)$' </dev/null
+done
