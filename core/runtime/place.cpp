@@ -1,27 +1,12 @@
 #include "core/runtime/place.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <numeric>
-#include <set>
 
 #include "core/error.hpp"
 #include "core/scene/scene.hpp"
 
 namespace lightnet {
-namespace {
-
-// The longest way from a node down to one that asks nobody.
-std::vector<std::size_t> ranks(const Graph& graph) {
-    std::vector<std::size_t> rank(graph.nodes.size(), 0);
-    for (std::size_t round = 0; round < graph.nodes.size(); ++round)
-        for (std::size_t node = 0; node < graph.nodes.size(); ++node)
-            for (const auto input : graph.inputs_of(node)) rank[node] = std::max(rank[node], rank[input] + 1);
-    return rank;
-}
-
-}  // namespace
-
 Place::Place(const Network& network, const PlaceAt& me, const Plan& plan, std::uint64_t run, PlaceRules rules,
              Carrier& carrier)
     : network_(network),
@@ -34,7 +19,7 @@ Place::Place(const Network& network, const PlaceAt& me, const Plan& plan, std::u
       inboxes_(network.graph.nodes.size()),
       by_rank_(network.graph.nodes.size()),
       assembly_(network, [this](std::size_t node, std::size_t width) { return port_to(node, width); }) {
-    const auto rank = ranks(network.graph);
+    const auto rank = ranks_of(network.graph);
     std::iota(by_rank_.begin(), by_rank_.end(), 0);
     std::stable_sort(by_rank_.begin(), by_rank_.end(), [&](auto a, auto b) { return rank[a] < rank[b]; });
     for (std::size_t node = 0; node < plan_.places_of.size(); ++node)
