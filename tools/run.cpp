@@ -1,6 +1,7 @@
 #include "tools/run.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -57,6 +58,16 @@ const char* name_of(Mode mode) {
     }
 }
 
+// Said before work starts, not after hours of it.
+void check_output(const std::string& output) {
+    const std::filesystem::path path(output);
+    const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+    if (path.extension() != ".exr")
+        throw UserError({output, 0}, "pictures are written as .exr (with a .png beside it)");
+    if (!std::filesystem::is_directory(folder)) throw UserError({output, 0}, "there is no folder " + folder.string());
+    if (::access(folder.c_str(), W_OK) != 0) throw UserError({output, 0}, "the folder can't be written to");
+}
+
 RunReport first_page(const RunRequest& request, const FilmFormat& film) {
     RunReport report;
     report.graph = request.graph.file;
@@ -88,6 +99,7 @@ public:
 private:
     FilmFormat format() const;
     Job make_job(const DiskFiles& files) const;
+    void report_failure();
     void render_serially(SceneData scene);
     void render_in_threads(SceneData scene);
     void render_on_hosts(const DiskFiles& files);
@@ -129,6 +141,7 @@ Job Run::make_job(const DiskFiles& files) const {
 }
 
 int Run::perform() {
+    check_output(request_.output);
     try {
         book_.phase("load");
         DiskFiles files;
@@ -154,12 +167,21 @@ int Run::perform() {
     } catch (const UserError&) {
         throw;
     } catch (const NoWorker& error) {
-        book_.write_report(request_.output, "failed");
+        report_failure();
         std::cerr << "lightnet: " << error.what() << '\n';
         return exit_code::no_worker;
     } catch (...) {
-        book_.write_report(request_.output, "failed");
+        report_failure();
         throw;
+    }
+}
+
+// What went wrong is said anyhow; a report that can't be written must not hide it.
+void Run::report_failure() {
+    try {
+        book_.write_report(request_.output, "failed");
+    } catch (const std::exception& error) {
+        book_.say(error.what());
     }
 }
 
