@@ -9,6 +9,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace lightnet {
 namespace {
@@ -119,12 +120,16 @@ void set(RTCRay& to, const Ray& ray) {
 
 constexpr std::size_t lanes = 16;
 
+// Fills lanes that have nothing to do. `valid` alone does not keep Embree from them: where its packets are narrower
+// than ours it goes by the rays, and traces each that does not end before it begins.
+constexpr Ray no_ray{{0, 0, 0}, {0, 0, 1}, -std::numeric_limits<float>::infinity()};
+
 void trace_packet(RTCScene scene, std::span<const Ray> rays, std::span<std::optional<Hit>> hits) {
-    alignas(64) std::array<int, lanes> valid{};
+    alignas(64) std::array<int, lanes> valid;
     alignas(64) RTCRayHit16 packet;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        const Ray& ray = rays[i];
-        valid[i] = -1;
+    for (std::size_t i = 0; i < lanes; ++i) {
+        const Ray& ray = i < rays.size() ? rays[i] : no_ray;
+        valid[i] = i < rays.size() ? -1 : 0;
         packet.ray.org_x[i] = ray.origin.x;
         packet.ray.org_y[i] = ray.origin.y;
         packet.ray.org_z[i] = ray.origin.z;

@@ -56,6 +56,24 @@ TEST(Scene, FindsTheSameHitsOneByOneAndManyAtOnce) {
     EXPECT_GT(hits, 500u);
 }
 
+// What calls leave on the stack where later ones find it: huge numbers, as floats.
+[[gnu::noinline]] void litter_the_stack() {
+    volatile unsigned char litter[16384];
+    for (auto& byte : litter) byte = 0x7f;
+}
+
+// Embree traces what lies in the lanes of a packet that nobody filled, and ends the process when that is no ray.
+TEST(Scene, DoesNotTraceWhatLiesInLanesWithoutARay) {
+    const Scene scene(clutter());
+    const auto all = rays(16);
+    for (std::size_t count = 1; count <= all.size(); ++count) {
+        std::vector<std::optional<Hit>> hits(count);
+        litter_the_stack();
+        scene.intersect(std::span(all).first(count), hits);
+        for (std::size_t i = 0; i < count; ++i) ASSERT_TRUE(same(scene.intersect(all[i]), hits[i])) << i;
+    }
+}
+
 TEST(Scene, NeighboursInACallChangeNothing) {
     const Scene scene(clutter());
     const auto all = rays(1000);
