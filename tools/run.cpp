@@ -33,9 +33,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
-constexpr auto host_patience = 5s;    // for hosts that do not answer when the run begins
-constexpr auto empty_patience = 10s;  // for a host to come when none is left
-constexpr auto drain_deadline = 5s;   // for tiles that are under way when the run is told to stop
+constexpr auto join_patience = 10min;  // for the first host, when none is named
+constexpr auto host_patience = 5s;     // for hosts that do not answer when the run begins
+constexpr auto empty_patience = 10s;   // for a host to come when none is left
+constexpr auto drain_deadline = 5s;    // for tiles that are under way when the run is told to stop
 
 std::uint64_t random_number() {
     std::random_device device;  // names a run; nothing that is computed depends on it
@@ -262,9 +263,10 @@ void Run::render_on_hosts(const DiskFiles& files) {
     };
     options.say = [this](const std::string& text) { book_.say(text); };
 
+    const bool nobody_named = options.endpoints.empty();
     Cluster cluster(std::move(options));
     if (!request_.listen.empty()) book_.say("hosts may join at " + cluster.join_endpoint());
-    cluster.gather(host_patience, signals_.any);
+    cluster.gather(nobody_named ? join_patience : host_patience, signals_.any);
     if (stopped()) {
         cluster.finish(300ms);
         return;

@@ -177,11 +177,15 @@ void Host::Door::greet(const std::string& route, const Fields& fields) {
         return send(
             route, Type::refuse, 0,
             Fields{}.set("text", "builds differ: it runs " + build_id() + ", the launcher " + fields.text("build")));
-    send(route, Type::welcome, 0,
-         Fields{}
-             .set("places", options.places)
-             .set("incarnation", incarnation)
-             .set("fingerprint", fingerprint(fields.text("isa"))));
+    try {
+        send(route, Type::welcome, 0,
+             Fields{}
+                 .set("places", options.places)
+                 .set("incarnation", incarnation)
+                 .set("fingerprint", fingerprint(fields.text("isa"))));
+    } catch (const Error& error) {  // a processor without that instruction set
+        send(route, Type::refuse, 0, Fields{}.set("text", error.what()));
+    }
 }
 
 void Host::Door::begin(const std::string& route, std::uint64_t id, const Fields& fields) {

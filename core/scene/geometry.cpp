@@ -158,15 +158,29 @@ void trace_packet(RTCScene scene, std::span<const Ray> rays, std::span<std::opti
 
 }  // namespace
 
+namespace {
+
+// Embree takes names that it doesn't know, or whose processor isn't here, for something else, and says nothing.
+bool has_isa(const std::string& isa) {
+    __builtin_cpu_init();
+    return (isa == "sse2" && __builtin_cpu_supports("sse2")) ||
+           (isa == "sse4.2" && __builtin_cpu_supports("sse4.2")) || (isa == "avx" && __builtin_cpu_supports("avx")) ||
+           (isa == "avx2" && __builtin_cpu_supports("avx2"));
+}
+
+RTCDevice device_for(const std::string& isa) {
+    if (!has_isa(isa)) throw Error("scene", "this processor, or Embree, has no instruction set '" + isa + "'");
+    if (RTCDevice device = rtcNewDevice(("threads=1,start_threads=0,isa=" + isa).c_str())) return device;
+    throw Error("scene", "Embree gives no device for instruction set '" + isa + "'");
+}
+
+}  // namespace
+
 struct Geometry::Tracer {
-    explicit Tracer(const std::string& isa)
-        : device(rtcNewDevice(("threads=1,start_threads=0,isa=" + isa).c_str())),
-          scene(device ? rtcNewScene(device) : nullptr) {
-        if (!device) throw Error("scene", "Embree gives no device for instruction set '" + isa + "'");
-    }
+    explicit Tracer(const std::string& isa) : device(device_for(isa)), scene(rtcNewScene(device)) {}
     ~Tracer() {
-        if (scene) rtcReleaseScene(scene);
-        if (device) rtcReleaseDevice(device);
+        rtcReleaseScene(scene);
+        rtcReleaseDevice(device);
     }
     Tracer(const Tracer&) = delete;
     Tracer& operator=(const Tracer&) = delete;

@@ -86,6 +86,14 @@ TEST_F(DaemonTest, RefusesAnotherBuildAndNamesBoth) {
     EXPECT_NE(fields.text("text").find(build_id()), std::string::npos);
 }
 
+TEST_F(DaemonTest, RefusesAnInstructionSetThatItDoesNotHave) {
+    Stranger launcher(daemon.endpoint);
+    launcher.send(packet::pack(Type::hello, 0, Fields{}.set("build", build_id()).set("isa", "avx9000")));
+    const auto [type, fields] = launcher.receive();
+    EXPECT_EQ(type, Type::refuse);
+    EXPECT_NE(fields.text("text").find("avx9000"), std::string::npos) << fields.text("text");
+}
+
 TEST_F(DaemonTest, RefusesAnotherProtocolVersionAndNamesBoth) {
     auto packet = hello(build_id());
     packet.header[4] = std::byte{9};

@@ -135,6 +135,16 @@ TEST_F(Loss, IsMadeGoodByADaemonThatDialsIn) {
     expect_same(*run);
 }
 
+TEST_F(Loss, IsNoneWhenTheLauncherWaitsForTheFirstThatDialsIn) {
+    Process run(launch_words(graph_file("direct.lua"), out, {"--size", "32x32", "--listen", "tcp://127.0.0.1:*"}));
+    const std::string before = "hosts may join at ";
+    ASSERT_TRUE(run.wait_for(before) && run.wait_for("\n")) << run.output();
+    const auto at = run.output().find(before) + before.size();
+    const Daemon joined(folder, 1, "tcp://127.0.0.1:*",
+                        {"--join", run.output().substr(at, run.output().find('\n', at) - at)});
+    EXPECT_EQ(run.wait(), 0) << run.output();
+}
+
 TEST_F(Loss, OfADaemonThatIsToldToStopIsOrderly) {
     const Daemon one(folder), two(folder);
     const auto run = start({whole(one.endpoint), whole(two.endpoint)});
