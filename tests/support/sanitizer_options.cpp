@@ -1,5 +1,5 @@
-// Linked into every program of a build with sanitizers: how these behave if their environment says nothing else. Whatever
-// they find ends the process, so that a test fails; it is no use to go on.
+// Linked into every program of a build with sanitizers: how these behave if their environment says nothing else.
+// Whatever they find ends the process, so that a test fails; it is no use to go on.
 
 // The names are the sanitizers'; each asks for its own.
 extern "C" {
