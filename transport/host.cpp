@@ -81,8 +81,14 @@ struct Host::Door {
     void end(const std::string& route, std::uint64_t id);
     void drop_run(const std::string& why);
     void advance();
-    void pass_replies();
-    void wait();
+    // Who has something to be read. Looking at an empty socket costs a system call, so only these are looked at.
+    struct Readable {
+        bool door = false, reports = false;
+        std::vector<std::uint32_t> places;
+    };
+    Readable wait();
+    void take_in();
+    void pass_replies(std::uint32_t place);
     void keep_joining(Clock::time_point now);
 };
 
@@ -99,12 +105,12 @@ void Host::serve(const std::atomic<bool>& stop) {
             if (door.run) door.send(door.launcher, Type::leaving, door.run->id(), {});
         }
         if (door.leaving && (!door.run || now - *door.leaving > leaving_deadline)) break;
-        while (auto frames = receive_frames(door.socket)) door.arrived(std::move(*frames));
-        door.pass_replies();
-        door.advance();
+        const auto readable = door.wait();
+        for (const auto place : readable.places) door.pass_replies(place);
+        if (readable.door) door.take_in();
+        if (readable.reports || (door.run && !door.run->serving())) door.advance();
         if (door.run && now - door.heard > launcher_lease) door.drop_run("its launcher is silent");
         door.keep_joining(now);
-        door.wait();
     }
     if (door.run) door.drop_run("this host is stopping");
 }
@@ -254,10 +260,12 @@ void Host::Door::advance() {
     }
 }
 
-void Host::Door::pass_replies() {
-    if (!run || !run->serving()) return;
-    for (std::uint32_t place = 0; place < run->places()->count(); ++place)
-        while (auto frames = receive_frames(run->places()->to(place))) send_frames(socket, *frames);
+void Host::Door::take_in() {
+    while (auto frames = receive_frames(socket)) arrived(std::move(*frames));
+}
+
+void Host::Door::pass_replies(std::uint32_t place) {
+    while (auto frames = receive_frames(run->places()->to(place))) send_frames(socket, *frames);
 }
 
 void Host::Door::keep_joining(Clock::time_point now) {
@@ -271,7 +279,7 @@ void Host::Door::keep_joining(Clock::time_point now) {
     send_frames(*joining, frames);
 }
 
-void Host::Door::wait() {
+Host::Door::Readable Host::Door::wait() {
     std::vector<zmq::pollitem_t> items{{socket.handle(), 0, ZMQ_POLLIN, 0}};
     const bool building = run && !run->serving();
     if (run && run->serving()) {
@@ -284,6 +292,11 @@ void Host::Door::wait() {
     } catch (const zmq::error_t& error) {
         if (error.num() != EINTR) throw;
     }
+    const auto has_some = [&](std::size_t item) { return (items[item].revents & ZMQ_POLLIN) != 0; };
+    Readable readable{has_some(0), items.size() > 1 && has_some(1), {}};
+    for (std::size_t item = 2; item < items.size(); ++item)
+        if (has_some(item)) readable.places.push_back(static_cast<std::uint32_t>(item - 2));
+    return readable;
 }
 
 }  // namespace lightnet

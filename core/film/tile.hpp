@@ -13,10 +13,10 @@ inline constexpr std::uint32_t samples_per_block = 16;
 
 /// One block of samples for a rectangle of pixels: the unit of work of a renderer.
 struct Tile {
-    std::uint32_t x = 0, y = 0;            // of the upper left pixel, in the picture
+    std::uint32_t x = 0, y = 0;  // of the upper left pixel, in the picture
     std::uint32_t width = 0, height = 0;
-    std::uint32_t first_sample = 0;        // a multiple of samples_per_block
-    std::uint32_t samples = 0;             // 1 … samples_per_block
+    std::uint32_t first_sample = 0;  // a multiple of samples_per_block
+    std::uint32_t samples = 0;       // 1 … samples_per_block
 
     std::size_t pixels() const { return std::size_t{width} * height; }
     std::uint32_t block() const { return first_sample / samples_per_block; }

@@ -97,7 +97,8 @@ TEST_P(SameImage, WithOperatorsSpreadOverHosts) {
         const auto hosts = spread(endpoints);
         for (const auto& bundle : bundles_tried) {
             // The smallest bundles, one under way, and one fiber per node: the narrowest way there is.
-            const std::string credit = bundle == bundles_tried.back() ? "1" : "8", fibers = bundle == bundles_tried.back() ? "0" : "16";
+            const std::string credit = bundle == bundles_tried.back() ? "1" : "8",
+                              fibers = bundle == bundles_tried.back() ? "0" : "16";
             const auto far = launch(graph, folder,
                                     with(small, {"--hosts", hosts, "--bundle", bundle, "--credit", credit,
                                                  "--spare-fibers", fibers, "--tile", "16"}));

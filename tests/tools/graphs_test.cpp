@@ -35,7 +35,8 @@ TEST(Graphs, AreSound) {
 TEST(Graphs, RunOnTheHostsThatComeWithThem) {
     const Registry registry(standard_nodes());
     for (const char* hosts : {"hosts/two.lua", "hosts/spread.lua"})
-        EXPECT_THAT(examine(graph_called("cornell.lua"), registry, load_hosts((graphs / hosts).string())).problems, IsEmpty());
+        EXPECT_THAT(examine(graph_called("cornell.lua"), registry, load_hosts((graphs / hosts).string())).problems,
+                    IsEmpty());
 }
 
 TEST(Graphs, HaveTheLayersThatTheySay) {

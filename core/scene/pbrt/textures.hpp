@@ -56,7 +56,7 @@ private:
     SceneData& scene_;
     Named floats_, spectra_;
     std::map<std::pair<std::string, std::string>, std::shared_ptr<const Image>> images_;  // by path and encoding
-    std::uint64_t pixels_ = 0;  // of all pictures
+    std::uint64_t pixels_ = 0;                                                            // of all pictures
 };
 
 }  // namespace lightnet::pbrt
