@@ -91,7 +91,7 @@ TEST_P(SameImage, OnDaemonsOfAnyNumber) {
 
 TEST_P(SameImage, WithOperatorsSpreadOverHosts) {
     ASSERT_EQ(serial.code, 0) << serial.said;
-    const Daemon one(folder), two(folder), three(folder);
+    const Daemon one(folder, 2), two(folder), three(folder);
     for (const auto& endpoints :
          {std::vector{one.endpoint, two.endpoint}, std::vector{one.endpoint, two.endpoint, three.endpoint}}) {
         const auto hosts = spread(endpoints);
