@@ -16,6 +16,16 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using State = HostLink::State;
 
+// Where a host that listens on all its addresses can be called: at the one from which it dialled in.
+std::string callable(const std::string& endpoint, zmq::message_t& from) {
+    const std::string all = "tcp://0.0.0.0:";
+    if (!endpoint.starts_with(all)) return endpoint;
+    const char* address = from.gets("Peer-Address");
+    return address ? "tcp://" + std::string(address) + ":" + endpoint.substr(all.size()) : endpoint;
+}
+
+constexpr std::size_t most_hosts = 4096;
+
 Told told_of(const Cluster::Options& options) {
     Told told{options.run, options.job.isa, fingerprint(options.job.isa), to_json(options.job), {}};
     for (const auto& file : options.job.files) told.blobs[file.hash] = options.files.at(file.path);
@@ -83,7 +93,12 @@ struct Cluster::Links {
             const auto header = packet::read_header(bytes_of((*frames)[1]), bytes_of((*frames)[2]));
             const auto fields = header ? packet::unpack_fields(bytes_of((*frames)[2])) : std::nullopt;
             if (!fields || header->type != packet::Type::join) continue;
-            add(fields->text("endpoint"));
+            try {
+                if (links.size() < most_hosts) add(callable(fields->text("endpoint"), frames->back()));
+            } catch (const zmq::error_t&) {  // not an endpoint at all
+                ++counters.broken_packets;
+                continue;
+            }
             frames->resize(1);
             append(*frames, packet::pack(packet::Type::joined, told.run, {}));
             send_frames(*joining, *frames);

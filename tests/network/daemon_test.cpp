@@ -3,11 +3,11 @@
 
 #include <csignal>
 #include <random>
-#include <zmq.hpp>
 
 #include "core/build_info.hpp"
 #include "core/graph/plan.hpp"
 #include "tests/network/daemons.hpp"
+#include "tests/network/stranger.hpp"
 #include "transport/packet.hpp"
 
 namespace lightnet::test {
@@ -19,35 +19,6 @@ using packet::Type;
 using std::chrono::seconds;
 
 const std::vector<std::string> tiny{"--size", "16x16", "--samples", "1", "--progress", "none"};
-
-// Speaks to a daemon as a launcher would, or worse.
-class Stranger {
-public:
-    explicit Stranger(const std::string& endpoint) : socket_(context_, zmq::socket_type::dealer) {
-        socket_.set(zmq::sockopt::linger, 0);
-        socket_.set(zmq::sockopt::rcvtimeo, slowdown * 5000);
-        socket_.connect(endpoint);
-    }
-    void send(const Packet& packet) {
-        socket_.send(zmq::const_buffer(packet.header.data(), packet.header.size()), zmq::send_flags::sndmore);
-        socket_.send(zmq::const_buffer(packet.body.data(), packet.body.size()));
-    }
-    void send(const std::string& bytes) { socket_.send(zmq::const_buffer(bytes.data(), bytes.size())); }
-    std::pair<Type, Fields> receive() {
-        zmq::message_t header, body;
-        if (!socket_.recv(header) || !socket_.recv(body)) return {Type::ping, {}};
-        const auto view = [](const zmq::message_t& m) {
-            return std::span(static_cast<const std::byte*>(m.data()), m.size());
-        };
-        const auto read = packet::read_header(view(header), view(body));
-        const auto fields = packet::unpack_fields(view(body));
-        return {read ? read->type : Type::ping, fields ? *fields : Fields{}};
-    }
-
-private:
-    zmq::context_t context_;
-    zmq::socket_t socket_;
-};
 
 Packet hello(const std::string& build) {
     return packet::pack(Type::hello, 0, Fields{}.set("build", build).set("isa", "sse4.2"));

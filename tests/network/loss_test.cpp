@@ -4,6 +4,7 @@
 #include <csignal>
 
 #include "tests/network/daemons.hpp"
+#include "tests/network/stranger.hpp"
 
 namespace lightnet::test {
 namespace {
@@ -140,9 +141,23 @@ TEST_F(Loss, IsNoneWhenTheLauncherWaitsForTheFirstThatDialsIn) {
     const std::string before = "hosts may join at ";
     ASSERT_TRUE(run.wait_for(before) && run.wait_for("\n")) << run.output();
     const auto at = run.output().find(before) + before.size();
-    const Daemon joined(folder, 1, "tcp://127.0.0.1:*",
-                        {"--join", run.output().substr(at, run.output().find('\n', at) - at)});
+    // It listens on all its addresses; the launcher calls it at the one from which it dialled in.
+    const Daemon joined(folder, 1, "tcp://0.0.0.0:*",
+                        {"--insecure", "--join", run.output().substr(at, run.output().find('\n', at) - at)});
     EXPECT_EQ(run.wait(), 0) << run.output();
+}
+
+TEST_F(Loss, OfSenseInAJoinersWordsIsIgnored) {
+    const Daemon one(folder);
+    const auto run = start({whole(one.endpoint)}, {"--listen", "tcp://127.0.0.1:*"});
+    const std::string before = "hosts may join at ";
+    ASSERT_TRUE(run->wait_for(before) && in_the_middle(*run)) << run->output();
+    const auto at = run->output().find(before) + before.size();
+    Stranger stranger(run->output().substr(at, run->output().find_first_of("\"\n", at) - at));
+    for (const std::string endpoint : {"", "nonsense", "tcp://", "tcp://*:*", "http://example"})
+        stranger.send(packet::pack(packet::Type::join, 0, packet::Fields{}.set("endpoint", endpoint)));
+    stranger.send("junk");
+    expect_same(*run);
 }
 
 TEST_F(Loss, OfADaemonThatIsToldToStopIsOrderly) {

@@ -1,0 +1,42 @@
+// A peer that may say anything.
+#pragma once
+
+#include <span>
+#include <string>
+#include <utility>
+#include <zmq.hpp>
+
+#include "transport/packet.hpp"
+
+namespace lightnet::test {
+
+/// Speaks to a daemon as a launcher would, or worse.
+class Stranger {
+public:
+    explicit Stranger(const std::string& endpoint) : socket_(context_, zmq::socket_type::dealer) {
+        socket_.set(zmq::sockopt::linger, 0);
+        socket_.set(zmq::sockopt::rcvtimeo, slowdown * 5000);
+        socket_.connect(endpoint);
+    }
+    void send(const packet::Packet& packet) {
+        socket_.send(zmq::const_buffer(packet.header.data(), packet.header.size()), zmq::send_flags::sndmore);
+        socket_.send(zmq::const_buffer(packet.body.data(), packet.body.size()));
+    }
+    void send(const std::string& bytes) { socket_.send(zmq::const_buffer(bytes.data(), bytes.size())); }
+    std::pair<packet::Type, packet::Fields> receive() {
+        zmq::message_t header, body;
+        if (!socket_.recv(header) || !socket_.recv(body)) return {packet::Type::ping, {}};
+        const auto view = [](const zmq::message_t& m) {
+            return std::span(static_cast<const std::byte*>(m.data()), m.size());
+        };
+        const auto read = packet::read_header(view(header), view(body));
+        const auto fields = packet::unpack_fields(view(body));
+        return {read ? read->type : packet::Type::ping, fields ? *fields : packet::Fields{}};
+    }
+
+private:
+    zmq::context_t context_;
+    zmq::socket_t socket_;
+};
+
+}  // namespace lightnet::test
