@@ -170,9 +170,7 @@ void Cluster::gather(std::chrono::milliseconds patience, const std::atomic<bool>
     }
 }
 
-std::vector<HostOffer> Cluster::ready() const { return links_->offers(true); }
 const Plan& Cluster::plan() const { return links_->plan; }
-void Cluster::add(const std::string& endpoint) { links_->add(endpoint); }
 
 void Cluster::lost(const std::string& endpoint) {
     if (auto* link = links_->find(endpoint); link && link->state() != State::calling)

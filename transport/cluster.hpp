@@ -36,11 +36,7 @@ public:
     /// Returns when every host is ready, refused, or has been absent for `patience`; at least one must be ready by
     /// then. Throws NoWorker when none is, Error when the job can't be served.
     void gather(std::chrono::milliseconds patience, const std::atomic<bool>& cancelled);
-    /// The hosts that are ready.
-    std::vector<HostOffer> ready() const;
     const Plan& plan() const;
-    /// Calls one more host.
-    void add(const std::string& endpoint);
     /// A host whose process is known to have ended.
     void lost(const std::string& endpoint);
     /// Where hosts may join, with the port that the system chose.

@@ -31,7 +31,8 @@ public:
 
     /// Where it listens, with the port that the system chose.
     std::string endpoint() const;
-    /// Serves until `stop` is set, then finishes what it has begun (for some seconds at most) and returns.
+    /// Serves until `stop` is set, then tells the launcher, which takes the work back, and returns: within some
+    /// seconds, whatever the launcher does.
     void serve(const std::atomic<bool>& stop);
 
 private:

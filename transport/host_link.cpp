@@ -142,12 +142,7 @@ void HostLink::control(Type type, const Fields& fields, Time now) {
             return;
         case Type::ended: {
             Counters counters;
-            counters.rays = fields.number("rays"), counters.local_questions = fields.number("local_questions");
-            counters.questions = fields.number("questions"), counters.bundles = fields.number("bundles");
-            counters.bytes = fields.number("bytes"), counters.tiles = fields.number("tiles");
-            counters.asked_again = fields.number("asked_again"), counters.late_replies = fields.number("late_replies");
-            counters.refused_sends = fields.number("refused_sends");
-            counters.broken_packets = fields.number("broken_packets");
+            for (const auto& [name, count] : Counters::all) counters.*count = fields.number(name);
             ended_ = counters;
             return;
         }

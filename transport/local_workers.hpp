@@ -22,8 +22,6 @@ public:
     const std::vector<std::string>& endpoints() const { return endpoints_; }
     /// Those whose process has ended since the last call.
     std::vector<std::string> ended();
-    /// For tests that want to hurt one.
-    const std::vector<int>& processes() const { return processes_; }
 
 private:
     std::vector<std::string> endpoints_;

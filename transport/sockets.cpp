@@ -79,8 +79,6 @@ std::optional<Frames> receive_frames(zmq::socket_t& socket) {
     return frames;
 }
 
-zmq::message_t frame_of(std::span<const std::byte> bytes) { return zmq::message_t(bytes.data(), bytes.size()); }
-
 zmq::message_t frame_of(const std::string& bytes) { return zmq::message_t(bytes.data(), bytes.size()); }
 
 zmq::message_t frame_of(std::vector<std::byte>&& bytes) {

@@ -33,7 +33,6 @@ bool send_frames(zmq::socket_t& socket, Frames& frames);
 /// One whole message, if there is one.
 std::optional<Frames> receive_frames(zmq::socket_t& socket);
 
-zmq::message_t frame_of(std::span<const std::byte> bytes);
 zmq::message_t frame_of(const std::string& bytes);
 /// Moves the bytes into the frame: no copy.
 zmq::message_t frame_of(std::vector<std::byte>&& bytes);

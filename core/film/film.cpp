@@ -111,8 +111,8 @@ void Film::expect_valid(const Tile& tile, std::size_t colours) const {
 }
 
 Film::Rectangle& Film::rectangle_of(const Tile& tile) {
-    const Place place{tile.x, tile.y, tile.width, tile.height};
-    if (const auto known = rectangles_.find(place); known != rectangles_.end()) return known->second;
+    const Area area{tile.x, tile.y, tile.width, tile.height};
+    if (const auto known = rectangles_.find(area); known != rectangles_.end()) return known->second;
     // Tiles that overlap would add samples twice, so the first tiling that is seen is the only one.
     for (const bool claim : {false, true})
         for (std::uint32_t y = tile.y; y < tile.y + tile.height; ++y)
@@ -121,7 +121,7 @@ Film::Rectangle& Film::rectangle_of(const Tile& tile) {
                 if (!claim && pixel) throw Error("film", fmt::format("two tiles overlap at pixel {},{}", x, y));
                 if (claim) pixel = true;
             }
-    return rectangles_[place];
+    return rectangles_[area];
 }
 
 void Film::fold(const Tile& tile, std::span<const Rgb> pixels) {

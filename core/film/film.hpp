@@ -55,7 +55,7 @@ private:
         std::uint32_t next_block = 0;                       // the first one that is not in the sums
         std::map<std::uint32_t, std::vector<Rgb>> waiting;  // blocks that came before their turn
     };
-    using Place = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>;  // x, y, width, height
+    using Area = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>;  // x, y, width, height
 
     void expect_valid(const Tile& tile, std::size_t colours) const;
     Rectangle& rectangle_of(const Tile& tile);
@@ -66,7 +66,7 @@ private:
     std::vector<Rgb> sums_;                // pixel × layer
     std::vector<std::uint32_t> block_of_;  // per pixel: how many blocks are in its sums
     std::vector<bool> taken_;              // per pixel: it lies in a rectangle that was seen
-    std::map<Place, Rectangle> rectangles_;
+    std::map<Area, Rectangle> rectangles_;
     std::uint64_t folded_ = 0;  // pixels × blocks in the sums
     std::vector<std::uint64_t> lost_;
 };

@@ -1,9 +1,11 @@
 // What a run counts.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <string>
+#include <utility>
 
 namespace lightnet {
 
@@ -22,26 +24,32 @@ struct Counters {
     std::uint64_t broken_packets = 0;   // dropped
 
     Counters& operator+=(const Counters& more) {
-        rays += more.rays, local_questions += more.local_questions, questions += more.questions;
-        bundles += more.bundles, bytes += more.bytes, file_bytes += more.file_bytes, tiles += more.tiles,
-            asked_again += more.asked_again;
-        late_replies += more.late_replies, refused_sends += more.refused_sends, broken_packets += more.broken_packets;
+        for (const auto& [name, count] : all) this->*count += more.*count;
         return *this;
     }
     std::map<std::string, std::uint64_t> named() const {
-        return {{"rays", rays},
-                {"local_questions", local_questions},
-                {"questions", questions},
-                {"bundles", bundles},
-                {"bytes", bytes},
-                {"file_bytes", file_bytes},
-                {"tiles", tiles},
-                {"asked_again", asked_again},
-                {"late_replies", late_replies},
-                {"refused_sends", refused_sends},
-                {"broken_packets", broken_packets}};
+        std::map<std::string, std::uint64_t> counts;
+        for (const auto& [name, count] : all) counts[name] = this->*count;
+        return counts;
     }
+
+    /// Every count and its name, as in run.json and on the wire.
+    static const std::array<std::pair<const char*, std::uint64_t Counters::*>, 11> all;
     friend bool operator==(const Counters&, const Counters&) = default;
 };
+
+inline constexpr std::array<std::pair<const char*, std::uint64_t Counters::*>, 11> Counters::all{{
+    {"rays", &Counters::rays},
+    {"local_questions", &Counters::local_questions},
+    {"questions", &Counters::questions},
+    {"bundles", &Counters::bundles},
+    {"bytes", &Counters::bytes},
+    {"file_bytes", &Counters::file_bytes},
+    {"tiles", &Counters::tiles},
+    {"asked_again", &Counters::asked_again},
+    {"late_replies", &Counters::late_replies},
+    {"refused_sends", &Counters::refused_sends},
+    {"broken_packets", &Counters::broken_packets},
+}};
 
 }  // namespace lightnet
