@@ -103,7 +103,8 @@ constexpr std::array columns<Tile>{Column{"x", offsetof(Tile, x), 4},
                                    Column{"width", offsetof(Tile, width), 4},
                                    Column{"height", offsetof(Tile, height), 4},
                                    Column{"first", offsetof(Tile, first_sample), 4},
-                                   Column{"samples", offsetof(Tile, samples), 4}};
+                                   Column{"samples", offsetof(Tile, samples), 4},
+                                   Column{"stride", offsetof(Tile, stride), 4}};
 
 // A loop whose copies have a constant size.
 template <std::size_t Size>
@@ -157,7 +158,7 @@ std::optional<Questions<Question>> unpack_columns(const Header& header, View bod
 bool sane(const Tile& tile) {
     constexpr std::uint32_t most = 1 << 16;
     return tile.width > 0 && tile.height > 0 && tile.pixels() <= most && tile.x < most && tile.y < most &&
-           tile.samples > 0 && tile.samples <= samples_per_block && tile.first_sample % samples_per_block == 0;
+           tile.samples > 0 && tile.stride > 0 && tile.samples <= samples_per_block && tile.first_sample % samples_per_block == 0;
 }
 
 void pack_rgb(const std::vector<Rgb>& answers, Bytes& body) {
