@@ -56,8 +56,6 @@ public:
     /// picture. Strides of later calls must divide those of earlier ones.
     virtual std::vector<Query> rehearse(std::uint32_t stride) = 0;
 
-    /// A line for the user, once per run.
-    virtual void say(const std::string& text) = 0;
     virtual Whereabouts whereabouts() const = 0;
 
 protected:

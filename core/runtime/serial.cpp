@@ -11,9 +11,8 @@ namespace lightnet {
 /// One node's services, in a run of one thread: loops.
 class SerialRun::Preparing final : public Services {
 public:
-    Preparing(SerialRun& run, std::size_t node, const Recipes& recipes, ResultCache* cache,
-              const std::function<void(const std::string&)>& say)
-        : run_(run), node_(node), recipes_(recipes), cache_(cache), say_(say) {}
+    Preparing(SerialRun& run, std::size_t node, const Recipes& recipes, ResultCache* cache)
+        : run_(run), node_(node), recipes_(recipes), cache_(cache) {}
 
     std::vector<Query> rehearse(std::uint32_t stride) override {
         rehearsed_ = true;
@@ -28,9 +27,6 @@ public:
         });
         const Mapped<Query> noted(result);
         return {noted.begin(), noted.end()};
-    }
-    void say(const std::string& text) override {
-        if (say_) say_(run_.network_.graph.nodes[node_].name + ": " + text);
     }
     Whereabouts whereabouts() const override { return {"this thread", 1}; }
 
@@ -64,7 +60,6 @@ private:
     std::size_t node_;
     const Recipes& recipes_;
     ResultCache* cache_;
-    const std::function<void(const std::string&)>& say_;
     std::uint32_t call_ = 0;
     bool rehearsed_ = false;
 };
@@ -82,11 +77,10 @@ SerialRun::SerialRun(const Network& network, std::function<void()> pause)
     assembly_.renderer(image_);
 }
 
-void SerialRun::prepare(const std::string& made_from, ResultCache* cache,
-                        const std::function<void(const std::string&)>& say) {
+void SerialRun::prepare(const std::string& made_from, ResultCache* cache) {
     const Recipes recipes(network_.graph, made_from);
     for (const auto node : preparing_nodes(network_.graph, network_.registry)) {
-        Preparing services(*this, node, recipes, cache, say);
+        Preparing services(*this, node, recipes, cache);
         assembly_.prepare(node, services);
     }
     counters_.tiles = 0;  // those of rehearsals make no picture

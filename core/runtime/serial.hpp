@@ -19,8 +19,7 @@ public:
     explicit SerialRun(const Network& network, std::function<void()> pause = {});
 
     /// Has all nodes that prepare do so. Before the first tile. Results are looked for in `cache`, and kept there.
-    void prepare(const std::string& made_from, ResultCache* cache = nullptr,
-                 const std::function<void(const std::string&)>& say = {});
+    void prepare(const std::string& made_from, ResultCache* cache = nullptr);
     /// All samples of the tile's block: see Renderer::render.
     std::vector<Rgb> render(const Tile& tile);
     Counters counters() const;
