@@ -115,7 +115,7 @@ TEST_P(Maps, AreSmooth) {  // across pixels, and across the picture's borders
 
 TEST_P(Maps, HaveADensityThatIntegratesToOne) {
     const Environment sky(map_of(GetParam()));
-    EXPECT_NEAR(over_the_sphere(700, [&](Vec3 d) { return sky.pdf(d); }), 1, 2e-3);
+    EXPECT_NEAR(over_the_sphere(1500, [&](Vec3 d) { return sky.pdf(d); }), 1, 2e-3);
 }
 
 TEST_P(Maps, SampleWhatTheirDensitySays) {
