@@ -35,6 +35,12 @@ constexpr std::array<double, 41> daylight{
     104.79, 107.69, 104.41, 104.05, 100.00, 96.33, 95.79,  88.69,  90.01,  89.60,  87.70,  83.29,  83.70,  80.03,
     80.21,  82.28,  78.28,  69.72,  71.61,  74.35, 61.60,  69.89,  75.09,  63.59,  46.42,  66.81,  63.38};
 
+/// XYZ to linear sRGB, IEC 61966-2-1.
+std::array<double, 3> to_rgb(double x, double y, double z) {
+    return {3.2404542 * x - 1.5371385 * y - 0.4985314 * z, -0.9692660 * x + 1.8760108 * y + 0.0415560 * z,
+            0.0556434 * x - 0.2040259 * y + 1.0572252 * z};
+}
+
 /// Linear sRGB of a spectrum, without any scale.
 template <class Spectrum>
 std::array<double, 3> project(const Spectrum& spectrum) {
@@ -45,8 +51,7 @@ std::array<double, 3> project(const Spectrum& spectrum) {
         const double value = spectrum(wavelength, daylight[i]);
         x += value * match[0], y += value * match[1], z += value * match[2];
     }
-    return {3.2404542 * x - 1.5371385 * y - 0.4985314 * z, -0.9692660 * x + 1.8760108 * y + 0.0415560 * z,
-            0.0556434 * x - 0.2040259 * y + 1.0572252 * z};
+    return to_rgb(x, y, z);
 }
 
 /// The same, with D65 as {1, 1, 1}.
@@ -118,6 +123,17 @@ Rgb blackbody_colour(float kelvin) {
     };
     const double scale = 1 / planck(780);
     return with_luminance_one(balanced([&](double w, double) { return planck(w) * scale; }));
+}
+
+Rgb daylight_colour(float kelvin) {
+    if (!(kelvin >= 4000)) return blackbody_colour(kelvin);
+    // CIE 15:2004, eqs. 3.3 and 3.4
+    const double t = std::min(double(kelvin), 25000.0);
+    const double x = t <= 7000 ? ((-4.6070e9 / t + 2.9678e6) / t + 0.09911e3) / t + 0.244063
+                               : ((-2.0064e9 / t + 1.9018e6) / t + 0.24748e3) / t + 0.237040;
+    const double y = (-3.000 * x + 2.870) * x - 0.275;
+    const auto c = to_rgb(x / y, 1, (1 - x - y) / y);
+    return with_luminance_one({float(c[0]), float(c[1]), float(c[2])});
 }
 
 std::optional<Rgb> named_index(std::string_view name) {
