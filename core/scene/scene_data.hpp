@@ -13,15 +13,9 @@
 #include "core/math/rgb.hpp"
 #include "core/math/transform.hpp"
 #include "core/math/vec.hpp"
+#include "core/scene/image.hpp"
 
 namespace lightnet {
-
-/// A decoded picture, linear, row 0 on top.
-struct Image {
-    std::uint32_t width = 0, height = 0;
-    std::vector<Rgb> pixels;
-    std::vector<float> alpha;  // empty: opaque
-};
 
 /// Index into SceneData::textures.
 using TextureId = std::uint32_t;
@@ -39,16 +33,16 @@ struct UvTransform {
 
 /// An image over texture coordinates: (0, 0) is its lower left corner, (1, 1) its upper right one.
 struct ImageTexture {
-    std::shared_ptr<const Image> image;  // shared by all textures of one file
+    std::shared_ptr<const Image> image{};  // shared by all textures of one file
     Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
-    UvTransform uv;
-    enum class Channel { colour, red, green, blue, alpha } channel = Channel::colour;  // one channel gives a grey
-    bool nearest = false;                                                              // else bilinear
+    UvTransform uv{};
+    enum class Channel { colour, mean, red, green, blue, alpha } channel = Channel::colour;  // one, or their mean: grey
+    bool nearest = false;                                                                    // else bilinear
 };
-/// Squares of uv side 1, alternating.
+/// Squares of uv side 1, alternating: `even` where ⌊u⌋ + ⌊v⌋ is.
 struct CheckerTexture {
     TextureId even = 0, odd = 0;
-    UvTransform uv;
+    UvTransform uv{};
 };
 /// The product of two.
 struct ProductTexture {
@@ -72,14 +66,14 @@ struct Texture {
 /// Roughness of a surface's facets along its two tangents.
 struct Roughness {
     float u = 0, v = 0;                                             // 0: smooth
-    std::optional<TextureId> texture;                               // times this
+    std::optional<TextureId> texture{};                             // times this
     enum class Means { alpha, root, square } means = Means::alpha;  // GGX α = value, √value (pbrt), value² (glTF)
 };
 
 /// Index of refraction of a metal per colour, or how much it reflects head-on.
 struct Metal {
     TextureId eta = 0, k = 0;
-    std::optional<TextureId> reflectance;  // given instead of eta and k
+    std::optional<TextureId> reflectance{};  // given instead of eta and k
 };
 
 /// Reflects evenly; rough in the sense of Oren and Nayar where sigma > 0. Lets light through evenly, too, where a
@@ -87,52 +81,61 @@ struct Metal {
 struct DiffuseMaterial {
     TextureId reflectance = 0;
     float sigma = 0;  // standard deviation of the facets' slopes, radians
-    std::optional<TextureId> transmittance;
+    std::optional<TextureId> transmittance{};
 };
 struct ConductorMaterial {
-    Metal metal;
-    Roughness roughness;
-    std::optional<TextureId> tint;  // times this
+    Metal metal{};
+    Roughness roughness{};
+    std::optional<TextureId> tint{};  // times this
 };
 struct DielectricMaterial {
     float eta = 1.5f;  // inside over outside (outside: where the normal points)
-    Roughness roughness;
-    std::optional<TextureId> reflected, transmitted;  // not physical, but in files: tints
-    bool thin = false;                                // a pane: what enters leaves on the other side, undeflected
+    Roughness roughness{};
+    std::optional<TextureId> reflected{}, transmitted{};  // not physical, but in files: tints
+    bool thin = false;                                    // a pane: what enters leaves on the other side, undeflected
 };
 /// A diffuse base under a dielectric coat.
 struct CoatedDiffuseMaterial {
-    TextureId reflectance = 0;
+    TextureId reflectance = 0;  // of the base
     float eta = 1.5f;
-    Roughness roughness;
+    Roughness roughness{};            // of the coat
+    std::optional<TextureId> tint{};  // not physical, but in files: times the coat's reflection
+    bool base_colours_repeat = true;  // light that goes back and forth below the coat takes the base's colour each time
 };
 /// A metal under a dielectric coat.
 struct CoatedConductorMaterial {
-    Metal metal;
-    Roughness roughness;  // of the metal
-    float coat_eta = 1.5f;
-    Roughness coat;
+    Metal metal{};
+    Roughness roughness{};  // of the metal
+    float coat_eta = 1.5f;  // over air; the metal's index is over air, too
+    Roughness coat{};
 };
 /// The principled model of Burley (2012, 2015), of which glTF's metallic-roughness model with its extensions is a part.
 /// Numbers are 0 … 1 where nothing else is said; a texture multiplies.
 struct PrincipledMaterial {
     TextureId base_colour = 0;
-    std::optional<TextureId> metallic_texture, transmission_texture;
     float metallic = 0, transmission = 0;
+    std::optional<TextureId> metallic_texture{}, transmission_texture{};
     Roughness roughness{0.5f, 0.5f, {}, Roughness::Means::square};
     float eta = 1.5f;
     float specular = 1;            // times the dielectric reflection
-    Rgb specular_colour{1, 1, 1};  // of it, head-on
+    Rgb specular_colour{1, 1, 1};  // of it, head-on; may exceed 1
+    std::optional<TextureId> specular_texture{}, specular_colour_texture{};
     float sheen = 0, sheen_roughness = 0.3f;
     Rgb sheen_colour{1, 1, 1};
+    std::optional<TextureId> sheen_texture{}, sheen_roughness_texture{};  // the first has colours
     float clearcoat = 0;
+    std::optional<TextureId> clearcoat_texture{};
     Roughness clearcoat_roughness{0.03f, 0.03f, {}, Roughness::Means::square};
     bool thin = true;  // of transmission: a pane rather than a solid
 };
-/// `first` or `second`, the latter with a share of `amount`.
+/// `first` or `second`, the latter with a share of `amount`. They may be mixtures, but must not lead back here.
 struct MixtureMaterial {
     MaterialId first = 0, second = 0;
     TextureId amount = 0;
+};
+/// One on the side of the normal, another behind; both opaque.
+struct TwoFacedMaterial {
+    MaterialId front = 0, back = 0;
 };
 /// Not there: light goes straight through (a border between media, say).
 struct NoMaterial {};
@@ -140,14 +143,14 @@ struct NoMaterial {};
 struct Material {
     std::string name;  // as in the file; may be empty
     std::variant<DiffuseMaterial, ConductorMaterial, DielectricMaterial, CoatedDiffuseMaterial, CoatedConductorMaterial,
-                 PrincipledMaterial, MixtureMaterial, NoMaterial>
+                 PrincipledMaterial, MixtureMaterial, TwoFacedMaterial, NoMaterial>
         model;
-    bool one_sided = false;               // black from behind (opaque models only)
-    std::optional<TextureId> opacity;     // share of the light that meets the surface at all
-    float opacity_cutoff = 0;             // > 0: there where opacity ≥ this, else not
-    std::optional<TextureId> normal_map;  // linear, 0.5 is 0; x along ∂p/∂u, y along ∂p/∂v, z along the normal
-    float normal_scale = 1;               // of its x and y
-    std::optional<TextureId> bump_map;    // height, metres, in the normal's direction
+    bool one_sided = false;                 // black from behind (opaque models only)
+    std::optional<TextureId> opacity{};     // share of the light that meets the surface at all; its red counts
+    float opacity_cutoff = 0;               // > 0: there where opacity ≥ this, else not
+    std::optional<TextureId> normal_map{};  // linear, 0.5 is 0; x along ∂p/∂u, y along ∂p/∂v, z along the normal
+    float normal_scale = 1;                 // of its x and y
+    std::optional<TextureId> bump_map{};    // height, metres, in the normal's direction; its red counts
     Rgb absorption{};  // per metre inside a solid dielectric (glTF's attenuation, Beer and Lambert's law)
 };
 
@@ -155,7 +158,7 @@ struct Material {
 struct AreaEmission {
     Rgb radiance;
     bool two_sided = false;
-    std::optional<TextureId> texture;  // times this
+    std::optional<TextureId> texture{};  // times this
 };
 
 struct Mesh {
@@ -172,13 +175,13 @@ struct Sphere {
     Vec3 center;
     float radius = 1;           // metres
     bool flip_normals = false;  // normal inwards
-    Matrix to_world;            // its own axes, for texture coordinates: orthonormal, nothing moved
+    Matrix to_world{};          // its own axes, for texture coordinates: orthonormal, nothing moved
 };
 
 struct Shape {
     std::variant<Mesh, Sphere> geometry;
     MaterialId material = 0;
-    std::optional<AreaEmission> emission;
+    std::optional<AreaEmission> emission{};
     SourceLine where;
 };
 
@@ -189,19 +192,19 @@ struct Object {
 };
 struct Instance {
     std::uint32_t object = 0;  // index into SceneData::objects
-    Matrix to_world;           // from the object's space, in which its shapes are given: affine, not singular
+    Matrix to_world{};         // from the object's space, in which its shapes are given: affine, not singular
 };
 
 /// Right-handed picture: x to the right, y down in the picture.
 struct CameraData {
-    Matrix to_world;  // camera space: looks along +z, y up, x to the right of the picture
+    Matrix to_world{};  // camera space: looks along +z, y up, x to the right of the picture
     bool orthographic = false;
     float fov = 90;  // degrees, across the shorter side of the picture; of no use when orthographic
     std::array<float, 4> screen{-1, 1, -1, 1};  // x min, x max, y min, y max at distance 1/tan(fov/2), shorter side =
                                                 // ±1; orthographic: in metres
-    bool screen_given = false;    // else derived from the picture's shape
-    float lens_radius = 0;        // metres; 0: a pinhole
-    float focus_distance = 1e6f;  // metres along the axis to the plane in which everything is sharp
+    bool screen_given = false;                  // else derived from the picture's shape
+    float lens_radius = 0;                      // metres; 0: a pinhole
+    float focus_distance = 1e6f;                // metres along the axis to the plane in which everything is sharp
 };
 
 struct FilmData {
@@ -213,10 +216,10 @@ struct FilmData {
 /// Light from infinity: `radiance` (W·sr⁻¹·m⁻²), or an image times it.
 struct EnvironmentData {
     Rgb radiance{1, 1, 1};
-    std::shared_ptr<const Image> image;
+    std::shared_ptr<const Image> image{};
     enum class Layout { latitude_longitude, equal_area } layout = Layout::latitude_longitude;
-    Matrix to_world;  // a rotation. Latitude-longitude: +y is the top row, -z the picture's middle, +x right of it.
-                      // Equal area: the octahedral map of Clarberg (2008) as pbrt lays it out: +z is the centre.
+    Matrix to_world{};  // a rotation. Latitude-longitude: +y is the top row, -z the picture's middle, +x right of it.
+                        // Equal area: the octahedral map of Clarberg (2008) as pbrt lays it out: +z is the centre.
 };
 
 /// Lights without extent. World space.

@@ -2,7 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/scene/pbrt/textures.hpp"
+#include "core/scene/spectra.hpp"
+#include "core/scene/textures.hpp"
 #include "tests/support/pbrt_text.hpp"
 
 namespace lightnet::test {
@@ -27,6 +28,12 @@ Texture reflectance(const std::string& textures, const std::string& type = "text
     return scene.textures.at(model_of<DiffuseMaterial>(scene).reflectance);
 }
 
+/// The value of a diffuse reflectance, wherever it comes from.
+Rgb value_at(const std::string& textures, Vec2 uv) {
+    const auto scene = with(textures + " Material \"diffuse\" \"texture reflectance\" \"t\"", pictures());
+    return look_up(scene.textures, model_of<DiffuseMaterial>(scene).reflectance, {uv});
+}
+
 TEST(PbrtMaterials, MayBeDiffuse) {
     const auto scene = with("Material \"diffuse\" \"rgb reflectance\" [ .1 .2 .3 ]");
     EXPECT_EQ(colour_of(scene, model_of<DiffuseMaterial>(scene).reflectance), (Rgb{0.1f, 0.2f, 0.3f}));
@@ -38,38 +45,42 @@ TEST(PbrtMaterials, MayBeConductors) {
         "Material \"conductor\" \"float roughness\" 0.0025 \"spectrum eta\" \"metal-Ag-eta\" \"spectrum k\" "
         "\"metal-Ag-k\"");
     const auto& model = model_of<ConductorMaterial>(silver);
-    EXPECT_NEAR(model.alpha_u, 0.05f, 1e-6f);  // remapped: the square root
-    EXPECT_NEAR(model.alpha_v, 0.05f, 1e-6f);
-    EXPECT_NEAR(colour_of(silver, model.k).g, 3.122485f, 1e-6f);
-    EXPECT_FALSE(model.reflectance);
+    EXPECT_EQ(model.roughness.u, 0.0025f);
+    EXPECT_EQ(model.roughness.v, 0.0025f);
+    EXPECT_EQ(model.roughness.means, Roughness::Means::root);
+    EXPECT_NEAR(colour_of(silver, model.metal.k).g, 3.122485f, 1e-6f);
+    EXPECT_FALSE(model.metal.reflectance);
     EXPECT_THAT(silver.warnings, IsEmpty());
 }
 
 TEST(PbrtMaterials, MayHaveTwoRoughnessesAsTheyAre) {
     const auto scene =
         with("Material \"conductor\" \"float uroughness\" .1 \"float vroughness\" .2 \"bool remaproughness\" false");
-    EXPECT_EQ(model_of<ConductorMaterial>(scene).alpha_u, 0.1f);
-    EXPECT_EQ(model_of<ConductorMaterial>(scene).alpha_v, 0.2f);
-    EXPECT_NEAR(colour_of(scene, model_of<ConductorMaterial>(scene).eta).r, 0.200438f, 1e-6f);  // copper
+    EXPECT_EQ(model_of<ConductorMaterial>(scene).roughness.u, 0.1f);
+    EXPECT_EQ(model_of<ConductorMaterial>(scene).roughness.v, 0.2f);
+    EXPECT_EQ(model_of<ConductorMaterial>(scene).roughness.means, Roughness::Means::alpha);
+    EXPECT_NEAR(colour_of(scene, model_of<ConductorMaterial>(scene).metal.eta).r, 0.200438f, 1e-6f);  // copper
 }
 
 TEST(PbrtMaterials, MayBeConductorsOfAColour) {
     const auto scene = with("Material \"conductor\" \"rgb reflectance\" [ .9 .8 .7 ]");
-    EXPECT_EQ(colour_of(scene, model_of<ConductorMaterial>(scene).reflectance.value()), (Rgb{0.9f, 0.8f, 0.7f}));
+    EXPECT_EQ(colour_of(scene, model_of<ConductorMaterial>(scene).metal.reflectance.value()), (Rgb{0.9f, 0.8f, 0.7f}));
 }
 
 TEST(PbrtMaterials, MayHaveSpectraInFiles) {
     MemoryFiles files{{"spds/x.spd", "300 2\n800 2\n"}};
     const auto scene =
         with("Material \"conductor\" \"spectrum eta\" \"spds/x.spd\" \"spectrum k\" [ 300 3 800 3 ]", files);
-    EXPECT_NEAR(colour_of(scene, model_of<ConductorMaterial>(scene).eta).b, 2, 1e-5f);
-    EXPECT_NEAR(colour_of(scene, model_of<ConductorMaterial>(scene).k).r, 3, 1e-5f);
+    EXPECT_NEAR(colour_of(scene, model_of<ConductorMaterial>(scene).metal.eta).b, 2, 1e-5f);
+    EXPECT_NEAR(colour_of(scene, model_of<ConductorMaterial>(scene).metal.k).r, 3, 1e-5f);
 }
 
 TEST(PbrtMaterials, MayBeGlass) {
+    const auto pane = with("Material \"thindielectric\" \"float eta\" 1.2");
     EXPECT_EQ(model_of<DielectricMaterial>(with("Material \"dielectric\"")).eta, 1.5f);
     EXPECT_EQ(model_of<DielectricMaterial>(with("Material \"dielectric\" \"float eta\" 1.33")).eta, 1.33f);
-    EXPECT_EQ(model_of<ThinDielectricMaterial>(with("Material \"thindielectric\" \"float eta\" 1.2")).eta, 1.2f);
+    EXPECT_EQ(model_of<DielectricMaterial>(pane).eta, 1.2f);
+    EXPECT_TRUE(model_of<DielectricMaterial>(pane).thin);
     const auto named = with("Material \"dielectric\" \"spectrum eta\" \"glass-BK7\"");
     EXPECT_NEAR(model_of<DielectricMaterial>(named).eta, 1.5185f, 1e-4f);
     EXPECT_THAT(warnings_of(named), HasSubstr("dispersion is left out"));
@@ -77,32 +88,76 @@ TEST(PbrtMaterials, MayBeGlass) {
 
 TEST(PbrtMaterials, MayBeCoated) {
     const auto scene = with("Material \"coateddiffuse\" \"rgb reflectance\" [ .07 .09 .13 ] \"float roughness\" .01");
-    EXPECT_NEAR(model_of<CoatedDiffuseMaterial>(scene).alpha_u, 0.1f, 1e-6f);
+    EXPECT_EQ(model_of<CoatedDiffuseMaterial>(scene).roughness.u, 0.01f);
     EXPECT_EQ(model_of<CoatedDiffuseMaterial>(scene).eta, 1.5f);
     EXPECT_THAT(scene.warnings, IsEmpty());
 }
 
+TEST(PbrtMaterials, MayBeCoatedMetals) {
+    const auto scene = with(
+        "Material \"coatedconductor\" \"float interface.roughness\" .01 \"float conductor.roughness\" .04\n"
+        "\"spectrum conductor.eta\" \"metal-Ag-eta\" \"spectrum conductor.k\" \"metal-Ag-k\" \"float interface.eta\" 1.3");
+    const auto& model = model_of<CoatedConductorMaterial>(scene);
+    EXPECT_EQ(model.coat.u, 0.01f);
+    EXPECT_EQ(model.roughness.v, 0.04f);
+    EXPECT_EQ(model.coat_eta, 1.3f);
+    EXPECT_EQ(colour_of(scene, model.metal.k), *named_index("metal-Ag-k"));
+    EXPECT_THAT(scene.warnings, IsEmpty());
+}
+
+TEST(PbrtMaterials, MayLetLightThroughEvenly) {
+    const auto scene = with("Material \"diffusetransmission\" \"rgb transmittance\" [ .2 .4 .6 ] \"float scale\" .5");
+    const auto& model = model_of<DiffuseMaterial>(scene);
+    EXPECT_EQ(colour_of(scene, model.reflectance), (Rgb{0.125f, 0.125f, 0.125f}));
+    EXPECT_EQ(colour_of(scene, model.transmittance.value()), (Rgb{0.1f, 0.2f, 0.3f}));
+}
+
 TEST(PbrtMaterials, WithoutAMatchAreTheNearest) {
     const std::string lead = "scene.pbrt:2: Material ";
-    EXPECT_THAT(warnings_of(with("Material \"coatedconductor\"")), HasSubstr(lead + "'coatedconductor': the coat"));
-    EXPECT_THAT(warnings_of(with("Material \"diffusetransmission\"")),
-                HasSubstr(lead + "'diffusetransmission': the light through"));
     EXPECT_THAT(warnings_of(with("Material \"subsurface\"")), HasSubstr(lead + "'subsurface': subsurface scattering"));
     EXPECT_THAT(warnings_of(with("Material \"hair\"")), HasSubstr(lead + "'hair': scattering by hair"));
     EXPECT_THAT(warnings_of(with("Material \"measured\" \"string filename\" \"x.bsdf\"")),
                 HasSubstr(lead + "'measured': measured"));
 }
 
-TEST(PbrtMaterials, MixWhenTheyCan) {
-    const std::string parts =
+TEST(PbrtMaterials, Mix) {
+    const auto scene = with(
         "MakeNamedMaterial \"a\" \"string type\" \"diffuse\" \"rgb reflectance\" [ 0 0 0 ]\n"
-        "MakeNamedMaterial \"b\" \"string type\" \"diffuse\" \"rgb reflectance\" [ 1 1 1 ]\n"
-        "MakeNamedMaterial \"c\" \"string type\" \"dielectric\"\n";
-    const auto exact = with(parts + "Material \"mix\" \"string materials\" [ \"a\" \"b\" ] \"float amount\" .25");
-    EXPECT_EQ(colour_of(exact, model_of<DiffuseMaterial>(exact).reflectance), (Rgb{0.25f, 0.25f, 0.25f}));
-    const auto rough = with(parts + "Material \"mix\" \"string materials\" [ \"a\" \"c\" ] \"float amount\" .75");
-    EXPECT_EQ(model_of<DielectricMaterial>(rough).eta, 1.5f);
-    EXPECT_THAT(warnings_of(rough), HasSubstr("'c', the larger part, is taken alone"));
+        "MakeNamedMaterial \"b\" \"string type\" \"dielectric\"\n"
+        "Material \"mix\" \"string materials\" [ \"a\" \"b\" ] \"float amount\" .25");
+    const auto& mixture = model_of<MixtureMaterial>(scene);
+    EXPECT_EQ(scene.materials[mixture.first].name, "a");
+    EXPECT_EQ(scene.materials[mixture.second].name, "b");
+    EXPECT_EQ(colour_of(scene, mixture.amount).r, 0.25f);
+    EXPECT_THAT(scene.warnings, IsEmpty());
+}
+
+TEST(PbrtMaterials, MixOnlyWhatStandsAbove) {
+    EXPECT_THAT(errors_of_world("Material \"mix\" \"string materials\" [ \"a\" \"a\" ] " + ball),
+                HasSubstr("there is no material 'a' above"));
+}
+
+TEST(PbrtMaterials, MayHaveBumpsAndNormalMaps) {
+    const auto scene = with(
+        "Texture \"b\" \"float\" \"imagemap\" \"string filename\" \"p.hdr\"\n"
+        "Material \"diffuse\" \"texture displacement\" \"b\" \"string normalmap\" \"p.hdr\"",
+        pictures());
+    const Material& material = scene.materials[scene.shapes[0].material];
+    EXPECT_TRUE(material.bump_map);
+    EXPECT_TRUE(material.normal_map);
+    EXPECT_THAT(scene.warnings, IsEmpty());
+}
+
+TEST(PbrtMaterials, AreCutOutByTheAlphaOfAShape) {
+    const auto scene = read_world("Shape \"sphere\" \"float alpha\" .25 Shape \"sphere\" \"float alpha\" 1");
+    EXPECT_EQ(colour_of(scene, scene.materials[scene.shapes[0].material].opacity.value()).r, 0.25f);
+    EXPECT_FALSE(scene.materials[scene.shapes[1].material].opacity);
+}
+
+TEST(PbrtMaterials, OfNothingLeaveShapesOut) {
+    const auto scene = with("Material \"interface\"");
+    EXPECT_THAT(scene.shapes, IsEmpty());
+    EXPECT_THAT(warnings_of(scene), HasSubstr("only bounds media"));
 }
 
 TEST(PbrtMaterials, MayBeNamedBeforeTheyAreMade) {
@@ -122,14 +177,16 @@ TEST(PbrtTextures, MayBePictures) {
         "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"p.hdr\" \"string wrap\" \"clamp\" \"float "
         "uscale\" 2\n"
         "\"float vdelta\" .5 \"bool invert\" true \"string filter\" \"trilinear\"");
-    ASSERT_TRUE(t.image);
-    EXPECT_EQ(t.image->width, 2u);
-    EXPECT_EQ(t.image->pixels[0], (Rgb{1, 1, 1}));
-    EXPECT_EQ(t.image->pixels[2], (Rgb{0.25f, 0.25f, 0.25f}));
-    EXPECT_EQ(t.wrap, Wrap::clamp);
+    const auto& picture = std::get<ImageTexture>(t.pattern);
+    ASSERT_TRUE(picture.image);
+    EXPECT_EQ(picture.image->width, 2u);
+    EXPECT_EQ(picture.image->colour(0, 0), (Rgb{1, 1, 1}));
+    EXPECT_EQ(picture.image->colour(0, 1), (Rgb{0.25f, 0.25f, 0.25f}));
+    EXPECT_EQ(picture.wrap_u, Wrap::clamp);
+    EXPECT_EQ(picture.wrap_v, Wrap::clamp);
     EXPECT_TRUE(t.invert);
-    EXPECT_EQ(t.uv_scale, (Vec2{2, 1}));
-    EXPECT_EQ(t.uv_offset, (Vec2{0, 0.5f}));
+    EXPECT_EQ(picture.uv.scale, (Vec2{2, 1}));
+    EXPECT_EQ(picture.uv.offset, (Vec2{0, 0.5f}));
 }
 
 TEST(PbrtTextures, ShareThePictureOfAFile) {
@@ -141,64 +198,83 @@ TEST(PbrtTextures, ShareThePictureOfAFile) {
         pictures());
     const auto& a = scene.textures.at(model_of<DiffuseMaterial>(scene, 0).reflectance);
     const auto& b = scene.textures.at(model_of<DiffuseMaterial>(scene, 1).reflectance);
-    EXPECT_EQ(a.image, b.image);
+    EXPECT_EQ(std::get<ImageTexture>(a.pattern).image, std::get<ImageTexture>(b.pattern).image);
     EXPECT_EQ(b.scale, (Rgb{0.5f, 0.5f, 0.5f}));
 }
 
 const std::string picture = "Texture \"p\" \"spectrum\" \"imagemap\" \"string filename\" \"p.hdr\" ";
 
 TEST(PbrtTextures, LieWithTheirLowerEdgeAtZero) {
-    const Texture t = reflectance(picture + "Texture \"t\" \"spectrum\" \"scale\" \"texture tex\" \"p\"");
-    EXPECT_NEAR(pbrt::look_up(t, {0.25f, 0.75f}).r, 1, 1e-6f);      // upper left
-    EXPECT_NEAR(pbrt::look_up(t, {0.25f, 0.25f}).r, 0.25f, 1e-6f);  // lower left
-    EXPECT_NEAR(pbrt::look_up(t, {0.5f, 0.75f}).r, 0.75f, 1e-6f);   // between two pixels
-    EXPECT_NEAR(pbrt::look_up(t, {1.25f, -0.25f}).r, 1, 1e-6f);     // repeated
+    const std::string t = picture + "Texture \"t\" \"spectrum\" \"scale\" \"texture tex\" \"p\"";
+    EXPECT_NEAR(value_at(t, {0.25f, 0.75f}).r, 1, 1e-6f);      // upper left
+    EXPECT_NEAR(value_at(t, {0.25f, 0.25f}).r, 0.25f, 1e-6f);  // lower left
+    EXPECT_NEAR(value_at(t, {0.5f, 0.75f}).r, 0.75f, 1e-6f);   // between two pixels
+    EXPECT_NEAR(value_at(t, {1.25f, -0.25f}).r, 1, 1e-6f);     // repeated
 }
 
 TEST(PbrtTextures, MayBeScaled) {
     EXPECT_EQ(
         reflectance(picture + "Texture \"t\" \"spectrum\" \"scale\" \"texture tex\" \"p\" \"float scale\" .5").scale.r,
         0.5f);
-    const Texture product =
-        reflectance(picture +
-                    "Texture \"f\" \"float\" \"imagemap\" \"string filename\" \"p.hdr\"\n"
-                    "Texture \"t\" \"spectrum\" \"scale\" \"texture tex\" \"p\" \"texture scale\" \"f\"");
-    EXPECT_NEAR(pbrt::look_up(product, {0.75f, 0.75f}).g, 0.25f, 1e-6f);
+    const std::string product = picture +
+                                "Texture \"f\" \"float\" \"imagemap\" \"string filename\" \"p.hdr\"\n"
+                                "Texture \"t\" \"spectrum\" \"scale\" \"texture tex\" \"p\" \"texture scale\" \"f\"";
+    EXPECT_NEAR(value_at(product, {0.75f, 0.75f}).g, 0.25f, 1e-6f);
 }
 
 TEST(PbrtTextures, MayBeMixed) {
-    const Texture t = reflectance(
+    const std::string t =
         picture +
-        "Texture \"t\" \"spectrum\" \"mix\" \"texture tex1\" \"p\" \"rgb tex2\" [ 1 0 0 ] \"float amount\" .25");
-    EXPECT_NEAR(pbrt::look_up(t, {0.75f, 0.25f}).r, 0.25f, 1e-6f);
-    EXPECT_NEAR(pbrt::look_up(t, {0.25f, 0.75f}).g, 0.75f, 1e-6f);
+        "Texture \"t\" \"spectrum\" \"mix\" \"texture tex1\" \"p\" \"rgb tex2\" [ 1 0 0 ] \"float amount\" .25";
+    EXPECT_NEAR(value_at(t, {0.75f, 0.25f}).r, 0.25f, 1e-6f);
+    EXPECT_NEAR(value_at(t, {0.25f, 0.75f}).g, 0.75f, 1e-6f);
 }
 
 TEST(PbrtTextures, MayBeCheckerboards) {
-    const Texture t = reflectance(
+    const std::string t =
         "Texture \"t\" \"spectrum\" \"checkerboard\" \"float uscale\" 4 \"float vscale\" 2 \"rgb tex1\" [ 1 0 0 ] "
-        "\"rgb tex2\" [ 0 1 0 ]");
-    EXPECT_EQ(pbrt::look_up(t, {0.125f, 0.25f}), (Rgb{1, 0, 0}));
-    EXPECT_EQ(pbrt::look_up(t, {0.375f, 0.25f}), (Rgb{0, 1, 0}));
-    EXPECT_EQ(pbrt::look_up(t, {0.375f, 0.75f}), (Rgb{1, 0, 0}));
-    EXPECT_EQ(pbrt::look_up(t, {0.125f, 1.75f}), (Rgb{0, 1, 0}));
+        "\"rgb tex2\" [ 0 1 0 ]";
+    EXPECT_EQ(value_at(t, {0.125f, 0.25f}), (Rgb{1, 0, 0}));
+    EXPECT_EQ(value_at(t, {0.375f, 0.25f}), (Rgb{0, 1, 0}));
+    EXPECT_EQ(value_at(t, {0.375f, 0.75f}), (Rgb{1, 0, 0}));
+    EXPECT_EQ(value_at(t, {0.125f, 1.75f}), (Rgb{0, 1, 0}));
 }
 
-TEST(PbrtTextures, OfARoughnessGiveTheirMean) {
+TEST(PbrtTextures, MayRunBetweenFourCorners) {
+    const std::string t =
+        "Texture \"t\" \"spectrum\" \"bilerp\" \"rgb v00\" [ 0 0 0 ] \"rgb v10\" [ 1 0 0 ] \"rgb v01\" [ 0 1 0 ] "
+        "\"rgb v11\" [ 0 0 1 ]";
+    EXPECT_EQ(value_at(t, {0, 0}), (Rgb{0, 0, 0}));
+    EXPECT_EQ(value_at(t, {1, 0}), (Rgb{1, 0, 0}));
+    EXPECT_EQ(value_at(t, {0, 1}), (Rgb{0, 1, 0}));
+    EXPECT_NEAR(value_at(t, {0.5f, 0.25f}).r, 0.375f, 1e-6f);
+    EXPECT_NEAR(value_at(t, {0.5f, 0.25f}).b, 0.125f, 1e-6f);
+}
+
+TEST(PbrtTextures, VaryRoughness) {
     const auto scene = with(
-        "Texture \"f\" \"float\" \"imagemap\" \"string filename\" \"p.hdr\"\n"
+        "Texture \"f\" \"float\" \"imagemap\" \"string filename\" \"p.hdr\" \"float scale\" .5\n"
         "Material \"conductor\" \"texture roughness\" \"f\" \"bool remaproughness\" false",
         pictures());
-    EXPECT_NEAR(model_of<ConductorMaterial>(scene).alpha_u, 0.4375f, 1e-6f);
-    EXPECT_THAT(warnings_of(scene), HasSubstr("the mean of its texture is taken"));
+    const Roughness& rough = model_of<ConductorMaterial>(scene).roughness;
+    EXPECT_EQ(rough.u, 1);
+    EXPECT_EQ(rough.means, Roughness::Means::alpha);
+    EXPECT_NEAR(look_up(scene.textures, rough.texture.value(), {{0.25f, 0.75f}}).r, 0.5f, 1e-6f);
+    EXPECT_THAT(scene.warnings, IsEmpty());
 }
 
-TEST(PbrtTextures, OfUnsupportedClassesAreGrey) {
+TEST(PbrtTextures, OfUnsupportedClassesAreTheirMean) {
     const auto scene = with(
-        "Texture \"t\" \"spectrum\" \"marble\" \"integer octaves\" 8 Material \"diffuse\" \"texture reflectance\" "
-        "\"t\"");
+        "Texture \"t\" \"spectrum\" \"fbm\" \"integer octaves\" 8 Texture \"u\" \"spectrum\" \"fbm\"\n"
+        "Material \"diffuse\" \"texture reflectance\" \"t\"");
     EXPECT_EQ(colour_of(scene, model_of<DiffuseMaterial>(scene).reflectance), (Rgb{0.5f, 0.5f, 0.5f}));
-    EXPECT_THAT(warnings_of(scene), HasSubstr("textures of class 'marble' are not supported; grey 0.5 stands for it"));
+    EXPECT_THAT(warnings_of(scene), HasSubstr("textures of class 'fbm' are not supported"));
+    EXPECT_THAT(warnings_of(scene), HasSubstr("(2 times)"));
+}
+
+TEST(PbrtTextures, OfAnotherKindAreNamed) {
+    EXPECT_THAT(errors_of_world("Texture \"t\" \"float\" \"constant\" Material \"diffuse\" \"texture reflectance\" \"t\""),
+                HasSubstr("there is no spectrum texture 't' above (that one is of kind 'float')"));
 }
 
 }  // namespace

@@ -110,7 +110,7 @@ void Builder::finish() {
     for (const auto& open : stack_) sources_.report.error(open.where, "this block is never closed");
     check_uses();
     if (!in_world_) sources_.report.error({sources_.main, 0}, "there is no WorldBegin, and so no scene");
-    pictures_.finish();  // waits for the meshes as well
+    textures_.finish();  // waits for the meshes as well
     finish_shapes();
     finish_film();
     scene_.warnings = sources_.report.warnings();

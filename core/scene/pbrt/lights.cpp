@@ -127,7 +127,7 @@ void infinite_light(const Making& making) {
     const auto colour = strength(parameters, making.sources, "L");
     const std::string file = picture_file(parameters, "L");
     if (!file.empty()) {
-        environment.image = making.textures.pictures().get(file, {}, Wanted::colours, parameters.where());
+        environment.image = making.textures.pictures().get(file, {}, parameters.where());
         if (!environment.image) return;
         making.textures.pictures().finish();  // its shape tells how it is laid out
         environment.layout = layout_of(*environment.image);
@@ -151,7 +151,7 @@ void goniometric_light(const Making& making) {
     const std::string file = picture_file(parameters, "");
     float mean = 1;
     if (!file.empty()) {
-        const auto image = making.textures.pictures().get(file, {}, Wanted::numbers, parameters.where());
+        const auto image = making.textures.pictures().get(file, {}, parameters.where());
         making.textures.pictures().finish();
         if (image) mean = mean_luminance(*image);
         parameters.warn("a goniometric light is taken as a point light with the same power in all directions");
@@ -169,7 +169,7 @@ void projection_light(const Making& making) {
     const float fov = parameters.number("fov", 90);
     if (!(fov > 0 && fov < 180)) parameters.error("'fov' must be between 0 and 180 degrees");
     const auto image = file.empty() ? nullptr
-                                    : making.textures.pictures().get(file, {}, Wanted::colours, parameters.where());
+                                    : making.textures.pictures().get(file, {}, parameters.where());
     making.textures.pictures().finish();
     const auto axis = axis_of(making, {}, {0, 0, 1});
     if (!image || !colour || !axis) return;
@@ -216,7 +216,7 @@ std::optional<AreaLight> make_area_light(const std::string& type, Parameters& pa
     const auto colour = strength(parameters, sources, "L");
     if (const std::string file = picture_file(parameters, "L"); !file.empty()) {
         ImageTexture picture;
-        picture.image = textures.pictures().get(file, {}, Wanted::colours, parameters.where());
+        picture.image = textures.pictures().get(file, {}, parameters.where());
         if (picture.image && light.power) {
             textures.pictures().finish();
             light.brightness = mean_luminance(*picture.image);

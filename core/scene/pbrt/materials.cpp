@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <string_view>
 #include <utility>
@@ -40,14 +39,11 @@ Roughness roughness(Parameters& parameters, const MaterialSources& sources, cons
     auto& textures = sources.textures;
     const auto number = [&](const char* name) { return textures.maybe_number(parameters, prefix + name); };
     const auto both = number("roughness"), u = number("uroughness"), v = number("vroughness");
-    const bool remap = parameters.boolean("remaproughness", true);
-    if (!both && !u && !v)
-        return {remap ? std::sqrt(fallback) : fallback, remap ? std::sqrt(fallback) : fallback, {}, {}};
+    const auto means = parameters.boolean("remaproughness", true) ? Roughness::Means::root : Roughness::Means::alpha;
     const TextureId other = both ? *both : textures.constant({fallback, fallback, fallback});
     Roughness rough = textured(textures, u.value_or(other), v.value_or(other), parameters);
     rough.u = std::max(rough.u, 0.0f), rough.v = std::max(rough.v, 0.0f);
-    if (remap && rough.texture) rough.means = Roughness::Means::root;
-    if (remap && !rough.texture) rough.u = std::sqrt(rough.u), rough.v = std::sqrt(rough.v);
+    rough.means = means;
     return rough;
 }
 

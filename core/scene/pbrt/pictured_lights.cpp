@@ -19,8 +19,12 @@ double height(double u, double v) {
 
 Rgb mean_colour(const Image& image) {
     double r = 0, g = 0, b = 0;
-    for (const Rgb& p : image.pixels) r += p.r, g += p.g, b += p.b;
-    const double n = image.pixels.empty() ? 1 : double(image.pixels.size());
+    for (std::uint32_t y = 0; y < image.height; ++y)
+        for (std::uint32_t x = 0; x < image.width; ++x) {
+            const Rgb p = image.colour(x, y);
+            r += p.r, g += p.g, b += p.b;
+        }
+    const double n = image.empty() ? 1 : double(image.width) * image.height;
     return {float(r / n), float(g / n), float(b / n)};
 }
 
@@ -40,9 +44,9 @@ float upper_illuminance(const EnvironmentData& environment) {
             // solid angle of a pixel: 4π by their number, or by the latitude
             const double weight = square ? 4 * pi : 2 * pi * pi * std::sin(pi * v);
             if (cosine > 0)
-                sum += double(luminance(image.pixels[std::size_t{y} * image.width + x])) * weight * cosine;
+                sum += double(luminance(image.colour(x, y))) * weight * cosine;
         }
-    return float(sum / double(image.pixels.empty() ? 1 : image.pixels.size()));
+    return float(sum / (image.empty() ? 1 : double(image.width) * image.height));
 }
 
 }  // namespace lightnet::pbrt

@@ -2,30 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <exception>
 #include <utility>
 
 namespace lightnet::pbrt {
 namespace {
 
-constexpr std::uint64_t most_pixels = std::uint64_t{1} << 28;  // 3 GB
-
-void reduce_to_numbers(Image& image) {
-    const bool opaque = std::all_of(image.alpha.begin(), image.alpha.end(), [](float a) { return a == 1; });
-    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-        Rgb& p = image.pixels[i];
-        const float number = opaque ? (p.r + p.g + p.b) / 3 : image.alpha[i];
-        p = {number, number, number};
-    }
-    image.alpha = {};
-}
+constexpr std::uint64_t most_pixels = std::uint64_t{1} << 28;  // of up to 16 bytes
 
 }  // namespace
 
-std::shared_ptr<const Image> Pictures::get(const std::string& name, const Encoding& encoding, Wanted wanted,
+std::shared_ptr<const Image> Pictures::get(const std::string& name, const Encoding& encoding,
                                            const SourceLine& where) {
-    const Key key{sources_.path(name), encoding.curve, encoding.gamma, wanted};
+    const Key key{sources_.path(name), encoding.curve, encoding.gamma};
     if (const auto known = known_.find(key); known != known_.end()) return known->second;
     const auto bytes = sources_.read(name, where);
     if (!bytes) {
@@ -35,16 +24,15 @@ std::shared_ptr<const Image> Pictures::get(const std::string& name, const Encodi
     orders_.push_back(std::make_unique<Order>(Order{name, where, std::make_shared<Image>(), {}}));
     Order& order = *orders_.back();
     known_.emplace(key, order.image);
-    workshop_.add([this, &order, bytes = *bytes, encoding, wanted] { decode(order, bytes, encoding, wanted); });
+    workshop_.add([this, &order, bytes = *bytes, encoding] { decode(order, bytes, encoding); });
     return order.image;
 }
 
-void Pictures::decode(Order& order, const Bytes& bytes, const Encoding& encoding, Wanted wanted) {
+void Pictures::decode(Order& order, const Bytes& bytes, const Encoding& encoding) {
     if (pixels_ > most_pixels) return;
     try {
         Image image = read_image(*bytes, encoding);
-        pixels_ += image.pixels.size();
-        if (wanted == Wanted::numbers) reduce_to_numbers(image);
+        pixels_ += std::uint64_t{image.width} * image.height;
         *order.image = std::move(image);
     } catch (const std::exception& problem) {
         order.problem = problem.what();

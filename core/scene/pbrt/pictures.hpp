@@ -16,17 +16,13 @@
 
 namespace lightnet::pbrt {
 
-/// What is wanted of a picture: its colours, or one number per pixel as pbrt's float textures take it (alpha where
-/// the picture has some, else the mean of the three).
-enum class Wanted { colours, numbers };
-
-/// Each file, encoding and use is decoded once. Called from one thread.
+/// Each file and encoding is decoded once. Called from one thread.
 class Pictures {
 public:
     Pictures(const Sources& sources, Workshop& workshop) : sources_(sources), workshop_(workshop) {}
 
     /// A picture that is empty until finish(). None: the file can't be read, which is reported.
-    std::shared_ptr<const Image> get(const std::string& name, const Encoding& encoding, Wanted wanted,
+    std::shared_ptr<const Image> get(const std::string& name, const Encoding& encoding,
                                      const SourceLine& where);
     /// Waits until all pictures are there. Broken ones stay empty and are reported, in the order in which they came.
     void finish();
@@ -38,9 +34,9 @@ private:
         std::shared_ptr<Image> image;
         std::string problem;  // "": none
     };
-    using Key = std::tuple<std::string, Encoding::Curve, float, Wanted>;
+    using Key = std::tuple<std::string, Encoding::Curve, float>;
 
-    void decode(Order& order, const Bytes& bytes, const Encoding& encoding, Wanted wanted);
+    void decode(Order& order, const Bytes& bytes, const Encoding& encoding);
 
     const Sources& sources_;
     Workshop& workshop_;

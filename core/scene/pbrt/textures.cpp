@@ -66,6 +66,23 @@ TextureId Textures::add(Texture texture) {
     return static_cast<TextureId>(scene_.textures.size() - 1);
 }
 
+void Textures::finish() {
+    pictures_.finish();
+    std::map<const Image*, bool> translucent;
+    const auto is_translucent = [&](const Image* image) {
+        const auto [place, fresh] = translucent.try_emplace(image, false);
+        if (fresh && image->has_alpha())
+            for (std::uint32_t y = 0; y < image->height && !place->second; ++y)
+                for (std::uint32_t x = 0; x < image->width && !place->second; ++x)
+                    place->second = image->alpha(x, y) != 1;
+        return place->second;
+    };
+    for (auto& texture : scene_.textures)
+        if (auto* picture = std::get_if<ImageTexture>(&texture.pattern);
+            picture && picture->channel == ImageTexture::Channel::mean && is_translucent(picture->image.get()))
+            picture->channel = ImageTexture::Channel::alpha;
+}
+
 void Textures::define(const std::string& name, const std::string& kind, const std::string& type,
                       Parameters& parameters) {
     if (kind != "float" && kind != "spectrum") {
@@ -80,7 +97,8 @@ void Textures::define(const std::string& name, const std::string& kind, const st
 }
 
 std::optional<Texture> Textures::make(const std::string& type, Named& named, Parameters& parameters) {
-    if (type == "imagemap") return imagemap(parameters, &named == &floats_ ? Wanted::numbers : Wanted::colours);
+    if (type == "imagemap") 
+        return imagemap(parameters, &named == &floats_ ? ImageTexture::Channel::mean : ImageTexture::Channel::colour);
     if (type == "constant") return scene_.textures[input(named, parameters, "value", 1)];
     if (type == "scale") return scale(named, parameters);
     if (type == "mix") return mix(named, parameters);
@@ -107,15 +125,16 @@ Texture Textures::unsupported(const std::string& type, Parameters& parameters, R
     return {mean, {}, false};
 }
 
-Texture Textures::imagemap(Parameters& parameters, Wanted wanted) {
+Texture Textures::imagemap(Parameters& parameters, ImageTexture::Channel channel) {
     ImageTexture pattern;
+    pattern.channel = channel;
     pattern.uv = laid(parameters);
     const Encoding encoding = encoding_of(parameters);
     const std::string file = parameters.text("filename", "");
     if (file.empty())
         parameters.error("parameter 'filename' is missing");
     else
-        pattern.image = pictures_.get(file, encoding, wanted, parameters.where());
+        pattern.image = pictures_.get(file, encoding, parameters.where());
     pattern.wrap_u = pattern.wrap_v = wrap_of(parameters);
     pattern.nearest = nearest(parameters);
     const Rgb scale = all(parameters.number("scale", 1));
@@ -264,7 +283,7 @@ std::optional<TextureId> Textures::maybe_number(Parameters& parameters, std::str
 
 std::optional<TextureId> Textures::plain_picture(const std::string& file, const SourceLine& where) {
     ImageTexture pattern;
-    pattern.image = pictures_.get(file, {Encoding::Curve::linear, 1}, Wanted::colours, where);
+    pattern.image = pictures_.get(file, {Encoding::Curve::linear, 1}, where);
     if (!pattern.image) return std::nullopt;
     return add({{1, 1, 1}, std::move(pattern), false});
 }

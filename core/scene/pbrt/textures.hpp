@@ -39,13 +39,15 @@ public:
     /// The product of a texture and a number.
     TextureId scaled(TextureId texture, float factor);
 
+    /// Once all pictures are there: pbrt takes a number from a picture's alpha, if that is not 1 everywhere.
+    void finish();
     Pictures& pictures() { return pictures_; }
 
 private:
     using Named = std::map<std::string, TextureId, std::less<>>;
 
     std::optional<Texture> make(const std::string& type, Named& named, Parameters& parameters);
-    Texture imagemap(Parameters& parameters, Wanted wanted);
+    Texture imagemap(Parameters& parameters, ImageTexture::Channel channel);
     Texture scale(Named& named, Parameters& parameters);
     Texture mix(Named& named, Parameters& parameters);
     Texture direction_mix(Named& named, Parameters& parameters);
