@@ -20,6 +20,7 @@
 #include "core/runtime/master_renderer.hpp"
 #include "core/runtime/serial.hpp"
 #include "core/scene/read_scene.hpp"
+#include "core/runtime/load_scene.hpp"
 #include "tools/exit_code.hpp"
 #include "tools/run_book.hpp"
 #include "tools/signals.hpp"
@@ -145,8 +146,11 @@ int Run::perform() {
     check_output(request_.output);
     try {
         book_.phase("load");
-        DiskFiles files;
-        auto scene = read_scene(files, request_.scene);
+        const auto read = request_.read ? request_.read : std::make_shared<ReadScene>();
+        DiskFiles& files = read->files;
+        if (!request_.read) read->scene = read_scene(files, request_.scene);
+        SceneData scene = std::move(read->scene);
+        override_scene(request_.graph, registry_, files, scene);
         for (const auto& warning : scene.warnings) book_.warn(to_string(warning));
         const float scale = scene.film.scale;
         job_ = make_job(files);

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
-#include "core/scene/read_scene.hpp"
+#include "core/runtime/load_scene.hpp"
 
 namespace lightnet {
 
@@ -85,7 +85,7 @@ Job job_from_json(std::string_view text) {
 }
 
 std::shared_ptr<const Network> build_network(const Job& job, const Registry& registry, Files& files) {
-    return build_network(job, registry, read_scene(files, job.scene));
+    return build_network(job, registry, load_scene(job.graph, registry, files, job.scene));
 }
 
 std::shared_ptr<const Network> build_network(const Job& job, const Registry& registry, SceneData scene) {
