@@ -59,7 +59,8 @@ struct Kind {
     std::string help;              // what it does, one line
     std::size_t least_inputs = 0;  // light inputs, from the array part
     std::size_t most_inputs = 0;
-    bool linear = false;  // answers with a weighted sum of its inputs: layers pass through
+    bool prepares = false;  // learns something before the first question: LightOp::prepare()
+    bool linear = false;    // answers with a weighted sum of its inputs: layers pass through
     std::vector<Param> params = {};
     std::function<std::unique_ptr<LightOp>(const NodeContext&)> make_light = {};
     std::function<std::unique_ptr<Renderer>(const NodeContext&)> make_renderer = {};
