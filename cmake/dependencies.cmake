@@ -6,6 +6,7 @@ find_package(OpenEXR 3 CONFIG REQUIRED)                    # pictures out (core/
 find_package(PNG REQUIRED)                                 # pictures out, textures in
 find_package(ZLIB REQUIRED)                                # packed scene files
 find_package(JPEG REQUIRED)                                # textures in
+find_package(pugixml REQUIRED)                             # scenes in XML (core/scene/mitsuba)
 find_package(Boost 1.74 REQUIRED COMPONENTS context)       # fibers (core/runtime)
 find_package(fmt REQUIRED)                                 # text: g++ 12 has no std::format
 find_package(nlohmann_json REQUIRED)                       # canonical text of graphs and plans, run.json
