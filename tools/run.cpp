@@ -100,7 +100,7 @@ public:
 
 private:
     FilmFormat format() const;
-    Job make_job(const DiskFiles& files) const;
+    Job make_job(DiskFiles& files) const;
     void report_failure();
     void render_serially(SceneData scene);
     void render_in_threads(SceneData scene);
@@ -127,11 +127,11 @@ FilmFormat Run::format() const {
             static_cast<std::uint32_t>(std::get<double>(samples.data))};
 }
 
-Job Run::make_job(const DiskFiles& files) const {
+Job Run::make_job(DiskFiles& files) const {
     Job job;
     job.graph = request_.graph;
     job.scene = request_.scene;
-    for (const auto& [path, bytes] : files.seen()) job.files.push_back({path, content_hash(*bytes), bytes->size()});
+    for (const auto& [path, hash] : files.hashes()) job.files.push_back({path, hash, files.seen().at(path)->size()});
     job.seed = request_.seed;
     job.isa = usual_isa();
     job.width = format_.width;
