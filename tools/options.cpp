@@ -15,9 +15,9 @@
 namespace lightnet {
 namespace {
 
-const std::vector<std::pair<std::string, Verb>> verbs{
-    {"run", Verb::run}, {"render", Verb::render},     {"check", Verb::check},
-    {"dot", Verb::dot}, {"describe", Verb::describe}, {"scene", Verb::scene_info}};
+const std::vector<std::pair<std::string, Verb>> verbs{{"run", Verb::run},           {"render", Verb::render},
+                                                      {"check", Verb::check},       {"dot", Verb::dot},
+                                                      {"describe", Verb::describe}, {"scene", Verb::scene_info}};
 
 std::optional<std::uint32_t> side_of(std::string_view text) {
     std::uint32_t side = 0;
@@ -164,7 +164,8 @@ private:
                         "file, whose scene this one replaces")
             ->type_name("path|direct|ao|GRAPH.lua")
             ->capture_default_str();
-        verb.add_option("--env", options_.environment, "what is around the scene: a picture, or a colour like 1,0.9,0.8")
+        verb.add_option("--env", options_.environment,
+                        "what is around the scene: a picture, or a colour like 1,0.9,0.8")
             ->type_name("FILE|COLOUR");
         verb.add_option("--exposure", options_.exposure, "how many times the picture becomes twice as bright")
             ->type_name("STOPS");
@@ -215,6 +216,9 @@ private:
         add("--tile", tuning.tile, 1, 256, "pixels along a side of a tile");
         add("--bundle", tuning.bundle, 1, 65536, "questions in a full bundle");
         add("--credit", tuning.credit, 1, 1024, "bundles under way to one place, per node asked");
+        verb.add_option("--cache", tuning.cache, "where what nodes prepare is kept from run to run; 'none': nowhere")
+            ->type_name("FOLDER")
+            ->group("Tuning");
         add("--spare-fibers", tuning.spare_fibers, 0, 4096, "fibers of a place beside one per node");
     }
 

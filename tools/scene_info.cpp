@@ -58,16 +58,16 @@ void line(std::ostream& out, std::string_view what, const std::string& text) {
 void print(const SceneData& scene, const SceneStatistics& found, std::ostream& out) {
     line(out, "triangles",
          fmt::format("{} in {} meshes, {} with all instances", found.triangles, found.meshes, found.seen_triangles));
-    line(out, "shapes", fmt::format("{} spheres, {} objects, {} instances", found.spheres, found.objects,
-                                    found.instances));
+    line(out, "shapes",
+         fmt::format("{} spheres, {} objects, {} instances", found.spheres, found.objects, found.instances));
     line(out, "materials", counts_text(found.materials));
     line(out, "lights", counts_text(found.lights));
     line(out, "textures",
          fmt::format("{}, {} pictures, {}", found.textures, found.pictures, mebibytes(found.picture_bytes)));
     line(out, "bounds", point_text(found.least) + " to " + point_text(found.most));
     line(out, "camera", camera_text(scene));
-    line(out, "film", fmt::format("{} x {}, brightness times {:.4g}", scene.film.width, scene.film.height,
-                                  scene.film.scale));
+    line(out, "film",
+         fmt::format("{} x {}, brightness times {:.4g}", scene.film.width, scene.film.height, scene.film.scale));
 }
 
 }  // namespace

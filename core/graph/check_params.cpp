@@ -151,7 +151,8 @@ private:
             if (field == names.end())
                 inside("unknown entry " + quoted(name) + suggest(name, names));
             else
-                ParamCheck(param_.fields[static_cast<std::size_t>(field - names.begin())], node_, graph_, inside)(entry);
+                ParamCheck(param_.fields[static_cast<std::size_t>(field - names.begin())], node_, graph_,
+                           inside)(entry);
         }
     }
 
@@ -164,7 +165,8 @@ private:
                                const auto* part = std::get_if<double>(&entry.data);
                                return part && std::isfinite(*part) && *part >= 0;
                            });
-        if (!sound) complain_(quoted(param_.name) + " must be a colour of three numbers, 0 or more, or the name of a file");
+        if (!sound)
+            complain_(quoted(param_.name) + " must be a colour of three numbers, 0 or more, or the name of a file");
     }
 
     void film(const Value& value) const {

@@ -41,7 +41,8 @@ Kind scene_kind() {
          .fields = camera_fields()},
         {.name = "environment",
          .type = ParamType::surrounding,
-         .help = "instead of what the file has around the scene; pictures: square ones have equal areas, others latitudes",
+         .help =
+             "instead of what the file has around the scene; pictures: square ones have equal areas, others latitudes",
          .optional = true},
         {.name = "environment_scale", .help = "times what is around the scene", .initial = Value{1.0}, .least = 0},
         {.name = "exposure",

@@ -28,7 +28,7 @@ std::optional<Vec3> point(const Values& values, const std::string& name) {
 }
 
 CameraOverride camera_of(const Values& camera) {
-    return {point(camera, "from"),  point(camera, "to"),    point(camera, "up"),
+    return {point(camera, "from"), point(camera, "to"),    point(camera, "up"),
             number(camera, "fov"), number(camera, "lens"), number(camera, "focus")};
 }
 

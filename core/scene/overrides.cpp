@@ -73,8 +73,7 @@ EnvironmentData picture_around(const std::string& path, const SceneData& scene, 
         throw UserError(where, "'environment': can't read '" + path + "': " + problem.what());
     }
     const bool square = environment.image->width == environment.image->height;
-    environment.layout =
-        square ? EnvironmentData::Layout::equal_area : EnvironmentData::Layout::latitude_longitude;
+    environment.layout = square ? EnvironmentData::Layout::equal_area : EnvironmentData::Layout::latitude_longitude;
     environment.to_world = stand_up(square ? 2 : 1, upwards(scene));
     return environment;
 }

@@ -85,9 +85,9 @@ struct NamedIndex {
 };
 
 // Ag, Al, Au, Cu: the usual RGB values of the measurements (Johnson & Christy 1972, Rakić 1995), as in Mitsuba and
-// Tungsten. The rest: indices at 610, 550 and 465 nm. Brass: Querry 1985; magnesia: Stephens & Malitson 1952; rutile: the
-// extraordinary ray, Devore 1951. Glasses: Schott's Sellmeier coefficients; those that pbrt calls F are the dense flints
-// SF5, SF10 and SF11.
+// Tungsten. The rest: indices at 610, 550 and 465 nm. Brass: Querry 1985; magnesia: Stephens & Malitson 1952; rutile:
+// the extraordinary ray, Devore 1951. Glasses: Schott's Sellmeier coefficients; those that pbrt calls F are the dense
+// flints SF5, SF10 and SF11.
 constexpr std::array<NamedIndex, 21> indices{
     {{"metal-Ag-eta", {0.155265f, 0.116723f, 0.138342f}}, {"metal-Ag-k", {4.828370f, 3.122485f, 2.146969f}},
      {"metal-Al-eta", {1.657460f, 0.880369f, 0.521229f}}, {"metal-Al-k", {9.223869f, 6.269523f, 4.837001f}},
@@ -107,13 +107,22 @@ struct NamedLight {
 };
 
 // CIE 15:2004, tables T.3 and T.8; D60 of ACES by SMPTE ST 2065-1.
-constexpr std::array<NamedLight, 16> lights{
-    {{"stdillum-D65", 0.31272, 0.32903}, {"stdillum-D50", 0.34567, 0.35851}, {"stdillum-A", 0.44758, 0.40745},
-     {"stdillum-F1", 0.3131, 0.3371},    {"stdillum-F2", 0.3721, 0.3751},    {"stdillum-F3", 0.4091, 0.3941},
-     {"stdillum-F4", 0.4402, 0.4031},    {"stdillum-F5", 0.3138, 0.3452},    {"stdillum-F6", 0.3779, 0.3882},
-     {"stdillum-F7", 0.3129, 0.3292},    {"stdillum-F8", 0.3458, 0.3586},    {"stdillum-F9", 0.3741, 0.3727},
-     {"stdillum-F10", 0.3458, 0.3588},   {"stdillum-F11", 0.3805, 0.3769},   {"stdillum-F12", 0.4370, 0.4042},
-     {"illum-acesD60", 0.32168, 0.33767}}};
+constexpr std::array<NamedLight, 16> lights{{{"stdillum-D65", 0.31272, 0.32903},
+                                             {"stdillum-D50", 0.34567, 0.35851},
+                                             {"stdillum-A", 0.44758, 0.40745},
+                                             {"stdillum-F1", 0.3131, 0.3371},
+                                             {"stdillum-F2", 0.3721, 0.3751},
+                                             {"stdillum-F3", 0.4091, 0.3941},
+                                             {"stdillum-F4", 0.4402, 0.4031},
+                                             {"stdillum-F5", 0.3138, 0.3452},
+                                             {"stdillum-F6", 0.3779, 0.3882},
+                                             {"stdillum-F7", 0.3129, 0.3292},
+                                             {"stdillum-F8", 0.3458, 0.3586},
+                                             {"stdillum-F9", 0.3741, 0.3727},
+                                             {"stdillum-F10", 0.3458, 0.3588},
+                                             {"stdillum-F11", 0.3805, 0.3769},
+                                             {"stdillum-F12", 0.4370, 0.4042},
+                                             {"illum-acesD60", 0.32168, 0.33767}}};
 
 Rgb of_chromaticity(double x, double y) {
     const auto c = to_rgb(x / y, 1, (1 - x - y) / y);

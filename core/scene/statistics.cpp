@@ -54,9 +54,8 @@ std::uint64_t triangles_of(const Shape& shape) {
 
 const char* name_of(const Material& material) {
     // in the order of the variant
-    static constexpr std::array names{"diffuse",         "conductor",  "dielectric", "coated diffuse",
-                                      "coated conductor", "principled", "mixture",    "two-faced",
-                                      "nothing"};
+    static constexpr std::array names{"diffuse",    "conductor", "dielectric", "coated diffuse", "coated conductor",
+                                      "principled", "mixture",   "two-faced",  "nothing"};
     static_assert(names.size() == std::variant_size_v<decltype(Material::model)>);
     return names[material.model.index()];
 }

@@ -11,7 +11,8 @@ void read(std::span<const std::byte> bytes) {
     files.add("scene.pbrt", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     files.add("part.pbrt", "Include \"scene.pbrt\"\n");
     files.add("mesh.ply", meshes().seeds().front());
-    files.add("picture.hdr", std::string("#?RADIANCE\n\n-Y 1 +X 2\n") + std::string("\x80\x40\x20\x81\x80\x40\x20\x81", 8));
+    files.add("picture.hdr",
+              std::string("#?RADIANCE\n\n-Y 1 +X 2\n") + std::string("\x80\x40\x20\x81\x80\x40\x20\x81", 8));
     try {
         (void)read_scene(files, "scene.pbrt");
     } catch (const UserError&) {

@@ -23,9 +23,11 @@ std::string problems_of(const std::string& changes) {
 }
 
 TEST(CheckScene, TakesAllThatItDescribes) {
-    EXPECT_THAT(problems_of("camera = { from = { 1, 2, 3 }, to = { 0, 0, 0 }, up = { 0, 1, 0 }, fov = 40, lens = 0.1, focus = 4 },"
-                            "environment = 'sky.exr', environment_scale = 2, exposure = -1.5, material = 'clay'"),
-                IsEmpty());
+    EXPECT_THAT(
+        problems_of(
+            "camera = { from = { 1, 2, 3 }, to = { 0, 0, 0 }, up = { 0, 1, 0 }, fov = 40, lens = 0.1, focus = 4 },"
+            "environment = 'sky.exr', environment_scale = 2, exposure = -1.5, material = 'clay'"),
+        IsEmpty());
     EXPECT_THAT(problems_of("environment = { 0.5, 0.6, 0.7 }"), IsEmpty());
 }
 
@@ -40,19 +42,22 @@ TEST(CheckScene, SaysWhatEachEntryMustBe) {
     EXPECT_THAT(problems_of("camera = 3"), HasSubstr("'camera' must be a table with names, not a number"));
     EXPECT_THAT(problems_of("camera = { 3 }"), HasSubstr("'camera' must be a table with names"));
     EXPECT_THAT(problems_of("camera = { from = { 1, 2 } }"), HasSubstr("'camera': 'from' must have 3 numbers, not 2"));
-    EXPECT_THAT(problems_of("camera = { fov = 180 }"), HasSubstr("'camera': 'fov' is 180, but must be 0.001 … 179 degrees"));
+    EXPECT_THAT(problems_of("camera = { fov = 180 }"),
+                HasSubstr("'camera': 'fov' is 180, but must be 0.001 … 179 degrees"));
     EXPECT_THAT(problems_of("camera = { lens = -1, focus = 'near' }"),
                 testing::AllOf(HasSubstr("'lens' is -1"), HasSubstr("'focus' must be a number, not a text")));
     EXPECT_THAT(problems_of("environment = { 1, 2 }"), HasSubstr("'environment' must be a colour of three numbers"));
-    EXPECT_THAT(problems_of("environment = { 1, 2, -3 }"), HasSubstr("'environment' must be a colour of three numbers"));
+    EXPECT_THAT(problems_of("environment = { 1, 2, -3 }"),
+                HasSubstr("'environment' must be a colour of three numbers"));
     EXPECT_THAT(problems_of("environment = true"), HasSubstr("'environment' must be the name of a file or a colour"));
     EXPECT_THAT(problems_of("environment_scale = -1"), HasSubstr("'environment_scale' is -1"));
     EXPECT_THAT(problems_of("exposure = 100"), HasSubstr("'exposure' is 100"));
 }
 
 TEST(Describe, TellsTheEntriesOfATable) {
-    EXPECT_THAT(describe(*test::fake_registry().find("Scene")),
-                HasSubstr("fov    angle across the shorter side of the picture: number, in degrees, optional, 0.001 … 179\n"));
+    EXPECT_THAT(
+        describe(*test::fake_registry().find("Scene")),
+        HasSubstr("fov    angle across the shorter side of the picture: number, in degrees, optional, 0.001 … 179\n"));
 }
 
 }  // namespace

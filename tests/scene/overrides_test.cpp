@@ -72,7 +72,8 @@ TEST(SceneOverrides, OfACameraMustSpanAView) {
     CameraOverride change;
     change.from = Vec3{0, 5, 0};
     change.to = Vec3{};
-    EXPECT_THAT(error_of(with_camera(), camera(change)), HasSubstr("g.lua:3: 'camera': 'from', 'to' and 'up' must span"));
+    EXPECT_THAT(error_of(with_camera(), camera(change)),
+                HasSubstr("g.lua:3: 'camera': 'from', 'to' and 'up' must span"));
     change.to.reset();
     EXPECT_THAT(error_of({}, camera(change)), HasSubstr("both 'from' and 'to' must be given"));
 }

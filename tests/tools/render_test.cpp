@@ -95,7 +95,8 @@ TEST(Render, LightsByAnyGraph) {
 TEST(Render, SaysWhatIsWrong) {
     Bench lightnet;
     EXPECT_EQ(lightnet({"render", lightnet.scene, "--lighting", "pth"}), 2);
-    EXPECT_THAT(lightnet.err, HasSubstr("must be path, direct, ao or a graph file (.lua), not 'pth' (did you mean 'path'?)"));
+    EXPECT_THAT(lightnet.err,
+                HasSubstr("must be path, direct, ao or a graph file (.lua), not 'pth' (did you mean 'path'?)"));
     EXPECT_EQ(lightnet({"render", lightnet.scene, "--env", "no.exr"}), 2);
     EXPECT_THAT(lightnet.err, HasSubstr("no.exr'"));
     EXPECT_EQ(lightnet({"render", "no.pbrt"}), 2);
@@ -108,9 +109,9 @@ TEST(Render, SaysWhatIsWrong) {
 TEST(SceneInfo, TellsWhatIsInAFile) {
     Bench lightnet;
     EXPECT_EQ(lightnet({"scene", "info", lightnet.scene}), 0) << lightnet.err;
-    for (const char* part : {"0 in 0 meshes", "1 spheres", "1 diffuse", "1 even environments", "(-1, -1, -1) to (1, 1, 1)",
-                             "perspective, 90 degrees", "30 x 20", "s to read", "MiB in all",
-                             "ball.pbrt:6: participating media are not supported"})
+    for (const char* part : {"0 in 0 meshes", "1 spheres", "1 diffuse", "1 even environments",
+                             "(-1, -1, -1) to (1, 1, 1)", "perspective, 90 degrees", "30 x 20", "s to read",
+                             "MiB in all", "ball.pbrt:6: participating media are not supported"})
         EXPECT_THAT(lightnet.out, HasSubstr(part));
 }
 
