@@ -24,8 +24,7 @@ void Workshop::add(std::function<void()> piece) {
         return piece();
     }
     pieces_.push_back(std::move(piece));
-    if (threads_.size() < most_threads_)
-        threads_.emplace_back([this](const std::stop_token& stop) { work(stop); });
+    if (threads_.size() < most_threads_) threads_.emplace_back([this](const std::stop_token& stop) { work(stop); });
     came_.notify_one();
 }
 

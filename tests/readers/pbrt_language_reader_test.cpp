@@ -156,8 +156,7 @@ TEST(PbrtAttributes, FillInWhatAStatementLeavesOut) {
 }
 
 TEST(PbrtObjects, StandOnceHoweverManyInstancesThereAre) {
-    const auto scene = read_world("ObjectBegin \"pair\" Translate 0 1 0 " + ball + triangle +
-                                  "ObjectEnd\n" + ball +
+    const auto scene = read_world("ObjectBegin \"pair\" Translate 0 1 0 " + ball + triangle + "ObjectEnd\n" + ball +
                                   "Translate 5 0 0 ObjectInstance \"pair\" Translate 5 0 0 ObjectInstance \"pair\"");
     ASSERT_THAT(scene.shapes, SizeIs(3));
     ASSERT_THAT(scene.objects, SizeIs(1));

@@ -69,7 +69,8 @@ TEST(PbrtDistantLights, ShineFromOnePointToAnother) {
 
 TEST(PbrtLights, WithPicturesOfDirectionsAreApproximated) {
     const MemoryFiles files{{"p.hdr", picture(2, 2)}};
-    const auto round = read_world("LightSource \"goniometric\" \"string filename\" \"p.hdr\" \"rgb I\" [ 2 2 2 ]", files);
+    const auto round =
+        read_world("LightSource \"goniometric\" \"string filename\" \"p.hdr\" \"rgb I\" [ 2 2 2 ]", files);
     EXPECT_GT(std::get<PointLight>(round.lights.at(0)).intensity.r, 0.5f);
     EXPECT_THAT(warnings_of(round), HasSubstr("taken as a point light"));
     const auto slide = read_world("LightSource \"projection\" \"string filename\" \"p.hdr\" \"float fov\" 60", files);
@@ -151,13 +152,15 @@ TEST(PbrtCameras, OfOtherTypesAreApproximated) {
 }
 
 TEST(PbrtFilms, ScaleByIsoAndExposureTime) {
-    const auto scene = read_text("Camera \"perspective\" \"float shutterclose\" .5 Film \"rgb\" \"float iso\" 400\nWorldBegin");
+    const auto scene =
+        read_text("Camera \"perspective\" \"float shutterclose\" .5 Film \"rgb\" \"float iso\" 400\nWorldBegin");
     EXPECT_EQ(scene.film.scale, 2);
 }
 
 TEST(PbrtFilms, ShowTheLightOfTheirWhiteBalanceAsWhite) {
     const auto scene = read_text(
-        "Film \"rgb\" \"float whitebalance\" 5000\nWorldBegin\nLightSource \"infinite\" \"spectrum L\" \"stdillum-D50\"");
+        "Film \"rgb\" \"float whitebalance\" 5000\nWorldBegin\nLightSource \"infinite\" \"spectrum L\" "
+        "\"stdillum-D50\"");
     const Rgb white = scene.environments.at(0).radiance;
     EXPECT_NEAR(white.r, white.g, 0.02f);
     EXPECT_NEAR(white.b, white.g, 0.02f);

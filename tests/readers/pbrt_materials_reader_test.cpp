@@ -96,7 +96,8 @@ TEST(PbrtMaterials, MayBeCoated) {
 TEST(PbrtMaterials, MayBeCoatedMetals) {
     const auto scene = with(
         "Material \"coatedconductor\" \"float interface.roughness\" .01 \"float conductor.roughness\" .04\n"
-        "\"spectrum conductor.eta\" \"metal-Ag-eta\" \"spectrum conductor.k\" \"metal-Ag-k\" \"float interface.eta\" 1.3");
+        "\"spectrum conductor.eta\" \"metal-Ag-eta\" \"spectrum conductor.k\" \"metal-Ag-k\" \"float interface.eta\" "
+        "1.3");
     const auto& model = model_of<CoatedConductorMaterial>(scene);
     EXPECT_EQ(model.coat.u, 0.01f);
     EXPECT_EQ(model.roughness.v, 0.04f);
@@ -273,8 +274,9 @@ TEST(PbrtTextures, OfUnsupportedClassesAreTheirMean) {
 }
 
 TEST(PbrtTextures, OfAnotherKindAreNamed) {
-    EXPECT_THAT(errors_of_world("Texture \"t\" \"float\" \"constant\" Material \"diffuse\" \"texture reflectance\" \"t\""),
-                HasSubstr("there is no spectrum texture 't' above (that one is of kind 'float')"));
+    EXPECT_THAT(
+        errors_of_world("Texture \"t\" \"float\" \"constant\" Material \"diffuse\" \"texture reflectance\" \"t\""),
+        HasSubstr("there is no spectrum texture 't' above (that one is of kind 'float')"));
 }
 
 }  // namespace

@@ -127,9 +127,10 @@ TEST(PbrtSubdivision, KeepsBoundariesWhereTheyAre) {
         "\"point3 P\" [ 0 0 0  1 0 0  1 1 0  0 1 0 ]");
     for (const Vec3& p : mesh_of(scene).positions) EXPECT_EQ(p.z, 0);
     expect_near(normal_of(mesh_of(scene)), {0, 0, 1});
-    EXPECT_THAT(errors_of_world("Shape \"loopsubdiv\" \"integer levels\" 30 \"integer indices\" [ 0 1 2 ] \"point3 P\" [ 0 0 "
-                                "0 1 0 0 0 1 0 ]"),
-                HasSubstr("30 levels of subdivision would make more than 2^24 triangles"));
+    EXPECT_THAT(
+        errors_of_world("Shape \"loopsubdiv\" \"integer levels\" 30 \"integer indices\" [ 0 1 2 ] \"point3 P\" [ 0 0 "
+                        "0 1 0 0 0 1 0 ]"),
+        HasSubstr("30 levels of subdivision would make more than 2^24 triangles"));
 }
 
 TEST(PbrtCurves, AreListedOnce) {

@@ -43,8 +43,9 @@ void pixel_bounds(FilmData& film, Parameters& parameters) {
 
 /// Of a system of lenses: how far it sees to the sides is unknown without tracing it; the eye of a 50 mm lens is near.
 void approximate_lens_system(CameraData& camera, Parameters& parameters) {
-    parameters.warn("cameras of type 'realistic' are not supported: a perspective one like that of a 50 mm lens is taken");
-    camera.fov = 27;  // across the shorter side of 24 x 36 mm
+    parameters.warn(
+        "cameras of type 'realistic' are not supported: a perspective one like that of a 50 mm lens is taken");
+    camera.fov = 27;                                                         // across the shorter side of 24 x 36 mm
     const float aperture = parameters.number("aperturediameter", 1) / 1000;  // mm
     camera.lens_radius = std::max(aperture, 0.0f) / 2;
     camera.focus_distance = std::max(parameters.number("focusdistance", 10), 1e-3f);
@@ -122,8 +123,7 @@ FilmShot make_film(const std::string& type, Parameters& parameters) {
     if (!(film.scale > 0)) parameters.error("'iso' must be above 0");
     if (const std::string sensor = parameters.text("sensor", "cie1931"); sensor != "cie1931")
         parameters.warn(fmt::format("the colours of sensor '{}' are left out: taken as 'cie1931'", sensor));
-    if (const float kelvin = parameters.number("whitebalance", 0); kelvin > 0)
-        shot.white = daylight_colour(kelvin);
+    if (const float kelvin = parameters.number("whitebalance", 0); kelvin > 0) shot.white = daylight_colour(kelvin);
     if (const Parameter* crop = parameters.find("cropwindow", Type::number)) {
         film.crop = window(*crop, parameters, film.crop);
         for (float& side : film.crop) side = std::clamp(side, 0.0f, 1.0f);

@@ -50,8 +50,6 @@ Rgb to_srgb(Rgb colour, ColourSpace from) {
     }
 }
 
-Rgb white_light(ColourSpace space) {
-    return space == ColourSpace::aces2065_1 ? daylight_colour(6000) : Rgb{1, 1, 1};
-}
+Rgb white_light(ColourSpace space) { return space == ColourSpace::aces2065_1 ? daylight_colour(6000) : Rgb{1, 1, 1}; }
 
 }  // namespace lightnet::pbrt

@@ -168,8 +168,7 @@ void projection_light(const Making& making) {
     if (file.empty()) parameters.error("parameter 'filename' is missing");
     const float fov = parameters.number("fov", 90);
     if (!(fov > 0 && fov < 180)) parameters.error("'fov' must be between 0 and 180 degrees");
-    const auto image = file.empty() ? nullptr
-                                    : making.textures.pictures().get(file, {}, parameters.where());
+    const auto image = file.empty() ? nullptr : making.textures.pictures().get(file, {}, parameters.where());
     making.textures.pictures().finish();
     const auto axis = axis_of(making, {}, {0, 0, 1});
     if (!image || !colour || !axis) return;

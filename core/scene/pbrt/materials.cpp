@@ -132,8 +132,8 @@ Material diffuse_transmission(Parameters& parameters, const MaterialSources& sou
     auto& textures = sources.textures;
     const float scale = parameters.number("scale", 1);
     const TextureId reflectance = textures.scaled(textures.colour(parameters, "reflectance", quarter), scale);
-    return model(DiffuseMaterial{reflectance, 0,
-                                 textures.scaled(textures.colour(parameters, "transmittance", quarter), scale)});
+    return model(
+        DiffuseMaterial{reflectance, 0, textures.scaled(textures.colour(parameters, "transmittance", quarter), scale)});
 }
 
 Material subsurface(Parameters& parameters, const MaterialSources& sources) {
@@ -148,8 +148,7 @@ Material hair(Parameters& parameters, const MaterialSources& sources) {
     parameters.warn("scattering by hair is not supported: taken as diffuse");
     parameters.ignore({"eumelanin", "pheomelanin", "sigma_a", "eta", "beta_m", "beta_n", "alpha", "color"});
     const char* colour = parameters.find("color") ? "color" : "reflectance";
-    return model(
-        DiffuseMaterial{sources.textures.colour(parameters, colour, {0.25f, 0.15f, 0.1f}), 0, std::nullopt});
+    return model(DiffuseMaterial{sources.textures.colour(parameters, colour, {0.25f, 0.15f, 0.1f}), 0, std::nullopt});
 }
 
 Material measured(Parameters& parameters, const MaterialSources& sources) {

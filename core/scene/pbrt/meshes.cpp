@@ -153,8 +153,8 @@ std::optional<Mesh> subdivision_mesh(Parameters& parameters) {
     auto control = triangle_mesh(parameters);
     if (!control) return std::nullopt;
     if (levels < 0 || levels > 12 || (control->triangles.size() << (2 * levels)) > most_triangles) {
-        parameters.error(fmt::format("{} levels of subdivision would make more than 2^24 triangles, or less than none",
-                                     levels));
+        parameters.error(
+            fmt::format("{} levels of subdivision would make more than 2^24 triangles, or less than none", levels));
         return std::nullopt;
     }
     return subdivide(*control, levels);

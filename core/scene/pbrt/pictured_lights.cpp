@@ -43,8 +43,7 @@ float upper_illuminance(const EnvironmentData& environment) {
             const double cosine = square ? height(2 * u - 1, 2 * v - 1) : std::cos(pi * v);
             // solid angle of a pixel: 4π by their number, or by the latitude
             const double weight = square ? 4 * pi : 2 * pi * pi * std::sin(pi * v);
-            if (cosine > 0)
-                sum += double(luminance(image.colour(x, y))) * weight * cosine;
+            if (cosine > 0) sum += double(luminance(image.colour(x, y))) * weight * cosine;
         }
     return float(sum / (image.empty() ? 1 : double(image.width) * image.height));
 }

@@ -12,8 +12,7 @@ constexpr std::uint64_t most_pixels = std::uint64_t{1} << 28;  // of up to 16 by
 
 }  // namespace
 
-std::shared_ptr<const Image> Pictures::get(const std::string& name, const Encoding& encoding,
-                                           const SourceLine& where) {
+std::shared_ptr<const Image> Pictures::get(const std::string& name, const Encoding& encoding, const SourceLine& where) {
     const Key key{sources_.path(name), encoding.curve, encoding.gamma};
     if (const auto known = known_.find(key); known != known_.end()) return known->second;
     const auto bytes = sources_.read(name, where);

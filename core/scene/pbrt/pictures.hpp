@@ -22,8 +22,7 @@ public:
     Pictures(const Sources& sources, Workshop& workshop) : sources_(sources), workshop_(workshop) {}
 
     /// A picture that is empty until finish(). None: the file can't be read, which is reported.
-    std::shared_ptr<const Image> get(const std::string& name, const Encoding& encoding,
-                                     const SourceLine& where);
+    std::shared_ptr<const Image> get(const std::string& name, const Encoding& encoding, const SourceLine& where);
     /// Waits until all pictures are there. Broken ones stay empty and are reported, in the order in which they came.
     void finish();
 

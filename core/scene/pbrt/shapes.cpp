@@ -90,9 +90,9 @@ std::optional<Geometry> cylinder(Parameters& parameters, const Placement& placem
 using Maker = std::optional<Geometry> (*)(Parameters&, const Placement&);
 
 const std::map<std::string, Maker>& makers() {
-    static const std::map<std::string, Maker> table{
-        {"trianglemesh", triangles}, {"sphere", sphere},     {"bilinearmesh", bilinear},
-        {"disk", disk},              {"cylinder", cylinder}, {"loopsubdiv", subdivision}};
+    static const std::map<std::string, Maker> table{{"trianglemesh", triangles}, {"sphere", sphere},
+                                                    {"bilinearmesh", bilinear},  {"disk", disk},
+                                                    {"cylinder", cylinder},      {"loopsubdiv", subdivision}};
     return table;
 }
 
@@ -110,8 +110,7 @@ void Budget::take(const Geometry& geometry) {
     take(least + (mesh ? mesh->triangles.size() + mesh->positions.size() : 0));
 }
 
-std::shared_ptr<MadeShape> Shapes::make(const std::string& type, Parameters& parameters,
-                                              const Placement& placement) {
+std::shared_ptr<MadeShape> Shapes::make(const std::string& type, Parameters& parameters, const Placement& placement) {
     if (budget_.exceeded()) {
         parameters.ignore_all();
         return nullptr;  // said in the end

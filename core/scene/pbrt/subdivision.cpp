@@ -24,7 +24,9 @@ struct Ring {
     std::uint32_t neighbours = 0, boundaries = 0;
 };
 
-std::uint64_t key_of(std::uint32_t a, std::uint32_t b) { return (std::uint64_t{std::min(a, b)} << 32) | std::max(a, b); }
+std::uint64_t key_of(std::uint32_t a, std::uint32_t b) {
+    return (std::uint64_t{std::min(a, b)} << 32) | std::max(a, b);
+}
 
 /// The edges of a mesh in the order in which its triangles name them.
 class Edges {
@@ -109,7 +111,8 @@ void move_to_limit(Mesh& mesh) {
     limit.reserve(mesh.positions.size());
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const float n = float(rings[i].neighbours);
-        limit.push_back(smoothed(mesh.positions[i], rings[i], 1 / (n + 3 / (8 * weight(rings[i].neighbours))), 1.0f / 5));
+        limit.push_back(
+            smoothed(mesh.positions[i], rings[i], 1 / (n + 3 / (8 * weight(rings[i].neighbours))), 1.0f / 5));
     }
     mesh.positions = std::move(limit);
 }

@@ -40,10 +40,8 @@ UvTransform laid(Parameters& parameters) {
 }
 
 Wrap wrap_of(Parameters& parameters) {
-    static const std::map<std::string, Wrap> wraps{{"repeat", Wrap::repeat},
-                                                   {"clamp", Wrap::clamp},
-                                                   {"black", Wrap::black},
-                                                   {"octahedralsphere", Wrap::repeat}};
+    static const std::map<std::string, Wrap> wraps{
+        {"repeat", Wrap::repeat}, {"clamp", Wrap::clamp}, {"black", Wrap::black}, {"octahedralsphere", Wrap::repeat}};
     const std::string word = parameters.text("wrap", "repeat");
     if (const auto found = wraps.find(word); found != wraps.end()) return found->second;
     parameters.error(fmt::format("unknown wrap '{}'{}", word, did_you_mean(word, {"repeat", "clamp", "black"})));
@@ -97,7 +95,7 @@ void Textures::define(const std::string& name, const std::string& kind, const st
 }
 
 std::optional<Texture> Textures::make(const std::string& type, Named& named, Parameters& parameters) {
-    if (type == "imagemap") 
+    if (type == "imagemap")
         return imagemap(parameters, &named == &floats_ ? ImageTexture::Channel::mean : ImageTexture::Channel::colour);
     if (type == "constant") return scene_.textures[input(named, parameters, "value", 1)];
     if (type == "scale") return scale(named, parameters);
@@ -109,9 +107,9 @@ std::optional<Texture> Textures::make(const std::string& type, Named& named, Par
     if (type == "marble") return unsupported(type, parameters, {0.8f, 0.8f, 0.82f});  // the mean of its colours
     if (type == "fbm" || type == "windy" || type == "wrinkled" || type == "ptex")
         return unsupported(type, parameters, grey);
-    static const std::vector<std::string> known{"bilerp",   "checkerboard", "constant", "directionmix", "dots",
-                                                "fbm",      "imagemap",     "marble",   "mix",          "ptex",
-                                                "scale",    "windy",        "wrinkled"};
+    static const std::vector<std::string> known{"bilerp", "checkerboard", "constant", "directionmix", "dots",
+                                                "fbm",    "imagemap",     "marble",   "mix",          "ptex",
+                                                "scale",  "windy",        "wrinkled"};
     parameters.ignore_all();
     parameters.error(fmt::format("unknown class of texture '{}'{}", type, did_you_mean(type, known)));
     return std::nullopt;
@@ -251,10 +249,11 @@ std::optional<TextureId> Textures::find(const Named& named, const Parameter& par
         const bool number = &named == &floats_;
         const std::string& name = parameter.texts[0];
         const bool other = (number ? spectra_ : floats_).contains(name);
-        sources_.report.error(parameter.where,
-                              fmt::format("there is no {} texture '{}' above{}", number ? "float" : "spectrum", name,
-                                          other ? fmt::format(" (that one is of kind '{}')", number ? "spectrum" : "float")
-                                                : did_you_mean(name, names_of(named))));
+        sources_.report.error(
+            parameter.where,
+            fmt::format("there is no {} texture '{}' above{}", number ? "float" : "spectrum", name,
+                        other ? fmt::format(" (that one is of kind '{}')", number ? "spectrum" : "float")
+                              : did_you_mean(name, names_of(named))));
     } else {
         sources_.report.error(parameter.where, fmt::format("parameter '{}' needs one texture", parameter.name));
     }
