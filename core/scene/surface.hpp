@@ -20,7 +20,8 @@ struct SurfacePoint {
     Vec3 along_u, along_v;       // ∂position/∂u and ∂position/∂v, metres
     std::uint32_t geometry = 0;  // index into the scene's shapes
     std::uint32_t primitive = 0;
-    float offset = 0;  // metres: beyond the rounding errors of `position`
+    float u = 0, v = 0;  // on the primitive, as in its Hit
+    float offset = 0;    // metres: beyond the rounding errors of `position`
 
     /// Where a ray into `direction` starts: off the surface, on the side into which it goes.
     Vec3 origin_towards(Vec3 direction) const {

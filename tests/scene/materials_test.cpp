@@ -235,6 +235,25 @@ TEST(BumpMaps, OnBallsFollowLongitudeAndLatitude) {
     EXPECT_NEAR(s->incoming.y, 0, 1e-4f);
 }
 
+// Twice as wide, the same heights are half as steep.
+TEST(BumpMaps, GrowFlatterWithTheirInstance) {
+    SceneData data;
+    add(data, square(), mirror(data, 1));
+    std::vector<Rgb> ramp;
+    for (int x = 0; x < 64; ++x) ramp.push_back({0.2f * (float(x) + 0.5f) / 64, 0, 0});
+    data.materials[0].bump_map = picture(data, 64, 1, ramp);
+    data.objects.push_back({"square", {0}});
+    Matrix wide;
+    wide.m[0][0] = wide.m[1][1] = wide.m[2][2] = 2;
+    data.instances.push_back({0, wide});
+    const Scene scene(data);
+    const auto hit = scene.intersect({{1, 0.4f, 3}, {0, 0, -1}});
+    ASSERT_TRUE(hit);
+    const auto s = scene.bsdf(scene.surface(*hit)).sample(up, 0, {}, lobe::all);
+    ASSERT_TRUE(s);
+    EXPECT_NEAR(length(normalize(s->incoming + up) - normalize({-0.1f, 0, 1})), 0, 1e-4f);
+}
+
 TEST(VertexColours, AreMixedOverTheTriangle) {
     SceneData data;
     Mesh mesh = square();
