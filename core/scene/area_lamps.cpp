@@ -34,9 +34,7 @@ float one_minus_cosine(float radius, float distance2) {
 
 bool inside(const Sphere& sphere, float distance2) { return distance2 <= sphere.radius * sphere.radius * 1.00001f; }
 
-bool shines_towards(const AreaEmission& emission, Vec3 normal, Vec3 direction) {
-    return emission.two_sided || dot(normal, direction) > 0;
-}
+bool shines_towards(bool two_sided, Vec3 normal, Vec3 direction) { return two_sided || dot(normal, direction) > 0; }
 
 bool shines(const SceneData& data, const Shape& shape) {
     return shape.emission && !is_black(shape.emission->radiance) &&
@@ -94,7 +92,14 @@ void AreaLamps::add_mesh(std::uint32_t shape, const Mesh& mesh) {
 }
 
 void AreaLamps::add_lamp(std::uint32_t shape, std::uint32_t first, std::uint32_t facets) {
-    Lamp lamp{shape, first, facets, 0, {1, 1, 1}};
+    const AreaEmission& emission = *data_.shapes[shape].emission;
+    Lamp lamp;
+    lamp.shape = shape;
+    lamp.first = first;
+    lamp.facets = facets;
+    lamp.radiance = emission.radiance;
+    lamp.two_sided = emission.two_sided;
+    lamp.plain = !emission.texture && !shading_.has_holes(shape);
     for (std::uint32_t f = first; f < first + facets; ++f)
         lamp.area += 0.5f * length(cross(facets_[f].first_edge, facets_[f].second_edge));
     if (const auto* ball = std::get_if<Sphere>(&data_.shapes[shape].geometry))
@@ -105,7 +110,7 @@ void AreaLamps::add_lamp(std::uint32_t shape, std::uint32_t first, std::uint32_t
 
 // Of 16 points. Never nothing: what lies between them may shine.
 Rgb AreaLamps::mean_of_texture(const Lamp& lamp) const {
-    if (!emission(lamp).texture || !(lamp.area > 0)) return {1, 1, 1};
+    if (!data_.shapes[lamp.shape].emission->texture || !(lamp.area > 0)) return {1, 1, 1};
     Rgb sum{0.16f, 0.16f, 0.16f};
     for (int i = 0; i < 16; ++i) {
         const Vec2 u{(float(i % 4) + 0.5f) / 4, (float(i / 4) + 0.5f) / 4};
@@ -135,20 +140,23 @@ Rgb AreaLamps::texture_at(std::uint32_t shape, std::uint32_t primitive, float u,
 Rgb AreaLamps::radiance(const SurfacePoint& point, Vec3 direction) const {
     if (places_[point.geometry].lamp == none) return {};
     const AreaEmission& emission = *data_.shapes[point.geometry].emission;
-    if (!shines_towards(emission, point.normal, direction)) return {};
+    if (!shines_towards(emission.two_sided, point.normal, direction)) return {};
     if (!emission.texture) return emission.radiance;
     return emission.radiance * texture_at(point.geometry, point.primitive, point.u, point.v);
 }
 
 Rgb AreaLamps::radiance_at(const Lamp& lamp, const Spot& spot) const {
-    const AreaEmission& emission = this->emission(lamp);
-    if (!emission.texture) return emission.radiance;
-    return emission.radiance * texture_at(lamp.shape, spot.primitive, spot.u, spot.v);
+    if (!data_.shapes[lamp.shape].emission->texture) return lamp.radiance;
+    return lamp.radiance * texture_at(lamp.shape, spot.primitive, spot.u, spot.v);
+}
+
+std::uint32_t AreaLamps::facet_of(const Lamp& lamp, float& u) const {
+    if (lamp.facets == 1) return lamp.first;
+    return lamp.first + std::uint32_t(pick(std::span(ends_).subspan(lamp.first, lamp.facets), u));
 }
 
 AreaLamps::Spot AreaLamps::on_mesh(const Lamp& lamp, Vec2 u) const {
-    std::uint32_t facet = lamp.first;
-    if (lamp.facets > 1) facet += std::uint32_t(pick(std::span(ends_).subspan(lamp.first, lamp.facets), u.x));
+    const std::uint32_t facet = facet_of(lamp, u.x);
     const auto& [corner, first_edge, second_edge, normal] = facets_[facet];
     const Vec2 at = triangle(u);
     return {corner + first_edge * at.x + second_edge * at.y, normal, facet - places_[lamp.shape].facet, at.x, at.y};
@@ -164,14 +172,22 @@ std::optional<LightSample> AreaLamps::sample(std::size_t lamp, Vec3 from, Vec2 u
 }
 
 std::optional<LightSample> AreaLamps::from_mesh(const Lamp& lamp, Vec3 from, Vec2 u) const {
-    const Spot spot = on_mesh(lamp, u);
-    const Vec3 way = spot.position - from;
+    const std::uint32_t facet = facet_of(lamp, u.x);
+    const auto& [corner, first_edge, second_edge, normal] = facets_[facet];
+    const Vec2 at = triangle(u);
+    const Vec3 position = corner + first_edge * at.x + second_edge * at.y;
+    const Vec3 way = position - from;
     const float distance2 = length_squared(way);
     const Vec3 direction = way / std::sqrt(distance2);
-    const float cosine = std::fabs(dot(spot.normal, direction));
-    if (!(distance2 > 0) || cosine < 1e-7f || !shines_towards(emission(lamp), spot.normal, -direction)) return {};
-    if (!is_there(lamp, spot)) return {};
-    return LightSample{spot.position, direction, radiance_at(lamp, spot), distance2 / (lamp.area * cosine)};
+    const float cosine = std::fabs(dot(normal, direction));
+    if (!(distance2 > 0) || cosine < 1e-7f || !shines_towards(lamp.two_sided, normal, -direction)) return {};
+    Rgb radiance = lamp.radiance;
+    if (!lamp.plain) {
+        const Spot spot{position, normal, facet - places_[lamp.shape].facet, at.x, at.y};
+        if (!is_there(lamp, spot)) return {};
+        radiance = radiance_at(lamp, spot);
+    }
+    return LightSample{position, direction, radiance, distance2 / (lamp.area * cosine), false, false};
 }
 
 std::optional<LightSample> AreaLamps::from_sphere(const Lamp& lamp, Vec3 from, Vec2 u) const {
@@ -199,8 +215,8 @@ std::optional<LightSample> AreaLamps::from_sphere(const Lamp& lamp, Vec3 from, V
     if (!(way2 > 0)) return {};
     const Vec3 direction = way / std::sqrt(way2);
     if (pdf == 0) pdf = way2 / (lamp.area * std::max(1e-6f, std::fabs(dot(outwards, direction))));
-    if (!shines_towards(emission(lamp), spot.normal, -direction) || !is_there(lamp, spot)) return {};
-    return LightSample{spot.position, direction, radiance_at(lamp, spot), pdf};
+    if (!shines_towards(lamp.two_sided, spot.normal, -direction) || !is_there(lamp, spot)) return {};
+    return LightSample{spot.position, direction, radiance_at(lamp, spot), pdf, false, false};
 }
 
 float AreaLamps::pdf(std::size_t index, Vec3 from, Vec3 direction, const SurfacePoint& on) const {
@@ -226,8 +242,7 @@ bool AreaLamps::may_meet(const Ray& ray) const {
 
 LightBounds AreaLamps::bounds(std::size_t index) const {
     const Lamp& lamp = lamps_[index];
-    const AreaEmission& emission = this->emission(lamp);
-    const float radiance = luminance(emission.radiance * lamp.mean);
+    const float radiance = luminance(lamp.radiance * lamp.mean);
     if (const auto* ball = std::get_if<Sphere>(&data_.shapes[lamp.shape].geometry)) {
         const Vec3 r{ball->radius, ball->radius, ball->radius};
         return {ball->center - r, ball->center + r, {0, 0, 1}, -1, 0, radiance * lamp.area / 4, false};
@@ -235,23 +250,21 @@ LightBounds AreaLamps::bounds(std::size_t index) const {
     Box box;
     for (const Facet& f : std::span(facets_).subspan(lamp.first, lamp.facets))
         for (const Vec3 p : {f.corner, f.corner + f.first_edge, f.corner + f.second_edge}) box.add(p);
-    return {box.low, box.high, facets_[lamp.first].normal, 1, 0, radiance * lamp.area, emission.two_sided};
+    return {box.low, box.high, facets_[lamp.first].normal, 1, 0, radiance * lamp.area, lamp.two_sided};
 }
 
 Rgb AreaLamps::power(std::size_t index) const {
     const Lamp& lamp = lamps_[index];
-    const AreaEmission& emission = this->emission(lamp);
-    return emission.radiance * lamp.mean * (pi * lamp.area * (emission.two_sided ? 2 : 1));
+    return lamp.radiance * lamp.mean * (pi * lamp.area * (lamp.two_sided ? 2 : 1));
 }
 
 std::optional<Emission> AreaLamps::emit(std::size_t index, Vec2 where, Vec2 whither) const {
     const Lamp& lamp = lamps_[index];
     if (!(lamp.area > 0)) return {};
-    const AreaEmission& emission = this->emission(lamp);
     float sides = 1;
     Spot spot = lamp.facets ? on_mesh(lamp, where)
                             : on_sphere(std::get<Sphere>(data_.shapes[lamp.shape].geometry), sphere(where));
-    if (emission.two_sided) {
+    if (lamp.two_sided) {
         sides = 2;
         const bool back = whither.x >= 0.5f;
         whither.x = std::min(2 * (whither.x - (back ? 0.5f : 0)), 0x1.fffffep-1f);

@@ -52,7 +52,10 @@ private:
         std::uint32_t shape = 0;
         std::uint32_t first = 0, facets = 0;  // of a mesh: into facets_
         float area = 0;                       // m²
-        Rgb mean{1, 1, 1};                    // of the texture
+        Rgb radiance;
+        bool two_sided = false;
+        bool plain = true;  // neither texture nor holes
+        Rgb mean{1, 1, 1};  // of the texture
     };
     struct Ball {
         Vec3 center;
@@ -67,10 +70,10 @@ private:
     void add_mesh(std::uint32_t shape, const Mesh& mesh);
     void add_lamp(std::uint32_t shape, std::uint32_t first, std::uint32_t facets);
     Rgb mean_of_texture(const Lamp& lamp) const;
-    const AreaEmission& emission(const Lamp& lamp) const { return *data_.shapes[lamp.shape].emission; }
     Rgb texture_at(std::uint32_t shape, std::uint32_t primitive, float u, float v) const;
     Rgb radiance_at(const Lamp& lamp, const Spot& spot) const;
     bool is_there(const Lamp& lamp, const Spot& spot) const;
+    std::uint32_t facet_of(const Lamp& lamp, float& u) const;
     Spot on_mesh(const Lamp& lamp, Vec2 u) const;
     Spot on_sphere(const Sphere& ball, Vec3 outwards) const;
     std::optional<LightSample> from_mesh(const Lamp& lamp, Vec3 from, Vec2 u) const;

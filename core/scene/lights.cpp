@@ -59,26 +59,29 @@ void Lights::build_tree() {
 
     const std::size_t beside = far_.size() + (maps_.empty() ? 0 : 1);
     choices_ = in_tree + beside;
+    for (std::size_t i = 0; choices_ == 1 && i < lamps_.size(); ++i)
+        if (bounds[i].intensity > 0) only_lamp_ = i;
     share_of_tree_ = in_tree ? 1 / float(1 + beside) : 0;
     share_of_far_ = beside ? (1 - share_of_tree_) / float(beside) : 0;
 }
 
 std::optional<LightSample> Lights::sample(Vec3 from, float choice, Vec2 u) const {
-    if (empty()) return {};
+    if (only_lamp_) return lamps_.sample(*only_lamp_, from, u);
+    if (share_of_tree_ == 1) return from_tree(from, choice, u);
+    std::optional<LightSample> sample;
     if (choice < share_of_tree_) {
-        auto sample = from_tree(from, within(choice, 0, share_of_tree_), u);
+        sample = from_tree(from, within(choice, 0, share_of_tree_), u);
         if (sample) sample->pdf *= share_of_tree_;
-        return sample && sample->pdf > 0 ? sample : std::nullopt;
+    } else if (share_of_far_ > 0) {
+        sample = from_infinity(from, (choice - share_of_tree_) / share_of_far_, u);
+        if (sample) sample->pdf *= share_of_far_;
     }
-    if (share_of_far_ == 0) return {};
-    auto sample = from_infinity(from, (choice - share_of_tree_) / share_of_far_, u);
-    if (sample) sample->pdf *= share_of_far_;
-    return sample && sample->pdf > 0 ? sample : std::nullopt;
+    return sample;
 }
 
 std::optional<LightSample> Lights::from_tree(Vec3 from, float choice, Vec2 u) const {
     const auto chosen = tree_.choose(from, choice);
-    if (!chosen) return {};
+    if (!chosen || !(chosen->chance > 0)) return {};
     const std::size_t light = chosen->light;
     auto sample = light < lamps_.size()
                       ? lamps_.sample(light, from, u)
@@ -97,10 +100,11 @@ std::optional<LightSample> Lights::from_infinity(Vec3 from, float choice, Vec2 u
 std::optional<LightSample> Lights::from_map(float choice, Vec2 u) const {
     const std::uint32_t map = maps_[maps_.size() > 1 ? pick(map_ends_, choice) : 0];
     const Vec3 direction = environments_[map].sample(u);
-    LightSample sample{{}, direction, environment(direction), 0, false, true};
+    float density = 0;
     for (std::size_t i = 0; i < maps_.size(); ++i)
-        sample.pdf += share_of(map_ends_, i) * environments_[maps_[i]].pdf(direction);
-    return sample;
+        density += share_of(map_ends_, i) * environments_[maps_[i]].pdf(direction);
+    if (!(density > 0)) return {};  // by rounding, at the border of a cell
+    return LightSample{{}, direction, environment(direction), density, false, true};
 }
 
 float Lights::pdf(Vec3 from, Vec3 direction, const SurfacePoint& on) const {

@@ -81,6 +81,7 @@ private:
     Rgb constant_;                     // sum of environments without a map
     bool has_environment_ = false;
     std::size_t choices_ = 0;                     // lights that sample() chooses from
+    std::optional<std::size_t> only_lamp_;        // there is nothing else to choose from
     float share_of_tree_ = 0, share_of_far_ = 0;  // the latter: of each directional light, and of all maps together
     std::vector<float> power_ends_;               // share of the power: lamps, near, far, environments
 };

@@ -85,7 +85,8 @@ struct Scene::Built {
         SurfacePoint point = shading.point(shape, primitive, u, v);
         point.u = u;
         point.v = v;
-        return instance == Query::no_instance ? point : placements[instance].place(point);
+        if (instance != Query::no_instance) point = placements[instance].place(point);
+        return point;
     }
 
     SceneData data;

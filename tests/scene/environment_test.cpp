@@ -127,7 +127,7 @@ TEST_P(Maps, SampleWhatTheirDensitySays) {
         return row * columns + std::min(columns - 1, int(turn * columns));
     };
     std::vector<double> expected(rows * columns), found(rows * columns);
-    over_the_sphere(1536, [&](Vec3 d) {
+    over_the_sphere(768, [&](Vec3 d) {
         expected[bin(d)] += sky.pdf(d);
         return 0;
     });
@@ -151,7 +151,7 @@ TEST_P(Maps, SampleWhatTheirDensitySays) {
 
 TEST_P(Maps, CountAllTheirLight) {
     const Environment sky(map_of(GetParam()));
-    const double expected = over_the_sphere(1500, [&](Vec3 d) { return sky.radiance(d).r; });
+    const double expected = over_the_sphere(700, [&](Vec3 d) { return sky.radiance(d).r; });
     EXPECT_NEAR(sky.total().r / expected, 1, 0.02);  // pixels against what lies between them
 }
 
@@ -166,7 +166,7 @@ TEST_P(Maps, LightAFloorAsMuchAsTheyShould) {
     add(data, quad({-1, 20, -1}, {2, 0, 0}, {0, 0, 2}), diffuse(data, 0)).emission = AreaEmission{{400, 400, 400}};
     const Scene both(data);
     const double expected =
-        over_the_sphere(1000, [&](Vec3 d) { return d.y > 0 ? double{sky_only.environment(d).r} * d.y : 0; }) /
+        over_the_sphere(500, [&](Vec3 d) { return d.y > 0 ? double{sky_only.environment(d).r} * d.y : 0; }) /
         std::numbers::pi;
     const double of_lamp = 400 * 4.0 / (20 * 20) / std::numbers::pi;  // nearly: it is far away
     for (const auto* scene : {&sky_only, &both}) {

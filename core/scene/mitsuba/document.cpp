@@ -125,7 +125,10 @@ private:
     }
 
     void remember(const Node& node) {
-        if (node.id.empty() || node.tag == "ref") return;
+        static const std::set<std::string, std::less<>> objects{"shape",    "bsdf",  "texture", "emitter", "medium",
+                                                                "sensor",   "film",  "sampler", "rfilter", "integrator",
+                                                                "spectrum", "phase", "volume"};
+        if (node.id.empty() || !objects.contains(node.tag)) return;
         if (!document_->ids.emplace(node.id, &node).second)
             error(node.where, fmt::format("there is another element with the id '{}'", node.id));
     }

@@ -37,10 +37,17 @@ Mesh grid(int columns, int rows, const std::function<Corner(double s, double t)>
             mesh.uvs.push_back(corner.uv);
         }
     const auto index = [&](int i, int j) { return static_cast<std::uint32_t>(j * (columns + 1) + i); };
+    // at a pole corners meet
+    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        const auto apart = [&](std::uint32_t p, std::uint32_t q) {
+            return length_squared(mesh.positions[p] - mesh.positions[q]) > 1e-12f;
+        };
+        if (apart(a, b) && apart(b, c) && apart(c, a)) mesh.triangles.push_back({a, b, c});
+    };
     for (int j = 0; j < rows; ++j)
         for (int i = 0; i < columns; ++i) {
-            mesh.triangles.push_back({index(i, j), index(i + 1, j), index(i + 1, j + 1)});
-            mesh.triangles.push_back({index(i, j), index(i + 1, j + 1), index(i, j + 1)});
+            add(index(i, j), index(i + 1, j), index(i + 1, j + 1));
+            add(index(i, j), index(i + 1, j + 1), index(i, j + 1));
         }
     return mesh;
 }

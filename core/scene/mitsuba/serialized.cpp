@@ -55,7 +55,7 @@ public:
     explicit Inflater(std::span<const std::byte> bytes) {
         stream_.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(bytes.data()));
         left_ = bytes.size();
-        room_ = (std::uint64_t{64} << 20) + 256 * std::uint64_t{bytes.size()};
+        room_ = (std::uint64_t{16} << 20) + 256 * std::uint64_t{bytes.size()};
         if (inflateInit(&stream_) != Z_OK) fail("zlib can't begin");
     }
     Inflater(const Inflater&) = delete;
