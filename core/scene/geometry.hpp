@@ -1,6 +1,7 @@
 // What rays meet. The only home of Embree is the .cpp of this header.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -25,6 +26,7 @@ public:
     std::optional<Hit> intersect(const Ray& ray) const;
     void intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const;
     bool occluded(const Ray& ray) const;
+    void occluded(std::span<const Ray> rays, std::span<std::uint8_t> hidden) const;
 
     struct Box {
         Vec3 lower, upper;

@@ -74,6 +74,10 @@ void Scene::intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> h
 
 bool Scene::occluded(const Ray& ray) const { return built_->geometry.occluded(ray); }
 
+void Scene::occluded(std::span<const Ray> rays, std::span<std::uint8_t> hidden) const {
+    built_->geometry.occluded(rays, hidden);
+}
+
 SurfacePoint Scene::surface(const Hit& hit) const {
     return built_->shading.point(hit.geometry, hit.primitive, hit.u, hit.v);
 }
@@ -114,13 +118,16 @@ bool Scene::has_many_lamps() const { return built_->lights.many(); }
 
 bool Scene::may_shine(const Ray& ray) const { return has_environment() || built_->lights.may_meet(ray); }
 
-bool Scene::visible(const SurfacePoint& from, const LightSample& lamp) const {
+Ray Scene::ray_to(const SurfacePoint& from, const LightSample& lamp) const {
     constexpr float nearly = 1 - 1e-4f;  // the lamp itself is not in the way
     const Vec3 origin = from.origin_towards(lamp.direction);
     const Vec3 way = lamp.position - origin;
     const float distance = length(way);
-    return !(distance > 0) || !occluded({origin, way / distance, distance * nearly});
+    if (!(distance > 0)) return {origin, lamp.direction, 0};
+    return {origin, way / distance, distance * nearly};
 }
+
+bool Scene::visible(const SurfacePoint& from, const LightSample& lamp) const { return !occluded(ray_to(from, lamp)); }
 
 const Camera& Scene::camera() const { return built_->camera; }
 const FilmData& Scene::film() const { return built_->film; }

@@ -38,6 +38,8 @@ public:
     void intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const;
     /// Is anything in (0, ray.far)?
     bool occluded(const Ray& ray) const;
+    /// The same for many rays: `hidden[i]` is 1 where something is in the way of ray i, else 0.
+    void occluded(std::span<const Ray> rays, std::span<std::uint8_t> hidden) const;
 
     SurfacePoint surface(const Hit& hit) const;
     SurfacePoint surface(const Query& query) const;
@@ -61,6 +63,8 @@ public:
     bool has_many_lamps() const;
     /// Could the ray end where light comes from? False is certain, true is a guess that is cheaper than tracing it.
     bool may_shine(const Ray& ray) const;
+    /// The ray on which nothing may be if the surface point is to see a point of a lamp.
+    Ray ray_to(const SurfacePoint& from, const LightSample& lamp) const;
     /// Is nothing between the surface point and a point of a lamp?
     bool visible(const SurfacePoint& from, const LightSample& lamp) const;
 
