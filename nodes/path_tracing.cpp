@@ -12,8 +12,12 @@ namespace lightnet {
 namespace {
 
 /// Path tracing with next-event estimation, multiple importance sampling and Russian roulette. Unless asked for all
-/// light it leaves out what arrives straight from lamps and environment at the point asked about: that is direct light.
+/// paths it leaves out what arrives straight from lamps and environment at the point asked about: that is direct light.
 /// Light that comes from them by way of mirrors or glass is counted here.
+///
+/// Points on lamps can't find an environment without a map. There, where it counts first, the path's own direction and
+/// a second one, of which only the sky counts, share what they see of it half and half: the second one costs no more
+/// than a shadow, and on open ground it halves the variance.
 ///
 /// Many paths go on together, surface by surface, so that their rays are traced in packets. What a path finds does not
 /// depend on the others: hits are those of single rays, and each path adds up its light in its own order.
@@ -24,7 +28,9 @@ public:
           key_(here.key()),
           samples_(static_cast<std::uint32_t>(here.integer("samples"))),
           max_depth_(static_cast<std::uint32_t>(here.integer("max_depth"))),
-          roulette_depth_(static_cast<std::uint32_t>(here.integer("roulette_depth"))) {}
+          roulette_depth_(static_cast<std::uint32_t>(here.integer("roulette_depth"))),
+          all_(here.text("paths") == "all"),
+          looks_twice_(scene_.has_environment() && scene_.environment_pdf({0, 0, 1}) == 0) {}
 
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
         std::fill(answers.begin(), answers.end(), Rgb{});
@@ -51,7 +57,7 @@ private:
     };
     /// Some paths, and scratch space for them.
     struct Paths {
-        std::vector<Walk> walks;
+        std::vector<Walk> walks, before;
         std::vector<Ray> rays;  // of each walk
         std::vector<std::optional<Hit>> hits;
         std::vector<Rgb> sums;           // of each path
@@ -72,24 +78,35 @@ private:
             const Key stream = child(question.stream, key_);
             for (; path < end; ++path) {
                 const auto index = question.sample * samples_ + static_cast<std::uint32_t>(path % samples_);
-                scatter({Samples(stream, index), static_cast<std::uint32_t>(path - first), {}, {}, {1, 1, 1}, 1}, at, 1,
-                        going);
+                Walk walk{Samples(stream, index), static_cast<std::uint32_t>(path - first), {}, {}, {1, 1, 1}, 1};
+                if (all_) look_around(walk, at, 0, going);
+                scatter(walk, at, 1, going);
             }
+        }
+        take_in(going);
+    }
+
+    /// What a path finds at a surface by looking for light, rather than by going on.
+    void look_around(Walk& walk, const Gathering& at, std::uint32_t depth, Paths& going) const {
+        const auto add = [&](const Ray& ray, Rgb light) {
+            going.to_lamps.push_back(ray);
+            going.from_lamps.push_back(walk.weight * light);
+            going.lit.push_back(walk.path);
+        };
+        if (const auto lamp = ray_to_lamp(scene_, at, walk.samples, heuristic)) add(lamp->ray, lamp->light);
+        if (!two_looks(depth)) return;
+        const float choice = at.bsdf.chooses() ? walk.samples.next() : walk.samples.skip();
+        if (const auto look = at.bsdf.sample(at.outgoing, choice, walk.samples.next_2d(), at.lobes)) {
+            const Rgb sky = look->weight * light_by_bsdf(scene_, at.point.position, *look, nullptr, heuristic);
+            if (!is_black(sky)) add({at.point.origin_towards(look->incoming), look->incoming}, 0.5f * sky);
         }
     }
 
-    /// Takes all paths over the next surface: number `depth` on their way.
-    void go_on(Paths& going, std::uint32_t depth) const {
-        going.hits.resize(going.rays.size());
-        scene_.intersect(going.rays, going.hits);
-        const std::size_t count = going.walks.size();
-        std::size_t done = 0;
-        // Those that go on are written over those that were read already.
-        std::vector<Walk> walks = std::move(going.walks);
-        going.walks.clear();
-        going.walks.reserve(count);
-        going.rays.clear();
-        for (; done < count; ++done) visit(walks[done], going.hits[done], depth, going);
+    /// Is the environment seen from the surface number `depth` looked at by two directions?
+    bool two_looks(std::uint32_t depth) const { return looks_twice_ && depth == (all_ ? 0 : 1); }
+
+    /// Adds what was found on lamps, where nothing is in the way.
+    void take_in(Paths& going) const {
         going.hidden.resize(going.to_lamps.size());
         scene_.occluded(going.to_lamps, going.hidden);
         for (std::size_t i = 0; i < going.lit.size(); ++i)
@@ -99,20 +116,29 @@ private:
         going.lit.clear();
     }
 
+    /// Takes all paths over the next surface: number `depth` on their way.
+    void go_on(Paths& going, std::uint32_t depth) const {
+        going.hits.resize(going.rays.size());
+        scene_.intersect(going.rays, going.hits);
+        going.before.swap(going.walks);
+        going.walks.clear();
+        going.rays.clear();
+        for (std::size_t i = 0; i < going.before.size(); ++i) visit(going.before[i], going.hits[i], depth, going);
+        take_in(going);
+    }
+
     void visit(const Walk& walk, const std::optional<Hit>& hit, std::uint32_t depth, Paths& going) const {
         const SurfacePoint point = hit ? scene_.surface(*hit) : SurfacePoint{};
-        if (depth > 1)
+        if (all_ || depth > 1) {
+            const float part = !hit && two_looks(depth - 1) ? 0.5f : 1.0f;
             going.sums[walk.path] +=
-                walk.weight * light_by_bsdf(scene_, walk.from, walk.step, hit ? &point : nullptr, heuristic);
+                part * walk.weight * light_by_bsdf(scene_, walk.from, walk.step, hit ? &point : nullptr, heuristic);
+        }
         if (!hit || (max_depth_ && depth > max_depth_)) return;
         const Bsdf bsdf = scene_.bsdf(point);
         const Gathering at{point, bsdf, -walk.step.incoming, lobe::all};
         Walk next = walk;
-        if (const auto lamp = ray_to_lamp(scene_, at, next.samples, heuristic)) {
-            going.to_lamps.push_back(lamp->ray);
-            going.from_lamps.push_back(walk.weight * lamp->light);
-            going.lit.push_back(walk.path);
-        }
+        look_around(next, at, depth, going);
         scatter(next, at, depth + 1, going);
     }
 
@@ -151,13 +177,15 @@ private:
     std::uint32_t samples_;
     std::uint32_t max_depth_;
     std::uint32_t roulette_depth_;
+    bool all_;          // direct light as well
+    bool looks_twice_;  // for the environment
 };
 }  // namespace
 
 Kind path_tracing_kind() {
     return {
         .name = "PathTracing",
-        .help = "indirect light: all that arrives by way of other surfaces",
+        .help = "indirect light, all that arrives by way of other surfaces; or all light",
         .params =
             {
                 {.name = "samples",
@@ -179,6 +207,11 @@ Kind path_tracing_kind() {
                  .initial = Value{3.0},
                  .least = 0,
                  .most = 65536},
+                {.name = "paths",
+                 .type = ParamType::text,
+                 .help = "which light: what comes by way of other surfaces, or direct light as well",
+                 .initial = Value{"indirect"},
+                 .choices = {"indirect", "all"}},
             },
         .make_light = [](const NodeContext& here) { return std::make_unique<PathTracing>(here); },
     };

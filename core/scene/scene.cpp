@@ -116,7 +116,8 @@ bool Scene::has_environment() const { return !is_black(built_->sky); }
 bool Scene::has_lamps() const { return !built_->lights.empty(); }
 bool Scene::has_many_lamps() const { return built_->lights.many(); }
 
-bool Scene::may_shine(const Ray& ray) const { return has_environment() || built_->lights.may_meet(ray); }
+bool Scene::may_shine(const Ray& ray) const { return has_environment() || may_meet_lamp(ray); }
+bool Scene::may_meet_lamp(const Ray& ray) const { return built_->lights.may_meet(ray); }
 
 Ray Scene::ray_to(const SurfacePoint& from, const LightSample& lamp) const {
     constexpr float nearly = 1 - 1e-4f;  // the lamp itself is not in the way

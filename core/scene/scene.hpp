@@ -63,6 +63,8 @@ public:
     bool has_many_lamps() const;
     /// Could the ray end where light comes from? False is certain, true is a guess that is cheaper than tracing it.
     bool may_shine(const Ray& ray) const;
+    /// The same of lamps alone: where it is false, all that the ray could find is the environment.
+    bool may_meet_lamp(const Ray& ray) const;
     /// The ray on which nothing may be if the surface point is to see a point of a lamp.
     Ray ray_to(const SurfacePoint& from, const LightSample& lamp) const;
     /// Is nothing between the surface point and a point of a lamp?
