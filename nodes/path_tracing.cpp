@@ -180,12 +180,22 @@ private:
     bool all_;          // direct light as well
     bool looks_twice_;  // for the environment
 };
+// A limit counts the surfaces between the lamp and the one asked about.
+std::vector<std::string> paths_of(const Node& node) {
+    const bool all = std::get<std::string>(node.params.at("paths").data) == "all";
+    const double most = std::get<double>(node.params.at("max_depth").data);
+    const std::string least = all ? "0" : "1";
+    if (most == 0) return {all ? "L(S|D)*D" : "L(S|D)+D"};
+    return {"L(S|D){" + least + "," + std::to_string(static_cast<int>(most)) + "}D"};
+}
+
 }  // namespace
 
 Kind path_tracing_kind() {
     return {
         .name = "PathTracing",
         .help = "indirect light, all that arrives by way of other surfaces; or all light",
+        .paths = paths_of,
         .params =
             {
                 {.name = "samples",

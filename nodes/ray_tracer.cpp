@@ -144,6 +144,8 @@ Kind ray_tracer_kind() {
             "makes the picture: follows rays from the eye through mirrors and glass, and asks how bright things are",
         .least_inputs = 1,
         .most_inputs = 1,
+        .paths = [](const Node&) { return std::vector<std::string>{"LS*E"}; },
+        .onward = "S*E",
         .params =
             {
                 {.name = "scene", .type = ParamType::scene, .help = "what is seen"},
