@@ -78,7 +78,7 @@ TEST(LightPaths, GoOnWhereLightIsGathered) {
         "d = Direct {} c = Caustic {} first = Combine { d, c } bounce = Cache { first } lighting = Combine { first, "
         "bounce }";
     EXPECT_THAT(doubles(text), IsEmpty());
-    EXPECT_THAT(missing(text), ElementsAre("RayTracer 'image': no node counts LDSDE"));
+    EXPECT_THAT(missing(text), ElementsAre("RayTracer 'image': no node counts LDDDE"));
     EXPECT_THAT(doubles("d = Direct {} p = Paths {} b = Cache { d } lighting = Combine { d, p, b }"),
                 ElementsAre("Direct 'd': LDDE is counted by 'p' and 'b' of 'd'"));
 }
