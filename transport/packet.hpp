@@ -34,6 +34,8 @@ enum class Type : std::uint8_t {
     ask_pixels,     // columns of Tile → answers
     answers,        // one column: rgb
     failure,        // text
+    ask_step,       // columns of Step → data
+    data,           // bytes
     // control: launcher → host                       host → launcher
     hello = 16,  // version, build, isa
     welcome,     //                             places, incarnation, fingerprint

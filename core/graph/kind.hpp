@@ -48,7 +48,8 @@ struct Kind {
     std::string help;              // what it does, one line
     std::size_t least_inputs = 0;  // light inputs, from the array part
     std::size_t most_inputs = 0;
-    bool linear = false;  // answers with a weighted sum of its inputs: layers pass through
+    bool prepares = false;  // learns something before the first question: LightOp::prepare()
+    bool linear = false;    // answers with a weighted sum of its inputs: layers pass through
     /// Which light paths a node (defaults filled in) counts by itself, as sets for PathSet::parse(): from the light to
     /// the point asked about, whose own scattering is the last letter. An empty list: what it answers is no light.
     std::function<std::vector<std::string>(const Node&)> paths = {};

@@ -1,6 +1,7 @@
 #include "core/light/node_context.hpp"
 
 #include "core/error.hpp"
+#include "core/light/rehearsal.hpp"
 
 #include <cmath>
 
@@ -13,10 +14,19 @@ const T& as(const Node& node, const std::string& param, const Value& value, cons
     throw Error(node.kind + " '" + node.name + "'", "parameter '" + param + "' is not " + what);
 }
 
+Rehearsal& never() {
+    static Rehearsal none;  // never begun, so never written to
+    return none;
+}
+
 }  // namespace
 
-NodeContext::NodeContext(const Node& node, Inputs inputs, const Scene& scene, std::uint64_t seed)
-    : node_(node), inputs_(std::move(inputs)), scene_(scene), seed_(seed) {}
+NodeContext::NodeContext(const Node& node, Inputs inputs, const Scene& scene, std::uint64_t seed, Rehearsal* rehearsal)
+    : node_(node),
+      inputs_(std::move(inputs)),
+      scene_(scene),
+      seed_(seed),
+      rehearsal_(rehearsal ? *rehearsal : never()) {}
 
 const Value& NodeContext::value(const std::string& param) const {
     const auto found = node_.params.find(param);

@@ -11,13 +11,16 @@
 
 namespace lightnet {
 
+class Rehearsal;
 class Scene;
 
 /// Handed to a node's constructor. Parameters have passed the schema of the node's kind and defaults are filled in,
 /// so reading one that the schema doesn't name is a bug of the node.
 class NodeContext {
 public:
-    NodeContext(const Node& node, Inputs inputs, const Scene& scene, std::uint64_t seed);
+    /// Without a rehearsal of its own the node gets one that is never on.
+    NodeContext(const Node& node, Inputs inputs, const Scene& scene, std::uint64_t seed,
+                Rehearsal* rehearsal = nullptr);
 
     const std::string& name() const { return node_.name; }
     /// The node's own key: derive streams as child(query.stream, here.key(), i).
@@ -25,6 +28,8 @@ public:
     const Scene& scene() const { return scene_; }
     const Inputs& inputs() const { return inputs_; }
     std::uint64_t seed() const { return seed_; }
+    /// Where light() notes what it has nothing prepared for. Lives as long as the node.
+    Rehearsal& rehearsal() const { return rehearsal_; }
 
     double number(const std::string& param) const;
     std::int64_t integer(const std::string& param) const;
@@ -38,6 +43,7 @@ private:
     Inputs inputs_;
     const Scene& scene_;
     std::uint64_t seed_;
+    Rehearsal& rehearsal_;
 };
 
 }  // namespace lightnet

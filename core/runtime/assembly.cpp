@@ -21,10 +21,10 @@ std::vector<std::uint32_t> positions(const Terminals& part, const Terminals& who
 }
 
 template <class Make>
-auto made(const Network& network, std::size_t node, Inputs inputs, const Make& make) {
+auto made(const Network& network, std::size_t node, Inputs inputs, Rehearsal& rehearsal, const Make& make) {
     const auto& what = network.graph.nodes[node];
     try {
-        return make(NodeContext(what, std::move(inputs), *network.scene, network.seed));
+        return make(NodeContext(what, std::move(inputs), *network.scene, network.seed, &rehearsal));
     } catch (const std::exception& error) {
         throw Error(what.kind + " '" + what.name + "'", error.what());
     }
@@ -53,13 +53,24 @@ Inputs Assembly::inputs_of(std::size_t node) {
 
 const LightOp& Assembly::light(std::size_t node) {
     auto& light = lights_[node];
-    if (!light) light = made(network_, node, inputs_of(node), network_.kind_of(node).make_light);
+    if (!light) light = made(network_, node, inputs_of(node), rehearsals_[node], network_.kind_of(node).make_light);
     return *light;
+}
+
+void Assembly::prepare(std::size_t node, Services& services) {
+    const auto& what = network_.graph.nodes[node];
+    light(node);
+    try {
+        lights_[node]->prepare(services);
+    } catch (const std::exception& error) {
+        throw Error(what.kind + " '" + what.name + "', preparing", error.what());
+    }
 }
 
 const Renderer& Assembly::renderer(std::size_t node) {
     auto& renderer = renderers_[node];
-    if (!renderer) renderer = made(network_, node, inputs_of(node), network_.kind_of(node).make_renderer);
+    if (!renderer)
+        renderer = made(network_, node, inputs_of(node), rehearsals_[node], network_.kind_of(node).make_renderer);
     return *renderer;
 }
 

@@ -12,8 +12,10 @@
 #include "core/graph/plan.hpp"
 #include "core/light/inputs.hpp"
 #include "core/light/light_op.hpp"
+#include "core/light/rehearsal.hpp"
 #include "core/light/renderer.hpp"
 #include "core/runtime/call_port.hpp"
+#include "core/runtime/prepared.hpp"
 #include "core/scene/scene.hpp"
 
 namespace lightnet {
@@ -26,6 +28,8 @@ struct Network {
     std::shared_ptr<const Scene> scene;
     std::uint64_t seed = 0;
     Layers layers = layers_of(graph, registry);
+    std::shared_ptr<SharedValues> shared = std::make_shared<SharedValues>();
+    std::function<Bytes(const Hash&)> results = {};  // of preparing, that came by themselves; called from any place
 
     const Kind& kind_of(std::size_t node) const { return *registry.find(graph.nodes[node].kind); }
     /// Colours per answer when nothing is added up.
@@ -42,6 +46,9 @@ public:
     Assembly(const Network& network, PortTo port_to) : network_(network), port_to_(std::move(port_to)) {}
 
     const LightOp& light(std::size_t node);
+    /// Has the node prepare itself.
+    void prepare(std::size_t node, Services& services);
+    Rehearsal& rehearsal(std::size_t node) { return rehearsals_[node]; }
     Called called(std::size_t node) { return {light(node), network_.graph.nodes[node].name, network_.width_of(node)}; }
     const Renderer& renderer(std::size_t node);
 
@@ -50,6 +57,7 @@ private:
 
     const Network& network_;
     PortTo port_to_;
+    std::map<std::size_t, Rehearsal> rehearsals_;
     std::map<std::size_t, std::unique_ptr<LightOp>> lights_;
     std::map<std::size_t, std::unique_ptr<Renderer>> renderers_;
 };
