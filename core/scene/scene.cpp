@@ -4,7 +4,9 @@
 #include "core/scene/geometry.hpp"
 #include "core/scene/shading.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace lightnet {
 namespace {
@@ -91,6 +93,16 @@ SurfacePoint Scene::surface(const Query& query) const {
     if (query.geometry >= shapes.size() || query.primitive >= primitives(shapes[query.geometry]))
         throw Error("scene", "a question names a surface that isn't there");  // it may come from another host
     return built_->shading.point(query.geometry, query.primitive, query.u, query.v);
+}
+
+const std::string& Scene::material_of(const SurfacePoint& point) const {
+    return built_->data.materials[built_->data.shapes[point.geometry].material].name;
+}
+
+bool Scene::has_material(const std::string& name) const {
+    const auto& [shapes, materials] = std::tie(built_->data.shapes, built_->data.materials);
+    return std::any_of(shapes.begin(), shapes.end(),
+                       [&](const Shape& shape) { return materials[shape.material].name == name; });
 }
 
 Bsdf Scene::bsdf(const SurfacePoint& point) const { return built_->shading.bsdf(point); }
