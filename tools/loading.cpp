@@ -60,7 +60,7 @@ Loaded load(const Options& options, const Registry& registry, bool names_of_host
     if (names_of_hosts) check_names(hosts, problems);
     sort_by_line(problems, file.graph.file);
     if (!problems.empty()) throw UserError(std::move(problems));
-    return {std::move(found.graph), std::move(hosts), std::move(found.warnings)};
+    return {std::move(found.graph), std::move(hosts), std::move(found.warnings), std::move(found.notes)};
 }
 
 }  // namespace lightnet
