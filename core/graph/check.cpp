@@ -7,6 +7,7 @@
 
 #include "core/graph/check_hosts.hpp"
 #include "core/graph/check_params.hpp"
+#include "core/graph/light_paths.hpp"
 
 namespace lightnet {
 namespace {
@@ -196,7 +197,12 @@ Examined examine(const Graph& graph, const Registry& registry, const Hosts& host
     Examined found = Examination(graph, registry).run();
     check_hosts(hosts, graph, registry, found.problems);
     sort_by_line(found.problems, graph.file);
-    if (found.problems.empty()) found.warnings = unused_nodes(graph, registry);
+    if (!found.problems.empty()) return found;
+    found.warnings = unused_nodes(graph, registry);
+    PathReport paths = report_paths(found.graph, registry);
+    found.warnings.insert(found.warnings.end(), paths.doubles.begin(), paths.doubles.end());
+    sort_by_line(found.warnings, graph.file);
+    found.notes = std::move(paths.missing);
     return found;
 }
 

@@ -15,7 +15,9 @@ namespace lightnet {
 struct Examined {
     Graph graph;                    // with defaults filled in
     std::vector<Problem> problems;  // all of them, in the order of the files' lines; empty: the graph is sound
-    std::vector<Problem> warnings;  // what works, but is probably not meant: nodes that the picture doesn't need
+    std::vector<Problem> warnings;  // what works, but is probably not meant: nodes that the picture doesn't need, light
+                                    // that is counted twice
+    std::vector<Problem> notes;     // what is often meant, and good to know: light that no node counts
 };
 
 /// Finds everything that is wrong: unknown kind or parameter, wrong type or range, missing input, wrong role of an

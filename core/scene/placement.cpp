@@ -55,6 +55,8 @@ SurfacePoint Placement::place(const SurfacePoint& point) const {
     SurfacePoint placed = point;
     placed.position = point_to_world(point.position);
     placed.normal = gradient / steepness;
+    placed.along_u = direction_to_world(point.along_u);
+    placed.along_v = direction_to_world(point.along_v);
 
     // What the point was off in its object, as the world sees it; what the world's own numbers round; and what Embree
     // rounds when it takes a ray into the object, which shear makes worse.

@@ -1,5 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <utility>
+
 #include "tests/support/rig.hpp"
 #include "tests/support/small_scenes.hpp"
 
@@ -50,6 +54,43 @@ TEST(RayTracer, PutsWhatShinesIntoLayerZero) {
         EXPECT_EQ(pixels[2 * i + 1], (Rgb{}));
     }
 }
+
+// The edge of a white half-plane between two pixels: each filter spreads it as far as it reaches, and symmetrically.
+class Filters : public testing::TestWithParam<std::pair<const char*, float>> {};
+
+TEST_P(Filters, SpreadAnEdgeAsFarAsTheyReach) {
+    const auto [filter, beyond] = GetParam();  // share of a pixel's filter that lies outside the pixel, on one side
+    SceneData data;
+    add(data, quad({0, -100, -1}, {100, 0, 0}, {0, 200, 0}), diffuse(data, 0)).emission = AreaEmission{{1, 1, 1}, true};
+    data.camera = camera({0, 0, 4}, {0, 0, 0}, 20);
+    const Scene scene(data);
+    Rig rig(scene);
+    rig.add("AmbientOcclusion", "nothing");
+    const std::uint32_t width = scene.film().width, row = scene.film().height / 2;
+    const auto renderer = rig.renderer("nothing", {{"filter", Value{filter}}});
+    const Tile tile{width / 2 - 2, row, 4, 64, 0, 16};
+    std::vector<Rgb> pixels(2 * tile.pixels());
+    for (std::uint32_t block = 0; block < 4; ++block) {
+        Tile part = tile;
+        part.first_sample = 16 * block;
+        renderer->render(part, pixels);
+    }
+    std::array<double, 4> columns{};
+    for (std::size_t i = 0; i < tile.pixels(); ++i) {
+        const Rgb all = pixels[2 * i] + pixels[2 * i + 1];
+        columns[i % 4] += double{all.g} / (64.0 * double(tile.pixels() / 4));
+    }
+    if (columns[0] > 0.5) std::reverse(columns.begin(), columns.end());
+    EXPECT_NEAR(columns[1], beyond, 0.01);
+    EXPECT_NEAR(columns[1] + columns[2], 1, 0.01) << "both sides of the edge look alike";
+    EXPECT_NEAR(columns[0] + columns[3], 1, 0.01);
+}
+
+// The tent of radius 1: ½ × (½)². The lowered gaussian of radius 1.5: its integral from 0.5 on, over the whole of it.
+INSTANTIATE_TEST_SUITE_P(Shapes, Filters,
+                         testing::Values(std::pair{"box", 0.0f}, std::pair{"tent", 0.125f},
+                                         std::pair{"gaussian", 0.1529f}),
+                         [](const auto& shape) { return std::string(shape.param.first); });
 
 TEST(RayTracer, TilesAndSamplesMakeNoDifference) {
     const Scene scene(furnace(0.5f, 1));
