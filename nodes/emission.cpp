@@ -9,9 +9,9 @@ namespace {
 
 /// Answers with the radiance that the surface itself emits. The renderer sees that anyhow; nodes that gather light from
 /// other surfaces do not.
-class Emission final : public LightOp {
+class OwnLight final : public LightOp {
 public:
-    explicit Emission(const NodeContext& here) : scene_(here.scene()) {}
+    explicit OwnLight(const NodeContext& here) : scene_(here.scene()) {}
 
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
         for (std::size_t i = 0; i < questions.size(); ++i)
@@ -29,7 +29,7 @@ Kind emission_kind() {
         .name = "Emission",
         .help = "what surfaces shine by themselves; for nodes that gather light, as the renderer sees it anyhow",
         .paths = [](const Node&) { return std::vector<std::string>{"A"}; },
-        .make_light = [](const NodeContext& here) { return std::make_unique<Emission>(here); },
+        .make_light = [](const NodeContext& here) { return std::make_unique<OwnLight>(here); },
     };
 }
 

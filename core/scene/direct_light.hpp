@@ -28,7 +28,7 @@ struct Gathering {
     std::uint8_t lobes;
 };
 
-/// What one sampled point of a lamp sends to a surface point and on, if nothing is in the way of the ray.
+/// What one sampled light sends to a surface point and on, if nothing is in the way of the ray.
 struct LampRay {
     Ray ray;
     Rgb light;
@@ -37,8 +37,8 @@ struct LampRay {
 /// light_by_lamp() before it is known what is in the way. None: no light by this sample, whatever is in between.
 std::optional<LampRay> ray_to_lamp(const Scene& scene, const Gathering& at, Samples& samples, Heuristic heuristic);
 
-/// Radiance that one sampled point of a lamp sends to `at` and on into its direction; weighted against finding it by
-/// a direction from the BSDF. Uses two dimensions.
+/// Radiance that one sampled light sends to `at` and on into its direction: a point of a lamp, a bare light or a part
+/// of the environment; weighted against finding it by a direction from the BSDF. Uses two dimensions.
 Rgb light_by_lamp(const Scene& scene, const Gathering& at, Samples& samples, Heuristic heuristic);
 
 /// Radiance that arrives from where a ray into `sample.incoming` ended (nothing there: the environment), times the
