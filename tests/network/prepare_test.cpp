@@ -1,6 +1,8 @@
 // Nodes that prepare: the same bytes however many places do it, and whoever is lost meanwhile.
 #include <gmock/gmock.h>
 
+#include <signal.h>
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -18,6 +20,7 @@
 #include "nodes/standard_nodes.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/support/learner.hpp"
+#include "tests/support/process.hpp"
 #include "tests/support/slowdown.hpp"
 #include "transport/cluster.hpp"
 #include "transport/host.hpp"
@@ -228,6 +231,43 @@ TEST(Prepare, GoesOnWhenAHostLeavesInTheMiddle) {
                   expected);
         cluster.finish();
     }
+}
+
+// A daemon in a process of its own, which can be killed.
+class LearningDaemon {
+public:
+    explicit LearningDaemon(const std::string& cache) : process_({LIGHTNET_LEARNING_DAEMON, cache, "1"}) {
+        EXPECT_TRUE(process_.wait_for("\n")) << process_.output();
+    }
+    std::string endpoint() const {
+        const auto at = process_.output().find("tcp://");
+        return process_.output().substr(at, process_.output().find('\n') - at);
+    }
+    void signal(int number) { process_.signal(number); }
+
+private:
+    test::Process process_;
+};
+
+TEST(Prepare, GetsOverTheLossOfAHostAtAnyMoment) {
+    const Learning learning;
+    const auto expected = learning.serial();
+    for (const int number : {SIGKILL, SIGSTOP})
+        for (const int calls : {1, 2, 4, 8, 16}) {
+            const test::Folder folder;
+            HostThread one(learning.registry, folder.file("one"), 1);
+            LearningDaemon two(folder.file("two"));
+            const std::atomic<bool> never{false};
+            Cluster cluster(cluster_of(learning, {one.endpoint(), two.endpoint()}));
+            cluster.gather(test::slowdown * 5s, never);
+            int called = 0;
+            const auto hurt = [&] {
+                if (++called == calls) two.signal(number);
+            };
+            EXPECT_EQ(learning.networked(cluster, hurt), expected) << "signal " << number << " at look " << calls;
+            two.signal(SIGCONT);
+            cluster.finish();
+        }
 }
 
 TEST(Prepare, LetsAHostJoinInTheMiddle) {
