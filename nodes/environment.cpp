@@ -13,9 +13,9 @@ namespace {
 
 /// Looks into directions that the surface scatters much light from. What is in the way counts as black, even if it
 /// shines: that is what lamps bring.
-class Environment final : public LightOp {
+class SkyLight final : public LightOp {
 public:
-    explicit Environment(const NodeContext& here)
+    explicit SkyLight(const NodeContext& here)
         : scene_(here.scene()), key_(here.key()), samples_(static_cast<std::uint32_t>(here.integer("samples"))) {}
 
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
@@ -71,7 +71,7 @@ Kind environment_kind() {
                     .initial = Value{1.0},
                     .least = 1,
                     .most = 65536}},
-        .make_light = [](const NodeContext& here) { return std::make_unique<Environment>(here); },
+        .make_light = [](const NodeContext& here) { return std::make_unique<SkyLight>(here); },
     };
 }
 

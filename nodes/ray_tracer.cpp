@@ -102,8 +102,11 @@ private:
             const Key key = pixel_key(seed_, x, y);
             for (std::uint32_t s = 0; s < tile.samples; ++s) {
                 const Look& look = looks.emplace_back(Look{pixel, key, tile.first_sample + s});
-                const Vec2 u = filter_.place(Samples(key, look.sample).next_2d());
-                rays.push_back(scene_.camera().ray(float(x) + u.x, float(y) + u.y));
+                Samples samples(key, look.sample);
+                const Vec2 u = filter_.place(samples.next_2d());
+                const Camera& camera = scene_.camera();
+                rays.push_back(camera.has_lens() ? camera.ray(float(x) + u.x, float(y) + u.y, samples.next_2d())
+                                                 : camera.ray(float(x) + u.x, float(y) + u.y));
             }
         }
         std::vector<std::optional<Hit>> hits(rays.size());

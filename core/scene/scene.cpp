@@ -8,6 +8,7 @@
 #include "core/scene/shading.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 #include <vector>
 

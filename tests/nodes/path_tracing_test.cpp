@@ -91,6 +91,7 @@ TEST(WhiteSky, HidesAnythingWhenOneNodeFollowsAllPaths) {
     SceneData data;
     data.environments.push_back({{1, 1, 1}});
     data.camera = camera({0, 2, 6}, {0, 0.5f, 0}, 40);
+    data.camera_given = true;
     add(data, quad({-20, 0, -20}, {0, 0, 40}, {40, 0, 0}), diffuse(data, 1));
     add(data, ball({-1.2f, 1, 0}, 0.9f), material(data, DielectricMaterial{}));
     add(data, ball({1.2f, 1, 0}, 0.9f), material(data, CoatedDiffuseMaterial{colour(data, {1, 1, 1})}));
@@ -106,6 +107,7 @@ TEST(PathTracing, FindsAllThatDirectAndIndirectLightAddUpTo) {
     SceneData data;
     data.environments.push_back({{0.5f, 0.5f, 0.5f}});
     data.camera = camera({0, 2, 6}, {0, 0.5f, 0}, 40);
+    data.camera_given = true;
     add(data, quad({-5, 0, -5}, {0, 0, 10}, {10, 0, 0}), diffuse(data, 0.7f));
     add(data, ball({0.5f, 1, 0}, 0.9f), diffuse(data, 0.5f));
     add(data, ball({-2, 3, 0}, 0.3f), diffuse(data, 0)).emission = AreaEmission{{20, 20, 20}, false};
