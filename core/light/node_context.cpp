@@ -15,8 +15,13 @@ const T& as(const Node& node, const std::string& param, const Value& value, cons
 
 }  // namespace
 
-NodeContext::NodeContext(const Node& node, Inputs inputs, const Scene& scene, std::uint64_t seed)
-    : node_(node), inputs_(std::move(inputs)), scene_(scene), seed_(seed) {}
+NodeContext::NodeContext(const Node& node, Inputs inputs, const Scene& scene, std::uint64_t seed, Services services)
+    : node_(node), inputs_(std::move(inputs)), scene_(scene), seed_(seed), services_(services) {}
+
+void NodeContext::each(std::size_t count, std::size_t at_once, const SideBySide::Work& work) const {
+    if (services_.side_by_side) return services_.side_by_side->each(node_.name.c_str(), count, at_once, work);
+    for (std::size_t piece = 0; piece < count; ++piece) work(piece);
+}
 
 const Value& NodeContext::value(const std::string& param) const {
     const auto found = node_.params.find(param);

@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/graph/graph.hpp"
 #include "core/light/inputs.hpp"
+#include "core/light/side_by_side.hpp"
 #include "core/math/random.hpp"
 
 namespace lightnet {
@@ -14,10 +16,17 @@ namespace lightnet {
 class Scene;
 
 /// Handed to a node's constructor. Parameters have passed the schema of the node's kind and defaults are filled in,
-/// so reading one that the schema doesn't name is a bug of the node.
+/// so reading one that the schema doesn't name is a bug of the node. A node may keep a copy of it.
 class NodeContext {
 public:
-    NodeContext(const Node& node, Inputs inputs, const Scene& scene, std::uint64_t seed);
+    /// What the place lends to a node beside its inputs.
+    struct Services {
+        SideBySide* side_by_side = nullptr;  // none: one after the other
+        bool checking = false;               // is this a run that looks for wrapped classes with a memory?
+    };
+    NodeContext(const Node& node, Inputs inputs, const Scene& scene, std::uint64_t seed)
+        : NodeContext(node, std::move(inputs), scene, seed, Services{}) {}
+    NodeContext(const Node& node, Inputs inputs, const Scene& scene, std::uint64_t seed, Services services);
 
     const std::string& name() const { return node_.name; }
     /// The node's own key: derive streams as child(query.stream, here.key(), i).
@@ -25,6 +34,11 @@ public:
     const Scene& scene() const { return scene_; }
     const Inputs& inputs() const { return inputs_; }
     std::uint64_t seed() const { return seed_; }
+
+    bool checking() const { return services_.checking; }
+
+    /// Calls `work` for each of `count` pieces, one after the other or side by side: see SideBySide. From light() only.
+    void each(std::size_t count, std::size_t at_once, const SideBySide::Work& work) const;
 
     double number(const std::string& param) const;
     std::int64_t integer(const std::string& param) const;
@@ -38,6 +52,7 @@ private:
     Inputs inputs_;
     const Scene& scene_;
     std::uint64_t seed_;
+    Services services_;
 };
 
 }  // namespace lightnet

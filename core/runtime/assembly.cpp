@@ -21,10 +21,11 @@ std::vector<std::uint32_t> positions(const Terminals& part, const Terminals& who
 }
 
 template <class Make>
-auto made(const Network& network, std::size_t node, Inputs inputs, const Make& make) {
+auto made(const Network& network, std::size_t node, Inputs inputs, SideBySide* side_by_side, const Make& make) {
     const auto& what = network.graph.nodes[node];
     try {
-        return make(NodeContext(what, std::move(inputs), *network.scene, network.seed));
+        return make(NodeContext(what, std::move(inputs), *network.scene, network.seed,
+                                NodeContext::Services{side_by_side, network.checking}));
     } catch (const std::exception& error) {
         throw Error(what.kind + " '" + what.name + "'", error.what());
     }
@@ -39,7 +40,7 @@ std::size_t Network::width_of(std::size_t node) const {
 Inputs Assembly::inputs_of(std::size_t node) {
     const auto& of_node = network_.layers.of_node;
     const bool image = network_.kind_of(node).role == Role::image;
-    const bool additive = image || of_node[node] != Terminals{node};
+    const bool additive = image ? !network_.kind_of(node).merges : of_node[node] != Terminals{node};
     std::vector<Input> inputs;
     for (const auto asked : network_.graph.inputs_of(node)) {
         Input input;
@@ -53,13 +54,14 @@ Inputs Assembly::inputs_of(std::size_t node) {
 
 const LightOp& Assembly::light(std::size_t node) {
     auto& light = lights_[node];
-    if (!light) light = made(network_, node, inputs_of(node), network_.kind_of(node).make_light);
+    if (!light) light = made(network_, node, inputs_of(node), side_by_side_, network_.kind_of(node).make_light);
     return *light;
 }
 
 const Renderer& Assembly::renderer(std::size_t node) {
     auto& renderer = renderers_[node];
-    if (!renderer) renderer = made(network_, node, inputs_of(node), network_.kind_of(node).make_renderer);
+    if (!renderer)
+        renderer = made(network_, node, inputs_of(node), side_by_side_, network_.kind_of(node).make_renderer);
     return *renderer;
 }
 

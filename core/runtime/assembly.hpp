@@ -12,6 +12,7 @@
 #include "core/graph/plan.hpp"
 #include "core/light/inputs.hpp"
 #include "core/light/light_op.hpp"
+#include "core/light/node_context.hpp"
 #include "core/light/renderer.hpp"
 #include "core/runtime/call_port.hpp"
 #include "core/scene/scene.hpp"
@@ -26,6 +27,7 @@ struct Network {
     std::shared_ptr<const Scene> scene;
     std::uint64_t seed = 0;
     Layers layers = layers_of(graph, registry);
+    bool checking = false;  // wrapped classes are asked twice, to find those with a memory
 
     const Kind& kind_of(std::size_t node) const { return *registry.find(graph.nodes[node].kind); }
     /// Colours per answer when nothing is added up.
@@ -39,7 +41,9 @@ public:
     /// outlive the assembly.
     using PortTo = std::function<Port*(std::size_t node, std::size_t width)>;
 
-    Assembly(const Network& network, PortTo port_to) : network_(network), port_to_(std::move(port_to)) {}
+    /// `side_by_side` serves the nodes that have many small things to wait for; none: one after the other.
+    Assembly(const Network& network, PortTo port_to, SideBySide* side_by_side = nullptr)
+        : network_(network), port_to_(std::move(port_to)), side_by_side_(side_by_side) {}
 
     const LightOp& light(std::size_t node);
     Called called(std::size_t node) { return {light(node), network_.graph.nodes[node].name, network_.width_of(node)}; }
@@ -50,6 +54,7 @@ private:
 
     const Network& network_;
     PortTo port_to_;
+    SideBySide* side_by_side_;
     std::map<std::size_t, std::unique_ptr<LightOp>> lights_;
     std::map<std::size_t, std::unique_ptr<Renderer>> renderers_;
 };

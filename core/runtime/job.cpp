@@ -51,7 +51,9 @@ std::string to_json(const Job& job) {
                   {"credit_bundles", rules.credit.bundles},
                   {"credit_questions", rules.credit.questions},
                   {"spare_fibers", rules.spare_fibers},
-                  {"call_own_nodes", rules.call_own_nodes}}}}
+                  {"side_fibers", rules.side_fibers},
+                  {"call_own_nodes", rules.call_own_nodes}}},
+                {"checking", job.checking}}
         .dump();
 }
 
@@ -77,7 +79,9 @@ Job job_from_json(std::string_view text) {
         job.rules.credit.bundles = count_of<std::size_t>(rules, "credit_bundles");
         job.rules.credit.questions = count_of<std::size_t>(rules, "credit_questions");
         job.rules.spare_fibers = count_of<std::size_t>(rules, "spare_fibers");
+        job.rules.side_fibers = count_of<std::size_t>(rules, "side_fibers");
         job.rules.call_own_nodes = rules.at("call_own_nodes");
+        job.checking = json.at("checking");
         return job;
     } catch (const Json::exception& error) {
         throw Error("not a job", error.what());
@@ -94,7 +98,8 @@ std::shared_ptr<const Network> build_network(const Job& job, const Registry& reg
     options.width = job.width;
     options.height = job.height;
     auto built = std::make_shared<const Scene>(std::move(scene), options);
-    return std::make_shared<const Network>(Network{job.graph, registry, std::move(built), job.seed});
+    return std::make_shared<const Network>(
+        Network{job.graph, registry, std::move(built), job.seed, layers_of(job.graph, registry), job.checking});
 }
 
 }  // namespace lightnet
