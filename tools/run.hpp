@@ -16,10 +16,11 @@ enum class Mode { serial, threads, hosts, local_workers };
 
 /// Sizes that decide how fast a run is, and never what it computes.
 struct Tuning {
-    std::uint32_t tile = 32;          // pixels along a side of a tile
-    std::uint32_t bundle = 512;       // questions in a full bundle
-    std::uint32_t credit = 8;         // bundles under way to one place, for each node that is asked
-    std::uint32_t spare_fibers = 16;  // of a place, beside the one that each node has for itself
+    std::uint32_t tile = 32;           // pixels along a side of a tile
+    std::uint32_t bundle = 512;        // questions in a full bundle
+    std::uint32_t credit = 8;          // bundles under way to one place, for each node that is asked
+    std::uint32_t spare_fibers = 16;   // of a place, beside the one that each node has for itself
+    std::uint32_t side_fibers = 2048;  // of a place, for questions that wrapped code waits for one by one
 };
 
 /// A run, ready to go.
@@ -34,6 +35,7 @@ struct RunRequest {
     std::string scene;   // file, as seen from here
     std::string output;  // "x.exr", as seen from here
     std::uint64_t seed = 0;
+    bool check_wrapped = false;  // ask wrapped classes twice, to find those with a memory
     ProgressMode progress = ProgressMode::automatic;
 };
 
