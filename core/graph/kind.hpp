@@ -49,7 +49,8 @@ struct Kind {
     std::size_t most_inputs = 0;
     bool linear = false;  // answers with a weighted sum of its inputs: layers pass through
     bool merges = false;  // of a renderer: what comes from its inputs can't be told apart, its picture is one layer
-    bool reproducible = true;  // false: draws random numbers that nobody seeds
+    bool side_by_side = false;  // wants all questions of a call at once, to have them wait at the same time
+    bool reproducible = true;   // false: draws random numbers that nobody seeds
     std::vector<Param> params = {};
     std::function<std::unique_ptr<LightOp>(const NodeContext&)> make_light = {};
     std::function<std::unique_ptr<Renderer>(const NodeContext&)> make_renderer = {};

@@ -165,6 +165,7 @@ Kind kind_of(std::string name, const Wrapping& wrapping) {
     kind.least_inputs = wrapping.least_inputs;
     kind.most_inputs = std::max(wrapping.least_inputs, wrapping.most_inputs);
     kind.params = wrapping.params;
+    kind.side_by_side = true;
     kind.reproducible = wrapping.reproducible;
     return kind;
 }

@@ -46,7 +46,10 @@ public:
         : network_(network), port_to_(std::move(port_to)), side_by_side_(side_by_side) {}
 
     const LightOp& light(std::size_t node);
-    Called called(std::size_t node) { return {light(node), network_.graph.nodes[node].name, network_.width_of(node)}; }
+    Called called(std::size_t node) {
+        return {light(node), network_.graph.nodes[node].name, network_.width_of(node),
+                network_.kind_of(node).side_by_side};
+    }
     const Renderer& renderer(std::size_t node);
 
 private:

@@ -163,9 +163,8 @@ namespace {
 // Embree takes names that it doesn't know, or whose processor isn't here, for something else, and says nothing.
 bool has_isa(const std::string& isa) {
     __builtin_cpu_init();
-    return (isa == "sse2" && __builtin_cpu_supports("sse2")) ||
-           (isa == "sse4.2" && __builtin_cpu_supports("sse4.2")) || (isa == "avx" && __builtin_cpu_supports("avx")) ||
-           (isa == "avx2" && __builtin_cpu_supports("avx2"));
+    return (isa == "sse2" && __builtin_cpu_supports("sse2")) || (isa == "sse4.2" && __builtin_cpu_supports("sse4.2")) ||
+           (isa == "avx" && __builtin_cpu_supports("avx")) || (isa == "avx2" && __builtin_cpu_supports("avx2"));
 }
 
 RTCDevice device_for(const std::string& isa) {
