@@ -77,10 +77,15 @@ void BundlePort::finish(Ticket ticket) {
     throw Error(error);
 }
 
+// Who waits long for an answer anyway loses little by waiting for company first.
+std::chrono::nanoseconds BundlePort::patience() const {
+    return std::clamp<std::chrono::nanoseconds>(answer_time_ / 2, rules_.oldest, 16 * rules_.oldest);
+}
+
 bool BundlePort::due(Clock::time_point now, bool idle) {
     if (waiting_ == 0) return false;
     if (waiting_ >= rules_.questions) return true;
-    if (now - oldest_ >= rules_.oldest) return true;
+    if (now - oldest_ >= patience()) return true;
     return idle && replicas_.bundles_outstanding() < rules_.eager * replicas_.size();
 }
 
@@ -127,6 +132,7 @@ BundlePort::Pieces* BundlePort::pieces_of(const Bundle<Query>& bundle) {
 Bundle<Query> BundlePort::make_bundle(Clock::time_point now) {
     auto questions = empty_buffer();
     const std::uint64_t number = open_pieces();
+    pieces_[slot_of(number)].sent = now;
     auto& pieces = pieces_[slot_of(number)].all;
     while (first_ < unbundled_.size() && questions->size() < rules_.questions) {
         const Ticket ticket = unbundled_[first_];
@@ -153,7 +159,7 @@ std::chrono::nanoseconds BundlePort::until_due(Clock::time_point now) const {
     constexpr std::chrono::nanoseconds never = std::chrono::milliseconds(100);
     if (!again_.empty()) return std::chrono::milliseconds(1);
     if (waiting_ == 0 || !replicas_.has_credit()) return never;
-    return std::max<std::chrono::nanoseconds>(oldest_ + rules_.oldest - now, std::chrono::microseconds(50));
+    return std::max<std::chrono::nanoseconds>(oldest_ + patience() - now, std::chrono::microseconds(50));
 }
 
 void BundlePort::settle(Ask& ask) {
@@ -172,6 +178,8 @@ void BundlePort::close(Pieces& pieces, const Bundle<Query>& bundle) {
 void BundlePort::answered(const Bundle<Query>& bundle, std::vector<Rgb> answers) {
     auto* const pieces = pieces_of(bundle);
     if (!pieces) return;
+    const auto took = std::chrono::nanoseconds(Clock::now() - pieces->sent);
+    answer_time_ = answer_time_ == answer_time_.zero() ? took : (3 * answer_time_ + took) / 4;
     auto from = answers.begin();
     for (const auto& piece : pieces->all) {
         const auto next = from + static_cast<std::ptrdiff_t>(piece.count * width_);

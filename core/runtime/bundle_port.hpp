@@ -20,7 +20,7 @@ namespace lightnet {
 /// When a bundle goes.
 struct BundleRules {
     std::size_t questions = 512;             // it is full
-    std::chrono::microseconds oldest{1000};  // a question has waited so long
+    std::chrono::microseconds oldest{1000};  // a question has waited so long, and half of what an answer takes
     std::size_t eager = 2;                   // else only when the place has nothing else to do and fewer are out
     friend bool operator==(const BundleRules&, const BundleRules&) = default;
 };
@@ -73,12 +73,14 @@ private:
     struct Pieces {
         std::uint32_t uses = 0;
         bool open = false;
+        Clock::time_point sent;
         std::vector<Piece> all;
     };
     using Buffer = std::shared_ptr<std::vector<Query>>;
 
     Ask* find(Ticket ticket);
     void close(Ticket ticket);
+    std::chrono::nanoseconds patience() const;
     bool due(Clock::time_point now, bool idle);
     Bundle<Query> make_bundle(Clock::time_point now);
     Buffer empty_buffer();
@@ -96,12 +98,13 @@ private:
     std::vector<std::uint32_t> closed_;  // slots
     std::vector<Ticket> unbundled_;      // asks with questions in no bundle yet, from first_ on
     std::size_t first_ = 0;
-    std::size_t waiting_ = 0;            // questions in no bundle yet
-    Clock::time_point oldest_;           // since when the first of them has waited, at most
-    std::deque<Pieces> pieces_;          // by slot in the number of the bundle
-    std::vector<std::uint32_t> unused_;  // slots of pieces_
-    std::vector<Buffer> buffers_;        // that no bundle has now
-    std::deque<Bundle<Query>> again_;    // came back unanswered
+    std::size_t waiting_ = 0;                  // questions in no bundle yet
+    std::chrono::nanoseconds answer_time_{0};  // from sending a bundle to its answer, smoothed
+    Clock::time_point oldest_;                 // since when the first of them has waited, at most
+    std::deque<Pieces> pieces_;                // by slot in the number of the bundle
+    std::vector<std::uint32_t> unused_;        // slots of pieces_
+    std::vector<Buffer> buffers_;              // that no bundle has now
+    std::deque<Bundle<Query>> again_;          // came back unanswered
 };
 
 }  // namespace lightnet

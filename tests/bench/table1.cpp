@@ -27,7 +27,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::uint32_t side = 64;  // pixels; 64 × 64 × 2 samples × 16 rays are about 128,000 questions
+constexpr std::uint32_t side = 76;  // pixels; with 2 samples and 16 rays about 128,000 questions
 constexpr double samples = 2, rays = 16;
 constexpr int rounds = 3;
 
@@ -71,7 +71,7 @@ public:
     Cost bundled() {
         Job job = job_;
         job.rules.bundles.questions = 1024;
-        return measure(job, tiles_of(side, side, 32, std::uint32_t(samples)), 6);
+        return measure(job, tiles_of(side, side, 38, std::uint32_t(samples)), 6);
     }
     /// One question at a time, waited for; a twentieth of the picture's rows, spread over it.
     Cost one_by_one() {

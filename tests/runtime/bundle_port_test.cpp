@@ -124,6 +124,29 @@ TEST_F(BundlePortTest, ThrowsWhereTheAnswerWasAwaited) {
     EXPECT_EQ(what, "'bounce' on onyx2: out of photons");
 }
 
+TEST_F(BundlePortTest, SendsWhatHasWaitedForLong) {
+    ask(1);
+    const auto now = BundlePort::Clock::now();
+    EXPECT_FALSE(port.flush(now, false));
+    EXPECT_TRUE(port.flush(now + std::chrono::seconds(2), false));
+    channel.answer();
+    run_ready();
+}
+
+TEST_F(BundlePortTest, WaitsLongerForCompanyWhereAnswersTakeLong) {
+    using std::chrono::seconds;
+    ask(1);
+    port.flush(BundlePort::Clock::now() - seconds(10), true);  // sent so long ago
+    channel.answer();
+    run_ready();
+    ask(1);
+    const auto now = BundlePort::Clock::now();
+    EXPECT_FALSE(port.flush(now + seconds(2), false)) << "five seconds are half of what the last answer took";
+    EXPECT_TRUE(port.flush(now + seconds(6), false));
+    channel.answer();
+    run_ready();
+}
+
 TEST_F(BundlePortTest, UsesItsBuffersAgain) {
     ask(8);
     const auto* const first = channel.sent.front().questions->data();
