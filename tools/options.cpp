@@ -180,6 +180,9 @@ private:
         add("--tile", tuning.tile, 1, 256, "pixels along a side of a tile");
         add("--bundle", tuning.bundle, 1, 65536, "questions in a full bundle");
         add("--credit", tuning.credit, 1, 1024, "bundles under way to one place, per node asked");
+        verb.add_option("--cache", tuning.cache, "where what nodes prepare is kept from run to run; 'none': nowhere")
+            ->type_name("FOLDER")
+            ->group("Tuning");
         add("--spare-fibers", tuning.spare_fibers, 0, 4096, "fibers of a place beside one per node");
         add("--side-fibers", tuning.side_fibers, 0, 8192, "fibers of a place for questions that wrapped code asks");
     }

@@ -15,7 +15,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "columns are little-endian, and copied as they are");
 
-using Bytes = std::vector<std::byte>;
+using Buffer = std::vector<std::byte>;
 using View = std::span<const std::byte>;
 
 /// `size` bytes at `offset` of each question.
@@ -44,7 +44,12 @@ constexpr std::array columns<Tile>{Column{"x", offsetof(Tile, x), 4},
                                    Column{"width", offsetof(Tile, width), 4},
                                    Column{"height", offsetof(Tile, height), 4},
                                    Column{"first", offsetof(Tile, first_sample), 4},
-                                   Column{"samples", offsetof(Tile, samples), 4}};
+                                   Column{"samples", offsetof(Tile, samples), 4},
+                                   Column{"stride", offsetof(Tile, stride), 4}};
+
+template <>
+constexpr std::array columns<Step>{Column{"kind", offsetof(Step, kind), 4}, Column{"call", offsetof(Step, call), 4},
+                                   Column{"shard", offsetof(Step, shard), 4}, Column{"data", offsetof(Step, data), 32}};
 
 // Loops whose copies have a constant size.
 template <std::size_t Size>
@@ -59,8 +64,10 @@ void copy_column(std::size_t size, std::byte* to, std::size_t to_step, const std
             return copy_strided<4>(to, to_step, from, from_step, count);
         case 8:
             return copy_strided<8>(to, to_step, from, from_step, count);
-        default:
+        case 12:
             return copy_strided<12>(to, to_step, from, from_step, count);
+        default:
+            return copy_strided<32>(to, to_step, from, from_step, count);
     }
 }
 
@@ -113,7 +120,7 @@ void pack_numbers(const char* name, const std::byte* from, std::size_t step, std
 }
 
 template <class Question>
-void pack(const std::vector<Question>& questions, Bytes& body) {
+void pack(const std::vector<Question>& questions, Buffer& body) {
     const std::size_t count = questions.size();
     body.reserve(count * sizeof(Question) + 256);
     BodyWriter writer(body, columns<Question>.size());
@@ -160,8 +167,9 @@ void write(const Found& found, const Column& column, std::byte* to, std::size_t 
 
 }  // namespace
 
-void pack_columns(const std::vector<Query>& questions, Bytes& body) { pack(questions, body); }
-void pack_columns(const std::vector<Tile>& tiles, Bytes& body) { pack(tiles, body); }
+void pack_columns(const std::vector<Query>& questions, Buffer& body) { pack(questions, body); }
+void pack_columns(const std::vector<Tile>& tiles, Buffer& body) { pack(tiles, body); }
+void pack_columns(const std::vector<Step>& steps, Buffer& body) { pack(steps, body); }
 
 template <class Question>
 std::optional<Questions<Question>> unpack_columns(std::size_t count, View body) {
@@ -187,5 +195,6 @@ std::optional<Questions<Question>> unpack_columns(std::size_t count, View body) 
 
 template std::optional<Questions<Query>> unpack_columns<Query>(std::size_t, View);
 template std::optional<Questions<Tile>> unpack_columns<Tile>(std::size_t, View);
+template std::optional<Questions<Step>> unpack_columns<Step>(std::size_t, View);
 
 }  // namespace lightnet::packet

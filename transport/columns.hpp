@@ -18,6 +18,7 @@ inline constexpr std::size_t most_questions = 1 << 16;  // in one bundle
 
 void pack_columns(const std::vector<Query>& questions, std::vector<std::byte>& body);
 void pack_columns(const std::vector<Tile>& tiles, std::vector<std::byte>& body);
+void pack_columns(const std::vector<Step>& steps, std::vector<std::byte>& body);
 
 /// Reads `count` questions. None: there are others in `body`, or something else. Makes room only for what is there.
 template <class Question>
@@ -25,5 +26,6 @@ std::optional<Questions<Question>> unpack_columns(std::size_t count, std::span<c
 
 extern template std::optional<Questions<Query>> unpack_columns<Query>(std::size_t, std::span<const std::byte>);
 extern template std::optional<Questions<Tile>> unpack_columns<Tile>(std::size_t, std::span<const std::byte>);
+extern template std::optional<Questions<Step>> unpack_columns<Step>(std::size_t, std::span<const std::byte>);
 
 }  // namespace lightnet::packet

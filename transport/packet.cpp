@@ -12,14 +12,14 @@
 namespace lightnet::packet {
 namespace {
 
-using Bytes = std::vector<std::byte>;
+using Buffer = std::vector<std::byte>;
 using View = std::span<const std::byte>;
 
 // ---- header ---------------------------------------------------------------------------------------------------------
 
 class Writer {
 public:
-    explicit Writer(Bytes& out) : out_(out) {}
+    explicit Writer(Buffer& out) : out_(out) {}
     template <class T>
     void put(T value) {
         const auto* bytes = reinterpret_cast<const std::byte*>(&value);
@@ -27,7 +27,7 @@ public:
     }
 
 private:
-    Bytes& out_;
+    Buffer& out_;
 };
 
 class Reader {
@@ -51,8 +51,8 @@ std::uint64_t checksum(View header, View body) {
     return XXH3_64bits_withSeed(body.data(), body.size(), XXH3_64bits(header.data(), checksum_at));
 }
 
-Bytes write_header(const Header& header, View body) {
-    Bytes out;
+Buffer write_header(const Header& header, View body) {
+    Buffer out;
     out.reserve(header_size);
     Writer writer(out);
     writer.put(magic);
@@ -78,15 +78,29 @@ Bytes write_header(const Header& header, View body) {
 bool sane(const Tile& tile) {
     constexpr std::uint32_t most = 1 << 16;
     return tile.width > 0 && tile.height > 0 && tile.pixels() <= most && tile.x < most && tile.y < most &&
-           tile.samples > 0 && tile.samples <= samples_per_block && tile.first_sample % samples_per_block == 0;
+           tile.samples > 0 && tile.stride > 0 && tile.samples <= samples_per_block &&
+           tile.first_sample % samples_per_block == 0;
 }
 
-void pack_rgb(const std::vector<Rgb>& answers, Bytes& body) {
+bool sane(const Step& step) { return step.kind <= Step::Kind::last; }
+bool sane(const Query&) { return true; }
+
+template <class Question>
+bool take_questions(const Header& header, View body, Message& message) {
+    auto questions = unpack_columns<Question>(header.count, body);
+    if (!questions) return false;
+    for (const auto& question : **questions)
+        if (!sane(question)) return false;
+    message.questions = std::move(*questions);
+    return true;
+}
+
+void pack_rgb(const std::vector<Rgb>& answers, Buffer& body) {
     body.reserve(answers.size() * sizeof(Rgb) + 16);
     BodyWriter(body, 1).bytes("rgb", std::as_bytes(std::span(answers)));
 }
 
-Packet finish(const Header& header, Bytes body) { return {write_header(header, body), std::move(body)}; }
+Packet finish(const Header& header, Buffer body) { return {write_header(header, body), std::move(body)}; }
 
 Message message_of(const Header& header) {
     Message message;
@@ -142,23 +156,29 @@ Packet pack(const Message& message, std::uint32_t place) {
     header.run = message.run, header.bundle = message.bundle, header.channel = message.channel;
     header.node = message.node, header.place = place, header.width = message.width;
     header.fill = message.load.fill, header.service_ns = message.load.service_ns;
-    Bytes body;
-    if (message.type == Message::Type::reply) {
+    Buffer body;
+    const auto ask = [&](Type type, const auto& questions) {
+        header.type = type;
+        header.count = static_cast<std::uint32_t>(questions->size());
+        pack_columns(*questions, body);
+    };
+    if (message.type == Message::Type::failure) {
+        header.type = Type::failure;
+        body = pack(Type::failure, message.run, Fields{}.set("text", message.text)).body;
+    } else if (message.type == Message::Type::reply && message.data) {
+        header.type = Type::data;
+        body.reserve(message.data->size() + 16);
+        BodyWriter(body, 1).bytes("data", *message.data);
+    } else if (message.type == Message::Type::reply) {
         header.type = Type::answers;
         header.count = static_cast<std::uint32_t>(message.answers.size());
         pack_rgb(message.answers, body);
-    } else if (message.type == Message::Type::failure) {
-        header.type = Type::failure;
-        return finish(header, pack(Type::failure, message.run, Fields{}.set("text", message.text)).body);
     } else if (const auto* queries = std::get_if<Questions<Query>>(&message.questions)) {
-        header.type = Type::ask_light;
-        header.count = static_cast<std::uint32_t>((*queries)->size());
-        pack_columns(**queries, body);
+        ask(Type::ask_light, *queries);
+    } else if (const auto* tiles = std::get_if<Questions<Tile>>(&message.questions)) {
+        ask(Type::ask_pixels, *tiles);
     } else {
-        const auto& tiles = std::get<Questions<Tile>>(message.questions);
-        header.type = Type::ask_pixels;
-        header.count = static_cast<std::uint32_t>(tiles->size());
-        pack_columns(*tiles, body);
+        ask(Type::ask_step, std::get<Questions<Step>>(message.questions));
     }
     return finish(header, std::move(body));
 }
@@ -168,18 +188,21 @@ std::optional<Message> unpack(View header_bytes, View body) {
     if (!header) return std::nullopt;
     Message message = message_of(*header);
     switch (header->type) {
-        case Type::ask_light: {
-            auto questions = unpack_columns<Query>(header->count, body);
-            if (!questions) return std::nullopt;
-            message.questions = std::move(*questions);
+        case Type::ask_light:
+            if (!take_questions<Query>(*header, body, message)) return std::nullopt;
             return message;
-        }
-        case Type::ask_pixels: {
-            auto questions = unpack_columns<Tile>(header->count, body);
-            if (!questions) return std::nullopt;
-            for (const auto& tile : **questions)
-                if (!sane(tile)) return std::nullopt;
-            message.questions = std::move(*questions);
+        case Type::ask_pixels:
+            if (!take_questions<Tile>(*header, body, message)) return std::nullopt;
+            return message;
+        case Type::ask_step:
+            if (!take_questions<Step>(*header, body, message)) return std::nullopt;
+            return message;
+        case Type::data: {
+            const BodyReader map(body);
+            const auto bytes = map.good() ? map.bytes("data") : std::nullopt;
+            if (!bytes) return std::nullopt;
+            message.type = Message::Type::reply;
+            message.data = std::make_shared<const std::vector<std::byte>>(bytes->begin(), bytes->end());
             return message;
         }
         case Type::answers: {
@@ -226,7 +249,7 @@ const std::string& Fields::text(const std::string& key) const {
 }
 
 Packet pack(Type type, std::uint64_t run, const Fields& fields) {
-    Bytes body;
+    Buffer body;
     BodyWriter writer(body, fields.numbers.size() + fields.texts.size());
     for (const auto& [name, number] : fields.numbers) writer.number(name, number);
     for (const auto& [name, text] : fields.texts) writer.bytes(name, std::as_bytes(std::span(text)));

@@ -17,6 +17,7 @@ struct Tile {
     std::uint32_t width = 0, height = 0;
     std::uint32_t first_sample = 0;  // a multiple of samples_per_block
     std::uint32_t samples = 0;       // 1 … samples_per_block
+    std::uint32_t stride = 1;        // only pixels whose x and y are multiples of it are wanted (for rehearsals)
 
     std::size_t pixels() const { return std::size_t{width} * height; }
     std::uint32_t block() const { return first_sample / samples_per_block; }

@@ -47,8 +47,9 @@ struct Kind {
     std::string help;              // what it does, one line
     std::size_t least_inputs = 0;  // light inputs, from the array part
     std::size_t most_inputs = 0;
-    bool linear = false;  // answers with a weighted sum of its inputs: layers pass through
-    bool merges = false;  // of a renderer: what comes from its inputs can't be told apart, its picture is one layer
+    bool prepares = false;  // learns something before the first question: LightOp::prepare()
+    bool linear = false;    // answers with a weighted sum of its inputs: layers pass through
+    bool merges = false;    // of a renderer: what comes from its inputs can't be told apart, its picture is one layer
     bool side_by_side = false;  // wants all questions of a call at once, to have them wait at the same time
     bool reproducible = true;   // false: draws random numbers that nobody seeds
     std::vector<Param> params = {};

@@ -8,6 +8,8 @@
 
 namespace lightnet {
 
+class Services;
+
 /// Answers questions about light, by itself or by asking its inputs. Asking blocks, in the ordinary sense of the word.
 /// While one call waits, another may enter the same operator, so light() is const and members are no place for scratch
 /// data. It is never called from two threads at once. An answer depends on its question and on what was there before
@@ -15,6 +17,10 @@ namespace lightnet {
 class LightOp {
 public:
     virtual ~LightOp() = default;
+
+    /// What the operator learns before the first question: see Services. Called once, when all inputs are prepared, and
+    /// only if its kind says that it prepares. Questions may come while it waits in here, but only those of rehearsals.
+    virtual void prepare(Services&) {}
 
     /// Writes, for each question, the radiance (W·sr⁻¹·m⁻²) leaving the point in its direction. `answers` comes
     /// zeroed and holds one colour per question; an operator that adds up its inputs has one colour per layer and

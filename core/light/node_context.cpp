@@ -1,6 +1,7 @@
 #include "core/light/node_context.hpp"
 
 #include "core/error.hpp"
+#include "core/light/rehearsal.hpp"
 
 #include <cmath>
 
@@ -13,13 +14,24 @@ const T& as(const Node& node, const std::string& param, const Value& value, cons
     throw Error(node.kind + " '" + node.name + "'", "parameter '" + param + "' is not " + what);
 }
 
+Rehearsal& never() {
+    static Rehearsal none;  // never begun, so never written to
+    return none;
+}
+
 }  // namespace
 
-NodeContext::NodeContext(const Node& node, Inputs inputs, const Scene& scene, std::uint64_t seed, Services services)
-    : node_(node), inputs_(std::move(inputs)), scene_(scene), seed_(seed), services_(services) {}
+NodeContext::NodeContext(const Node& node, Inputs inputs, const Scene& scene, std::uint64_t seed, const Lent& lent)
+    : node_(node),
+      inputs_(std::move(inputs)),
+      scene_(scene),
+      seed_(seed),
+      rehearsal_(lent.rehearsal ? *lent.rehearsal : never()),
+      side_by_side_(lent.side_by_side),
+      checking_(lent.checking) {}
 
 void NodeContext::each(std::size_t count, std::size_t at_once, const SideBySide::Work& work) const {
-    if (services_.side_by_side) return services_.side_by_side->each(node_.name.c_str(), count, at_once, work);
+    if (side_by_side_) return side_by_side_->each(node_.name.c_str(), count, at_once, work);
     for (std::size_t piece = 0; piece < count; ++piece) work(piece);
 }
 

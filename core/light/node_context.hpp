@@ -13,20 +13,22 @@
 
 namespace lightnet {
 
+class Rehearsal;
 class Scene;
 
 /// Handed to a node's constructor. Parameters have passed the schema of the node's kind and defaults are filled in,
 /// so reading one that the schema doesn't name is a bug of the node. A node may keep a copy of it.
 class NodeContext {
 public:
-    /// What the place lends to a node beside its inputs.
-    struct Services {
+    /// What the place lends to a node.
+    struct Lent {
+        Rehearsal* rehearsal = nullptr;      // none: one that is never on
         SideBySide* side_by_side = nullptr;  // none: one after the other
         bool checking = false;               // is this a run that looks for wrapped classes with a memory?
     };
     NodeContext(const Node& node, Inputs inputs, const Scene& scene, std::uint64_t seed)
-        : NodeContext(node, std::move(inputs), scene, seed, Services{}) {}
-    NodeContext(const Node& node, Inputs inputs, const Scene& scene, std::uint64_t seed, Services services);
+        : NodeContext(node, std::move(inputs), scene, seed, Lent{}) {}
+    NodeContext(const Node& node, Inputs inputs, const Scene& scene, std::uint64_t seed, const Lent& lent);
 
     const std::string& name() const { return node_.name; }
     /// The node's own key: derive streams as child(query.stream, here.key(), i).
@@ -34,8 +36,10 @@ public:
     const Scene& scene() const { return scene_; }
     const Inputs& inputs() const { return inputs_; }
     std::uint64_t seed() const { return seed_; }
+    /// Where light() notes what it has nothing prepared for. Lives as long as the node.
+    Rehearsal& rehearsal() const { return rehearsal_; }
 
-    bool checking() const { return services_.checking; }
+    bool checking() const { return checking_; }
 
     /// Calls `work` for each of `count` pieces, one after the other or side by side: see SideBySide. From light() only.
     void each(std::size_t count, std::size_t at_once, const SideBySide::Work& work) const;
@@ -52,7 +56,9 @@ private:
     Inputs inputs_;
     const Scene& scene_;
     std::uint64_t seed_;
-    Services services_;
+    Rehearsal& rehearsal_;
+    SideBySide* side_by_side_;
+    bool checking_;
 };
 
 }  // namespace lightnet

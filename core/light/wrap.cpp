@@ -138,18 +138,22 @@ public:
         : seed_(here.seed()), wrapped_(std::make_unique<Wrapped>(here, wrapping, std::move(make))) {}
 
     void render(const Tile& tile, std::span<Rgb> pixels) const override {
-        std::vector<Rgb> seen(tile.pixels() * tile.samples);
-        wrapped_->answer([&](std::size_t i) { return look_at(tile, i); }, seen);
-        for (std::size_t i = 0; i < seen.size(); ++i) pixels[i / tile.samples] += seen[i];
+        std::vector<std::size_t> wanted;
+        for (std::size_t pixel = 0; pixel < tile.pixels(); ++pixel)
+            if ((tile.x + pixel % tile.width) % tile.stride == 0 && (tile.y + pixel / tile.width) % tile.stride == 0)
+                wanted.push_back(pixel);
+        std::vector<Rgb> seen(wanted.size() * tile.samples);
+        const auto look = [&](std::size_t i) { return look_at(tile, wanted[i / tile.samples], i % tile.samples); };
+        wrapped_->answer(look, seen);
+        for (std::size_t i = 0; i < seen.size(); ++i) pixels[wanted[i / tile.samples]] += seen[i];
     }
 
 private:
-    Look look_at(const Tile& tile, std::size_t i) const {
-        const std::size_t pixel = i / tile.samples;
+    Look look_at(const Tile& tile, std::size_t pixel, std::size_t i) const {
         const auto x = tile.x + static_cast<std::uint32_t>(pixel % tile.width);
         const auto y = tile.y + static_cast<std::uint32_t>(pixel / tile.width);
         const Key key = pixel_key(seed_, x, y);
-        const auto sample = tile.first_sample + static_cast<std::uint32_t>(i % tile.samples);
+        const auto sample = tile.first_sample + static_cast<std::uint32_t>(i);
         const Vec2 u = Samples(key, sample).next_2d();
         return {float(x) + u.x, float(y) + u.y, key, sample};
     }

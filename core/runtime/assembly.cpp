@@ -21,11 +21,10 @@ std::vector<std::uint32_t> positions(const Terminals& part, const Terminals& who
 }
 
 template <class Make>
-auto made(const Network& network, std::size_t node, Inputs inputs, SideBySide* side_by_side, const Make& make) {
+auto made(const Network& network, std::size_t node, Inputs inputs, const NodeContext::Lent& lent, const Make& make) {
     const auto& what = network.graph.nodes[node];
     try {
-        return make(NodeContext(what, std::move(inputs), *network.scene, network.seed,
-                                NodeContext::Services{side_by_side, network.checking}));
+        return make(NodeContext(what, std::move(inputs), *network.scene, network.seed, lent));
     } catch (const std::exception& error) {
         throw Error(what.kind + " '" + what.name + "'", error.what());
     }
@@ -54,14 +53,24 @@ Inputs Assembly::inputs_of(std::size_t node) {
 
 const LightOp& Assembly::light(std::size_t node) {
     auto& light = lights_[node];
-    if (!light) light = made(network_, node, inputs_of(node), side_by_side_, network_.kind_of(node).make_light);
+    if (!light) light = made(network_, node, inputs_of(node), lent_to(node), network_.kind_of(node).make_light);
     return *light;
+}
+
+void Assembly::prepare(std::size_t node, Services& services) {
+    const auto& what = network_.graph.nodes[node];
+    light(node);
+    try {
+        lights_[node]->prepare(services);
+    } catch (const std::exception& error) {
+        throw Error(what.kind + " '" + what.name + "', preparing", error.what());
+    }
 }
 
 const Renderer& Assembly::renderer(std::size_t node) {
     auto& renderer = renderers_[node];
     if (!renderer)
-        renderer = made(network_, node, inputs_of(node), side_by_side_, network_.kind_of(node).make_renderer);
+        renderer = made(network_, node, inputs_of(node), lent_to(node), network_.kind_of(node).make_renderer);
     return *renderer;
 }
 

@@ -13,8 +13,10 @@
 #include "core/light/inputs.hpp"
 #include "core/light/light_op.hpp"
 #include "core/light/node_context.hpp"
+#include "core/light/rehearsal.hpp"
 #include "core/light/renderer.hpp"
 #include "core/runtime/call_port.hpp"
+#include "core/runtime/prepared.hpp"
 #include "core/scene/scene.hpp"
 
 namespace lightnet {
@@ -27,7 +29,9 @@ struct Network {
     std::shared_ptr<const Scene> scene;
     std::uint64_t seed = 0;
     Layers layers = layers_of(graph, registry);
-    bool checking = false;  // wrapped classes are asked twice, to find those with a memory
+    std::shared_ptr<SharedValues> shared = std::make_shared<SharedValues>();
+    std::function<Bytes(const Hash&)> results = {};  // of preparing, that came by themselves; called from any place
+    bool checking = false;                           // wrapped classes are asked twice, to find those with a memory
 
     const Kind& kind_of(std::size_t node) const { return *registry.find(graph.nodes[node].kind); }
     /// Colours per answer when nothing is added up.
@@ -46,6 +50,9 @@ public:
         : network_(network), port_to_(std::move(port_to)), side_by_side_(side_by_side) {}
 
     const LightOp& light(std::size_t node);
+    /// Has the node prepare itself.
+    void prepare(std::size_t node, Services& services);
+    Rehearsal& rehearsal(std::size_t node) { return rehearsals_[node]; }
     Called called(std::size_t node) {
         return {light(node), network_.graph.nodes[node].name, network_.width_of(node),
                 network_.kind_of(node).side_by_side};
@@ -54,10 +61,12 @@ public:
 
 private:
     Inputs inputs_of(std::size_t node);
+    NodeContext::Lent lent_to(std::size_t node) { return {&rehearsals_[node], side_by_side_, network_.checking}; }
 
     const Network& network_;
     PortTo port_to_;
     SideBySide* side_by_side_;
+    std::map<std::size_t, Rehearsal> rehearsals_;
     std::map<std::size_t, std::unique_ptr<LightOp>> lights_;
     std::map<std::size_t, std::unique_ptr<Renderer>> renderers_;
 };

@@ -22,6 +22,10 @@ public:
     virtual std::optional<Message> receive() = 0;
     /// Returns when something may have arrived, or after `most`.
     virtual void wait(std::chrono::nanoseconds most) = 0;
+    /// Brings bytes that an ask will name to a place, if need be. True when they are there; else ask again later.
+    virtual bool bring(const PlaceAt&, const Hash&, const Bytes&) { return true; }
+    /// From now on everybody asks by this plan. For carriers that propose plans.
+    virtual void adopt(const Plan&) {}
     /// Forgets about a place that is gone.
     virtual void forget(const PlaceAt& place) = 0;
     /// Where the carrier counts bytes and refusals.

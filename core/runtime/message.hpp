@@ -4,13 +4,16 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
+#include "core/bytes.hpp"
 #include "core/film/tile.hpp"
 #include "core/graph/plan.hpp"
 #include "core/light/query.hpp"
 #include "core/math/rgb.hpp"
+#include "core/runtime/step.hpp"
 
 namespace lightnet {
 
@@ -45,13 +48,24 @@ struct Message {
     std::uint64_t bundle = 0;   // unique per channel
     std::uint32_t node = 0;     // index in the graph
     std::uint32_t width = 1;    // colours per question that are wanted
-    std::variant<std::monostate, Questions<Query>, Questions<Tile>> questions;
+    std::variant<std::monostate, Questions<Query>, Questions<Tile>, Questions<Step>> questions;
     std::vector<Rgb> answers;
+    Bytes data;  // what a step is about, or its answer
     Load load;
     std::string text;
     std::shared_ptr<const Plan> plan;
     Route route;  // of an ask that has arrived
 };
+
+/// The beginnings of a reply: the same names, and the way back.
+inline Message reply_to(Message& ask) {
+    Message reply;
+    reply.type = Message::Type::reply;
+    reply.run = ask.run, reply.channel = ask.channel, reply.bundle = ask.bundle, reply.node = ask.node;
+    reply.width = ask.width;
+    reply.route = std::move(ask.route);
+    return reply;
+}
 
 /// How many colours answer one question when each has `width`.
 inline std::size_t answers_to(const Query&, std::size_t width) { return width; }

@@ -20,7 +20,11 @@ Place::Place(const Network& network, const PlaceAt& me, const Plan& plan, std::u
       inboxes_(network.graph.nodes.size()),
       by_rank_(network.graph.nodes.size()),
       assembly_(
-          network, [this](std::size_t node, std::size_t width) { return port_to(node, width); }, &rounds_) {
+          network, [this](std::size_t node, std::size_t width) { return port_to(node, width); }, &rounds_),
+      preparer_(network, assembly_, fibers_,
+                {my_name(), [this](Fibers::Fiber* fiber) { ready_.push_back(fiber); },
+                 [this](Message reply) { carrier_.reply(std::move(reply)); },
+                 [this](std::size_t node) { return plan_.places_of[node].size(); }}) {
     const auto rank = ranks_of(network.graph);
     std::iota(by_rank_.begin(), by_rank_.end(), 0);
     std::stable_sort(by_rank_.begin(), by_rank_.end(), [&](auto a, auto b) { return rank[a] < rank[b]; });
@@ -118,8 +122,8 @@ bool Place::step() {
         fibers_.resume(fiber);
         return true;
     };
-    return resume_first_of(ready_) || start_next(false) || rounds_.start_one() || resume_first_of(paused_) ||
-           start_next(true);
+    return resume_first_of(ready_) || preparer_.start_next() || start_next(false) || rounds_.start_one() ||
+           resume_first_of(paused_) || start_next(true);
 }
 
 bool Place::may_start(std::size_t node) const {
@@ -148,14 +152,14 @@ void Place::take(Message message) {
     switch (message.type) {
         case Message::Type::ask: {
             if (message.run != run_ || message.node >= inboxes_.size()) return;
-            auto& inbox = inboxes_[message.node];
-            std::visit(
-                [&](const auto& questions) {
-                    if constexpr (!std::is_same_v<std::decay_t<decltype(questions)>, std::monostate>)
-                        inbox.questions += questions->size();
-                },
-                message.questions);
-            inbox.waiting.push_back(std::move(message));
+            if (const auto* steps = std::get_if<Questions<Step>>(&message.questions)) {
+                if ((*steps)->front().kind == Step::Kind::shard) return queue(std::move(message), 1);
+                if (network_.kind_of(message.node).prepares) preparer_.take(std::move(message));
+            } else if (const auto* queries = std::get_if<Questions<Query>>(&message.questions)) {
+                queue(std::move(message), (*queries)->size());
+            } else {
+                queue(std::move(message), 1);
+            }
             return;
         }
         case Message::Type::reply:
@@ -171,21 +175,29 @@ void Place::take(Message message) {
     }
 }
 
+void Place::queue(Message message, std::size_t questions) {
+    auto& inbox = inboxes_[message.node];
+    inbox.questions += questions;
+    inbox.waiting.push_back(std::move(message));
+}
+
 void Place::answer(Message& message) {
     auto& inbox = inboxes_[message.node];
     const bool spare = inbox.fibers++ > 0;
     spare_in_use_ += spare;
     const auto* fiber = fibers_.current();
-    Message reply;
-    reply.run = message.run, reply.channel = message.channel, reply.bundle = message.bundle, reply.node = message.node;
-    reply.width = message.width;
-    reply.route = std::move(message.route);
+    Message reply = reply_to(message);
     const bool pixels = std::holds_alternative<Questions<Tile>>(message.questions);
     std::size_t count = 1;
     try {
-        reply.answers = pixels ? pixel_answers(message) : light_answers(message);
-        reply.type = Message::Type::reply;
-        if (!pixels) count = std::get<Questions<Query>>(message.questions)->size();
+        if (pixels) {
+            reply.answers = pixel_answers(message);
+        } else if (const auto* steps = std::get_if<Questions<Step>>(&message.questions)) {
+            reply.data = preparer_.shard(message.node, (*steps)->front());
+        } else {
+            count = std::get<Questions<Query>>(message.questions)->size();
+            reply.answers = light_answers(message);
+        }
     } catch (const Cancelled&) {
         throw;
     } catch (const std::exception& error) {

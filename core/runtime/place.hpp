@@ -16,6 +16,7 @@
 #include "core/runtime/call_port.hpp"
 #include "core/runtime/carrier.hpp"
 #include "core/runtime/fiber.hpp"
+#include "core/runtime/preparer.hpp"
 #include "core/runtime/remote_channel.hpp"
 #include "core/runtime/rounds.hpp"
 
@@ -72,6 +73,7 @@ private:
     void connect(Remote& remote);
     void take_in();
     void take(Message message);
+    void queue(Message message, std::size_t questions);
     bool step();
     bool start_next(bool images);
     bool may_start(std::size_t node) const;
@@ -109,6 +111,7 @@ private:
     std::map<std::pair<std::size_t, std::size_t>, Remote> remotes_;  // by node and width
     std::vector<std::unique_ptr<RemoteChannel<Query>>> channels_;
     Assembly assembly_;
+    Preparer preparer_;
 };
 
 }  // namespace lightnet

@@ -1,18 +1,89 @@
 #include "core/runtime/serial.hpp"
 
+#include <cstring>
+#include <span>
+
+#include "core/light/services.hpp"
 #include "core/scene/scene.hpp"
 
 namespace lightnet {
 
+/// One node's services, in a run of one thread: loops.
+class SerialRun::Preparing final : public Services {
+public:
+    Preparing(SerialRun& run, std::size_t node, const Recipes& recipes, ResultCache* cache)
+        : run_(run), node_(node), recipes_(recipes), cache_(cache) {}
+
+    std::vector<Query> rehearse(std::uint32_t stride) override {
+        rehearsed_ = true;
+        const auto result = recall([&] {
+            const auto& network = run_.network_;
+            run_.assembly_.rehearsal(node_).begin();
+            for (const auto& tile : rehearsal_tiles(network.graph, network.registry, stride)) run_.render(tile);
+            const auto noted = run_.assembly_.rehearsal(node_).end();
+            std::vector<std::byte> bytes(noted.size() * sizeof(Query));
+            if (!noted.empty()) std::memcpy(bytes.data(), noted.data(), bytes.size());
+            return join_shards(std::span(&bytes, 1));
+        });
+        const Mapped<Query> noted(result);
+        return {noted.begin(), noted.end()};
+    }
+    Whereabouts whereabouts() const override { return {"this thread", 1}; }
+
+protected:
+    Bytes map_bytes(std::size_t count, const Shard& work) override {
+        return recall([&] {
+            std::vector<std::vector<std::byte>> shards(count);
+            for (std::size_t i = 0; i < count; ++i) {
+                if (run_.pause_) run_.pause_();
+                work(i, shards[i]);
+            }
+            return join_shards(shards);
+        });
+    }
+    std::shared_ptr<const void> once_any(const std::function<std::shared_ptr<const void>()>& make) override {
+        return make();
+    }
+
+private:
+    template <class Make>
+    Bytes recall(const Make& make) {
+        const Hash recipe = recipes_.of(node_, call_++, rehearsed_);
+        if (cache_)
+            if (auto known = cache_->find(recipe)) return known;
+        auto made = make();
+        if (cache_) cache_->keep(recipe, made);
+        return made;
+    }
+
+    SerialRun& run_;
+    std::size_t node_;
+    const Recipes& recipes_;
+    ResultCache* cache_;
+    std::uint32_t call_ = 0;
+    bool rehearsed_ = false;
+};
+
 SerialRun::SerialRun(const Network& network, std::function<void()> pause)
     : network_(network),
+      pause_(std::move(pause)),
       image_(renderer_of(network.graph, network.registry)),
       rays_before_(Scene::rays_of_this_thread()),
-      assembly_(network, [this, pause = std::move(pause)](std::size_t node, std::size_t width) {
+      assembly_(network, [this](std::size_t node, std::size_t width) {
           const auto called = assembly_.called(node);
-          return ports_.emplace_back(std::make_unique<CallPort>(called, width, counters_.local_questions, pause)).get();
+          return ports_.emplace_back(std::make_unique<CallPort>(called, width, counters_.local_questions, pause_))
+              .get();
       }) {
     assembly_.renderer(image_);
+}
+
+void SerialRun::prepare(const std::string& made_from, ResultCache* cache) {
+    const Recipes recipes(network_.graph, made_from);
+    for (const auto node : preparing_nodes(network_.graph, network_.registry)) {
+        Preparing services(*this, node, recipes, cache);
+        assembly_.prepare(node, services);
+    }
+    counters_.tiles = 0;  // those of rehearsals make no picture
 }
 
 std::vector<Rgb> SerialRun::render(const Tile& tile) {

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "core/runtime/assembly.hpp"
@@ -17,12 +18,17 @@ public:
     /// `pause` is called often; it may throw to end the work.
     explicit SerialRun(const Network& network, std::function<void()> pause = {});
 
+    /// Has all nodes that prepare do so. Before the first tile. Results are looked for in `cache`, and kept there.
+    void prepare(const std::string& made_from, ResultCache* cache = nullptr);
     /// All samples of the tile's block: see Renderer::render.
     std::vector<Rgb> render(const Tile& tile);
     Counters counters() const;
 
 private:
+    class Preparing;
+
     const Network& network_;
+    std::function<void()> pause_;
     std::size_t image_;
     Counters counters_;
     std::uint64_t rays_before_;

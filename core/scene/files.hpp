@@ -1,17 +1,12 @@
 // Where the bytes of a scene come from: a disk, or blobs that were sent.
 #pragma once
 
-#include <cstddef>
 #include <map>
-#include <memory>
-#include <span>
 #include <string>
-#include <vector>
+
+#include "core/bytes.hpp"
 
 namespace lightnet {
-
-/// The bytes of one file. Shared: several readers may look at them.
-using Bytes = std::shared_ptr<const std::vector<std::byte>>;
 
 /// A tree of files, by path. Readers of scenes open files only through it, so that a host without the user's disk can
 /// read the very same scene. One thread at a time.

@@ -15,7 +15,7 @@ using Input = std::span<const std::byte>;
 /// Samples as they stand in the file, row by row from the top, not yet linear.
 struct Raster {
     std::uint32_t width = 0, height = 0;
-    int channels = 3;                 // 3, or 4 with alpha
+    int channels = 3;                 // grey, grey and alpha, RGB, RGB and alpha
     bool wide = false;                // 16 bits per sample instead of 8
     std::vector<std::uint8_t> bytes;  // 16-bit samples: high byte first
 };

@@ -54,22 +54,22 @@ Image decode(Input bytes) {
     const bool grey = !channels.findChannel("R");
     if (grey && !channels.findChannel("Y")) throw Error("EXR: there is no channel R, and no channel Y");
     const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-    Image image{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), std::vector<Rgb>(count), {}};
-    if (channels.findChannel("A")) image.alpha.resize(count);
+    std::vector<Rgb> pixels(count);
+    std::vector<float> alpha(channels.findChannel("A") ? count : 0);
 
     Imf::FrameBuffer buffer;
     const auto slice = [&](const char* name, float* first, std::size_t step) {
         buffer.insert(name, Imf::Slice::Make(Imf::FLOAT, first, window, step, step * static_cast<std::size_t>(width)));
     };
-    slice(grey ? "Y" : "R", &image.pixels[0].r, sizeof(Rgb));
-    if (!grey) slice("G", &image.pixels[0].g, sizeof(Rgb));
-    if (!grey) slice("B", &image.pixels[0].b, sizeof(Rgb));
-    if (!image.alpha.empty()) slice("A", image.alpha.data(), sizeof(float));
+    slice(grey ? "Y" : "R", &pixels[0].r, sizeof(Rgb));
+    if (!grey) slice("G", &pixels[0].g, sizeof(Rgb));
+    if (!grey) slice("B", &pixels[0].b, sizeof(Rgb));
+    if (!alpha.empty()) slice("A", alpha.data(), sizeof(float));
     file.setFrameBuffer(buffer);
     file.readPixels(window.min.y, window.max.y);
     if (grey)
-        for (auto& pixel : image.pixels) pixel = {pixel.r, pixel.r, pixel.r};
-    return image;
+        for (auto& pixel : pixels) pixel = {pixel.r, pixel.r, pixel.r};
+    return {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), pixels, alpha};
 }
 
 }  // namespace

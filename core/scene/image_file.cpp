@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <string_view>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/scene/image_decoders.hpp"
@@ -31,26 +32,24 @@ std::vector<float> curve(const Encoding& encoding, std::size_t steps) {
     return table;
 }
 
-Image to_linear(const decoders::Raster& raster, const Encoding& encoding) {
-    const auto table = curve(encoding, raster.wide ? 65536 : 256);
-    const float highest = float(table.size() - 1);
-    const std::size_t count = std::size_t{raster.width} * raster.height;
-    Image image{raster.width, raster.height, std::vector<Rgb>(count), {}};
-    if (raster.channels == 4) image.alpha.resize(count);
-    const std::uint8_t* at = raster.bytes.data();
-    const auto sample = [&] {
-        const unsigned value = raster.wide ? at[0] * 256u + at[1] : at[0];
-        at += raster.wide ? 2 : 1;
-        return value;
-    };
-    for (std::size_t i = 0; i < count; ++i) {
-        Rgb& pixel = image.pixels[i];
-        pixel.r = table[sample()];
-        pixel.g = table[sample()];
-        pixel.b = table[sample()];
-        if (raster.channels == 4) image.alpha[i] = float(sample()) / highest;  // never encoded
+Image::Curve shared_curve(const Encoding& encoding, bool wide) {
+    return std::make_shared<const std::vector<float>>(curve(encoding, wide ? 65536 : 256));
+}
+
+Image to_image(decoders::Raster raster, const Encoding& encoding) {
+    Image::Coded coded;
+    coded.channels = static_cast<std::uint32_t>(raster.channels);
+    coded.curve = shared_curve(encoding, raster.wide);
+    if (raster.channels % 2 == 0) coded.alpha_curve = shared_curve({Encoding::Curve::linear, 1}, raster.wide);
+    if (raster.wide) {
+        std::vector<std::uint16_t> words(raster.bytes.size() / 2);
+        for (std::size_t i = 0; i < words.size(); ++i)
+            words[i] = static_cast<std::uint16_t>(raster.bytes[2 * i] * 256u + raster.bytes[2 * i + 1]);
+        coded.numbers = std::move(words);
+    } else {
+        coded.numbers = std::move(raster.bytes);
     }
-    return image;
+    return {raster.width, raster.height, std::move(coded)};
 }
 
 bool begins(std::span<const std::byte> bytes, std::string_view start) {
@@ -67,8 +66,8 @@ void decoders::check_size(std::int64_t width, std::int64_t height) {
 }
 
 Image read_image(std::span<const std::byte> bytes, const Encoding& encoding) {
-    if (begins(bytes, "\xFF\xD8\xFF")) return to_linear(decoders::read_jpeg(bytes), encoding);
-    if (begins(bytes, "\x89PNG\r\n\x1A\n")) return to_linear(decoders::read_png(bytes), encoding);
+    if (begins(bytes, "\xFF\xD8\xFF")) return to_image(decoders::read_jpeg(bytes), encoding);
+    if (begins(bytes, "\x89PNG\r\n\x1A\n")) return to_image(decoders::read_png(bytes), encoding);
     if (begins(bytes, "\x76\x2F\x31\x01")) return decoders::read_exr(bytes);
     if (begins(bytes, "#?")) return decoders::read_hdr(bytes);
     throw Error("not a picture of a known kind (JPEG, PNG, OpenEXR, Radiance HDR)");

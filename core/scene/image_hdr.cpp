@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <string_view>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/scene/image_decoders.hpp"
@@ -99,8 +100,8 @@ Image read_hdr(Input bytes) {
     // a row takes at least four bytes, run lengths or not
     if (static_cast<std::size_t>(height) > reader.left() / 4) throw Error("HDR: the file is too short for its size");
 
-    Image image{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), {}, {}};
-    image.pixels.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    std::vector<Rgb> pixels;
+    pixels.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     std::vector<Rgbe> row(static_cast<std::size_t>(width));
     for (std::int64_t y = 0; y < height; ++y) {
         const Rgbe first = reader.pixel();
@@ -109,9 +110,9 @@ Image read_hdr(Input bytes) {
             read_separated(reader, row);
         else
             read_plain(reader, row, first);
-        for (const auto& pixel : row) image.pixels.push_back(to_rgb(pixel));
+        for (const auto& pixel : row) pixels.push_back(to_rgb(pixel));
     }
-    return image;
+    return {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), pixels};
 }
 
 }  // namespace lightnet::decoders

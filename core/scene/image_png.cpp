@@ -37,7 +37,6 @@ void ignore(png_structp, png_const_charp) {}
 
 void settle_format(png_structp png, png_infop info) {
     png_set_expand(png);  // palettes, few bits, transparent colours
-    png_set_gray_to_rgb(png);
     png_set_interlace_handling(png);
     png_read_update_info(png, info);
 }

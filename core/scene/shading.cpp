@@ -2,11 +2,13 @@
 
 #include "core/error.hpp"
 #include "core/math/octahedral.hpp"
+#include "core/math/random.hpp"
 #include "core/math/sampling.hpp"
 #include "core/scene/textures.hpp"
 #include "core/scene/triangle.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace lightnet {
@@ -19,28 +21,46 @@ struct Overloaded : Functions... {
 template <class... Functions>
 Overloaded(Functions...) -> Overloaded<Functions...>;  // clang 14 can't find it out by itself
 
+std::vector<TextureId> textures_of(const Metal& metal) {
+    return metal.reflectance ? std::vector{*metal.reflectance} : std::vector{metal.eta, metal.k};
+}
+
 std::vector<TextureId> textures_of(const Material& material) {
     return std::visit(Overloaded{[](const DiffuseMaterial& m) { return std::vector{m.reflectance}; },
-                                 [](const ConductorMaterial& m) {
-                                     return m.reflectance ? std::vector{*m.reflectance} : std::vector{m.eta, m.k};
-                                 },
+                                 [](const ConductorMaterial& m) { return textures_of(m.metal); },
                                  [](const DielectricMaterial&) { return std::vector<TextureId>{}; },
-                                 [](const ThinDielectricMaterial&) { return std::vector<TextureId>{}; },
-                                 [](const CoatedDiffuseMaterial& m) { return std::vector{m.reflectance}; }},
+                                 [](const CoatedDiffuseMaterial& m) { return std::vector{m.reflectance}; },
+                                 [](const CoatedConductorMaterial& m) { return textures_of(m.metal); },
+                                 [](const PrincipledMaterial& m) { return std::vector{m.base_colour}; },
+                                 [](const MixtureMaterial& m) { return std::vector{m.amount}; },
+                                 [](const TwoFacedMaterial&) { return std::vector<TextureId>{}; },
+                                 [](const NoMaterial&) { return std::vector<TextureId>{}; }},
                       material.model);
 }
 
 bool anisotropic(const Material& material) {
     return std::visit(
         [](const auto& m) {
-            if constexpr (requires { m.alpha_u; }) return m.alpha_u != m.alpha_v;
+            if constexpr (requires { m.roughness; }) return m.roughness.u != m.roughness.v;
             return false;
         },
         material.model);
 }
 
+float alpha_of(float value, Roughness::Means means) {
+    switch (means) {
+        case Roughness::Means::root:
+            return std::sqrt(std::max(0.0f, value));
+        case Roughness::Means::square:
+            return value * value;
+        default:
+            return value;
+    }
+}
+
 // Roughness of a surface that isn't a perfect mirror in both directions must not be one in either.
-Ggx facets_of(float alpha_u, float alpha_v) {
+Ggx facets_of(const Roughness& roughness) {
+    const float alpha_u = alpha_of(roughness.u, roughness.means), alpha_v = alpha_of(roughness.v, roughness.means);
     if (is_specular(alpha_u, alpha_v)) return {};
     return {std::max(alpha_u, specular_alpha), std::max(alpha_v, specular_alpha)};
 }
@@ -75,17 +95,23 @@ Vec3 tangent_of(const Corners& t, Vec2 a, Vec2 b, Vec2 c) {
 }  // namespace
 
 Shading::Shading(const SceneData& data) : data_(data) {
+    check_textures(data.textures);
     std::vector<Needs> of_material;
     for (const auto& material : data.materials) {
-        Needs needs{false, anisotropic(material)};
-        for (const auto texture : textures_of(material)) {
+        Needs needs;
+        needs.tangent = anisotropic(material);
+        needs.holes = material.opacity || std::holds_alternative<NoMaterial>(material.model);
+        auto used = textures_of(material);
+        if (material.opacity) used.push_back(*material.opacity);
+        for (const auto texture : used) {
             if (texture >= data.textures.size())
                 throw Error("scene", "material '" + material.name + "' names a texture that isn't there");
-            needs.uv |= data.textures[texture].image != nullptr;
+            needs.uv |= !is_constant(data.textures[texture]);
         }
         of_material.push_back(needs);
         const auto* coated = std::get_if<CoatedDiffuseMaterial>(&material.model);
-        coats_.push_back(coated ? std::make_unique<Coat>(coated->eta, coated->alpha_u, coated->alpha_v) : nullptr);
+        const Ggx facets = coated ? facets_of(coated->roughness) : Ggx{};
+        coats_.push_back(coated ? std::make_unique<Coat>(coated->eta, facets.alpha_u, facets.alpha_v) : nullptr);
     }
     for (std::uint32_t i = 0; i < data.materials.size(); ++i)
         plain_.push_back(of_material[i].uv ? std::nullopt : std::optional(model_at(i, {})));
@@ -150,6 +176,37 @@ SurfacePoint Shading::on_sphere(const Sphere& sphere, Needs needs, float u, floa
     return point;
 }
 
+TexturePlace Shading::place(std::uint32_t geometry, std::uint32_t primitive, float u, float v) const {
+    const auto* mesh = std::get_if<Mesh>(&data_.shapes[geometry].geometry);
+    if (!mesh) return {on_sphere(std::get<Sphere>(data_.shapes[geometry].geometry), {true}, u, v).uv, {1, 1, 1}};
+    const auto [i, j, k] = mesh->triangles[primitive];
+    const float w = 1 - u - v;
+    TexturePlace place;
+    place.uv = mesh->uvs.empty() ? Vec2{u + v, v} : mesh->uvs[i] * w + mesh->uvs[j] * u + mesh->uvs[k] * v;
+    if (!mesh->colours.empty())
+        place.vertex_colour = mesh->colours[i] * w + mesh->colours[j] * u + mesh->colours[k] * v;
+    return place;
+}
+
+float Shading::opacity_at(std::uint32_t geometry, std::uint32_t primitive, float u, float v) const {
+    const Material& material = data_.materials[data_.shapes[geometry].material];
+    if (std::holds_alternative<NoMaterial>(material.model)) return 0;
+    if (!material.opacity) return 1;
+    const float opacity = look_up(data_.textures, *material.opacity, place(geometry, primitive, u, v)).r;
+    if (material.opacity_cutoff > 0) return opacity >= material.opacity_cutoff ? 1 : 0;
+    return std::min(opacity, 1.0f);
+}
+
+bool Shading::is_there(std::uint32_t geometry, std::uint32_t primitive, float u, float v) const {
+    const float opacity = opacity_at(geometry, primitive, u, v);
+    if (opacity >= 1) return true;
+    if (opacity <= 0) return false;
+    const Key surface = child(child(0, geometry), primitive);
+    const Key here =
+        child(surface, std::uint64_t{std::bit_cast<std::uint32_t>(u)} << 32 | std::bit_cast<std::uint32_t>(v));
+    return float(here >> 40) * 0x1p-24f < opacity;
+}
+
 Bsdf Shading::bsdf(const SurfacePoint& point) const {
     const std::uint32_t material = data_.shapes[point.geometry].material;
     if (const auto& plain = plain_[material]) return {point.shading, point.normal, *plain};
@@ -157,26 +214,31 @@ Bsdf Shading::bsdf(const SurfacePoint& point) const {
 }
 
 Bsdf::Model Shading::model_at(std::uint32_t material, Vec2 uv) const {
-    const auto colour = [&](TextureId texture) { return look_up(data_.textures[texture], uv); };
+    const auto colour = [&](TextureId texture) { return look_up(data_.textures, texture, {uv, {1, 1, 1}}); };
     const auto albedo = [&](TextureId texture) {
         const Rgb c = colour(texture);
         return Rgb{std::min(1.0f, c.r), std::min(1.0f, c.g), std::min(1.0f, c.b)};
     };
+    const auto metal = [&](const Metal& m, const Roughness& roughness) {
+        const Ggx facets = facets_of(roughness);
+        if (m.reflectance) return ConductorBsdf{{1, 1, 1}, absorption_for(colour(*m.reflectance)), facets};
+        return ConductorBsdf{colour(m.eta), colour(m.k), facets};
+    };
     return std::visit(
         Overloaded{[&](const DiffuseMaterial& m) -> Bsdf::Model { return DiffuseBsdf{albedo(m.reflectance)}; },
-                   [&](const ConductorMaterial& m) -> Bsdf::Model {
-                       const Ggx facets = facets_of(m.alpha_u, m.alpha_v);
-                       if (m.reflectance)
-                           return ConductorBsdf{{1, 1, 1}, absorption_for(colour(*m.reflectance)), facets};
-                       return ConductorBsdf{colour(m.eta), colour(m.k), facets};
-                   },
+                   [&](const ConductorMaterial& m) -> Bsdf::Model { return metal(m.metal, m.roughness); },
                    [&](const DielectricMaterial& m) -> Bsdf::Model {
-                       return DielectricBsdf{m.eta, facets_of(m.alpha_u, m.alpha_v)};
+                       if (m.thin) return ThinDielectricBsdf{m.eta};
+                       return DielectricBsdf{m.eta, facets_of(m.roughness)};
                    },
-                   [&](const ThinDielectricMaterial& m) -> Bsdf::Model { return ThinDielectricBsdf{m.eta}; },
                    [&](const CoatedDiffuseMaterial& m) -> Bsdf::Model {
                        return CoatedDiffuseBsdf{albedo(m.reflectance), coats_[material].get()};
-                   }},
+                   },
+                   [&](const CoatedConductorMaterial& m) -> Bsdf::Model { return metal(m.metal, m.roughness); },
+                   [&](const PrincipledMaterial& m) -> Bsdf::Model { return DiffuseBsdf{albedo(m.base_colour)}; },
+                   [&](const MixtureMaterial& m) -> Bsdf::Model { return model_at(m.first, uv); },
+                   [&](const TwoFacedMaterial& m) -> Bsdf::Model { return model_at(m.front, uv); },
+                   [&](const NoMaterial&) -> Bsdf::Model { return ThinDielectricBsdf{1}; }},
         data_.materials[material].model);
 }
 

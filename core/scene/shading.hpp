@@ -9,6 +9,7 @@
 #include "core/bsdf/bsdf.hpp"
 #include "core/scene/scene_data.hpp"
 #include "core/scene/surface.hpp"
+#include "core/scene/textures.hpp"
 
 namespace lightnet {
 
@@ -22,10 +23,21 @@ public:
     SurfacePoint point(std::uint32_t geometry, std::uint32_t primitive, float u, float v) const;
     Bsdf bsdf(const SurfacePoint& point) const;
 
+    /// What textures may depend on there, by the same coordinates.
+    TexturePlace place(std::uint32_t geometry, std::uint32_t primitive, float u, float v) const;
+    /// Can rays go through the shape? Only then the next two need to be asked.
+    bool has_holes(std::uint32_t geometry) const { return needs_[geometry].holes; }
+    /// Share of the light that meets the surface there, 0 … 1.
+    float opacity_at(std::uint32_t geometry, std::uint32_t primitive, float u, float v) const;
+    /// Does a ray that arrives there meet anything? Where opacity lies between 0 and 1, a hash of the four numbers
+    /// decides, so that the answer is the same for every ray, in every mode and on every host.
+    bool is_there(std::uint32_t geometry, std::uint32_t primitive, float u, float v) const;
+
 private:
     struct Needs {
         bool uv = false;       // an image is looked up
         bool tangent = false;  // roughness depends on the direction
+        bool holes = false;    // opacity is below 1 somewhere
         float offset = 0;      // least distance by which rays must leave the shape, m
     };
     SurfacePoint on_mesh(const Mesh& mesh, Needs needs, std::uint32_t primitive, float u, float v) const;

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <string>
+
+#include "core/error.hpp"
 
 namespace lightnet {
 namespace {
@@ -10,9 +13,14 @@ namespace {
 // A row or column of an image; -1: outside of it.
 std::int64_t wrapped(std::int64_t i, std::int64_t size, Wrap wrap) {
     if (i >= 0 && i < size) return i;
+    const auto into = [](std::int64_t a, std::int64_t period) { return (a % period + period) % period; };
     switch (wrap) {
         case Wrap::repeat:
-            return (i % size + size) % size;
+            return into(i, size);
+        case Wrap::mirror: {
+            const std::int64_t there_and_back = into(i, 2 * size);
+            return std::min(there_and_back, 2 * size - 1 - there_and_back);
+        }
         case Wrap::clamp:
             return std::clamp<std::int64_t>(i, 0, size - 1);
         case Wrap::black:
@@ -21,35 +29,107 @@ std::int64_t wrapped(std::int64_t i, std::int64_t size, Wrap wrap) {
     return -1;
 }
 
-Rgb pixel(const Image& image, std::int64_t x, std::int64_t y, Wrap wrap) {
-    x = wrapped(x, image.width, wrap);
-    y = wrapped(y, image.height, wrap);
-    return x < 0 || y < 0 ? Rgb{} : image.pixels[std::size_t(y) * image.width + std::size_t(x)];
+Rgb channel_of(const Image& image, std::uint32_t x, std::uint32_t y, ImageTexture::Channel channel) {
+    using Channel = ImageTexture::Channel;
+    const auto grey = [](float value) { return Rgb{value, value, value}; };
+    if (channel == Channel::alpha) return grey(image.alpha(x, y));
+    const Rgb colour = image.colour(x, y);
+    switch (channel) {
+        case Channel::mean:
+            return grey((colour.r + colour.g + colour.b) / 3);
+        case Channel::red:
+            return grey(colour.r);
+        case Channel::green:
+            return grey(colour.g);
+        case Channel::blue:
+            return grey(colour.b);
+        default:
+            return colour;
+    }
 }
 
-Rgb bilinear(const Image& image, float x, float y, Wrap wrap) {
+Rgb pixel(const ImageTexture& texture, std::int64_t x, std::int64_t y) {
+    x = wrapped(x, texture.image->width, texture.wrap_u);
+    y = wrapped(y, texture.image->height, texture.wrap_v);
+    if (x < 0 || y < 0) return {};
+    return channel_of(*texture.image, std::uint32_t(x), std::uint32_t(y), texture.channel);
+}
+
+Rgb bilinear(const ImageTexture& texture, float x, float y) {
     const float left = std::floor(x), top = std::floor(y);
     const float dx = x - left, dy = y - top;
     const auto i = static_cast<std::int64_t>(left), j = static_cast<std::int64_t>(top);
-    return (pixel(image, i, j, wrap) * (1 - dx) + pixel(image, i + 1, j, wrap) * dx) * (1 - dy) +
-           (pixel(image, i, j + 1, wrap) * (1 - dx) + pixel(image, i + 1, j + 1, wrap) * dx) * dy;
+    return (pixel(texture, i, j) * (1 - dx) + pixel(texture, i + 1, j) * dx) * (1 - dy) +
+           (pixel(texture, i, j + 1) * (1 - dx) + pixel(texture, i + 1, j + 1) * dx) * dy;
 }
+
+Vec2 laid(const UvTransform& by, Vec2 uv) {
+    uv = {uv.x * by.scale.x, uv.y * by.scale.y};
+    if (by.turn != 0) {
+        const float c = std::cos(by.turn), s = std::sin(by.turn);
+        uv = {c * uv.x - s * uv.y, s * uv.x + c * uv.y};
+    }
+    // Far outside, floats can't tell pixels apart; staying within ±2²⁰ repeats keeps the integers small.
+    const auto tame = [](float t) { return std::isfinite(t) ? std::clamp(t, -0x1p20f, 0x1p20f) : 0.0f; };
+    return {tame(uv.x + by.offset.x), tame(uv.y + by.offset.y)};
+}
+
+/// The value of a pattern; one function for each.
+struct Pattern {
+    std::span<const Texture> textures;
+    const TexturePlace& place;
+
+    Rgb operator()(std::monostate) const { return {1, 1, 1}; }
+    Rgb operator()(const ImageTexture& t) const {
+        if (!t.image || t.image->empty()) return {1, 1, 1};
+        const Vec2 at = laid(t.uv, place.uv);
+        const float x = at.x * float(t.image->width), y = (1 - at.y) * float(t.image->height);
+        if (t.nearest) return pixel(t, std::int64_t(std::floor(x)), std::int64_t(std::floor(y)));
+        return bilinear(t, x - 0.5f, y - 0.5f);
+    }
+    Rgb operator()(const CheckerTexture& t) const {
+        const Vec2 at = laid(t.uv, place.uv);
+        const auto sum = std::int64_t(std::floor(at.x)) + std::int64_t(std::floor(at.y));
+        return look_up(textures, sum % 2 == 0 ? t.even : t.odd, place);
+    }
+    Rgb operator()(const ProductTexture& t) const {
+        return look_up(textures, t.first, place) * look_up(textures, t.second, place);
+    }
+    Rgb operator()(const MixTexture& t) const {
+        const Rgb amount = look_up(textures, t.amount, place);
+        return look_up(textures, t.first, place) * (Rgb{1, 1, 1} - amount) +
+               look_up(textures, t.second, place) * amount;
+    }
+    Rgb operator()(VertexColour) const { return place.vertex_colour; }
+};
+
+struct Inputs {
+    std::vector<TextureId> operator()(const CheckerTexture& t) const { return {t.even, t.odd}; }
+    std::vector<TextureId> operator()(const ProductTexture& t) const { return {t.first, t.second}; }
+    std::vector<TextureId> operator()(const MixTexture& t) const { return {t.first, t.second, t.amount}; }
+    template <class Other>
+    std::vector<TextureId> operator()(const Other&) const {
+        return {};
+    }
+};
 
 }  // namespace
 
-Rgb look_up(const Texture& texture, Vec2 uv) {
-    Rgb value = texture.scale;
-    if (texture.image && !texture.image->pixels.empty()) {
-        const Image& image = *texture.image;
-        // Far outside, floats can't tell pixels apart; staying within ±2²⁰ repeats keeps the integers small.
-        const auto tame = [](float t) { return std::isfinite(t) ? std::clamp(t, -0x1p20f, 0x1p20f) : 0.0f; };
-        const float s = tame(uv.x * texture.uv_scale.x + texture.uv_offset.x);
-        const float t = tame(uv.y * texture.uv_scale.y + texture.uv_offset.y);
-        value =
-            value * bilinear(image, s * float(image.width) - 0.5f, (1 - t) * float(image.height) - 0.5f, texture.wrap);
-    }
-    if (texture.invert) value = Rgb{1, 1, 1} - value;
+Rgb look_up(std::span<const Texture> textures, TextureId texture, const TexturePlace& place) {
+    const Texture& t = textures[texture];
+    Rgb value = t.scale;
+    if (!is_constant(t)) value = value * std::visit(Pattern{textures, place}, t.pattern);
+    if (t.invert) value = Rgb{1, 1, 1} - value;
     return {std::max(0.0f, value.r), std::max(0.0f, value.g), std::max(0.0f, value.b)};
+}
+
+bool is_constant(const Texture& texture) { return std::holds_alternative<std::monostate>(texture.pattern); }
+
+void check_textures(std::span<const Texture> textures) {
+    for (std::size_t i = 0; i < textures.size(); ++i)
+        for (const TextureId input : std::visit(Inputs{}, textures[i].pattern))
+            if (input >= i)
+                throw Error("scene", "texture " + std::to_string(i) + " names one that doesn't stand before it");
 }
 
 }  // namespace lightnet

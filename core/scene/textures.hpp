@@ -1,14 +1,28 @@
 // Colours over surfaces.
 #pragma once
 
+#include <span>
+
 #include "core/math/rgb.hpp"
 #include "core/math/vec.hpp"
 #include "core/scene/scene_data.hpp"
 
 namespace lightnet {
 
-/// The texture's colour at texture coordinates: bilinear, not filtered over an area. Coordinate v counts upwards from
-/// the image's bottom row.
-Rgb look_up(const Texture& texture, Vec2 uv);
+/// What a texture may depend on.
+struct TexturePlace {
+    Vec2 uv;
+    Rgb vertex_colour{1, 1, 1};
+};
+
+/// The colour of a texture at a place: bilinear, not filtered over an area. Coordinate v counts upwards from the
+/// image's bottom row.
+Rgb look_up(std::span<const Texture> textures, TextureId texture, const TexturePlace& place);
+
+/// Does the texture say the same everywhere?
+bool is_constant(const Texture& texture);
+
+/// Throws Error unless every texture names only such as stand before it.
+void check_textures(std::span<const Texture> textures);
 
 }  // namespace lightnet

@@ -61,7 +61,9 @@ TEST(WhiteSky, HidesAnythingThatLosesNothing) {
     add(data, quad({-20, 0, -20}, {0, 0, 40}, {40, 0, 0}), diffuse(data, 1));
     add(data, ball({-1.2f, 1, 0}, 0.9f), material(data, DielectricMaterial{}));
     add(data, ball({1.2f, 1, 0}, 0.9f), material(data, CoatedDiffuseMaterial{colour(data, {1, 1, 1})}));
-    add(data, ball({0, 0.5f, 1.5f}, 0.4f), material(data, ThinDielectricMaterial{}));
+    DielectricMaterial pane;
+    pane.thin = true;
+    add(data, ball({0, 0.5f, 1.5f}, 0.4f), material(data, pane));
     const Scene scene(data);
     Rig rig(scene);
     const auto [mean, error] = measure(*rig.path_tracer(), 24, 64);

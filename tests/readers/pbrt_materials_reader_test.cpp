@@ -38,38 +38,42 @@ TEST(PbrtMaterials, MayBeConductors) {
         "Material \"conductor\" \"float roughness\" 0.0025 \"spectrum eta\" \"metal-Ag-eta\" \"spectrum k\" "
         "\"metal-Ag-k\"");
     const auto& model = model_of<ConductorMaterial>(silver);
-    EXPECT_NEAR(model.alpha_u, 0.05f, 1e-6f);  // remapped: the square root
-    EXPECT_NEAR(model.alpha_v, 0.05f, 1e-6f);
-    EXPECT_NEAR(colour_of(silver, model.k).g, 3.122485f, 1e-6f);
-    EXPECT_FALSE(model.reflectance);
+    EXPECT_EQ(model.roughness.u, 0.0025f);
+    EXPECT_EQ(model.roughness.v, 0.0025f);
+    EXPECT_EQ(model.roughness.means, Roughness::Means::root);
+    EXPECT_NEAR(colour_of(silver, model.metal.k).g, 3.122485f, 1e-6f);
+    EXPECT_FALSE(model.metal.reflectance);
     EXPECT_THAT(silver.warnings, IsEmpty());
 }
 
 TEST(PbrtMaterials, MayHaveTwoRoughnessesAsTheyAre) {
     const auto scene =
         with("Material \"conductor\" \"float uroughness\" .1 \"float vroughness\" .2 \"bool remaproughness\" false");
-    EXPECT_EQ(model_of<ConductorMaterial>(scene).alpha_u, 0.1f);
-    EXPECT_EQ(model_of<ConductorMaterial>(scene).alpha_v, 0.2f);
-    EXPECT_NEAR(colour_of(scene, model_of<ConductorMaterial>(scene).eta).r, 0.200438f, 1e-6f);  // copper
+    EXPECT_EQ(model_of<ConductorMaterial>(scene).roughness.u, 0.1f);
+    EXPECT_EQ(model_of<ConductorMaterial>(scene).roughness.v, 0.2f);
+    EXPECT_EQ(model_of<ConductorMaterial>(scene).roughness.means, Roughness::Means::alpha);
+    EXPECT_NEAR(colour_of(scene, model_of<ConductorMaterial>(scene).metal.eta).r, 0.200438f, 1e-6f);  // copper
 }
 
 TEST(PbrtMaterials, MayBeConductorsOfAColour) {
     const auto scene = with("Material \"conductor\" \"rgb reflectance\" [ .9 .8 .7 ]");
-    EXPECT_EQ(colour_of(scene, model_of<ConductorMaterial>(scene).reflectance.value()), (Rgb{0.9f, 0.8f, 0.7f}));
+    EXPECT_EQ(colour_of(scene, model_of<ConductorMaterial>(scene).metal.reflectance.value()), (Rgb{0.9f, 0.8f, 0.7f}));
 }
 
 TEST(PbrtMaterials, MayHaveSpectraInFiles) {
     MemoryFiles files{{"spds/x.spd", "300 2\n800 2\n"}};
     const auto scene =
         with("Material \"conductor\" \"spectrum eta\" \"spds/x.spd\" \"spectrum k\" [ 300 3 800 3 ]", files);
-    EXPECT_NEAR(colour_of(scene, model_of<ConductorMaterial>(scene).eta).b, 2, 1e-5f);
-    EXPECT_NEAR(colour_of(scene, model_of<ConductorMaterial>(scene).k).r, 3, 1e-5f);
+    EXPECT_NEAR(colour_of(scene, model_of<ConductorMaterial>(scene).metal.eta).b, 2, 1e-5f);
+    EXPECT_NEAR(colour_of(scene, model_of<ConductorMaterial>(scene).metal.k).r, 3, 1e-5f);
 }
 
 TEST(PbrtMaterials, MayBeGlass) {
+    const auto pane = with("Material \"thindielectric\" \"float eta\" 1.2");
     EXPECT_EQ(model_of<DielectricMaterial>(with("Material \"dielectric\"")).eta, 1.5f);
     EXPECT_EQ(model_of<DielectricMaterial>(with("Material \"dielectric\" \"float eta\" 1.33")).eta, 1.33f);
-    EXPECT_EQ(model_of<ThinDielectricMaterial>(with("Material \"thindielectric\" \"float eta\" 1.2")).eta, 1.2f);
+    EXPECT_EQ(model_of<DielectricMaterial>(pane).eta, 1.2f);
+    EXPECT_TRUE(model_of<DielectricMaterial>(pane).thin);
     const auto named = with("Material \"dielectric\" \"spectrum eta\" \"glass-BK7\"");
     EXPECT_NEAR(model_of<DielectricMaterial>(named).eta, 1.5185f, 1e-4f);
     EXPECT_THAT(warnings_of(named), HasSubstr("dispersion is left out"));
@@ -77,7 +81,7 @@ TEST(PbrtMaterials, MayBeGlass) {
 
 TEST(PbrtMaterials, MayBeCoated) {
     const auto scene = with("Material \"coateddiffuse\" \"rgb reflectance\" [ .07 .09 .13 ] \"float roughness\" .01");
-    EXPECT_NEAR(model_of<CoatedDiffuseMaterial>(scene).alpha_u, 0.1f, 1e-6f);
+    EXPECT_EQ(model_of<CoatedDiffuseMaterial>(scene).roughness.u, 0.01f);
     EXPECT_EQ(model_of<CoatedDiffuseMaterial>(scene).eta, 1.5f);
     EXPECT_THAT(scene.warnings, IsEmpty());
 }
@@ -122,14 +126,16 @@ TEST(PbrtTextures, MayBePictures) {
         "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"p.hdr\" \"string wrap\" \"clamp\" \"float "
         "uscale\" 2\n"
         "\"float vdelta\" .5 \"bool invert\" true \"string filter\" \"trilinear\"");
-    ASSERT_TRUE(t.image);
-    EXPECT_EQ(t.image->width, 2u);
-    EXPECT_EQ(t.image->pixels[0], (Rgb{1, 1, 1}));
-    EXPECT_EQ(t.image->pixels[2], (Rgb{0.25f, 0.25f, 0.25f}));
-    EXPECT_EQ(t.wrap, Wrap::clamp);
+    const auto& picture = std::get<ImageTexture>(t.pattern);
+    ASSERT_TRUE(picture.image);
+    EXPECT_EQ(picture.image->width, 2u);
+    EXPECT_EQ(picture.image->colour(0, 0), (Rgb{1, 1, 1}));
+    EXPECT_EQ(picture.image->colour(0, 1), (Rgb{0.25f, 0.25f, 0.25f}));
+    EXPECT_EQ(picture.wrap_u, Wrap::clamp);
+    EXPECT_EQ(picture.wrap_v, Wrap::clamp);
     EXPECT_TRUE(t.invert);
-    EXPECT_EQ(t.uv_scale, (Vec2{2, 1}));
-    EXPECT_EQ(t.uv_offset, (Vec2{0, 0.5f}));
+    EXPECT_EQ(picture.uv.scale, (Vec2{2, 1}));
+    EXPECT_EQ(picture.uv.offset, (Vec2{0, 0.5f}));
 }
 
 TEST(PbrtTextures, ShareThePictureOfAFile) {
@@ -141,7 +147,7 @@ TEST(PbrtTextures, ShareThePictureOfAFile) {
         pictures());
     const auto& a = scene.textures.at(model_of<DiffuseMaterial>(scene, 0).reflectance);
     const auto& b = scene.textures.at(model_of<DiffuseMaterial>(scene, 1).reflectance);
-    EXPECT_EQ(a.image, b.image);
+    EXPECT_EQ(std::get<ImageTexture>(a.pattern).image, std::get<ImageTexture>(b.pattern).image);
     EXPECT_EQ(b.scale, (Rgb{0.5f, 0.5f, 0.5f}));
 }
 
@@ -189,7 +195,7 @@ TEST(PbrtTextures, OfARoughnessGiveTheirMean) {
         "Texture \"f\" \"float\" \"imagemap\" \"string filename\" \"p.hdr\"\n"
         "Material \"conductor\" \"texture roughness\" \"f\" \"bool remaproughness\" false",
         pictures());
-    EXPECT_NEAR(model_of<ConductorMaterial>(scene).alpha_u, 0.4375f, 1e-6f);
+    EXPECT_NEAR(model_of<ConductorMaterial>(scene).roughness.u, 0.4375f, 1e-6f);
     EXPECT_THAT(warnings_of(scene), HasSubstr("the mean of its texture is taken"));
 }
 

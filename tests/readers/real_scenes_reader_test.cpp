@@ -64,7 +64,7 @@ TEST(RealScenes, VeachAjarIsReadCompletely) {
     EXPECT_THAT(scene.warnings, IsEmpty());
     EXPECT_THAT(files.seen(), SizeIs(21));  // main file, 17 meshes, 3 pictures
     std::size_t pictures = 0;
-    for (const auto& texture : scene.textures) pictures += texture.image != nullptr;
+    for (const auto& texture : scene.textures) pictures += std::holds_alternative<ImageTexture>(texture.pattern);
     EXPECT_EQ(pictures, 3u);
 }
 

@@ -130,8 +130,8 @@ class WrapTest : public ::testing::Test {
 protected:
     ~WrapTest() override { fibers.cancel_all(); }
 
-    NodeContext here(NodeContext::Services services = {}) {
-        return {node, Inputs({{"elsewhere", &port, {0}}}, 1), scene, 1, services};
+    NodeContext here(NodeContext::Lent lent = {}) {
+        return {node, Inputs({{"elsewhere", &port, {0}}}, 1), scene, 1, lent};
     }
     static std::vector<Query> questions(std::uint32_t count) {
         std::vector<Query> all(count);

@@ -72,9 +72,9 @@ TEST(Surface, ShadingNormalsDecideWhichSideIsOutside) {
 TEST(Surface, GroovesFollowTheTextureCoordinates) {
     SceneData data;
     ConductorMaterial brushed;
-    brushed.reflectance = colour(data, {0.9f, 0.9f, 0.9f});
-    brushed.alpha_u = 0.1f;
-    brushed.alpha_v = 0.4f;
+    brushed.metal.reflectance = colour(data, {0.9f, 0.9f, 0.9f});
+    brushed.roughness.u = 0.1f;
+    brushed.roughness.v = 0.4f;
     Mesh mesh = quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
     mesh.uvs = {{0, 0}, {0, 1}, {1, 1}, {1, 0}};  // u runs along y
     add(data, mesh, material(data, brushed));
@@ -86,10 +86,10 @@ TEST(Surface, GroovesFollowTheTextureCoordinates) {
 
 TEST(Surface, BallsHaveTextureCoordinatesFromPoleToPole) {
     SceneData data;
-    Texture picture;
-    picture.image = std::make_shared<Image>(Image{1, 1, {{1, 1, 1}}, {}});
-    data.textures.push_back(picture);
-    add(data, ball({0, 0, 0}, 1), material(data, DiffuseMaterial{0}));
+    ImageTexture picture;
+    picture.image = std::make_shared<const Image>(1, 1, std::vector<Rgb>{{1, 1, 1}});
+    data.textures.emplace_back().pattern = picture;
+    add(data, ball({0, 0, 0}, 1), material(data, DiffuseMaterial{}));
     const Scene scene(data);
     const auto uv_at = [&](Vec3 direction) { return scene.surface(*scene.intersect({direction * 3, -direction})).uv; };
     EXPECT_NEAR(uv_at({0, 0, 1}).y, 1, 1e-3f);

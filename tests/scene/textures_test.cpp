@@ -8,10 +8,16 @@ namespace {
 // red   green
 // blue  white
 Texture four_pixels() {
+    ImageTexture picture;
+    picture.image = std::make_shared<const Image>(2, 2, std::vector<Rgb>{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}});
     Texture texture;
-    texture.image = std::make_shared<Image>(Image{2, 2, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}}, {}});
+    texture.pattern = picture;
     return texture;
 }
+
+ImageTexture& picture_of(Texture& texture) { return std::get<ImageTexture>(texture.pattern); }
+
+Rgb look_up(const Texture& texture, Vec2 uv) { return lightnet::look_up({&texture, 1}, 0, {uv, {1, 1, 1}}); }
 
 TEST(Texture, CountsRowsFromTheBottom) {
     const Texture texture = four_pixels();
@@ -28,9 +34,9 @@ TEST(Texture, MixesNeighbours) {
 TEST(Texture, WrapsAsItIsTold) {
     Texture texture = four_pixels();
     EXPECT_EQ(look_up(texture, {-0.75f, 3.75f}), (Rgb{1, 0, 0}));
-    texture.wrap = Wrap::clamp;
+    picture_of(texture).wrap_u = picture_of(texture).wrap_v = Wrap::clamp;
     EXPECT_EQ(look_up(texture, {-7, 9}), (Rgb{1, 0, 0}));
-    texture.wrap = Wrap::black;
+    picture_of(texture).wrap_u = picture_of(texture).wrap_v = Wrap::black;
     EXPECT_EQ(look_up(texture, {-7, 9}), (Rgb{0, 0, 0}));
     EXPECT_EQ(look_up(texture, {0.25f, 0.75f}), (Rgb{1, 0, 0}));
 }
@@ -38,8 +44,8 @@ TEST(Texture, WrapsAsItIsTold) {
 TEST(Texture, ScalesColoursAndCoordinates) {
     Texture texture = four_pixels();
     texture.scale = {2, 2, 2};
-    texture.uv_scale = {2, 1};
-    texture.uv_offset = {0.5f, 0};
+    picture_of(texture).uv.scale = {2, 1};
+    picture_of(texture).uv.offset = {0.5f, 0};
     EXPECT_EQ(look_up(texture, {0.125f, 0.75f}), (Rgb{0, 2, 0}));
 }
 

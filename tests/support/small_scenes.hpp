@@ -17,17 +17,19 @@ inline TextureId colour(SceneData& data, Rgb value) {
 
 template <class Model>
 std::uint32_t material(SceneData& data, Model model) {
-    data.materials.push_back({"", std::move(model)});
+    data.materials.emplace_back().model = std::move(model);
     return std::uint32_t(data.materials.size() - 1);
 }
 
 inline std::uint32_t diffuse(SceneData& data, float albedo) {
-    return material(data, DiffuseMaterial{colour(data, {albedo, albedo, albedo})});
+    DiffuseMaterial matte;
+    matte.reflectance = colour(data, {albedo, albedo, albedo});
+    return material(data, matte);
 }
 
 inline std::uint32_t mirror(SceneData& data, float reflectance) {
     ConductorMaterial metal;
-    metal.reflectance = colour(data, {reflectance, reflectance, reflectance});
+    metal.metal.reflectance = colour(data, {reflectance, reflectance, reflectance});
     return material(data, metal);
 }
 

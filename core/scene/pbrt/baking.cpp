@@ -9,19 +9,23 @@
 namespace lightnet::pbrt {
 namespace {
 
+const ImageTexture* picture_of(const Texture& texture) { return std::get_if<ImageTexture>(&texture.pattern); }
+
 Texture painted(std::uint32_t width, std::uint32_t height, const std::function<Rgb(Vec2)>& value) {
-    Image image{width, height, {}, {}};
-    image.pixels.reserve(std::size_t{width} * height);
+    std::vector<Rgb> pixels;
+    pixels.reserve(std::size_t{width} * height);
     for (std::uint32_t y = 0; y < height; ++y)
         for (std::uint32_t x = 0; x < width; ++x)
-            image.pixels.push_back(value({(float(x) + 0.5f) / float(width), 1 - (float(y) + 0.5f) / float(height)}));
+            pixels.push_back(value({(float(x) + 0.5f) / float(width), 1 - (float(y) + 0.5f) / float(height)}));
+    ImageTexture picture;
+    picture.image = std::make_shared<const Image>(width, height, pixels);
     Texture texture;
-    texture.image = std::make_shared<const Image>(std::move(image));
+    texture.pattern = std::move(picture);
     return texture;
 }
 
-bool laid_alike(const Texture& a, const Texture& b) {
-    return a.wrap == b.wrap && a.uv_scale == b.uv_scale && a.uv_offset == b.uv_offset;
+bool laid_alike(const ImageTexture& a, const ImageTexture& b) {
+    return a.wrap_u == b.wrap_u && a.wrap_v == b.wrap_v && a.uv == b.uv;
 }
 
 }  // namespace
@@ -30,22 +34,23 @@ Texture paint(std::uint32_t size, const std::function<Rgb(Vec2)>& value) { retur
 
 Baked bake(const std::vector<Texture>& inputs, const std::function<Rgb(std::span<const Rgb>)>& combine) {
     std::vector<Rgb> values(inputs.size());
-    const Texture* first = nullptr;
+    const ImageTexture* first = nullptr;
     bool alike = true;
     std::uint32_t width = 1, height = 1;
     for (const auto& texture : inputs) {
-        if (!texture.image) continue;
-        width = std::max(width, texture.image->width);
-        height = std::max(height, texture.image->height);
+        const ImageTexture* picture = picture_of(texture);
+        if (!picture) continue;
+        width = std::max(width, picture->image->width);
+        height = std::max(height, picture->image->height);
         if (first)
-            alike = alike && laid_alike(*first, texture);
+            alike = alike && laid_alike(*first, *picture);
         else
-            first = &texture;
+            first = picture;
     }
     const auto all = [&](Vec2 uv, bool laid) {
         for (std::size_t i = 0; i < inputs.size(); ++i) {
             Texture input = inputs[i];
-            if (laid) input.uv_scale = {1, 1}, input.uv_offset = {0, 0};
+            if (auto* picture = std::get_if<ImageTexture>(&input.pattern); picture && laid) picture->uv = {};
             values[i] = look_up(input, uv);
         }
         return combine(values);
@@ -60,9 +65,10 @@ Baked bake(const std::vector<Texture>& inputs, const std::function<Rgb(std::span
         return {paint(size, [&](Vec2 uv) { return all(uv, false); }), false};
     }
     Texture result = painted(width, height, [&](Vec2 uv) { return all(uv, true); });
-    result.wrap = first->wrap;
-    result.uv_scale = first->uv_scale;
-    result.uv_offset = first->uv_offset;
+    auto& picture = std::get<ImageTexture>(result.pattern);
+    picture.wrap_u = first->wrap_u;
+    picture.wrap_v = first->wrap_v;
+    picture.uv = first->uv;
     return {result, true};
 }
 

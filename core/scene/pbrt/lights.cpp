@@ -37,7 +37,7 @@ Rgb mean_environment(const Image& image) {
         const bool square = image.width == image.height;
         const double weight = square ? 1 : std::sin(std::numbers::pi * (y + 0.5) / image.height);
         for (std::uint32_t x = 0; x < image.width; ++x) {
-            const Rgb& p = image.pixels[std::size_t{y} * image.width + x];
+            const Rgb p = image.colour(x, y);
             r += weight * p.r, g += weight * p.g, b += weight * p.b;
         }
         weights += weight * image.width;
@@ -68,9 +68,11 @@ std::optional<AreaLight> make_area_light(const std::string& type, Parameters& pa
     if (const std::string file = parameters.text("filename", ""); !file.empty()) {
         if (parameters.find("L")) parameters.error("'L' and 'filename' exclude each other");
         parameters.warn("a picture on a lamp is not supported: its mean is taken");
-        Texture picture;
+        ImageTexture picture;
         picture.image = textures.image(file, {}, parameters.where());
-        if (picture.image && colour) colour = *colour * mean_of(picture);
+        Texture texture;
+        texture.pattern = picture;
+        if (picture.image && colour) colour = *colour * mean_of(texture);
     }
     if (!colour) return std::nullopt;
     light.emission.radiance = *colour;
@@ -98,7 +100,10 @@ std::optional<EnvironmentData> make_light(const std::string& type, Parameters& p
     if (parameters.find("portal")) parameters.warn("'portal' is left out");
     const float illuminance = parameters.number("illuminance", -1);
     if (illuminance > 0 && colour) *colour = *colour * (illuminance / pi);
-    return colour ? std::optional(EnvironmentData{*colour}) : std::nullopt;
+    if (!colour) return std::nullopt;
+    EnvironmentData environment;
+    environment.radiance = *colour;
+    return environment;
 }
 
 }  // namespace lightnet::pbrt

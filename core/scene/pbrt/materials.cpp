@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/scene/spectra.hpp"
+#include "core/scene/textures.hpp"
 #include "core/suggestion.hpp"
 
 namespace lightnet::pbrt {
@@ -17,20 +18,16 @@ namespace {
 
 constexpr Rgb grey{0.5f, 0.5f, 0.5f};
 
-struct Roughness {
-    float u = 0, v = 0;
-};
-
-/// GGX α from the parameters of a rough surface; `prefix` as in "conductor.roughness".
+/// From the parameters of a rough surface; `prefix` as in "conductor.roughness".
 Roughness roughness(Parameters& parameters, const MaterialSources& sources, const std::string& prefix = "",
                     float fallback = 0) {
     const auto number = [&](const char* name) { return sources.textures.number(parameters, prefix + name); };
     const float both = number("roughness").value_or(fallback);
-    Roughness rough{number("uroughness").value_or(both), number("vroughness").value_or(both)};
+    Roughness rough;
+    rough.u = std::max(0.0f, number("uroughness").value_or(both));
+    rough.v = std::max(0.0f, number("vroughness").value_or(both));
     // pbrt-v4's RoughnessToAlpha
-    const bool remap = parameters.boolean("remaproughness", true);
-    for (float* alpha : {&rough.u, &rough.v})
-        *alpha = remap ? std::sqrt(std::max(*alpha, 0.0f)) : std::max(*alpha, 0.0f);
+    rough.means = parameters.boolean("remaproughness", true) ? Roughness::Means::root : Roughness::Means::alpha;
     return rough;
 }
 
@@ -45,35 +42,52 @@ float index(Parameters& parameters, const MaterialSources& sources, const std::s
 }
 
 ConductorMaterial conductor_of(Parameters& parameters, const MaterialSources& sources, const std::string& prefix,
-                               Roughness rough) {
+                               const Roughness& rough) {
     ConductorMaterial model;
-    model.alpha_u = rough.u;
-    model.alpha_v = rough.v;
+    model.roughness = rough;
     const bool reflective = parameters.find("reflectance") != nullptr;
     if (reflective && (parameters.find(prefix + "eta") || parameters.find(prefix + "k")))
         parameters.error("'reflectance' and 'eta' or 'k' exclude each other");
-    if (reflective) model.reflectance = sources.textures.colour(parameters, "reflectance", grey);
+    if (reflective) model.metal.reflectance = sources.textures.colour(parameters, "reflectance", grey);
     const Rgb copper_eta = *named_index("metal-Cu-eta"), copper_k = *named_index("metal-Cu-k");
-    model.eta = sources.textures.colour(parameters, prefix + "eta", copper_eta, Use::index);
-    model.k = sources.textures.colour(parameters, prefix + "k", copper_k, Use::index);
+    model.metal.eta = sources.textures.colour(parameters, prefix + "eta", copper_eta, Use::index);
+    model.metal.k = sources.textures.colour(parameters, prefix + "k", copper_k, Use::index);
     return model;
 }
 
+template <class Model>
+Material made_of(const Model& model) {
+    Material material;
+    material.model = model;
+    return material;
+}
+
+Material matte(TextureId reflectance) {
+    DiffuseMaterial model;
+    model.reflectance = reflectance;
+    return made_of(model);
+}
+
 Material diffuse(Parameters& parameters, const MaterialSources& sources) {
-    return {"", DiffuseMaterial{sources.textures.colour(parameters, "reflectance", grey)}};
+    return matte(sources.textures.colour(parameters, "reflectance", grey));
 }
 
 Material conductor(Parameters& parameters, const MaterialSources& sources) {
-    return {"", conductor_of(parameters, sources, "", roughness(parameters, sources))};
+    return made_of(conductor_of(parameters, sources, "", roughness(parameters, sources)));
 }
 
 Material dielectric(Parameters& parameters, const MaterialSources& sources) {
-    const Roughness rough = roughness(parameters, sources);
-    return {"", DielectricMaterial{index(parameters, sources, "eta"), rough.u, rough.v}};
+    DielectricMaterial model;
+    model.roughness = roughness(parameters, sources);
+    model.eta = index(parameters, sources, "eta");
+    return made_of(model);
 }
 
 Material thin_dielectric(Parameters& parameters, const MaterialSources& sources) {
-    return {"", ThinDielectricMaterial{index(parameters, sources, "eta")}};
+    DielectricMaterial model;
+    model.eta = index(parameters, sources, "eta");
+    model.thin = true;
+    return made_of(model);
 }
 
 Material coated_diffuse(Parameters& parameters, const MaterialSources& sources) {
@@ -84,16 +98,18 @@ Material coated_diffuse(Parameters& parameters, const MaterialSources& sources) 
         const bool black = colour && std::all_of(colour->begin(), colour->end(), [](float x) { return x == 0; });
         if (!black) parameters.warn("scattering inside the coat ('albedo') is left out");
     }
-    const Roughness rough = roughness(parameters, sources);
-    return {"", CoatedDiffuseMaterial{sources.textures.colour(parameters, "reflectance", grey),
-                                      index(parameters, sources, "eta"), rough.u, rough.v}};
+    CoatedDiffuseMaterial model;
+    model.roughness = roughness(parameters, sources);
+    model.reflectance = sources.textures.colour(parameters, "reflectance", grey);
+    model.eta = index(parameters, sources, "eta");
+    return made_of(model);
 }
 
 Material coated_conductor(Parameters& parameters, const MaterialSources& sources) {
     parameters.warn("the coat of a coatedconductor is left out: taken as a conductor");
     parameters.ignore({"maxdepth", "nsamples", "thickness", "g", "albedo", "interface.eta", "interface.roughness",
                        "interface.uroughness", "interface.vroughness"});
-    return {"", conductor_of(parameters, sources, "conductor.", roughness(parameters, sources, "conductor."))};
+    return made_of(conductor_of(parameters, sources, "conductor.", roughness(parameters, sources, "conductor.")));
 }
 
 Material diffuse_transmission(Parameters& parameters, const MaterialSources& sources) {
@@ -102,22 +118,24 @@ Material diffuse_transmission(Parameters& parameters, const MaterialSources& sou
     const auto id = sources.textures.colour(parameters, "reflectance", {0.25f, 0.25f, 0.25f});
     Texture scaled = sources.scene.textures[id];
     scaled.scale *= parameters.number("scale", 1);
-    return {"", DiffuseMaterial{sources.textures.add(scaled)}};
+    return matte(sources.textures.add(scaled));
 }
 
 Material subsurface(Parameters& parameters, const MaterialSources& sources) {
     parameters.warn("subsurface scattering is left out: taken as coateddiffuse");
     parameters.ignore({"mfp", "name", "sigma_a", "sigma_s", "scale", "g"});
-    const Roughness rough = roughness(parameters, sources);
-    return {"", CoatedDiffuseMaterial{sources.textures.colour(parameters, "reflectance", {0.8f, 0.8f, 0.8f}),
-                                      index(parameters, sources, "eta", 1.33f), rough.u, rough.v}};
+    CoatedDiffuseMaterial model;
+    model.roughness = roughness(parameters, sources);
+    model.reflectance = sources.textures.colour(parameters, "reflectance", {0.8f, 0.8f, 0.8f});
+    model.eta = index(parameters, sources, "eta", 1.33f);
+    return made_of(model);
 }
 
 Material hair(Parameters& parameters, const MaterialSources& sources) {
     parameters.warn("scattering by hair is left out: taken as diffuse");
     parameters.ignore({"eumelanin", "pheomelanin", "sigma_a", "eta", "beta_m", "beta_n", "alpha", "color"});
     const char* colour = parameters.find("color") ? "color" : "reflectance";
-    return {"", DiffuseMaterial{sources.textures.colour(parameters, colour, {0.25f, 0.15f, 0.1f})}};
+    return matte(sources.textures.colour(parameters, colour, {0.25f, 0.15f, 0.1f}));
 }
 
 Material measured(Parameters& parameters, const MaterialSources& sources) {
@@ -125,7 +143,7 @@ Material measured(Parameters& parameters, const MaterialSources& sources) {
     parameters.ignore({"filename"});
     Texture constant;
     constant.scale = grey;
-    return {"", DiffuseMaterial{sources.textures.add(constant)}};
+    return matte(sources.textures.add(constant));
 }
 
 /// Two constant diffuse colours mix into one exactly, if not pointwise; of others the heavier stands for both.
@@ -144,14 +162,14 @@ Material mix(Parameters& parameters, const MaterialSources& sources) {
     if (!parts[0] || !parts[1]) return diffuse(parameters, sources);
     const auto constant = [&](const Material& material) -> std::optional<Rgb> {
         const auto* model = std::get_if<DiffuseMaterial>(&material.model);
-        if (!model || sources.scene.textures[model->reflectance].image) return std::nullopt;
+        if (!model || !is_constant(sources.scene.textures[model->reflectance])) return std::nullopt;
         return mean_of(sources.scene.textures[model->reflectance]);
     };
     const auto a = constant(*parts[0]), b = constant(*parts[1]);
     if (a && b) {
         Texture mean;
         mean.scale = *a * (1 - amount) + *b * amount;
-        return {"", DiffuseMaterial{sources.textures.add(mean)}};
+        return matte(sources.textures.add(mean));
     }
     const std::size_t heavier = amount > 0.5f ? 1 : 0;
     parameters.warn(
@@ -202,7 +220,7 @@ Material make_material(const std::string& type, Parameters& parameters, const Ma
     parameters.ignore({"reflectance"});
     Texture constant;
     constant.scale = grey;
-    return {"", DiffuseMaterial{sources.textures.add(constant)}};
+    return matte(sources.textures.add(constant));
 }
 
 }  // namespace lightnet::pbrt

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/scene/pbrt/baking.hpp"
+#include "core/scene/textures.hpp"
 #include "core/suggestion.hpp"
 
 namespace lightnet::pbrt {
@@ -29,18 +30,7 @@ std::vector<std::string> names_of(const std::map<std::string, Value, std::less<>
 /// Far outside, floats can't tell pixels apart, and integers would overflow.
 float tame(float coordinate) { return std::isfinite(coordinate) ? std::clamp(coordinate, -0x1p20f, 0x1p20f) : 0.0f; }
 
-Rgb texel(const Image& image, Wrap wrap, std::int64_t x, std::int64_t y) {
-    const std::int64_t w = image.width, h = image.height;
-    const bool outside = x < 0 || y < 0 || x >= w || y >= h;
-    if (outside && wrap == Wrap::black) return {};
-    if (outside && wrap == Wrap::clamp) {
-        x = std::clamp<std::int64_t>(x, 0, w - 1);
-        y = std::clamp<std::int64_t>(y, 0, h - 1);
-    }
-    x = (x % w + w) % w;
-    y = (y % h + h) % h;
-    return image.pixels[static_cast<std::size_t>(y * w + x)];
-}
+const ImageTexture* picture_of(const Texture& texture) { return std::get_if<ImageTexture>(&texture.pattern); }
 
 Rgb inverted(const Texture& texture, Rgb value) {
     if (texture.invert) value = Rgb{1, 1, 1} - value;
@@ -48,33 +38,28 @@ Rgb inverted(const Texture& texture, Rgb value) {
 }
 
 /// How `mapping` "uv" lays a texture over the surface.
-void lay(Texture& texture, Parameters& parameters) {
+UvTransform laid(Parameters& parameters) {
     if (parameters.text("mapping", "uv") != "uv") parameters.warn("only the mapping 'uv' is supported and taken");
-    texture.uv_scale = {parameters.number("uscale", 1), parameters.number("vscale", 1)};
-    texture.uv_offset = {parameters.number("udelta", 0), parameters.number("vdelta", 0)};
+    UvTransform uv;
+    uv.scale = {parameters.number("uscale", 1), parameters.number("vscale", 1)};
+    uv.offset = {parameters.number("udelta", 0), parameters.number("vdelta", 0)};
+    return uv;
 }
 
 }  // namespace
 
-Rgb look_up(const Texture& texture, Vec2 uv) {
-    if (!texture.image) return inverted(texture, texture.scale);
-    const Image& image = *texture.image;
-    const float u = tame(uv.x * texture.uv_scale.x + texture.uv_offset.x);
-    const float v = tame(uv.y * texture.uv_scale.y + texture.uv_offset.y);
-    const float x = u * float(image.width) - 0.5f, y = (1 - v) * float(image.height) - 0.5f;
-    const float fx = std::floor(x), fy = std::floor(y), dx = x - fx, dy = y - fy;
-    const auto at = [&](int i, int j) {
-        return texel(image, texture.wrap, static_cast<std::int64_t>(fx) + i, static_cast<std::int64_t>(fy) + j);
-    };
-    const Rgb value = (at(0, 0) * (1 - dx) + at(1, 0) * dx) * (1 - dy) + (at(0, 1) * (1 - dx) + at(1, 1) * dx) * dy;
-    return inverted(texture, texture.scale * value);
-}
+Rgb look_up(const Texture& texture, Vec2 uv) { return lightnet::look_up({&texture, 1}, 0, {uv, {1, 1, 1}}); }
 
 Rgb mean_of(const Texture& texture) {
-    if (!texture.image) return inverted(texture, texture.scale);
+    const ImageTexture* picture = picture_of(texture);
+    if (!picture) return inverted(texture, texture.scale);
     double r = 0, g = 0, b = 0;
-    for (const Rgb& p : texture.image->pixels) r += p.r, g += p.g, b += p.b;
-    const double n = double(texture.image->pixels.size());
+    for (std::uint32_t y = 0; y < picture->image->height; ++y)
+        for (std::uint32_t x = 0; x < picture->image->width; ++x) {
+            const Rgb p = picture->image->colour(x, y);
+            r += p.r, g += p.g, b += p.b;
+        }
+    const double n = double(picture->image->width) * picture->image->height;
     const Rgb mean{float(r / n), float(g / n), float(b / n)};
     return inverted(texture, texture.scale * mean);
 }
@@ -89,15 +74,15 @@ void Textures::define(const std::string& name, const std::string& kind, const st
     Named& named = kind == "float" ? floats_ : spectra_;
     if (named.contains(name)) parameters.error("a texture of that name and kind is there already");
     Texture texture = sources_.report.full() ? constant({}) : make(type, named, parameters);
-    if (kind == "float" && texture.image)
+    if (kind == "float" && picture_of(texture))
         texture = bake({texture}, [](std::span<const Rgb> in) {
                       const float mean = (in[0].r + in[0].g + in[0].b) / 3;
                       return Rgb{mean, mean, mean};
                   }).texture;
     // made of others: not yet counted
-    const auto same = [&](const auto& known) { return known.second == texture.image; };
-    if (texture.image && std::none_of(images_.begin(), images_.end(), same) &&
-        !room_for(*texture.image, parameters.where()))
+    const ImageTexture* picture = picture_of(texture);
+    const auto same = [&](const auto& known) { return known.second == picture->image; };
+    if (picture && std::none_of(images_.begin(), images_.end(), same) && !room_for(*picture->image, parameters.where()))
         texture = constant({0.5f, 0.5f, 0.5f});
     named.insert_or_assign(name, std::move(texture));
 }
@@ -121,22 +106,25 @@ Texture Textures::make(const std::string& type, Named& named, Parameters& parame
 
 Texture Textures::imagemap(Parameters& parameters) {
     parameters.ignore({"filter", "maxanisotropy"});  // a scene looks up pictures bilinearly
-    Texture texture;
-    lay(texture, parameters);
+    ImageTexture picture;
+    picture.uv = laid(parameters);
     const Encoding encoding = encoding_of(parameters);
     const std::string file = parameters.text("filename", "");
     if (file.empty())
         parameters.error("parameter 'filename' is missing");
     else
-        texture.image = image(file, encoding, parameters.where());
+        picture.image = image(file, encoding, parameters.where());
     const std::string wrap = parameters.text("wrap", "repeat");
     if (wrap != "repeat" && wrap != "clamp" && wrap != "black" && wrap != "octahedralsphere")
         parameters.error(fmt::format("unknown wrap '{}'{}", wrap, did_you_mean(wrap, {"repeat", "clamp", "black"})));
-    texture.wrap = wrap == "clamp" ? Wrap::clamp : wrap == "black" ? Wrap::black : Wrap::repeat;
+    picture.wrap_u = picture.wrap_v = wrap == "clamp" ? Wrap::clamp : wrap == "black" ? Wrap::black : Wrap::repeat;
     const float scale = parameters.number("scale", 1);
+    Texture texture;
     texture.scale = {scale, scale, scale};
     texture.invert = parameters.boolean("invert", false);
-    return texture.image ? texture : constant({0.5f, 0.5f, 0.5f});
+    if (!picture.image) return constant({0.5f, 0.5f, 0.5f});
+    texture.pattern = std::move(picture);
+    return texture;
 }
 
 Encoding Textures::encoding_of(Parameters& parameters) {
@@ -162,8 +150,8 @@ Texture Textures::scale(Named& named, Parameters& parameters) {
         const float number = parameters.number("scale", 1);
         factor = constant({number, number, number});
     }
-    if (!base.invert && !factor.invert && (!base.image || !factor.image)) {
-        Texture product = base.image ? base : factor;
+    if (!base.invert && !factor.invert && (!picture_of(base) || !picture_of(factor))) {
+        Texture product = picture_of(base) ? base : factor;
         product.scale = base.scale * factor.scale;
         return product;
     }
@@ -191,24 +179,24 @@ Texture Textures::mix(Named& named, Parameters& parameters) {
 
 Texture Textures::checkerboard(Named& named, Parameters& parameters) {
     const Texture a = input(named, parameters, "tex1", 1), b = input(named, parameters, "tex2", 0);
-    Texture laid;
-    lay(laid, parameters);
+    const UvTransform uv_laid = laid(parameters);
     if (parameters.integer("dimension", 2) != 2) parameters.warn("only checkerboards of dimension 2 are supported");
     const auto first = [](float s, float t) {
         return (std::int64_t(std::floor(tame(s))) + std::int64_t(std::floor(tame(t)))) % 2 == 0;
     };
-    if (a.image || b.image) {
+    if (picture_of(a) || picture_of(b)) {
         parameters.warn("a checkerboard of pictures is approximated by 1024 x 1024 pixels");
         return paint(1024, [&](Vec2 uv) {
             const bool odd =
-                !first(uv.x * laid.uv_scale.x + laid.uv_offset.x, uv.y * laid.uv_scale.y + laid.uv_offset.y);
+                !first(uv.x * uv_laid.scale.x + uv_laid.offset.x, uv.y * uv_laid.scale.y + uv_laid.offset.y);
             return look_up(odd ? b : a, uv);
         });
     }
     parameters.warn("the edges of a checkerboard are as sharp as a picture with 128 pixels for each field");
     Texture board = paint(256, [&](Vec2 uv) { return first(2 * uv.x, 2 * uv.y) ? a.scale : b.scale; });
-    board.uv_scale = laid.uv_scale * 0.5f;
-    board.uv_offset = laid.uv_offset * 0.5f;
+    auto& picture = std::get<ImageTexture>(board.pattern);
+    picture.uv.scale = uv_laid.scale * 0.5f;
+    picture.uv.offset = uv_laid.offset * 0.5f;
     return board;
 }
 
@@ -264,7 +252,7 @@ std::optional<float> Textures::number(Parameters& parameters, std::string_view n
     if (!given || given->type != Type::texture) return given ? parameters.maybe_number(name) : std::nullopt;
     const Texture* found = find(floats_, *given);
     if (!found) return std::nullopt;
-    if (found->image)
+    if (picture_of(*found))
         parameters.warn(
             fmt::format("parameter '{}' can't change over the surface; the mean of its texture is taken", name));
     return mean_of(*found).r;
@@ -273,7 +261,7 @@ std::optional<float> Textures::number(Parameters& parameters, std::string_view n
 bool Textures::room_for(const Image& image, const SourceLine& where) {
     constexpr std::uint64_t most = std::uint64_t{1} << 28;  // 3 GB
     if (pixels_ > most) return false;
-    pixels_ += image.pixels.size();
+    pixels_ += std::uint64_t{image.width} * image.height;
     if (pixels_ > most) sources_.report.error(where, "the pictures of the scene have more than 2^28 pixels in all");
     return pixels_ <= most;
 }

@@ -1,0 +1,67 @@
+// What a node may use to prepare itself before the first question.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "core/light/mapped.hpp"
+#include "core/light/query.hpp"
+
+namespace lightnet {
+
+/// Where a node runs: for display. What a node computes must not depend on it.
+struct Whereabouts {
+    std::string place;       // "tcp://onyx1:7777 place 2"; "this thread" in a serial run
+    std::size_t places = 1;  // that hold the node
+};
+
+/// Handed to LightOp::prepare(). Preparing is collective: every place that holds the node runs the same prepare(),
+/// which makes the same calls here in the same order, and each call returns the same to all. A place that comes later
+/// gets what was computed before it came. Works alike in a run of one thread.
+class Services {
+public:
+    virtual ~Services() = default;
+
+    /// Has `work(i, results)` done once, somewhere, for each i < count; it appends to `results`, a std::vector<T>, and
+    /// may ask the node's inputs. Returns all results in the order of i. `count` must depend on parameters and earlier
+    /// results alone, never on places or cores; a shard should take no more than some 50 ms, and answer with less than
+    /// 64 MB. `work` may be done again where a place was lost, so it must depend on i and on what is prepared so far.
+    template <class T, class Work>
+    Mapped<T> map(std::size_t count, const Work& work) {
+        static_assert(std::is_trivially_copyable_v<T>, "results travel as bytes");
+        return Mapped<T>(map_bytes(count, [&work](std::size_t shard, std::vector<std::byte>& out) {
+            std::vector<T> results;
+            work(shard, results);
+            const auto* bytes = reinterpret_cast<const std::byte*>(results.data());
+            out.assign(bytes, bytes + results.size() * sizeof(T));
+        }));
+    }
+
+    /// Makes a value from what is prepared so far, once per process; its places share it. `make` asks nobody.
+    template <class T, class Make>
+    std::shared_ptr<const T> once(const Make& make) {
+        return std::static_pointer_cast<const T>(
+            once_any([&make]() -> std::shared_ptr<const void> { return std::make_shared<const T>(make()); }));
+    }
+
+    /// Renders every `stride`-th pixel of every `stride`-th row, one sample each, through the whole network, and
+    /// returns all questions that the node has noted with NodeContext::rehearsal() meanwhile: sorted, each once. The
+    /// node is asked while it prepares, so light() must answer from what is there: anything will do, as it reaches no
+    /// picture. Strides of later calls must divide those of earlier ones.
+    virtual std::vector<Query> rehearse(std::uint32_t stride) = 0;
+
+    virtual Whereabouts whereabouts() const = 0;
+
+protected:
+    using Shard = std::function<void(std::size_t shard, std::vector<std::byte>& out)>;
+    virtual Bytes map_bytes(std::size_t count, const Shard& work) = 0;
+    virtual std::shared_ptr<const void> once_any(const std::function<std::shared_ptr<const void>()>& make) = 0;
+};
+
+}  // namespace lightnet

@@ -1,0 +1,341 @@
+#include "core/runtime/conductor.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <span>
+
+#include "core/error.hpp"
+#include "core/light/mapped.hpp"
+#include "core/light/rehearsal.hpp"
+
+namespace lightnet {
+namespace {
+
+// The channels of a master are told apart from those of the one before it, whose late replies mean something else.
+constexpr unsigned epoch_bits = 20;
+constexpr std::uint32_t channel_mask = (1u << epoch_bits) - 1;
+constexpr std::uint32_t own_channel = 0xffffffff;
+
+constexpr std::size_t tiles_per_place = 4;  // of a rehearsal: small ones
+
+template <class T>
+std::vector<T> values_of(const Bytes& data) {
+    std::vector<T> values(data ? data->size() / sizeof(T) : 0);
+    if (!values.empty()) std::memcpy(values.data(), data->data(), values.size() * sizeof(T));
+    return values;
+}
+
+}  // namespace
+
+Conductor::Conductor(Options options, Carrier& carrier)
+    : options_(std::move(options)),
+      carrier_(carrier),
+      calls_(*options_.graph, options_.made_from, options_.cache),
+      order_(preparing_nodes(*options_.graph, *options_.registry)) {
+    proposal_.places_of.resize(options_.graph->nodes.size());
+    in_force_ = proposal_;
+}
+
+Conductor::~Conductor() = default;
+
+// ---- plans ----------------------------------------------------------------------------------------------------------
+
+void Conductor::propose(const Plan& plan) {
+    std::set<PlaceKey> gone;
+    for (const auto& place : proposal_.places) gone.insert({place.host, place.index});
+    for (const auto& place : plan.places) gone.erase({place.host, place.index});
+    proposal_ = plan;
+    lose(gone);
+    advance();
+}
+
+// What was asked of them is asked of others; what a rehearsal had noted there is lost, so it begins again.
+void Conductor::lose(const std::set<PlaceKey>& gone) {
+    if (gone.empty()) return;
+    for (auto sent = sent_.begin(); sent != sent_.end();) {
+        if (!gone.contains(sent->second.place)) {
+            ++sent;
+            continue;
+        }
+        const auto& [place, position, step] = sent->second;
+        if (step.kind == Step::Kind::shard) calls_.of(order_[position], step.call).take_back(step.shard);
+        sent = sent_.erase(sent);
+    }
+    std::erase_if(followers_, [&](const auto& follower) { return gone.contains(follower.first.first); });
+    for (const auto& place : gone) known_prepared_.erase(place);
+    if (rehearsing_) rehearsing_->broken = true;
+}
+
+std::vector<Conductor::PlaceKey> Conductor::holders(std::size_t position) const {
+    std::vector<PlaceKey> places;
+    for (const auto place : proposal_.places_of[order_[position]])
+        places.emplace_back(proposal_.places[place].host, proposal_.places[place].index);
+    return places;
+}
+
+bool Conductor::is_done(const PlaceKey& place, std::size_t position) const {
+    const auto found = followers_.find({place, position});
+    return found != followers_.end() && found->second.state == Follower::State::done;
+}
+
+Plan Conductor::restricted() {
+    std::vector<bool> asked(proposal_.places.size(), true);
+    for (std::size_t position = 0; position < done_; ++position)
+        for (const auto place : proposal_.places_of[order_[position]]) {
+            const PlaceKey key{proposal_.places[place].host, proposal_.places[place].index};
+            if (!known_prepared_.contains(key) && !is_done(key, position)) asked[place] = false;
+        }
+    for (std::size_t place = 0; place < asked.size(); ++place)
+        if (asked[place]) known_prepared_.insert({proposal_.places[place].host, proposal_.places[place].index});
+    Plan plan = proposal_;
+    for (auto& places : plan.places_of) std::erase_if(places, [&](auto place) { return !asked[place]; });
+    for (std::size_t position = 0; position < done_; ++position)
+        std::erase_if(plan.places_of[order_[position]], [&](auto place) {
+            return !is_done({proposal_.places[place].host, proposal_.places[place].index}, position);
+        });
+    return plan;
+}
+
+void Conductor::enforce() {
+    auto plan = restricted();
+    if (plan == in_force_) return;
+    in_force_ = std::move(plan);
+    carrier_.adopt(in_force_);
+    Message message;
+    message.type = Message::Type::plan;
+    message.run = options_.run;
+    message.plan = std::make_shared<const Plan>(in_force_);
+    arrived_.push_back(std::move(message));
+}
+
+// ---- leading --------------------------------------------------------------------------------------------------------
+
+void Conductor::advance() {
+    bool more = true;
+    while (more) {
+        for (std::size_t position = 0; position <= done_ && position < order_.size(); ++position)
+            for (const auto& place : holders(position)) lead(place, position);
+        more = false;
+        if (done_ < order_.size()) {
+            const auto places = holders(done_);
+            more = !places.empty() &&
+                   std::all_of(places.begin(), places.end(), [&](const auto& place) { return is_done(place, done_); });
+            if (more) ++done_;
+        }
+    }
+    collect();
+    enforce();
+}
+
+void Conductor::lead(const PlaceKey& place, std::size_t position) {
+    auto& follower = followers_[{place, position}];
+    if (follower.state == Follower::State::idle) {
+        // Inputs are prepared before those who ask them: at every place, in the order of all.
+        for (std::size_t before = 0; before < position; ++before) {
+            const auto places = holders(before);
+            const bool holds = std::find(places.begin(), places.end(), place) != places.end();
+            if (holds && !is_done(place, before)) return;
+        }
+        if (send(place, position, {.kind = Step::Kind::prepare})) follower.state = Follower::State::asked;
+    } else if (follower.state == Follower::State::waiting) {
+        auto& call = calls_.reported(order_[position], follower.at);
+        if (!call.result()) {
+            if (follower.at.kind == Report::Kind::map) hand_out(place, position, call);
+        } else if (carrier_.bring({place.first, place.second}, call.name(), call.result()) &&
+                   send(place, position, {.kind = Step::Kind::go_on, .call = follower.at.call, .data = call.name()})) {
+            follower.state = Follower::State::asked;
+        }
+    }
+}
+
+void Conductor::hand_out(const PlaceKey& place, std::size_t position, Call& call) {
+    auto& follower = followers_[{place, position}];
+    while (const auto shard = call.hand_out(follower.shards)) {
+        const Step step{.kind = Step::Kind::shard, .call = follower.at.call, .shard = *shard};
+        if (!send(place, position, step)) return call.take_back(*shard);
+        ++follower.shards;
+    }
+}
+
+bool Conductor::send(const PlaceKey& place, std::size_t position, Step step) {
+    Message message;
+    message.run = options_.run;
+    message.channel = own_channel;
+    message.bundle = next_;
+    message.node = static_cast<std::uint32_t>(order_[position]);
+    message.questions = std::make_shared<const std::vector<Step>>(1, step);
+    if (step.kind == Step::Kind::go_on) message.data = calls_.of(order_[position], step.call).result();
+    if (!carrier_.ask({place.first, place.second}, message)) return false;
+    sent_[next_++] = {place, position, step};
+    return true;
+}
+
+// ---- answers --------------------------------------------------------------------------------------------------------
+
+void Conductor::take(Message message) {
+    const auto found = sent_.find(message.bundle);
+    if (found == sent_.end()) return;  // of a place that was lost
+    const Sent sent = found->second;
+    sent_.erase(found);
+    const bool shard = sent.step.kind == Step::Kind::shard;
+    if (shard) {
+        --followers_[{sent.place, sent.position}].shards;
+        if (calls_.of(order_[sent.position], sent.step.call).result()) return;  // another place was first
+    }
+    if (message.type == Message::Type::failure) throw Error(message.text);
+    if (shard) {
+        shard_done(sent, message.data);
+    } else if (sent.step.kind == Step::Kind::collect) {
+        noted(sent, message.data);
+    } else {
+        reported(sent, message.data);
+    }
+}
+
+void Conductor::reported(const Sent& sent, const Bytes& data) {
+    const auto reports = values_of<Report>(data);
+    if (reports.size() != 1 || reports[0].kind > Report::Kind::last)
+        throw Error("'" + name_of(sent.position) + "': a report of preparing is damaged");
+    auto& follower = followers_[{sent.place, sent.position}];
+    follower.at = reports[0];
+    follower.state = follower.at.kind == Report::Kind::done ? Follower::State::done : Follower::State::waiting;
+    advance();
+}
+
+void Conductor::shard_done(const Sent& sent, const Bytes& data) {
+    auto& call = calls_.of(order_[sent.position], sent.step.call);
+    if (!call.answer(sent.step.shard, data)) return hand_out(sent.place, sent.position, call);
+    call.complete_from_shards();
+    calls_.keep(order_[sent.position], sent.step.call);
+    advance();
+}
+
+// ---- rehearsals -----------------------------------------------------------------------------------------------------
+
+// Begins a rehearsal when all places of the node wait for it, and gathers what they have noted when it is over.
+void Conductor::collect() {
+    if (done_ == order_.size()) return;
+    const auto places = holders(done_);
+    if (!rehearsing_) {
+        if (places.empty()) return;
+        for (const auto& place : places) {
+            const auto& follower = followers_[{place, done_}];
+            if (follower.state != Follower::State::waiting || follower.at.kind != Report::Kind::rehearse ||
+                follower.at.call != followers_[{places[0], done_}].at.call ||
+                calls_.reported(order_[done_], follower.at).result())
+                return;
+        }
+        return begin_rehearsal(followers_[{places[0], done_}].at.call);
+    }
+    if (!rehearsing_->rendered || rehearsing_->broken) return;
+    for (const auto& place : places)
+        if (!rehearsing_->collecting.contains(place) &&
+            send(place, done_, {.kind = Step::Kind::collect, .call = rehearsing_->call}))
+            rehearsing_->collecting.insert(place);
+}
+
+void Conductor::begin_rehearsal(std::uint32_t call) {
+    MasterRenderer::Job job;
+    job.run = options_.run;
+    job.image = static_cast<std::uint32_t>(renderer_of(*options_.graph, *options_.registry));
+    job.width = options_.width;
+    job.tiles = rehearsal_tiles(*options_.graph, *options_.registry, calls_.of(order_[done_], call).what().count);
+    job.credit = {tiles_per_place, tiles_per_place};
+    ++epoch_;
+    rehearsing_.emplace();
+    rehearsing_->call = call;
+    rehearsing_->master =
+        std::make_unique<MasterRenderer>(std::move(job), *this, [](const Tile&, std::span<const Rgb>) {});
+    rehearsing_->master->use(in_force_);
+}
+
+void Conductor::noted(const Sent& sent, const Bytes& data) {
+    if (!rehearsing_ || rehearsing_->broken || sent.position != done_ || sent.step.call != rehearsing_->call) return;
+    const auto more = values_of<Query>(data);
+    rehearsing_->noted.insert(rehearsing_->noted.end(), more.begin(), more.end());
+    if (++rehearsing_->collected < holders(sent.position).size()) return;
+    sort_and_unite(rehearsing_->noted);
+    const auto bytes = std::as_bytes(std::span(rehearsing_->noted));
+    const std::vector<std::byte> shard(bytes.begin(), bytes.end());
+    end_rehearsal();
+    calls_.of(order_[sent.position], sent.step.call).complete(join_shards(std::span(&shard, 1)));
+    calls_.keep(order_[sent.position], sent.step.call);
+    advance();
+}
+
+void Conductor::end_rehearsal() {
+    rehearsing_.reset();
+    ++epoch_;
+}
+
+// ---- the carrier's face ---------------------------------------------------------------------------------------------
+
+bool Conductor::prepare(std::chrono::nanoseconds most) {
+    const auto end = std::chrono::steady_clock::now() + most;
+    while (true) {
+        advance();
+        if (done_ == order_.size()) return true;
+        const auto left = end - std::chrono::steady_clock::now();
+        if (left.count() <= 0) return false;
+        if (rehearsing_ && !rehearsing_->rendered) {
+            rehearsing_->rendered = rehearsing_->master->work(left);
+            if (rehearsing_->broken) end_rehearsal();
+            continue;
+        }
+        if (rehearsing_ && rehearsing_->broken) end_rehearsal();
+        wait(std::min<std::chrono::nanoseconds>(left, std::chrono::milliseconds(20)));
+        while (receive()) {
+        }
+    }
+}
+
+bool Conductor::ask(const PlaceAt& to, Message& message) {
+    const auto channel = message.channel;
+    message.channel |= epoch_ << epoch_bits;
+    if (carrier_.ask(to, message)) return true;
+    message.channel = channel;
+    return false;
+}
+
+std::optional<Message> Conductor::receive() {
+    while (true) {
+        if (!arrived_.empty()) {
+            auto message = std::move(arrived_.front());
+            arrived_.pop_front();
+            return message;
+        }
+        auto message = carrier_.receive();
+        if (!message) return std::nullopt;
+        if (message->run != options_.run) continue;
+        if (message->type == Message::Type::plan) {
+            if (message->plan) propose(*message->plan);
+        } else if (message->channel == own_channel) {
+            take(std::move(*message));
+        } else if (message->channel >> epoch_bits == epoch_) {
+            message->channel &= channel_mask;
+            return message;
+        }
+    }
+}
+
+void Conductor::wait(std::chrono::nanoseconds most) {
+    if (!arrived_.empty()) return;
+    carrier_.wait(most);
+    if (!followers_.empty() && in_force_ != proposal_) advance();  // someone is catching up
+}
+
+const std::string& Conductor::name_of(std::size_t position) const {
+    return options_.graph->nodes[order_[position]].name;
+}
+
+std::string Conductor::progress() const {
+    if (done_ == order_.size()) return {};
+    std::string text = name_of(done_);
+    const auto* call = calls_.unfinished(order_[done_]);
+    if (!call) return text;
+    if (call->what().kind == Report::Kind::rehearse) return text + ": rehearsal";
+    return text + ": " + std::to_string(call->what().count - call->missing()) + "/" +
+           std::to_string(call->what().count);
+}
+
+}  // namespace lightnet

@@ -1,0 +1,124 @@
+// Leads all places of a run through preparing, and lets nobody ask a place that is not prepared.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/runtime/calls.hpp"
+#include "core/runtime/carrier.hpp"
+#include "core/runtime/master_renderer.hpp"
+#include "core/runtime/prepared.hpp"
+
+namespace lightnet {
+
+/// Stands between the run's carrier and the master renderer. Nodes prepare one after the other, inputs first, each on
+/// all places that hold it: shards go to whoever is free, results are put together here, in order, and brought to all.
+/// A place that comes later is given the results, and is made known to the others when it has caught up. Belongs to
+/// the launcher's thread.
+///
+/// What is proposed and what is in force: the carrier proposes a plan whenever hosts come or go. In force is the part
+/// of it that can be asked: a place that is still behind is left out, and so is a node that was moved to a place and
+/// is not prepared there yet.
+class Conductor final : public Carrier {
+public:
+    struct Options {
+        std::uint64_t run = 0;
+        const Graph* graph = nullptr;  // outlives the conductor, like the registry
+        const Registry* registry = nullptr;
+        std::uint32_t width = 1;       // colours per pixel
+        std::string made_from;         // see Recipes
+        ResultCache* cache = nullptr;  // may be absent
+        std::function<void(const std::string&)> say = [](const std::string&) {};
+    };
+    Conductor(Options options, Carrier& carrier);
+    ~Conductor() override;
+
+    /// What the carrier offers from now on.
+    void propose(const Plan& plan);
+    /// Leads on for about `most`. True when every node is prepared on every place of the proposal. Throws Error when a
+    /// node failed.
+    bool prepare(std::chrono::nanoseconds most);
+    /// What can be asked now.
+    const Plan& in_force() const { return in_force_; }
+    /// How far preparing is, for display: "caustics 34/256"; empty when nothing is being prepared.
+    std::string progress() const;
+    /// What was prepared: node → content hash of all its results.
+    std::map<std::string, Hash> prepared() const { return calls_.hashes(); }
+
+    bool ask(const PlaceAt& to, Message& message) override;
+    void reply(Message message) override { carrier_.reply(std::move(message)); }
+    /// Work for the master; plans in force. Preparing goes on inside.
+    std::optional<Message> receive() override;
+    void wait(std::chrono::nanoseconds most) override;
+    void forget(const PlaceAt& place) override { carrier_.forget(place); }
+    const Counters& counters() const override { return carrier_.counters(); }
+
+private:
+    using PlaceKey = std::pair<std::string, std::uint32_t>;  // host, index
+
+    /// A node's prepare() at one place.
+    struct Follower {
+        enum class State { idle, asked, waiting, done };
+        State state = State::idle;
+        Report at;
+        std::size_t shards = 0;  // handed out and not answered
+    };
+    /// A step that was sent and not answered.
+    struct Sent {
+        PlaceKey place;
+        std::size_t position;
+        Step step;
+    };
+    /// The rehearsal that goes on.
+    struct Rehearsing {
+        std::uint32_t call = 0;
+        std::unique_ptr<MasterRenderer> master;
+        bool rendered = false;
+        bool broken = false;            // a place was lost, and with it what it had noted
+        std::set<PlaceKey> collecting;  // have been asked what they noted
+        std::size_t collected = 0;      // have said so
+        std::vector<Query> noted;
+    };
+
+    std::vector<PlaceKey> holders(std::size_t position) const;
+    bool is_done(const PlaceKey& place, std::size_t position) const;
+    const std::string& name_of(std::size_t position) const;
+    void advance();
+    void lead(const PlaceKey& place, std::size_t position);
+    void hand_out(const PlaceKey& place, std::size_t position, Call& call);
+    void collect();
+    void begin_rehearsal(std::uint32_t call);
+    void end_rehearsal();
+    bool send(const PlaceKey& place, std::size_t position, Step step);
+    void take(Message message);
+    void reported(const Sent& sent, const Bytes& data);
+    void shard_done(const Sent& sent, const Bytes& data);
+    void noted(const Sent& sent, const Bytes& data);
+    void lose(const std::set<PlaceKey>& gone);
+    void enforce();
+    Plan restricted();
+
+    Options options_;
+    Carrier& carrier_;
+    Calls calls_;
+    std::vector<std::size_t> order_;  // nodes that prepare
+    Plan proposal_, in_force_;
+    std::deque<Message> arrived_;
+    std::map<std::pair<PlaceKey, std::size_t>, Follower> followers_;
+    std::map<std::uint64_t, Sent> sent_;
+    std::uint64_t next_ = 1;
+    std::size_t done_ = 0;               // positions of order_ that are prepared everywhere
+    std::set<PlaceKey> known_prepared_;  // have caught up once
+    std::optional<Rehearsing> rehearsing_;
+    std::uint32_t epoch_ = 0;  // of the master whose replies count
+};
+
+}  // namespace lightnet

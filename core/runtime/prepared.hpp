@@ -1,0 +1,69 @@
+// What is prepared before rendering: in which order, under which name, and how places of a process share it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <future>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/bytes.hpp"
+#include "core/film/tile.hpp"
+#include "core/graph/graph.hpp"
+#include "core/graph/kind.hpp"
+#include "core/hash.hpp"
+
+namespace lightnet {
+
+/// Nodes that the picture needs and that prepare, inputs before those who ask them.
+std::vector<std::size_t> preparing_nodes(const Graph& graph, const Registry& registry);
+
+/// The pixels of a rehearsal: every `stride`-th of every `stride`-th row of the graph's film. Throws Error when stride
+/// is 0.
+std::vector<Tile> rehearsal_tiles(const Graph& graph, const Registry& registry, std::uint32_t stride);
+
+/// Names for results of preparing: equal recipes give equal results.
+class Recipes {
+public:
+    /// `made_from`: everything beside the graph that bytes may depend on (scene files, seed, build, instruction set).
+    Recipes(const Graph& graph, std::string made_from);
+
+    /// The `call`-th call of the node's prepare(). What a node learns in rehearsals depends on the whole graph; before
+    /// the first of them, on the node and on what it asks.
+    Hash of(std::size_t node, std::uint32_t call, bool rehearsed) const;
+
+private:
+    const Graph& graph_;
+    std::string made_from_;
+    std::string whole_;                  // graph, as text
+    std::vector<std::string> subgraph_;  // by node, as text
+};
+
+/// Keeps results from run to run. Any thread.
+class ResultCache {
+public:
+    virtual ~ResultCache() = default;
+    /// Null when there is none.
+    virtual Bytes find(const Hash& recipe) const = 0;
+    /// Failing to keep is no error: the next run computes it again.
+    virtual void keep(const Hash& recipe, const Bytes& result) = 0;
+};
+
+/// Values that the places of one process share: made by the first that asks, while the others wait. Any thread.
+class SharedValues {
+public:
+    using Value = std::shared_ptr<const void>;
+    /// The `index`-th value of a node. Throws what `make` throws, to all who ask.
+    Value get(std::size_t node, std::uint32_t index, const std::function<Value()>& make);
+
+private:
+    std::mutex mutex_;
+    std::map<std::pair<std::size_t, std::uint32_t>, std::shared_future<Value>> values_;
+};
+
+}  // namespace lightnet

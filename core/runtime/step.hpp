@@ -1,0 +1,45 @@
+// How the launcher leads places through preparing: what it asks of them, and what they report.
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include "core/hash.hpp"
+
+namespace lightnet {
+
+/// One thing that a place is asked to do for a node. Travels as a question; bytes answer it.
+struct Step {
+    enum class Kind : std::uint32_t {
+        prepare,  // begin prepare(); answered by a Report when it first waits, or ends
+        go_on,    // the result of call `call` is there: `data` names it. Answered by the next Report
+        shard,    // do shard `shard` of call `call`; answered by its results
+        collect,  // answered by what the node has noted in the rehearsal that is call `call`
+        last = collect,
+    };
+    Kind kind = Kind::prepare;
+    std::uint32_t call = 0;
+    std::uint32_t shard = 0;
+    std::uint32_t unused = 0;  // keeps the size a multiple of 8
+    Hash data{};
+    friend bool operator==(const Step&, const Step&) = default;
+};
+
+/// Where a node's prepare() is at one place.
+struct Report {
+    enum class Kind : std::uint32_t {
+        map,       // waits for the result of `count` shards
+        rehearse,  // waits for the end of a rehearsal with stride `count`
+        done,
+        last = done,
+    };
+    Kind kind = Kind::done;
+    std::uint32_t call = 0;
+    std::uint32_t count = 0;
+    friend bool operator==(const Report&, const Report&) = default;
+};
+
+static_assert(std::is_trivially_copyable_v<Step> && sizeof(Step) == 48);
+static_assert(std::is_trivially_copyable_v<Report> && sizeof(Report) == 12);
+
+}  // namespace lightnet

@@ -1,0 +1,57 @@
+#include "core/scene/image.hpp"
+
+#include <cassert>
+#include <utility>
+
+namespace lightnet {
+
+Image::Image(std::uint32_t wide, std::uint32_t high, const std::vector<Rgb>& pixels, const std::vector<float>& alpha)
+    : width(wide), height(high), channels_(alpha.empty() ? 3 : 4) {
+    assert(pixels.size() == std::size_t{wide} * high && (alpha.empty() || alpha.size() == pixels.size()) &&
+           "each pixel has its colour");
+    auto& numbers = std::get<std::vector<float>>(numbers_);
+    numbers.reserve(pixels.size() * channels_);
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        numbers.insert(numbers.end(), {pixels[i].r, pixels[i].g, pixels[i].b});
+        if (!alpha.empty()) numbers.push_back(alpha[i]);
+    }
+}
+
+Image::Image(std::uint32_t wide, std::uint32_t high, Coded coded)
+    : width(wide),
+      height(high),
+      channels_(coded.channels),
+      curve_(std::move(coded.curve)),
+      alpha_curve_(std::move(coded.alpha_curve)) {
+    assert(channels_ >= 1 && channels_ <= 4 && "grey or RGB, with alpha or without");
+    std::visit(
+        [&](auto& numbers) {
+            assert(numbers.size() == std::size_t{wide} * high * channels_ && "each pixel has its numbers");
+            numbers_ = std::move(numbers);
+        },
+        coded.numbers);
+}
+
+float Image::number(std::size_t at, const Curve& curve) const {
+    if (const auto* bytes = std::get_if<std::vector<std::uint8_t>>(&numbers_)) return (*curve)[(*bytes)[at]];
+    if (const auto* words = std::get_if<std::vector<std::uint16_t>>(&numbers_)) return (*curve)[(*words)[at]];
+    return std::get<std::vector<float>>(numbers_)[at];
+}
+
+Rgb Image::colour(std::uint32_t x, std::uint32_t y) const {
+    const std::size_t at = (std::size_t{y} * width + x) * channels_;
+    const float first = number(at, curve_);
+    if (channels_ < 3) return {first, first, first};
+    return {first, number(at + 1, curve_), number(at + 2, curve_)};
+}
+
+float Image::alpha(std::uint32_t x, std::uint32_t y) const {
+    if (!has_alpha()) return 1;
+    return number((std::size_t{y} * width + x) * channels_ + channels_ - 1, alpha_curve_);
+}
+
+std::size_t Image::memory() const {
+    return std::visit([](const auto& numbers) { return numbers.size() * sizeof(numbers[0]); }, numbers_);
+}
+
+}  // namespace lightnet

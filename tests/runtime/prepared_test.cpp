@@ -1,0 +1,141 @@
+#include "core/runtime/prepared.hpp"
+
+#include <gmock/gmock.h>
+
+#include "core/graph/check.hpp"
+#include "core/light/mapped.hpp"
+#include "core/light/rehearsal.hpp"
+#include "core/runtime/serial.hpp"
+#include "tests/support/learner.hpp"
+#include "tests/support/small_scenes.hpp"
+
+namespace lightnet {
+namespace {
+
+using testing::ElementsAre;
+
+Node node(std::string name, std::string kind, std::vector<Value> entries, std::map<std::string, Value> params = {}) {
+    return {std::move(name), std::move(kind), std::move(entries), std::move(params), {"test.lua", 1}};
+}
+
+// image ← learner ← direct
+Graph learning_graph(const Registry& registry, double stride = 4) {
+    Graph graph{"test.lua", {}};
+    graph.nodes = {
+        node("scene", "Scene", {Value{std::string("none.pbrt")}}),
+        node("direct", "DirectLighting", {}),
+        node("learned", "Learner", {Value{NodeRef{"direct"}}}, {{"stride", Value{stride}}}),
+        node("image", "RayTracer", {Value{NodeRef{"learned"}}},
+             {{"scene", Value{NodeRef{"scene"}}}, {"film", Value{Table{{Value{24.0}, Value{16.0}}, {}}}}}),
+    };
+    return check(graph, registry);
+}
+
+std::shared_ptr<const Network> network_of(const Graph& graph, const Registry& registry) {
+    SceneOptions options;
+    options.width = 24, options.height = 16;
+    return std::make_shared<const Network>(
+        Network{graph, registry, std::make_shared<const Scene>(test::furnace(0.5f, 1), options), 1});
+}
+
+// Remembers in memory.
+class MemoryCache final : public ResultCache {
+public:
+    Bytes find(const Hash& recipe) const override {
+        const auto found = results.find(recipe);
+        return found == results.end() ? nullptr : found->second;
+    }
+    void keep(const Hash& recipe, const Bytes& result) override { results[recipe] = result; }
+    std::map<Hash, Bytes> results;
+};
+
+TEST(Mapped, GivesShardsAndAllOfThemInOrder) {
+    std::vector<std::vector<std::byte>> shards(3);
+    const std::vector<std::uint32_t> numbers{1, 2, 3};
+    const auto* bytes = reinterpret_cast<const std::byte*>(numbers.data());
+    shards[0].assign(bytes, bytes + 4);
+    shards[2].assign(bytes + 4, bytes + 12);
+    const Mapped<std::uint32_t> mapped(join_shards(shards));
+    EXPECT_EQ(mapped.shards(), 3u);
+    EXPECT_THAT(mapped.shard(0), ElementsAre(1));
+    EXPECT_THAT(mapped.shard(1), ElementsAre());
+    EXPECT_THAT(mapped.all(), ElementsAre(1, 2, 3));
+    EXPECT_EQ(Mapped<std::uint32_t>(join_shards({})).size(), 0u);
+}
+
+TEST(Mapped, RefusesBytesThatWereCut) {
+    const std::vector<std::vector<std::byte>> shards(2, std::vector<std::byte>(8));
+    const auto whole = join_shards(shards);
+    for (std::size_t size = 0; size < whole->size(); ++size)
+        EXPECT_THROW(
+            Mapped<std::uint64_t>(std::make_shared<std::vector<std::byte>>(whole->begin(), whole->begin() + size)),
+            Error);
+}
+
+TEST(Rehearsal, GivesEachQuestionOnceInAnOrderOfItsOwn) {
+    Rehearsal rehearsal;
+    const Query a{.stream = 1}, b{.stream = 2}, c{.stream = 2, .sample = 1};
+    rehearsal.note(c);  // not on: forgotten
+    rehearsal.begin();
+    for (const auto& q : {c, a, b, c, b}) rehearsal.note(q);
+    EXPECT_THAT(rehearsal.end(), ElementsAre(a, b, c));
+    EXPECT_FALSE(rehearsal.on());
+    EXPECT_THAT(rehearsal.end(), ElementsAre());
+}
+
+TEST(RehearsalTiles, CoverTheFilm) {
+    const auto registry = test::with_learner();
+    std::size_t pixels = 0;
+    for (const auto& tile : rehearsal_tiles(learning_graph(registry), registry, 2)) {
+        pixels += tile.pixels();
+        EXPECT_EQ(tile.stride, 2u);
+    }
+    EXPECT_EQ(pixels, 24u * 16);
+}
+
+TEST(Recipes, DependOnWhatANodeAsksAndOnNothingAboveIt) {
+    const auto registry = test::with_learner();
+    const auto graph = learning_graph(registry);
+    auto other_film = graph, other_rays = graph;
+    other_film.nodes[3].params["samples"] = Value{64.0};
+    other_rays.nodes[1].params["samples"] = Value{64.0};
+    const Recipes a(graph, "scene"), b(other_film, "scene"), c(other_rays, "scene"), d(graph, "another scene");
+    EXPECT_EQ(a.of(2, 0, false), b.of(2, 0, false));
+    EXPECT_NE(a.of(2, 0, true), b.of(2, 0, true)) << "a rehearsal sees the whole graph";
+    EXPECT_NE(a.of(2, 0, false), c.of(2, 0, false));
+    EXPECT_NE(a.of(2, 0, false), d.of(2, 0, false));
+    EXPECT_NE(a.of(2, 0, false), a.of(2, 1, false));
+}
+
+TEST(SharedValues, AreMadeOnce) {
+    SharedValues values;
+    int made = 0;
+    const auto make = [&] { return std::make_shared<const int>(++made); };
+    EXPECT_EQ(*std::static_pointer_cast<const int>(values.get(3, 0, make)), 1);
+    EXPECT_EQ(*std::static_pointer_cast<const int>(values.get(3, 0, make)), 1);
+    EXPECT_EQ(*std::static_pointer_cast<const int>(values.get(3, 1, make)), 2);
+}
+
+TEST(SerialRun, PreparesOnceAndTakesTheRestFromTheCache) {
+    const auto registry = test::with_learner();
+    const auto network = network_of(learning_graph(registry), registry);
+    const Tile tile{0, 0, 24, 16, 0, 4};
+    MemoryCache cache;
+    SerialRun first(*network);
+    first.prepare("", &cache);
+    const auto picture = first.render(tile);
+    EXPECT_EQ(cache.results.size(), 5u) << "three maps and two rehearsals";
+    const auto questions = first.counters().local_questions;
+
+    SerialRun second(*network);
+    second.prepare("", &cache);
+    EXPECT_EQ(second.counters().local_questions, 0u) << "nothing was asked again";
+    EXPECT_EQ(second.render(tile), picture);
+    EXPECT_GT(questions, second.counters().local_questions);
+
+    SerialRun unprepared(*network);
+    EXPECT_NE(unprepared.render(tile), picture) << "what was prepared counts";
+}
+
+}  // namespace
+}  // namespace lightnet
