@@ -97,9 +97,9 @@ Kind wrapped_renderer(std::string name, Wrapping wrapping, MakeInstance make);
 template <class T>
 Kind wrap(std::string name, Wrapping wrapping) {
     static_assert(AnswersQuestions<T> || LooksAtPixels<T>, "this class has no lightnet::Bridge that can ask it");
-    class Instance final : public WrappedInstance {
+    class InstanceOfT final : public WrappedInstance {
     public:
-        explicit Instance(const NodeContext& here) : one_by_one_(here), bridge_(here, one_by_one_) {}
+        explicit InstanceOfT(const NodeContext& here) : one_by_one_(here), bridge_(here, one_by_one_) {}
         Rgb light([[maybe_unused]] const Query& question) override {
             if constexpr (AnswersQuestions<T>) {
                 one_by_one_.begin(question.stream, question.sample);
@@ -120,7 +120,7 @@ Kind wrap(std::string name, Wrapping wrapping) {
         Bridge<T> bridge_;
     };
     auto make = [](const NodeContext& here) -> std::unique_ptr<WrappedInstance> {
-        return std::make_unique<Instance>(here);
+        return std::make_unique<InstanceOfT>(here);
     };
     if constexpr (AnswersQuestions<T>)
         return wrapped_light(std::move(name), std::move(wrapping), make);

@@ -157,5 +157,22 @@ TEST_F(RoundsTest, CountTheTimeOfHelpersAsTheCallers) {
     EXPECT_GE(ran, std::chrono::microseconds(7900));
 }
 
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+// Without end, in a way that no compiler can turn into a loop.
+int recurse(const int* before) {
+    int here[256];
+    here[0] = before ? *before + 1 : 0;
+    if (here[0] < 0) return 0;
+    const int below = recurse(here);
+    return below + here[0];
+}
+
+TEST_F(RoundsTest, AreNamedWhenAStackRunsOutWhoeverHasCalledThem) {
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    const SideBySide::Work work = [](std::size_t) { (void)recurse(nullptr); };
+    EXPECT_DEATH(start(1, 1, work), "stack of node 'node' ran out");
+}
+#endif
+
 }  // namespace
 }  // namespace lightnet
