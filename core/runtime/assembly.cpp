@@ -37,10 +37,10 @@ private:
 };
 
 template <class Make>
-auto made(const Network& network, std::size_t node, Inputs inputs, NodeContext::Own own, const Make& make) {
+auto made(const Network& network, std::size_t node, Inputs inputs, const NodeContext::Lent& lent, const Make& make) {
     const auto& what = network.graph.nodes[node];
     try {
-        return make(NodeContext(what, std::move(inputs), *network.scene, network.seed, own));
+        return make(NodeContext(what, std::move(inputs), *network.scene, network.seed, lent));
     } catch (const std::exception& error) {
         throw Error(what.kind + " '" + what.name + "'", error.what());
     }
@@ -55,15 +55,15 @@ std::size_t Network::width_of(std::size_t node) const {
 Inputs Assembly::inputs_of(std::size_t node) {
     const auto& of_node = network_.layers.of_node;
     const bool image = network_.kind_of(node).role == Role::image;
-    const bool additive = image || of_node[node] != Terminals{node};
+    const bool additive = image ? !network_.kind_of(node).merges : of_node[node] != Terminals{node};
     std::vector<Input> inputs;
     for (const auto asked : network_.graph.inputs_of(node)) {
         Input input;
         input.name = network_.graph.nodes[asked].name;
         if (additive) input.layers = positions(of_node[asked], of_node[node], image ? 1 : 0);  // 0 is emission
         input.port = port_to_(asked, input.width());
-        if (network_.kind_of(node).locks)
-            input.port = guarded_.emplace_back(std::make_unique<GuardedPort>(*input.port, locks_)).get();
+        if (locks_ && network_.kind_of(node).locks)
+            input.port = guarded_.emplace_back(std::make_unique<GuardedPort>(*input.port, *locks_)).get();
         inputs.push_back(std::move(input));
     }
     return {std::move(inputs), network_.width_of(node)};
@@ -71,8 +71,7 @@ Inputs Assembly::inputs_of(std::size_t node) {
 
 const LightOp& Assembly::light(std::size_t node) {
     auto& light = lights_[node];
-    if (!light)
-        light = made(network_, node, inputs_of(node), {&rehearsals_[node], &locks_}, network_.kind_of(node).make_light);
+    if (!light) light = made(network_, node, inputs_of(node), lent_to(node), network_.kind_of(node).make_light);
     return *light;
 }
 
@@ -89,8 +88,7 @@ void Assembly::prepare(std::size_t node, Services& services) {
 const Renderer& Assembly::renderer(std::size_t node) {
     auto& renderer = renderers_[node];
     if (!renderer)
-        renderer =
-            made(network_, node, inputs_of(node), {&rehearsals_[node], &locks_}, network_.kind_of(node).make_renderer);
+        renderer = made(network_, node, inputs_of(node), lent_to(node), network_.kind_of(node).make_renderer);
     return *renderer;
 }
 

@@ -52,7 +52,9 @@ std::string to_json(const Job& job) {
                   {"credit_bundles", rules.credit.bundles},
                   {"credit_questions", rules.credit.questions},
                   {"spare_fibers", rules.spare_fibers},
-                  {"call_own_nodes", rules.call_own_nodes}}}}
+                  {"side_fibers", rules.side_fibers},
+                  {"call_own_nodes", rules.call_own_nodes}}},
+                {"checking", job.checking}}
         .dump();
 }
 
@@ -78,7 +80,9 @@ Job job_from_json(std::string_view text) {
         job.rules.credit.bundles = count_of<std::size_t>(rules, "credit_bundles");
         job.rules.credit.questions = count_of<std::size_t>(rules, "credit_questions");
         job.rules.spare_fibers = count_of<std::size_t>(rules, "spare_fibers");
+        job.rules.side_fibers = count_of<std::size_t>(rules, "side_fibers");
         job.rules.call_own_nodes = rules.at("call_own_nodes");
+        job.checking = json.at("checking");
         return job;
     } catch (const Json::exception& error) {
         throw Error("not a job", error.what());
@@ -98,6 +102,7 @@ std::shared_ptr<const Network> build_network(const Job& job, const Registry& reg
     options.height = job.height;
     Network network{job.graph, registry, std::make_shared<const Scene>(std::move(scene), options), job.seed};
     network.results = std::move(results);
+    network.checking = job.checking;
     return std::make_shared<const Network>(std::move(network));
 }
 
