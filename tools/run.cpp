@@ -19,6 +19,7 @@
 #include "core/runtime/conductor.hpp"
 #include "core/runtime/fingerprint.hpp"
 #include "core/runtime/job.hpp"
+#include "core/runtime/load_scene.hpp"
 #include "core/runtime/master_renderer.hpp"
 #include "core/runtime/serial.hpp"
 #include "core/scene/read_scene.hpp"
@@ -104,7 +105,7 @@ public:
 
 private:
     FilmFormat format() const;
-    Job make_job(const DiskFiles& files) const;
+    Job make_job(DiskFiles& files) const;
     void report_failure();
     void render_serially(SceneData scene);
     void render_in_threads(SceneData scene);
@@ -136,11 +137,11 @@ FilmFormat Run::format() const {
             static_cast<std::uint32_t>(std::get<double>(samples.data))};
 }
 
-Job Run::make_job(const DiskFiles& files) const {
+Job Run::make_job(DiskFiles& files) const {
     Job job;
     job.graph = request_.graph;
     job.scene = request_.scene;
-    for (const auto& [path, bytes] : files.seen()) job.files.push_back({path, content_hash(*bytes), bytes->size()});
+    for (const auto& [path, hash] : files.hashes()) job.files.push_back({path, hash, files.seen().at(path)->size()});
     job.seed = request_.seed;
     job.isa = usual_isa();
     job.width = format_.width;
@@ -157,8 +158,11 @@ int Run::perform() {
     check_output(request_.output);
     try {
         book_.phase("load");
-        DiskFiles files;
-        auto scene = read_scene(files, request_.scene);
+        const auto read = request_.read ? request_.read : std::make_shared<ReadScene>();
+        DiskFiles& files = read->files;
+        if (!request_.read) read->scene = read_scene(files, request_.scene);
+        SceneData scene = std::move(read->scene);
+        override_scene(request_.graph, registry_, files, scene);
         for (const auto& warning : scene.warnings) book_.warn(to_string(warning));
         const float scale = scene.film.scale;
         job_ = make_job(files);

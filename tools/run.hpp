@@ -2,12 +2,15 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
 #include "core/film/progress.hpp"
 #include "core/graph/graph.hpp"
 #include "core/graph/hosts.hpp"
 #include "core/graph/kind.hpp"
+#include "core/scene/files.hpp"
+#include "core/scene/scene_data.hpp"
 
 namespace lightnet {
 
@@ -24,6 +27,12 @@ struct Tuning {
     std::uint32_t side_fibers = 2048;  // of a place, for questions that wrapped code waits for one by one
 };
 
+/// A scene that has been read before its run, with the files that it took. As its file says: nothing is overridden yet.
+struct ReadScene {
+    DiskFiles files;
+    SceneData scene;
+};
+
 /// A run, ready to go.
 struct RunRequest {
     Graph graph;  // checked; --samples and --size are in it
@@ -33,8 +42,9 @@ struct RunRequest {
     std::uint32_t local_workers = 0;  // mode local_workers: daemons to start
     std::string listen;               // endpoint where hosts may join; "": nowhere
     Tuning tuning;
-    std::string scene;   // file, as seen from here
-    std::string output;  // "x.exr", as seen from here
+    std::string scene;                // file, as seen from here
+    std::shared_ptr<ReadScene> read;  // it, read already; the run takes it away. None: still to be read
+    std::string output;               // "x.exr", as seen from here
     std::uint64_t seed = 0;
     bool check_wrapped = false;  // ask wrapped classes twice, to find those with a memory
     ProgressMode progress = ProgressMode::automatic;

@@ -1,6 +1,7 @@
 #include "core/light/node_context.hpp"
 
 #include "core/error.hpp"
+#include "core/light/locks.hpp"
 #include "core/light/rehearsal.hpp"
 
 #include <cmath>
@@ -14,24 +15,20 @@ const T& as(const Node& node, const std::string& param, const Value& value, cons
     throw Error(node.kind + " '" + node.name + "'", "parameter '" + param + "' is not " + what);
 }
 
-Rehearsal& never() {
-    static Rehearsal none;  // never begun, so never written to
-    return none;
-}
+// Never begun, and of one thread's own.
+thread_local Rehearsal no_rehearsal;
+thread_local NoLocks no_locks;
 
 }  // namespace
 
-NodeContext::NodeContext(const Node& node, Inputs inputs, const Scene& scene, std::uint64_t seed, const Lent& lent)
-    : node_(node),
-      inputs_(std::move(inputs)),
-      scene_(scene),
-      seed_(seed),
-      rehearsal_(lent.rehearsal ? *lent.rehearsal : never()),
-      side_by_side_(lent.side_by_side),
-      checking_(lent.checking) {}
+NodeContext::NodeContext(const Node& node, Inputs inputs, const Scene& scene, std::uint64_t seed, Own own)
+    : node_(node), inputs_(std::move(inputs)), scene_(scene), seed_(seed), own_(own) {
+    if (!own_.rehearsal) own_.rehearsal = &no_rehearsal;
+    if (!own_.locks) own_.locks = &no_locks;
+}
 
 void NodeContext::each(std::size_t count, std::size_t at_once, const SideBySide::Work& work) const {
-    if (side_by_side_) return side_by_side_->each(node_.name.c_str(), count, at_once, work);
+    if (own_.side_by_side) return own_.side_by_side->each(node_.name.c_str(), count, at_once, work);
     for (std::size_t piece = 0; piece < count; ++piece) work(piece);
 }
 

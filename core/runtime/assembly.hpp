@@ -12,6 +12,7 @@
 #include "core/graph/plan.hpp"
 #include "core/light/inputs.hpp"
 #include "core/light/light_op.hpp"
+#include "core/light/locks.hpp"
 #include "core/light/node_context.hpp"
 #include "core/light/rehearsal.hpp"
 #include "core/light/renderer.hpp"
@@ -45,9 +46,10 @@ public:
     /// outlive the assembly.
     using PortTo = std::function<Port*(std::size_t node, std::size_t width)>;
 
-    /// `side_by_side` serves the nodes that have many small things to wait for; none: one after the other.
-    Assembly(const Network& network, PortTo port_to, SideBySide* side_by_side = nullptr)
-        : network_(network), port_to_(std::move(port_to)), side_by_side_(side_by_side) {}
+    /// `locks` are those of the place. `side_by_side` serves the nodes that have many small things to wait for; none:
+    /// one after the other.
+    Assembly(const Network& network, PortTo port_to, Locks& locks, SideBySide* side_by_side = nullptr)
+        : network_(network), port_to_(std::move(port_to)), locks_(locks), side_by_side_(side_by_side) {}
 
     const LightOp& light(std::size_t node);
     /// Has the node prepare itself.
@@ -61,11 +63,15 @@ public:
 
 private:
     Inputs inputs_of(std::size_t node);
-    NodeContext::Lent lent_to(std::size_t node) { return {&rehearsals_[node], side_by_side_, network_.checking}; }
+    NodeContext::Own own_of(std::size_t node) {
+        return {&rehearsals_[node], &locks_, side_by_side_, network_.checking};
+    }
 
     const Network& network_;
     PortTo port_to_;
+    Locks& locks_;
     SideBySide* side_by_side_;
+    std::vector<std::unique_ptr<Port>> guarded_;
     std::map<std::size_t, Rehearsal> rehearsals_;
     std::map<std::size_t, std::unique_ptr<LightOp>> lights_;
     std::map<std::size_t, std::unique_ptr<Renderer>> renderers_;

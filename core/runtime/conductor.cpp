@@ -31,7 +31,9 @@ Conductor::Conductor(Options options, Carrier& carrier)
     : options_(std::move(options)),
       carrier_(carrier),
       calls_(*options_.graph, options_.made_from, options_.cache),
-      order_(preparing_nodes(*options_.graph, *options_.registry)) {
+      order_(preparing_nodes(*options_.graph, *options_.registry)),
+      locks_(std::any_of(options_.graph->nodes.begin(), options_.graph->nodes.end(),
+                         [&](const Node& node) { return options_.registry->find(node.kind)->locks; })) {
     proposal_.places_of.resize(options_.graph->nodes.size());
     in_force_ = proposal_;
 }
@@ -62,7 +64,12 @@ void Conductor::lose(const std::set<PlaceKey>& gone) {
         sent = sent_.erase(sent);
     }
     std::erase_if(followers_, [&](const auto& follower) { return gone.contains(follower.first.first); });
-    for (const auto& place : gone) known_prepared_.erase(place);
+    for (const auto& place : gone) {
+        known_prepared_.erase(place);
+        attended_.erase(place);
+        desk_.lose(place);
+        std::erase_if(grants_, [&](const auto& grant) { return grant.first == place; });
+    }
     if (rehearsing_) rehearsing_->broken = true;
 }
 
@@ -125,6 +132,28 @@ void Conductor::advance() {
     }
     collect();
     enforce();
+    attend();
+}
+
+// Keeps an ear at every place, and passes locks on.
+void Conductor::attend() {
+    if (!locks_) return;
+    for (const auto& place : proposal_.places) {
+        const PlaceKey key{place.host, place.index};
+        if (!attended_.contains(key) && send(key, 0, {.kind = Step::Kind::attend})) attended_.insert(key);
+    }
+    for (auto& grant : desk_.granted()) grants_.push_back(std::move(grant));
+    std::erase_if(grants_, [&](const auto& grant) {
+        return send(grant.first, 0, {.kind = Step::Kind::grant, .data = grant.second});
+    });
+}
+
+void Conductor::heard(const Sent& sent, const Bytes& data) {
+    if (sent.step.kind == Step::Kind::grant) return;
+    attended_.erase(sent.place);
+    for (const auto& word : values_of<LockWord>(data))
+        if (word.kind <= LockWord::Kind::last) desk_.hear(sent.place, word);
+    attend();
 }
 
 void Conductor::lead(const PlaceKey& place, std::size_t position) {
@@ -162,7 +191,7 @@ bool Conductor::send(const PlaceKey& place, std::size_t position, Step step) {
     message.run = options_.run;
     message.channel = own_channel;
     message.bundle = next_;
-    message.node = static_cast<std::uint32_t>(order_[position]);
+    message.node = step.kind < Step::Kind::attend ? static_cast<std::uint32_t>(order_[position]) : 0;
     message.questions = std::make_shared<const std::vector<Step>>(1, step);
     if (step.kind == Step::Kind::go_on) message.data = calls_.of(order_[position], step.call).result();
     if (!carrier_.ask({place.first, place.second}, message)) return false;
@@ -183,7 +212,9 @@ void Conductor::take(Message message) {
         if (calls_.of(order_[sent.position], sent.step.call).result()) return;  // another place was first
     }
     if (message.type == Message::Type::failure) throw Error(message.text);
-    if (shard) {
+    if (sent.step.kind >= Step::Kind::attend) {
+        heard(sent, message.data);
+    } else if (shard) {
         shard_done(sent, message.data);
     } else if (sent.step.kind == Step::Kind::collect) {
         noted(sent, message.data);
@@ -322,6 +353,7 @@ void Conductor::wait(std::chrono::nanoseconds most) {
     if (!arrived_.empty()) return;
     carrier_.wait(most);
     if (!followers_.empty() && in_force_ != proposal_) advance();  // someone is catching up
+    attend();
 }
 
 const std::string& Conductor::name_of(std::size_t position) const {

@@ -14,6 +14,7 @@
 
 #include "core/runtime/calls.hpp"
 #include "core/runtime/carrier.hpp"
+#include "core/runtime/lock_desk.hpp"
 #include "core/runtime/master_renderer.hpp"
 #include "core/runtime/prepared.hpp"
 
@@ -104,12 +105,18 @@ private:
     void noted(const Sent& sent, const Bytes& data);
     void lose(const std::set<PlaceKey>& gone);
     void enforce();
+    void attend();
+    void heard(const Sent& sent, const Bytes& data);
     Plan restricted();
 
     Options options_;
     Carrier& carrier_;
     Calls calls_;
     std::vector<std::size_t> order_;  // nodes that prepare
+    bool locks_;                      // somebody in the graph does
+    LockDesk desk_;
+    std::set<PlaceKey> attended_;
+    std::vector<std::pair<PlaceKey, Hash>> grants_;  // to be passed on
     Plan proposal_, in_force_;
     std::deque<Message> arrived_;
     std::map<std::pair<PlaceKey, std::size_t>, Follower> followers_;

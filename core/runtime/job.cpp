@@ -5,7 +5,7 @@
 
 #include "core/build_info.hpp"
 #include "core/error.hpp"
-#include "core/scene/read_scene.hpp"
+#include "core/runtime/load_scene.hpp"
 
 namespace lightnet {
 
@@ -91,7 +91,7 @@ Job job_from_json(std::string_view text) {
 
 std::shared_ptr<const Network> build_network(const Job& job, const Registry& registry, Files& files,
                                              std::function<Bytes(const Hash&)> results) {
-    return build_network(job, registry, read_scene(files, job.scene), std::move(results));
+    return build_network(job, registry, load_scene(job.graph, registry, files, job.scene), std::move(results));
 }
 
 std::shared_ptr<const Network> build_network(const Job& job, const Registry& registry, SceneData scene,

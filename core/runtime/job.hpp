@@ -42,10 +42,10 @@ std::string to_json(const Job& job);
 /// Throws Error on anything but a job.
 Job job_from_json(std::string_view text);
 
-/// Reads the scene and builds everything that the places of a process share.
+/// Reads the scene, changes what the graph overrides, and builds everything that the places of a process share.
 std::shared_ptr<const Network> build_network(const Job& job, const Registry& registry, Files& files,
                                              std::function<Bytes(const Hash&)> results = {});
-/// The same from a scene that has been read.
+/// The same from the scene that load_scene() gave.
 std::shared_ptr<const Network> build_network(const Job& job, const Registry& registry, SceneData scene,
                                              std::function<Bytes(const Hash&)> results = {});
 

@@ -1,5 +1,7 @@
 // Nodes that prepare: the same bytes however many places do it, and whoever is lost meanwhile.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
+
+#include <signal.h>
 
 #include <algorithm>
 #include <atomic>
@@ -18,6 +20,7 @@
 #include "nodes/standard_nodes.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/support/learner.hpp"
+#include "tests/support/process.hpp"
 #include "tests/support/slowdown.hpp"
 #include "transport/cluster.hpp"
 #include "transport/host.hpp"
@@ -48,21 +51,28 @@ Plan spread(std::size_t nodes, std::uint32_t places) {
     return plan;
 }
 
+std::map<std::string, Value> seen() {
+    return {{"scene", Value{NodeRef{"scene"}}},
+            {"film", Value{Table{{Value{double(width)}, Value{double(height)}}, {}}}}};
+}
+
 // image ← both ← (first ← direct), (second ← first): one learner asks another.
-class Learning {
-public:
-    Learning() : registry(test::with_learner()) {
-        const auto ref = [](const char* name) { return Value{NodeRef{name}}; };
-        Graph graph{"test.lua", {}};
-        graph.nodes = {
-            node("scene", "Scene", {Value{std::string("none.pbrt")}}),
+std::vector<Node> learning_nodes() {
+    const auto ref = [](const char* name) { return Value{NodeRef{name}}; };
+    return {node("scene", "Scene", {Value{std::string("none.pbrt")}}),
             node("direct", "DirectLighting", {}),
             node("first", "Learner", {ref("direct")}, {{"stride", Value{4.0}}}),
             node("second", "Learner", {ref("first")}, {{"stride", Value{2.0}}}),
             node("both", "Combine", {ref("first"), ref("second")}),
-            node("image", "RayTracer", {ref("both")},
-                 {{"scene", ref("scene")}, {"film", Value{Table{{Value{double(width)}, Value{double(height)}}, {}}}}})};
-        job.graph = check(graph, registry);
+            node("image", "RayTracer", {ref("both")}, seen())};
+}
+
+// A network, and the ways to render it.
+class Learning {
+public:
+    Learning() : Learning(test::with_learner(), learning_nodes()) {}
+    Learning(Registry kinds, std::vector<Node> nodes) : registry(std::move(kinds)) {
+        job.graph = check({"test.lua", std::move(nodes)}, registry);
         job.scene = std::string(LIGHTNET_SOURCE_DIR) + "/graphs/cornell_box.pbrt";
         job.isa = usual_isa();
         job.width = width, job.height = height;
@@ -223,6 +233,43 @@ TEST(Prepare, GoesOnWhenAHostLeavesInTheMiddle) {
     }
 }
 
+// A daemon in a process of its own, which can be killed.
+class LearningDaemon {
+public:
+    explicit LearningDaemon(const std::string& cache) : process_({LIGHTNET_LEARNING_DAEMON, cache, "1"}) {
+        EXPECT_TRUE(process_.wait_for("\n")) << process_.output();
+    }
+    std::string endpoint() const {
+        const auto at = process_.output().find("tcp://");
+        return process_.output().substr(at, process_.output().find('\n') - at);
+    }
+    void signal(int number) { process_.signal(number); }
+
+private:
+    test::Process process_;
+};
+
+TEST(Prepare, GetsOverTheLossOfAHostAtAnyMoment) {
+    const Learning learning;
+    const auto expected = learning.serial();
+    for (const int number : {SIGKILL, SIGSTOP})
+        for (const int calls : {1, 2, 4, 8, 16}) {
+            const test::Folder folder;
+            HostThread one(learning.registry, folder.file("one"), 1);
+            LearningDaemon two(folder.file("two"));
+            const std::atomic<bool> never{false};
+            Cluster cluster(cluster_of(learning, {one.endpoint(), two.endpoint()}));
+            cluster.gather(test::slowdown * 5s, never);
+            int called = 0;
+            const auto hurt = [&] {
+                if (++called == calls) two.signal(number);
+            };
+            EXPECT_EQ(learning.networked(cluster, hurt), expected) << "signal " << number << " at look " << calls;
+            two.signal(SIGCONT);
+            cluster.finish();
+        }
+}
+
 TEST(Prepare, LetsAHostJoinInTheMiddle) {
     const Learning learning;
     const auto expected = learning.serial();
@@ -241,6 +288,78 @@ TEST(Prepare, LetsAHostJoinInTheMiddle) {
                                  }),
               expected);
     cluster.finish();
+}
+
+// ---- locks ----------------------------------------------------------------------------------------------------------
+
+std::atomic<int> holders{0}, most_holders{0}, times_held{0};
+
+// Adds nothing; looks how many hold the lock with it.
+class Rare final : public LightOp {
+public:
+    explicit Rare(const NodeContext& here) : inputs_(here.inputs()), locks_(here.locks()), asks_(here.flag("asks")) {}
+
+    void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
+        const Part part = ask(inputs_, 0, questions);
+        const auto held = locks_.hold("device");
+        if (asks_) ask(inputs_, 0, questions);
+        const int now = ++holders;
+        most_holders = std::max(most_holders.load(), now);
+        ++times_held;
+        std::this_thread::sleep_for(50us);
+        --holders;
+        add(part, answers);
+    }
+
+private:
+    Inputs inputs_;
+    Locks& locks_;
+    bool asks_;
+};
+
+Registry with_rare() {
+    auto kinds = standard_nodes();
+    Kind rare{.name = "Rare", .help = "needs what there is one of", .least_inputs = 1, .most_inputs = 1};
+    rare.locks = true;
+    rare.params = {{.name = "asks", .type = ParamType::flag, .help = "with the lock in hand", .initial = Value{false}}};
+    rare.make_light = [](const NodeContext& here) { return std::make_unique<Rare>(here); };
+    kinds.push_back(std::move(rare));
+    return Registry(std::move(kinds));
+}
+
+std::vector<Node> rare_nodes(bool asks) {
+    const auto ref = [](const char* name) { return Value{NodeRef{name}}; };
+    return {node("scene", "Scene", {Value{std::string("none.pbrt")}}), node("direct", "DirectLighting", {}),
+            node("rare", "Rare", {ref("direct")}, {{"asks", Value{asks}}}),
+            node("image", "RayTracer", {ref("rare")}, seen())};
+}
+
+TEST(Locks, AreHeldByOneCallInTheWholeRun) {
+    const Learning rare(with_rare(), rare_nodes(false));
+    const auto expected = rare.serial();
+    most_holders = 0, times_held = 0;
+    EXPECT_EQ(rare.threaded(plan(rare.network->graph, rare.registry, {}, {{"", 3}}), {}), expected);
+    EXPECT_GE(times_held, 6);
+    EXPECT_EQ(most_holders, 1);
+
+    const test::Folder folder;
+    HostThread one(rare.registry, folder.file("one"), 2), two(rare.registry, folder.file("two"), 1);
+    const std::atomic<bool> never{false};
+    Cluster cluster(cluster_of(rare, {one.endpoint(), two.endpoint()}));
+    cluster.gather(test::slowdown * 5s, never);
+    EXPECT_EQ(rare.networked(cluster), expected);
+    EXPECT_EQ(most_holders, 1);
+    cluster.finish();
+}
+
+TEST(Locks, MayNotBeHeldWhileAsking) {
+    const Learning rare(with_rare(), rare_nodes(true));
+    try {
+        rare.serial();
+        FAIL() << "nobody noticed";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("it asks an input while it holds the lock 'device'"));
+    }
 }
 
 }  // namespace
