@@ -21,14 +21,14 @@ thread_local NoLocks no_locks;
 
 }  // namespace
 
-NodeContext::NodeContext(const Node& node, Inputs inputs, const Scene& scene, std::uint64_t seed, const Lent& lent)
-    : node_(node), inputs_(std::move(inputs)), scene_(scene), seed_(seed), lent_(lent) {
-    if (!lent_.rehearsal) lent_.rehearsal = &no_rehearsal;
-    if (!lent_.locks) lent_.locks = &no_locks;
+NodeContext::NodeContext(const Node& node, Inputs inputs, const Scene& scene, std::uint64_t seed, Own own)
+    : node_(node), inputs_(std::move(inputs)), scene_(scene), seed_(seed), own_(own) {
+    if (!own_.rehearsal) own_.rehearsal = &no_rehearsal;
+    if (!own_.locks) own_.locks = &no_locks;
 }
 
 void NodeContext::each(std::size_t count, std::size_t at_once, const SideBySide::Work& work) const {
-    if (lent_.side_by_side) return lent_.side_by_side->each(node_.name.c_str(), count, at_once, work);
+    if (own_.side_by_side) return own_.side_by_side->each(node_.name.c_str(), count, at_once, work);
     for (std::size_t piece = 0; piece < count; ++piece) work(piece);
 }
 

@@ -21,16 +21,17 @@ class Scene;
 /// so reading one that the schema doesn't name is a bug of the node. A node may keep a copy of it.
 class NodeContext {
 public:
-    /// What the place lends to a node.
-    struct Lent {
-        Rehearsal* rehearsal = nullptr;      // none: one that is never on
-        Locks* locks = nullptr;              // none: always free
-        SideBySide* side_by_side = nullptr;  // none: one after the other
-        bool checking = false;               // is this a run that looks for wrapped classes with a memory?
+    /// What a place gives each node beside its inputs. Null: a rehearsal that is never on, locks that are always free,
+    /// one piece of work after the other.
+    struct Own {
+        Rehearsal* rehearsal = nullptr;
+        Locks* locks = nullptr;
+        SideBySide* side_by_side = nullptr;
+        bool checking = false;  // is this a run that looks for wrapped classes with a memory?
     };
     NodeContext(const Node& node, Inputs inputs, const Scene& scene, std::uint64_t seed)
-        : NodeContext(node, std::move(inputs), scene, seed, Lent{}) {}
-    NodeContext(const Node& node, Inputs inputs, const Scene& scene, std::uint64_t seed, const Lent& lent);
+        : NodeContext(node, std::move(inputs), scene, seed, Own{}) {}
+    NodeContext(const Node& node, Inputs inputs, const Scene& scene, std::uint64_t seed, Own own);
 
     const std::string& name() const { return node_.name; }
     /// The node's own key: derive streams as child(query.stream, here.key(), i).
@@ -39,11 +40,11 @@ public:
     const Inputs& inputs() const { return inputs_; }
     std::uint64_t seed() const { return seed_; }
     /// Where light() notes what it has nothing prepared for. Lives as long as the node.
-    Rehearsal& rehearsal() const { return *lent_.rehearsal; }
+    Rehearsal& rehearsal() const { return *own_.rehearsal; }
     /// For nodes whose kind says that it locks. Lives as long as the node.
-    Locks& locks() const { return *lent_.locks; }
+    Locks& locks() const { return *own_.locks; }
 
-    bool checking() const { return lent_.checking; }
+    bool checking() const { return own_.checking; }
 
     /// Calls `work` for each of `count` pieces, one after the other or side by side: see SideBySide. From light() only.
     void each(std::size_t count, std::size_t at_once, const SideBySide::Work& work) const;
@@ -60,7 +61,7 @@ private:
     Inputs inputs_;
     const Scene& scene_;
     std::uint64_t seed_;
-    Lent lent_;
+    Own own_;
 };
 
 }  // namespace lightnet

@@ -37,10 +37,10 @@ private:
 };
 
 template <class Make>
-auto made(const Network& network, std::size_t node, Inputs inputs, const NodeContext::Lent& lent, const Make& make) {
+auto made(const Network& network, std::size_t node, Inputs inputs, NodeContext::Own own, const Make& make) {
     const auto& what = network.graph.nodes[node];
     try {
-        return make(NodeContext(what, std::move(inputs), *network.scene, network.seed, lent));
+        return make(NodeContext(what, std::move(inputs), *network.scene, network.seed, own));
     } catch (const std::exception& error) {
         throw Error(what.kind + " '" + what.name + "'", error.what());
     }
@@ -62,8 +62,8 @@ Inputs Assembly::inputs_of(std::size_t node) {
         input.name = network_.graph.nodes[asked].name;
         if (additive) input.layers = positions(of_node[asked], of_node[node], image ? 1 : 0);  // 0 is emission
         input.port = port_to_(asked, input.width());
-        if (locks_ && network_.kind_of(node).locks)
-            input.port = guarded_.emplace_back(std::make_unique<GuardedPort>(*input.port, *locks_)).get();
+        if (network_.kind_of(node).locks)
+            input.port = guarded_.emplace_back(std::make_unique<GuardedPort>(*input.port, locks_)).get();
         inputs.push_back(std::move(input));
     }
     return {std::move(inputs), network_.width_of(node)};
@@ -71,7 +71,7 @@ Inputs Assembly::inputs_of(std::size_t node) {
 
 const LightOp& Assembly::light(std::size_t node) {
     auto& light = lights_[node];
-    if (!light) light = made(network_, node, inputs_of(node), lent_to(node), network_.kind_of(node).make_light);
+    if (!light) light = made(network_, node, inputs_of(node), own_of(node), network_.kind_of(node).make_light);
     return *light;
 }
 
@@ -87,8 +87,7 @@ void Assembly::prepare(std::size_t node, Services& services) {
 
 const Renderer& Assembly::renderer(std::size_t node) {
     auto& renderer = renderers_[node];
-    if (!renderer)
-        renderer = made(network_, node, inputs_of(node), lent_to(node), network_.kind_of(node).make_renderer);
+    if (!renderer) renderer = made(network_, node, inputs_of(node), own_of(node), network_.kind_of(node).make_renderer);
     return *renderer;
 }
 

@@ -46,8 +46,9 @@ public:
     /// outlive the assembly.
     using PortTo = std::function<Port*(std::size_t node, std::size_t width)>;
 
-    /// `locks` and `side_by_side` are those of the place; none: locks that are always free, one after the other.
-    Assembly(const Network& network, PortTo port_to, Locks* locks = nullptr, SideBySide* side_by_side = nullptr)
+    /// `locks` are those of the place. `side_by_side` serves the nodes that have many small things to wait for; none:
+    /// one after the other.
+    Assembly(const Network& network, PortTo port_to, Locks& locks, SideBySide* side_by_side = nullptr)
         : network_(network), port_to_(std::move(port_to)), locks_(locks), side_by_side_(side_by_side) {}
 
     const LightOp& light(std::size_t node);
@@ -62,13 +63,13 @@ public:
 
 private:
     Inputs inputs_of(std::size_t node);
-    NodeContext::Lent lent_to(std::size_t node) {
-        return {&rehearsals_[node], locks_, side_by_side_, network_.checking};
+    NodeContext::Own own_of(std::size_t node) {
+        return {&rehearsals_[node], &locks_, side_by_side_, network_.checking};
     }
 
     const Network& network_;
     PortTo port_to_;
-    Locks* locks_;
+    Locks& locks_;
     SideBySide* side_by_side_;
     std::vector<std::unique_ptr<Port>> guarded_;
     std::map<std::size_t, Rehearsal> rehearsals_;

@@ -76,7 +76,7 @@ SerialRun::SerialRun(const Network& network, std::function<void()> pause)
               return ports_.emplace_back(std::make_unique<CallPort>(called, width, counters_.local_questions, pause_))
                   .get();
           },
-          &locks_) {
+          locks_) {
     assembly_.renderer(image_);
 }
 

@@ -130,7 +130,7 @@ class WrapTest : public ::testing::Test {
 protected:
     ~WrapTest() override { fibers.cancel_all(); }
 
-    NodeContext here(NodeContext::Lent lent = {}) {
+    NodeContext here(NodeContext::Own lent = {}) {
         return {node, Inputs({{"elsewhere", &port, {0}}}, 1), scene, 1, lent};
     }
     static std::vector<Query> questions(std::uint32_t count) {
