@@ -197,6 +197,9 @@ private:
         add("--bundle", tuning.bundle, 1, 65536, "questions in a full bundle");
         add("--credit", tuning.credit, 1, 1024, "bundles under way to one place, per node asked");
         add("--checkpoint", tuning.checkpoint, 1, 86400, "seconds between two checkpoints");
+        verb.add_option("--cache", tuning.cache, "where what nodes prepare is kept from run to run; 'none': nowhere")
+            ->type_name("FOLDER")
+            ->group("Tuning");
         add("--spare-fibers", tuning.spare_fibers, 0, 4096, "fibers of a place beside one per node");
     }
 

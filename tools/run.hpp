@@ -21,6 +21,7 @@ struct Tuning {
     std::uint32_t tile = 32;          // pixels along a side of a tile
     std::uint32_t bundle = 512;       // questions in a full bundle
     std::uint32_t credit = 8;         // bundles under way to one place, for each node that is asked
+    std::string cache;                // folder for what nodes prepare; "": the usual one, "none": nowhere
     std::uint32_t spare_fibers = 16;  // of a place, beside the one that each node has for itself
     std::uint32_t checkpoint = 5;     // seconds between two checkpoints
 };

@@ -32,6 +32,8 @@ public:
     void take(const Tile& tile, std::span<const Rgb> pixels);
     /// Who holds what, from now on.
     void use(const Plan& plan, const Graph& graph);
+    /// A line of run.json's settings.
+    void set(const std::string& name, const std::string& value) { report_.settings[name] = value; }
     void count(const Counters& counters) { counters_ += counters; }
     /// Who took part.
     void use(const HostState& host);

@@ -58,7 +58,8 @@ struct Cluster::Links {
     std::unique_ptr<OwnPlaces> own;
     bool own_ready = false;
     std::map<std::string, State> states;  // as last told
-    Plan plan;
+    Plan plan;                            // proposed
+    std::string in_force;                 // the plan that hosts are to go by, as text
     std::deque<Message> arrived;
     Counters counters, ended;
     Relays relays{counters, ways()};
@@ -122,9 +123,10 @@ struct Cluster::Links {
         const HostLink::Takers takers{[&](Message message) { arrived.push_back(std::move(message)); },
                                       [&](HostLink& from, Frames& frames) { relays.pass_on(from.name(), frames); }};
         for (auto& link : links) {
-            link->tick(now, expected_plan);
+            // What has come counts before the lease is looked at: we may have been busy ourselves.
             while (link->receive(now, takers)) {
             }
+            link->tick(now, expected_plan);
             if (const auto counted = link->take_ended()) ended += *counted;
         }
         look_at_own();
@@ -188,7 +190,7 @@ struct Cluster::Links {
 
     // ---- who is there -----------------------------------------------------------------------------------------------
 
-    // Hosts that became ready or are no more: a new plan, for them, for the master, and a line for the user.
+    // Hosts that became ready or are no more: a new plan is proposed, and a line said for the user.
     void tell_changes() {
         bool changed = own_ready && !states.contains("");
         if (changed) states[""] = State::ready;
@@ -198,6 +200,7 @@ struct Cluster::Links {
             if (state == before) continue;
             const bool was_there = before == State::ready || before == State::leaving;
             if (state == State::ready) options.say(link->name() + " is ready");
+            if (link->takes_part() && !in_force.empty()) link->send_plan(in_force);
             if (state == State::refused) options.say(link->name() + " takes no part: " + link->reason());
             if (state == State::leaving) options.say(link->name() + " was told to stop: it finishes what it has");
             if (before == State::leaving) options.say(link->name() + " has left");
@@ -207,10 +210,6 @@ struct Cluster::Links {
         }
         if (!changed) return;
         plan = plan_for(offers(true));
-        const auto text = to_json(plan);
-        for (auto& link : links)
-            if (link->takes_part()) link->send_plan(text);
-        if (own_ready) own->use(plan);
         Message message;
         message.type = Message::Type::plan;
         message.run = options.run;
@@ -288,6 +287,8 @@ void Cluster::gather(Patience patience, const std::atomic<bool>& cancelled, cons
 }
 
 const Plan& Cluster::plan() const { return links_->plan; }
+
+void Cluster::call(const std::string& endpoint) { links_->call(endpoint); }
 
 void Cluster::lost(const std::string& name) {
     if (auto* link = links_->find(name); link && link->state() != State::calling)
@@ -369,6 +370,19 @@ void Cluster::wait(std::chrono::nanoseconds most) {
     } catch (const zmq::error_t& error) {
         if (error.num() != EINTR) throw;
     }
+}
+
+bool Cluster::bring(const PlaceAt& to, const Hash& name, const Bytes& bytes) {
+    if (to.host.empty()) return true;  // goes by pointer
+    auto* link = links_->find(to.host);
+    return link && link->state() == State::ready && link->bring(name, bytes);
+}
+
+void Cluster::adopt(const Plan& plan) {
+    links_->in_force = to_json(plan);
+    for (auto& link : links_->links)
+        if (link->takes_part()) link->send_plan(links_->in_force);
+    if (links_->own_ready) links_->own->use(plan);
 }
 
 const Counters& Cluster::counters() const { return links_->counters; }

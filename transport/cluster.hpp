@@ -28,8 +28,8 @@ struct HostState {
 
 /// Brings hosts into the run, keeps their leases, and carries the master's asks to them, and those that hosts can't
 /// send to each other. Hosts are called, or dial in, or are places of this process. A host that is lost, stops or comes
-/// late changes the plan: the new one goes to every host, and comes out of receive(). Used by one thread, which must
-/// look in (receive() or wait()) several times a second, as it also sends the heartbeats.
+/// late changes what is proposed: the new plan comes out of receive(), and goes to hosts when it is adopted. Used by
+/// one thread, which must look in (receive() or wait()) several times a second, as it also sends the heartbeats.
 class Cluster final : public Carrier {
 public:
     struct Options {
@@ -59,7 +59,10 @@ public:
     void gather(std::chrono::milliseconds patience, const std::atomic<bool>& cancelled) {
         gather(Patience{patience, patience}, cancelled, [] {});
     }
+    /// What is proposed now.
     const Plan& plan() const;
+    /// Calls another host.
+    void call(const std::string& endpoint);
     /// A host whose process is known to have ended.
     void lost(const std::string& name);
     bool ready(const std::string& name) const;
@@ -74,6 +77,9 @@ public:
     std::optional<Message> receive() override;
     void wait(std::chrono::nanoseconds most) override;
     void forget(const PlaceAt&) override {}
+    bool bring(const PlaceAt& to, const Hash& name, const Bytes& bytes) override;
+    /// Every host asks by this plan from now on.
+    void adopt(const Plan& plan) override;
     const Counters& counters() const override;
 
 private:

@@ -1,7 +1,6 @@
 #include "transport/host.hpp"
 
 #include <algorithm>
-#include <random>
 #include <zmq.hpp>
 
 #include "core/build_info.hpp"
@@ -25,11 +24,6 @@ constexpr auto launcher_lease = std::chrono::seconds(4);               // withou
 constexpr auto quiet_before_leaving = std::chrono::milliseconds(300);  // askers may not know yet that it leaves
 constexpr auto goodbye_deadline = std::chrono::milliseconds(500);
 
-std::uint64_t random_number() {
-    std::random_device device;  // names an incarnation; nothing that is computed depends on it
-    return ((std::uint64_t{device()} << 32) | device()) | 1;
-}
-
 }  // namespace
 
 struct Host::Service {
@@ -37,7 +31,7 @@ struct Host::Service {
     const Registry& registry;
     BlobCache cache;
     Machine machine = this_machine();
-    std::uint64_t incarnation = random_number();
+    std::uint64_t incarnation = incarnation_number();
     zmq::context_t context{1};
     HostDoor door;
     std::uint64_t broken_packets = 0;
@@ -76,6 +70,7 @@ struct Host::Service {
     void begin(const std::string& route, std::uint64_t id, const Fields& fields);
     void tell_needs();
     void tell_state(const std::string& route);
+    void tell_found();
     void take_blob(const std::string& route, std::uint64_t id, const Fields& fields);
     Counters stop_run();
     void end(const std::string& route, std::uint64_t id);
@@ -111,6 +106,7 @@ void Host::serve(const std::atomic<bool>& stop) {
             while (auto frames = s.door.receive(Clock::now())) s.arrived(std::move(*frames));
         if (readable.relay) s.pass_asks();
         if (readable.reports || (s.run && !s.run->serving())) s.advance();
+        if (s.run && s.run->looking_for_results()) s.tell_found();
         if (s.run && now - s.heard > launcher_lease) s.drop_run("its launcher is silent");
         if (!s.leaving) s.door.keep_in_touch(now);
         if (s.run) s.needed = now;
@@ -121,8 +117,6 @@ void Host::serve(const std::atomic<bool>& stop) {
     }
     if (s.run) s.drop_run("this host is stopping");
 }
-
-// ---- what arrives ---------------------------------------------------------------------------------------------------
 
 void Host::Service::arrived(Frames frames) {
     const auto route = text_of(frames[0]);
@@ -207,6 +201,10 @@ void Host::Service::control(const std::string& route, const packet::Header& head
             return;
         case Type::status:
             return tell_state(route);
+        case Type::expect:
+            if (const auto hash = hash_from_hex(fields.text("hash")); ours && hash)
+                run->expect(*hash, fields.number("size"));
+            return tell_found();
         case Type::end:
             return end(route, header.run);
         default:
@@ -266,6 +264,12 @@ void Host::Service::tell_needs() {
     door.send(launcher, Type::need, run->id(), Fields{}.set("hashes", missing));
 }
 
+void Host::Service::tell_found() {
+    if (!run) return;
+    for (const auto& [hash, here] : run->found())
+        door.send(launcher, here ? Type::here : Type::lacks, run->id(), Fields{}.set("hash", to_hex(hash)));
+}
+
 void Host::Service::tell_state(const std::string& route) {
     Fields fields;
     set(fields, machine);
@@ -285,9 +289,8 @@ void Host::Service::take_blob(const std::string& route, std::uint64_t id, const 
     if (run->take_blob(*hash, fields.number("offset"), fields.text("bytes")))
         door.send(route, Type::blob_taken, id,
                   Fields{}.set("hash", fields.text("hash")).set("offset", fields.number("offset")));
+    tell_found();
 }
-
-// ---- the run --------------------------------------------------------------------------------------------------------
 
 Counters Host::Service::stop_run() {
     auto counters = run->stop();
@@ -345,8 +348,6 @@ void Host::Service::pass_asks() {
     }
 }
 
-// ---- leaving --------------------------------------------------------------------------------------------------------
-
 void Host::Service::leave(Clock::time_point now) {
     leaving = Leaving{now, now, false, std::nullopt};
     if (!run) return;
@@ -379,7 +380,7 @@ Host::Service::Readable Host::Service::wait() {
         for (std::uint32_t place = 0; place < run->places()->count(); ++place)
             items.push_back({run->places()->to(place).handle(), 0, ZMQ_POLLIN, 0});
     }
-    const bool soon = (run && !serving) || leaving;
+    const bool soon = (run && (!serving || run->looking_for_results())) || leaving;
     try {
         zmq::poll(items, std::chrono::milliseconds(soon ? 5 : 100));
     } catch (const zmq::error_t& error) {

@@ -83,6 +83,8 @@ public:
     /// Frames that come from another host.
     bool pass(Frames& frames);
     void send_plan(const std::string& plan);
+    /// Sees to it that the host has these bytes. True when it has said so.
+    bool bring(const Hash& name, const Bytes& bytes);
     void send_end();
     /// The host is gone, or what was under way to it; calls it again.
     void lose(Time now, const std::string& why);
@@ -92,6 +94,8 @@ private:
     void control(packet::Type type, const packet::Fields& fields, Time now);
     void welcome(const packet::Fields& fields);
     void queue_blobs(const std::string& hashes);
+    void queue_blob(const Hash& hash);
+    Bytes blob(const Hash& hash) const;
     void send_blobs();
     void heartbeat(Time now);
     void damaged(Time now, std::span<const std::byte> header);
@@ -112,6 +116,11 @@ private:
         std::uint64_t offset;
     };
     std::deque<Chunk> chunks_;
+    struct Brought {
+        Bytes bytes;
+        bool here = false;
+    };
+    std::map<Hash, Brought> brought_;
     std::size_t chunks_out_ = 0;
     std::optional<Counters> ended_;
 };

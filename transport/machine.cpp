@@ -4,6 +4,7 @@
 
 #include <array>
 #include <fstream>
+#include <random>
 #include <thread>
 
 #include "core/build_info.hpp"
@@ -33,6 +34,11 @@ Machine this_machine() {
     const long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGE_SIZE);
     if (pages > 0 && size > 0) machine.memory = static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(size);
     return machine;
+}
+
+std::uint64_t incarnation_number() {
+    std::random_device device;
+    return ((std::uint64_t{device()} << 32) | device()) | 1;
 }
 
 void set(packet::Fields& fields, const Machine& machine) {

@@ -22,6 +22,9 @@ struct Machine {
 /// This one.
 Machine this_machine();
 
+/// Tells one life of a daemon from the next; never 0. Nothing that is computed depends on it.
+std::uint64_t incarnation_number();
+
 /// As fields of a control packet, and back.
 void set(packet::Fields& fields, const Machine& machine);
 Machine machine_from(const packet::Fields& fields);

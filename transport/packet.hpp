@@ -57,6 +57,9 @@ enum class Type : std::uint8_t {
     leaving,  //                             it was told to stop: it answers what it has, then ends the run
     join,     //                             name, incarnation, endpoint: "I am here", from a host that dialled out
     joined,   // to such a host
+    expect,   // hash, size: bytes that a step will name
+    lacks,    //                             hash: please send them
+    here,     //                             hash: it has them
     // anyone → a host or a launcher
     status,
     state,  // a host in words; `left` more follow

@@ -48,6 +48,7 @@ struct Kind {
     std::size_t least_inputs = 0;  // light inputs, from the array part
     std::size_t most_inputs = 0;
     bool prepares = false;  // learns something before the first question: LightOp::prepare()
+    bool locks = false;     // holds named locks: NodeContext::locks()
     bool linear = false;    // answers with a weighted sum of its inputs: layers pass through
     std::vector<Param> params = {};
     std::function<std::unique_ptr<LightOp>(const NodeContext&)> make_light = {};

@@ -18,7 +18,11 @@ Place::Place(const Network& network, const PlaceAt& me, const Plan& plan, std::u
       rays_before_(Scene::rays_of_this_thread()),
       inboxes_(network.graph.nodes.size()),
       by_rank_(network.graph.nodes.size()),
-      assembly_(network, [this](std::size_t node, std::size_t width) { return port_to(node, width); }),
+      locks_(
+          fibers_, [this](Fibers::Fiber* fiber) { ready_.push_back(fiber); },
+          [this](Message reply) { carrier_.reply(std::move(reply)); }),
+      assembly_(
+          network, [this](std::size_t node, std::size_t width) { return port_to(node, width); }, locks_),
       preparer_(network, assembly_, fibers_,
                 {my_name(), [this](Fibers::Fiber* fiber) { ready_.push_back(fiber); },
                  [this](Message reply) { carrier_.reply(std::move(reply)); },
@@ -148,7 +152,9 @@ void Place::take(Message message) {
         case Message::Type::ask: {
             if (message.run != run_ || message.node >= inboxes_.size()) return;
             if (const auto* steps = std::get_if<Questions<Step>>(&message.questions)) {
-                if ((*steps)->front().kind == Step::Kind::shard) return queue(std::move(message), 1);
+                const auto kind = (*steps)->front().kind;
+                if (kind == Step::Kind::shard) return queue(std::move(message), 1);
+                if (kind >= Step::Kind::attend) return locks_.take(std::move(message));
                 if (network_.kind_of(message.node).prepares) preparer_.take(std::move(message));
             } else if (const auto* queries = std::get_if<Questions<Query>>(&message.questions)) {
                 queue(std::move(message), (*queries)->size());
