@@ -16,6 +16,7 @@ struct Counters {
     std::uint64_t questions = 0;        // sent to another place
     std::uint64_t bundles = 0;          // sent to another place
     std::uint64_t bytes = 0;            // sent and received over sockets between hosts
+    std::uint64_t relayed_bytes = 0;    // passed on by the launcher between hosts that can't call each other
     std::uint64_t file_bytes = 0;       // of scene files, sent to hosts that did not have them
     std::uint64_t tiles = 0;            // rendered
     std::uint64_t asked_again = 0;      // bundles whose first place was lost
@@ -34,16 +35,17 @@ struct Counters {
     }
 
     /// Every count and its name, as in run.json and on the wire.
-    static const std::array<std::pair<const char*, std::uint64_t Counters::*>, 11> all;
+    static const std::array<std::pair<const char*, std::uint64_t Counters::*>, 12> all;
     friend bool operator==(const Counters&, const Counters&) = default;
 };
 
-inline constexpr std::array<std::pair<const char*, std::uint64_t Counters::*>, 11> Counters::all{{
+inline constexpr std::array<std::pair<const char*, std::uint64_t Counters::*>, 12> Counters::all{{
     {"rays", &Counters::rays},
     {"local_questions", &Counters::local_questions},
     {"questions", &Counters::questions},
     {"bundles", &Counters::bundles},
     {"bytes", &Counters::bytes},
+    {"relayed_bytes", &Counters::relayed_bytes},
     {"file_bytes", &Counters::file_bytes},
     {"tiles", &Counters::tiles},
     {"asked_again", &Counters::asked_again},

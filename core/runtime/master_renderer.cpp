@@ -22,10 +22,9 @@ void MasterRenderer::use(const Plan& plan) {
         }
         replicas.push_back(channels_[places[key]].get());
     }
-    const auto before = std::exchange(places_, std::move(places));
+    places_ = std::move(places);
     replicas_.use(std::move(replicas));
-    for (const auto& [key, number] : before)
-        if (!places_.contains(key)) channels_[number]->close();
+    close_absent(channels_, plan);
 }
 
 void MasterRenderer::hand_out() {

@@ -67,7 +67,7 @@ Port* Place::port_to(std::size_t node, std::size_t width) {
     return remote.port.get();
 }
 
-// Makes the replicas of a port those of the plan: opens channels to new places, closes those to lost ones.
+// Makes the replicas of a port those of the plan: opens channels to new places.
 void Place::connect(Remote& remote) {
     std::map<std::pair<std::string, std::uint32_t>, std::uint32_t> channels;
     std::vector<Channel<Query>*> replicas;
@@ -86,15 +86,14 @@ void Place::connect(Remote& remote) {
         }
         replicas.push_back(channels_[channels[key]].get());
     }
-    const auto before = std::exchange(remote.channels, std::move(channels));
+    remote.channels = std::move(channels);
     remote.port->replicas().use(std::move(replicas));
-    for (const auto& [key, number] : before)
-        if (!remote.channels.contains(key)) channels_[number]->close();
 }
 
 void Place::use(const Plan& plan) {
     plan_ = plan;
     for (auto& [key, remote] : remotes_) connect(remote);
+    close_absent(channels_, plan_);
 }
 
 void Place::serve(const std::atomic<bool>& stop, std::atomic<std::uint64_t>& progress) {

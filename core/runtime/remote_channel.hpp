@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -86,9 +87,11 @@ public:
         }
     }
 
+    bool closed() const { return closed_; }
     /// The place is gone: nothing more is sent, and what was not answered goes back to its owners, in order.
     void close() {
         closed_ = true;
+        carrier_.give_up(ends_.channel);
         carrier_.forget(ends_.place);
         std::vector<std::pair<std::uint64_t, Bundle<Question>>> lost(sent_.begin(), sent_.end());
         sent_.clear();
@@ -109,5 +112,15 @@ private:
     std::uint64_t next_ = 1;
     bool closed_ = false;
 };
+
+/// Closes the channels to places that are not in the plan any more. A place that is there but holds the node no longer
+/// gets no new bundles, and answers those that it has: so a host that was told to stop loses no work.
+template <class Question>
+void close_absent(const std::vector<std::unique_ptr<RemoteChannel<Question>>>& channels, const Plan& plan) {
+    for (const auto& channel : channels)
+        if (!channel->closed() &&
+            std::find(plan.places.begin(), plan.places.end(), channel->place()) == plan.places.end())
+            channel->close();
+}
 
 }  // namespace lightnet
