@@ -239,7 +239,7 @@ void Run::render_serially(SceneData scene) {
     });
     book_.use(Plan{{PlaceAt{}}, std::vector<std::vector<std::uint32_t>>(job_.graph.nodes.size(), {0})}, job_.graph);
     try {
-        run.prepare(made_from(job_), cache());
+        run.prepare(made_from(job_), cache(), [this](const std::string& text) { book_.say(text); });
         book_.phase("render");
         for (const auto& tile : tiles_) {
             if (stopped()) break;
@@ -303,6 +303,7 @@ void Run::hand_out(Carrier& carrier, const Plan& plan, const LookAround& look_ar
     options.width = static_cast<std::uint32_t>(format_.layers.size());
     options.made_from = made_from(job_);
     options.cache = cache();
+    options.say = [this](const std::string& text) { book_.say(text); };
     Conductor conductor(std::move(options), carrier);
     conductor.propose(plan);
     if (!prepare(conductor, look_around)) return;

@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -102,6 +103,7 @@ private:
     bool send(const PlaceKey& place, std::size_t position, Step step);
     void take(Message message);
     void reported(const Sent& sent, const Bytes& data);
+    void say(std::size_t position, std::string_view lines);
     void shard_done(const Sent& sent, const Bytes& data);
     void noted(const Sent& sent, const Bytes& data);
     void lose(const std::set<PlaceKey>& gone);
@@ -126,6 +128,7 @@ private:
     std::size_t done_ = 0;               // positions of order_ that are prepared everywhere
     std::set<PlaceKey> known_prepared_;  // have caught up once
     std::optional<Rehearsing> rehearsing_;
+    std::set<std::string> said_;
     std::uint32_t epoch_ = 0;  // of the master whose replies count
 };
 
