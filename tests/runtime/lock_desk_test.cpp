@@ -11,7 +11,7 @@ using testing::Pair;
 
 const LockDesk::PlaceKey first{"a", 0}, second{"b", 0}, third{"b", 1};
 const Hash device = content_hash(std::string_view("device")), licence = content_hash(std::string_view("licence"));
-constexpr auto want = LockWord::Kind::want, release = LockWord::Kind::release;
+constexpr auto want = LockWord::Kind::want, release = LockWord::Kind::release, hold = LockWord::Kind::hold;
 
 TEST(LockDesk, GivesALockToOneAfterTheOther) {
     LockDesk desk;
@@ -46,6 +46,31 @@ TEST(LockDesk, FreesWhatALostPlaceHeldAndForgetsWhatItWanted) {
     desk.lose(third);
     desk.hear(first, {want, device});
     EXPECT_THAT(desk.granted(), ElementsAre(Pair(first, device)));
+}
+
+TEST(LockDesk, BelievesAPlaceThatWasOutOfSightWhatItHolds) {
+    LockDesk desk;
+    desk.hear(first, {want, device});
+    desk.granted();
+    desk.lose(first);
+    desk.hear(first, {hold, device});
+    desk.hear(first, {want, device});
+    desk.hear(second, {want, device});
+    EXPECT_THAT(desk.granted(), IsEmpty());
+    desk.hear(first, {release, device});
+    EXPECT_THAT(desk.granted(), ElementsAre(Pair(first, device))) << "another call there waits, too";
+    desk.hear(first, {release, device});
+    EXPECT_THAT(desk.granted(), ElementsAre(Pair(second, device)));
+}
+
+TEST(LockDesk, DoesNotTakeALockFromWhoGotItMeanwhile) {
+    LockDesk desk;
+    desk.hear(second, {want, device});
+    desk.granted();
+    desk.hear(first, {hold, device});
+    desk.hear(first, {release, device});
+    desk.hear(third, {want, device});
+    EXPECT_THAT(desk.granted(), IsEmpty());
 }
 
 }  // namespace
