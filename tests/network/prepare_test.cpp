@@ -395,7 +395,7 @@ TEST(Locks, AreHeldByOneCallInTheWholeRun) {
     cluster.finish();
 }
 
-TEST(Locks, AreToldAnewToALauncherThatLostSightOfAPlace) {
+TEST(Locks, AreGivenOnWhenALineIsCutAgainAndAgain) {
     const Learning rare(with_rare(), rare_nodes(false));
     const auto expected = rare.serial();
     const test::Folder folder;

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cstring>
+
 namespace lightnet {
 namespace {
 
@@ -71,6 +73,36 @@ TEST(LockDesk, DoesNotTakeALockFromWhoGotItMeanwhile) {
     desk.hear(first, {release, device});
     desk.hear(third, {want, device});
     EXPECT_THAT(desk.granted(), IsEmpty());
+}
+
+Message step(Step::Kind kind, std::uint32_t call = 0) {
+    Message ask;
+    ask.questions = std::make_shared<const std::vector<Step>>(1, Step{.kind = kind, .call = call, .data = device});
+    return ask;
+}
+
+TEST(PlaceLocks, TellAllAnewWhenTheLauncherHadLostSightOfThem) {
+    Fibers fibers;
+    std::vector<std::vector<LockWord>> said;
+    PlaceLocks locks(
+        fibers, [&](Fibers::Fiber* fiber) { fibers.resume(fiber); },
+        [&](const Message& reply) {
+            said.emplace_back(reply.data->size() / sizeof(LockWord));
+            std::memcpy(said.back().data(), reply.data->data(), reply.data->size());
+        });
+    const auto hold_it = [&] {
+        const auto held = locks.hold("device");
+        fibers.park();
+    };
+    locks.take(step(Step::Kind::attend, 1));
+    fibers.start("one", hold_it);
+    locks.take(step(Step::Kind::attend));
+    fibers.start("two", hold_it);
+    locks.take(step(Step::Kind::grant));
+    EXPECT_THAT(said, ElementsAre(ElementsAre(LockWord{want, device}), ElementsAre(LockWord{want, device}), IsEmpty()));
+    locks.take(step(Step::Kind::attend, 1));
+    EXPECT_THAT(said.back(), ElementsAre(LockWord{hold, device}, LockWord{want, device}));
+    fibers.cancel_all();
 }
 
 }  // namespace
