@@ -34,7 +34,7 @@ void BundlePort::finish(Ticket ticket) {
     }
     const std::string error = std::move(ask.error);
     asks_.erase(ticket);
-    if (!error.empty()) throw Error(error);
+    if (!error.empty()) throw NodeError(error);
 }
 
 bool BundlePort::due(Clock::time_point now, bool idle) {
@@ -49,7 +49,7 @@ bool BundlePort::due(Clock::time_point now, bool idle) {
 }
 
 bool BundlePort::flush(Clock::time_point now, bool idle) {
-    bool sent = false;
+    bool sent = (idle || replicas_.has_waiting()) && replicas_.tick();
     while (replicas_.has_credit() && (!again_.empty() || due(now, idle))) {
         if (again_.empty()) again_.push_back(make_bundle());
         if (!replicas_.send(again_.front())) break;
@@ -84,7 +84,7 @@ Bundle<Query> BundlePort::make_bundle() {
 }
 
 std::chrono::nanoseconds BundlePort::until_due(Clock::time_point now) const {
-    constexpr std::chrono::nanoseconds never = std::chrono::milliseconds(100);
+    const auto never = replicas_.until_due();
     if (!again_.empty()) return std::chrono::milliseconds(1);
     if (unbundled_.empty() || !replicas_.has_credit()) return never;
     const auto found = asks_.find(unbundled_.front());

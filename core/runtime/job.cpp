@@ -50,7 +50,9 @@ std::string to_json(const Job& job) {
                   {"eager", rules.bundles.eager},
                   {"credit_bundles", rules.credit.bundles},
                   {"credit_questions", rules.credit.questions},
+                  {"credit_bytes", rules.credit.bytes},
                   {"spare_fibers", rules.spare_fibers},
+                  {"check", rules.check},
                   {"call_own_nodes", rules.call_own_nodes}}}}
         .dump();
 }
@@ -76,7 +78,9 @@ Job job_from_json(std::string_view text) {
         job.rules.bundles.eager = count_of<std::size_t>(rules, "eager");
         job.rules.credit.bundles = count_of<std::size_t>(rules, "credit_bundles");
         job.rules.credit.questions = count_of<std::size_t>(rules, "credit_questions");
+        job.rules.credit.bytes = count_of<std::size_t>(rules, "credit_bytes");
         job.rules.spare_fibers = count_of<std::size_t>(rules, "spare_fibers");
+        job.rules.check = rules.at("check");
         job.rules.call_own_nodes = rules.at("call_own_nodes");
         return job;
     } catch (const Json::exception& error) {
