@@ -8,10 +8,13 @@
 #include "core/graph/dot.hpp"
 #include "core/graph/graph_film.hpp"
 #include "core/graph/plan.hpp"
+#include "core/runtime/load_scene.hpp"
 #include "core/scene/read_scene.hpp"
 #include "tools/exit_code.hpp"
 #include "tools/loading.hpp"
 #include "tools/overrides.hpp"
+#include "tools/render.hpp"
+#include "tools/scene_info.hpp"
 
 namespace lightnet {
 namespace {
@@ -74,6 +77,11 @@ int Launcher::perform(const Options& options) const {
     switch (options.verb) {
         case Verb::run:
             return perform_run(options);
+        case Verb::render:
+            return perform_render(options);
+        case Verb::scene_info:
+            print_scene_info(options.scene, out);
+            return exit_code::done;
         case Verb::check:
             return perform_check(options);
         case Verb::dot:
@@ -90,11 +98,23 @@ int Launcher::perform_run(const Options& options) const {
     return run(request_of(options, registry, std::move(loaded)));
 }
 
+int Launcher::perform_render(Options options) const {
+    auto read = std::make_shared<ReadScene>();
+    read->scene = read_scene(read->files, options.scene);
+    if (!options.size) options.size = PictureSize{read->scene.film.width, read->scene.film.height};
+    if (options.output.empty()) options.output = picture_of(options.scene);
+    Loaded loaded = load_render(options, registry);
+    warn(loaded.warnings, err);
+    RunRequest request = request_of(options, registry, std::move(loaded));
+    request.read = std::move(read);
+    return run(request);
+}
+
 int Launcher::perform_check(const Options& options) const {
     const Loaded loaded = load(options, registry, true);
     warn(loaded.warnings, err);
     DiskFiles files;
-    warn(read_scene(files, scene_file(loaded.graph, registry)).warnings, err);
+    warn(load_scene(loaded.graph, registry, files, scene_file(loaded.graph, registry)).warnings, err);
     const auto format = film_of(loaded.graph, registry);
     out << options.graph << ": sound: " << loaded.graph.nodes.size() << " nodes, " << format.width << "x"
         << format.height << ", layers";

@@ -25,6 +25,7 @@ struct Launcher {
 private:
     int perform(const Options& options) const;
     int perform_run(const Options& options) const;
+    int perform_render(Options options) const;
     int perform_check(const Options& options) const;
     int perform_dot(const Options& options) const;
     int perform_describe(const Options& options) const;

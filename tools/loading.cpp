@@ -10,6 +10,7 @@
 #include "core/graph/graph_film.hpp"
 #include "lua/load_graph.hpp"
 #include "tools/overrides.hpp"
+#include "tools/render.hpp"
 
 namespace lightnet {
 namespace {
@@ -18,12 +19,16 @@ namespace {
 void check_scene_files(const Graph& graph, std::vector<Problem>& problems) {
     for (const auto& node : graph.nodes) {
         if (node.kind != "Scene" || node.entries.size() != 1) continue;
-        const auto* path = std::get_if<std::string>(&node.entries[0].data);
-        if (!path) continue;
-        const std::string file = beside_graph(graph, *path);
-        std::error_code ignored;
-        if (!std::filesystem::is_regular_file(file, ignored) || !std::ifstream(file))
-            problems.push_back({node.where, "Scene '" + node.name + "': can't read '" + file + "'"});
+        const auto check = [&](const Value& value) {
+            const auto* path = std::get_if<std::string>(&value.data);
+            if (!path) return;
+            const std::string file = beside_graph(graph, *path);
+            std::error_code ignored;
+            if (!std::filesystem::is_regular_file(file, ignored) || !std::ifstream(file))
+                problems.push_back({node.where, "Scene '" + node.name + "': can't read '" + file + "'"});
+        };
+        check(node.entries[0]);
+        if (const auto around = node.params.find("environment"); around != node.params.end()) check(around->second);
     }
 }
 
@@ -42,25 +47,35 @@ void check_names(const Hosts& hosts, std::vector<Problem>& problems) {
                 {entry.where, "place '" + entry.endpoint + "': no host is called '" + address->host + "'"});
 }
 
-}  // namespace
-
-Loaded load(const Options& options, const Registry& registry, bool names_of_hosts) {
-    GraphFile file = read_graph(options.graph, {.constants = options.constants});
-    std::vector<Problem> problems = std::move(file.problems);
+/// A graph as it was written, made sound. Throws UserError with its problems and those found before.
+Loaded finish(Graph graph, std::vector<Problem> problems, const Options& options, const Registry& registry,
+              bool names_of_hosts) {
     Hosts hosts;
     try {
         if (!options.hosts.empty()) hosts = load_hosts(options.hosts);
     } catch (const UserError& error) {
         problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
-    override_picture(file.graph, registry, options);
-    Examined found = examine(file.graph, registry, hosts);
+    override_picture(graph, registry, options);
+    Examined found = examine(graph, registry, hosts);
     problems.insert(problems.end(), found.problems.begin(), found.problems.end());
-    check_scene_files(file.graph, problems);
+    check_scene_files(graph, problems);
     if (names_of_hosts) check_names(hosts, problems);
-    sort_by_line(problems, file.graph.file);
+    sort_by_line(problems, graph.file);
     if (!problems.empty()) throw UserError(std::move(problems));
     return {std::move(found.graph), std::move(hosts), std::move(found.warnings)};
+}
+
+}  // namespace
+
+Loaded load(const Options& options, const Registry& registry, bool names_of_hosts) {
+    GraphFile file = read_graph(options.graph, {.constants = options.constants});
+    return finish(std::move(file.graph), std::move(file.problems), options, registry, names_of_hosts);
+}
+
+Loaded load_render(const Options& options, const Registry& registry) {
+    RenderGraph made = render_graph(options);
+    return finish(std::move(made.graph), std::move(made.problems), options, registry, true);
 }
 
 }  // namespace lightnet

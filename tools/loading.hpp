@@ -22,4 +22,7 @@ struct Loaded {
 /// names all problems of the graph, of the hosts and of the way to the scene. `names_of_hosts`: look hosts up, too.
 Loaded load(const Options& options, const Registry& registry, bool names_of_hosts);
 
+/// The same for the graph that `lightnet render` makes. The scene itself has been read already.
+Loaded load_render(const Options& options, const Registry& registry);
+
 }  // namespace lightnet

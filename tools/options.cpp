@@ -15,8 +15,9 @@
 namespace lightnet {
 namespace {
 
-const std::vector<std::pair<std::string, Verb>> verbs{
-    {"run", Verb::run}, {"check", Verb::check}, {"dot", Verb::dot}, {"describe", Verb::describe}};
+const std::vector<std::pair<std::string, Verb>> verbs{{"run", Verb::run},           {"render", Verb::render},
+                                                      {"check", Verb::check},       {"dot", Verb::dot},
+                                                      {"describe", Verb::describe}, {"scene", Verb::scene_info}};
 
 std::optional<std::uint32_t> side_of(std::string_view text) {
     std::uint32_t side = 0;
@@ -43,6 +44,8 @@ public:
             "exit codes: 0 done, 1 the run failed, 2 usage, graph or scene error, 3 no worker reachable, "
             "130 interrupted");
         add_run();
+        add_render();
+        add_scene();
         add_check();
         add_dot();
         add_describe();
@@ -102,6 +105,10 @@ private:
 
     void add_graph(CLI::App& verb) {
         verb.add_option("GRAPH", options_.graph, "the graph file")->required();
+        add_constants_option(verb);
+    }
+
+    void add_constants_option(CLI::App& verb) {
         // one value each time, or it would take the graph's name as well
         verb.add_option_function<std::vector<std::string>>(
                 "-D", [this](const std::vector<std::string>& given) { add_constants(given); },
@@ -145,6 +152,38 @@ private:
     void add_run() {
         CLI::App& verb = *app_.add_subcommand("run", "render a graph");
         add_graph(verb);
+        add_running(verb);
+        verb.add_option("-o,--output", options_.output, "the picture, instead of the graph's")->type_name("OUT.exr");
+    }
+
+    void add_render() {
+        CLI::App& verb = *app_.add_subcommand("render", "render a scene file as it is");
+        verb.add_option("FILE", options_.scene, "the scene file")->required();
+        verb.add_option("--lighting", options_.lighting,
+                        "path: all light; direct: what comes straight from lamps; ao: how open a place is; or a graph "
+                        "file, whose scene this one replaces")
+            ->type_name("path|direct|ao|GRAPH.lua")
+            ->capture_default_str();
+        verb.add_option("--env", options_.environment,
+                        "what is around the scene: a picture, or a colour like 1,0.9,0.8")
+            ->type_name("FILE|COLOUR");
+        verb.add_option("--exposure", options_.exposure, "how many times the picture becomes twice as bright")
+            ->type_name("STOPS");
+        add_constants_option(verb);
+        add_running(verb);
+        verb.add_option("-o,--output", options_.output, "the picture, instead of the scene's name with .exr here")
+            ->type_name("OUT.exr");
+    }
+
+    void add_scene() {
+        CLI::App& verb = *app_.add_subcommand("scene", "look at scene files");
+        verb.require_subcommand(1);
+        CLI::App& info = *verb.add_subcommand("info", "tell what is in a scene file, and what of it is not supported");
+        info.add_option("FILE", options_.scene, "the scene file")->required();
+    }
+
+    // What all verbs that make a picture take.
+    void add_running(CLI::App& verb) {
         add_picture(verb);
         auto* const hosts = add_hosts(verb);
         auto* const threads = add_threads(verb)->excludes(hosts);
@@ -153,7 +192,6 @@ private:
             ->check(CLI::Range(1, 1024))
             ->excludes(hosts)
             ->excludes(threads);
-        verb.add_option("-o,--output", options_.output, "the picture, instead of the graph's")->type_name("OUT.exr");
         verb.add_option("--seed", options_.seed, "root of all random numbers")
             ->type_name("N")
             ->check(CLI::NonNegativeNumber);  // or -1 would be a very large number
@@ -178,6 +216,9 @@ private:
         add("--tile", tuning.tile, 1, 256, "pixels along a side of a tile");
         add("--bundle", tuning.bundle, 1, 65536, "questions in a full bundle");
         add("--credit", tuning.credit, 1, 1024, "bundles under way to one place, per node asked");
+        verb.add_option("--cache", tuning.cache, "where what nodes prepare is kept from run to run; 'none': nowhere")
+            ->type_name("FOLDER")
+            ->group("Tuning");
         add("--spare-fibers", tuning.spare_fibers, 0, 4096, "fibers of a place beside one per node");
     }
 

@@ -13,7 +13,7 @@
 
 namespace lightnet {
 
-enum class Verb { run, check, dot, describe };
+enum class Verb { run, render, check, dot, describe, scene_info };
 
 /// Width and height, pixels.
 struct PictureSize {
@@ -25,6 +25,10 @@ struct PictureSize {
 struct Options {
     Verb verb = Verb::run;
     std::string graph;                           // file
+    std::string scene;                           // file, for render and scene info
+    std::string lighting = "path";               // for render: path, direct, ao or a graph file
+    std::string environment;                     // for render: a picture's file or a colour; "": as the scene says
+    std::optional<double> exposure;              // for render: stops
     std::string hosts;                           // file; "": none
     std::optional<std::uint32_t> threads;        // places in this process
     std::optional<std::uint32_t> local_workers;  // daemons to start here

@@ -15,8 +15,10 @@
 #include "core/error.hpp"
 #include "core/graph/graph_film.hpp"
 #include "core/hash.hpp"
+#include "core/runtime/conductor.hpp"
 #include "core/runtime/fingerprint.hpp"
 #include "core/runtime/job.hpp"
+#include "core/runtime/load_scene.hpp"
 #include "core/runtime/master_renderer.hpp"
 #include "core/runtime/serial.hpp"
 #include "core/scene/read_scene.hpp"
@@ -25,6 +27,7 @@
 #include "tools/signals.hpp"
 #include "transport/cluster.hpp"
 #include "transport/local_workers.hpp"
+#include "transport/result_cache.hpp"
 #include "transport/threaded_run.hpp"
 
 namespace lightnet {
@@ -99,12 +102,16 @@ public:
 
 private:
     FilmFormat format() const;
-    Job make_job(const DiskFiles& files) const;
+    Job make_job(DiskFiles& files) const;
     void report_failure();
     void render_serially(SceneData scene);
     void render_in_threads(SceneData scene);
     void render_on_hosts(const DiskFiles& files);
-    void hand_out(Carrier& carrier, const Plan& plan, const std::function<void(const MasterRenderer&)>& look_around);
+    /// Called several times a second with the number of places that render.
+    using LookAround = std::function<void(std::size_t renderers)>;
+    void hand_out(Carrier& carrier, const Plan& plan, const LookAround& look_around);
+    bool prepare(Conductor& conductor, const LookAround& look_around);
+    ResultCache* cache();
     std::uint32_t tiles_per_place(const Plan& plan) const;
     bool stopped() const { return signals_.any; }
 
@@ -116,6 +123,7 @@ private:
     std::vector<Tile> tiles_;
     RunBook book_;
     Job job_;
+    std::optional<DiskResultCache> cache_;
     const std::uint64_t id_ = random_number();
 };
 
@@ -126,11 +134,11 @@ FilmFormat Run::format() const {
             static_cast<std::uint32_t>(std::get<double>(samples.data))};
 }
 
-Job Run::make_job(const DiskFiles& files) const {
+Job Run::make_job(DiskFiles& files) const {
     Job job;
     job.graph = request_.graph;
     job.scene = request_.scene;
-    for (const auto& [path, bytes] : files.seen()) job.files.push_back({path, content_hash(*bytes), bytes->size()});
+    for (const auto& [path, hash] : files.hashes()) job.files.push_back({path, hash, files.seen().at(path)->size()});
     job.seed = request_.seed;
     job.isa = usual_isa();
     job.width = format_.width;
@@ -145,8 +153,11 @@ int Run::perform() {
     check_output(request_.output);
     try {
         book_.phase("load");
-        DiskFiles files;
-        auto scene = read_scene(files, request_.scene);
+        const auto read = request_.read ? request_.read : std::make_shared<ReadScene>();
+        DiskFiles& files = read->files;
+        if (!request_.read) read->scene = read_scene(files, request_.scene);
+        SceneData scene = std::move(read->scene);
+        override_scene(request_.graph, registry_, files, scene);
         for (const auto& warning : scene.warnings) book_.warn(to_string(warning));
         const float scale = scene.film.scale;
         job_ = make_job(files);
@@ -193,8 +204,9 @@ void Run::render_serially(SceneData scene) {
         if (stopped()) throw Cancelled{};
     });
     book_.use(Plan{{PlaceAt{}}, std::vector<std::vector<std::uint32_t>>(job_.graph.nodes.size(), {0})}, job_.graph);
-    book_.phase("render");
     try {
+        run.prepare(made_from(job_), cache());
+        book_.phase("render");
         for (const auto& tile : tiles_) {
             if (stopped()) break;
             book_.take(tile, run.render(tile));
@@ -210,8 +222,7 @@ void Run::render_in_threads(SceneData scene) {
     const Plan plan = lightnet::plan(job_.graph, registry_, {}, {{"", request_.threads}});
     ThreadedRun run(network, id_, plan, job_.rules);
     book_.use(plan, job_.graph);
-    book_.phase("render");
-    hand_out(run.carrier(), plan, [&](const MasterRenderer&) { run.check(); });
+    hand_out(run.carrier(), plan, [&](std::size_t) { run.check(); });
     book_.count(run.stop());
 }
 
@@ -224,7 +235,44 @@ std::uint32_t Run::tiles_per_place(const Plan& plan) const {
     return alone ? 2 : 6;
 }
 
-void Run::hand_out(Carrier& carrier, const Plan& plan, const std::function<void(const MasterRenderer&)>& look_around) {
+// Where what nodes prepare is kept. Doing without is slower, and no error.
+ResultCache* Run::cache() {
+    if (request_.tuning.cache == "none" || preparing_nodes(job_.graph, registry_).empty()) return nullptr;
+    try {
+        cache_.emplace(request_.tuning.cache.empty() ? default_cache_folder() : request_.tuning.cache);
+        return &*cache_;
+    } catch (const Error& error) {
+        book_.warn(std::string("what nodes prepare is not kept: ") + error.what());
+        return nullptr;
+    }
+}
+
+// True when all is prepared, false when the run was stopped.
+bool Run::prepare(Conductor& conductor, const LookAround& look_around) {
+    std::string said;
+    while (!conductor.prepare(50ms)) {
+        if (stopped()) return false;
+        look_around(conductor.in_force().places_of[image_].size());
+        const auto progress = conductor.progress();
+        const auto node = progress.substr(0, progress.find(':'));
+        if (node != said) book_.say("preparing " + (said = node));
+    }
+    for (const auto& [node, hash] : conductor.prepared()) book_.set("prepared." + node, to_hex(hash));
+    return true;
+}
+
+void Run::hand_out(Carrier& carrier, const Plan& plan, const LookAround& look_around) {
+    Conductor::Options options;
+    options.run = id_;
+    options.graph = &job_.graph;
+    options.registry = &registry_;
+    options.width = static_cast<std::uint32_t>(format_.layers.size());
+    options.made_from = made_from(job_);
+    options.cache = cache();
+    Conductor conductor(std::move(options), carrier);
+    conductor.propose(plan);
+    if (!prepare(conductor, look_around)) return;
+    book_.phase("render");
     MasterRenderer::Job job;
     job.run = id_;
     job.image = static_cast<std::uint32_t>(image_);
@@ -232,10 +280,10 @@ void Run::hand_out(Carrier& carrier, const Plan& plan, const std::function<void(
     job.tiles = tiles_;
     const auto tiles = tiles_per_place(plan);
     job.credit = {tiles, tiles};
-    MasterRenderer master(std::move(job), carrier,
+    MasterRenderer master(std::move(job), conductor,
                           [this](const Tile& tile, std::span<const Rgb> pixels) { book_.take(tile, pixels); });
-    master.use(plan);
-    while (!stopped() && !master.work(50ms)) look_around(master);
+    master.use(conductor.in_force());
+    while (!stopped() && !master.work(50ms)) look_around(master.renderers());
     if (signals_.terminated) {
         master.drain();
         const auto end = Clock::now() + drain_deadline;
@@ -277,12 +325,11 @@ void Run::render_on_hosts(const DiskFiles& files) {
         return;
     }
     book_.use(cluster.plan(), job_.graph);
-    book_.phase("render");
     auto last_host = Clock::now();
-    hand_out(cluster, cluster.plan(), [&](const MasterRenderer& master) {
+    hand_out(cluster, cluster.plan(), [&](std::size_t renderers) {
         if (workers)
             for (const auto& endpoint : workers->ended()) cluster.lost(endpoint);
-        if (master.renderers() > 0) last_host = Clock::now();
+        if (renderers > 0) last_host = Clock::now();
         if (Clock::now() - last_host > empty_patience)
             throw Error("node '" + job_.graph.nodes[image_].name + "' has no place any more, and no host came within " +
                         std::to_string(empty_patience.count()) + " s");

@@ -2,12 +2,15 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
 #include "core/film/progress.hpp"
 #include "core/graph/graph.hpp"
 #include "core/graph/hosts.hpp"
 #include "core/graph/kind.hpp"
+#include "core/scene/files.hpp"
+#include "core/scene/scene_data.hpp"
 
 namespace lightnet {
 
@@ -19,7 +22,14 @@ struct Tuning {
     std::uint32_t tile = 32;          // pixels along a side of a tile
     std::uint32_t bundle = 512;       // questions in a full bundle
     std::uint32_t credit = 8;         // bundles under way to one place, for each node that is asked
+    std::string cache;                // folder for what nodes prepare; "": the usual one, "none": nowhere
     std::uint32_t spare_fibers = 16;  // of a place, beside the one that each node has for itself
+};
+
+/// A scene that has been read before its run, with the files that it took. As its file says: nothing is overridden yet.
+struct ReadScene {
+    DiskFiles files;
+    SceneData scene;
 };
 
 /// A run, ready to go.
@@ -31,8 +41,9 @@ struct RunRequest {
     std::uint32_t local_workers = 0;  // mode local_workers: daemons to start
     std::string listen;               // endpoint where hosts may join; "": nowhere
     Tuning tuning;
-    std::string scene;   // file, as seen from here
-    std::string output;  // "x.exr", as seen from here
+    std::string scene;                // file, as seen from here
+    std::shared_ptr<ReadScene> read;  // it, read already; the run takes it away. None: still to be read
+    std::string output;               // "x.exr", as seen from here
     std::uint64_t seed = 0;
     ProgressMode progress = ProgressMode::automatic;
 };

@@ -28,6 +28,8 @@ public:
     void take(const Tile& tile, std::span<const Rgb> pixels);
     /// Who holds what, from now on.
     void use(const Plan& plan, const Graph& graph);
+    /// A line of run.json's settings.
+    void set(const std::string& name, const std::string& value) { report_.settings[name] = value; }
     void count(const Counters& counters) { counters_ += counters; }
 
     /// Writes x.exr, x.png and run.json beside them, each whole or not at all. `scale` is what the scene's film makes

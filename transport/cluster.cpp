@@ -41,7 +41,8 @@ struct Cluster::Links {
     std::optional<zmq::socket_t> joining;  // where hosts dial in
     std::vector<std::unique_ptr<HostLink>> links;
     std::map<std::string, State> states;  // as last told
-    Plan plan;
+    Plan plan;                            // proposed
+    std::string in_force;                 // the plan that hosts are to go by, as text
     std::deque<Message> arrived;
     Counters counters;
 
@@ -79,9 +80,10 @@ struct Cluster::Links {
         take_joiners();
         const auto expected_plan = [&] { return to_json(options.plan(offers(false))); };
         for (auto& link : links) {
-            link->tick(now, expected_plan);
+            // What has come counts before the lease is looked at: we may have been busy ourselves.
             for (auto [any, message] = link->receive(now); any; std::tie(any, message) = link->receive(now))
                 if (message) arrived.push_back(std::move(*message));
+            link->tick(now, expected_plan);
         }
         tell_changes();
     }
@@ -105,7 +107,7 @@ struct Cluster::Links {
         }
     }
 
-    // Hosts that became ready or are no more: a new plan, for them, for the master, and a line for the user.
+    // Hosts that became ready or are no more: a new plan is proposed, and a line said for the user.
     void tell_changes() {
         bool changed = false;
         for (auto& link : links) {
@@ -113,6 +115,7 @@ struct Cluster::Links {
             const auto state = states[link->endpoint()] = link->state();
             if (state == before) continue;
             if (state == State::ready) options.say(link->endpoint() + " is ready");
+            if (state == State::ready && !in_force.empty()) link->send_plan(in_force);
             if (state == State::refused) options.say(link->endpoint() + " takes no part: " + link->reason());
             if (before == State::ready && state != State::refused)
                 options.say(link->endpoint() + " is lost: " + link->reason() + "; its work is asked again elsewhere");
@@ -122,9 +125,6 @@ struct Cluster::Links {
         const auto there = offers(true);
         plan = there.empty() ? Plan{{}, std::vector<std::vector<std::uint32_t>>(options.job.graph.nodes.size())}
                              : options.plan(there);
-        const auto text = to_json(plan);
-        for (auto& link : links)
-            if (link->state() == State::ready) link->send_plan(text);
         Message message;
         message.type = Message::Type::plan;
         message.run = options.run;
@@ -171,6 +171,8 @@ void Cluster::gather(std::chrono::milliseconds patience, const std::atomic<bool>
 }
 
 const Plan& Cluster::plan() const { return links_->plan; }
+
+void Cluster::call(const std::string& endpoint) { links_->add(endpoint); }
 
 void Cluster::lost(const std::string& endpoint) {
     if (auto* link = links_->find(endpoint); link && link->state() != State::calling)
@@ -237,6 +239,17 @@ void Cluster::wait(std::chrono::nanoseconds most) {
     } catch (const zmq::error_t& error) {
         if (error.num() != EINTR) throw;
     }
+}
+
+bool Cluster::bring(const PlaceAt& to, const Hash& name, const Bytes& bytes) {
+    auto* link = links_->find(to.host);
+    return link && link->state() == State::ready && link->bring(name, bytes);
+}
+
+void Cluster::adopt(const Plan& plan) {
+    links_->in_force = to_json(plan);
+    for (auto& link : links_->links)
+        if (link->state() == State::ready) link->send_plan(links_->in_force);
 }
 
 const Counters& Cluster::counters() const { return links_->counters; }

@@ -17,8 +17,8 @@
 namespace lightnet {
 
 /// Brings hosts into the run, keeps their leases, and carries the master's asks to them. A host that is lost, stops or
-/// comes late changes the plan: the new one goes to every host, and comes out of receive(). Used by one thread, which
-/// must look in (receive() or wait()) several times a second, as it also sends the heartbeats.
+/// comes late changes what is proposed: the new plan comes out of receive(), and goes to hosts when it is adopted. Used
+/// by one thread, which must look in (receive() or wait()) several times a second, as it also sends the heartbeats.
 class Cluster final : public Carrier {
 public:
     struct Options {
@@ -36,7 +36,10 @@ public:
     /// Returns when every host is ready, refused, or has been absent for `patience`; at least one must be ready by
     /// then. Throws NoWorker when none is, Error when the job can't be served.
     void gather(std::chrono::milliseconds patience, const std::atomic<bool>& cancelled);
+    /// What is proposed now.
     const Plan& plan() const;
+    /// Calls another host.
+    void call(const std::string& endpoint);
     /// A host whose process is known to have ended.
     void lost(const std::string& endpoint);
     /// Where hosts may join, with the port that the system chose.
@@ -49,6 +52,9 @@ public:
     std::optional<Message> receive() override;
     void wait(std::chrono::nanoseconds most) override;
     void forget(const PlaceAt&) override {}
+    bool bring(const PlaceAt& to, const Hash& name, const Bytes& bytes) override;
+    /// Every host asks by this plan from now on.
+    void adopt(const Plan& plan) override;
     const Counters& counters() const override;
 
 private:

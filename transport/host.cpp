@@ -77,6 +77,7 @@ struct Host::Door {
     void greet(const std::string& route, const Fields& fields);
     void begin(const std::string& route, std::uint64_t id, const Fields& fields);
     void tell_needs();
+    void tell_found();
     void take_blob(const std::string& route, std::uint64_t id, const Fields& fields);
     void end(const std::string& route, std::uint64_t id);
     void drop_run(const std::string& why);
@@ -109,6 +110,7 @@ void Host::serve(const std::atomic<bool>& stop) {
         for (const auto place : readable.places) door.pass_replies(place);
         if (readable.door) door.take_in();
         if (readable.reports || (door.run && !door.run->serving())) door.advance();
+        if (door.run && door.run->looking_for_results()) door.tell_found();
         if (door.run && now - door.heard > launcher_lease) door.drop_run("its launcher is silent");
         door.keep_joining(now);
     }
@@ -170,6 +172,10 @@ void Host::Door::control(const std::string& route, const packet::Header& header,
         case Type::plan:
             if (ours) run->use(plan_from_json(fields.text("plan")));
             return;
+        case Type::expect:
+            if (const auto hash = hash_from_hex(fields.text("hash")); ours && hash)
+                run->expect(*hash, fields.number("size"));
+            return tell_found();
         case Type::end:
             return end(route, header.run);
         default:
@@ -221,12 +227,19 @@ void Host::Door::tell_needs() {
     send(launcher, Type::need, run->id(), Fields{}.set("hashes", missing));
 }
 
+void Host::Door::tell_found() {
+    if (!run) return;
+    for (const auto& [hash, here] : run->found())
+        send(launcher, here ? Type::here : Type::lacks, run->id(), Fields{}.set("hash", to_hex(hash)));
+}
+
 void Host::Door::take_blob(const std::string& route, std::uint64_t id, const Fields& fields) {
     const auto hash = hash_from_hex(fields.text("hash"));
     if (!run || run->id() != id || !hash) return;
     if (run->take_blob(*hash, fields.number("offset"), fields.text("bytes")))
         send(route, Type::blob_taken, id,
              Fields{}.set("hash", fields.text("hash")).set("offset", fields.number("offset")));
+    tell_found();
 }
 
 void Host::Door::end(const std::string& route, std::uint64_t id) {
@@ -281,7 +294,7 @@ void Host::Door::keep_joining(Clock::time_point now) {
 
 Host::Door::Readable Host::Door::wait() {
     std::vector<zmq::pollitem_t> items{{socket.handle(), 0, ZMQ_POLLIN, 0}};
-    const bool building = run && !run->serving();
+    const bool building = run && (!run->serving() || run->looking_for_results());
     if (run && run->serving()) {
         items.push_back({run->places()->reports().handle(), 0, ZMQ_POLLIN, 0});
         for (std::uint32_t place = 0; place < run->places()->count(); ++place)

@@ -50,7 +50,7 @@ void HostLink::tick(Time now, const std::function<std::string()>& plan) {
         next_call_ = now + busy_interval;
         send(Type::begin, Fields{}.set("job", told_.job).set("plan", plan()).set("you", endpoint_));
     }
-    if (state_ == State::sending) send_blobs();
+    if (!chunks_.empty()) send_blobs();
 }
 
 void HostLink::heartbeat(Time now) {
@@ -66,6 +66,7 @@ void HostLink::lose(Time now, const std::string& why) {
     next_call_ = now + call_interval;
     chunks_.clear();
     chunks_out_ = 0;
+    brought_.clear();
     // New sockets: nothing that was meant for the lost one may reach the next.
     lane_ = std::make_unique<zmq::socket_t>(asking_socket(context_, endpoint_));
     bulk_ = std::make_unique<zmq::socket_t>(asking_socket(context_, endpoint_));
@@ -117,9 +118,16 @@ void HostLink::control(Type type, const Fields& fields, Time now) {
             state_ = chunks_.empty() ? State::building : State::sending;
             return;
         case Type::blob_taken:
-            if (state_ != State::sending) return;
-            --chunks_out_;
-            if (chunks_.empty() && chunks_out_ == 0) state_ = State::building;
+            if (chunks_out_ > 0) --chunks_out_;
+            if (state_ == State::sending && chunks_.empty() && chunks_out_ == 0) state_ = State::building;
+            return;
+        case Type::lacks:
+            if (const auto hash = hash_from_hex(fields.text("hash")); hash && brought_.contains(*hash))
+                queue_blob(*hash);
+            return;
+        case Type::here:
+            if (const auto hash = hash_from_hex(fields.text("hash")); hash && brought_.contains(*hash))
+                brought_[*hash] = {nullptr, true};
             return;
         case Type::ready:
             if (state_ == State::building || state_ == State::sending) state_ = State::ready;
@@ -166,22 +174,42 @@ void HostLink::queue_blobs(const std::string& hashes) {
     constexpr std::size_t digits = 64;
     for (std::size_t at = 0; at + digits <= hashes.size(); at += digits) {
         const auto hash = hash_from_hex(std::string_view(hashes).substr(at, digits));
-        const auto blob = hash ? told_.blobs.find(*hash) : told_.blobs.end();
-        if (blob == told_.blobs.end()) continue;
-        std::uint64_t offset = 0;
-        do {
-            chunks_.push_back({*hash, offset});
-            offset += chunk_size;
-        } while (offset < blob->second->size());
+        if (hash && told_.blobs.contains(*hash)) queue_blob(*hash);
     }
+}
+
+Bytes HostLink::blob(const Hash& hash) const {
+    const auto told = told_.blobs.find(hash);
+    return told != told_.blobs.end() ? told->second : brought_.at(hash).bytes;
+}
+
+void HostLink::queue_blob(const Hash& hash) {
+    const auto bytes = blob(hash);
+    if (!bytes) return;
+    std::uint64_t offset = 0;
+    do {
+        chunks_.push_back({hash, offset});
+        offset += chunk_size;
+    } while (offset < bytes->size());
+}
+
+bool HostLink::bring(const Hash& name, const Bytes& bytes) {
+    const auto [brought, first] = brought_.try_emplace(name, Brought{bytes, false});
+    if (first && !send(Type::expect, Fields{}.set("hash", to_hex(name)).set("size", bytes->size())))
+        brought_.erase(brought);
+    return !first && brought->second.here;
 }
 
 void HostLink::send_blobs() {
     while (!chunks_.empty() && chunks_out_ < chunks_under_way) {
         const auto& [hash, offset] = chunks_.front();
-        const auto& blob = *told_.blobs.at(hash);
-        const std::string_view bytes(reinterpret_cast<const char*>(blob.data()) + offset,
-                                     std::min<std::size_t>(chunk_size, blob.size() - offset));
+        const auto whole = blob(hash);
+        if (!whole) {  // it is there already
+            chunks_.pop_front();
+            continue;
+        }
+        const std::string_view bytes(reinterpret_cast<const char*>(whole->data()) + offset,
+                                     std::min<std::size_t>(chunk_size, whole->size() - offset));
         Frames frames;
         append(frames, packet::pack(Type::blob, told_.run,
                                     Fields{}.set("hash", to_hex(hash)).set("offset", offset).set("bytes", bytes)));

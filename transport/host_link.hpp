@@ -61,6 +61,8 @@ public:
     std::pair<bool, std::optional<Message>> receive(Time now);
     bool send(Message& message, std::uint32_t place);
     void send_plan(const std::string& plan);
+    /// Sees to it that the host has these bytes. True when it has said so.
+    bool bring(const Hash& name, const Bytes& bytes);
     void send_end();
     /// The host is gone; calls it again.
     void lose(Time now, const std::string& why);
@@ -72,6 +74,8 @@ private:
     void control(packet::Type type, const packet::Fields& fields, Time now);
     void welcome(const packet::Fields& fields);
     void queue_blobs(const std::string& hashes);
+    void queue_blob(const Hash& hash);
+    Bytes blob(const Hash& hash) const;
     void send_blobs();
     void heartbeat(Time now);
 
@@ -91,6 +95,11 @@ private:
         std::uint64_t offset;
     };
     std::deque<Chunk> chunks_;
+    struct Brought {
+        Bytes bytes;
+        bool here = false;
+    };
+    std::map<Hash, Brought> brought_;
     std::size_t chunks_out_ = 0;
     std::optional<Counters> ended_;
 };

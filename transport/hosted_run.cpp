@@ -29,7 +29,59 @@ std::uint64_t HostedRun::size_of(const Hash& hash) const {
     return 0;
 }
 
+void HostedRun::expect(const Hash& hash, std::uint64_t size) {
+    {
+        const std::lock_guard lock(results_->mutex);
+        if (results_->bytes.contains(hash)) return found_.push_back({hash, true});
+    }
+    expected_[hash].size = size;
+    if (!looked_for_.contains(hash))
+        looked_for_[hash] = std::async(std::launch::async, [this, hash] { return cache_.read(hash); });
+}
+
+std::vector<std::pair<Hash, bool>> HostedRun::found() {
+    for (auto look = looked_for_.begin(); look != looked_for_.end();) {
+        if (look->second.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+            ++look;
+            continue;
+        }
+        auto bytes = look->second.get();
+        found_.push_back({look->first, bytes != nullptr});
+        if (bytes) {
+            const std::lock_guard lock(results_->mutex);
+            results_->bytes[look->first] = std::move(bytes);
+            expected_.erase(look->first);
+        }
+        look = looked_for_.erase(look);
+    }
+    return std::exchange(found_, {});
+}
+
+void HostedRun::take_result(const Hash& hash, IncomingResult& result, std::uint64_t offset, std::string_view bytes) {
+    if (offset == 0) {  // from the beginning, perhaps again
+        result.bytes->clear();
+        result.file.emplace(cache_.receive(hash));
+    }
+    if (!result.file || offset != result.file->size()) return;
+    if (bytes.size() > result.size - offset) throw Error("a result is longer than it was said to be");
+    const auto piece = std::as_bytes(std::span(bytes));
+    result.bytes->insert(result.bytes->end(), piece.begin(), piece.end());
+    result.file->add(piece);
+    if (result.file->size() < result.size) return;
+    result.file->finish();
+    {
+        const std::lock_guard lock(results_->mutex);
+        results_->bytes[hash] = std::move(result.bytes);
+    }
+    expected_.erase(hash);
+    found_.push_back({hash, true});
+}
+
 bool HostedRun::take_blob(const Hash& hash, std::uint64_t offset, std::string_view bytes) {
+    if (const auto expected = expected_.find(hash); expected != expected_.end()) {
+        take_result(hash, expected->second, offset, bytes);
+        return true;
+    }
     if (state_ == State::looking) return false;
     if (!missing_.contains(hash)) return true;
     auto& blob = incoming_.try_emplace(hash, cache_.receive(hash)).first->second;
@@ -52,7 +104,11 @@ bool HostedRun::advance() {
     } else if (state_ == State::fetching && missing_.empty()) {
         building_ = std::async(std::launch::async, [this] {
             BlobFiles files(cache_, given_.job.files);
-            return build_network(given_.job, registry_, files);
+            return build_network(given_.job, registry_, files, [results = results_](const Hash& hash) -> Bytes {
+                const std::lock_guard lock(results->mutex);
+                const auto found = results->bytes.find(hash);
+                return found == results->bytes.end() ? nullptr : found->second;
+            });
         });
         state_ = State::building;
     } else if (state_ == State::building && building_.wait_for(now) == std::future_status::ready) {

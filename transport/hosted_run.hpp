@@ -5,6 +5,7 @@
 #include <future>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <set>
 #include <span>
@@ -43,6 +44,11 @@ public:
     void expect_files_anew() { incoming_.clear(); }
     /// Takes a piece of a file. True: it is here now. Throws Error when a whole file is not what it was named.
     bool take_blob(const Hash& hash, std::uint64_t offset, std::string_view bytes);
+    /// Bytes that a step will name are to come, unless the cache has them: see found().
+    void expect(const Hash& hash, std::uint64_t size);
+    /// What has become of bytes that were expected, since the last call: here, or lacking.
+    std::vector<std::pair<Hash, bool>> found();
+    bool looking_for_results() const { return !looked_for_.empty(); }
     /// Goes on with what can go on. True when the state has changed. Throws Error when it can't go on.
     bool advance();
     /// Null until the places have been started.
@@ -51,7 +57,20 @@ public:
     Counters stop();
 
 private:
+    // Results of preparing, by name. Places read them.
+    struct Results {
+        std::mutex mutex;
+        std::map<Hash, Bytes> bytes;
+    };
+    // One on its way in, kept in memory as well as on disk.
+    struct IncomingResult {
+        std::uint64_t size = 0;
+        std::shared_ptr<std::vector<std::byte>> bytes = std::make_shared<std::vector<std::byte>>();
+        std::optional<BlobCache::Incoming> file;
+    };
+
     std::uint64_t size_of(const Hash& hash) const;
+    void take_result(const Hash& hash, IncomingResult& result, std::uint64_t offset, std::string_view bytes);
 
     zmq::context_t& context_;
     BlobCache& cache_;
@@ -62,6 +81,10 @@ private:
     std::set<Hash> missing_;
     std::map<Hash, BlobCache::Incoming> incoming_;
     std::future<std::shared_ptr<const Network>> building_;
+    std::shared_ptr<Results> results_ = std::make_shared<Results>();
+    std::map<Hash, std::future<Bytes>> looked_for_;
+    std::map<Hash, IncomingResult> expected_;
+    std::vector<std::pair<Hash, bool>> found_;
     std::unique_ptr<PlaceThreads> places_;
 };
 

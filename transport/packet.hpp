@@ -54,7 +54,10 @@ enum class Type : std::uint8_t {
     leaving,  //                             it was told to stop: give it no more work
     join,     //                             endpoint: "I am here", from a host that dialled out
     joined,   // to such a host
-    last = joined,
+    expect,   // hash, size: bytes that a step will name
+    lacks,    //                             hash: please send them
+    here,     //                             hash: it has them
+    last = here,
 };
 
 /// The fixed part of a packet. Never trusted before magic, version, size and checksum have been checked.

@@ -1,5 +1,6 @@
 #include "core/bsdf/bsdf.hpp"
 
+#include <algorithm>
 #include <type_traits>
 
 namespace lightnet {
@@ -10,6 +11,9 @@ constexpr bool looks_alike = std::decay_t<Model>::two_sided;
 
 }  // namespace
 
+Bsdf::Bsdf(Vec3 normal, std::vector<Part> parts)
+    : normal_(normal), parts_(std::make_shared<const std::vector<Part>>(std::move(parts))) {}
+
 // Where the shading normal turns away from a viewer who sees the surface, the geometric one takes its place; the
 // surface would be black there otherwise.
 Frame Bsdf::frame_for(Vec3 outgoing) const {
@@ -18,10 +22,15 @@ Frame Bsdf::frame_for(Vec3 outgoing) const {
 }
 
 std::uint8_t Bsdf::lobes() const {
-    return std::visit([](const auto& model) { return model.lobes(); }, model_);
+    if (!parts_) return std::visit([](const auto& model) { return model.lobes(); }, model_);
+    std::uint8_t all = 0;
+    for (const Part& part : *parts_) all |= part.bsdf.lobes();
+    return all;
 }
 
 BsdfValue Bsdf::value_and_pdf(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const {
+    if (parts_) return blended_value(outgoing, incoming, lobes);
+    if (one_sided_ && dot(outgoing, normal_) <= 0) return {};
     const Frame frame = frame_for(outgoing);
     Vec3 o = frame.to_local(outgoing), i = frame.to_local(incoming);
     if (o.z == 0 || (i.z > 0) != (dot(incoming, normal_) > 0)) return {};
@@ -37,6 +46,8 @@ BsdfValue Bsdf::value_and_pdf(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) 
 }
 
 std::optional<BsdfSample> Bsdf::sample(Vec3 outgoing, float choice, Vec2 u, std::uint8_t lobes) const {
+    if (parts_) return blended_sample(outgoing, choice, u, lobes);
+    if (one_sided_ && dot(outgoing, normal_) <= 0) return {};
     const Frame frame = frame_for(outgoing);
     Vec3 o = frame.to_local(outgoing);
     if (o.z == 0) return {};
@@ -52,7 +63,60 @@ std::optional<BsdfSample> Bsdf::sample(Vec3 outgoing, float choice, Vec2 u, std:
     if (!result) return {};
     const bool above = result->incoming.z > 0;
     result->incoming = normalize(frame.to_world(result->incoming));
-    if (above != (dot(result->incoming, normal_) > 0)) return {};
+    const bool outside = dot(result->incoming, normal_) > 0;
+    if (above != outside) return {};
+    if (!outside) result->absorption = absorption_;
+    return result;
+}
+
+// With which weight a part is sampled: 0 where it can't be seen, or has none of the lobes.
+float Bsdf::chance_of(const Part& part, Vec3 outgoing, std::uint8_t lobes) const {
+    const bool front = dot(outgoing, normal_) > 0;
+    const bool seen = part.face == Part::Face::both || (part.face == Part::Face::front) == front;
+    return seen && (part.bsdf.lobes() & lobes) ? part.share : 0;
+}
+
+BsdfValue Bsdf::blended_value(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const {
+    BsdfValue sum;
+    float chances = 0;
+    for (const Part& part : *parts_) {
+        const float chance = chance_of(part, outgoing, lobes);
+        if (!(chance > 0)) continue;
+        const auto [value, pdf] = part.bsdf.value_and_pdf(outgoing, incoming, lobes);
+        sum.value += value * chance;
+        sum.pdf += pdf * chance;
+        chances += chance;
+    }
+    if (chances > 0) sum.pdf /= chances;
+    return sum;
+}
+
+std::optional<BsdfSample> Bsdf::blended_sample(Vec3 outgoing, float choice, Vec2 u, std::uint8_t lobes) const {
+    float chances = 0;
+    for (const Part& part : *parts_) chances += chance_of(part, outgoing, lobes);
+    choice *= chances;
+    const Part* chosen = nullptr;
+    float chance = 0;
+    for (const Part& part : *parts_) {
+        const float own = chance_of(part, outgoing, lobes);
+        if (!(own > 0)) continue;
+        if (chosen && choice < chance) break;
+        if (chosen) choice -= chance;
+        chosen = &part;
+        chance = own;
+    }
+    if (!chosen) return {};
+    // within the part, its share of the choice is as good a number as the whole was
+    auto result = chosen->bsdf.sample(outgoing, std::clamp(choice / chance, 0.0f, 0x1.fffffep-1f), u, lobes);
+    if (!result) return {};
+    if (result->lobe == lobe::specular) {
+        result->weight *= chances;  // share over chance
+        return result;
+    }
+    const auto [value, pdf] = blended_value(outgoing, result->incoming, lobes);
+    if (!(pdf > 0)) return {};
+    result->weight = value / pdf;
+    result->pdf = pdf;
     return result;
 }
 

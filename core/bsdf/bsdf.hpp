@@ -2,13 +2,20 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <utility>
 #include <variant>
+#include <vector>
 
+#include "core/bsdf/coated_conductor.hpp"
 #include "core/bsdf/coated_diffuse.hpp"
 #include "core/bsdf/conductor.hpp"
 #include "core/bsdf/dielectric.hpp"
 #include "core/bsdf/diffuse.hpp"
+#include "core/bsdf/diffuse_transmission.hpp"
+#include "core/bsdf/principled.hpp"
+#include "core/bsdf/rough_diffuse.hpp"
 #include "core/bsdf/scattering.hpp"
 #include "core/light/query.hpp"
 #include "core/math/frame.hpp"
@@ -22,15 +29,25 @@ namespace lightnet {
 /// transmission goes to the other one, whatever the shading normal says, so that no light leaks.
 class Bsdf {
 public:
-    /// The first two have nothing to choose from.
-    using Model = std::variant<DiffuseBsdf, ConductorBsdf, DielectricBsdf, ThinDielectricBsdf, CoatedDiffuseBsdf>;
+    /// The first three have nothing to choose from.
+    using Model = std::variant<DiffuseBsdf, RoughDiffuseBsdf, ConductorBsdf, DielectricBsdf, ThinDielectricBsdf,
+                               DiffuseTransmissionBsdf, CoatedDiffuseBsdf, CoatedConductorBsdf, PrincipledBsdf>;
+    /// Some share of a surface; seen from one of its sides only, or from both.
+    struct Part;
 
     Bsdf(const Frame& shading, Vec3 normal, const Model& model) : shading_(shading), normal_(normal), model_(model) {}
+    /// A blend of others, whose shares sum up to 1 on each side.
+    Bsdf(Vec3 normal, std::vector<Part> parts);
+
+    /// Black from behind.
+    void make_one_sided() { one_sided_ = true; }
+    /// What lies behind the surface absorbs that much per metre. Keeps looking at it.
+    void fill_with(const Rgb* absorption) { absorption_ = absorption; }
 
     /// Which lobes the surface has.
     std::uint8_t lobes() const;
     /// Does sample() look at its `choice`?
-    bool chooses() const { return model_.index() > 1; }
+    bool chooses() const { return model_.index() > 2 || parts_; }
     /// f × |cos incoming| for the non-specular lobes among `lobes`, sr⁻¹; and the density with which sample() with the
     /// same `lobes` finds `incoming`, per steradian. Both exactly 0 for specular lobes.
     BsdfValue value_and_pdf(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const;
@@ -45,10 +62,22 @@ public:
 
 private:
     Frame frame_for(Vec3 outgoing) const;
+    float chance_of(const Part& part, Vec3 outgoing, std::uint8_t lobes) const;
+    BsdfValue blended_value(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const;
+    std::optional<BsdfSample> blended_sample(Vec3 outgoing, float choice, Vec2 u, std::uint8_t lobes) const;
 
     Frame shading_;
     Vec3 normal_;  // geometric
     Model model_;
+    bool one_sided_ = false;
+    const Rgb* absorption_ = nullptr;
+    std::shared_ptr<const std::vector<Part>> parts_;  // null but for blends
+};
+
+struct Bsdf::Part {
+    Bsdf bsdf;
+    float share = 1;
+    enum class Face { both, front, back } face = Face::both;
 };
 
 }  // namespace lightnet

@@ -1,24 +1,22 @@
 #include "core/bsdf/conductor.hpp"
 
 #include "core/bsdf/fresnel.hpp"
+#include "core/bsdf/microfacets.hpp"
 
 namespace lightnet {
 
 BsdfValue ConductorBsdf::evaluate(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const {
     if (!(lobes & lobe::glossy) || smooth() || incoming.z <= 0) return {};
-    const Vec3 m = normalize(outgoing + incoming);
-    const float cosine = dot(outgoing, m);
-    if (cosine <= 0) return {};
-    const float both = facets.density(m) / (4 * outgoing.z);  // f × cos incoming, without Fresnel and shadowing
-    const float lambda_o = facets.lambda(outgoing), lambda_i = facets.lambda(incoming);
-    return {fresnel_conductor(cosine, eta, k) * (both / (1 + lambda_o + lambda_i)), both / (1 + lambda_o)};
+    const auto [value, pdf, cosine] = reflection(facets, outgoing, incoming);
+    if (!(cosine > 0)) return {};
+    return {tint * fresnel_conductor(cosine, eta, k) * value, pdf};
 }
 
 std::optional<BsdfSample> ConductorBsdf::sample(Vec3 outgoing, float, Vec2 u, std::uint8_t lobes) const {
     if (!(lobes & this->lobes())) return {};
     if (smooth())
         return BsdfSample{
-            {-outgoing.x, -outgoing.y, outgoing.z}, fresnel_conductor(outgoing.z, eta, k), 0, lobe::specular};
+            {-outgoing.x, -outgoing.y, outgoing.z}, tint * fresnel_conductor(outgoing.z, eta, k), 0, lobe::specular};
     const Vec3 m = facets.sample_visible(outgoing, u);
     const Vec3 incoming = normalize(reflect(outgoing, m));
     if (incoming.z <= 0) return {};

@@ -9,7 +9,8 @@ namespace lightnet {
 struct ConductorBsdf {
     static constexpr bool two_sided = true;
     Rgb eta, k;  // complex index of refraction
-    Ggx facets;
+    Ggx facets{};
+    Rgb tint{1, 1, 1};
 
     bool smooth() const { return is_specular(facets.alpha_u, facets.alpha_v); }
     std::uint8_t lobes() const { return smooth() ? lobe::specular : lobe::glossy; }

@@ -6,11 +6,23 @@
 
 namespace lightnet {
 
+/// Tints of glass: not physical, but in files.
+struct GlassTints {
+    Rgb reflected{1, 1, 1}, transmitted{1, 1, 1};
+
+    /// With which probability reflection is chosen where that share of the light is reflected.
+    float reflection_chance(float reflectance) const {
+        const float r = reflectance * max_component(reflected), t = (1 - reflectance) * max_component(transmitted);
+        return r > 0 ? r / (r + t) : 0;
+    }
+};
+
 /// Transmitted radiance is scaled by the square of the ratio of indices, as radiance is.
 struct DielectricBsdf {
     static constexpr bool two_sided = false;
     float eta = 1.5f;  // inside over outside
-    Ggx facets;
+    Ggx facets{};
+    GlassTints tints{};
 
     bool smooth() const { return eta == 1 || is_specular(facets.alpha_u, facets.alpha_v); }
     std::uint8_t lobes() const { return smooth() ? lobe::specular : lobe::glossy; }
@@ -25,6 +37,7 @@ private:
 struct ThinDielectricBsdf {
     static constexpr bool two_sided = true;
     float eta = 1.5f;
+    GlassTints tints{};
 
     std::uint8_t lobes() const { return lobe::specular; }
     BsdfValue evaluate(Vec3, Vec3, std::uint8_t) const { return {}; }

@@ -32,6 +32,10 @@ std::string_view wanted(ParamType type) {
             return "a text";
         case ParamType::numbers:
             return "a table of numbers";
+        case ParamType::table:
+            return "a table with names";
+        case ParamType::surrounding:
+            return "the name of a file or a colour { r, g, b }";
         case ParamType::film:
             return "a table like { width, height, file = \"picture.exr\" }";
         case ParamType::scene:
@@ -71,6 +75,12 @@ public:
                 break;
             case ParamType::numbers:
                 numbers(value);
+                break;
+            case ParamType::table:
+                table(value);
+                break;
+            case ParamType::surrounding:
+                surrounding(value);
                 break;
             case ParamType::film:
                 film(value);
@@ -121,9 +131,42 @@ private:
         if (!table->named.empty()) complain_(quoted(param_.name) + " must be a table of numbers without keys");
         for (std::size_t i = 0; i < table->list.size(); ++i)
             number(table->list[i], "entry " + std::to_string(i + 1) + " of " + quoted(param_.name), false);
+        if (param_.count && table->list.size() != param_.count)
+            complain_(quoted(param_.name) + " must have " + std::to_string(param_.count) + " numbers, not " +
+                      std::to_string(table->list.size()));
         if (param_.per_input && !table->list.empty() && table->list.size() != node_.entries.size())
             complain_(quoted(param_.name) + " must have one number for each of the " +
                       std::to_string(node_.entries.size()) + " inputs, not " + std::to_string(table->list.size()));
+    }
+
+    void table(const Value& value) const {
+        const auto* given = as<Table>(value);
+        if (!given) return;
+        if (!given->list.empty()) complain_(quoted(param_.name) + " must be " + std::string(wanted(param_.type)));
+        const Complain inside = [&](const std::string& what) { complain_(quoted(param_.name) + ": " + what); };
+        std::vector<std::string> names;
+        for (const auto& field : param_.fields) names.push_back(field.name);
+        for (const auto& [name, entry] : given->named) {
+            const auto field = std::find(names.begin(), names.end(), name);
+            if (field == names.end())
+                inside("unknown entry " + quoted(name) + suggest(name, names));
+            else
+                ParamCheck(param_.fields[static_cast<std::size_t>(field - names.begin())], node_, graph_,
+                           inside)(entry);
+        }
+    }
+
+    void surrounding(const Value& value) const {
+        if (std::holds_alternative<std::string>(value.data)) return;
+        const auto* colour = as<Table>(value);
+        if (!colour) return;
+        const bool sound = colour->named.empty() && colour->list.size() == 3 &&
+                           std::all_of(colour->list.begin(), colour->list.end(), [](const Value& entry) {
+                               const auto* part = std::get_if<double>(&entry.data);
+                               return part && std::isfinite(*part) && *part >= 0;
+                           });
+        if (!sound)
+            complain_(quoted(param_.name) + " must be a colour of three numbers, 0 or more, or the name of a file");
     }
 
     void film(const Value& value) const {

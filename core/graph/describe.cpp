@@ -29,6 +29,7 @@ std::string range_text(const Param& param) {
         return text;
     }
     if (param.type == ParamType::film) return "{ width, height, file = \"picture.exr\" }, sides in pixels";
+    if (param.count) return std::to_string(param.count) + " of them";
     if (param.least == -unlimited && param.most == unlimited) return "";
     if (param.most == unlimited) return "at least " + number_text(param.least);
     if (param.least == -unlimited) return "at most " + number_text(param.most);
@@ -40,12 +41,22 @@ std::string default_text(const Param& param) {
     return param.optional ? "optional" : "must be given";
 }
 
-std::string param_text(const Param& param, std::size_t width) {
+std::string facts_text(const Param& param) {
     std::string facts{to_string(param.type)};
     for (const auto& fact : {param.unit.empty() ? "" : "in " + param.unit, default_text(param), range_text(param),
                              std::string(param.per_input ? "one for each input" : "")})
         if (!fact.empty()) facts += ", " + fact;
-    return "  " + padded(param.name, width) + "  " + facts + "\n  " + padded("", width) + "  " + param.help + "\n";
+    return facts;
+}
+
+std::string param_text(const Param& param, std::size_t width) {
+    const std::string margin = "  " + padded("", width) + "  ";
+    std::string text = "  " + padded(param.name, width) + "  " + facts_text(param) + "\n" + margin + param.help + "\n";
+    std::size_t inner = 0;
+    for (const auto& field : param.fields) inner = std::max(inner, field.name.size());
+    for (const auto& field : param.fields)
+        text += margin + padded(field.name, inner) + "  " + field.help + ": " + facts_text(field) + "\n";
+    return text;
 }
 
 }  // namespace

@@ -26,11 +26,15 @@ GraphFilm film_of(const Graph& graph, const Registry& registry) {
     return {side(0), side(1), file == film.named.end() ? "" : std::get<std::string>(file->second.data)};
 }
 
-std::string scene_file(const Graph& graph, const Registry& registry) {
+const Node& scene_of(const Graph& graph, const Registry& registry) {
     const auto& ref = std::get<NodeRef>(param_of(graph, registry, ParamType::scene).data);
     const auto scene = graph.find(ref.name);
     if (!scene) throw Error(graph.file, "no scene called '" + ref.name + "'");
-    return beside_graph(graph, std::get<std::string>(graph.nodes[*scene].entries.at(0).data));
+    return graph.nodes[*scene];
+}
+
+std::string scene_file(const Graph& graph, const Registry& registry) {
+    return beside_graph(graph, std::get<std::string>(scene_of(graph, registry).entries.at(0).data));
 }
 
 std::string beside_graph(const Graph& graph, const std::string& path) {

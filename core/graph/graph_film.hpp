@@ -23,6 +23,9 @@ inline constexpr std::uint32_t longest_side = 16384;
 /// The film of a checked graph's renderer.
 GraphFilm film_of(const Graph& graph, const Registry& registry);
 
+/// The Scene node of a checked graph's renderer.
+const Node& scene_of(const Graph& graph, const Registry& registry);
+
 /// The scene file of a checked graph's renderer: as the graph names it, taken from the graph's folder.
 std::string scene_file(const Graph& graph, const Registry& registry);
 

@@ -11,11 +11,51 @@ namespace {
 
 bool by_name(const Kind& a, const Kind& b) { return a.name < b.name; }
 
+std::vector<Param> camera_fields() {
+    const auto point = [](const char* name, const char* help) {
+        return Param{.name = name, .type = ParamType::numbers, .help = help, .optional = true, .count = 3};
+    };
+    return {point("from", "where it stands"),
+            point("to", "what is in the middle of the picture"),
+            point("up", "what is up in the picture"),
+            {.name = "fov",
+             .help = "angle across the shorter side of the picture",
+             .unit = "degrees",
+             .least = 0.001,
+             .most = 179,
+             .optional = true},
+            {.name = "lens", .help = "radius of the lens", .unit = "m", .least = 0, .optional = true},
+            {.name = "focus", .help = "distance of what is sharp", .unit = "m", .least = 1e-6, .optional = true}};
+}
+
 Kind scene_kind() {
     Kind kind;
     kind.name = "Scene";
     kind.role = Role::scene;
     kind.help = "what is seen: Scene { \"file.pbrt\" }, the file named from the graph's folder";
+    kind.params = {
+        {.name = "camera",
+         .type = ParamType::table,
+         .help = "changes the camera; what is left out stays as the file says",
+         .optional = true,
+         .fields = camera_fields()},
+        {.name = "environment",
+         .type = ParamType::surrounding,
+         .help =
+             "instead of what the file has around the scene; pictures: square ones have equal areas, others latitudes",
+         .optional = true},
+        {.name = "environment_scale", .help = "times what is around the scene", .initial = Value{1.0}, .least = 0},
+        {.name = "exposure",
+         .help = "how many times the picture becomes twice as bright",
+         .unit = "stops",
+         .initial = Value{0.0},
+         .least = -64,
+         .most = 64},
+        {.name = "material",
+         .type = ParamType::text,
+         .help = "clay: all surfaces are grey and diffuse; lamps and cut-outs stay",
+         .choices = {"clay"},
+         .optional = true}};
     return kind;
 }
 
@@ -58,6 +98,10 @@ std::string_view to_string(ParamType type) {
             return "text";
         case ParamType::numbers:
             return "numbers";
+        case ParamType::table:
+            return "table";
+        case ParamType::surrounding:
+            return "file or colour";
         case ParamType::film:
             return "film";
         case ParamType::scene:

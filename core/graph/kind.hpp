@@ -21,7 +21,17 @@ class Renderer;
 /// What a node gives, and what an input must give.
 enum class Role { light, image, scene };
 
-enum class ParamType { number, integer, flag, text, numbers, film, scene };
+enum class ParamType {
+    number,
+    integer,
+    flag,
+    text,
+    numbers,
+    table,        // entries with names, each a parameter
+    surrounding,  // the name of a file, or a colour { r, g, b }
+    film,
+    scene
+};
 
 std::string_view to_string(Role role);
 std::string_view to_string(ParamType type);
@@ -38,6 +48,8 @@ struct Param {
     std::vector<std::string> choices = {};  // for text: what it may be; empty: anything
     bool optional = false;                  // may be absent without a default
     bool per_input = false;                 // for numbers: one for each input of the node, or none at all
+    std::size_t count = 0;                  // for numbers: how many; 0: any number
+    std::vector<Param> fields = {};         // of a table
 };
 
 /// One kind of node.
@@ -48,6 +60,7 @@ struct Kind {
     std::size_t least_inputs = 0;  // light inputs, from the array part
     std::size_t most_inputs = 0;
     bool prepares = false;  // learns something before the first question: LightOp::prepare()
+    bool locks = false;     // holds named locks: NodeContext::locks()
     bool linear = false;    // answers with a weighted sum of its inputs: layers pass through
     std::vector<Param> params = {};
     std::function<std::unique_ptr<LightOp>(const NodeContext&)> make_light = {};

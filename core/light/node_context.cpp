@@ -1,6 +1,7 @@
 #include "core/light/node_context.hpp"
 
 #include "core/error.hpp"
+#include "core/light/locks.hpp"
 #include "core/light/rehearsal.hpp"
 
 #include <cmath>
@@ -14,19 +15,17 @@ const T& as(const Node& node, const std::string& param, const Value& value, cons
     throw Error(node.kind + " '" + node.name + "'", "parameter '" + param + "' is not " + what);
 }
 
-Rehearsal& never() {
-    static Rehearsal none;  // never begun, so never written to
-    return none;
-}
+// Never begun, and of one thread's own.
+thread_local Rehearsal no_rehearsal;
+thread_local NoLocks no_locks;
 
 }  // namespace
 
-NodeContext::NodeContext(const Node& node, Inputs inputs, const Scene& scene, std::uint64_t seed, Rehearsal* rehearsal)
-    : node_(node),
-      inputs_(std::move(inputs)),
-      scene_(scene),
-      seed_(seed),
-      rehearsal_(rehearsal ? *rehearsal : never()) {}
+NodeContext::NodeContext(const Node& node, Inputs inputs, const Scene& scene, std::uint64_t seed, Own own)
+    : node_(node), inputs_(std::move(inputs)), scene_(scene), seed_(seed), own_(own) {
+    if (!own_.rehearsal) own_.rehearsal = &no_rehearsal;
+    if (!own_.locks) own_.locks = &no_locks;
+}
 
 const Value& NodeContext::value(const std::string& param) const {
     const auto found = node_.params.find(param);

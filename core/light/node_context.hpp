@@ -11,6 +11,7 @@
 
 namespace lightnet {
 
+class Locks;
 class Rehearsal;
 class Scene;
 
@@ -18,9 +19,12 @@ class Scene;
 /// so reading one that the schema doesn't name is a bug of the node.
 class NodeContext {
 public:
-    /// Without a rehearsal of its own the node gets one that is never on.
-    NodeContext(const Node& node, Inputs inputs, const Scene& scene, std::uint64_t seed,
-                Rehearsal* rehearsal = nullptr);
+    /// What a place gives each node beside its inputs. Null: a rehearsal that is never on, locks that are always free.
+    struct Own {
+        Rehearsal* rehearsal = nullptr;
+        Locks* locks = nullptr;
+    };
+    NodeContext(const Node& node, Inputs inputs, const Scene& scene, std::uint64_t seed, Own own = {nullptr, nullptr});
 
     const std::string& name() const { return node_.name; }
     /// The node's own key: derive streams as child(query.stream, here.key(), i).
@@ -29,7 +33,9 @@ public:
     const Inputs& inputs() const { return inputs_; }
     std::uint64_t seed() const { return seed_; }
     /// Where light() notes what it has nothing prepared for. Lives as long as the node.
-    Rehearsal& rehearsal() const { return rehearsal_; }
+    Rehearsal& rehearsal() const { return *own_.rehearsal; }
+    /// For nodes whose kind says that it locks. Lives as long as the node.
+    Locks& locks() const { return *own_.locks; }
 
     double number(const std::string& param) const;
     std::int64_t integer(const std::string& param) const;
@@ -43,7 +49,7 @@ private:
     Inputs inputs_;
     const Scene& scene_;
     std::uint64_t seed_;
-    Rehearsal& rehearsal_;
+    Own own_;
 };
 
 }  // namespace lightnet

@@ -20,11 +20,27 @@ std::vector<std::uint32_t> positions(const Terminals& part, const Terminals& who
     return at;
 }
 
+// Sees to it that nobody asks with a lock in hand.
+class GuardedPort final : public Port {
+public:
+    GuardedPort(Port& port, const Locks& locks) : port_(port), locks_(locks) {}
+    Ticket begin(std::span<const Query> questions, std::span<Rgb> answers) override {
+        locks_.check_may_ask();
+        return port_.begin(questions, answers);
+    }
+    void finish(Ticket ticket) override { port_.finish(ticket); }
+    void abandon(Ticket ticket) noexcept override { port_.abandon(ticket); }
+
+private:
+    Port& port_;
+    const Locks& locks_;
+};
+
 template <class Make>
-auto made(const Network& network, std::size_t node, Inputs inputs, Rehearsal& rehearsal, const Make& make) {
+auto made(const Network& network, std::size_t node, Inputs inputs, NodeContext::Own own, const Make& make) {
     const auto& what = network.graph.nodes[node];
     try {
-        return make(NodeContext(what, std::move(inputs), *network.scene, network.seed, &rehearsal));
+        return make(NodeContext(what, std::move(inputs), *network.scene, network.seed, own));
     } catch (const std::exception& error) {
         throw Error(what.kind + " '" + what.name + "'", error.what());
     }
@@ -46,6 +62,8 @@ Inputs Assembly::inputs_of(std::size_t node) {
         input.name = network_.graph.nodes[asked].name;
         if (additive) input.layers = positions(of_node[asked], of_node[node], image ? 1 : 0);  // 0 is emission
         input.port = port_to_(asked, input.width());
+        if (network_.kind_of(node).locks)
+            input.port = guarded_.emplace_back(std::make_unique<GuardedPort>(*input.port, locks_)).get();
         inputs.push_back(std::move(input));
     }
     return {std::move(inputs), network_.width_of(node)};
@@ -53,7 +71,8 @@ Inputs Assembly::inputs_of(std::size_t node) {
 
 const LightOp& Assembly::light(std::size_t node) {
     auto& light = lights_[node];
-    if (!light) light = made(network_, node, inputs_of(node), rehearsals_[node], network_.kind_of(node).make_light);
+    if (!light)
+        light = made(network_, node, inputs_of(node), {&rehearsals_[node], &locks_}, network_.kind_of(node).make_light);
     return *light;
 }
 
@@ -70,7 +89,8 @@ void Assembly::prepare(std::size_t node, Services& services) {
 const Renderer& Assembly::renderer(std::size_t node) {
     auto& renderer = renderers_[node];
     if (!renderer)
-        renderer = made(network_, node, inputs_of(node), rehearsals_[node], network_.kind_of(node).make_renderer);
+        renderer =
+            made(network_, node, inputs_of(node), {&rehearsals_[node], &locks_}, network_.kind_of(node).make_renderer);
     return *renderer;
 }
 

@@ -12,6 +12,7 @@
 #include "core/graph/plan.hpp"
 #include "core/light/inputs.hpp"
 #include "core/light/light_op.hpp"
+#include "core/light/locks.hpp"
 #include "core/light/rehearsal.hpp"
 #include "core/light/renderer.hpp"
 #include "core/runtime/call_port.hpp"
@@ -43,7 +44,9 @@ public:
     /// outlive the assembly.
     using PortTo = std::function<Port*(std::size_t node, std::size_t width)>;
 
-    Assembly(const Network& network, PortTo port_to) : network_(network), port_to_(std::move(port_to)) {}
+    /// `locks` are those of the place.
+    Assembly(const Network& network, PortTo port_to, Locks& locks)
+        : network_(network), port_to_(std::move(port_to)), locks_(locks) {}
 
     const LightOp& light(std::size_t node);
     /// Has the node prepare itself.
@@ -57,6 +60,8 @@ private:
 
     const Network& network_;
     PortTo port_to_;
+    Locks& locks_;
+    std::vector<std::unique_ptr<Port>> guarded_;
     std::map<std::size_t, Rehearsal> rehearsals_;
     std::map<std::size_t, std::unique_ptr<LightOp>> lights_;
     std::map<std::size_t, std::unique_ptr<Renderer>> renderers_;

@@ -16,9 +16,6 @@ constexpr unsigned epoch_bits = 20;
 constexpr std::uint32_t channel_mask = (1u << epoch_bits) - 1;
 constexpr std::uint32_t own_channel = 0xffffffff;
 
-constexpr std::size_t shards_per_place = 2;  // one that is done and one that waits
-constexpr std::size_t most_copies = 2;
-
 constexpr std::size_t tiles_per_place = 4;  // of a rehearsal: small ones
 
 template <class T>
@@ -33,8 +30,10 @@ std::vector<T> values_of(const Bytes& data) {
 Conductor::Conductor(Options options, Carrier& carrier)
     : options_(std::move(options)),
       carrier_(carrier),
-      recipes_(*options_.graph, options_.made_from),
-      order_(preparing_nodes(*options_.graph, *options_.registry)) {
+      calls_(*options_.graph, options_.made_from, options_.cache),
+      order_(preparing_nodes(*options_.graph, *options_.registry)),
+      locks_(std::any_of(options_.graph->nodes.begin(), options_.graph->nodes.end(),
+                         [&](const Node& node) { return options_.registry->find(node.kind)->locks; })) {
     proposal_.places_of.resize(options_.graph->nodes.size());
     in_force_ = proposal_;
 }
@@ -61,14 +60,16 @@ void Conductor::lose(const std::set<PlaceKey>& gone) {
             continue;
         }
         const auto& [place, position, step] = sent->second;
-        auto& call = calls_[{position, step.call}];
-        if (step.kind == Step::Kind::shard && !call.result && !call.answered[step.shard] &&
-            --call.copies[step.shard] == 0)
-            call.to_do.push_front(step.shard);
+        if (step.kind == Step::Kind::shard) calls_.of(order_[position], step.call).take_back(step.shard);
         sent = sent_.erase(sent);
     }
     std::erase_if(followers_, [&](const auto& follower) { return gone.contains(follower.first.first); });
-    for (const auto& place : gone) known_prepared_.erase(place);
+    for (const auto& place : gone) {
+        known_prepared_.erase(place);
+        attended_.erase(place);
+        desk_.lose(place);
+        std::erase_if(grants_, [&](const auto& grant) { return grant.first == place; });
+    }
     if (rehearsing_) rehearsing_->broken = true;
 }
 
@@ -131,6 +132,28 @@ void Conductor::advance() {
     }
     collect();
     enforce();
+    attend();
+}
+
+// Keeps an ear at every place, and passes locks on.
+void Conductor::attend() {
+    if (!locks_) return;
+    for (const auto& place : proposal_.places) {
+        const PlaceKey key{place.host, place.index};
+        if (!attended_.contains(key) && send(key, 0, {.kind = Step::Kind::attend})) attended_.insert(key);
+    }
+    for (auto& grant : desk_.granted()) grants_.push_back(std::move(grant));
+    std::erase_if(grants_, [&](const auto& grant) {
+        return send(grant.first, 0, {.kind = Step::Kind::grant, .data = grant.second});
+    });
+}
+
+void Conductor::heard(const Sent& sent, const Bytes& data) {
+    if (sent.step.kind == Step::Kind::grant) return;
+    attended_.erase(sent.place);
+    for (const auto& word : values_of<LockWord>(data))
+        if (word.kind <= LockWord::Kind::last) desk_.hear(sent.place, word);
+    attend();
 }
 
 void Conductor::lead(const PlaceKey& place, std::size_t position) {
@@ -144,11 +167,11 @@ void Conductor::lead(const PlaceKey& place, std::size_t position) {
         }
         if (send(place, position, {.kind = Step::Kind::prepare})) follower.state = Follower::State::asked;
     } else if (follower.state == Follower::State::waiting) {
-        auto& call = call_of(position, follower.at);
-        if (!call.result) {
+        auto& call = calls_.reported(order_[position], follower.at);
+        if (!call.result()) {
             if (follower.at.kind == Report::Kind::map) hand_out(place, position, call);
-        } else if (carrier_.bring({place.first, place.second}, call.hash, call.result) &&
-                   send(place, position, {.kind = Step::Kind::go_on, .call = follower.at.call, .data = call.hash})) {
+        } else if (carrier_.bring({place.first, place.second}, call.name(), call.result()) &&
+                   send(place, position, {.kind = Step::Kind::go_on, .call = follower.at.call, .data = call.name()})) {
             follower.state = Follower::State::asked;
         }
     }
@@ -156,23 +179,11 @@ void Conductor::lead(const PlaceKey& place, std::size_t position) {
 
 void Conductor::hand_out(const PlaceKey& place, std::size_t position, Call& call) {
     auto& follower = followers_[{place, position}];
-    const auto give = [&](std::uint32_t shard) {
-        if (!send(place, position, {.kind = Step::Kind::shard, .call = follower.at.call, .shard = shard})) return false;
-        ++call.copies[shard];
+    while (const auto shard = call.hand_out(follower.shards)) {
+        const Step step{.kind = Step::Kind::shard, .call = follower.at.call, .shard = *shard};
+        if (!send(place, position, step)) return call.take_back(*shard);
         ++follower.shards;
-        return true;
-    };
-    while (follower.shards < shards_per_place && !call.to_do.empty()) {
-        if (!give(call.to_do.front())) return;
-        call.to_do.pop_front();
     }
-    if (follower.shards > 0 || call.missing == 0) return;
-    // Nothing is left but what others do: the one who is idle does it, too, and the first result counts.
-    for (std::uint32_t shard = 0; shard < call.answered.size(); ++shard)
-        if (!call.answered[shard] && call.copies[shard] < most_copies) {
-            give(shard);
-            return;
-        }
 }
 
 bool Conductor::send(const PlaceKey& place, std::size_t position, Step step) {
@@ -180,51 +191,12 @@ bool Conductor::send(const PlaceKey& place, std::size_t position, Step step) {
     message.run = options_.run;
     message.channel = own_channel;
     message.bundle = next_;
-    message.node = static_cast<std::uint32_t>(order_[position]);
+    message.node = step.kind < Step::Kind::attend ? static_cast<std::uint32_t>(order_[position]) : 0;
     message.questions = std::make_shared<const std::vector<Step>>(1, step);
-    if (step.kind == Step::Kind::go_on) message.data = calls_[{position, step.call}].result;
+    if (step.kind == Step::Kind::go_on) message.data = calls_.of(order_[position], step.call).result();
     if (!carrier_.ask({place.first, place.second}, message)) return false;
     sent_[next_++] = {place, position, step};
     return true;
-}
-
-Conductor::Call& Conductor::call_of(std::size_t position, const Report& at) {
-    const CallKey key{position, at.call};
-    auto [found, first] = calls_.try_emplace(key);
-    auto& call = found->second;
-    if (!first) {
-        if (call.what != at)
-            throw Error("'" + name_of(position) + "' does not prepare alike on all places: its call " +
-                        std::to_string(at.call) + " differs");
-        return call;
-    }
-    call.what = at;
-    call.rehearsed = at.kind == Report::Kind::rehearse || (at.call > 0 && calls_[{position, at.call - 1}].rehearsed);
-    if (options_.cache)
-        if (auto known = options_.cache->find(recipes_.of(order_[position], at.call, call.rehearsed))) {
-            complete(key, std::move(known));
-            return call;
-        }
-    if (at.kind != Report::Kind::map) return call;
-    call.shards.resize(at.count);
-    call.copies.resize(at.count);
-    call.answered.resize(at.count);
-    call.missing = at.count;
-    for (std::uint32_t shard = 0; shard < at.count; ++shard) call.to_do.push_back(shard);
-    if (at.count == 0) complete(key, join_shards({}));
-    return call;
-}
-
-void Conductor::complete(const CallKey& key, Bytes result) {
-    auto& call = calls_[key];
-    call.result = std::move(result);
-    call.hash = content_hash(*call.result);
-    call.shards = {};
-}
-
-void Conductor::keep(const CallKey& key) {
-    const auto& call = calls_[key];
-    if (options_.cache) options_.cache->keep(recipes_.of(order_[key.first], key.second, call.rehearsed), call.result);
 }
 
 // ---- answers --------------------------------------------------------------------------------------------------------
@@ -234,14 +206,16 @@ void Conductor::take(Message message) {
     if (found == sent_.end()) return;  // of a place that was lost
     const Sent sent = found->second;
     sent_.erase(found);
-    const auto late = [&] {
-        return sent.step.kind == Step::Kind::shard && calls_[{sent.position, sent.step.call}].result;
-    };
-    if (sent.step.kind == Step::Kind::shard) --followers_[{sent.place, sent.position}].shards;
-    if (message.type == Message::Type::failure) {
-        if (!late()) throw Error(message.text);
-    } else if (sent.step.kind == Step::Kind::shard) {
-        if (!late()) shard_done(sent, message.data);
+    const bool shard = sent.step.kind == Step::Kind::shard;
+    if (shard) {
+        --followers_[{sent.place, sent.position}].shards;
+        if (calls_.of(order_[sent.position], sent.step.call).result()) return;  // another place was first
+    }
+    if (message.type == Message::Type::failure) throw Error(message.text);
+    if (sent.step.kind >= Step::Kind::attend) {
+        heard(sent, message.data);
+    } else if (shard) {
+        shard_done(sent, message.data);
     } else if (sent.step.kind == Step::Kind::collect) {
         noted(sent, message.data);
     } else {
@@ -260,18 +234,11 @@ void Conductor::reported(const Sent& sent, const Bytes& data) {
 }
 
 void Conductor::shard_done(const Sent& sent, const Bytes& data) {
-    const CallKey key{sent.position, sent.step.call};
-    auto& call = calls_[key];
-    if (!call.answered[sent.step.shard]) {
-        call.answered[sent.step.shard] = true;
-        if (data) call.shards[sent.step.shard] = *data;
-        if (--call.missing == 0) {
-            complete(key, join_shards(call.shards));
-            keep(key);
-            return advance();
-        }
-    }
-    hand_out(sent.place, sent.position, call);
+    auto& call = calls_.of(order_[sent.position], sent.step.call);
+    if (!call.answer(sent.step.shard, data)) return hand_out(sent.place, sent.position, call);
+    call.complete_from_shards();
+    calls_.keep(order_[sent.position], sent.step.call);
+    advance();
 }
 
 // ---- rehearsals -----------------------------------------------------------------------------------------------------
@@ -285,45 +252,45 @@ void Conductor::collect() {
         for (const auto& place : places) {
             const auto& follower = followers_[{place, done_}];
             if (follower.state != Follower::State::waiting || follower.at.kind != Report::Kind::rehearse ||
-                follower.at.call != followers_[{places[0], done_}].at.call || call_of(done_, follower.at).result)
+                follower.at.call != followers_[{places[0], done_}].at.call ||
+                calls_.reported(order_[done_], follower.at).result())
                 return;
         }
-        return begin_rehearsal({done_, followers_[{places[0], done_}].at.call});
+        return begin_rehearsal(followers_[{places[0], done_}].at.call);
     }
     if (!rehearsing_->rendered || rehearsing_->broken) return;
     for (const auto& place : places)
         if (!rehearsing_->collecting.contains(place) &&
-            send(place, done_, {.kind = Step::Kind::collect, .call = rehearsing_->call.second}))
+            send(place, done_, {.kind = Step::Kind::collect, .call = rehearsing_->call}))
             rehearsing_->collecting.insert(place);
 }
 
-void Conductor::begin_rehearsal(const CallKey& key) {
+void Conductor::begin_rehearsal(std::uint32_t call) {
     MasterRenderer::Job job;
     job.run = options_.run;
     job.image = static_cast<std::uint32_t>(renderer_of(*options_.graph, *options_.registry));
     job.width = options_.width;
-    job.tiles = rehearsal_tiles(*options_.graph, *options_.registry, calls_[key].what.count);
+    job.tiles = rehearsal_tiles(*options_.graph, *options_.registry, calls_.of(order_[done_], call).what().count);
     job.credit = {tiles_per_place, tiles_per_place};
     ++epoch_;
     rehearsing_.emplace();
-    rehearsing_->call = key;
+    rehearsing_->call = call;
     rehearsing_->master =
         std::make_unique<MasterRenderer>(std::move(job), *this, [](const Tile&, std::span<const Rgb>) {});
     rehearsing_->master->use(in_force_);
 }
 
 void Conductor::noted(const Sent& sent, const Bytes& data) {
-    if (!rehearsing_ || rehearsing_->broken || rehearsing_->call != CallKey{sent.position, sent.step.call}) return;
+    if (!rehearsing_ || rehearsing_->broken || sent.position != done_ || sent.step.call != rehearsing_->call) return;
     const auto more = values_of<Query>(data);
     rehearsing_->noted.insert(rehearsing_->noted.end(), more.begin(), more.end());
     if (++rehearsing_->collected < holders(sent.position).size()) return;
     sort_and_unite(rehearsing_->noted);
     const auto bytes = std::as_bytes(std::span(rehearsing_->noted));
     const std::vector<std::byte> shard(bytes.begin(), bytes.end());
-    const auto key = rehearsing_->call;
     end_rehearsal();
-    complete(key, join_shards(std::span(&shard, 1)));
-    keep(key);
+    calls_.of(order_[sent.position], sent.step.call).complete(join_shards(std::span(&shard, 1)));
+    calls_.keep(order_[sent.position], sent.step.call);
     advance();
 }
 
@@ -386,6 +353,7 @@ void Conductor::wait(std::chrono::nanoseconds most) {
     if (!arrived_.empty()) return;
     carrier_.wait(most);
     if (!followers_.empty() && in_force_ != proposal_) advance();  // someone is catching up
+    attend();
 }
 
 const std::string& Conductor::name_of(std::size_t position) const {
@@ -395,21 +363,11 @@ const std::string& Conductor::name_of(std::size_t position) const {
 std::string Conductor::progress() const {
     if (done_ == order_.size()) return {};
     std::string text = name_of(done_);
-    for (const auto& [key, call] : calls_)
-        if (key.first == done_ && !call.result)
-            text += call.what.kind == Report::Kind::rehearse
-                        ? ": rehearsal"
-                        : ": " + std::to_string(call.what.count - call.missing) + "/" + std::to_string(call.what.count);
-    return text;
-}
-
-std::map<std::string, Hash> Conductor::prepared() const {
-    std::map<std::string, std::string> hashes;
-    for (const auto& [key, call] : calls_)
-        if (call.result) hashes[name_of(key.first)] += to_hex(call.hash);
-    std::map<std::string, Hash> prepared;
-    for (const auto& [name, text] : hashes) prepared[name] = content_hash(text);
-    return prepared;
+    const auto* call = calls_.unfinished(order_[done_]);
+    if (!call) return text;
+    if (call->what().kind == Report::Kind::rehearse) return text + ": rehearsal";
+    return text + ": " + std::to_string(call->what().count - call->missing()) + "/" +
+           std::to_string(call->what().count);
 }
 
 }  // namespace lightnet

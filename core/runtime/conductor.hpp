@@ -12,7 +12,9 @@
 #include <utility>
 #include <vector>
 
+#include "core/runtime/calls.hpp"
 #include "core/runtime/carrier.hpp"
+#include "core/runtime/lock_desk.hpp"
 #include "core/runtime/master_renderer.hpp"
 #include "core/runtime/prepared.hpp"
 
@@ -50,7 +52,7 @@ public:
     /// How far preparing is, for display: "caustics 34/256"; empty when nothing is being prepared.
     std::string progress() const;
     /// What was prepared: node → content hash of all its results.
-    std::map<std::string, Hash> prepared() const;
+    std::map<std::string, Hash> prepared() const { return calls_.hashes(); }
 
     bool ask(const PlaceAt& to, Message& message) override;
     void reply(Message message) override { carrier_.reply(std::move(message)); }
@@ -62,7 +64,6 @@ public:
 
 private:
     using PlaceKey = std::pair<std::string, std::uint32_t>;  // host, index
-    using CallKey = std::pair<std::size_t, std::uint32_t>;   // position in order_, call
 
     /// A node's prepare() at one place.
     struct Follower {
@@ -77,21 +78,9 @@ private:
         std::size_t position;
         Step step;
     };
-    /// The result of one call, or its pieces.
-    struct Call {
-        Report what;
-        bool rehearsed = false;  // this call, or one before it
-        Bytes result;            // when it is complete
-        Hash hash;
-        std::vector<std::vector<std::byte>> shards;
-        std::vector<std::uint8_t> copies;  // of each shard under way
-        std::vector<bool> answered;
-        std::deque<std::uint32_t> to_do;
-        std::size_t missing = 0;
-    };
     /// The rehearsal that goes on.
     struct Rehearsing {
-        CallKey call;
+        std::uint32_t call = 0;
         std::unique_ptr<MasterRenderer> master;
         bool rendered = false;
         bool broken = false;            // a place was lost, and with it what it had noted
@@ -107,28 +96,30 @@ private:
     void lead(const PlaceKey& place, std::size_t position);
     void hand_out(const PlaceKey& place, std::size_t position, Call& call);
     void collect();
-    void begin_rehearsal(const CallKey& key);
+    void begin_rehearsal(std::uint32_t call);
     void end_rehearsal();
     bool send(const PlaceKey& place, std::size_t position, Step step);
     void take(Message message);
     void reported(const Sent& sent, const Bytes& data);
     void shard_done(const Sent& sent, const Bytes& data);
     void noted(const Sent& sent, const Bytes& data);
-    Call& call_of(std::size_t position, const Report& at);
-    void complete(const CallKey& key, Bytes result);
-    void keep(const CallKey& key);
     void lose(const std::set<PlaceKey>& gone);
     void enforce();
+    void attend();
+    void heard(const Sent& sent, const Bytes& data);
     Plan restricted();
 
     Options options_;
     Carrier& carrier_;
-    Recipes recipes_;
+    Calls calls_;
     std::vector<std::size_t> order_;  // nodes that prepare
+    bool locks_;                      // somebody in the graph does
+    LockDesk desk_;
+    std::set<PlaceKey> attended_;
+    std::vector<std::pair<PlaceKey, Hash>> grants_;  // to be passed on
     Plan proposal_, in_force_;
     std::deque<Message> arrived_;
     std::map<std::pair<PlaceKey, std::size_t>, Follower> followers_;
-    std::map<CallKey, Call> calls_;
     std::map<std::uint64_t, Sent> sent_;
     std::uint64_t next_ = 1;
     std::size_t done_ = 0;               // positions of order_ that are prepared everywhere

@@ -3,8 +3,9 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "core/build_info.hpp"
 #include "core/error.hpp"
-#include "core/scene/read_scene.hpp"
+#include "core/runtime/load_scene.hpp"
 
 namespace lightnet {
 
@@ -88,17 +89,26 @@ Job job_from_json(std::string_view text) {
     }
 }
 
-std::shared_ptr<const Network> build_network(const Job& job, const Registry& registry, Files& files) {
-    return build_network(job, registry, read_scene(files, job.scene));
+std::shared_ptr<const Network> build_network(const Job& job, const Registry& registry, Files& files,
+                                             std::function<Bytes(const Hash&)> results) {
+    return build_network(job, registry, load_scene(job.graph, registry, files, job.scene), std::move(results));
 }
 
-std::shared_ptr<const Network> build_network(const Job& job, const Registry& registry, SceneData scene) {
+std::shared_ptr<const Network> build_network(const Job& job, const Registry& registry, SceneData scene,
+                                             std::function<Bytes(const Hash&)> results) {
     SceneOptions options;
     options.isa = job.isa;
     options.width = job.width;
     options.height = job.height;
-    auto built = std::make_shared<const Scene>(std::move(scene), options);
-    return std::make_shared<const Network>(Network{job.graph, registry, std::move(built), job.seed});
+    Network network{job.graph, registry, std::make_shared<const Scene>(std::move(scene), options), job.seed};
+    network.results = std::move(results);
+    return std::make_shared<const Network>(std::move(network));
+}
+
+std::string made_from(const Job& job) {
+    std::string text = build_id() + '\n' + job.isa + '\n' + std::to_string(job.seed) + '\n' + job.scene;
+    for (const auto& file : job.files) text += '\n' + file.path + ' ' + to_hex(file.hash);
+    return text;
 }
 
 }  // namespace lightnet

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -40,9 +41,14 @@ std::string to_json(const Job& job);
 /// Throws Error on anything but a job.
 Job job_from_json(std::string_view text);
 
-/// Reads the scene and builds everything that the places of a process share.
-std::shared_ptr<const Network> build_network(const Job& job, const Registry& registry, Files& files);
-/// The same from a scene that has been read.
-std::shared_ptr<const Network> build_network(const Job& job, const Registry& registry, SceneData scene);
+/// Reads the scene, changes what the graph overrides, and builds everything that the places of a process share.
+std::shared_ptr<const Network> build_network(const Job& job, const Registry& registry, Files& files,
+                                             std::function<Bytes(const Hash&)> results = {});
+/// The same from the scene that load_scene() gave.
+std::shared_ptr<const Network> build_network(const Job& job, const Registry& registry, SceneData scene,
+                                             std::function<Bytes(const Hash&)> results = {});
+
+/// All that what is prepared may depend on, beside the graph: see Recipes.
+std::string made_from(const Job& job);
 
 }  // namespace lightnet

@@ -21,7 +21,11 @@ Place::Place(const Network& network, const PlaceAt& me, const Plan& plan, std::u
       inboxes_(network.graph.nodes.size()),
       by_rank_(network.graph.nodes.size()),
       channels_(carrier, run, name_of(me), counters_),
-      assembly_(network, [this](std::size_t node, std::size_t width) { return port_to(node, width); }),
+      locks_(
+          fibers_, [this](Fibers::Fiber* fiber) { ready_.push_back(fiber); },
+          [this](Message reply) { carrier_.reply(std::move(reply)); }),
+      assembly_(
+          network, [this](std::size_t node, std::size_t width) { return port_to(node, width); }, locks_),
       preparer_(network, assembly_, fibers_,
                 {my_name(), [this](Fibers::Fiber* fiber) { ready_.push_back(fiber); },
                  [this](Message reply) { carrier_.reply(std::move(reply)); },
@@ -150,6 +154,7 @@ void Place::take(Message message) {
             if (message.run != run_ || message.node >= inboxes_.size()) return;
             const auto* steps = std::get_if<Questions<Step>>(&message.questions);
             if (!steps || (*steps)->front().kind == Step::Kind::shard) return queue(std::move(message));
+            if ((*steps)->front().kind >= Step::Kind::attend) return locks_.take(std::move(message));
             if (network_.kind_of(message.node).prepares) preparer_.take(std::move(message));
             return;
         }

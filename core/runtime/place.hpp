@@ -17,6 +17,7 @@
 #include "core/runtime/call_port.hpp"
 #include "core/runtime/carrier.hpp"
 #include "core/runtime/fiber.hpp"
+#include "core/runtime/lock_desk.hpp"
 #include "core/runtime/preparer.hpp"
 #include "core/runtime/remote_channels.hpp"
 
@@ -112,6 +113,7 @@ private:
     std::vector<std::unique_ptr<CallPort>> call_ports_;
     std::map<std::pair<std::size_t, std::size_t>, Remote> remotes_;  // by node and width
     RemoteChannels<Query> channels_;
+    PlaceLocks locks_;
     Assembly assembly_;
     Preparer preparer_;
 };

@@ -69,11 +69,14 @@ SerialRun::SerialRun(const Network& network, std::function<void()> pause)
       pause_(std::move(pause)),
       image_(renderer_of(network.graph, network.registry)),
       rays_before_(Scene::rays_of_this_thread()),
-      assembly_(network, [this](std::size_t node, std::size_t width) {
-          const auto called = assembly_.called(node);
-          return ports_.emplace_back(std::make_unique<CallPort>(called, width, counters_.local_questions, pause_))
-              .get();
-      }) {
+      assembly_(
+          network,
+          [this](std::size_t node, std::size_t width) {
+              const auto called = assembly_.called(node);
+              return ports_.emplace_back(std::make_unique<CallPort>(called, width, counters_.local_questions, pause_))
+                  .get();
+          },
+          locks_) {
     assembly_.renderer(image_);
 }
 

@@ -33,6 +33,7 @@ private:
     Counters counters_;
     std::uint64_t rays_before_;
     std::vector<std::unique_ptr<CallPort>> ports_;
+    NoLocks locks_;
     Assembly assembly_;
 };
 

@@ -15,7 +15,9 @@ struct Step {
         go_on,    // the result of call `call` is there: `data` names it. Answered by the next Report
         shard,    // do shard `shard` of call `call`; answered by its results
         collect,  // answered by what the node has noted in the rehearsal that is call `call`
-        last = collect,
+        attend,   // answered by LockWords as soon as there are some
+        grant,    // the lock that `data` names belongs to this place until it says otherwise
+        last = grant,
     };
     Kind kind = Kind::prepare;
     std::uint32_t call = 0;

@@ -1,5 +1,8 @@
 #include "core/scene/camera.hpp"
 
+#include "core/math/sampling.hpp"
+
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -16,15 +19,57 @@ std::array<float, 4> screen_of(float width, float height) {
 }  // namespace
 
 Camera::Camera(const CameraData& data, std::uint32_t width, std::uint32_t height)
-    : origin_(transform_point(data.to_world, {0, 0, 0})) {
+    : orthographic_(data.orthographic),
+      has_lens_(data.lens_radius > 0),
+      origin_(transform_point(data.to_world, {0, 0, 0})) {
     const float w = float(width), h = float(height);
     const auto [left, right, bottom, top] = data.screen_given ? data.screen : screen_of(w, h);
-    const float depth = float(1 / std::tan(double{data.fov} * std::numbers::pi / 360));
-    corner_ = transform_direction(data.to_world, {left, top, depth});
+    const float depth = orthographic_ ? 1 : float(1 / std::tan(double{data.fov} * std::numbers::pi / 360));
+    corner_ = transform_direction(data.to_world, {left, top, orthographic_ ? 0 : depth});
     right_ = transform_direction(data.to_world, {(right - left) / w, 0, 0});
     down_ = transform_direction(data.to_world, {0, (bottom - top) / h, 0});
+    axis_ = transform_direction(data.to_world, {0, 0, 1});
+    lens_x_ = transform_direction(data.to_world, {data.lens_radius, 0, 0});
+    lens_y_ = transform_direction(data.to_world, {0, data.lens_radius, 0});
+    focus_ = data.focus_distance / depth;
 }
 
-Ray Camera::ray(float x, float y) const { return {origin_, normalize(corner_ + right_ * x + down_ * y)}; }
+Ray Camera::ray(float x, float y) const {
+    const Vec3 at = corner_ + right_ * x + down_ * y;
+    if (orthographic_) return {origin_ + at, normalize(axis_)};
+    return {origin_, normalize(at)};
+}
+
+Ray Camera::ray(float x, float y, Vec2 lens) const {
+    const Vec3 at = corner_ + right_ * x + down_ * y;
+    const Vec2 d = disk(lens);
+    const Vec3 aside = lens_x_ * d.x + lens_y_ * d.y;
+    if (orthographic_) return {origin_ + at + aside, normalize(axis_ * focus_ - aside)};
+    return {origin_ + aside, normalize(at * focus_ - aside)};
+}
+
+CameraData camera_for(Vec3 low, Vec3 high, std::uint32_t width, std::uint32_t height) {
+    constexpr float fov = 40, margin = 1.05f;
+    const Vec3 center = (low + high) * 0.5f, half = (high - low) * 0.5f;
+    const Vec3 z = normalize({-0.55f, -0.45f, -1}), x = normalize(cross(z, {0, 1, 0})), y = cross(x, z);
+    const auto screen = screen_of(float(width), float(height));
+    const float slope = std::tan(fov * pi / 360);
+    float away = 1e-3f;
+    for (int corner = 0; corner < 8; ++corner) {
+        const Vec3 p{corner & 1 ? half.x : -half.x, corner & 2 ? half.y : -half.y, corner & 4 ? half.z : -half.z};
+        const float aside = std::max(std::fabs(dot(p, x)) / screen[1], std::fabs(dot(p, y)) / screen[3]);
+        away = std::max(away, aside * margin / slope - dot(p, z));
+    }
+    const Vec3 eye = center - z * away;
+    CameraData camera;
+    camera.fov = fov;
+    for (std::size_t i = 0; i < 3; ++i) {
+        camera.to_world.m[i][0] = x[i];
+        camera.to_world.m[i][1] = y[i];
+        camera.to_world.m[i][2] = z[i];
+        camera.to_world.m[i][3] = eye[i];
+    }
+    return camera;
+}
 
 }  // namespace lightnet

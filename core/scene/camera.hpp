@@ -3,24 +3,40 @@
 
 #include <cstdint>
 
+#include "core/math/vec.hpp"
 #include "core/scene/ray.hpp"
 #include "core/scene/scene_data.hpp"
 
 namespace lightnet {
 
-/// A perspective camera for a picture of a given size.
+/// A camera for a picture of a given size: perspective or orthographic, with a pinhole or a thin lens.
 class Camera {
 public:
     Camera() = default;
     Camera(const CameraData& data, std::uint32_t width, std::uint32_t height);
 
-    /// The ray through picture position (x, y), in pixels from the upper left corner.
+    /// The ray through picture position (x, y), in pixels from the upper left corner, and the middle of the lens.
     Ray ray(float x, float y) const;
 
+    /// Is anything out of focus? Then pictures need rays through all of the lens.
+    bool has_lens() const { return has_lens_; }
+    /// The ray through a picture position and a point of the lens, uniform over its disk if `lens` is over [0,1)². All
+    /// rays of one position meet on the plane in focus.
+    Ray ray(float x, float y, Vec2 lens) const;
+
 private:
+    bool orthographic_ = false, has_lens_ = false;
     Vec3 origin_;                           // all in world space
-    Vec3 corner_{-1, 1, 1};                 // from the eye to the picture's upper left corner, one unit of screen away
+    Vec3 corner_{-1, 1, 1};                 // from the eye to the picture's upper left corner, one unit of screen away;
+                                            // orthographic: to that corner itself
     Vec3 right_{2, 0, 0}, down_{0, -2, 0};  // per pixel
+    Vec3 axis_{0, 0, 1};                    // orthographic: of all rays, one unit long
+    Vec3 lens_x_, lens_y_;                  // from the middle of the lens to its rim
+    float focus_ = 1;                       // how many times the way to the screen the plane in focus is away
 };
+
+/// A camera that sees everything in a box: from the front, a little from the right and from above (y is up). For a
+/// picture of that size.
+CameraData camera_for(Vec3 low, Vec3 high, std::uint32_t width, std::uint32_t height);
 
 }  // namespace lightnet

@@ -14,15 +14,18 @@ Rgb light_by_lamp(const Scene& scene, const Gathering& at, Samples& samples, Heu
     if (!lamp) return {};
     const auto [value, pdf] = at.bsdf.value_and_pdf(at.outgoing, lamp->direction, at.lobes);
     if (is_black(value) || !scene.visible(at.point, *lamp)) return {};
-    return value * lamp->radiance * (share(heuristic, lamp->pdf, pdf) / lamp->pdf);
+    const float weight = lamp->bare ? 1 : share(heuristic, lamp->pdf, pdf);
+    return value * lamp->radiance * (weight / lamp->pdf);
 }
 
 Rgb light_by_bsdf(const Scene& scene, Vec3 from, const BsdfSample& sample, const SurfacePoint* end,
                   Heuristic heuristic) {
     const bool certain = sample.lobe == lobe::specular;  // no lamp sample can find this direction
     if (!end) {
+        const Rgb arriving = scene.environment(sample.incoming);
+        if (is_black(arriving)) return {};
         const float other = certain ? 0 : scene.environment_pdf(sample.incoming);
-        return scene.environment(sample.incoming) * share(heuristic, sample.pdf, other);
+        return arriving * share(heuristic, sample.pdf, other);
     }
     const Rgb emitted = scene.emission(*end, -sample.incoming);
     if (is_black(emitted)) return {};

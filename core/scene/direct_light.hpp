@@ -28,8 +28,8 @@ struct Gathering {
     std::uint8_t lobes;
 };
 
-/// Radiance that one sampled point of a lamp sends to `at` and on into its direction; weighted against finding it by
-/// a direction from the BSDF. Uses two dimensions.
+/// Radiance that one sampled light sends to `at` and on into its direction: a point of a lamp, a bare light or a part
+/// of the environment; weighted against finding it by a direction from the BSDF. Uses two dimensions.
 Rgb light_by_lamp(const Scene& scene, const Gathering& at, Samples& samples, Heuristic heuristic);
 
 /// Radiance that arrives from where a ray into `sample.incoming` ended (nothing there: the environment), times the

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/scene/workshop.hpp"
 
 namespace lightnet {
 namespace {
@@ -34,11 +35,20 @@ std::vector<std::byte> read_disk(const std::string& path) {
 
 }  // namespace
 
+DiskFiles::DiskFiles() : workshop_(std::make_unique<Workshop>(2)) {}
+DiskFiles::~DiskFiles() = default;
+
 Bytes DiskFiles::read(const std::string& path) {
     if (const auto known = seen_.find(path); known != seen_.end()) return known->second;
     auto bytes = std::make_shared<const std::vector<std::byte>>(read_disk(path));
     seen_.emplace(path, bytes);
+    workshop_->add([bytes, &hash = hashes_[path]] { hash = content_hash(*bytes); });
     return bytes;
+}
+
+std::map<std::string, Hash> DiskFiles::hashes() {
+    workshop_->finish();
+    return hashes_;
 }
 
 std::string beside(const std::string& from, const std::string& path) {

@@ -2,11 +2,15 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 
 #include "core/bytes.hpp"
+#include "core/hash.hpp"
 
 namespace lightnet {
+
+class Workshop;
 
 /// A tree of files, by path. Readers of scenes open files only through it, so that a host without the user's disk can
 /// read the very same scene. One thread at a time.
@@ -20,11 +24,17 @@ public:
 /// The disk. Remembers what was read, so that it can be sent: path → bytes.
 class DiskFiles final : public Files {
 public:
+    DiskFiles();
+    ~DiskFiles() override;
     Bytes read(const std::string& path) override;
     const std::map<std::string, Bytes>& seen() const { return seen_; }
+    /// Of all that was read: computed on the side while the reader went on.
+    std::map<std::string, Hash> hashes();
 
 private:
     std::map<std::string, Bytes> seen_;
+    std::map<std::string, Hash> hashes_;  // its entries stay where they are
+    std::unique_ptr<Workshop> workshop_;  // last: it writes into the others
 };
 
 /// `path` as written inside the file `from`: relative to the folder of `from`, unless absolute. Without "." and "..".

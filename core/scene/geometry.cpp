@@ -1,39 +1,51 @@
 #include "core/scene/geometry.hpp"
 
 #include "core/error.hpp"
-#include "core/math/octahedral.hpp"
+#include "core/scene/placement.hpp"
+#include "core/scene/sphere_hit.hpp"
 
 #include <embree3/rtcore.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace lightnet {
 namespace {
 
 thread_local std::uint64_t rays_traced = 0;
 
-// A sphere's own test, in double: Embree's points lose too much near the surface that a ray leaves.
-std::optional<float> nearest_root(const Sphere& sphere, Vec3 origin, Vec3 direction, float near, float far) {
-    const double dx = direction.x, dy = direction.y, dz = direction.z;
-    const double fx = double{origin.x} - sphere.center.x, fy = double{origin.y} - sphere.center.y,
-                 fz = double{origin.z} - sphere.center.z;
-    const double a = dx * dx + dy * dy + dz * dz, half_b = fx * dx + fy * dy + fz * dz, r = sphere.radius;
-    const double s = half_b / a;
-    const double lx = fx - s * dx, ly = fy - s * dy, lz = fz - s * dz;  // from the centre to the line
-    const double rest = r * r - (lx * lx + ly * ly + lz * lz);
-    if (rest < 0) return {};
-    const double half_chord = std::sqrt(rest / a);
-    for (const double t : {-s - half_chord, -s + half_chord})
-        if (t > near && t < far) return float(t);
-    return {};
+/// What Embree hands back when a ray comes near a shape.
+struct Form {
+    const Shading* shading;
+    std::uint32_t shape;
+    bool holes;
+    const Sphere* sphere;  // or a mesh
+
+    bool is_there(std::uint32_t primitive, float u, float v) const {
+        return !holes || shading->is_there(shape, primitive, u, v);
+    }
+};
+
+const Form& form_of(void* pointer) { return *static_cast<const Form*>(pointer); }
+
+// Lets rays through the holes of meshes.
+void pass_holes(const RTCFilterFunctionNArguments* args) {
+    const Form& form = form_of(args->geometryUserPtr);
+    for (unsigned i = 0; i < args->N; ++i) {
+        if (args->valid[i] != -1) continue;
+        if (!form.is_there(RTCHitN_primID(args->hit, args->N, i), RTCHitN_u(args->hit, args->N, i),
+                           RTCHitN_v(args->hit, args->N, i)))
+            args->valid[i] = 0;
+    }
 }
 
 void sphere_bounds(const RTCBoundsFunctionArguments* args) {
-    const auto& sphere = *static_cast<const Sphere*>(args->geometryUserPtr);
+    const Sphere& sphere = *form_of(args->geometryUserPtr).sphere;
     const float r = sphere.radius * (1 + 1e-6f);
     const auto low = [r](float c) { return c - r - std::fabs(c) * 1e-6f; };
     const auto high = [r](float c) { return c + r + std::fabs(c) * 1e-6f; };
@@ -41,54 +53,63 @@ void sphere_bounds(const RTCBoundsFunctionArguments* args) {
     *args->bounds_o = {low(c.x), low(c.y), low(c.z), 0, high(c.x), high(c.y), high(c.z), 0};
 }
 
+// Calls `found(distance, name)` for the nearest point of the sphere that is there.
+template <class Found>
+void nearest_on_sphere(const Form& form, RTCRayN* rays, unsigned n, unsigned i, Found found) {
+    const Vec3 origin{RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)};
+    const Vec3 direction{RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)};
+    meet(*form.sphere, origin, direction, RTCRayN_tnear(rays, n, i), RTCRayN_tfar(rays, n, i), [&](float t, Vec2 name) {
+        if (!form.is_there(0, name.x, name.y)) return false;
+        found(t, name);
+        return true;
+    });
+}
+
 void meet_sphere(const RTCIntersectFunctionNArguments* args) {
-    const auto& sphere = *static_cast<const Sphere*>(args->geometryUserPtr);
     const unsigned n = args->N;
     RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, n);
     RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, n);
     for (unsigned i = 0; i < n; ++i) {
         if (!args->valid[i]) continue;
-        const Vec3 o{RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)};
-        const Vec3 d{RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)};
-        const auto t = nearest_root(sphere, o, d, RTCRayN_tnear(rays, n, i), RTCRayN_tfar(rays, n, i));
-        if (!t) continue;
-        const Vec2 name = to_octahedral(normalize(o + d * *t - sphere.center));
-        RTCRayN_tfar(rays, n, i) = *t;
-        RTCHitN_u(hits, n, i) = name.x;
-        RTCHitN_v(hits, n, i) = name.y;
-        RTCHitN_geomID(hits, n, i) = args->geomID;
-        RTCHitN_primID(hits, n, i) = args->primID;
-        RTCHitN_instID(hits, n, i, 0) = args->context->instID[0];
+        nearest_on_sphere(form_of(args->geometryUserPtr), rays, n, i, [&](float t, Vec2 name) {
+            RTCRayN_tfar(rays, n, i) = t;
+            RTCHitN_u(hits, n, i) = name.x;
+            RTCHitN_v(hits, n, i) = name.y;
+            RTCHitN_geomID(hits, n, i) = args->geomID;
+            RTCHitN_primID(hits, n, i) = args->primID;
+            RTCHitN_instID(hits, n, i, 0) = args->context->instID[0];
+        });
     }
 }
 
 void hide_behind_sphere(const RTCOccludedFunctionNArguments* args) {
-    const auto& sphere = *static_cast<const Sphere*>(args->geometryUserPtr);
     const unsigned n = args->N;
-    for (unsigned i = 0; i < n; ++i) {
-        if (!args->valid[i]) continue;
-        const Vec3 o{RTCRayN_org_x(args->ray, n, i), RTCRayN_org_y(args->ray, n, i), RTCRayN_org_z(args->ray, n, i)};
-        const Vec3 d{RTCRayN_dir_x(args->ray, n, i), RTCRayN_dir_y(args->ray, n, i), RTCRayN_dir_z(args->ray, n, i)};
-        if (nearest_root(sphere, o, d, RTCRayN_tnear(args->ray, n, i), RTCRayN_tfar(args->ray, n, i)))
-            RTCRayN_tfar(args->ray, n, i) = -INFINITY;
-    }
+    for (unsigned i = 0; i < n; ++i)
+        if (args->valid[i])
+            nearest_on_sphere(form_of(args->geometryUserPtr), args->ray, n, i,
+                              [&](float, Vec2) { RTCRayN_tfar(args->ray, n, i) = -INFINITY; });
 }
 
-RTCGeometry make(RTCDevice device, Mesh& mesh) {
+RTCGeometry make(RTCDevice device, Mesh& mesh, Form& form) {
     const std::size_t vertices = mesh.positions.size();
+    mesh.positions.reserve(vertices + 1);
     mesh.positions.emplace_back();  // Embree reads 16 bytes of the last vertex
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh.positions.data(), 0,
                                sizeof(Vec3), vertices);
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(), 0,
                                sizeof(mesh.triangles[0]), mesh.triangles.size());
+    if (form.holes) {
+        rtcSetGeometryIntersectFilterFunction(geometry, pass_holes);
+        rtcSetGeometryOccludedFilterFunction(geometry, pass_holes);
+    }
     return geometry;
 }
 
-RTCGeometry make(RTCDevice device, Sphere& sphere) {
+RTCGeometry make(RTCDevice device, Sphere& sphere, Form& form) {
+    form.sphere = &sphere;
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
     rtcSetGeometryUserPrimitiveCount(geometry, 1);
-    rtcSetGeometryUserData(geometry, &sphere);
     rtcSetGeometryBoundsFunction(geometry, sphere_bounds, nullptr);
     rtcSetGeometryIntersectFunction(geometry, meet_sphere);
     rtcSetGeometryOccludedFunction(geometry, hide_behind_sphere);
@@ -124,83 +145,154 @@ constexpr std::size_t lanes = 16;
 // than ours it goes by the rays, and traces each that does not end before it begins.
 constexpr Ray no_ray{{0, 0, 0}, {0, 0, 1}, -std::numeric_limits<float>::infinity()};
 
-void trace_packet(RTCScene scene, std::span<const Ray> rays, std::span<std::optional<Hit>> hits) {
-    alignas(64) std::array<int, lanes> valid;
-    alignas(64) RTCRayHit16 packet;
-    for (std::size_t i = 0; i < lanes; ++i) {
-        const Ray& ray = i < rays.size() ? rays[i] : no_ray;
-        valid[i] = i < rays.size() ? -1 : 0;
-        packet.ray.org_x[i] = ray.origin.x;
-        packet.ray.org_y[i] = ray.origin.y;
-        packet.ray.org_z[i] = ray.origin.z;
-        packet.ray.tnear[i] = 0;
-        packet.ray.dir_x[i] = ray.direction.x;
-        packet.ray.dir_y[i] = ray.direction.y;
-        packet.ray.dir_z[i] = ray.direction.z;
-        packet.ray.time[i] = 0;
-        packet.ray.tfar[i] = ray.far;
-        packet.ray.mask[i] = ~0u;
-        packet.ray.id[i] = 0;
-        packet.ray.flags[i] = 0;
-        packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-        packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-    }
-    auto context = any_rays();
-    rtcIntersect16(valid.data(), scene, &context, &packet);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        if (packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID)
-            hits[i].reset();
-        else
-            hits[i] = Hit{packet.hit.instID[0][i], packet.hit.geomID[i], packet.hit.primID[i],
-                          packet.hit.u[i],         packet.hit.v[i],      packet.ray.tfar[i]};
-    }
-}
-
-}  // namespace
-
-namespace {
-
 // Embree takes names that it doesn't know, or whose processor isn't here, for something else, and says nothing.
 bool has_isa(const std::string& isa) {
     __builtin_cpu_init();
-    return (isa == "sse2" && __builtin_cpu_supports("sse2")) ||
-           (isa == "sse4.2" && __builtin_cpu_supports("sse4.2")) || (isa == "avx" && __builtin_cpu_supports("avx")) ||
-           (isa == "avx2" && __builtin_cpu_supports("avx2"));
+    return (isa == "sse2" && __builtin_cpu_supports("sse2")) || (isa == "sse4.2" && __builtin_cpu_supports("sse4.2")) ||
+           (isa == "avx" && __builtin_cpu_supports("avx")) || (isa == "avx2" && __builtin_cpu_supports("avx2"));
 }
 
-RTCDevice device_for(const std::string& isa) {
+// A tree does not depend on how many threads build it: Embree puts what they hand over into a fixed order. A test of
+// exactly this stands in the project.
+RTCDevice device_for(const Geometry::Options& options) {
+    const std::string& isa = options.isa;
     if (!has_isa(isa)) throw Error("scene", "this processor, or Embree, has no instruction set '" + isa + "'");
-    if (RTCDevice device = rtcNewDevice(("threads=1,start_threads=0,isa=" + isa).c_str())) return device;
+    const std::string config = "start_threads=0,threads=" + std::to_string(options.threads) + ",isa=" + isa;
+    if (RTCDevice device = rtcNewDevice(config.c_str())) return device;
     throw Error("scene", "Embree gives no device for instruction set '" + isa + "'");
 }
 
 }  // namespace
 
 struct Geometry::Tracer {
-    explicit Tracer(const std::string& isa) : device(device_for(isa)), scene(rtcNewScene(device)) {}
+    Tracer(const SceneData& shapes_of, const Options& options)
+        : data(shapes_of), device(device_for(options)), scene(rtcNewScene(device)) {
+        rtcSetDeviceMemoryMonitorFunction(device, count_bytes, &bytes);
+    }
     ~Tracer() {
+        for (const auto geometry : geometries)
+            if (geometry) rtcReleaseGeometry(geometry);
+        for (const auto object : objects)
+            if (object) rtcReleaseScene(object);
         rtcReleaseScene(scene);
         rtcReleaseDevice(device);
     }
     Tracer(const Tracer&) = delete;
     Tracer& operator=(const Tracer&) = delete;
 
-    RTCDevice device;
-    RTCScene scene;
-};
+    // Threads that build a tree count at once.
+    static bool count_bytes(void* pointer, ssize_t bytes, bool) {
+        static_cast<std::atomic<std::ptrdiff_t>*>(pointer)->fetch_add(bytes, std::memory_order_relaxed);
+        return true;
+    }
 
-Geometry::Geometry(std::vector<Shape>& shapes, const std::string& isa) : tracer_(std::make_unique<Tracer>(isa)) {
-    for (auto& shape : shapes) {  // in file order: a shape's index is its name
-        RTCGeometry geometry = std::visit([&](auto& form) { return make(tracer_->device, form); }, shape.geometry);
+    // A shape may be part of several objects.
+    void attach(RTCScene to, Shape& shape, unsigned id) {
+        const auto index = std::size_t(&shape - data.shapes.data());
+        RTCGeometry& geometry = geometries[index];
+        if (!geometry) {
+            geometry = std::visit([&](auto& each) { return make(device, each, forms[index]); }, shape.geometry);
+            rtcSetGeometryUserData(geometry, &forms[index]);
+            rtcCommitGeometry(geometry);
+        }
+        rtcAttachGeometryByID(to, geometry, id);
+    }
+    void attach(const Instance& instance, unsigned id) {
+        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+        rtcSetGeometryInstancedScene(geometry, objects[instance.object]);
+        rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR,
+                                Placement(instance.to_world).columns().data());
         rtcCommitGeometry(geometry);
-        rtcAttachGeometry(tracer_->scene, geometry);
+        rtcAttachGeometryByID(scene, geometry, id);
         rtcReleaseGeometry(geometry);
     }
-    // No ray may slip between two triangles that share an edge.
-    rtcSetSceneFlags(tracer_->scene, RTC_SCENE_FLAG_ROBUST);
-    rtcCommitScene(tracer_->scene);
-    if (const auto code = rtcGetDeviceError(tracer_->device); code != RTC_ERROR_NONE)
-        throw Error("scene", "Embree can't build the scene (its error " + std::to_string(int(code)) + ")");
+    void commit(RTCScene what) const {
+        // No ray may slip between two triangles that share an edge.
+        rtcSetSceneFlags(what, RTC_SCENE_FLAG_ROBUST);
+        rtcCommitScene(what);
+        if (const auto code = rtcGetDeviceError(device); code != RTC_ERROR_NONE)
+            throw Error("scene", "Embree can't build the scene (its error " + std::to_string(int(code)) + ")");
+    }
+
+    // Embree numbers the shapes of an object for itself.
+    Hit hit(unsigned instance, unsigned geometry, unsigned primitive, Vec2 at, float distance) const {
+        if (instance == RTC_INVALID_GEOMETRY_ID) return {instance, geometry, primitive, at.x, at.y, distance};
+        instance -= unsigned(data.shapes.size());
+        const Object& object = data.objects[data.instances[instance].object];
+        return {instance, object.shapes[geometry], primitive, at.x, at.y, distance};
+    }
+    void packet(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const;
+
+    const SceneData& data;
+    std::atomic<std::ptrdiff_t> bytes = 0;  // before the device, which counts on it to its end
+    std::vector<Form> forms;                // by shape
+    RTCDevice device;
+    RTCScene scene;
+    std::vector<RTCGeometry> geometries;  // by shape; null: never to be met
+    std::vector<RTCScene> objects;        // the same
+};
+
+void Geometry::Tracer::packet(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const {
+    alignas(64) std::array<int, lanes> valid;
+    alignas(64) RTCRayHit16 together;
+    for (std::size_t i = 0; i < lanes; ++i) {
+        const Ray& ray = i < rays.size() ? rays[i] : no_ray;
+        valid[i] = i < rays.size() ? -1 : 0;
+        together.ray.org_x[i] = ray.origin.x;
+        together.ray.org_y[i] = ray.origin.y;
+        together.ray.org_z[i] = ray.origin.z;
+        together.ray.tnear[i] = 0;
+        together.ray.dir_x[i] = ray.direction.x;
+        together.ray.dir_y[i] = ray.direction.y;
+        together.ray.dir_z[i] = ray.direction.z;
+        together.ray.time[i] = 0;
+        together.ray.tfar[i] = ray.far;
+        together.ray.mask[i] = ~0u;
+        together.ray.id[i] = 0;
+        together.ray.flags[i] = 0;
+        together.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+        together.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    auto context = any_rays();
+    rtcIntersect16(valid.data(), scene, &context, &together);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (together.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID)
+            hits[i].reset();
+        else
+            hits[i] = hit(together.hit.instID[0][i], together.hit.geomID[i], together.hit.primID[i],
+                          {together.hit.u[i], together.hit.v[i]}, together.ray.tfar[i]);
+    }
+}
+
+Geometry::Geometry(SceneData& data, const Shading& shading, const Options& options)
+    : tracer_(std::make_unique<Tracer>(data, options)) {
+    Tracer& tracer = *tracer_;
+    const auto shapes = std::uint32_t(data.shapes.size());
+    std::vector<bool> in_object(shapes), used(data.objects.size());
+    for (const auto& object : data.objects)
+        for (const auto shape : object.shapes) in_object[shape] = true;
+    for (const auto& instance : data.instances) used[instance.object] = true;
+    for (std::uint32_t s = 0; s < shapes; ++s) tracer.forms.push_back({&shading, s, shading.has_holes(s), nullptr});
+    const auto is_there = [&](std::uint32_t shape) {
+        return !std::holds_alternative<NoMaterial>(data.materials[data.shapes[shape].material].model);
+    };
+
+    // In the order of the files: a shape's index is its name.
+    tracer.geometries.resize(shapes);
+    tracer.objects.resize(data.objects.size());
+    for (std::size_t o = 0; o < data.objects.size(); ++o) {
+        const auto& parts = data.objects[o].shapes;
+        if (!used[o] || std::none_of(parts.begin(), parts.end(), is_there)) continue;
+        tracer.objects[o] = rtcNewScene(tracer.device);
+        for (std::uint32_t i = 0; i < parts.size(); ++i)
+            if (is_there(parts[i])) tracer.attach(tracer.objects[o], data.shapes[parts[i]], i);
+        tracer.commit(tracer.objects[o]);
+    }
+    for (std::uint32_t s = 0; s < shapes; ++s)
+        if (!in_object[s] && is_there(s)) tracer.attach(tracer.scene, data.shapes[s], s);
+    for (std::uint32_t i = 0; i < data.instances.size(); ++i)
+        if (tracer.objects[data.instances[i].object]) tracer.attach(data.instances[i], shapes + i);
+    tracer.commit(tracer.scene);
 }
 
 Geometry::~Geometry() = default;
@@ -215,7 +307,7 @@ std::optional<Hit> Geometry::intersect(const Ray& ray) const {
     rtcIntersect1(tracer_->scene, &context, &query);
     const auto& hit = query.hit;
     if (hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-    return Hit{hit.instID[0], hit.geomID, hit.primID, hit.u, hit.v, query.ray.tfar};
+    return tracer_->hit(hit.instID[0], hit.geomID, hit.primID, {hit.u, hit.v}, query.ray.tfar);
 }
 
 void Geometry::intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const {
@@ -223,7 +315,7 @@ void Geometry::intersect(std::span<const Ray> rays, std::span<std::optional<Hit>
     rays_traced += rays.size();
     for (std::size_t first = 0; first < rays.size(); first += lanes) {
         const std::size_t count = std::min(lanes, rays.size() - first);
-        trace_packet(tracer_->scene, rays.subspan(first, count), hits.subspan(first, count));
+        tracer_->packet(rays.subspan(first, count), hits.subspan(first, count));
     }
 }
 
@@ -241,6 +333,8 @@ Geometry::Box Geometry::bounds() const {
     rtcGetSceneBounds(tracer_->scene, &box);
     return {{box.lower_x, box.lower_y, box.lower_z}, {box.upper_x, box.upper_y, box.upper_z}};
 }
+
+std::size_t Geometry::memory() const { return std::size_t(std::max<std::ptrdiff_t>(0, tracer_->bytes)); }
 
 std::uint64_t Geometry::rays_of_this_thread() { return rays_traced; }
 

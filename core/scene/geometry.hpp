@@ -1,23 +1,31 @@
 // What rays meet. The only home of Embree is the .cpp of this header.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "core/scene/ray.hpp"
 #include "core/scene/scene_data.hpp"
+#include "core/scene/shading.hpp"
 
 namespace lightnet {
 
-/// The shapes of a scene, ready for rays. Every member may be called from any thread. A hit depends on its ray and on
-/// the shapes alone: not on the rays beside it, nor on how many threads the host has.
+/// The shapes of a scene and the instances of its objects, ready for rays. Every member may be called from any thread.
+/// A hit depends on its ray and on the shapes alone: not on the rays beside it, nor on how many threads the host has.
+/// Shapes of no material are not there; where others have holes, rays go through.
 class Geometry {
 public:
-    /// Keeps looking at `shapes`, which must stay as they are. Pads each mesh's positions by one element.
-    Geometry(std::vector<Shape>& shapes, const std::string& isa);
+    /// How the trees are built.
+    struct Options {
+        std::string isa = "avx2";   // Embree's instruction set
+        std::uint32_t threads = 0;  // that build; 0: one per core
+    };
+    /// Keeps looking at both, which must stay as they are. Pads each mesh's positions by one element.
+    Geometry(SceneData& data, const Shading& shading, const Options& options);
     ~Geometry();
     Geometry(const Geometry&) = delete;
     Geometry& operator=(const Geometry&) = delete;
@@ -29,7 +37,10 @@ public:
     struct Box {
         Vec3 lower, upper;
     };
+    /// Around all that rays can meet.
     Box bounds() const;
+    /// Bytes that Embree holds: its trees. Vertices and triangles are not copied.
+    std::size_t memory() const;
 
     static std::uint64_t rays_of_this_thread();
 

@@ -1,66 +1,89 @@
-// Choosing points on lights.
+// All light of a scene, and ways to find it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "core/math/rgb.hpp"
 #include "core/math/vec.hpp"
+#include "core/scene/area_lamps.hpp"
+#include "core/scene/environment.hpp"
+#include "core/scene/light_sample.hpp"
+#include "core/scene/light_tree.hpp"
 #include "core/scene/ray.hpp"
 #include "core/scene/scene_data.hpp"
+#include "core/scene/shading.hpp"
 #include "core/scene/surface.hpp"
 
 namespace lightnet {
 
-/// A sampled direction towards a light.
-struct LightSample {
-    Vec3 position;   // of the emitting point
-    Vec3 direction;  // unit, from the lit point
-    Rgb radiance;    // arriving, if nothing is in between
-    float pdf = 0;   // per steradian at the lit point, choice of the light included; > 0
-};
-
-/// All lamps of a scene. A lamp is chosen with a chance in proportion to its power; a point on a mesh is uniform by
-/// area, on a sphere uniform within the cone that it fills. A constant environment is never chosen: directions from the
-/// BSDF are the better ones for it everywhere.
+/// Lamps, bare lights and environments. Lamps and bare lights that are somewhere are chosen by a tree; directional ones
+/// and the maps of the sky (all of them as one) stand beside that tree with equal chances. A constant environment is
+/// never chosen: directions from the BSDF are the better ones for it everywhere. Any thread may ask.
 class Lights {
 public:
-    Lights() = default;
-    /// Looks at `shapes` while it lives.
-    explicit Lights(const std::vector<Shape>& shapes);
+    /// A ball around all shapes.
+    struct Ball {
+        Vec3 center;
+        float radius = 1;
+    };
+    /// Looks at data and shading while it lives.
+    Lights(const SceneData& data, const Shading& shading, const Ball& around);
 
-    bool empty() const { return lamps_.empty(); }
-    /// There is more than one to choose from.
-    bool many() const { return lamps_.size() > 1; }
+    /// There is nothing that sample() could find.
+    bool empty() const { return choices_ == 0; }
+    /// There is more than one light to choose from.
+    bool many() const { return choices_ > 1; }
     /// None: no light can reach the point by this sample.
     std::optional<LightSample> sample(Vec3 from, float choice, Vec2 u) const;
     /// Density with which sample() finds the emitting point `on`, which lies in `direction` from `from`. 0: not a lamp.
     float pdf(Vec3 from, Vec3 direction, const SurfacePoint& on) const;
-    /// Could the ray meet a lamp? False is certain.
-    bool may_meet(const Ray& ray) const;
+    /// The same of the environment.
+    float environment_pdf(Vec3 direction) const;
+
+    /// Radiance that a point of a surface emits into `direction`.
+    Rgb emission(const SurfacePoint& point, Vec3 direction) const { return lamps_.radiance(point, direction); }
+    /// Radiance of all environments.
+    Rgb environment(Vec3 direction) const;
+    bool has_environment() const { return has_environment_; }
+    /// Could the ray end where light comes from? False is certain.
+    bool may_meet(const Ray& ray) const { return has_environment_ || lamps_.may_meet(ray); }
+
+    /// Light leaving one of all lights, chosen by power; what comes from infinity goes into the ball around the scene.
+    /// None: nothing leaves by this sample.
+    std::optional<Emission> emit(float choice, Vec2 where, Vec2 whither) const;
+    /// All that is emitted, W: by lamps, nearly where they are textured; from infinity, into that ball.
+    Rgb power() const;
+
+    /// Lamps (see AreaLamps), bare lights and environments.
+    std::size_t count() const { return lamps_.size() + near_.size() + far_.size() + environments_.size(); }
+    std::size_t memory() const;
 
 private:
-    /// A triangle of a lamp.
-    struct Facet {
-        Vec3 corner, first_edge, second_edge, normal;
-    };
-    struct Lamp {
-        const Shape* shape = nullptr;
-        float chance = 0;           // to be chosen
-        float area = 0;             // m²
-        Vec3 center;                // of a ball around it
-        float radius = 0;           // of that ball, m
-        std::vector<Facet> facets;  // of a mesh
-        std::vector<float> ends;    // share of the area up to and with each facet
-    };
-    std::optional<LightSample> on_mesh(const Lamp& lamp, Vec3 from, Vec2 u) const;
-    std::optional<LightSample> on_sphere(const Lamp& lamp, Vec3 from, Vec2 u) const;
+    void build_tree();
+    std::vector<Rgb> powers() const;
+    std::optional<LightSample> from_tree(Vec3 from, float choice, Vec2 u) const;
+    std::optional<LightSample> from_infinity(Vec3 from, float choice, Vec2 u) const;
+    std::optional<LightSample> from_map(float choice, Vec2 u) const;
+    Emission from_sky(const Environment& environment, Vec2 where, Vec2 whither) const;
+    Emission through_ball(Vec3 direction, Rgb irradiance, Vec2 where) const;
 
-    std::vector<Lamp> lamps_;
-    std::vector<float> ends_;             // share of the power up to and with each lamp
-    std::vector<std::uint32_t> lamp_of_;  // by shape; no_lamp
-    static constexpr std::uint32_t no_lamp = 0xffffffffu;
+    Ball around_;
+    AreaLamps lamps_;
+    std::vector<BareLight> near_;  // points and spots
+    std::vector<DirectionalLight> far_;
+    std::vector<Environment> environments_;
+    std::vector<std::uint32_t> maps_;  // into environments_: those that are sampled
+    std::vector<float> map_ends_;      // share of the light of maps up to and with each
+    LightTree tree_;                   // over lamps, then over what is near
+    Rgb constant_;                     // sum of environments without a map
+    bool has_environment_ = false;
+    std::size_t choices_ = 0;                     // lights that sample() chooses from
+    std::optional<std::size_t> only_lamp_;        // there is nothing else to choose from
+    float share_of_tree_ = 0, share_of_far_ = 0;  // the latter: of each directional light, and of all maps together
+    std::vector<float> power_ends_;               // share of the power: lamps, near, far, environments
 };
 
 }  // namespace lightnet

@@ -20,6 +20,7 @@ using ply::fail;
 using ply::Format;
 using ply::Input;
 using ply::Property;
+using ply::Scalar;
 
 /// Throws unless the file has room for all that the header promises of the element, before anything is allocated.
 void check_room(const Input& input, Format format, const Element& element) {
@@ -47,9 +48,11 @@ void skip(Input& input, Format format, const Property& property) {
     for (std::size_t i = 0; i < length; ++i) input.number(format, property.type);
 }
 
-/// Which of the eight values of a vertex a property is: x y z nx ny nz u v; none: -1.
+constexpr int red = 8, slots = 11;
+
+/// Which of the values of a vertex a property is: x y z nx ny nz u v red green blue; none: -1.
 int slot_of(std::string_view name) {
-    constexpr std::array<std::pair<std::string_view, int>, 14> slots{{{"x", 0},
+    constexpr std::array<std::pair<std::string_view, int>, 23> names{{{"x", 0},
                                                                       {"y", 1},
                                                                       {"z", 2},
                                                                       {"nx", 3},
@@ -62,34 +65,59 @@ int slot_of(std::string_view name) {
                                                                       {"texture_u", 6},
                                                                       {"texture_v", 7},
                                                                       {"texture_s", 6},
-                                                                      {"texture_t", 7}}};
-    for (const auto& [word, slot] : slots)
+                                                                      {"texture_t", 7},
+                                                                      {"red", red},
+                                                                      {"green", red + 1},
+                                                                      {"blue", red + 2},
+                                                                      {"r", red},
+                                                                      {"g", red + 1},
+                                                                      {"b", red + 2},
+                                                                      {"diffuse_red", red},
+                                                                      {"diffuse_green", red + 1},
+                                                                      {"diffuse_blue", red + 2}}};
+    for (const auto& [word, slot] : names)
         if (word == name) return slot;
     return -1;
 }
 
+/// Colours in whole numbers are encoded as sRGB, those in floats are linear.
+float colour_value(double value, Scalar type) {
+    if (type == Scalar::f32 || type == Scalar::f64) return static_cast<float>(value);
+    const double encoded = value / (type == Scalar::u16 || type == Scalar::i16 ? 65535 : 255);
+    return static_cast<float>(encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4));
+}
+
 void read_vertices(Input& input, Format format, const Element& element, Mesh& mesh) {
-    std::array<bool, 8> has{};
-    for (const auto& property : element.properties)
-        if (const int slot = property.list ? -1 : slot_of(property.name); slot >= 0) has[slot] = true;
+    std::array<bool, slots> has{};
+    std::vector<int> slot_by_property;
+    for (const auto& property : element.properties) {
+        slot_by_property.push_back(property.list ? -1 : slot_of(property.name));
+        if (slot_by_property.back() >= 0) has[slot_by_property.back()] = true;
+    }
     if (!has[0] || !has[1] || !has[2]) fail("the vertices have no x, y and z");
     const bool normals = has[3] && has[4] && has[5], uvs = has[6] && has[7];
+    const bool colours = has[red] && has[red + 1] && has[red + 2];
     mesh.positions.reserve(element.count);
     if (normals) mesh.normals.reserve(element.count);
     if (uvs) mesh.uvs.reserve(element.count);
+    if (colours) mesh.colours.reserve(element.count);
     for (std::uint64_t i = 0; i < element.count; ++i) {
-        std::array<float, 8> v{};
-        for (const auto& property : element.properties) {
-            const int slot = property.list ? -1 : slot_of(property.name);
-            if (slot < 0)
+        std::array<float, slots> v{};
+        for (std::size_t j = 0; j < element.properties.size(); ++j) {
+            const auto& property = element.properties[j];
+            const int slot = slot_by_property[j];
+            if (slot < 0) {
                 skip(input, format, property);
-            else
-                v[slot] = static_cast<float>(input.number(format, property.type));
+                continue;
+            }
+            const double value = input.number(format, property.type);
+            v[slot] = slot < red ? static_cast<float>(value) : colour_value(value, property.type);
         }
         if (!finite(Vec3{v[0], v[1], v[2]})) fail(fmt::format("the position of vertex {} is not finite", i));
         mesh.positions.push_back({v[0], v[1], v[2]});
         if (normals) mesh.normals.push_back({v[3], v[4], v[5]});
         if (uvs) mesh.uvs.push_back({v[6], v[7]});
+        if (colours) mesh.colours.push_back({v[red], v[red + 1], v[red + 2]});
     }
 }
 
@@ -108,17 +136,40 @@ void read_face(Input& input, Format format, const Property& list, Mesh& mesh) {
     if (corners < 3) fail(fmt::format("a face has {} corners", corners));
 }
 
-void read_faces(Input& input, Format format, const Element& element, Mesh& mesh) {
+/// Strips one behind the other, with -1 between them.
+void read_strip(Input& input, Format format, const Property& list, Mesh& mesh) {
+    const std::size_t length = list_length(input, format, list);
+    std::array<std::uint32_t, 2> last{};
+    std::size_t seen = 0;
+    for (std::size_t i = 0; i < length; ++i) {
+        const double index = input.number(format, list.type);
+        if (index < 0) {
+            seen = 0;
+            continue;
+        }
+        if (!(index <= std::numeric_limits<std::uint32_t>::max()) || index != std::floor(index))
+            fail("a triangle strip has an impossible vertex index");
+        const auto corner = static_cast<std::uint32_t>(index);
+        if (seen >= 2 && seen % 2 == 0) mesh.triangles.push_back({last[0], last[1], corner});
+        if (seen >= 2 && seen % 2 == 1) mesh.triangles.push_back({last[1], last[0], corner});
+        last = {last[1], corner};
+        ++seen;
+    }
+}
+
+/// Reads the elements whose list of corners `read` understands.
+template <class Read>
+void read_lists(Input& input, Format format, const Element& element, Mesh& mesh, const Read& read) {
     const auto corners = [](const Property& p) {
         return p.list && (p.name == "vertex_indices" || p.name == "vertex_index");
     };
     if (std::none_of(element.properties.begin(), element.properties.end(), corners))
-        fail("the faces have no list 'vertex_indices'");
-    mesh.triangles.reserve(element.count);
+        fail(fmt::format("'{}' has no list 'vertex_indices'", element.name.substr(0, 32)));
+    mesh.triangles.reserve(mesh.triangles.size() + element.count);
     for (std::uint64_t i = 0; i < element.count; ++i)
         for (const auto& property : element.properties) {
             if (corners(property))
-                read_face(input, format, property, mesh);
+                read(input, format, property, mesh);
             else
                 skip(input, format, property);
         }
@@ -144,9 +195,10 @@ Mesh read_ply(std::span<const std::byte> bytes) {
         if (element.name == "vertex" && !std::exchange(vertices, true)) {
             read_vertices(input, header.format, element, mesh);
         } else if (element.name == "face" && !std::exchange(faces, true)) {
-            read_faces(input, header.format, element, mesh);
+            read_lists(input, header.format, element, mesh, read_face);
+        } else if (element.name == "tristrips" && !std::exchange(faces, true)) {
+            read_lists(input, header.format, element, mesh, read_strip);
         } else {
-            if (element.name == "tristrips") fail("triangle strips are not supported, only faces");
             for (std::uint64_t i = 0; i < element.count; ++i)
                 for (const auto& property : element.properties) skip(input, header.format, property);
         }

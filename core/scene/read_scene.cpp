@@ -1,12 +1,25 @@
 #include "core/scene/read_scene.hpp"
 
+#include <algorithm>
+#include <cctype>
+
+#include "core/scene/gltf/gltf.hpp"
+#include "core/scene/mitsuba/mitsuba.hpp"
+#include "core/scene/obj/obj.hpp"
 #include "core/scene/pbrt/pbrt.hpp"
+#include "core/scene/ply.hpp"
 
 namespace lightnet {
 
 SceneData read_scene(Files& files, const std::string& path) {
-    if (path.ends_with(".pbrt")) return pbrt::read(files, path);
-    throw UserError({path, 0}, "a scene must be a '.pbrt' file");
+    std::string ending = path.substr(std::min(path.rfind('.'), path.size()));
+    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    if (ending == ".pbrt") return pbrt::read(files, path);
+    if (ending == ".xml") return mitsuba::read(files, path);
+    if (ending == ".gltf" || ending == ".glb") return gltf::read(files, path);
+    if (ending == ".obj") return obj::read(files, path);
+    if (ending == ".ply") return read_ply_scene(files, path);
+    throw UserError({path, 0}, "a scene must be a '.pbrt', '.xml' (Mitsuba), '.gltf', '.glb', '.obj' or '.ply' file");
 }
 
 }  // namespace lightnet

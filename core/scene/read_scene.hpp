@@ -8,8 +8,9 @@
 
 namespace lightnet {
 
-/// The scene in the file at `path`; its ending tells the language (".pbrt"). Opens files only through `files`. Throws
-/// UserError with all that is wrong; what was not taken literally stands in the scene's warnings.
+/// The scene in the file at `path`; its ending tells the language: ".pbrt", ".xml" (Mitsuba), ".gltf", ".glb", ".obj"
+/// or ".ply". Opens files only through `files`. Throws UserError with all that is wrong; what was not taken literally
+/// stands in the scene's warnings.
 SceneData read_scene(Files& files, const std::string& path);
 
 }  // namespace lightnet

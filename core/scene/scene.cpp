@@ -2,28 +2,56 @@
 
 #include "core/error.hpp"
 #include "core/scene/geometry.hpp"
+#include "core/scene/lights.hpp"
+#include "core/scene/placement.hpp"
+#include "core/scene/scene_size.hpp"
 #include "core/scene/shading.hpp"
 
-#include <cmath>
+#include <algorithm>
+#include <vector>
 
 namespace lightnet {
 namespace {
 
+Error wrong(const Shape& shape, const char* what) { return Error("scene", to_string({shape.where, what})); }
+
+void check_mesh(const Shape& shape, const Mesh& mesh) {
+    const std::size_t vertices = mesh.positions.size();
+    std::uint32_t last = 0;
+    for (const auto& [a, b, c] : mesh.triangles) last = std::max({last, a, b, c});
+    if (!mesh.triangles.empty() && last >= vertices) throw wrong(shape, "a triangle names a vertex that isn't there");
+    const auto fits = [&](std::size_t count) { return count == 0 || count == vertices; };
+    if (!fits(mesh.normals.size()) || !fits(mesh.uvs.size()) || !fits(mesh.colours.size()))
+        throw wrong(shape, "normals, texture coordinates or colours don't match the vertices");
+}
+
+void check_objects(const SceneData& data) {
+    for (const auto& object : data.objects)
+        for (const auto shape : object.shapes) {
+            if (shape >= data.shapes.size()) throw Error("scene", "an object names a shape that isn't there");
+            if (data.shapes[shape].emission) throw wrong(data.shapes[shape], "a shape of an object can't emit light");
+        }
+    for (const auto& instance : data.instances)
+        if (instance.object >= data.objects.size())
+            throw Error("scene", "an instance names an object that isn't there");
+}
+
 SceneData checked(SceneData data) {
     for (const auto& shape : data.shapes) {
-        if (shape.material >= data.materials.size())
-            throw Error("scene", "shape at " + to_string({shape.where, "names a material that isn't there"}));
-        const auto* mesh = std::get_if<Mesh>(&shape.geometry);
-        if (!mesh) continue;
-        for (const auto& triangle : mesh->triangles)
-            for (const auto vertex : triangle)
-                if (vertex >= mesh->positions.size())
-                    throw Error("scene", to_string({shape.where, "a triangle names a vertex that isn't there"}));
-        const auto fits = [&](std::size_t count) { return count == 0 || count == mesh->positions.size(); };
-        if (!fits(mesh->normals.size()) || !fits(mesh->uvs.size()))
-            throw Error("scene", to_string({shape.where, "normals or texture coordinates don't match the vertices"}));
+        if (shape.material >= data.materials.size()) throw wrong(shape, "names a material that isn't there");
+        if (shape.emission && shape.emission->texture && *shape.emission->texture >= data.textures.size())
+            throw wrong(shape, "emits by a texture that isn't there");
+        if (const auto* mesh = std::get_if<Mesh>(&shape.geometry)) check_mesh(shape, *mesh);
     }
+    check_objects(data);
     return data;
+}
+
+std::vector<Placement> placements_of(const SceneData& data) {
+    std::vector<Placement> placements;
+    placements.reserve(data.instances.size());
+    for (const auto& instance : data.instances) placements.emplace_back(instance.to_world);
+    return placements;
 }
 
 FilmData sized(FilmData film, const SceneOptions& options) {
@@ -32,9 +60,10 @@ FilmData sized(FilmData film, const SceneOptions& options) {
     return film;
 }
 
-float radius_of(const Geometry::Box& box) {
-    const float r = length(box.upper - box.lower) / 2;
-    return std::isfinite(r) && r > 0 ? r : 1;
+// Of an empty scene, too.
+Scene::Box finite_box(const Geometry::Box& box) {
+    const bool usable = finite(box.lower) && finite(box.upper) && length(box.upper - box.lower) > 0;
+    return usable ? Scene::Box{box.lower, box.upper} : Scene::Box{{-0.5f, -0.5f, -0.5f}, {0.5f, 0.5f, 0.5f}};
 }
 
 }  // namespace
@@ -42,23 +71,32 @@ float radius_of(const Geometry::Box& box) {
 struct Scene::Built {
     Built(SceneData given, const SceneOptions& options)
         : data(checked(std::move(given))),
-          lights(data.shapes),
           shading(data),
-          geometry(data.shapes, options.isa),
+          geometry(data, shading, {options.isa, options.build_threads}),
+          placements(placements_of(data)),
+          box(finite_box(geometry.bounds())),
+          lights(data, shading, {(box.low + box.high) * 0.5f, length(box.high - box.low) / 2}),
           film(sized(data.film, options)),
-          camera(data.camera, film.width, film.height),
-          radius(radius_of(geometry.bounds())) {
-        for (const auto& environment : data.environments) sky += environment.radiance;
+          camera(data.camera_given ? data.camera : camera_for(box.low, box.high, film.width, film.height), film.width,
+                 film.height) {}
+
+    /// What a question or a hit names.
+    SurfacePoint point(std::uint32_t instance, std::uint32_t shape, std::uint32_t primitive, float u, float v) const {
+        SurfacePoint point = shading.point(shape, primitive, u, v);
+        point.u = u;
+        point.v = v;
+        if (instance != Query::no_instance) point = placements[instance].place(point);
+        return point;
     }
 
     SceneData data;
-    Lights lights;
     Shading shading;
     Geometry geometry;
+    std::vector<Placement> placements;  // by instance
+    Box box;
+    Lights lights;
     FilmData film;
     Camera camera;
-    float radius;
-    Rgb sky;
 };
 
 Scene::Scene(SceneData data, const SceneOptions& options)
@@ -75,7 +113,7 @@ void Scene::intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> h
 bool Scene::occluded(const Ray& ray) const { return built_->geometry.occluded(ray); }
 
 SurfacePoint Scene::surface(const Hit& hit) const {
-    return built_->shading.point(hit.geometry, hit.primitive, hit.u, hit.v);
+    return built_->point(hit.instance, hit.geometry, hit.primitive, hit.u, hit.v);
 }
 
 SurfacePoint Scene::surface(const Query& query) const {
@@ -84,20 +122,19 @@ SurfacePoint Scene::surface(const Query& query) const {
         const auto* mesh = std::get_if<Mesh>(&shape.geometry);
         return mesh ? mesh->triangles.size() : 1;
     };
-    if (query.geometry >= shapes.size() || query.primitive >= primitives(shapes[query.geometry]))
+    if (query.geometry >= shapes.size() || query.primitive >= primitives(shapes[query.geometry]) ||
+        (query.instance != Query::no_instance && query.instance >= built_->placements.size()))
         throw Error("scene", "a question names a surface that isn't there");  // it may come from another host
-    return built_->shading.point(query.geometry, query.primitive, query.u, query.v);
+    return built_->point(query.instance, query.geometry, query.primitive, query.u, query.v);
 }
 
 Bsdf Scene::bsdf(const SurfacePoint& point) const { return built_->shading.bsdf(point); }
 
 Rgb Scene::emission(const SurfacePoint& point, Vec3 direction) const {
-    const auto& emission = built_->data.shapes[point.geometry].emission;
-    if (!emission || !(emission->two_sided || dot(point.normal, direction) > 0)) return {};
-    return emission->radiance;
+    return built_->lights.emission(point, direction);
 }
 
-Rgb Scene::environment(Vec3) const { return built_->sky; }
+Rgb Scene::environment(Vec3 direction) const { return built_->lights.environment(direction); }
 
 std::optional<LightSample> Scene::sample_light(Vec3 from, float choice, Vec2 u) const {
     return built_->lights.sample(from, choice, u);
@@ -107,16 +144,21 @@ float Scene::light_pdf(Vec3 from, Vec3 direction, const SurfacePoint& on) const 
     return built_->lights.pdf(from, direction, on);
 }
 
-float Scene::environment_pdf(Vec3) const { return 0; }
-bool Scene::has_environment() const { return !is_black(built_->sky); }
+float Scene::environment_pdf(Vec3 direction) const { return built_->lights.environment_pdf(direction); }
+bool Scene::has_environment() const { return built_->lights.has_environment(); }
 bool Scene::has_lamps() const { return !built_->lights.empty(); }
 bool Scene::has_many_lamps() const { return built_->lights.many(); }
 
-bool Scene::may_shine(const Ray& ray) const { return has_environment() || built_->lights.may_meet(ray); }
+std::optional<Emission> Scene::emit(float choice, Vec2 where, Vec2 whither) const {
+    return built_->lights.emit(choice, where, whither);
+}
+
+bool Scene::may_shine(const Ray& ray) const { return built_->lights.may_meet(ray); }
 
 bool Scene::visible(const SurfacePoint& from, const LightSample& lamp) const {
-    constexpr float nearly = 1 - 1e-4f;  // the lamp itself is not in the way
     const Vec3 origin = from.origin_towards(lamp.direction);
+    if (lamp.from_infinity) return !occluded({origin, lamp.direction});
+    constexpr float nearly = 1 - 1e-4f;  // the lamp itself is not in the way
     const Vec3 way = lamp.position - origin;
     const float distance = length(way);
     return !(distance > 0) || !occluded({origin, way / distance, distance * nearly});
@@ -124,7 +166,10 @@ bool Scene::visible(const SurfacePoint& from, const LightSample& lamp) const {
 
 const Camera& Scene::camera() const { return built_->camera; }
 const FilmData& Scene::film() const { return built_->film; }
-float Scene::radius() const { return built_->radius; }
+Scene::Box Scene::bounds() const { return built_->box; }
+float Scene::radius() const { return length(built_->box.high - built_->box.low) / 2; }
+
+SceneSize Scene::size() const { return size_of(built_->data, built_->geometry, built_->lights); }
 
 std::uint64_t Scene::rays_of_this_thread() { return Geometry::rays_of_this_thread(); }
 

@@ -11,7 +11,7 @@
 #include "core/bsdf/bsdf.hpp"
 #include "core/light/query.hpp"
 #include "core/scene/camera.hpp"
-#include "core/scene/lights.hpp"
+#include "core/scene/light_sample.hpp"
 #include "core/scene/ray.hpp"
 #include "core/scene/scene_data.hpp"
 #include "core/scene/surface.hpp"
@@ -22,6 +22,19 @@ namespace lightnet {
 struct SceneOptions {
     std::string isa = "avx2";             // Embree's instruction set
     std::uint32_t width = 0, height = 0;  // of the picture; 0: as the scene says
+    std::uint32_t build_threads = 0;      // that build trees; 0: one per core. No byte depends on it
+};
+
+/// How large a scene is. Bytes are those that it holds while it lives.
+struct SceneSize {
+    std::size_t triangles = 0, spheres = 0;  // as stored; those of an object count once
+    std::size_t instanced_triangles = 0;     // as seen: once for each instance
+    std::size_t lights = 0;                  // lamps (a flat one or a ball counts once, else each triangle), bare
+                                             // lights and environments
+    std::size_t mesh_bytes = 0;              // vertices and triangles, which the trees share
+    std::size_t tree_bytes = 0;              // what rays are led by
+    std::size_t texture_bytes = 0;           // images, each once; those of environments, too
+    std::size_t light_bytes = 0;
 };
 
 /// Built once per process and shared by all its places: every member may be called from any thread.
@@ -49,7 +62,8 @@ public:
     /// Radiance arriving from infinity, from `direction` (unit, away from the eye).
     Rgb environment(Vec3 direction) const;
 
-    /// Chooses a lamp and a point on it, seen from `from`. None: no lamp can reach the point by this sample.
+    /// Chooses a light and a way from `from` to it: a point of a lamp, a bare light, or a direction to the environment.
+    /// None: no light can reach the point by this sample.
     std::optional<LightSample> sample_light(Vec3 from, float choice, Vec2 u) const;
     /// Density with which sample_light() finds the emitting point `on`, which lies in `direction` from `from`. 0 if it
     /// is not on a lamp.
@@ -57,17 +71,27 @@ public:
     /// The same for the environment. Always 0 for a constant one, which sample_light() never chooses.
     float environment_pdf(Vec3 direction) const;
     bool has_environment() const;
+    /// Is there anything that sample_light() could find, and has it more than one light to choose from?
     bool has_lamps() const;
     bool has_many_lamps() const;
+    /// Light leaving one of all lights, chosen by power; the environment's goes into the ball around the scene. None:
+    /// nothing leaves by this sample.
+    std::optional<Emission> emit(float choice, Vec2 where, Vec2 whither) const;
     /// Could the ray end where light comes from? False is certain, true is a guess that is cheaper than tracing it.
     bool may_shine(const Ray& ray) const;
-    /// Is nothing between the surface point and a point of a lamp?
+    /// Is nothing between the surface point and a light?
     bool visible(const SurfacePoint& from, const LightSample& lamp) const;
 
     const Camera& camera() const;
     const FilmData& film() const;
+    /// The box around everything that rays can meet.
+    struct Box {
+        Vec3 low, high;
+    };
+    Box bounds() const;
     /// Radius of the sphere around everything, metres.
     float radius() const;
+    SceneSize size() const;
 
     /// Rays traced so far by the calling thread, for the run's counters.
     static std::uint64_t rays_of_this_thread();

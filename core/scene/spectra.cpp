@@ -35,6 +35,12 @@ constexpr std::array<double, 41> daylight{
     104.79, 107.69, 104.41, 104.05, 100.00, 96.33, 95.79,  88.69,  90.01,  89.60,  87.70,  83.29,  83.70,  80.03,
     80.21,  82.28,  78.28,  69.72,  71.61,  74.35, 61.60,  69.89,  75.09,  63.59,  46.42,  66.81,  63.38};
 
+/// XYZ to linear sRGB, IEC 61966-2-1.
+std::array<double, 3> to_rgb(double x, double y, double z) {
+    return {3.2404542 * x - 1.5371385 * y - 0.4985314 * z, -0.9692660 * x + 1.8760108 * y + 0.0415560 * z,
+            0.0556434 * x - 0.2040259 * y + 1.0572252 * z};
+}
+
 /// Linear sRGB of a spectrum, without any scale.
 template <class Spectrum>
 std::array<double, 3> project(const Spectrum& spectrum) {
@@ -45,8 +51,7 @@ std::array<double, 3> project(const Spectrum& spectrum) {
         const double value = spectrum(wavelength, daylight[i]);
         x += value * match[0], y += value * match[1], z += value * match[2];
     }
-    return {3.2404542 * x - 1.5371385 * y - 0.4985314 * z, -0.9692660 * x + 1.8760108 * y + 0.0415560 * z,
-            0.0556434 * x - 0.2040259 * y + 1.0572252 * z};
+    return to_rgb(x, y, z);
 }
 
 /// The same, with D65 as {1, 1, 1}.
@@ -80,7 +85,9 @@ struct NamedIndex {
 };
 
 // Ag, Al, Au, Cu: the usual RGB values of the measurements (Johnson & Christy 1972, Rakić 1995), as in Mitsuba and
-// Tungsten. The rest: measured indices near 610, 550 and 465 nm.
+// Tungsten. The rest: indices at 610, 550 and 465 nm. Brass: Querry 1985; magnesia: Stephens & Malitson 1952; rutile:
+// the extraordinary ray, Devore 1951. Glasses: Schott's Sellmeier coefficients; those that pbrt calls F are the dense
+// flints SF5, SF10 and SF11.
 constexpr std::array<NamedIndex, 21> indices{
     {{"metal-Ag-eta", {0.155265f, 0.116723f, 0.138342f}}, {"metal-Ag-k", {4.828370f, 3.122485f, 2.146969f}},
      {"metal-Al-eta", {1.657460f, 0.880369f, 0.521229f}}, {"metal-Al-k", {9.223869f, 6.269523f, 4.837001f}},
@@ -88,18 +95,39 @@ constexpr std::array<NamedIndex, 21> indices{
      {"metal-Cu-eta", {0.200438f, 0.924033f, 1.102212f}}, {"metal-Cu-k", {3.912949f, 2.452848f, 2.142188f}},
      {"metal-CuZn-eta", {0.444f, 0.527f, 1.094f}},        {"metal-CuZn-k", {3.695f, 2.765f, 1.829f}},
      {"metal-MgO-eta", {1.7363f, 1.7400f, 1.7519f}},      {"metal-MgO-k", {0, 0, 0}},
-     {"metal-TiO2-eta", {2.5980f, 2.6480f, 2.7710f}},     {"metal-TiO2-k", {0, 0, 0}},
-     {"glass-BK7", {1.5157f, 1.5185f, 1.5234f}},          {"glass-BAF10", {1.6689f, 1.6734f, 1.6814f}},
-     {"glass-FK51A", {1.4861f, 1.4879f, 1.4912f}},        {"glass-LASF9", {1.8486f, 1.8566f, 1.8713f}},
-     {"glass-F5", {1.6020f, 1.6070f, 1.6165f}},           {"glass-F10", {1.6218f, 1.6272f, 1.6374f}},
-     {"glass-F11", {1.6196f, 1.6249f, 1.6349f}}}};
+     {"metal-TiO2-eta", {2.8898f, 2.9529f, 3.1169f}},     {"metal-TiO2-k", {0, 0, 0}},
+     {"glass-BK7", {1.5159f, 1.5185f, 1.5240f}},          {"glass-BAF10", {1.6685f, 1.6731f, 1.6830f}},
+     {"glass-FK51A", {1.4859f, 1.4878f, 1.4917f}},        {"glass-LASF9", {1.8474f, 1.8558f, 1.8748f}},
+     {"glass-F5", {1.6705f, 1.6771f, 1.6921f}},           {"glass-F10", {1.7255f, 1.7337f, 1.7522f}},
+     {"glass-F11", {1.7815f, 1.7911f, 1.8134f}}}};
 
 struct NamedLight {
     std::string_view name;
-    float kelvin;  // of the black body that stands for it; 0: D65 itself
+    double x, y;  // chromaticity, 2° observer
 };
 
-constexpr std::array<NamedLight, 3> lights{{{"stdillum-D65", 0}, {"stdillum-A", 2855.5f}, {"stdillum-D50", 5003}}};
+// CIE 15:2004, tables T.3 and T.8; D60 of ACES by SMPTE ST 2065-1.
+constexpr std::array<NamedLight, 16> lights{{{"stdillum-D65", 0.31272, 0.32903},
+                                             {"stdillum-D50", 0.34567, 0.35851},
+                                             {"stdillum-A", 0.44758, 0.40745},
+                                             {"stdillum-F1", 0.3131, 0.3371},
+                                             {"stdillum-F2", 0.3721, 0.3751},
+                                             {"stdillum-F3", 0.4091, 0.3941},
+                                             {"stdillum-F4", 0.4402, 0.4031},
+                                             {"stdillum-F5", 0.3138, 0.3452},
+                                             {"stdillum-F6", 0.3779, 0.3882},
+                                             {"stdillum-F7", 0.3129, 0.3292},
+                                             {"stdillum-F8", 0.3458, 0.3586},
+                                             {"stdillum-F9", 0.3741, 0.3727},
+                                             {"stdillum-F10", 0.3458, 0.3588},
+                                             {"stdillum-F11", 0.3805, 0.3769},
+                                             {"stdillum-F12", 0.4370, 0.4042},
+                                             {"illum-acesD60", 0.32168, 0.33767}}};
+
+Rgb of_chromaticity(double x, double y) {
+    const auto c = to_rgb(x / y, 1, (1 - x - y) / y);
+    return with_luminance_one({float(c[0]), float(c[1]), float(c[2])});
+}
 
 }  // namespace
 
@@ -120,6 +148,16 @@ Rgb blackbody_colour(float kelvin) {
     return with_luminance_one(balanced([&](double w, double) { return planck(w) * scale; }));
 }
 
+Rgb daylight_colour(float kelvin) {
+    if (!(kelvin >= 4000)) return blackbody_colour(kelvin);
+    // CIE 15:2004, eqs. 3.3 and 3.4
+    const double t = std::min(double(kelvin), 25000.0);
+    const double x = t <= 7000 ? ((-4.6070e9 / t + 2.9678e6) / t + 0.09911e3) / t + 0.244063
+                               : ((-2.0064e9 / t + 1.9018e6) / t + 0.24748e3) / t + 0.237040;
+    const double y = (-3.000 * x + 2.870) * x - 0.275;
+    return of_chromaticity(x, y);
+}
+
 std::optional<Rgb> named_index(std::string_view name) {
     for (const auto& index : indices)
         if (index.name == name) return index.value;
@@ -127,8 +165,9 @@ std::optional<Rgb> named_index(std::string_view name) {
 }
 
 std::optional<Rgb> named_light(std::string_view name) {
+    if (name == lights[0].name) return Rgb{1, 1, 1};  // white by definition
     for (const auto& light : lights)
-        if (light.name == name) return light.kelvin > 0 ? blackbody_colour(light.kelvin) : Rgb{1, 1, 1};
+        if (light.name == name) return of_chromaticity(light.x, light.y);
     return std::nullopt;
 }
 

@@ -26,6 +26,10 @@ Rgb light_colour(std::span<const SpectrumPoint> spectrum);
 /// The colour of a black body of that many kelvin (> 0), of luminance 1.
 Rgb blackbody_colour(float kelvin);
 
+/// The colour of daylight (CIE series D) of that many kelvin, of luminance 1; 6504 is D65, {1, 1, 1}. Beneath 4000 K,
+/// where the series ends, of a black body.
+Rgb daylight_colour(float kelvin);
+
 /// Indices of refraction that pbrt names: "metal-Cu-eta", "metal-Cu-k", "glass-BK7".
 std::optional<Rgb> named_index(std::string_view name);
 /// Lights that pbrt names: "stdillum-D65" and its like.

@@ -4,19 +4,24 @@
 #include <cstdint>
 
 #include "core/math/frame.hpp"
+#include "core/math/rgb.hpp"
 #include "core/math/vec.hpp"
 
 namespace lightnet {
 
-/// Derived from a Hit or a Query alone, so it's the same on every host.
+/// Derived from a Hit or a Query alone, so it's the same on every host. What no texture, groove or bump of the shape
+/// needs is left as it is here.
 struct SurfacePoint {
     Vec3 position;               // world space
     Vec3 normal;                 // geometric, unit; the side on which a one-sided lamp shines
     Frame shading;               // z: shading normal, on the side of `normal`
     Vec2 uv;                     // texture coordinates
+    Rgb vertex_colour{1, 1, 1};  // of the mesh, interpolated
+    Vec3 along_u, along_v;       // ∂position/∂u and ∂position/∂v, metres
     std::uint32_t geometry = 0;  // index into the scene's shapes
     std::uint32_t primitive = 0;
-    float offset = 0;  // metres: beyond the rounding errors of `position`
+    float u = 0, v = 0;  // on the primitive, as in its Hit
+    float offset = 0;    // metres: beyond the rounding errors of `position`
 
     /// Where a ray into `direction` starts: off the surface, on the side into which it goes.
     Vec3 origin_towards(Vec3 direction) const {

@@ -125,9 +125,11 @@ Rgb look_up(std::span<const Texture> textures, TextureId texture, const TextureP
 
 bool is_constant(const Texture& texture) { return std::holds_alternative<std::monostate>(texture.pattern); }
 
+std::vector<TextureId> inputs_of(const Texture& texture) { return std::visit(Inputs{}, texture.pattern); }
+
 void check_textures(std::span<const Texture> textures) {
     for (std::size_t i = 0; i < textures.size(); ++i)
-        for (const TextureId input : std::visit(Inputs{}, textures[i].pattern))
+        for (const TextureId input : inputs_of(textures[i]))
             if (input >= i)
                 throw Error("scene", "texture " + std::to_string(i) + " names one that doesn't stand before it");
 }

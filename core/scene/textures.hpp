@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "core/math/rgb.hpp"
 #include "core/math/vec.hpp"
@@ -21,6 +22,9 @@ Rgb look_up(std::span<const Texture> textures, TextureId texture, const TextureP
 
 /// Does the texture say the same everywhere?
 bool is_constant(const Texture& texture);
+
+/// The textures that a texture is made of.
+std::vector<TextureId> inputs_of(const Texture& texture);
 
 /// Throws Error unless every texture names only such as stand before it.
 void check_textures(std::span<const Texture> textures);

@@ -39,6 +39,8 @@ const std::array homes{
          std::regex("core/film/.*|core/scene/image_\\w+\\.cpp")},
     Home{"libpng", std::regex("png\\.h"), std::regex("core/film/.*|core/scene/image_\\w+\\.cpp")},
     Home{"libjpeg", std::regex("jpeglib\\.h"), std::regex("core/scene/image_\\w+\\.cpp")},
+    Home{"pugixml", std::regex("pugixml\\.hpp"), std::regex("core/scene/mitsuba/.*")},
+    Home{"zlib", std::regex("zlib\\.h"), std::regex("core/scene/(mitsuba/\\w+|gzip)\\.cpp")},
     Home{"Boost.Context", std::regex("boost/.*"), std::regex("core/runtime/.*")},
     Home{"libsodium", std::regex("sodium.*"), std::regex("core/.*")},
     Home{"CLI11", std::regex("CLI/.*"), std::regex("tools/.*")},

@@ -44,8 +44,9 @@ TEST(Dielectric, RefractsBySnellAndSqueezesRadiance) {
 
 TEST(CoatedDiffuse, WhiteBaseUnderAnyCoatReflectsAll) {
     for (const float alpha : {0.0f, 0.1f, 0.5f}) {
-        const Coat coat(1.5f, alpha, alpha);
-        const Bsdf bsdf(upright, {0, 0, 1}, CoatedDiffuseBsdf{{1, 1, 1}, &coat});
+        const Ggx facets{alpha, alpha};
+        const Coat coat(1.5f, facets);
+        const Bsdf bsdf(upright, {0, 0, 1}, CoatedDiffuseBsdf{{1, 1, 1}, &coat, facets});
         for (const float cosine : {0.9f, 0.5f, 0.2f}) {
             double sum = 0;
             constexpr std::uint32_t tries = 1 << 16;

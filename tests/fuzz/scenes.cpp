@@ -11,6 +11,8 @@ void read(std::span<const std::byte> bytes) {
     files.add("scene.pbrt", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     files.add("part.pbrt", "Include \"scene.pbrt\"\n");
     files.add("mesh.ply", meshes().seeds().front());
+    files.add("picture.hdr",
+              std::string("#?RADIANCE\n\n-Y 1 +X 2\n") + std::string("\x80\x40\x20\x81\x80\x40\x20\x81", 8));
     try {
         (void)read_scene(files, "scene.pbrt");
     } catch (const UserError&) {
@@ -57,6 +59,29 @@ Material "dielectric" "float eta" 1.5
 Shape "cylinder" "float zmin" -1 "float zmax" 1
 LightSource "infinite" "blackbody L" 6500 "float scale" .1
 Include "part.pbrt"
+)",
+        R"(Film "rgb" "float whitebalance" 5000 "float iso" 200 "float cropwindow" [ 0 1 .25 1 ]
+Camera "orthographic" "float screenwindow" [ -1 1 -1 1 ] "float lensradius" .1 "float focaldistance" 3
+ColorSpace "rec2020"
+WorldBegin
+Texture "bits" "float" "imagemap" "string filename" "picture.hdr" "string wrap" "clamp" "bool invert" true
+Texture "board" "spectrum" "checkerboard" "rgb tex1" [ 1 0 0 ] "rgb tex2" [ 0 1 0 ] "float uscale" 4
+Texture "four" "spectrum" "bilerp" "rgb v00" [ 0 0 0 ] "rgb v11" [ 1 1 1 ]
+Texture "both" "spectrum" "mix" "texture tex1" "board" "texture tex2" "four" "texture amount" "bits"
+MakeNamedMaterial "a" "string type" "coatedconductor" "float interface.roughness" .1 "spectrum conductor.eta" "metal-Au-eta"
+  "spectrum conductor.k" "metal-Au-k" "texture displacement" "bits"
+MakeNamedMaterial "b" "string type" "diffusetransmission" "texture reflectance" "both" "string normalmap" "picture.hdr"
+MakeNamedMaterial "c" "string type" "mix" "string materials" [ "a" "b" ] "texture amount" "bits"
+NamedMaterial "c"
+Shape "loopsubdiv" "integer levels" 2 "integer indices" [ 0 1 2  0 2 3  0 3 1  1 3 2 ] "point3 P" [ 0 0 0 1 0 0 0 1 0 0 0 1 ]
+Shape "bilinearmesh" "point3 P" [ 0 0 0 1 0 0 0 1 0 1 1 1 ] "texture alpha" "bits"
+LightSource "point" "rgb I" [ 1 2 3 ] "float power" 5
+LightSource "spot" "float coneangle" 30 "point3 from" [ 0 0 1 ]
+LightSource "distant" "float illuminance" 3
+LightSource "infinite" "string filename" "picture.hdr" "float illuminance" 2
+LightSource "projection" "string filename" "picture.hdr"
+AreaLightSource "diffuse" "string filename" "picture.hdr" "float power" 10
+Shape "disk"
 )",
     };
 }

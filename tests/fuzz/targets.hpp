@@ -26,6 +26,17 @@ Target meshes();
 /// JSON of graphs, plans, jobs and hosts. What is accepted must come back the same.
 Target texts();
 
-inline std::vector<Target> all_targets() { return {packets(), scenes(), meshes(), texts()}; }
+/// Scenes of Mitsuba, beside which meshes, a picture and another part lie.
+Target mitsuba();
+/// Scenes in glTF, .gltf or .glb.
+Target gltf();
+/// OBJ files with a library of materials.
+Target obj();
+/// Mitsuba's packed meshes.
+Target serialized();
+
+inline std::vector<Target> all_targets() {
+    return {packets(), scenes(), meshes(), texts(), mitsuba(), gltf(), obj(), serialized()};
+}
 
 }  // namespace lightnet::fuzz

@@ -58,6 +58,7 @@ TEST(WhiteSky, HidesAnythingThatLosesNothing) {
     SceneData data;
     data.environments.push_back({{1, 1, 1}});
     data.camera = camera({0, 2, 6}, {0, 0.5f, 0}, 40);
+    data.camera_given = true;
     add(data, quad({-20, 0, -20}, {0, 0, 40}, {40, 0, 0}), diffuse(data, 1));
     add(data, ball({-1.2f, 1, 0}, 0.9f), material(data, DielectricMaterial{}));
     add(data, ball({1.2f, 1, 0}, 0.9f), material(data, CoatedDiffuseMaterial{colour(data, {1, 1, 1})}));

@@ -15,6 +15,7 @@ TEST(RayTracer, FollowsMirrorsUntilNothingIsLeft) {
     add(data, quad({-100, -100, -1}, {200, 0, 0}, {0, 200, 0}), silver).emission = AreaEmission{{1, 1, 1}, false};
     add(data, quad({-100, -100, 1}, {0, 200, 0}, {200, 0, 0}), silver);
     data.camera = camera({0, 0, 0}, {0, 0, -1}, 2);
+    data.camera_given = true;
     const Scene scene(data);
     Rig rig(scene);
     rig.add("AmbientOcclusion", "nothing");  // no surface here scatters: it is never asked
@@ -30,6 +31,7 @@ TEST(RayTracer, GlassBallUnderAWhiteSkyIsInvisible) {
     add(data, ball({0, 0, 0}, 1), material(data, DielectricMaterial{}));
     data.environments.push_back({{1, 1, 1}});
     data.camera = camera({0, 0, 4}, {0, 0, 0}, 40);
+    data.camera_given = true;
     const Scene scene(data);
     Rig rig(scene);
     rig.add("AmbientOcclusion", "nothing");
@@ -71,6 +73,7 @@ TEST(RayTracer, AsksAboutBothSidesOfACoat) {
         material(data, CoatedDiffuseMaterial{colour(data, {0, 0, 0})}));
     data.environments.push_back({{1, 1, 1}});
     data.camera = camera({0, 4, 0.01f}, {0, 0, 0}, 10);
+    data.camera_given = true;
     const Scene scene(data);
     Rig rig(scene);
     rig.add("DirectLighting", "direct");

@@ -7,6 +7,7 @@
 namespace lightnet::test {
 namespace {
 
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
@@ -154,26 +155,38 @@ TEST(PbrtAttributes, FillInWhatAStatementLeavesOut) {
     EXPECT_THAT(scene.warnings, IsEmpty());
 }
 
-TEST(PbrtObjects, StandWhereTheirInstancesAre) {
-    const auto scene = read_world("ObjectBegin \"pair\" Translate 0 1 0 " + ball + triangle +
-                                  "ObjectEnd\n"
+TEST(PbrtObjects, StandOnceHoweverManyInstancesThereAre) {
+    const auto scene = read_world("ObjectBegin \"pair\" Translate 0 1 0 " + ball + triangle + "ObjectEnd\n" + ball +
                                   "Translate 5 0 0 ObjectInstance \"pair\" Translate 5 0 0 ObjectInstance \"pair\"");
-    ASSERT_THAT(scene.shapes, SizeIs(4));
-    expect_near(sphere_of(scene, 0).center, {5, 1, 0});
-    expect_near(mesh_of(scene, 3).positions[1], {11, 1, 0});
+    ASSERT_THAT(scene.shapes, SizeIs(3));
+    ASSERT_THAT(scene.objects, SizeIs(1));
+    EXPECT_THAT(scene.objects[0].shapes, ElementsAre(0u, 1u));
+    expect_near(sphere_of(scene, 0).center, {0, 1, 0});
+    ASSERT_THAT(scene.instances, SizeIs(2));
+    expect_near(transform_point(scene.instances[1].to_world, sphere_of(scene, 0).center), {10, 1, 0});
     EXPECT_THAT(scene.warnings, IsEmpty());
 }
 
-TEST(PbrtObjects, KeepTheSideOfTheirNormalsInAMirror) {
-    const auto scene =
-        read_world("ObjectBegin \"o\" " + triangle + ball + "ObjectEnd Scale -1 1 1 ObjectInstance \"o\"");
-    expect_near(normal_of(mesh_of(scene, 0)), {0, 0, 1});
-    EXPECT_FALSE(sphere_of(scene, 1).flip_normals);
+TEST(PbrtObjects, LoseTheirInterfaces) {
+    const auto scene = read_world("ObjectBegin \"o\" Material \"interface\" " + ball + "Material \"diffuse\" " + ball +
+                                  "ObjectEnd ObjectInstance \"o\"");
+    ASSERT_THAT(scene.shapes, SizeIs(1));
+    EXPECT_THAT(scene.objects[0].shapes, ElementsAre(0u));
 }
 
-TEST(PbrtObjects, BecomeMeshesWhenBallsAreSquashed) {
-    const auto scene = read_world("ObjectBegin \"o\" " + ball + "ObjectEnd Scale 1 2 3 ObjectInstance \"o\"");
-    EXPECT_GT(mesh_of(scene).triangles.size(), 1000u);
+TEST(PbrtColours, MayHaveOtherPrimaries) {
+    const std::string red = "Material \"diffuse\" \"rgb reflectance\" [ .25 .5 .25 ] " + ball;
+    for (const char* space : {"rec2020", "dci-p3", "aces2065-1"}) {
+        const auto scene = read_world("ColorSpace \"" + std::string(space) + "\" Material \"diffuse\" " +
+                                      "\"rgb reflectance\" [ .5 .5 .5 ] " + ball + red);
+        const Rgb grey = colour_of(scene, model_of<DiffuseMaterial>(scene, 0).reflectance);
+        EXPECT_NEAR(grey.r, 0.5f, 1e-4f) << space;
+        EXPECT_NEAR(grey.b, 0.5f, 1e-4f) << space;
+        const Rgb green = colour_of(scene, model_of<DiffuseMaterial>(scene, 1).reflectance);
+        EXPECT_LT(green.r, 0.22f) << space;  // the same green is purer than that of sRGB
+        EXPECT_GT(green.g, 0.51f) << space;
+    }
+    EXPECT_THAT(errors_of_world("ColorSpace \"rec2002\""), HasSubstr("did you mean 'rec2020'?"));
 }
 
 TEST(PbrtStatements, ThatConcernSamplingHaveNoEffect) {

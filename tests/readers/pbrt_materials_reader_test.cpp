@@ -2,7 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/scene/pbrt/textures.hpp"
+#include "core/scene/spectra.hpp"
+#include "core/scene/textures.hpp"
 #include "tests/support/pbrt_text.hpp"
 
 namespace lightnet::test {
@@ -25,6 +26,12 @@ Texture reflectance(const std::string& textures, const std::string& type = "text
                     const std::string& value = "\"t\"") {
     const auto scene = with(textures + " Material \"diffuse\" \"" + type + "\" " + value, pictures());
     return scene.textures.at(model_of<DiffuseMaterial>(scene).reflectance);
+}
+
+/// The value of a diffuse reflectance, wherever it comes from.
+Rgb value_at(const std::string& textures, Vec2 uv) {
+    const auto scene = with(textures + " Material \"diffuse\" \"texture reflectance\" \"t\"", pictures());
+    return look_up(scene.textures, model_of<DiffuseMaterial>(scene).reflectance, {uv});
 }
 
 TEST(PbrtMaterials, MayBeDiffuse) {
@@ -86,27 +93,72 @@ TEST(PbrtMaterials, MayBeCoated) {
     EXPECT_THAT(scene.warnings, IsEmpty());
 }
 
+TEST(PbrtMaterials, MayBeCoatedMetals) {
+    const auto scene = with(
+        "Material \"coatedconductor\" \"float interface.roughness\" .01 \"float conductor.roughness\" .04\n"
+        "\"spectrum conductor.eta\" \"metal-Ag-eta\" \"spectrum conductor.k\" \"metal-Ag-k\" \"float interface.eta\" "
+        "1.3");
+    const auto& model = model_of<CoatedConductorMaterial>(scene);
+    EXPECT_EQ(model.coat.u, 0.01f);
+    EXPECT_EQ(model.roughness.v, 0.04f);
+    EXPECT_EQ(model.coat_eta, 1.3f);
+    EXPECT_EQ(colour_of(scene, model.metal.k), *named_index("metal-Ag-k"));
+    EXPECT_THAT(scene.warnings, IsEmpty());
+}
+
+TEST(PbrtMaterials, MayLetLightThroughEvenly) {
+    const auto scene = with("Material \"diffusetransmission\" \"rgb transmittance\" [ .2 .4 .6 ] \"float scale\" .5");
+    const auto& model = model_of<DiffuseMaterial>(scene);
+    EXPECT_EQ(colour_of(scene, model.reflectance), (Rgb{0.125f, 0.125f, 0.125f}));
+    EXPECT_EQ(colour_of(scene, model.transmittance.value()), (Rgb{0.1f, 0.2f, 0.3f}));
+}
+
 TEST(PbrtMaterials, WithoutAMatchAreTheNearest) {
     const std::string lead = "scene.pbrt:2: Material ";
-    EXPECT_THAT(warnings_of(with("Material \"coatedconductor\"")), HasSubstr(lead + "'coatedconductor': the coat"));
-    EXPECT_THAT(warnings_of(with("Material \"diffusetransmission\"")),
-                HasSubstr(lead + "'diffusetransmission': the light through"));
     EXPECT_THAT(warnings_of(with("Material \"subsurface\"")), HasSubstr(lead + "'subsurface': subsurface scattering"));
     EXPECT_THAT(warnings_of(with("Material \"hair\"")), HasSubstr(lead + "'hair': scattering by hair"));
     EXPECT_THAT(warnings_of(with("Material \"measured\" \"string filename\" \"x.bsdf\"")),
                 HasSubstr(lead + "'measured': measured"));
 }
 
-TEST(PbrtMaterials, MixWhenTheyCan) {
-    const std::string parts =
+TEST(PbrtMaterials, Mix) {
+    const auto scene = with(
         "MakeNamedMaterial \"a\" \"string type\" \"diffuse\" \"rgb reflectance\" [ 0 0 0 ]\n"
-        "MakeNamedMaterial \"b\" \"string type\" \"diffuse\" \"rgb reflectance\" [ 1 1 1 ]\n"
-        "MakeNamedMaterial \"c\" \"string type\" \"dielectric\"\n";
-    const auto exact = with(parts + "Material \"mix\" \"string materials\" [ \"a\" \"b\" ] \"float amount\" .25");
-    EXPECT_EQ(colour_of(exact, model_of<DiffuseMaterial>(exact).reflectance), (Rgb{0.25f, 0.25f, 0.25f}));
-    const auto rough = with(parts + "Material \"mix\" \"string materials\" [ \"a\" \"c\" ] \"float amount\" .75");
-    EXPECT_EQ(model_of<DielectricMaterial>(rough).eta, 1.5f);
-    EXPECT_THAT(warnings_of(rough), HasSubstr("'c', the larger part, is taken alone"));
+        "MakeNamedMaterial \"b\" \"string type\" \"dielectric\"\n"
+        "Material \"mix\" \"string materials\" [ \"a\" \"b\" ] \"float amount\" .25");
+    const auto& mixture = model_of<MixtureMaterial>(scene);
+    EXPECT_EQ(scene.materials[mixture.first].name, "a");
+    EXPECT_EQ(scene.materials[mixture.second].name, "b");
+    EXPECT_EQ(colour_of(scene, mixture.amount).r, 0.25f);
+    EXPECT_THAT(scene.warnings, IsEmpty());
+}
+
+TEST(PbrtMaterials, MixOnlyWhatStandsAbove) {
+    EXPECT_THAT(errors_of_world("Material \"mix\" \"string materials\" [ \"a\" \"a\" ] " + ball),
+                HasSubstr("there is no material 'a' above"));
+}
+
+TEST(PbrtMaterials, MayHaveBumpsAndNormalMaps) {
+    const auto scene = with(
+        "Texture \"b\" \"float\" \"imagemap\" \"string filename\" \"p.hdr\"\n"
+        "Material \"diffuse\" \"texture displacement\" \"b\" \"string normalmap\" \"p.hdr\"",
+        pictures());
+    const Material& material = scene.materials[scene.shapes[0].material];
+    EXPECT_TRUE(material.bump_map);
+    EXPECT_TRUE(material.normal_map);
+    EXPECT_THAT(scene.warnings, IsEmpty());
+}
+
+TEST(PbrtMaterials, AreCutOutByTheAlphaOfAShape) {
+    const auto scene = read_world("Shape \"sphere\" \"float alpha\" .25 Shape \"sphere\" \"float alpha\" 1");
+    EXPECT_EQ(colour_of(scene, scene.materials[scene.shapes[0].material].opacity.value()).r, 0.25f);
+    EXPECT_FALSE(scene.materials[scene.shapes[1].material].opacity);
+}
+
+TEST(PbrtMaterials, OfNothingLeaveShapesOut) {
+    const auto scene = with("Material \"interface\"");
+    EXPECT_THAT(scene.shapes, IsEmpty());
+    EXPECT_THAT(warnings_of(scene), HasSubstr("only bounds media"));
 }
 
 TEST(PbrtMaterials, MayBeNamedBeforeTheyAreMade) {
@@ -154,57 +206,77 @@ TEST(PbrtTextures, ShareThePictureOfAFile) {
 const std::string picture = "Texture \"p\" \"spectrum\" \"imagemap\" \"string filename\" \"p.hdr\" ";
 
 TEST(PbrtTextures, LieWithTheirLowerEdgeAtZero) {
-    const Texture t = reflectance(picture + "Texture \"t\" \"spectrum\" \"scale\" \"texture tex\" \"p\"");
-    EXPECT_NEAR(pbrt::look_up(t, {0.25f, 0.75f}).r, 1, 1e-6f);      // upper left
-    EXPECT_NEAR(pbrt::look_up(t, {0.25f, 0.25f}).r, 0.25f, 1e-6f);  // lower left
-    EXPECT_NEAR(pbrt::look_up(t, {0.5f, 0.75f}).r, 0.75f, 1e-6f);   // between two pixels
-    EXPECT_NEAR(pbrt::look_up(t, {1.25f, -0.25f}).r, 1, 1e-6f);     // repeated
+    const std::string t = picture + "Texture \"t\" \"spectrum\" \"scale\" \"texture tex\" \"p\"";
+    EXPECT_NEAR(value_at(t, {0.25f, 0.75f}).r, 1, 1e-6f);      // upper left
+    EXPECT_NEAR(value_at(t, {0.25f, 0.25f}).r, 0.25f, 1e-6f);  // lower left
+    EXPECT_NEAR(value_at(t, {0.5f, 0.75f}).r, 0.75f, 1e-6f);   // between two pixels
+    EXPECT_NEAR(value_at(t, {1.25f, -0.25f}).r, 1, 1e-6f);     // repeated
 }
 
 TEST(PbrtTextures, MayBeScaled) {
     EXPECT_EQ(
         reflectance(picture + "Texture \"t\" \"spectrum\" \"scale\" \"texture tex\" \"p\" \"float scale\" .5").scale.r,
         0.5f);
-    const Texture product =
-        reflectance(picture +
-                    "Texture \"f\" \"float\" \"imagemap\" \"string filename\" \"p.hdr\"\n"
-                    "Texture \"t\" \"spectrum\" \"scale\" \"texture tex\" \"p\" \"texture scale\" \"f\"");
-    EXPECT_NEAR(pbrt::look_up(product, {0.75f, 0.75f}).g, 0.25f, 1e-6f);
+    const std::string product = picture +
+                                "Texture \"f\" \"float\" \"imagemap\" \"string filename\" \"p.hdr\"\n"
+                                "Texture \"t\" \"spectrum\" \"scale\" \"texture tex\" \"p\" \"texture scale\" \"f\"";
+    EXPECT_NEAR(value_at(product, {0.75f, 0.75f}).g, 0.25f, 1e-6f);
 }
 
 TEST(PbrtTextures, MayBeMixed) {
-    const Texture t = reflectance(
+    const std::string t =
         picture +
-        "Texture \"t\" \"spectrum\" \"mix\" \"texture tex1\" \"p\" \"rgb tex2\" [ 1 0 0 ] \"float amount\" .25");
-    EXPECT_NEAR(pbrt::look_up(t, {0.75f, 0.25f}).r, 0.25f, 1e-6f);
-    EXPECT_NEAR(pbrt::look_up(t, {0.25f, 0.75f}).g, 0.75f, 1e-6f);
+        "Texture \"t\" \"spectrum\" \"mix\" \"texture tex1\" \"p\" \"rgb tex2\" [ 1 0 0 ] \"float amount\" .25";
+    EXPECT_NEAR(value_at(t, {0.75f, 0.25f}).r, 0.25f, 1e-6f);
+    EXPECT_NEAR(value_at(t, {0.25f, 0.75f}).g, 0.75f, 1e-6f);
 }
 
 TEST(PbrtTextures, MayBeCheckerboards) {
-    const Texture t = reflectance(
+    const std::string t =
         "Texture \"t\" \"spectrum\" \"checkerboard\" \"float uscale\" 4 \"float vscale\" 2 \"rgb tex1\" [ 1 0 0 ] "
-        "\"rgb tex2\" [ 0 1 0 ]");
-    EXPECT_EQ(pbrt::look_up(t, {0.125f, 0.25f}), (Rgb{1, 0, 0}));
-    EXPECT_EQ(pbrt::look_up(t, {0.375f, 0.25f}), (Rgb{0, 1, 0}));
-    EXPECT_EQ(pbrt::look_up(t, {0.375f, 0.75f}), (Rgb{1, 0, 0}));
-    EXPECT_EQ(pbrt::look_up(t, {0.125f, 1.75f}), (Rgb{0, 1, 0}));
+        "\"rgb tex2\" [ 0 1 0 ]";
+    EXPECT_EQ(value_at(t, {0.125f, 0.25f}), (Rgb{1, 0, 0}));
+    EXPECT_EQ(value_at(t, {0.375f, 0.25f}), (Rgb{0, 1, 0}));
+    EXPECT_EQ(value_at(t, {0.375f, 0.75f}), (Rgb{1, 0, 0}));
+    EXPECT_EQ(value_at(t, {0.125f, 1.75f}), (Rgb{0, 1, 0}));
 }
 
-TEST(PbrtTextures, OfARoughnessGiveTheirMean) {
+TEST(PbrtTextures, MayRunBetweenFourCorners) {
+    const std::string t =
+        "Texture \"t\" \"spectrum\" \"bilerp\" \"rgb v00\" [ 0 0 0 ] \"rgb v10\" [ 1 0 0 ] \"rgb v01\" [ 0 1 0 ] "
+        "\"rgb v11\" [ 0 0 1 ]";
+    EXPECT_EQ(value_at(t, {0, 0}), (Rgb{0, 0, 0}));
+    EXPECT_EQ(value_at(t, {1, 0}), (Rgb{1, 0, 0}));
+    EXPECT_EQ(value_at(t, {0, 1}), (Rgb{0, 1, 0}));
+    EXPECT_NEAR(value_at(t, {0.5f, 0.25f}).r, 0.375f, 1e-6f);
+    EXPECT_NEAR(value_at(t, {0.5f, 0.25f}).b, 0.125f, 1e-6f);
+}
+
+TEST(PbrtTextures, VaryRoughness) {
     const auto scene = with(
-        "Texture \"f\" \"float\" \"imagemap\" \"string filename\" \"p.hdr\"\n"
+        "Texture \"f\" \"float\" \"imagemap\" \"string filename\" \"p.hdr\" \"float scale\" .5\n"
         "Material \"conductor\" \"texture roughness\" \"f\" \"bool remaproughness\" false",
         pictures());
-    EXPECT_NEAR(model_of<ConductorMaterial>(scene).roughness.u, 0.4375f, 1e-6f);
-    EXPECT_THAT(warnings_of(scene), HasSubstr("the mean of its texture is taken"));
+    const Roughness& rough = model_of<ConductorMaterial>(scene).roughness;
+    EXPECT_EQ(rough.u, 1);
+    EXPECT_EQ(rough.means, Roughness::Means::alpha);
+    EXPECT_NEAR(look_up(scene.textures, rough.texture.value(), {{0.25f, 0.75f}}).r, 0.5f, 1e-6f);
+    EXPECT_THAT(scene.warnings, IsEmpty());
 }
 
-TEST(PbrtTextures, OfUnsupportedClassesAreGrey) {
+TEST(PbrtTextures, OfUnsupportedClassesAreTheirMean) {
     const auto scene = with(
-        "Texture \"t\" \"spectrum\" \"marble\" \"integer octaves\" 8 Material \"diffuse\" \"texture reflectance\" "
-        "\"t\"");
+        "Texture \"t\" \"spectrum\" \"fbm\" \"integer octaves\" 8 Texture \"u\" \"spectrum\" \"fbm\"\n"
+        "Material \"diffuse\" \"texture reflectance\" \"t\"");
     EXPECT_EQ(colour_of(scene, model_of<DiffuseMaterial>(scene).reflectance), (Rgb{0.5f, 0.5f, 0.5f}));
-    EXPECT_THAT(warnings_of(scene), HasSubstr("textures of class 'marble' are not supported; grey 0.5 stands for it"));
+    EXPECT_THAT(warnings_of(scene), HasSubstr("textures of class 'fbm' are not supported"));
+    EXPECT_THAT(warnings_of(scene), HasSubstr("(2 times)"));
+}
+
+TEST(PbrtTextures, OfAnotherKindAreNamed) {
+    EXPECT_THAT(
+        errors_of_world("Texture \"t\" \"float\" \"constant\" Material \"diffuse\" \"texture reflectance\" \"t\""),
+        HasSubstr("there is no spectrum texture 't' above (that one is of kind 'float')"));
 }
 
 }  // namespace

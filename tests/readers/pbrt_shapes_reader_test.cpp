@@ -94,9 +94,49 @@ TEST(PbrtPatches, AreTwoTrianglesEach) {
     EXPECT_THAT(scene.warnings, IsEmpty());
 }
 
-TEST(PbrtPatches, WarnWhenTheyAreNotFlat) {
+TEST(PbrtPatches, ThatAreBentAreCutIntoMore) {
     const auto scene = read_world("Shape \"bilinearmesh\" \"point3 P\" [ 0 0 0  1 0 0  0 1 0  1 1 1 ]");
-    EXPECT_THAT(warnings_of(scene), HasSubstr("scene.pbrt:2: Shape 'bilinearmesh': a bilinear patch that is not flat"));
+    EXPECT_THAT(warnings_of(scene), HasSubstr("scene.pbrt:2: Shape 'bilinearmesh': a bilinear patch that is bent"));
+    const Mesh& mesh = mesh_of(scene);
+    EXPECT_THAT(mesh.triangles, SizeIs(128));
+    for (std::size_t i = 4; i < mesh.positions.size(); ++i)  // the surface is z = x y
+        EXPECT_NEAR(mesh.positions[i].z, mesh.positions[i].x * mesh.positions[i].y, 1e-6f);
+}
+
+// Any level ends on the same surface: an octahedron's corner (valence 4) goes where the mask of the limit says.
+TEST(PbrtSubdivision, EndsOnTheLimitSurface) {
+    const std::string octahedron =
+        "\"integer indices\" [ 0 2 4  2 1 4  1 3 4  3 0 4  2 0 5  1 2 5  3 1 5  0 3 5 ]\n"
+        "\"point3 P\" [ 1 0 0 -1 0 0  0 1 0  0 -1 0  0 0 1  0 0 -1 ]";
+    for (const int levels : {0, 1, 3}) {
+        const auto scene =
+            read_world("Shape \"loopsubdiv\" \"integer levels\" " + std::to_string(levels) + " " + octahedron);
+        const Mesh& mesh = mesh_of(scene);
+        EXPECT_EQ(mesh.triangles.size(), 8u << (2 * levels));
+        // β = 3/32, so the neighbours' share is 4 / (4 + 4) and they cancel out
+        expect_near(mesh.positions[4], {0, 0, 0.5f});
+        expect_near(mesh.normals[4], {0, 0, 1});
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i) EXPECT_GT(dot(mesh.positions[i], mesh.normals[i]), 0);
+        EXPECT_THAT(scene.warnings, IsEmpty());
+    }
+}
+
+TEST(PbrtSubdivision, KeepsBoundariesWhereTheyAre) {
+    const auto scene = read_world(
+        "Shape \"loopsubdiv\" \"integer levels\" 2 \"integer indices\" [ 0 1 2 0 2 3 ]\n"
+        "\"point3 P\" [ 0 0 0  1 0 0  1 1 0  0 1 0 ]");
+    for (const Vec3& p : mesh_of(scene).positions) EXPECT_EQ(p.z, 0);
+    expect_near(normal_of(mesh_of(scene)), {0, 0, 1});
+    EXPECT_THAT(
+        errors_of_world("Shape \"loopsubdiv\" \"integer levels\" 30 \"integer indices\" [ 0 1 2 ] \"point3 P\" [ 0 0 "
+                        "0 1 0 0 0 1 0 ]"),
+        HasSubstr("30 levels of subdivision would make more than 2^24 triangles"));
+}
+
+TEST(PbrtCurves, AreListedOnce) {
+    const auto scene = read_world("Shape \"curve\" \"float width\" 1 Shape \"curve\" Shape \"curve\"");
+    EXPECT_THAT(scene.shapes, IsEmpty());
+    EXPECT_EQ(warnings_of(scene), "scene.pbrt:2: shapes of type 'curve' are not supported and left out (3 times)\n");
 }
 
 TEST(PbrtSpheres, AreScaledAndMoved) {
@@ -186,26 +226,6 @@ TEST(PbrtLamps, DoNotShineInsideOfObjects) {
         read_world("ObjectBegin \"o\" AreaLightSource \"diffuse\" " + ball + "ObjectEnd ObjectInstance \"o\"");
     EXPECT_FALSE(scene.shapes.at(0).emission);
     EXPECT_THAT(warnings_of(scene), HasSubstr("lamps inside of an object don't shine"));
-}
-
-TEST(PbrtEnvironments, AreConstant) {
-    const auto scene = read_world("LightSource \"infinite\" \"rgb L\" [ 1 2 3 ] \"float scale\" 2");
-    ASSERT_THAT(scene.environments, SizeIs(1));
-    EXPECT_EQ(scene.environments[0].radiance, (Rgb{2, 4, 6}));
-}
-
-TEST(PbrtEnvironments, OfAnIlluminanceShareItOverTheHemisphere) {
-    EXPECT_NEAR(read_world("LightSource \"infinite\" \"float illuminance\" 10").environments[0].radiance.g, 10 / pi,
-                1e-5f);
-}
-
-TEST(PbrtEnvironments, OfAPictureAreItsMean) {
-    // two rows, three columns would be latitudes: equal weights by symmetry
-    const MemoryFiles files(
-        {{"sky.hdr", std::string("#?RADIANCE\n\n-Y 2 +X 1\n") + std::string("\x80\x80\x80\x81\x40\x40\x40\x81", 8)}});
-    const auto scene = read_world("LightSource \"infinite\" \"string filename\" \"sky.hdr\" \"float scale\" 2", files);
-    EXPECT_NEAR(scene.environments.at(0).radiance.r, 1.5f, 1e-5f);
-    EXPECT_THAT(warnings_of(scene), HasSubstr("its mean is taken"));
 }
 
 TEST(PbrtShapes, WithInterfacesOnlyAreLeftOut) {

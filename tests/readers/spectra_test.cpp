@@ -52,6 +52,25 @@ TEST(NamedSpectra, KnowMetalsGlassesAndDaylight) {
     EXPECT_FALSE(named_light("metal-Ag-eta"));
 }
 
+// The same as their catalogue says of the yellow line between our red and green: SF11 has n_d = 1.78472.
+TEST(NamedIndices, OfFlintsAreThoseOfTheDenseOnes) {
+    const auto between = [](const char* name) {
+        const Rgb n = *named_index(name);
+        return n.r + (n.g - n.r) * (610 - 587.6f) / 60;
+    };
+    EXPECT_NEAR(between("glass-F5"), 1.6727f, 1e-3f);
+    EXPECT_NEAR(between("glass-F10"), 1.72825f, 1e-3f);
+    EXPECT_NEAR(between("glass-F11"), 1.78472f, 1e-3f);
+    EXPECT_NEAR(between("glass-LASF9"), 1.85025f, 1e-3f);
+    EXPECT_NEAR(between("glass-BK7"), 1.5168f, 1e-3f);
+}
+
+TEST(NamedLights, HaveTheirHueAndLuminanceOne) {
+    for (const char* name : {"stdillum-A", "stdillum-D50", "stdillum-F2", "stdillum-F12", "illum-acesD60"})
+        EXPECT_NEAR(luminance(*named_light(name)), 1, 1e-4f) << name;
+    EXPECT_GT(named_light("stdillum-A")->r, 2 * named_light("stdillum-A")->b);
+}
+
 TEST(SpectrumTables, AreReadInPairs) {
     const auto points = read_spd("# a remark\n400 1.5\n500\t2\r\n");
     ASSERT_EQ(points.size(), 2u);

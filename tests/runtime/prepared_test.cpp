@@ -6,7 +6,6 @@
 #include "core/light/mapped.hpp"
 #include "core/light/rehearsal.hpp"
 #include "core/runtime/serial.hpp"
-#include "nodes/standard_nodes.hpp"
 #include "tests/support/learner.hpp"
 #include "tests/support/small_scenes.hpp"
 
@@ -14,12 +13,6 @@ namespace lightnet {
 namespace {
 
 using testing::ElementsAre;
-
-Registry with_learner() {
-    auto kinds = standard_nodes();
-    kinds.push_back(test::learner());
-    return Registry(std::move(kinds));
-}
 
 Node node(std::string name, std::string kind, std::vector<Value> entries, std::map<std::string, Value> params = {}) {
     return {std::move(name), std::move(kind), std::move(entries), std::move(params), {"test.lua", 1}};
@@ -91,7 +84,7 @@ TEST(Rehearsal, GivesEachQuestionOnceInAnOrderOfItsOwn) {
 }
 
 TEST(RehearsalTiles, CoverTheFilm) {
-    const auto registry = with_learner();
+    const auto registry = test::with_learner();
     std::size_t pixels = 0;
     for (const auto& tile : rehearsal_tiles(learning_graph(registry), registry, 2)) {
         pixels += tile.pixels();
@@ -101,7 +94,7 @@ TEST(RehearsalTiles, CoverTheFilm) {
 }
 
 TEST(Recipes, DependOnWhatANodeAsksAndOnNothingAboveIt) {
-    const auto registry = with_learner();
+    const auto registry = test::with_learner();
     const auto graph = learning_graph(registry);
     auto other_film = graph, other_rays = graph;
     other_film.nodes[3].params["samples"] = Value{64.0};
@@ -124,7 +117,7 @@ TEST(SharedValues, AreMadeOnce) {
 }
 
 TEST(SerialRun, PreparesOnceAndTakesTheRestFromTheCache) {
-    const auto registry = with_learner();
+    const auto registry = test::with_learner();
     const auto network = network_of(learning_graph(registry), registry);
     const Tile tile{0, 0, 24, 16, 0, 4};
     MemoryCache cache;

@@ -12,6 +12,7 @@
 #include "core/light/node_context.hpp"
 #include "core/light/rehearsal.hpp"
 #include "core/light/services.hpp"
+#include "nodes/standard_nodes.hpp"
 
 namespace lightnet::test {
 
@@ -92,6 +93,13 @@ inline Kind learner() {
                     .most = 16}};
     kind.make_light = [](const NodeContext& here) { return std::make_unique<Learner>(here); };
     return kind;
+}
+
+/// All kinds of the product, and the learner.
+inline Registry with_learner() {
+    auto kinds = standard_nodes();
+    kinds.push_back(learner());
+    return Registry(std::move(kinds));
 }
 
 }  // namespace lightnet::test

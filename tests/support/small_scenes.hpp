@@ -90,6 +90,7 @@ inline SceneData furnace(float albedo, float emission) {
     SceneData data;
     add(data, room(), diffuse(data, albedo)).emission = AreaEmission{{emission, emission, emission}, false};
     data.camera = camera({0.3f, 0.4f, 0.2f}, {0.8f, 0.6f, 0.9f}, 80);
+    data.camera_given = true;
     return data;
 }
 

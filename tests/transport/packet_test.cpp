@@ -43,6 +43,20 @@ Message tile_ask() {
     return message;
 }
 
+Message step_ask() {
+    Message message;
+    message.questions = Questions<Step>(std::make_shared<const std::vector<Step>>(std::vector<Step>{
+        {.kind = Step::Kind::go_on, .call = 3, .shard = 2, .data = content_hash(std::string_view("photons"))}}));
+    return message;
+}
+
+Message data_reply() {
+    Message message;
+    message.type = Message::Type::reply;
+    message.data = std::make_shared<const std::vector<std::byte>>(5, std::byte{7});
+    return message;
+}
+
 Message reply() {
     Message message;
     message.type = Message::Type::reply;
@@ -91,6 +105,19 @@ TEST(Packet, BringsTilesAnswersAndFailuresBack) {
     EXPECT_EQ(packet::unpack(failed.header, failed.body)->text, failure().text);
 }
 
+TEST(Packet, BringsStepsAndTheirAnswersBack) {
+    const auto step = packet::pack(step_ask(), 0);
+    EXPECT_EQ(*std::get<Questions<Step>>(packet::unpack(step.header, step.body)->questions),
+              *std::get<Questions<Step>>(step_ask().questions));
+    auto unknown = step_ask();
+    unknown.questions = Questions<Step>(
+        std::make_shared<const std::vector<Step>>(std::vector<Step>{{.kind = static_cast<Step::Kind>(99)}}));
+    const auto refused = packet::pack(unknown, 0);
+    EXPECT_FALSE(packet::unpack(refused.header, refused.body));
+    const auto data = packet::pack(data_reply(), 0);
+    EXPECT_EQ(*packet::unpack(data.header, data.body)->data, *data_reply().data);
+}
+
 TEST(Packet, BringsControlFieldsBackAndIgnoresUnknownOnes) {
     const auto fields = Fields{}.set("places", 4).set("build", "0.1.0").set("future", 9);
     const auto packed = packet::pack(Type::welcome, 3, fields);
@@ -106,7 +133,7 @@ TEST(Packet, BringsControlFieldsBackAndIgnoresUnknownOnes) {
 
 std::vector<Packet> corpus() {
     std::vector<Packet> packets;
-    for (const auto& message : {light_ask(3), tile_ask(), reply(), failure()})
+    for (const auto& message : {light_ask(3), tile_ask(), step_ask(), data_reply(), reply(), failure()})
         packets.push_back(packet::pack(message, 0));
     packets.push_back(packet::pack(Type::hello, 1, Fields{}.set("build", "x").set("n", 5)));
     return packets;

@@ -29,12 +29,16 @@ Part part_of(const std::string& directive) {
 
 }  // namespace
 
-Builder::Builder(const Sources& sources) : sources_(sources), textures_(sources_, scene_) {
+Builder::Builder(const Sources& sources)
+    : sources_(sources),
+      pictures_(sources_, workshop_),
+      textures_(sources_, scene_, pictures_),
+      shapes_(sources_, workshop_) {
     scene_.film.width = 1280, scene_.film.height = 720;  // pbrt's defaults
-    Texture grey;
-    grey.scale = {0.5f, 0.5f, 0.5f};
-    scene_.materials.push_back({"", DiffuseMaterial{textures_.add(grey)}});
-    interfaces_.push_back(false);
+    Material grey;
+    grey.model = DiffuseMaterial{textures_.constant({0.5f, 0.5f, 0.5f}), 0, std::nullopt};
+    scene_.materials.push_back(std::move(grey));
+    uses_.push_back({0, "", {}});
 }
 
 const std::map<std::string, Builder::Handler>& Builder::handlers() {
@@ -81,6 +85,7 @@ const std::map<std::string, Builder::Handler>& Builder::handlers() {
 
 void Builder::execute(Statement& statement) {
     const Part part = part_of(statement.directive);
+    if (state_.space != ColourSpace::srgb) statement.parameters.set_colour_space(state_.space);
     if (part == Part::before_world && in_world_)
         sources_.report.error(statement.where, statement.directive + " must stand before WorldBegin");
     else if (part == Part::in_world && !in_world_)
@@ -94,7 +99,7 @@ void Builder::enter() { push(Block::import, {}); }
 void Builder::leave() {
     while (!stack_.empty() && stack_.back().block != Block::import) {
         sources_.report.error(stack_.back().where, "this block is not closed in its file");
-        if (stack_.back().block == Block::object) open_object_ = nullptr;
+        if (stack_.back().block == Block::object) open_object_ = std::nullopt;
         state_ = std::move(stack_.back().state);
         stack_.pop_back();
     }
@@ -103,17 +108,11 @@ void Builder::leave() {
 
 void Builder::finish() {
     for (const auto& open : stack_) sources_.report.error(open.where, "this block is never closed");
-    for (const auto& [name, material] : named_) {
-        if (material.made || sources_.report.full()) continue;
-        std::vector<std::string> known;
-        for (const auto& [other, made] : named_)
-            if (made.made) known.push_back(other);
-        sources_.report.error(material.first_use,
-                              fmt::format("there is no material '{}'{}", name, did_you_mean(name, known)));
-    }
+    check_uses();
     if (!in_world_) sources_.report.error({sources_.main, 0}, "there is no WorldBegin, and so no scene");
-    drop_interfaces();
-    scene_.film.scale *= exposure_;
+    textures_.finish();  // waits for the meshes as well
+    finish_shapes();
+    finish_film();
     scene_.warnings = sources_.report.warnings();
 }
 
@@ -247,16 +246,16 @@ void Builder::world_begin(Statement&) {
 void Builder::ignored(Statement&) {}
 
 void Builder::medium(Statement& s) {
-    sources_.report.warn(s.where, "participating media are left out: the space is taken as empty");
+    s.parameters.ignore_all();
+    sources_.report.warn(s.where, "participating media are not supported: the space is taken as empty");
 }
 
 void Builder::color_space(Statement& s) {
-    static const std::vector<std::string> known{"aces2065-1", "dci-p3", "rec2020", "srgb"};
-    if (std::find(known.begin(), known.end(), s.names[0]) == known.end())
-        sources_.report.error(s.where,
-                              fmt::format("unknown color space '{}'{}", s.names[0], did_you_mean(s.names[0], known)));
-    else if (s.names[0] != "srgb")
-        sources_.report.warn(s.where, fmt::format("colours of '{}' are taken as srgb", s.names[0]));
+    if (const auto space = colour_space_named(s.names[0]))
+        state_.space = *space;
+    else
+        sources_.report.error(s.where, fmt::format("unknown color space '{}'{}", s.names[0],
+                                                   did_you_mean(s.names[0], colour_space_names())));
 }
 
 void Builder::camera(Statement& s) {
@@ -268,12 +267,15 @@ void Builder::camera(Statement& s) {
     const Shot shot = make_camera(s.names[0], s.parameters, *to_world);
     s.parameters.warn_unused();
     scene_.camera = shot.camera;
+    scene_.camera_given = true;
     exposure_ = shot.exposure;
     systems_["camera"] = *to_world;
 }
 
 void Builder::film(Statement& s) {
-    scene_.film = make_film(s.names[0], s.parameters);
+    const FilmShot shot = make_film(s.names[0], s.parameters);
+    scene_.film = shot.film;
+    white_ = shot.white;
     s.parameters.warn_unused();
 }
 

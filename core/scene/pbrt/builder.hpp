@@ -6,15 +6,19 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/scene/pbrt/camera.hpp"
+#include "core/scene/pbrt/colour_space.hpp"
 #include "core/scene/pbrt/lights.hpp"
+#include "core/scene/pbrt/pictures.hpp"
 #include "core/scene/pbrt/shapes.hpp"
 #include "core/scene/pbrt/sources.hpp"
 #include "core/scene/pbrt/syntax.hpp"
 #include "core/scene/pbrt/textures.hpp"
 #include "core/scene/scene_data.hpp"
+#include "core/scene/workshop.hpp"
 
 namespace lightnet::pbrt {
 
@@ -42,7 +46,8 @@ private:
         Matrix to_world;
         bool reversed = false;
         bool active = true;  // ActiveTransform: false when only the end of the time is meant
-        std::uint32_t material = 0;
+        ColourSpace space = ColourSpace::srgb;
+        std::size_t material = 0;  // index into uses_
         std::optional<AreaLight> lamp;
         std::map<std::string, std::vector<std::shared_ptr<const Parameter>>>
             defaults;  // of Attribute, by what they are for
@@ -53,14 +58,22 @@ private:
         State state;
         SourceLine where;
     };
-    /// A material that somebody has named, perhaps before it was made.
-    struct Named {
-        std::uint32_t index = 0;
-        bool made = false;
+    /// A material that shapes may have; one with a name is perhaps made later.
+    struct MaterialUse {
+        std::optional<MaterialId> made;
+        std::string name;
         SourceLine first_use;
     };
-    struct Object {
-        std::vector<Shape> shapes;
+    /// A shape that was asked for, with all that was said of it.
+    struct WaitingShape {
+        std::shared_ptr<MadeShape> made;
+        std::size_t material = 0;
+        std::optional<TextureId> alpha;
+        std::optional<AreaLight> lamp;
+        bool lamp_per_triangle = false;  // for pbrt every triangle of a mesh is a lamp of its own
+        std::optional<std::uint32_t> object;
+        std::string owner;  // for messages
+        SourceLine where;
     };
 
     void look_at(Statement&);
@@ -96,7 +109,7 @@ private:
     void named_material(Statement&);
     void texture(Statement&);
     Material material_of(const std::string& type, Parameters& parameters);
-    Named& named(const std::string& name, const SourceLine& where);
+    std::size_t use_of(const std::string& name, const SourceLine& where);
 
     void area_light(Statement&);
     void light(Statement&);
@@ -104,24 +117,34 @@ private:
     void object_begin(Statement&);
     void object_end(Statement&);
     void object_instance(Statement&);
-    void add_shape(Shape shape);
-    void drop_interfaces();
+    std::optional<TextureId> alpha_of(Parameters& parameters);
+
+    void check_uses();
+    void finish_shapes();
+    void finish_shape(WaitingShape& waiting);
+    MaterialId with_alpha(MaterialId material, TextureId alpha);
     void emit(Shape shape, const AreaLight& lamp, bool each_triangle);
-    bool room_for(const Shape& shape, const SourceLine& where);
+    void add_shape(Shape shape, const std::optional<std::uint32_t>& object);
+    void finish_film();
 
     Sources sources_;
     SceneData scene_;
+    Workshop workshop_;
+    Pictures pictures_;
     Textures textures_;
+    Shapes shapes_;
     State state_;
     std::vector<Saved> stack_;
     bool in_world_ = false;
     float exposure_ = 1;
+    Rgb white_{1, 1, 1};
     std::map<std::string, Matrix> systems_;
-    std::map<std::string, Named> named_;
-    std::vector<bool> interfaces_;  // by material: not there at all
-    std::map<std::string, Object> objects_;
-    Object* open_object_ = nullptr;
-    std::uint64_t size_ = 0;  // so far, in vertices and triangles
+    std::vector<MaterialUse> uses_;
+    std::map<std::string, std::size_t> named_;  // index into uses_
+    std::map<std::pair<MaterialId, TextureId>, MaterialId> with_alpha_;
+    std::map<std::string, std::uint32_t> objects_;
+    std::optional<std::uint32_t> open_object_;
+    std::vector<WaitingShape> waiting_;
 };
 
 }  // namespace lightnet::pbrt

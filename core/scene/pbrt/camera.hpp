@@ -18,8 +18,17 @@ struct Shot {
 /// `to_world` is the inverse of the transform at the Camera statement.
 Shot make_camera(const std::string& type, Parameters& parameters, const Matrix& to_world);
 
+/// Makes the axes of a camera's transform unit vectors, and its lens and screen as large as they were.
+void take_scale_out(CameraData& camera);
+
+/// A film, and the light that it shows as white.
+struct FilmShot {
+    FilmData film;
+    Rgb white{1, 1, 1};  // luminance 1
+};
+
 /// The film, its scale without the exposure time: with a sensor of ISO 100 and one second a light of `rgb L` [l l l],
 /// seen directly, has the value l.
-FilmData make_film(const std::string& type, Parameters& parameters);
+FilmShot make_film(const std::string& type, Parameters& parameters);
 
 }  // namespace lightnet::pbrt

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "core/math/transform.hpp"
 #include "core/scene/pbrt/parameters.hpp"
 #include "core/scene/pbrt/textures.hpp"
 #include "core/scene/scene_data.hpp"
@@ -14,6 +15,7 @@ namespace lightnet::pbrt {
 struct AreaLight {
     AreaEmission emission;
     std::optional<float> power;  // watts (pbrt: of each shape); decides the radiance with the shape's area
+    float brightness = 1;        // mean luminance of the picture on it, for the power
 
     /// The emission of a shape with that area.
     AreaEmission on(double area) const;
@@ -22,8 +24,8 @@ struct AreaLight {
 std::optional<AreaLight> make_area_light(const std::string& type, Parameters& parameters, Textures& textures,
                                          const Sources& sources);
 
-/// A light that is no shape. Only constant environments are supported: of a picture the mean is taken, with a warning.
-std::optional<EnvironmentData> make_light(const std::string& type, Parameters& parameters, Textures& textures,
-                                          const Sources& sources);
+/// Makes a light that is no shape, and adds it to the scene. What is wrong is reported.
+void add_light(const std::string& type, Parameters& parameters, Textures& textures, const Sources& sources,
+               const Matrix& to_world, SceneData& scene);
 
 }  // namespace lightnet::pbrt

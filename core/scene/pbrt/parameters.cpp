@@ -82,6 +82,15 @@ void Parameters::inherit(const std::vector<std::shared_ptr<const Parameter>>& de
     }
 }
 
+void Parameters::set_colour_space(ColourSpace space) {
+    for (std::size_t i = 0; i < own_; ++i) {
+        if (parameters_[i]->type != Type::rgb) continue;
+        Parameter copy = *parameters_[i];
+        copy.space = space;
+        parameters_[i] = std::make_shared<const Parameter>(std::move(copy));
+    }
+}
+
 const Parameter* Parameters::find(std::string_view name) {
     asked_.emplace(name);
     const auto same = [&](const auto& p) { return p->name == name; };

@@ -13,6 +13,7 @@
 
 #include "core/error.hpp"
 #include "core/math/vec.hpp"
+#include "core/scene/pbrt/colour_space.hpp"
 #include "core/scene/report.hpp"
 
 namespace lightnet::pbrt {
@@ -49,6 +50,7 @@ struct Parameter {
     std::vector<std::int32_t> integers;
     std::vector<std::string> texts;
     std::vector<bool> booleans;
+    ColourSpace space = ColourSpace::srgb;  // of rgb
 };
 
 /// The parameters of one statement, asked for by name and type. A wrong type is reported where it stands, and the
@@ -74,6 +76,8 @@ public:
     std::string text(std::string_view name, const std::string& fallback);
     std::vector<Vec3> triples(std::string_view name, Type type);
     std::vector<Vec2> pairs(std::string_view name, Type type);
+    /// The rgb that the statement itself gives are of that space.
+    void set_colour_space(ColourSpace space);
     /// Nobody looks at the rest of this statement.
     void ignore_all();
     /// Names that may stand there without any effect on what is read here.

@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <exception>
+#include <map>
 #include <numbers>
 #include <utility>
 
+#include "core/scene/gzip.hpp"
+#include "core/scene/pbrt/meshes.hpp"
 #include "core/scene/pbrt/quadrics.hpp"
 #include "core/scene/pbrt/transforms.hpp"
 #include "core/scene/ply.hpp"
@@ -18,143 +21,27 @@ namespace {
 
 constexpr float full_turn = 2 * std::numbers::pi_v<float>;
 
-Vec3 unit_or_zero(Vec3 v) {
-    const float size = length(v);
-    return size > 0 && std::isfinite(size) ? v / size : Vec3{};
-}
-
-/// pbrt lets the shading normals decide on which side of a triangle its normal is. Vertices without a sound normal get
-/// the one of a triangle.
-void order_by_normals(Mesh& mesh) {
-    for (auto& t : mesh.triangles) {
-        Vec3 n = cross(mesh.positions[t[1]] - mesh.positions[t[0]], mesh.positions[t[2]] - mesh.positions[t[0]]);
-        if (mesh.flip_normals) n = -n;
-        for (const auto i : t)
-            if (length_squared(mesh.normals[i]) == 0) mesh.normals[i] = unit_or_zero(n);
-        const Vec3 shading = mesh.normals[t[0]] + mesh.normals[t[1]] + mesh.normals[t[2]];
-        const bool against = dot(n, shading) < 0;
-        if (against != mesh.flip_normals) std::swap(t[1], t[2]);
-    }
-    mesh.flip_normals = false;
-}
-
-/// Moves a mesh from its own space into the world; `turn` turns the shading normals.
-std::optional<Geometry> place(Mesh mesh, Parameters& parameters, const Placement& placement, bool turn) {
-    mesh.flip_normals = placement.flips();
-    for (auto& p : mesh.positions) {
-        p = transform_point(placement.to_world, p);
-        if (finite(p)) continue;
-        parameters.error("a vertex is not finite after the transforms");
-        return std::nullopt;
-    }
-    for (auto& n : mesh.normals) {
-        n = unit_or_zero(transform_normal(placement.from_world, n));
-        if (turn) n = -n;
-    }
-    if (!mesh.normals.empty()) order_by_normals(mesh);
-    return mesh;
-}
-
-/// The numbers of a parameter as vertex indices. None: reported.
-std::optional<std::vector<std::uint32_t>> indices(Parameters& parameters, std::size_t vertices, std::size_t per_face) {
-    std::vector<std::uint32_t> result;
-    const Parameter* given = parameters.find("indices", Type::integer);
-    if (!given && vertices == per_face) {
-        for (std::uint32_t i = 0; i < per_face; ++i) result.push_back(i);
-        return result;
-    }
-    if (!given) {
-        parameters.error(fmt::format("parameter 'indices' is missing (only {} vertices need none)", per_face));
-        return std::nullopt;
-    }
-    if (given->integers.size() % per_face) {
-        parameters.error(fmt::format("{} indices are no multiple of {}", given->integers.size(), per_face));
-        return std::nullopt;
-    }
-    for (const auto i : given->integers) {
-        if (i < 0 || static_cast<std::size_t>(i) >= vertices) {
-            parameters.error(fmt::format("index {} is out of range: there are {} vertices", i, vertices));
-            return std::nullopt;
-        }
-        result.push_back(static_cast<std::uint32_t>(i));
-    }
-    return result;
-}
-
-/// Vertices as the parameters of trianglemesh and bilinearmesh give them. None: reported.
-std::optional<Mesh> vertices(Parameters& parameters) {
-    Mesh mesh;
-    mesh.positions = parameters.triples("P", Type::point3);
-    mesh.normals = parameters.triples("N", Type::normal);
-    mesh.uvs = parameters.pairs(parameters.find("st") ? "st" : "uv", Type::point2);
-    parameters.ignore({"S", "faceIndices", "uv"});
-    const std::size_t count = mesh.positions.size();
-    if (count == 0) {
-        parameters.error("parameter 'P' is missing");
-        return std::nullopt;
-    }
-    const auto fits = [&](std::size_t size, const char* what) {
-        if (size == 0 || size == count) return true;
-        parameters.error(fmt::format("there are {} '{}' for {} vertices", size, what, count));
-        return false;
-    };
-    const bool good = fits(mesh.normals.size(), "N") & fits(mesh.uvs.size(), "uv");
-    return good ? std::optional(std::move(mesh)) : std::nullopt;
-}
-
-std::optional<Geometry> triangle_mesh(Parameters& parameters, const Sources&, const Placement& placement) {
-    auto mesh = vertices(parameters);
+std::optional<Geometry> placed(std::optional<Mesh> mesh, Parameters& parameters, const Placement& placement,
+                               bool turn) {
     if (!mesh) return std::nullopt;
-    const auto corners = indices(parameters, mesh->positions.size(), 3);
-    if (!corners) return std::nullopt;
-    for (std::size_t i = 0; i < corners->size(); i += 3)
-        mesh->triangles.push_back({(*corners)[i], (*corners)[i + 1], (*corners)[i + 2]});
-    return place(std::move(*mesh), parameters, placement, placement.reversed);
-}
-
-bool planar(const Mesh& mesh, const std::array<std::uint32_t, 4>& patch) {
-    const auto& p = mesh.positions;
-    const Vec3 a = p[patch[1]] - p[patch[0]], b = p[patch[2]] - p[patch[0]], c = p[patch[3]] - p[patch[0]];
-    const float size = std::max({length(a), length(b), length(c)});
-    return std::fabs(dot(cross(a, b), c)) <= 1e-4f * size * size * size;
-}
-
-std::optional<Geometry> bilinear_mesh(Parameters& parameters, const Sources&, const Placement& placement) {
-    auto mesh = vertices(parameters);
-    if (!mesh) return std::nullopt;
-    const auto corners = indices(parameters, mesh->positions.size(), 4);
-    if (!corners) return std::nullopt;
-    if (mesh->uvs.empty() && mesh->positions.size() == 4) mesh->uvs = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
-    for (std::size_t i = 0; i < corners->size(); i += 4) {
-        const std::array<std::uint32_t, 4> p{(*corners)[i], (*corners)[i + 1], (*corners)[i + 2], (*corners)[i + 3]};
-        if (!planar(*mesh, p)) parameters.warn("a bilinear patch that is not flat is taken for two triangles");
-        // the order of pbrt's corners is (0, 0), (1, 0), (0, 1), (1, 1)
-        mesh->triangles.push_back({p[0], p[1], p[3]});
-        mesh->triangles.push_back({p[0], p[3], p[2]});
-    }
-    return place(std::move(*mesh), parameters, placement, placement.reversed);
-}
-
-std::optional<Geometry> ply_mesh(Parameters& parameters, const Sources& sources, const Placement& placement) {
-    const std::string file = parameters.text("filename", "");
-    if (parameters.find("displacement")) parameters.warn("displacement is left out");
-    parameters.ignore({"edgelength"});
-    if (file.empty()) {
-        parameters.error("parameter 'filename' is missing");
+    if (const std::string problem = place(*mesh, placement, turn); !problem.empty()) {
+        parameters.error(problem);
         return std::nullopt;
     }
-    if (file.ends_with(".gz")) {
-        parameters.error(fmt::format("'{}' is compressed; only plain PLY files are read", file));
-        return std::nullopt;
-    }
-    const auto bytes = sources.read(file, parameters.where());
-    if (!bytes) return std::nullopt;
-    try {
-        return place(read_ply(**bytes), parameters, placement, placement.reversed);
-    } catch (const Error& problem) {
-        parameters.error(fmt::format("'{}': {}", file, problem.what()));
-        return std::nullopt;
-    }
+    return std::move(*mesh);
+}
+
+std::optional<Geometry> triangles(Parameters& parameters, const Placement& placement) {
+    return placed(triangle_mesh(parameters), parameters, placement, placement.reversed);
+}
+
+std::optional<Geometry> bilinear(Parameters& parameters, const Placement& placement) {
+    return placed(bilinear_mesh(parameters), parameters, placement, placement.reversed);
+}
+
+// the normals are our own, so they turn with the surface
+std::optional<Geometry> subdivision(Parameters& parameters, const Placement& placement) {
+    return placed(subdivision_mesh(parameters), parameters, placement, placement.flips());
 }
 
 /// The axes of a transform that scales all directions alike: its rotation (and mirroring) alone.
@@ -165,7 +52,7 @@ Matrix axes_of(const Matrix& matrix, double scale) {
     return axes;
 }
 
-std::optional<Geometry> sphere(Parameters& parameters, const Sources&, const Placement& placement) {
+std::optional<Geometry> sphere(Parameters& parameters, const Placement& placement) {
     const float radius = parameters.number("radius", 1);
     if (!(radius > 0)) {
         parameters.error("the radius must be above 0");
@@ -187,77 +74,88 @@ std::optional<Geometry> sphere(Parameters& parameters, const Sources&, const Pla
     }
     parameters.warn(whole ? "a sphere that is scaled unevenly is cut into triangles"
                           : "a part of a sphere is cut into triangles");
-    return place(sphere_mesh(part), parameters, placement, placement.flips());
+    return placed(sphere_mesh(part), parameters, placement, placement.flips());
 }
 
-std::optional<Geometry> disk(Parameters& parameters, const Sources&, const Placement& placement) {
+std::optional<Geometry> disk(Parameters& parameters, const Placement& placement) {
     parameters.warn("a disk is cut into triangles");
-    return place(disk_mesh(parameters), parameters, placement, placement.flips());
+    return placed(disk_mesh(parameters), parameters, placement, placement.flips());
 }
 
-std::optional<Geometry> cylinder(Parameters& parameters, const Sources&, const Placement& placement) {
+std::optional<Geometry> cylinder(Parameters& parameters, const Placement& placement) {
     parameters.warn("a cylinder is cut into triangles");
-    return place(cylinder_mesh(parameters), parameters, placement, placement.flips());
+    return placed(cylinder_mesh(parameters), parameters, placement, placement.flips());
 }
 
-std::optional<Geometry> subdivision(Parameters& parameters, const Sources& sources, const Placement& placement) {
-    parameters.ignore({"levels", "scheme"});
-    parameters.warn("a subdivision surface is taken as its control mesh");
-    return triangle_mesh(parameters, sources, placement);
-}
-
-using Maker = std::optional<Geometry> (*)(Parameters&, const Sources&, const Placement&);
+using Maker = std::optional<Geometry> (*)(Parameters&, const Placement&);
 
 const std::map<std::string, Maker>& makers() {
-    static const std::map<std::string, Maker> table{
-        {"trianglemesh", triangle_mesh}, {"plymesh", ply_mesh}, {"sphere", sphere},
-        {"bilinearmesh", bilinear_mesh}, {"disk", disk},        {"cylinder", cylinder},
-        {"loopsubdiv", subdivision}};
+    static const std::map<std::string, Maker> table{{"trianglemesh", triangles}, {"sphere", sphere},
+                                                    {"bilinearmesh", bilinear},  {"disk", disk},
+                                                    {"cylinder", cylinder},      {"loopsubdiv", subdivision}};
     return table;
+}
+
+Geometry read_mesh(const Bytes& bytes, const Placement& placement) {
+    Mesh mesh = is_gzip(*bytes) ? read_ply(gunzip(*bytes)) : read_ply(*bytes);
+    if (const std::string problem = place(mesh, placement, placement.reversed); !problem.empty()) throw Error(problem);
+    return mesh;
 }
 
 }  // namespace
 
-std::optional<Geometry> make_shape(const std::string& type, Parameters& parameters, const Sources& sources,
-                                   const Placement& placement) {
-    if (const Parameter* alpha = parameters.find("alpha");
-        alpha && (alpha->type != Type::number || alpha->numbers[0] < 1))
-        parameters.warn("transparency by 'alpha' is left out");
-    if (type == "curve") {
-        parameters.ignore_all();
-        parameters.warn("curves are left out");
-        return std::nullopt;
-    }
-    if (const auto maker = makers().find(type); maker != makers().end())
-        return maker->second(parameters, sources, placement);
-    std::vector<std::string> known;
-    for (const auto& [name, maker] : makers()) known.push_back(name);
-    parameters.error("unknown shape" + did_you_mean(type, known));
-    parameters.ignore_all();
-    return std::nullopt;
+void Budget::take(const Geometry& geometry) {
+    constexpr std::uint64_t least = 16;
+    const auto* mesh = std::get_if<Mesh>(&geometry);
+    take(least + (mesh ? mesh->triangles.size() + mesh->positions.size() : 0));
 }
 
-Geometry moved(const Geometry& geometry, const Placement& placement) {
-    const Matrix& to_world = placement.to_world;
-    const auto scale = uniform_scale(to_world);
-    if (const auto* ball = std::get_if<Sphere>(&geometry); ball && scale) {
-        // pbrt moves the normal with the surface, so a mirroring doesn't turn it
-        return Sphere{transform_point(to_world, ball->center), float(ball->radius * *scale), ball->flip_normals,
-                      axes_of(to_world, *scale) * ball->to_world};
+std::shared_ptr<MadeShape> Shapes::make(const std::string& type, Parameters& parameters, const Placement& placement) {
+    if (budget_.exceeded()) {
+        parameters.ignore_all();
+        return nullptr;  // said in the end
     }
-    Mesh mesh;
-    if (const auto* ball = std::get_if<Sphere>(&geometry)) {
-        mesh = sphere_mesh({ball->radius, -ball->radius, ball->radius, full_turn});
-        for (auto& p : mesh.positions) p = ball->center + transform_direction(ball->to_world, p);
-        for (auto& n : mesh.normals) n = transform_direction(ball->to_world, n) * (ball->flip_normals ? -1.0f : 1.0f);
-        order_by_normals(mesh);
-    } else {
-        mesh = std::get<Mesh>(geometry);
+    if (type == "curve") {
+        parameters.ignore_all();
+        sources_.report.warn(parameters.where(), "shapes of type 'curve' are not supported and left out");
+        return nullptr;
     }
-    for (auto& p : mesh.positions) p = transform_point(to_world, p);
-    for (auto& n : mesh.normals) n = unit_or_zero(transform_normal(placement.from_world, n));
-    mesh.flip_normals = mesh.flip_normals != swaps_handedness(to_world);
-    return mesh;
+    if (type == "plymesh") return ply_mesh(parameters, placement);
+    const auto maker = makers().find(type);
+    if (maker == makers().end()) {
+        std::vector<std::string> known{"plymesh"};
+        for (const auto& entry : makers()) known.push_back(entry.first);
+        parameters.error("unknown shape" + did_you_mean(type, known));
+        parameters.ignore_all();
+        return nullptr;
+    }
+    auto geometry = maker->second(parameters, placement);
+    if (!geometry) return nullptr;
+    budget_.take(*geometry);
+    return std::make_shared<MadeShape>(MadeShape{std::move(geometry), {}});
+}
+
+std::shared_ptr<MadeShape> Shapes::ply_mesh(Parameters& parameters, const Placement& placement) {
+    const std::string file = parameters.text("filename", "");
+    if (parameters.find("displacement")) parameters.warn("displacement is left out");
+    parameters.ignore({"edgelength"});
+    if (file.empty()) {
+        parameters.error("parameter 'filename' is missing");
+        return nullptr;
+    }
+    const auto bytes = sources_.read(file, parameters.where());
+    if (!bytes) return nullptr;
+    auto made = std::make_shared<MadeShape>();
+    workshop_.add([this, made, file, placement, bytes = *bytes] {
+        if (budget_.exceeded()) return;
+        try {
+            made->geometry = read_mesh(bytes, placement);
+            budget_.take(*made->geometry);
+        } catch (const std::exception& problem) {
+            made->problem = fmt::format("'{}': {}", file, problem.what());
+        }
+    });
+    return made;
 }
 
 double area_of(const Geometry& geometry) {

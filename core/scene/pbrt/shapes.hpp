@@ -1,15 +1,18 @@
-// pbrt's shapes, made into meshes and spheres in world space.
+// pbrt's shapes, made into meshes and spheres.
 #pragma once
 
+#include <atomic>
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
-#include <vector>
 
 #include "core/math/transform.hpp"
 #include "core/scene/pbrt/parameters.hpp"
 #include "core/scene/pbrt/sources.hpp"
 #include "core/scene/scene_data.hpp"
+#include "core/scene/workshop.hpp"
 
 namespace lightnet::pbrt {
 
@@ -25,14 +28,41 @@ struct Placement {
     bool flips() const { return reversed != swaps_handedness(to_world); }
 };
 
-/// The shape of that type. None: reported.
-std::optional<Geometry> make_shape(const std::string& type, Parameters& parameters, const Sources& sources,
-                                   const Placement& placement);
+/// What a scene takes of memory, counted in vertices and triangles.
+class Budget {
+public:
+    static constexpr std::uint64_t most = std::uint64_t{1} << 27;  // about 4 GB, and as much again in Embree
+    void take(const Geometry& geometry);
+    void take(std::uint64_t size) { taken_ += size; }
+    bool exceeded() const { return taken_ > most; }
 
-/// A copy of a shape that stands in world space already, moved again: instances.
-Geometry moved(const Geometry& geometry, const Placement& placement);
+private:
+    std::atomic<std::uint64_t> taken_ = 0;
+};
 
-/// In world space.
+/// A shape that was asked for. Meshes in files come later: wait for the workshop before looking.
+struct MadeShape {
+    std::optional<Geometry> geometry;
+    std::string problem;  // why there is none, as far as it isn't reported yet
+};
+
+/// Makes the shapes of one scene.
+class Shapes {
+public:
+    Shapes(const Sources& sources, Workshop& workshop) : sources_(sources), workshop_(workshop) {}
+
+    /// The shape of that type, where it stands. None: reported.
+    std::shared_ptr<MadeShape> make(const std::string& type, Parameters& parameters, const Placement& placement);
+    Budget& budget() { return budget_; }
+
+private:
+    std::shared_ptr<MadeShape> ply_mesh(Parameters& parameters, const Placement& placement);
+
+    const Sources& sources_;
+    Workshop& workshop_;
+    Budget budget_;
+};
+
 double area_of(const Geometry& geometry);
 
 }  // namespace lightnet::pbrt

@@ -101,7 +101,12 @@ std::optional<Bytes> Sources::read(const std::string& name, const SourceLine& wh
 
 std::optional<Rgb> colour_of(const Parameter& parameter, Use use, const Sources& sources) {
     const auto colour = unchecked(parameter, use, sources);
-    return colour ? checked(*colour, parameter, use, sources) : std::nullopt;
+    if (!colour) return std::nullopt;
+    auto sound = checked(*colour, parameter, use, sources);
+    if (!sound || parameter.type != Type::rgb || parameter.space == ColourSpace::srgb) return sound;
+    sound = to_srgb(*sound, parameter.space);
+    if (use == Use::light) *sound *= white_light(parameter.space);
+    return sound;
 }
 
 }  // namespace lightnet::pbrt

@@ -1,30 +1,25 @@
-// pbrt's textures, made into the two kinds that a scene has: a constant, or a picture.
+// pbrt's textures, made into those of a scene.
 #pragma once
 
-#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 
-#include "core/scene/image_file.hpp"
 #include "core/scene/pbrt/parameters.hpp"
+#include "core/scene/pbrt/pictures.hpp"
 #include "core/scene/pbrt/sources.hpp"
 #include "core/scene/scene_data.hpp"
 
 namespace lightnet::pbrt {
 
-/// The value of a texture at texture coordinates, as a scene looks it up.
-Rgb look_up(const Texture& texture, Vec2 uv);
-/// Mean colour of a picture or constant.
-Rgb mean_of(const Texture& texture);
-
-/// All textures of one scene, by name. What materials need of them goes into the scene.
+/// All textures of one scene, by name. They go into the scene as they are made, so that each stands behind those
+/// that it is made of.
 class Textures {
 public:
-    Textures(const Sources& sources, SceneData& scene) : sources_(sources), scene_(scene) {}
+    Textures(const Sources& sources, SceneData& scene, Pictures& pictures)
+        : sources_(sources), scene_(scene), pictures_(pictures) {}
 
     /// `Texture "name" "float|spectrum" "class" …`
     void define(const std::string& name, const std::string& kind, const std::string& type, Parameters& parameters);
@@ -33,30 +28,43 @@ public:
     TextureId colour(Parameters& parameters, std::string_view name, Rgb fallback, Use use = Use::surface);
     /// The same; none when the parameter isn't there.
     std::optional<TextureId> maybe_colour(Parameters& parameters, std::string_view name, Use use = Use::surface);
-    /// A number; of a texture its mean, with a warning.
-    std::optional<float> number(Parameters& parameters, std::string_view name);
-    TextureId add(const Texture& texture);
-    /// A decoded picture, each file and encoding once. None: reported.
-    std::shared_ptr<const Image> image(const std::string& name, const Encoding& encoding, const SourceLine& where);
+    /// A number or the name of a float texture; none when the parameter isn't there.
+    std::optional<TextureId> maybe_number(Parameters& parameters, std::string_view name);
+    TextureId add(Texture texture);
+    TextureId constant(Rgb value) { return add({value, {}, false}); }
+    /// A picture whose numbers are taken as they are, repeated: normal maps. None: reported.
+    std::optional<TextureId> plain_picture(const std::string& file, const SourceLine& where);
+    /// The value of a texture that is the same everywhere.
+    std::optional<Rgb> constant_value(TextureId texture) const;
+    /// The product of a texture and a number.
+    TextureId scaled(TextureId texture, float factor);
+
+    /// Once all pictures are there: pbrt takes a number from a picture's alpha, if that is not 1 everywhere.
+    void finish();
+    Pictures& pictures() { return pictures_; }
 
 private:
-    using Named = std::map<std::string, Texture, std::less<>>;
+    using Named = std::map<std::string, TextureId, std::less<>>;
 
-    Texture make(const std::string& type, Named& named, Parameters& parameters);
-    Texture imagemap(Parameters& parameters);
+    std::optional<Texture> make(const std::string& type, Named& named, Parameters& parameters);
+    Texture imagemap(Parameters& parameters, ImageTexture::Channel channel);
     Texture scale(Named& named, Parameters& parameters);
     Texture mix(Named& named, Parameters& parameters);
+    Texture direction_mix(Named& named, Parameters& parameters);
     Texture checkerboard(Named& named, Parameters& parameters);
-    Texture input(Named& named, Parameters& parameters, std::string_view name, float fallback);
-    const Texture* find(const Named& named, const Parameter& parameter);
-    bool room_for(const Image& image, const SourceLine& where);
+    Texture dots(Named& named, Parameters& parameters);
+    Texture bilinear(Parameters& parameters);
+    Texture unsupported(const std::string& type, Parameters& parameters, Rgb mean);
+    Rgb corner(Parameters& parameters, std::string_view name, float fallback);
+    TextureId input(Named& named, Parameters& parameters, std::string_view name, float fallback);
+    TextureId number_or(Parameters& parameters, std::string_view name, float fallback);
+    std::optional<TextureId> find(const Named& named, const Parameter& parameter);
     Encoding encoding_of(Parameters& parameters);
 
     const Sources& sources_;
     SceneData& scene_;
+    Pictures& pictures_;
     Named floats_, spectra_;
-    std::map<std::pair<std::string, std::string>, std::shared_ptr<const Image>> images_;  // by path and encoding
-    std::uint64_t pixels_ = 0;                                                            // of all pictures
 };
 
 }  // namespace lightnet::pbrt

@@ -1,0 +1,23 @@
+// The scene of a graph: what its file says, and what the graph changes about it.
+#pragma once
+
+#include <string>
+
+#include "core/graph/graph.hpp"
+#include "core/graph/kind.hpp"
+#include "core/scene/files.hpp"
+#include "core/scene/overrides.hpp"
+#include "core/scene/scene_data.hpp"
+
+namespace lightnet {
+
+/// What the Scene node of a checked graph's renderer overrides. Names of files are taken from the graph's folder.
+SceneOverrides scene_overrides(const Graph& graph, const Registry& registry);
+
+/// Changes a scene as read from its file. Throws UserError.
+void override_scene(const Graph& graph, const Registry& registry, Files& files, SceneData& scene);
+
+/// Reads the scene in the file at `path` and applies what the graph changes. Throws UserError with all that is wrong.
+SceneData load_scene(const Graph& graph, const Registry& registry, Files& files, const std::string& path);
+
+}  // namespace lightnet

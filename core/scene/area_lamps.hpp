@@ -1,0 +1,97 @@
+// Shapes that shine: points on them, and how likely each is.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/math/rgb.hpp"
+#include "core/math/vec.hpp"
+#include "core/scene/light_sample.hpp"
+#include "core/scene/light_tree.hpp"
+#include "core/scene/ray.hpp"
+#include "core/scene/scene_data.hpp"
+#include "core/scene/shading.hpp"
+#include "core/scene/surface.hpp"
+
+namespace lightnet {
+
+/// All shapes that emit light, cut into lamps: a sphere is one, and so is a mesh of a few triangles in one plane; of
+/// any other mesh each triangle is. A point on a mesh is uniform by area, on a sphere uniform within the cone that it
+/// fills. Any thread may ask.
+class AreaLamps {
+public:
+    /// Looks at both while it lives.
+    AreaLamps(const SceneData& data, const Shading& shading);
+
+    std::size_t size() const { return lamps_.size(); }
+    /// A point on a lamp that is chosen for certain. None: it sends no light this way.
+    std::optional<LightSample> sample(std::size_t lamp, Vec3 from, Vec2 u) const;
+    /// Density with which sample() finds the emitting point `on`, which lies in `direction` from `from`.
+    float pdf(std::size_t lamp, Vec3 from, Vec3 direction, const SurfacePoint& on) const;
+    /// The lamp that a point of a surface belongs to.
+    std::optional<std::size_t> lamp_at(const SurfacePoint& point) const;
+    /// Radiance that a point of a surface emits into `direction` (unit, away from it).
+    Rgb radiance(const SurfacePoint& point, Vec3 direction) const;
+    /// Could the ray meet a lamp? False is certain.
+    bool may_meet(const Ray& ray) const;
+
+    LightBounds bounds(std::size_t lamp) const;
+    /// All that the lamp emits, W; of a textured one, nearly.
+    Rgb power(std::size_t lamp) const;
+    /// Light leaving the lamp: uniform by area, by the cosine in direction; flux as if it were the only light.
+    std::optional<Emission> emit(std::size_t lamp, Vec2 where, Vec2 whither) const;
+    std::size_t memory() const;
+
+private:
+    struct Facet {
+        Vec3 corner, first_edge, second_edge, normal;
+    };
+    struct Lamp {
+        std::uint32_t shape = 0;
+        std::uint32_t first = 0, facets = 0;  // of a mesh: into facets_
+        float area = 0;                       // m²
+        Rgb radiance;
+        bool two_sided = false;
+        bool plain = true;  // neither texture nor holes
+        Rgb mean{1, 1, 1};  // of the texture
+    };
+    struct Ball {
+        Vec3 center;
+        float radius = 0;
+    };
+    /// A point on a lamp.
+    struct Spot {
+        Vec3 position, normal;
+        std::uint32_t primitive = 0;
+        float u = 0, v = 0;
+    };
+    void add_mesh(std::uint32_t shape, const Mesh& mesh);
+    void add_lamp(std::uint32_t shape, std::uint32_t first, std::uint32_t facets);
+    Rgb mean_of_texture(const Lamp& lamp) const;
+    Rgb texture_at(std::uint32_t shape, std::uint32_t primitive, float u, float v) const;
+    Rgb radiance_at(const Lamp& lamp, const Spot& spot) const;
+    bool is_there(const Lamp& lamp, const Spot& spot) const;
+    std::uint32_t facet_of(const Lamp& lamp, float& u) const;
+    Spot on_mesh(const Lamp& lamp, Vec2 u) const;
+    Spot on_sphere(const Sphere& ball, Vec3 outwards) const;
+    std::optional<LightSample> from_mesh(const Lamp& lamp, Vec3 from, Vec2 u) const;
+    std::optional<LightSample> from_sphere(const Lamp& lamp, Vec3 from, Vec2 u) const;
+
+    const SceneData& data_;
+    const Shading& shading_;
+    std::vector<Lamp> lamps_;
+    std::vector<Facet> facets_;
+    std::vector<float> ends_;  // by facet: share of its lamp's area up to and with it
+    std::vector<Ball> balls_;  // one around each shape that shines
+    struct Place {
+        std::uint32_t lamp = none;  // the first of the shape's
+        std::uint32_t facet = 0;    // the first of the shape's
+        bool by_triangle = false;   // each triangle is a lamp
+    };
+    std::vector<Place> places_;  // by shape
+    static constexpr std::uint32_t none = 0xffffffffu;
+};
+
+}  // namespace lightnet

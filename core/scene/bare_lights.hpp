@@ -1,0 +1,34 @@
+// Lights without extent: what each sends where.
+#pragma once
+
+#include <optional>
+
+#include "core/math/rgb.hpp"
+#include "core/math/vec.hpp"
+#include "core/scene/light_sample.hpp"
+#include "core/scene/light_tree.hpp"
+#include "core/scene/scene_data.hpp"
+
+namespace lightnet {
+
+/// Share of its full intensity that a spot light sends at an angle from its axis, given by the cosine.
+float spot_falloff(const SpotLight& light, float cosine);
+
+/// Light from a point or spot light, chosen for certain. None: it does not shine that way.
+std::optional<LightSample> light_from(const PointLight& light, Vec3 from);
+std::optional<LightSample> light_from(const SpotLight& light, Vec3 from);
+std::optional<LightSample> light_from(const DirectionalLight& light, Vec3 from);
+
+/// For the light tree.
+LightBounds bounds_of(const PointLight& light);
+LightBounds bounds_of(const SpotLight& light);
+
+/// All that it emits, W.
+Rgb power_of(const PointLight& light);
+Rgb power_of(const SpotLight& light);
+
+/// Light leaving it, by importance or nearly so; flux as if it were the only light.
+Emission emission_of(const PointLight& light, Vec2 u);
+Emission emission_of(const SpotLight& light, Vec2 u);
+
+}  // namespace lightnet

@@ -1,0 +1,77 @@
+#include "core/scene/bumps.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/scene/textures.hpp"
+
+namespace lightnet {
+namespace {
+
+// Nearer to the surface than this, in cosines to the geometric normal, no shading normal goes.
+constexpr float least_cosine = 0.05f;
+
+Vec3 kept_above(Vec3 z, Vec3 normal) {
+    const float cosine = dot(z, normal);
+    if (cosine >= least_cosine) return z;
+    const Vec3 flat = z - normal * cosine;
+    const float size = length(flat);
+    if (!(size > 0)) return normal;
+    return flat * (std::sqrt(1 - least_cosine * least_cosine) / size) + normal * least_cosine;
+}
+
+Vec3 mapped_normal(const SceneData& data, const Material& material, const SurfacePoint& point) {
+    const Rgb colour = look_up(data.textures, *material.normal_map, {point.uv, point.vertex_colour});
+    const float x = (2 * colour.r - 1) * material.normal_scale, y = (2 * colour.g - 1) * material.normal_scale;
+    const Frame frame = frame_along(point.shading.z, point.along_u);
+    // pictures are laid either way round on a surface
+    const float hand = dot(frame.y, point.along_v) < 0 ? -1.0f : 1.0f;
+    return frame.x * x + frame.y * (hand * y) + frame.z * (2 * colour.b - 1);
+}
+
+// Blinn 1978, "Simulation of Wrinkled Surfaces"; without the change of the normal along the surface.
+Vec3 bumped_normal(const SceneData& data, TextureId map, const SurfacePoint& point, float step) {
+    const auto height = [&](Vec2 uv) { return look_up(data.textures, map, {uv, point.vertex_colour}).r; };
+    const float low_u = height({point.uv.x - step, point.uv.y}), high_u = height({point.uv.x + step, point.uv.y});
+    const float low_v = height({point.uv.x, point.uv.y - step}), high_v = height({point.uv.x, point.uv.y + step});
+    const Vec3 z = point.shading.z;
+    const auto flat = [&](Vec3 along) { return along - z * dot(z, along); };
+    const Vec3 u = flat(point.along_u) + z * ((high_u - low_u) / (2 * step));
+    const Vec3 v = flat(point.along_v) + z * ((high_v - low_v) / (2 * step));
+    const Vec3 n = cross(u, v);
+    return dot(n, z) < 0 ? -n : n;
+}
+
+}  // namespace
+
+Frame frame_along(Vec3 z, Vec3 tangent) {
+    const Vec3 x = tangent - z * dot(z, tangent);
+    const float size = length(x);
+    if (!(size > 1e-12f)) return Frame::around(z);
+    return {x / size, cross(z, x / size), z};
+}
+
+Frame bumpy_frame(const SceneData& data, const Material& material, const SurfacePoint& point, float step) {
+    const Vec3 turned = material.normal_map ? mapped_normal(data, material, point)
+                                            : bumped_normal(data, *material.bump_map, point, step);
+    const float size = length(turned);
+    if (!(size > 0) || !std::isfinite(size)) return point.shading;
+    return frame_along(kept_above(turned / size, point.normal), point.along_u);
+}
+
+float step_of(const SceneData& data, TextureId texture) {
+    constexpr float widest = 1e-3f;
+    const auto& pattern = data.textures[texture].pattern;
+    if (const auto* image = std::get_if<ImageTexture>(&pattern); image && image->image && !image->image->empty()) {
+        const auto pixels = [](std::uint32_t size, float scale) {
+            return float(size) * std::max(std::fabs(scale), 1e-3f);
+        };
+        return 0.5f / std::max(pixels(image->image->width, image->uv.scale.x),
+                               pixels(image->image->height, image->uv.scale.y));
+    }
+    float least = widest;
+    for (const TextureId input : inputs_of(data.textures[texture])) least = std::min(least, step_of(data, input));
+    return least;
+}
+
+}  // namespace lightnet

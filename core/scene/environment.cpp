@@ -1,0 +1,160 @@
+#include "core/scene/environment.hpp"
+
+#include "core/math/sampling.hpp"
+#include "core/scene/shares.hpp"
+#include "core/scene/sky_layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+namespace lightnet {
+namespace {
+
+constexpr float greatest_half = 65504;  // what an infinite number in a picture stands for
+
+float usable(float c) {
+    if (!(c > 0)) return 0;  // not a number either
+    return std::isinf(c) ? greatest_half : c;
+}
+
+// The picture's neighbours beyond its borders.
+void wrap(std::int64_t& x, std::int64_t& y, std::int64_t width, std::int64_t height, EnvironmentData::Layout layout) {
+    if (layout == EnvironmentData::Layout::latitude_longitude) {
+        x = (x % width + width) % width;
+        y = std::clamp<std::int64_t>(y, 0, height - 1);
+        return;
+    }
+    // Beyond an edge of the square lies the same edge, the other way round.
+    if (x < 0 || x >= width) {
+        x = x < 0 ? -1 - x : 2 * width - 1 - x;
+        y = height - 1 - y;
+    }
+    if (y < 0 || y >= height) {
+        y = y < 0 ? -1 - y : 2 * height - 1 - y;
+        x = width - 1 - x;
+    }
+    x = std::clamp<std::int64_t>(x, 0, width - 1);
+    y = std::clamp<std::int64_t>(y, 0, height - 1);
+}
+
+// The frame whose axes are the columns of a rotation; of a reflection, too.
+Frame axes_of(const Matrix& to_world) {
+    const auto axis = [&](Vec3 v) { return normalize(transform_direction(to_world, v)); };
+    return {axis({1, 0, 0}), axis({0, 1, 0}), axis({0, 0, 1})};
+}
+
+std::uint32_t cell(float at, std::uint32_t count) {
+    return std::uint32_t(std::clamp(at * float(count), 0.0f, float(count) - 1));
+}
+
+}  // namespace
+
+Environment::Environment(const EnvironmentData& data)
+    : scale_(data.radiance), layout_(data.layout), axes_(axes_of(data.to_world)) {
+    total_ = scale_ * (4 * pi);
+    if (!data.image || data.image->empty()) return;
+    image_ = data.image;
+    width_ = image_->width;
+    height_ = image_->height;
+    weigh();
+}
+
+double Environment::row_solid_angle(std::uint32_t y) const {
+    if (layout_ == EnvironmentData::Layout::equal_area) return 4 * std::numbers::pi / height_;
+    // cos a - cos b = 2 sin((a + b)/2) sin((b - a)/2): nothing cancels near the poles
+    const double step = std::numbers::pi / height_;
+    return 4 * std::numbers::pi * std::sin((y + 0.5) * step) * std::sin(step / 2);
+}
+
+Rgb Environment::pixel(std::int64_t x, std::int64_t y) const {
+    wrap(x, y, width_, height_, layout_);
+    const Rgb c = image_->colour(std::uint32_t(x), std::uint32_t(y));
+    return {usable(c.r), usable(c.g), usable(c.b)};
+}
+
+// The mean of a bilinear function over the pixel's square: (1 6 1)/8 of the neighbours along each axis. It is 0 only
+// where the function is, so that no light is out of reach.
+void Environment::weigh() {
+    const std::size_t w = width_, h = height_;
+    std::vector<float> light(w * h);
+    double r = 0, g = 0, b = 0;
+    for (std::uint32_t y = 0; y < h; ++y) {
+        const double angle = row_solid_angle(y) / double(w);
+        for (std::uint32_t x = 0; x < w; ++x) {
+            const Rgb c = pixel(x, y) * scale_;
+            light[y * w + x] = luminance(c);
+            r += c.r * angle;
+            g += c.g * angle;
+            b += c.b * angle;
+        }
+    }
+    total_ = {float(r), float(g), float(b)};
+
+    const auto at = [&](std::int64_t x, std::int64_t y) {
+        wrap(x, y, width_, height_, layout_);
+        return light[std::size_t(y) * w + std::size_t(x)];
+    };
+    columns_.resize(w * h);
+    std::vector<double> row(w), rows(h);
+    for (std::size_t y = 0; y < h; ++y) {
+        const auto weight = [&](std::int64_t x, std::int64_t j) { return at(x - 1, j) + 6 * at(x, j) + at(x + 1, j); };
+        const auto inner = [&](std::size_t i) { return light[i - 1] + 6 * light[i] + light[i + 1]; };
+        for (std::size_t x = 0; x < w; ++x) {
+            const std::size_t i = y * w + x;
+            const auto sx = std::int64_t(x), sy = std::int64_t(y);
+            const bool inside = x > 0 && y > 0 && x + 1 < w && y + 1 < h;
+            row[x] = inside ? inner(i - w) + 6 * inner(i) + inner(i + w)
+                            : weight(sx, sy - 1) + 6 * weight(sx, sy) + weight(sx, sy + 1);
+        }
+        rows[y] = running_shares(std::span<const double>(row), std::span(columns_).subspan(y * w, w)) *
+                  row_solid_angle(std::uint32_t(y));
+    }
+    running_shares(rows, rows_);
+}
+
+Vec2 Environment::to_square(Vec3 direction) const {
+    const Vec3 d = axes_.to_local(direction);
+    return layout_ == EnvironmentData::Layout::equal_area ? to_equal_area(d) : to_latitude_longitude(d);
+}
+
+Rgb Environment::radiance(Vec3 direction) const {
+    if (!image_) return scale_;
+    const Vec2 p = to_square(direction);
+    const float x = p.x * float(width_) - 0.5f, y = p.y * float(height_) - 0.5f;
+    const float left = std::floor(x), top = std::floor(y), dx = x - left, dy = y - top;
+    const auto i = std::int64_t(left), j = std::int64_t(top);
+    return scale_ * ((pixel(i, j) * (1 - dx) + pixel(i + 1, j) * dx) * (1 - dy) +
+                     (pixel(i, j + 1) * (1 - dx) + pixel(i + 1, j + 1) * dx) * dy);
+}
+
+Vec3 Environment::sample(Vec2 u) const {
+    if (!image_) return sphere(u);
+    const std::size_t y = pick(rows_, u.y);
+    const std::size_t x = pick(std::span(columns_).subspan(y * width_, width_), u.x);
+    const float across = (float(x) + u.x) / float(width_);
+    if (layout_ == EnvironmentData::Layout::equal_area)
+        return axes_.to_world(from_equal_area({across, (float(y) + u.y) / float(height_)}));
+    // Uniform in the cosine, counted from the nearer pole.
+    const bool below = 2 * y >= height_;
+    const auto drop = [&](std::size_t row) {  // 1 - cos
+        const float s = std::sin(pi / 2 * float(row) / float(height_));
+        return 2 * s * s;
+    };
+    const std::size_t from_pole = below ? height_ - 1 - y : y;
+    const float first = drop(from_pole), last = drop(from_pole + 1);
+    const float away = first + (last - first) * (below ? 1 - u.y : u.y), sine = std::sqrt(away * (2 - away));
+    const float phi = 2 * pi * (across - 0.5f);
+    return axes_.to_world({sine * std::sin(phi), below ? away - 1 : 1 - away, -sine * std::cos(phi)});
+}
+
+float Environment::pdf(Vec3 direction) const {
+    if (!image_) return inverse_pi / 4;
+    const Vec2 p = to_square(direction);
+    const std::uint32_t x = cell(p.x, width_), y = cell(p.y, height_);
+    const float chance = share_of(rows_, y) * share_of(std::span(columns_).subspan(std::size_t{y} * width_, width_), x);
+    return chance * float(double(width_) / row_solid_angle(y));
+}
+
+}  // namespace lightnet

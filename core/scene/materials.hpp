@@ -1,0 +1,56 @@
+// From materials as data to scattering at a point.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/bsdf/bsdf.hpp"
+#include "core/scene/scene_data.hpp"
+#include "core/scene/surface.hpp"
+#include "core/scene/textures.hpp"
+
+namespace lightnet {
+
+/// What a material wants to know of a point.
+struct MaterialNeeds {
+    bool texture = false;  // texture coordinates, vertex colours
+    bool tangent = false;  // a frame along the texture, and how fast the surface runs along u and v
+    bool holes = false;    // its opacity is below 1 somewhere
+
+    friend MaterialNeeds operator|(MaterialNeeds a, MaterialNeeds b) {
+        return {a.texture || b.texture, a.tangent || b.tangent, a.holes || b.holes};
+    }
+};
+
+/// The materials of a scene. Any thread may ask.
+class Materials {
+public:
+    /// Keeps looking at `data`. Throws Error where a material names what isn't there, or itself by way of others.
+    explicit Materials(const SceneData& data);
+
+    const MaterialNeeds& needs(MaterialId material) const { return made_[material].needs; }
+    Bsdf bsdf(MaterialId material, const SurfacePoint& point) const;
+    /// Share of the light that meets the surface.
+    float opacity(MaterialId material, const TexturePlace& place) const;
+
+private:
+    struct Made {
+        MaterialNeeds needs;
+        std::optional<Bsdf::Model> plain;  // the same everywhere
+        std::unique_ptr<const Coat> coat;  // of coated models
+        bool simple = false;               // `plain` is all there is to it
+        bool bumpy = false;                // normal or bump map
+        float step = 0;                    // of texture coordinates, over which a bump map is taken to be straight
+        bool filled = false;               // with what absorbs
+    };
+    MaterialNeeds needs_of(MaterialId material) const;
+    Made made_of(MaterialId material) const;
+    Bsdf blend(MaterialId material, const SurfacePoint& point) const;
+    Bsdf::Model model_at(MaterialId material, const TexturePlace& place) const;
+
+    const SceneData& data_;
+    std::vector<Made> made_;
+};
+
+}  // namespace lightnet

@@ -1,0 +1,76 @@
+#include "core/scene/placement.hpp"
+
+#include "core/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lightnet {
+namespace {
+
+float largest(Vec3 v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
+
+Vec3 magnitudes(Vec3 v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
+
+}  // namespace
+
+Placement::Placement(const Matrix& to_world) {
+    double a[3][3];
+    for (std::size_t row = 0; row < 3; ++row)
+        for (std::size_t column = 0; column < 4; ++column) {
+            columns_[3 * column + row] = float(to_world.m[row][column]);
+            if (column < 3) a[row][column] = columns_[3 * column + row];
+        }
+    // By cofactors: its rows are the cross products of the columns, over the determinant.
+    const auto minor = [&](std::size_t i, std::size_t j) {
+        const std::size_t r = (j + 1) % 3, s = (j + 2) % 3, c = (i + 1) % 3, d = (i + 2) % 3;
+        return a[r][c] * a[s][d] - a[r][d] * a[s][c];
+    };
+    const double determinant = a[0][0] * minor(0, 0) + a[1][0] * minor(0, 1) + a[2][0] * minor(0, 2);
+    bool usable = determinant != 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        inverse_[i] = {float(minor(i, 0) / determinant), float(minor(i, 1) / determinant),
+                       float(minor(i, 2) / determinant)};
+        usable &= finite(inverse_[i]);
+    }
+    for (const float number : columns_) usable &= std::isfinite(number);
+    if (!usable) throw Error("scene", "the transform of an instance can't be inverted");
+}
+
+Vec3 Placement::direction_to_world(Vec3 v) const {
+    const auto row = [&](std::size_t i) { return columns_[i] * v.x + columns_[3 + i] * v.y + columns_[6 + i] * v.z; };
+    return {row(0), row(1), row(2)};
+}
+
+Vec3 Placement::point_to_world(Vec3 p) const {
+    return direction_to_world(p) + Vec3{columns_[9], columns_[10], columns_[11]};
+}
+
+SurfacePoint Placement::place(const SurfacePoint& point) const {
+    // Normals go by the inverse transpose, which keeps them on their side of the surface.
+    const auto normal_to_world = [&](Vec3 n) { return inverse_[0] * n.x + inverse_[1] * n.y + inverse_[2] * n.z; };
+    const Vec3 gradient = normal_to_world(point.normal);
+    const float steepness = length(gradient);  // metres of the object per metre of the world, along the normal
+
+    SurfacePoint placed = point;
+    placed.position = point_to_world(point.position);
+    placed.normal = gradient / steepness;
+
+    // What the point was off in its object, as the world sees it; what the world's own numbers round; and what Embree
+    // rounds when it takes a ray into the object, which shear makes worse.
+    const Vec3 n = magnitudes(point.normal), at = magnitudes(placed.position);
+    const Vec3 rounded = magnitudes(inverse_[0]) * n.x + magnitudes(inverse_[1]) * n.y + magnitudes(inverse_[2]) * n.z;
+    placed.offset = std::max(
+        {point.offset / steepness, 0x1p-16f * largest(placed.position), 0x1p-20f * dot(rounded, at) / steepness});
+
+    Vec3 z = normal_to_world(point.shading.z);
+    const float size = length(z);
+    z = size > 0 && dot(z, placed.normal) > 0 ? z / size : placed.normal;
+    Vec3 x = direction_to_world(point.shading.x);
+    x = x - z * dot(z, x);
+    const float width = length(x);
+    placed.shading = width > 1e-12f ? Frame{x / width, cross(z, x / width), z} : Frame::around(z);
+    return placed;
+}
+
+}  // namespace lightnet

@@ -1,0 +1,31 @@
+// Where an instance of an object stands.
+#pragma once
+
+#include <array>
+
+#include "core/math/transform.hpp"
+#include "core/math/vec.hpp"
+#include "core/scene/surface.hpp"
+
+namespace lightnet {
+
+/// An affine transform as rays see it: in single precision.
+class Placement {
+public:
+    /// Throws Error when the transform can't be inverted.
+    explicit Placement(const Matrix& to_world);
+
+    /// Columns, as Embree wants them: x, y and z axis, then the origin.
+    const std::array<float, 12>& columns() const { return columns_; }
+    /// A point of the object's surface, in world space.
+    SurfacePoint place(const SurfacePoint& point) const;
+
+private:
+    Vec3 point_to_world(Vec3 p) const;
+    Vec3 direction_to_world(Vec3 v) const;
+
+    std::array<float, 12> columns_;
+    std::array<Vec3, 3> inverse_;  // rows of the inverse's linear part
+};
+
+}  // namespace lightnet

@@ -1,0 +1,56 @@
+#include "core/scene/scene_size.hpp"
+
+#include <set>
+
+namespace lightnet {
+namespace {
+
+template <class T>
+std::size_t bytes_of(const std::vector<T>& values) {
+    return values.capacity() * sizeof(T);
+}
+
+std::size_t triangles_of(const Shape& shape) {
+    const auto* mesh = std::get_if<Mesh>(&shape.geometry);
+    return mesh ? mesh->triangles.size() : 0;
+}
+
+// Images are shared by textures.
+std::size_t texture_bytes(const SceneData& data) {
+    std::set<const Image*> images;
+    for (const auto& texture : data.textures)
+        if (const auto* image = std::get_if<ImageTexture>(&texture.pattern)) images.insert(image->image.get());
+    for (const auto& environment : data.environments) images.insert(environment.image.get());
+    std::size_t bytes = bytes_of(data.textures);
+    for (const auto* image : images)
+        if (image) bytes += image->memory();
+    return bytes;
+}
+
+}  // namespace
+
+SceneSize size_of(const SceneData& data, const Geometry& geometry, const Lights& lights) {
+    SceneSize size;
+    std::vector<bool> in_object(data.shapes.size());
+    for (const auto& object : data.objects)
+        for (const auto shape : object.shapes) in_object[shape] = true;
+    for (std::size_t s = 0; s < data.shapes.size(); ++s) {
+        const auto* mesh = std::get_if<Mesh>(&data.shapes[s].geometry);
+        size.triangles += triangles_of(data.shapes[s]);
+        size.instanced_triangles += in_object[s] ? 0 : triangles_of(data.shapes[s]);
+        size.spheres += mesh ? 0 : 1;
+        if (mesh)
+            size.mesh_bytes += bytes_of(mesh->positions) + bytes_of(mesh->normals) + bytes_of(mesh->uvs) +
+                               bytes_of(mesh->colours) + bytes_of(mesh->triangles);
+    }
+    for (const auto& instance : data.instances)
+        for (const auto shape : data.objects[instance.object].shapes)
+            size.instanced_triangles += triangles_of(data.shapes[shape]);
+    size.lights = lights.count();
+    size.tree_bytes = geometry.memory();
+    size.texture_bytes = texture_bytes(data);
+    size.light_bytes = lights.memory();
+    return size;
+}
+
+}  // namespace lightnet

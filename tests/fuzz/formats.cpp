@@ -1,0 +1,127 @@
+#include <zlib.h>
+
+#include "core/error.hpp"
+#include "core/scene/mitsuba/serialized.hpp"
+#include "core/scene/read_scene.hpp"
+#include "tests/fuzz/targets.hpp"
+#include "tests/support/scene_text.hpp"
+
+namespace lightnet::fuzz {
+namespace {
+
+std::string text_of(std::span<const std::byte> bytes) {
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+const std::string dot = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n" + std::string("\x80\x80\x80\x81", 4);
+const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+
+void attempt(const std::string& name, const std::string& text, test::MemoryFiles files) {
+    try {
+        (void)test::read_as(name, text, std::move(files));
+    } catch (const UserError&) {
+    } catch (const Error&) {
+    }
+}
+
+void read_mitsuba(std::span<const std::byte> bytes) {
+    test::MemoryFiles files{{"a.obj", square},
+                            {"p.hdr", dot},
+                            {"a.ply", meshes().seeds().front()},
+                            {"more.xml", "<scene><include filename='scene.xml'/><shape type='cube'/></scene>"}};
+    attempt("scene.xml", text_of(bytes), std::move(files));
+}
+
+std::vector<std::string> mitsuba_seeds() {
+    return {
+        R"(<scene version="3.0.0"><default name="n" value="2"/>
+<sensor type="thinlens"><float name="fov" value="40"/><float name="aperture_radius" value=".1"/><string name="fov_axis" value="y"/>
+<transform name="to_world"><lookat origin="0,0,5" target="0 0 0" up="0,1,0"/></transform>
+<film type="hdrfilm"><integer name="width" value="64"/><integer name="height" value="$n"/></film></sensor>
+<bsdf type="twosided" id="a"><bsdf type="principled"><rgb name="base_color" value="#80ff00"/><float name="clearcoat" value=".5"/></bsdf></bsdf>
+<texture type="checkerboard" id="t"><transform name="to_uv"><scale x="4" y="$n"/><rotate angle="30"/></transform></texture>
+<shape type="obj"><string name="filename" value="a.obj"/><ref id="a"/><emitter type="area"><blackbody name="radiance" temperature="3000K"/></emitter></shape>
+<shape type="sphere"><bsdf type="blendbsdf"><ref name="weight" id="t"/><ref id="a"/><bsdf type="plastic"/></bsdf></shape>
+<include filename="more.xml"/></scene>)",
+        R"(<scene version="0.6.0"><shape type="shapegroup" id="g"><shape type="ply"><string name="filename" value="a.ply"/></shape></shape>
+<shape type="instance"><ref id="g"/><transform name="toWorld"><rotate y="1" angle="30"/><matrix value="1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"/></transform></shape>
+<shape type="cylinder"><point name="p0" x="1"/><bsdf type="bumpmap"><texture type="scale"><texture type="bitmap"><string name="filename" value="p.hdr"/>
+<float name="uscale" value="2"/></texture><float name="scale" value="3"/></texture><bsdf type="roughconductor"><string name="material" value="Au"/></bsdf></bsdf></shape>
+<shape type="disk"><bsdf type="mixturebsdf"><string name="weights" value=".5,.2"/><bsdf type="diffuse"><spectrum name="reflectance" value="400:.1 700:.5"/></bsdf>
+<bsdf type="dielectric"><string name="intIOR" value="water"/></bsdf></bsdf></shape>
+<emitter type="envmap"><string name="filename" value="p.hdr"/></emitter><emitter type="spot"/><emitter type="sunsky"/></scene>)"};
+}
+
+void read_gltf(std::span<const std::byte> bytes) {
+    const std::string text = text_of(bytes);
+    attempt(text.starts_with("glTF") ? "scene.glb" : "scene.gltf", text,
+            {{"p.hdr", dot}, {"b.bin", std::string(80, '\1')}});
+}
+
+std::vector<std::string> gltf_seeds() {
+    const std::string json =
+        R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1]}],"nodes":[{"mesh":0,"children":[2]},{"mesh":0,
+"translation":[1,2,3],"rotation":[0,0,0,1]},{"camera":0,"extensions":{"KHR_lights_punctual":{"light":0}}}],"cameras":[{"type":"perspective","perspective":{"yfov":1}}],
+"extensions":{"KHR_lights_punctual":{"lights":[{"type":"spot","spot":{}}]}},"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0,"mode":5}]}],
+"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0,"extensions":{"KHR_texture_transform":{"rotation":1}}}},"alphaMode":"BLEND",
+"extensions":{"KHR_materials_volume":{"thicknessFactor":1,"attenuationDistance":2}}}],"textures":[{"source":0,"sampler":0}],"samplers":[{"wrapS":33071}],
+"images":[{"uri":"p.hdr"}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","sparse":{"count":1,"indices":{"bufferView":1,
+"componentType":5121},"values":{"bufferView":0}}},{"bufferView":1,"componentType":5121,"count":3,"type":"SCALAR"}],
+"bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":6}],"buffers":[{"byteLength":42)";
+    const std::string binary = std::string(36, '\1') + std::string("\0\1\2\0\1\2", 6);
+    return {
+        test::glb(json + "}]}", binary), json + R"(,"uri":"b.bin"}]})",
+        R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":36,"uri":"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],"bufferViews":[{"buffer":0,
+"byteLength":36,"byteStride":12}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"nodes":[{"mesh":0}]})"};
+}
+
+/// The library is what stands behind the first NUL.
+void read_obj(std::span<const std::byte> bytes) {
+    const std::string text = text_of(bytes);
+    const auto border = std::min(text.find('\0'), text.size());
+    attempt("scene.obj", text.substr(0, border),
+            {{"m.mtl", text.substr(std::min(border + 1, text.size()))}, {"p.hdr", dot}});
+}
+
+std::vector<std::string> obj_seeds() {
+    return {
+        "mtllib m.mtl\nv 0 0 0 1 0 0\nv 1 0 0\nv 1 1 0\nv .5 .2 0\nvt 0 0\nvn 0 0 1\ns 1\nusemtl a\nf 1/1/1 2//1 -2 -1 "
+        "\\\n 3\nl 1 2\n" +
+            std::string(1, '\0') +
+            "newmtl a\nKd .5 .5 .5\nmap_Kd -s 2 2 -o 1 p.hdr\nPr .3\nd .5\nKe 1 1 1\nnewmtl b\nillum 7\nNi 1.5\nbump "
+            "-bm 2 p.hdr\n",
+        square + "g x\no y\nusemtl none\nf 1 2 3\n"};
+}
+
+void read_serialized(std::span<const std::byte> bytes) {
+    for (const std::size_t index : {0, 1}) try {
+            bool flat = false;
+            (void)lightnet::mitsuba::read_serialized(bytes, index, flat);
+        } catch (const Error&) {
+        }
+}
+
+std::vector<std::string> serialized_seeds() {
+    using test::raw;
+    const std::string body = raw(std::uint32_t{0x1001}) + '\0' + raw(std::uint64_t{3}, std::uint64_t{1}) +
+                             std::string(72, '\1') + raw(0u, 1u, 2u);
+    const auto packed = [&](int level) {
+        uLongf size = compressBound(body.size());
+        std::string result(size, '\0');
+        compress2(reinterpret_cast<Bytef*>(result.data()), &size, reinterpret_cast<const Bytef*>(body.data()),
+                  body.size(), level);
+        result.resize(size);
+        return raw(std::uint16_t{0x041C}, std::uint16_t{4}) + result;
+    };
+    const std::string one = packed(0);  // damage reaches what is not packed
+    return {one + packed(6) + raw(std::uint64_t{0}, std::uint64_t{one.size()}, 2u), packed(6)};
+}
+
+}  // namespace
+
+Target mitsuba() { return {"mitsuba", read_mitsuba, mitsuba_seeds}; }
+Target gltf() { return {"gltf", read_gltf, gltf_seeds}; }
+Target obj() { return {"obj", read_obj, obj_seeds}; }
+Target serialized() { return {"serialized", read_serialized, serialized_seeds}; }
+
+}  // namespace lightnet::fuzz

@@ -1,0 +1,248 @@
+// Mitsuba's bsdfs, textures and colours.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/scene/textures.hpp"
+#include "tests/support/scene_text.hpp"
+
+namespace lightnet::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+// 2 × 2 pixels of Radiance HDR: red, green over blue, white
+const std::string picture = [] {
+    std::string text = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 2\n";
+    for (const auto& p : {"\x80\0\0\x81", "\0\x80\0\x81", "\0\0\x80\x81", "\x80\x80\x80\x81"})
+        text += std::string(p, 4);
+    return text;
+}();
+
+const Material& material_of(const SceneData& scene, std::size_t shape = 0) {
+    return scene.materials[scene.shapes[shape].material];
+}
+
+Rgb reflectance(const std::string& colour) {
+    const auto scene = read_mitsuba_bsdf("<bsdf type='diffuse'>" + colour + "</bsdf>");
+    return colour_of(scene, model_of<DiffuseMaterial>(scene).reflectance);
+}
+
+SceneData textured(const std::string& texture) {
+    return read_mitsuba_bsdf("<bsdf type='diffuse'>" + texture + "</bsdf>", {{"p.hdr", picture}});
+}
+
+Rgb seen(const SceneData& scene, Vec2 uv) {
+    return look_up(scene.textures, model_of<DiffuseMaterial>(scene).reflectance, {uv});
+}
+
+TEST(MitsubaColours, AreWrittenInManyWays) {
+    EXPECT_EQ(reflectance("<rgb name='reflectance' value='0.1, 0.2, 0.3'/>"), (Rgb{0.1f, 0.2f, 0.3f}));
+    EXPECT_EQ(reflectance("<rgb name='reflectance' value='0.25'/>"), (Rgb{0.25f, 0.25f, 0.25f}));
+    EXPECT_EQ(reflectance("<spectrum name='reflectance' value='0.5'/>"), (Rgb{0.5f, 0.5f, 0.5f}));
+    EXPECT_EQ(reflectance("<rgb name='reflectance' value='#ff0000'/>"), (Rgb{1, 0, 0}));
+    EXPECT_NEAR(reflectance("<srgb name='reflectance' value='0.5 0.5 0.5'/>").g, 0.2140f, 1e-3f);
+    const Rgb flat = reflectance("<spectrum name='reflectance' value='400:0.3, 700:0.3'/>");
+    EXPECT_NEAR(flat.r, 0.3f, 1e-3f);
+    EXPECT_NEAR(flat.b, 0.3f, 1e-3f);
+    EXPECT_EQ(reflectance(""), (Rgb{0.5f, 0.5f, 0.5f}));
+}
+
+TEST(MitsubaColours, SayWhatIsWrong) {
+    const auto errors = [](const std::string& colour) {
+        return errors_of_mitsuba("<shape type='sphere'><bsdf type='diffuse'>" + colour + "</bsdf></shape>");
+    };
+    EXPECT_THAT(errors("<rgb name='reflectance' value='1 2'/>"), HasSubstr("a colour has one or three numbers, not 2"));
+    EXPECT_THAT(errors("<rgb name='reflectance' value='#12'/>"), HasSubstr("'#rrggbb'"));
+    EXPECT_THAT(errors("<spectrum name='reflectance' value='700:1, 400:2'/>"), HasSubstr("ascending wavelengths"));
+    EXPECT_THAT(errors("<transform name='reflectance'/>"),
+                HasSubstr("a colour or a texture expected, not <transform>"));
+}
+
+TEST(MitsubaDiffuse, IsBlackFromBehindUnlessTwoSided) {
+    EXPECT_TRUE(material_of(read_mitsuba_bsdf("<bsdf type='diffuse'/>")).one_sided);
+    EXPECT_FALSE(material_of(read_mitsuba_bsdf("<bsdf type='twosided'><bsdf type='diffuse'/></bsdf>")).one_sided);
+    EXPECT_TRUE(material_of(read_mitsuba_bsdf("<bsdf type='plastic'/>")).one_sided);
+    EXPECT_FALSE(material_of(read_mitsuba_bsdf("<bsdf type='dielectric'/>")).one_sided);
+}
+
+TEST(MitsubaTwoSided, MayHaveAnotherBack) {
+    const auto scene = read_mitsuba_bsdf("<bsdf type='twosided'><bsdf type='diffuse'/><bsdf type='conductor'/></bsdf>");
+    const auto& faces = model_of<TwoFacedMaterial>(scene);
+    EXPECT_TRUE(std::holds_alternative<DiffuseMaterial>(scene.materials[faces.front].model));
+    EXPECT_TRUE(std::holds_alternative<ConductorMaterial>(scene.materials[faces.back].model));
+    EXPECT_FALSE(scene.materials[faces.back].one_sided);
+}
+
+TEST(MitsubaDielectric, KnowsItsSubstances) {
+    EXPECT_NEAR(model_of<DielectricMaterial>(read_mitsuba_bsdf("<bsdf type='dielectric'/>")).eta, 1.5046f / 1.000277f,
+                1e-5f);
+    const auto scene = read_mitsuba_bsdf(
+        "<bsdf type='thindielectric'><string name='int_ior' value='water'/><string name='ext_ior' "
+        "value='vacuum'/></bsdf>");
+    EXPECT_EQ(model_of<DielectricMaterial>(scene).eta, 1.333f);
+    EXPECT_TRUE(model_of<DielectricMaterial>(scene).thin);
+    EXPECT_THAT(errors_of_mitsuba(
+                    "<shape type='sphere'><bsdf type='dielectric'><string name='intIOR' value='watr'/></bsdf></shape>"),
+                HasSubstr("there is no dielectric 'watr' (did you mean 'water'?)"));
+    const auto rough = read_mitsuba_bsdf(
+        "<bsdf type='roughdielectric'><float name='alpha' value='0.3'/><string name='distribution' "
+        "value='ggx'/></bsdf>");
+    EXPECT_EQ(model_of<DielectricMaterial>(rough).roughness.u, 0.3f);
+    EXPECT_EQ(model_of<DielectricMaterial>(rough).roughness.means, Roughness::Means::alpha);
+}
+
+TEST(MitsubaConductor, KnowsItsMetals) {
+    const auto gold = read_mitsuba_bsdf("<bsdf type='conductor'><string name='material' value='Au'/></bsdf>");
+    EXPECT_NEAR(colour_of(gold, model_of<ConductorMaterial>(gold).metal.eta).r, 0.143119f, 1e-5f);
+    const auto mirror = read_mitsuba_bsdf("<bsdf type='conductor'><string name='material' value='none'/></bsdf>");
+    EXPECT_EQ(colour_of(mirror, *model_of<ConductorMaterial>(mirror).metal.reflectance), (Rgb{1, 1, 1}));
+    const auto chrome = read_mitsuba_bsdf(
+        "<bsdf type='roughconductor'><string name='material' value='Cr'/><float name='alphaU' value='0.1'/>"
+        "<float name='alphaV' value='0.2'/><string name='distribution' value='beckmann'/></bsdf>");
+    EXPECT_EQ(model_of<ConductorMaterial>(chrome).roughness.v, 0.2f);
+    EXPECT_NEAR(colour_of(chrome, model_of<ConductorMaterial>(chrome).metal.k).g, 4.231365f, 1e-5f);
+    EXPECT_THAT(warnings_of(chrome), HasSubstr("distribution 'beckmann' is taken as 'ggx'"));
+    EXPECT_THAT(warnings_of(read_mitsuba_bsdf("<bsdf type='conductor'><string name='material' value='Xx'/></bsdf>")),
+                HasSubstr("the metal 'Xx' is not known: copper is taken"));
+}
+
+TEST(MitsubaPlastic, IsADiffuseBaseUnderACoat) {
+    const auto scene = read_mitsuba_bsdf(
+        "<bsdf type='roughplastic'><rgb name='diffuse_reflectance' value='.1 .2 .3'/><float name='int_ior' "
+        "value='1.9'/>"
+        "<float name='ext_ior' value='1'/><boolean name='nonlinear' value='true'/><string name='distribution' "
+        "value='ggx'/></bsdf>");
+    const auto& model = model_of<CoatedDiffuseMaterial>(scene);
+    EXPECT_EQ(model.eta, 1.9f);
+    EXPECT_EQ(model.roughness.u, 0.1f);
+    EXPECT_TRUE(model.base_colours_repeat);
+    EXPECT_FALSE(model_of<CoatedDiffuseMaterial>(read_mitsuba_bsdf("<bsdf type='plastic'/>")).base_colours_repeat);
+}
+
+TEST(MitsubaPrincipled, TakesBurleysParameters) {
+    const auto scene = read_mitsuba_bsdf(
+        "<bsdf type='principled'><rgb name='base_color' value='1 .5 .25'/><float name='roughness' value='.4'/>"
+        "<float name='metallic' value='.7'/><float name='specular' value='.5'/><float name='clearcoat' value='1'/>"
+        "<float name='clearcoat_gloss' value='1'/><float name='spec_trans' value='0'/></bsdf>");
+    const auto& model = model_of<PrincipledMaterial>(scene);
+    EXPECT_EQ(model.metallic, 0.7f);
+    EXPECT_NEAR(model.eta, 1.5f, 1e-5f);
+    EXPECT_EQ(model.roughness.u, 0.4f);
+    EXPECT_EQ(model.roughness.means, Roughness::Means::square);
+    EXPECT_NEAR(model.clearcoat, 0.25f, 1e-6f);
+    EXPECT_NEAR(model.clearcoat_roughness.u, 0.001f, 1e-6f);
+    EXPECT_TRUE(material_of(scene).one_sided);
+    EXPECT_FALSE(model.thin);
+}
+
+TEST(MitsubaBlend, MixesTwo) {
+    const auto scene = read_mitsuba_bsdf(
+        "<bsdf type='blendbsdf'><float name='weight' value='.3'/><bsdf type='diffuse'/><bsdf "
+        "type='conductor'/></bsdf>");
+    const auto& model = model_of<MixtureMaterial>(scene);
+    EXPECT_TRUE(std::holds_alternative<ConductorMaterial>(scene.materials[model.second].model));
+    EXPECT_EQ(colour_of(scene, model.amount).r, 0.3f);
+    EXPECT_THAT(errors_of_mitsuba("<shape type='sphere'><bsdf type='blendbsdf'><bsdf type='diffuse'/></bsdf></shape>"),
+                HasSubstr("bsdf 'blendbsdf' needs 2 bsdfs inside of it"));
+}
+
+TEST(MitsubaMixture, TakesAnyNumber) {
+    const auto scene = read_mitsuba_bsdf(
+        "<bsdf type='mixturebsdf'><string name='weights' value='.5, .25, .25'/>"
+        "<bsdf type='diffuse'/><bsdf type='conductor'/><bsdf type='dielectric'/></bsdf>");
+    const auto& outer = model_of<MixtureMaterial>(scene);
+    const auto& inner = std::get<MixtureMaterial>(scene.materials[outer.first].model);
+    EXPECT_NEAR(colour_of(scene, outer.amount).r, 0.25f, 1e-6f);
+    EXPECT_NEAR(colour_of(scene, inner.amount).r, 1.0f / 3, 1e-6f);
+    EXPECT_THAT(errors_of_mitsuba("<shape type='sphere'><bsdf type='mixturebsdf'><string name='weights' value='1 "
+                                  "2'/><bsdf type='diffuse'/></bsdf></shape>"),
+                HasSubstr("there are 2 weights for 1 bsdfs"));
+}
+
+TEST(MitsubaMaps, AreKeptWithTheInnerBsdf) {
+    const MemoryFiles files{{"p.hdr", picture}};
+    const std::string map =
+        "<texture type='bitmap'><string name='filename' value='p.hdr'/><boolean name='raw' value='true'/></texture>";
+    const auto bumpy = read_mitsuba_bsdf(
+        "<bsdf type='bumpmap'>" + map + "<float name='scale' value='3'/><bsdf type='diffuse'/></bsdf>", files);
+    EXPECT_EQ(bumpy.textures[material_of(bumpy).bump_map.value()].scale.r, 3);
+    const auto turned = read_mitsuba_bsdf("<bsdf type='normalmap'>" + map + "<bsdf type='diffuse'/></bsdf>", files);
+    EXPECT_TRUE(material_of(turned).normal_map.has_value());
+    const auto masked =
+        read_mitsuba_bsdf("<bsdf type='mask'><float name='opacity' value='.25'/><bsdf type='diffuse'/></bsdf>");
+    EXPECT_EQ(colour_of(masked, material_of(masked).opacity.value()).r, 0.25f);
+    EXPECT_TRUE(std::holds_alternative<NoMaterial>(material_of(read_mitsuba_bsdf("<bsdf type='null'/>")).model));
+}
+
+TEST(MitsubaCoating, IsOverMetalsAndDiffuseSurfaces) {
+    const auto metal = read_mitsuba_bsdf("<bsdf type='coating'><bsdf type='conductor'/></bsdf>");
+    EXPECT_NEAR(model_of<CoatedConductorMaterial>(metal).coat_eta, 1.5046f / 1.000277f, 1e-5f);
+    const auto matt =
+        read_mitsuba_bsdf("<bsdf type='roughcoating'><float name='alpha' value='.2'/><bsdf type='diffuse'/></bsdf>");
+    EXPECT_EQ(model_of<CoatedDiffuseMaterial>(matt).roughness.u, 0.2f);
+}
+
+TEST(MitsubaBitmap, HasItsTopRowAtVZeroOfMitsuba) {
+    const auto scene = textured(
+        "<texture name='reflectance' type='bitmap'><string name='filename' value='p.hdr'/>"
+        "<string name='filter_type' value='nearest'/></texture>");
+    EXPECT_EQ(seen(scene, {0.25f, 0.75f}), (Rgb{1, 0, 0}));  // ours counts from below
+    EXPECT_EQ(seen(scene, {0.75f, 0.25f}), (Rgb{1, 1, 1}));
+    // a rectangle's lower left corner has Mitsuba's (0, 0): the picture's top row
+    EXPECT_EQ(mesh_of(scene).uvs[0], (Vec2{0, 1}));
+}
+
+TEST(MitsubaBitmap, IsMovedByToUv) {
+    const std::string start =
+        "<texture name='reflectance' type='bitmap'><string name='filename' value='p.hdr'/><string name='filterType' "
+        "value='nearest'/>";
+    const auto old = textured(start + "<float name='uscale' value='2'/><float name='voffset' value='.5'/></texture>");
+    EXPECT_EQ(seen(old, {0.125f, 0.75f}), (Rgb{0, 0, 1}));  // Mitsuba's v = 0.25 + 0.5: the lower row
+    const auto turned = textured(start + "<transform name='to_uv'><rotate z='1' angle='90'/></transform></texture>");
+    // Mitsuba's (u, v) = (0.25, 0.25) becomes (-0.25, 0.25): the right one of the top row
+    EXPECT_EQ(seen(turned, {0.25f, 0.75f}), (Rgb{0, 1, 0}));
+    const auto scaled = textured(
+        "<texture name='reflectance' type='scale'><float name='scale' value='.5'/><texture type='bitmap'>"
+        "<string name='filename' value='p.hdr'/><string name='filter_type' value='nearest'/></texture></texture>");
+    EXPECT_EQ(seen(scaled, {0.25f, 0.75f}), (Rgb{0.5f, 0, 0}));
+}
+
+TEST(MitsubaBitmap, WrapsAsItIsTold) {
+    const auto scene = textured(
+        "<texture name='reflectance' type='bitmap'><string name='filename' value='p.hdr'/>"
+        "<string name='wrapModeU' value='mirror'/><string name='wrapModeV' value='zero'/></texture>");
+    const auto& pattern = std::get<ImageTexture>(scene.textures[model_of<DiffuseMaterial>(scene).reflectance].pattern);
+    EXPECT_EQ(pattern.wrap_u, Wrap::mirror);
+    EXPECT_EQ(pattern.wrap_v, Wrap::black);
+    EXPECT_THAT(errors_of_mitsuba("<shape type='sphere'><bsdf type='diffuse'><texture name='reflectance' type='bitmap'>"
+                                  "<string name='filename' value='none.png'/></texture></bsdf></shape>"),
+                HasSubstr("none.png: no such file"));
+}
+
+TEST(MitsubaCheckerboard, HasTwoSquaresPerUnit) {
+    const auto scene = textured(
+        "<texture name='reflectance' type='checkerboard'><rgb name='color0' value='1 0 0'/><rgb name='color1' value='0 "
+        "0 1'/></texture>");
+    EXPECT_EQ(seen(scene, {0.25f, 0.75f}), (Rgb{1, 0, 0}));  // Mitsuba's (0.25, 0.25)
+    EXPECT_EQ(seen(scene, {0.75f, 0.75f}), (Rgb{0, 0, 1}));
+    EXPECT_EQ(seen(scene, {0.75f, 0.25f}), (Rgb{1, 0, 0}));
+    EXPECT_THAT(warnings_of(textured("<texture name='reflectance' type='wood'/>")),
+                HasSubstr("texture 'wood' is not supported: grey is taken"));
+}
+
+TEST(MitsubaBsdfs, MayBeNestedButNotForEver) {
+    std::string chain = "<bsdf type='diffuse' id='b0'/>";
+    for (int i = 1; i <= 200; ++i) {
+        const auto n = std::to_string(i), before = std::to_string(i - 1);
+        chain += "<bsdf type='blendbsdf' id='b" + n + "'><ref id='b" + before + "'/><ref id='b" + before + "'/></bsdf>";
+    }
+    EXPECT_THAT(errors_of_mitsuba(chain + "<shape type='sphere'><ref id='b200'/></shape>"),
+                HasSubstr("bsdfs are nested too deeply"));
+    EXPECT_EQ(errors_of_mitsuba(chain + "<shape type='sphere'><ref id='b60'/></shape>"), "");
+}
+
+}  // namespace
+}  // namespace lightnet::test

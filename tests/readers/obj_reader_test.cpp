@@ -1,0 +1,180 @@
+// OBJ with MTL, and PLY, alone as scenes.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/scene/mesh_tools.hpp"
+#include "tests/support/scene_text.hpp"
+
+namespace lightnet::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::SizeIs;
+
+const std::string corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+SceneData with_material(const std::string& statements, MemoryFiles files = {}) {
+    files.add("m.mtl", "newmtl a\n" + statements);
+    return read_as("m.obj", "mtllib m.mtl\nusemtl a\n" + corners + "f 1 2 3\n", std::move(files));
+}
+
+const Material& material_of(const SceneData& scene) { return scene.materials[scene.shapes[0].material]; }
+
+TEST(Obj, CountsFromBothEndsAndCutsPolygons) {
+    const auto scene = read_as("a.obj", corners + "f 1 2 3 4\nf -4 -3 -2\nf 1//  2// 3//\n");
+    ASSERT_THAT(scene.shapes, SizeIs(1));
+    EXPECT_THAT(mesh_of(scene).triangles, SizeIs(4));
+    EXPECT_EQ(normal_of(mesh_of(scene)), (Vec3{0, 0, 1}));
+    EXPECT_THAT(mesh_of(scene).positions, SizeIs(4));  // shared
+    EXPECT_FALSE(scene.camera_given);
+    EXPECT_THAT(warnings_of(scene), HasSubstr("'--env'"));
+    EXPECT_THAT(scene.environments, SizeIs(1));
+}
+
+TEST(Obj, JoinsLinesAndSkipsRemarks) {
+    const auto scene =
+        read_as("a.obj", "# a remark\r\nv 0 0 0 # here\r\nv 1 0 0\r\nv 1 \\\r\n1 0\r\nf 1 2 \\\r\n 3\r\n");
+    EXPECT_EQ(mesh_of(scene).positions[2], (Vec3{1, 1, 0}));
+}
+
+TEST(Obj, CutsConcavePolygonsInside) {
+    // an L: its area is 3, a fan's would be larger
+    const auto scene = read_as("l.obj", "v 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nv 0 0 0\nf 4 5 6 1 2 3\n");
+    const auto& mesh = mesh_of(scene);
+    float area = 0;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const auto& t = mesh.triangles[i];
+        area +=
+            length(cross(mesh.positions[t[1]] - mesh.positions[t[0]], mesh.positions[t[2]] - mesh.positions[t[0]])) / 2;
+        EXPECT_GT(normal_of(mesh, i).z, 0.99f);
+    }
+    EXPECT_FLOAT_EQ(area, 3);
+}
+
+TEST(Obj, SmoothsOnlyWhereItIsTold) {
+    EXPECT_THAT(mesh_of(read_as("a.obj", corners + "f 1 2 3\n")).normals, IsEmpty());
+    EXPECT_THAT(mesh_of(read_as("a.obj", corners + "s 1\nf 1 2 3\n")).normals, SizeIs(3));
+    EXPECT_THAT(read_as("a.obj", corners + "s 1\nf 1 2 3\ns off\nf 2 3 4\n").shapes, SizeIs(2));
+    const auto given = read_as("a.obj", corners + "vn 0 0 -1\nf 1//1 2//1 3//1\n");
+    EXPECT_EQ(normal_of(mesh_of(given)), (Vec3{0, 0, -1}));  // the given ones say where outside is
+}
+
+TEST(Obj, TakesColoursOfVertices) {
+    const auto scene = read_as("a.obj", "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0 0 0 1\nf 1 2 3\n");
+    EXPECT_EQ(mesh_of(scene).colours[1], (Rgb{0, 1, 0}));
+    const auto& texture = scene.textures[model_of<DiffuseMaterial>(scene).reflectance];
+    EXPECT_TRUE(std::holds_alternative<VertexColour>(texture.pattern));
+}
+
+TEST(Obj, SaysWhatIsWrongAndWhere) {
+    const std::string errors =
+        errors_as("a.obj", "v 0 0 zero\nv 1 0 0\nv 1 inf 0\nf 1 2 9\nf 0 1 2\nf 1 2\nf 1 x 2\nvn 1 2\nf 1/7 2 3\n");
+    EXPECT_THAT(errors, HasSubstr("a.obj:1: a finite number expected, not 'zero'"));
+    EXPECT_THAT(errors, HasSubstr("a.obj:3: a finite number expected, not 'inf'"));
+    EXPECT_THAT(errors, HasSubstr("a.obj:4: index 9 is out of range: so far there are 3 vertices"));
+    EXPECT_THAT(errors, HasSubstr("a.obj:5: index 0 is out of range"));
+    EXPECT_THAT(errors, HasSubstr("a.obj:6: a face has 2 corners"));
+    EXPECT_THAT(errors, HasSubstr("a.obj:7: an index expected, not 'x'"));
+    EXPECT_THAT(errors, HasSubstr("a.obj:8: a normal needs three numbers"));
+    EXPECT_THAT(errors, HasSubstr("a.obj:9: index 7 is out of range: so far there are 0 texture coordinates"));
+    EXPECT_THAT(errors_as("a.obj", corners), HasSubstr("a.obj: there are no faces"));
+    EXPECT_THAT(errors_as("none.txt", ""), HasSubstr("'.obj'"));
+}
+
+TEST(Obj, WarnsOfWhatItLeavesOut) {
+    const auto scene = read_as("a.obj", corners + "l 1 2\np 1\ncurv 0 1\nmtllib gone.mtl\nusemtl stone\nf 1 2 3\n");
+    const std::string warnings = warnings_of(scene);
+    EXPECT_THAT(warnings, HasSubstr("lines and points have no surface and are left out (2 times)"));
+    EXPECT_THAT(warnings, HasSubstr("unknown statement 'curv' is left out"));
+    EXPECT_THAT(warnings, HasSubstr("a.obj:8: there is no material library 'gone.mtl': grey is taken"));
+    EXPECT_THAT(warnings, HasSubstr("there is no material 'stone': grey is taken"));
+}
+
+TEST(Mtl, MakesMatterOfKdAndLightOfKe) {
+    const auto scene = with_material("Kd .1 .2 .3\nKe 4 5 6\nillum 1\n");
+    EXPECT_EQ(colour_of(scene, model_of<DiffuseMaterial>(scene).reflectance), (Rgb{0.1f, 0.2f, 0.3f}));
+    ASSERT_TRUE(scene.shapes[0].emission);
+    EXPECT_EQ(scene.shapes[0].emission->radiance, (Rgb{4, 5, 6}));
+    EXPECT_THAT(scene.warnings, IsEmpty());
+}
+
+TEST(Mtl, KnowsMirrorsAndGlass) {
+    EXPECT_NO_THROW(model_of<ConductorMaterial>(with_material("Kd 0 0 0\nKs .9 .9 .9\nillum 3\n")));
+    const auto glass = with_material("Ni 1.33\nTf .5 1 1\nd 0\nillum 7\n");
+    EXPECT_EQ(model_of<DielectricMaterial>(glass).eta, 1.33f);
+    EXPECT_FALSE(material_of(glass).opacity);  // glass is there, though it lets all through
+    EXPECT_NEAR(model_of<PrincipledMaterial>(with_material("Kd .5 .5 .5\nKs 1 1 1\nNs 198\n")).roughness.u, 0.1f,
+                1e-5f);
+}
+
+TEST(Mtl, TakesPhysicallyBasedNumbers) {
+    const auto scene = with_material("Kd .5 .5 .5\nPr .25\nPm 1\nPc .5\nPcr .1\nPs .2\nNi 1.4\nTr .25\n");
+    const auto& model = model_of<PrincipledMaterial>(scene);
+    EXPECT_EQ(model.metallic, 1);
+    EXPECT_EQ(model.roughness.u, 0.25f);
+    EXPECT_EQ(model.clearcoat, 0.5f);
+    EXPECT_EQ(model.sheen, 0.2f);
+    EXPECT_EQ(model.eta, 1.4f);
+    EXPECT_EQ(colour_of(scene, material_of(scene).opacity.value()).r, 0.75f);
+}
+
+TEST(Mtl, TakesPicturesWithOptions) {
+    const std::string dot = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n" + std::string("\x80\x80\x80\x81", 4);
+    const auto scene =
+        with_material("map_Kd -s 2 3 1 -o .5 -clamp on my wood.hdr\nbump -bm .1 my wood.hdr\nmap_d my wood.hdr\n",
+                      {{"my wood.hdr", dot}});
+    const auto& pattern = std::get<ImageTexture>(scene.textures[model_of<DiffuseMaterial>(scene).reflectance].pattern);
+    EXPECT_EQ(pattern.uv.scale, (Vec2{2, 3}));
+    EXPECT_EQ(pattern.uv.offset, (Vec2{0.5f, 0}));
+    EXPECT_EQ(pattern.wrap_u, Wrap::clamp);
+    EXPECT_EQ(scene.textures[material_of(scene).bump_map.value()].scale.r, 0.1f);
+    EXPECT_TRUE(material_of(scene).opacity);
+}
+
+TEST(Mtl, SaysWhatIsWrongAndWhere) {
+    const std::string errors = errors_as("m.obj", "mtllib m.mtl\nv 0 0 0\nf 1 1 1\n",
+                                         {{"m.mtl", "Kd 1 1 1\nnewmtl a\nKd red\nNs\nmap_Kd\nmap_Ke none.png\n"}});
+    EXPECT_THAT(errors, HasSubstr("m.mtl:1: 'Kd' stands before the first 'newmtl'"));
+    EXPECT_THAT(errors, HasSubstr("m.mtl:3: a finite number expected, not 'red'"));
+    EXPECT_THAT(errors, HasSubstr("m.mtl:4: 'Ns' needs a number"));
+    EXPECT_THAT(errors, HasSubstr("m.mtl:5: 'map_Kd' names no file"));
+    EXPECT_THAT(errors, HasSubstr("m.mtl:6: can't read a file: none.png: no such file"));
+}
+
+TEST(PlyScene, HasTheColoursOfItsVertices) {
+    const std::string start =
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
+    const auto scene =
+        read_as("a.ply", start +
+                             "property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\n"
+                             "property list uchar int vertex_indices\nend_header\n0 0 0 255 0 0\n1 0 0 0 255 0\n0 1 0 "
+                             "0 0 128\n3 0 1 2\n");
+    EXPECT_EQ(mesh_of(scene).colours[0], (Rgb{1, 0, 0}));
+    EXPECT_NEAR(mesh_of(scene).colours[2].b, 0.2158f, 1e-3f);
+    EXPECT_THAT(warnings_of(scene), HasSubstr("'--env'"));
+    const auto grey = read_as("a.ply", start +
+                                           "element tristrips 1\nproperty list int int vertex_indices\nend_header\n0 0 "
+                                           "0\n1 0 0\n0 1 0\n7 0 1 2 -1 2 1 0\n");
+    EXPECT_THAT(mesh_of(grey).triangles, SizeIs(2));
+    EXPECT_EQ(colour_of(grey, model_of<DiffuseMaterial>(grey).reflectance), (Rgb{0.5f, 0.5f, 0.5f}));
+    EXPECT_THAT(errors_as("a.ply", "ply\n"), HasSubstr("a.ply: PLY: the header ends early"));
+}
+
+TEST(SmoothNormals, AreMeansOverTheAnglesOfFaces) {
+    // the corner of a cube, one of whose faces is cut in two
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}};
+    mesh.triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 4}, {0, 4, 3}};
+    smooth_normals(mesh);
+    const float third = -1 / std::sqrt(3.0f);
+    EXPECT_NEAR(mesh.normals[0].x, third, 1e-6f);
+    EXPECT_NEAR(mesh.normals[0].y, third, 1e-6f);
+    EXPECT_NEAR(mesh.normals[0].z, third, 1e-6f);
+}
+
+}  // namespace
+}  // namespace lightnet::test

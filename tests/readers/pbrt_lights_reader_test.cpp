@@ -1,0 +1,206 @@
+// pbrt's lights without a shape, its cameras and its film.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <numbers>
+
+#include "core/scene/spectra.hpp"
+#include "tests/support/pbrt_text.hpp"
+
+namespace lightnet::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+constexpr float pi = std::numbers::pi_v<float>;
+
+void expect_near(Vec3 a, Vec3 b) { EXPECT_LT(length(a - b), 1e-5f) << a.x << ' ' << a.y << ' ' << a.z; }
+
+template <class Light>
+Light light(const std::string& statement, MemoryFiles files = {}) {
+    return std::get<Light>(read_world(statement, std::move(files)).lights.at(0));
+}
+
+/// A picture of that many columns and rows of one colour (RGBE).
+std::string picture(int columns, int rows, const std::string& pixel = "\x80\x40\x20\x81") {
+    std::string file = "#?RADIANCE\n\n-Y " + std::to_string(rows) + " +X " + std::to_string(columns) + "\n";
+    for (int i = 0; i < columns * rows; ++i) file += pixel;
+    return file;
+}
+
+TEST(PbrtPointLights, StandWhereTheyAreSet) {
+    const auto lamp = light<PointLight>(
+        "Translate 1 2 3 LightSource \"point\" \"rgb I\" [ 1 2 3 ] \"float scale\" 2 \"point3 from\" [ 0 0 4 ]");
+    expect_near(lamp.position, {1, 2, 7});
+    EXPECT_EQ(lamp.intensity, (Rgb{2, 4, 6}));
+}
+
+TEST(PbrtPointLights, HaveThePowerThatIsAskedFor) {
+    EXPECT_NEAR(light<PointLight>("LightSource \"point\" \"float power\" 100").intensity.g * 4 * pi, 100, 1e-4f);
+}
+
+TEST(PbrtSpotLights, HaveACone) {
+    const auto lamp = light<SpotLight>(
+        "LightSource \"spot\" \"point3 from\" [ 0 5 0 ] \"point3 to\" [ 0 0 0 ] \"float coneangle\" 40 "
+        "\"float conedeltaangle\" 10");
+    expect_near(lamp.position, {0, 5, 0});
+    expect_near(lamp.axis, {0, -1, 0});
+    EXPECT_NEAR(lamp.inner, pi / 6, 1e-6f);
+    EXPECT_NEAR(lamp.outer, 40 * pi / 180, 1e-6f);
+    EXPECT_EQ(lamp.falloff, SpotLight::Falloff::smoothstep);
+}
+
+// ∫ smoothstep over the cosine between the two cones is half their difference.
+TEST(PbrtSpotLights, HaveThePowerThatIsAskedFor) {
+    const auto lamp = light<SpotLight>("LightSource \"spot\" \"float power\" 30");
+    const float inner = 1 - std::cos(lamp.inner), outer = 1 - std::cos(lamp.outer);
+    EXPECT_NEAR(lamp.intensity.r * 2 * pi * (inner + outer) / 2, 30, 1e-3f);
+}
+
+TEST(PbrtDistantLights, ShineFromOnePointToAnother) {
+    const auto sun = light<DirectionalLight>(
+        "Scale 2 2 2 LightSource \"distant\" \"point3 from\" [ 0 3 0 ] \"float illuminance\" 5 \"blackbody L\" 5000");
+    expect_near(sun.direction, normalize(Vec3{0, -3, 1}));
+    EXPECT_NEAR(luminance(sun.irradiance), 5, 1e-4f);
+}
+
+TEST(PbrtLights, WithPicturesOfDirectionsAreApproximated) {
+    const MemoryFiles files{{"p.hdr", picture(2, 2)}};
+    const auto round =
+        read_world("LightSource \"goniometric\" \"string filename\" \"p.hdr\" \"rgb I\" [ 2 2 2 ]", files);
+    EXPECT_GT(std::get<PointLight>(round.lights.at(0)).intensity.r, 0.5f);
+    EXPECT_THAT(warnings_of(round), HasSubstr("taken as a point light"));
+    const auto slide = read_world("LightSource \"projection\" \"string filename\" \"p.hdr\" \"float fov\" 60", files);
+    EXPECT_NEAR(std::get<SpotLight>(slide.lights.at(0)).outer, pi / 6, 1e-6f);
+    EXPECT_EQ(std::get<SpotLight>(slide.lights.at(0)).intensity, (Rgb{1, 0.5f, 0.25f}));
+    EXPECT_THAT(warnings_of(slide), HasSubstr("taken as a spot light"));
+}
+
+TEST(PbrtLamps, MayHavePictures) {
+    const MemoryFiles files{{"p.hdr", picture(2, 2, "\x80\x80\x80\x82")}};
+    const std::string lamp = "AreaLightSource \"diffuse\" \"string filename\" \"p.hdr\" \"float scale\" 3 ";
+    const auto plain = read_world(lamp + ball, files).shapes.at(0).emission.value();
+    EXPECT_EQ(plain.radiance, (Rgb{3, 3, 3}));
+    EXPECT_TRUE(plain.texture);
+    // of luminance 2: half the radiance gives the power
+    const auto strong = read_world(lamp + "\"float power\" 100 " + ball, files).shapes.at(0).emission.value();
+    EXPECT_NEAR(strong.radiance.r * 2 / 3 * 4 * pi * pi, 100, 1e-3f);
+}
+
+TEST(PbrtEnvironments, AreConstant) {
+    const auto scene = read_world("LightSource \"infinite\" \"rgb L\" [ 1 2 3 ] \"float scale\" 2");
+    ASSERT_THAT(scene.environments, SizeIs(1));
+    EXPECT_EQ(scene.environments[0].radiance, (Rgb{2, 4, 6}));
+    EXPECT_FALSE(scene.environments[0].image);
+}
+
+TEST(PbrtEnvironments, OfAnIlluminanceShareItOverTheHemisphere) {
+    EXPECT_NEAR(read_world("LightSource \"infinite\" \"float illuminance\" 10").environments[0].radiance.g, 10 / pi,
+                1e-5f);
+}
+
+TEST(PbrtEnvironments, TellTheirLayoutByTheirShape) {
+    const MemoryFiles files{{"square.hdr", picture(2, 2)}, {"wide.hdr", picture(4, 2)}};
+    const auto scene = read_world(
+        "Rotate 90 1 0 0 LightSource \"infinite\" \"string filename\" \"square.hdr\" \"float scale\" 2\n"
+        "LightSource \"infinite\" \"string filename\" \"wide.hdr\"",
+        files);
+    ASSERT_THAT(scene.environments, SizeIs(2));
+    EXPECT_EQ(scene.environments[0].layout, EnvironmentData::Layout::equal_area);
+    EXPECT_EQ(scene.environments[0].radiance, (Rgb{2, 2, 2}));
+    expect_near(transform_direction(scene.environments[0].to_world, {0, 1, 0}), {0, 0, 1});
+    EXPECT_EQ(scene.environments[1].layout, EnvironmentData::Layout::latitude_longitude);
+    EXPECT_THAT(scene.warnings, IsEmpty());
+}
+
+TEST(PbrtEnvironments, OfAPictureHaveTheIlluminanceThatIsAskedFor) {
+    // of luminance 1 everywhere, it would be π
+    const MemoryFiles files{{"p.hdr", picture(32, 32, "\x80\x80\x80\x81")}};
+    const auto scene =
+        read_world("LightSource \"infinite\" \"string filename\" \"p.hdr\" \"float illuminance\" 10", files);
+    EXPECT_NEAR(scene.environments[0].radiance.r, 10 / pi, 0.02f);
+}
+
+CameraData camera(const std::string& statements) { return read_text(statements + "\nWorldBegin").camera; }
+
+TEST(PbrtCameras, MayHaveALens) {
+    const auto lens = camera("Camera \"perspective\" \"float lensradius\" .1 \"float focaldistance\" 3");
+    EXPECT_EQ(lens.lens_radius, 0.1f);
+    EXPECT_EQ(lens.focus_distance, 3);
+    // the world is twice as large as the camera's space
+    const auto half = camera("Scale .5 .5 .5 Camera \"perspective\" \"float lensradius\" .1 \"float focaldistance\" 3");
+    EXPECT_NEAR(half.lens_radius, 0.2f, 1e-6f);
+    EXPECT_NEAR(half.focus_distance, 6, 1e-5f);
+    EXPECT_NEAR(half.to_world.m[0][0], 1, 1e-12);
+}
+
+TEST(PbrtCameras, MayBeOrthographic) {
+    const auto flat = camera("Camera \"orthographic\" \"float screenwindow\" [ -2 2 -1 1 ]");
+    EXPECT_TRUE(flat.orthographic);
+    EXPECT_EQ(flat.screen[1], 2);
+}
+
+TEST(PbrtCameras, OfOtherTypesAreApproximated) {
+    for (const char* type : {"realistic", "spherical"}) {
+        const auto scene = read_text("Camera \"" + std::string(type) + "\"\nWorldBegin\n" + ball);
+        EXPECT_THAT(warnings_of(scene), HasSubstr("are not supported: a perspective one"));
+        EXPECT_FALSE(scene.camera.orthographic);
+    }
+}
+
+TEST(PbrtFilms, ScaleByIsoAndExposureTime) {
+    const auto scene =
+        read_text("Camera \"perspective\" \"float shutterclose\" .5 Film \"rgb\" \"float iso\" 400\nWorldBegin");
+    EXPECT_EQ(scene.film.scale, 2);
+}
+
+TEST(PbrtFilms, ShowTheLightOfTheirWhiteBalanceAsWhite) {
+    const auto scene = read_text(
+        "Film \"rgb\" \"float whitebalance\" 5000\nWorldBegin\nLightSource \"infinite\" \"spectrum L\" "
+        "\"stdillum-D50\"");
+    const Rgb white = scene.environments.at(0).radiance;
+    EXPECT_NEAR(white.r, white.g, 0.02f);
+    EXPECT_NEAR(white.b, white.g, 0.02f);
+}
+
+TEST(Daylight, OfD65IsWhite) {
+    const Rgb white = daylight_colour(6504);
+    EXPECT_NEAR(white.r, 1, 0.003f);
+    EXPECT_NEAR(white.g, 1, 0.003f);
+    EXPECT_NEAR(white.b, 1, 0.003f);
+    EXPECT_GT(daylight_colour(5000).r, daylight_colour(5000).b);
+    EXPECT_LT(daylight_colour(10000).r, daylight_colour(10000).b);
+}
+
+std::string packed(const std::string& text) {
+    std::string result(text.size() + 128, '\0');
+    z_stream stream{};
+    EXPECT_EQ(deflateInit2(&stream, 9, Z_DEFLATED, MAX_WBITS + 16, 8, Z_DEFAULT_STRATEGY), Z_OK);
+    std::string in = text;
+    stream.next_in = reinterpret_cast<Bytef*>(in.data());
+    stream.avail_in = static_cast<uInt>(in.size());
+    stream.next_out = reinterpret_cast<Bytef*>(result.data());
+    stream.avail_out = static_cast<uInt>(result.size());
+    EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
+    result.resize(stream.total_out);
+    deflateEnd(&stream);
+    return result;
+}
+
+TEST(PbrtFiles, MayBePacked) {
+    const std::string mesh =
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 1 0 0 0 1 0 3 0 1 2";
+    const MemoryFiles files{{"m.ply.gz", packed(mesh)},
+                            {"part.pbrt.gz", packed("Shape \"plymesh\" \"string filename\" \"m.ply.gz\"")}};
+    EXPECT_EQ(mesh_of(read_world("Include \"part.pbrt.gz\"", files)).triangles.size(), 1u);
+    const MemoryFiles cut{{"m.ply.gz", packed(mesh).substr(0, 60)}};
+    EXPECT_THAT(errors_of_world("Shape \"plymesh\" \"string filename\" \"m.ply.gz\"", cut),
+                HasSubstr("scene.pbrt:2: Shape 'plymesh': 'm.ply.gz': its gzip packing ends early"));
+}
+
+}  // namespace
+}  // namespace lightnet::test

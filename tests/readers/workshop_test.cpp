@@ -1,0 +1,35 @@
+// Work on the side.
+#include "core/scene/workshop.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <numeric>
+
+namespace lightnet {
+namespace {
+
+TEST(Workshop, DoesAllPiecesOnce) {
+    for (const unsigned threads : {1u, 2u, 4u}) {
+        Workshop workshop(threads);
+        std::vector<int> done(1000);
+        for (auto& one : done) workshop.add([&one] { ++one; });
+        workshop.finish();
+        EXPECT_EQ(std::accumulate(done.begin(), done.end(), 0), 1000);
+        workshop.add([&done] { done[0] = 7; });  // and goes on afterwards
+        workshop.finish();
+        EXPECT_EQ(done[0], 7);
+    }
+}
+
+TEST(Workshop, MayBeGivenUp) {
+    std::atomic<int> done = 0;
+    {
+        Workshop workshop(2);
+        for (int i = 0; i < 100; ++i) workshop.add([&done] { ++done; });
+    }
+    EXPECT_LE(done, 100);
+}
+
+}  // namespace
+}  // namespace lightnet

@@ -1,0 +1,225 @@
+// Maps of the sky: where their pixels lie, and how directions are drawn from them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "core/math/samples.hpp"
+#include "core/math/sampling.hpp"
+#include "core/scene/direct_light.hpp"
+#include "core/scene/environment.hpp"
+#include "core/scene/scene.hpp"
+#include "core/scene/sky_layout.hpp"
+#include "tests/support/small_scenes.hpp"
+
+namespace lightnet {
+namespace {
+
+using namespace test;
+using Layout = EnvironmentData::Layout;
+
+// Noise between 0 and 1, a few black pixels, and a small sun.
+std::shared_ptr<const Image> picture(std::uint32_t width, std::uint32_t height) {
+    std::vector<Rgb> pixels;
+    for (std::uint32_t i = 0; i < width * height; ++i) {
+        Samples samples(11, i);
+        const float c = i % 5 == 0 ? 0 : samples.next();
+        pixels.push_back({c, samples.next(), 0.3f * c});
+    }
+    pixels[(height / 3) * width + width / 4] = {300, 280, 250};
+    return std::make_shared<const Image>(width, height, pixels);
+}
+
+Matrix turned() {  // 120° around the diagonal, then a mirror: all axes change places
+    Matrix m;
+    m.m = {{{0, 0, -1, 0}, {1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 0, 1}}};
+    return m;
+}
+
+EnvironmentData map_of(Layout layout) {
+    EnvironmentData data;
+    data.radiance = {1, 2, 0.5f};
+    data.image = layout == Layout::equal_area ? picture(24, 24) : picture(48, 24);
+    data.layout = layout;
+    data.to_world = turned();
+    return data;
+}
+
+// ∫ f dω over all directions, by midpoints in cosine and angle.
+double over_the_sphere(int n, const std::function<double(Vec3)>& f) {
+    double sum = 0;
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < 2 * n; ++j) {
+            const double z = -1 + (i + 0.5) * 2 / n, phi = std::numbers::pi * (j + 0.5) / n, s = std::sqrt(1 - z * z);
+            sum += f({float(s * std::cos(phi)), float(s * std::sin(phi)), float(z)});
+        }
+    return sum * 4 * std::numbers::pi / (2.0 * n * n);
+}
+
+TEST(SkyLayout, OfLatitudeAndLongitudeHasTheTopAboveAndTheMiddleAhead) {
+    const auto near = [](Vec2 a, Vec2 b) { return std::fabs(a.x - b.x) + std::fabs(a.y - b.y) < 1e-6f; };
+    EXPECT_TRUE(near(to_latitude_longitude({0, 0, -1}), {0.5f, 0.5f}));
+    EXPECT_TRUE(near(to_latitude_longitude({1, 0, 0}), {0.75f, 0.5f}));
+    EXPECT_NEAR(to_latitude_longitude({0, 1, 0}).y, 0, 1e-6f);
+    EXPECT_NEAR(to_latitude_longitude({0, -1, 0}).y, 1, 1e-6f);
+}
+
+// Values of pbrt-v4's EqualAreaSphereToSquare.
+TEST(SkyLayout, OfEqualAreasHasThePoleInTheMiddle) {
+    const auto near = [](Vec2 a, Vec2 b) { return std::fabs(a.x - b.x) + std::fabs(a.y - b.y) < 1e-6f; };
+    EXPECT_TRUE(near(to_equal_area({0, 0, 1}), {0.5f, 0.5f}));
+    EXPECT_TRUE(near(to_equal_area({1, 0, 0}), {1, 0.5f}));
+    EXPECT_TRUE(near(to_equal_area({0, 1, 0}), {0.5f, 1}));
+    EXPECT_TRUE(near(to_equal_area({-1, 0, 0}), {0, 0.5f}));
+    const Vec2 corner = to_equal_area({0, 0, -1});
+    EXPECT_NEAR(std::fabs(corner.x - 0.5f), 0.5f, 1e-6f);
+    EXPECT_NEAR(std::fabs(corner.y - 0.5f), 0.5f, 1e-6f);
+}
+
+TEST(SkyLayout, LeadsBackToWhereItCameFrom) {
+    for (std::uint32_t i = 0; i < 20000; ++i) {
+        const Vec3 d = sphere(Samples(2, i).next_2d());
+        ASSERT_NEAR(length(from_equal_area(to_equal_area(d)) - d), 0, 2e-6f);
+        ASSERT_NEAR(length(from_latitude_longitude(to_latitude_longitude(d)) - d), 0, 2e-6f);
+    }
+}
+
+TEST(Environment, ShowsItsPixelsWhereTheyBelong) {
+    std::vector<Rgb> pixels(8 * 4);
+    for (std::uint32_t i = 0; i < pixels.size(); ++i) pixels[i] = {float(i), 1, 0};
+    EnvironmentData data;
+    data.image = std::make_shared<const Image>(8, 4, pixels);
+    const Environment upright(data);
+    for (std::uint32_t y = 0; y < 4; ++y)
+        for (std::uint32_t x = 0; x < 8; ++x)
+            EXPECT_NEAR(upright.radiance(from_latitude_longitude({(float(x) + 0.5f) / 8, (float(y) + 0.5f) / 4})).r,
+                        float(8 * y + x), 1e-4f);
+    data.to_world = turned();
+    const Vec3 ahead = transform_direction(turned(), {0, 0, -1});
+    EXPECT_NEAR(Environment(data).radiance(ahead).r, upright.radiance({0, 0, -1}).r, 1e-4f);
+}
+
+class Maps : public testing::TestWithParam<Layout> {};
+
+TEST_P(Maps, AreSmooth) {  // across pixels, and across the picture's borders
+    const Environment sky(map_of(GetParam()));
+    for (std::uint32_t i = 0; i < 20000; ++i) {
+        Samples samples(3, i);
+        const Vec3 a = sphere(samples.next_2d()), b = normalize(a + sphere(samples.next_2d()) * 1e-5f);
+        if (std::fabs(dot(a, transform_direction(turned(), {0, 1, 0}))) > 0.999f) continue;  // the poles
+        const float there = sky.radiance(a).g;
+        ASSERT_NEAR(there, sky.radiance(b).g, 0.1f);
+    }
+}
+
+TEST_P(Maps, HaveADensityThatIntegratesToOne) {
+    const Environment sky(map_of(GetParam()));
+    EXPECT_NEAR(over_the_sphere(1500, [&](Vec3 d) { return sky.pdf(d); }), 1, 2e-3);
+}
+
+TEST_P(Maps, SampleWhatTheirDensitySays) {
+    const Environment sky(map_of(GetParam()));
+    constexpr int rows = 12, columns = 24, n = 200000;
+    const auto bin = [](Vec3 d) {
+        const int row = std::min(rows - 1, int((d.z + 1) / 2 * rows));
+        const double turn = std::atan2(d.y, d.x) / (2 * std::numbers::pi) + 0.5;
+        return row * columns + std::min(columns - 1, int(turn * columns));
+    };
+    std::vector<double> expected(rows * columns), found(rows * columns);
+    over_the_sphere(768, [&](Vec3 d) {
+        expected[bin(d)] += sky.pdf(d);
+        return 0;
+    });
+    double all = 0;
+    for (const double e : expected) all += e;
+    for (std::uint32_t i = 0; i < n; ++i) {
+        const Vec3 d = sky.sample({float(mix(2 * i) >> 40) * 0x1p-24f, float(mix(2 * i + 1) >> 40) * 0x1p-24f});
+        ASSERT_NEAR(length(d), 1, 1e-5f);
+        ASSERT_GT(sky.pdf(d), 0);
+        found[bin(d)] += 1;
+    }
+    double chi2 = 0;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const double e = expected[i] / all * n;
+        ASSERT_GT(e, 5);
+        chi2 += (found[i] - e) * (found[i] - e) / e;
+    }
+    const double freedom = rows * columns - 1;  // mean and variance of chi-square are this and twice this
+    EXPECT_LT(chi2, freedom + 4 * std::sqrt(2 * freedom));
+}
+
+TEST_P(Maps, CountAllTheirLight) {
+    const Environment sky(map_of(GetParam()));
+    const double expected = over_the_sphere(700, [&](Vec3 d) { return sky.radiance(d).r; });
+    EXPECT_NEAR(sky.total().r / expected, 1, 0.02);  // pixels against what lies between them
+}
+
+// The irradiance of a floor, by both ways to find light, against quadrature. A lamp stands under the sky as well, so
+// that the choice between them is tested, too.
+TEST_P(Maps, LightAFloorAsMuchAsTheyShould) {
+    SceneData data;
+    add(data, quad({-5, 0, -5}, {0, 0, 10}, {10, 0, 0}), diffuse(data, 1));
+    data.environments.push_back(map_of(GetParam()));
+    data.environments.push_back({{0.5f, 0.5f, 0.5f}});
+    const Scene sky_only(data);
+    add(data, quad({-1, 20, -1}, {2, 0, 0}, {0, 0, 2}), diffuse(data, 0)).emission = AreaEmission{{400, 400, 400}};
+    const Scene both(data);
+    const double expected =
+        over_the_sphere(500, [&](Vec3 d) { return d.y > 0 ? double{sky_only.environment(d).r} * d.y : 0; }) /
+        std::numbers::pi;
+    const double of_lamp = 400 * 4.0 / (20 * 20) / std::numbers::pi;  // nearly: it is far away
+    for (const auto* scene : {&sky_only, &both}) {
+        const SurfacePoint point = scene->surface(Query{.primitive = 0, .u = 0, .v = 0.5f});
+        const Bsdf bsdf = scene->bsdf(point);
+        const Gathering at{point, bsdf, {0, 1, 0}, lobe::all};
+        double sum = 0, squares = 0;
+        constexpr std::uint32_t n = 1 << 15;
+        for (std::uint32_t i = 0; i < n; ++i) {
+            Samples samples(4, i);
+            double value = light_by_lamp(*scene, at, samples, Heuristic::power).r;
+            const auto sample = bsdf.sample({0, 1, 0}, 0, samples.next_2d(), lobe::all);
+            const auto hit = scene->intersect({point.origin_towards(sample->incoming), sample->incoming});
+            SurfacePoint end;
+            if (hit) end = scene->surface(*hit);
+            value += (sample->weight *
+                      light_by_bsdf(*scene, point.position, *sample, hit ? &end : nullptr, Heuristic::power))
+                         .r;
+            sum += value;
+            squares += value * value;
+        }
+        const double mean = sum / n, error = std::sqrt((squares / n - mean * mean) / n);
+        EXPECT_NEAR(mean, expected + (scene == &both ? of_lamp : 0), 4 * error + 5e-3 * expected);
+        EXPECT_LT(error, 0.02 * mean);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(OfEachLayout, Maps, testing::Values(Layout::latitude_longitude, Layout::equal_area),
+                         [](const auto& layout) {
+                             return layout.param == Layout::equal_area ? "EqualArea" : "LatitudeLongitude";
+                         });
+
+TEST(Environment, TakesNumbersThatAreNoneForNothing) {
+    EnvironmentData data;
+    const float none = std::numeric_limits<float>::quiet_NaN(), all = std::numeric_limits<float>::infinity();
+    data.image = std::make_shared<const Image>(2, 1, std::vector<Rgb>{{none, -1, 2}, {all, 1, 1}});
+    const Environment sky(data);
+    for (std::uint32_t i = 0; i < 100; ++i) {
+        const Vec3 d = sphere(Samples(1, i).next_2d());
+        EXPECT_TRUE(finite(sky.radiance(d)));
+        EXPECT_GE(sky.radiance(d).g, 0);
+        EXPECT_TRUE(std::isfinite(sky.pdf(d)));
+    }
+}
+
+TEST(Environment, OfABlackMapIsNeverChosen) {
+    SceneData data;
+    data.environments.push_back({});
+    data.environments[0].image = std::make_shared<const Image>(2, 1, std::vector<Rgb>(2));
+    const Scene scene(data);
+    EXPECT_FALSE(scene.has_environment());
+    EXPECT_FALSE(scene.has_lamps());
+}
+
+}  // namespace
+}  // namespace lightnet

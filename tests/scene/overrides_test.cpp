@@ -1,0 +1,137 @@
+// What a graph changes about a scene.
+#include "core/scene/overrides.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/memory_files.hpp"
+
+namespace lightnet {
+namespace {
+
+using testing::HasSubstr;
+
+void expect_near(Vec3 a, Vec3 b) { EXPECT_LT(length(a - b), 1e-5f) << a.x << ' ' << a.y << ' ' << a.z; }
+
+/// A scene whose camera is that of a right-handed world, at (0, 0, 5), looking along -z.
+SceneData with_camera() {
+    SceneData scene;
+    scene.camera_given = true;
+    scene.camera.to_world.m = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, -1, 5}, {0, 0, 0, 1}}};
+    return scene;
+}
+
+SceneData changed(SceneData scene, const SceneOverrides& overrides, test::MemoryFiles files = {}) {
+    apply(overrides, scene, files, {"g.lua", 3});
+    return scene;
+}
+
+std::string error_of(SceneData scene, const SceneOverrides& overrides, test::MemoryFiles files = {}) {
+    try {
+        apply(overrides, scene, files, {"g.lua", 3});
+    } catch (const UserError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+SceneOverrides camera(const CameraOverride& change) {
+    SceneOverrides overrides;
+    overrides.camera = change;
+    return overrides;
+}
+
+TEST(SceneOverrides, MoveTheCamera) {
+    CameraOverride change;
+    change.from = Vec3{5, 0, 0};
+    change.to = Vec3{};
+    const auto scene = changed(with_camera(), camera(change));
+    const Matrix& m = scene.camera.to_world;
+    expect_near(transform_point(m, {0, 0, 5}), {0, 0, 0});
+    expect_near(transform_direction(m, {0, 1, 0}), {0, 1, 0});
+    expect_near(transform_direction(m, {1, 0, 0}), {0, 0, -1});  // still no mirror
+}
+
+TEST(SceneOverrides, KeepWhatTheyDoNotName) {
+    CameraOverride change;
+    change.to = Vec3{1, 0, 4};
+    const auto scene = changed(with_camera(), camera(change));
+    expect_near(transform_point(scene.camera.to_world, {}), {0, 0, 5});
+    expect_near(transform_direction(scene.camera.to_world, {0, 0, 1}), normalize(Vec3{1, 0, -1}));
+    EXPECT_EQ(scene.camera.fov, 90);
+    change = {};
+    change.fov = 30, change.lens = 0.2f, change.focus = 7;
+    const auto lens = changed(with_camera(), camera(change)).camera;
+    EXPECT_EQ(lens.to_world, with_camera().camera.to_world);
+    EXPECT_EQ(lens.fov, 30);
+    EXPECT_EQ(lens.lens_radius, 0.2f);
+    EXPECT_EQ(lens.focus_distance, 7);
+}
+
+TEST(SceneOverrides, OfACameraMustSpanAView) {
+    CameraOverride change;
+    change.from = Vec3{0, 5, 0};
+    change.to = Vec3{};
+    EXPECT_THAT(error_of(with_camera(), camera(change)),
+                HasSubstr("g.lua:3: 'camera': 'from', 'to' and 'up' must span"));
+    change.to.reset();
+    EXPECT_THAT(error_of({}, camera(change)), HasSubstr("both 'from' and 'to' must be given"));
+}
+
+TEST(SceneOverrides, PutAColourAround) {
+    SceneOverrides overrides;
+    overrides.environment = Rgb{1, 2, 3};
+    overrides.environment_scale = 2;
+    SceneData old = with_camera();
+    old.environments.resize(2);
+    const auto scene = changed(old, overrides);
+    ASSERT_EQ(scene.environments.size(), 1u);
+    EXPECT_EQ(scene.environments[0].radiance, (Rgb{2, 4, 6}));
+    overrides.environment = Rgb{};
+    EXPECT_TRUE(changed(old, overrides).environments.empty());
+}
+
+TEST(SceneOverrides, PutAPictureAroundWhoseTopIsUp) {
+    const test::MemoryFiles files{
+        {"sky.hdr", std::string("#?RADIANCE\n\n-Y 1 +X 2\n") + std::string("\x80\x40\x20\x81\x80\x40\x20\x81", 8)}};
+    SceneOverrides overrides;
+    overrides.environment = std::string("sky.hdr");
+    const auto straight = changed(with_camera(), overrides, files).environments.at(0);
+    EXPECT_EQ(straight.to_world, Matrix{});
+    EXPECT_EQ(straight.layout, EnvironmentData::Layout::latitude_longitude);
+    SceneData flat = with_camera();  // z is up
+    flat.camera.to_world.m = {{{1, 0, 0, 0}, {0, 0, 1, 0}, {0, 1, 0, 0}, {0, 0, 0, 1}}};
+    const Matrix turn = changed(flat, overrides, files).environments.at(0).to_world;
+    expect_near(transform_direction(turn, {0, 1, 0}), {0, 0, 1});
+    EXPECT_FALSE(swaps_handedness(turn));
+    EXPECT_THAT(error_of(with_camera(), overrides), HasSubstr("g.lua:3: 'environment': can't read 'sky.hdr'"));
+}
+
+TEST(SceneOverrides, ExposeInStops) {
+    SceneOverrides overrides;
+    overrides.exposure = -2;
+    SceneData scene = with_camera();
+    scene.film.scale = 8;
+    EXPECT_EQ(changed(scene, overrides).film.scale, 2);
+}
+
+TEST(SceneOverrides, OfClayKeepWhatIsCutOutAndWhatIsNotThere) {
+    SceneData scene = with_camera();
+    scene.textures.resize(1);
+    scene.materials.resize(2);
+    scene.materials[0].model = ConductorMaterial{};
+    scene.materials[0].opacity = 0;
+    scene.materials[0].bump_map = 0;
+    scene.materials[1].model = NoMaterial{};
+    SceneOverrides overrides;
+    overrides.clay = true;
+    const auto clay = changed(scene, overrides);
+    const auto& model = std::get<DiffuseMaterial>(clay.materials[0].model);
+    EXPECT_EQ(clay.textures.at(model.reflectance).scale, (Rgb{0.5f, 0.5f, 0.5f}));
+    EXPECT_EQ(clay.materials[0].opacity, 0u);
+    EXPECT_FALSE(clay.materials[0].bump_map);
+    EXPECT_TRUE(std::holds_alternative<NoMaterial>(clay.materials[1].model));
+}
+
+}  // namespace
+}  // namespace lightnet

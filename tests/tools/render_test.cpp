@@ -1,0 +1,131 @@
+// `lightnet render` and `lightnet scene info`.
+#include "tools/render.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "core/graph/graph_film.hpp"
+#include "core/runtime/load_scene.hpp"
+#include "nodes/standard_nodes.hpp"
+#include "tests/support/folder.hpp"
+#include "tools/launcher.hpp"
+
+namespace lightnet {
+namespace {
+
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// A launcher that remembers its run, and a folder with a scene.
+class Bench {
+public:
+    Bench() {
+        scene = folder_.write("ball.pbrt",
+                              "Film \"rgb\" \"integer xresolution\" 30 \"integer yresolution\" 20\n"
+                              "Camera \"perspective\"\nWorldBegin\nLightSource \"infinite\"\nShape \"sphere\"\n"
+                              "MediumInterface \"fog\"\n");
+    }
+
+    int operator()(std::vector<std::string> words) {
+        std::ostringstream to_out, to_err;
+        const auto remember = [&](const RunRequest& request) {
+            runs.push_back(request);
+            return 7;
+        };
+        const int code = Launcher{registry, remember, to_out, to_err}(words);
+        out = to_out.str(), err = to_err.str();
+        return code;
+    }
+
+    SceneOverrides overrides() const { return scene_overrides(runs.at(0).graph, registry); }
+    std::string write(const std::string& name, const std::string& text) { return folder_.write(name, text); }
+
+    const Registry registry{standard_nodes()};
+    std::string scene, out, err;
+    std::vector<RunRequest> runs;
+
+private:
+    const test::Folder folder_;
+};
+
+TEST(Render, MakesAGraphOfASceneFile) {
+    Bench lightnet;
+    EXPECT_EQ(lightnet({"render", lightnet.scene}), 7) << lightnet.err;
+    const RunRequest& run = lightnet.runs.at(0);
+    EXPECT_EQ(film_of(run.graph, lightnet.registry), (GraphFilm{30, 20, ""})) << "the scene's own size";
+    EXPECT_EQ(scene_file(run.graph, lightnet.registry), run.scene);
+    EXPECT_EQ(run.scene, lightnet.scene);
+    EXPECT_EQ(run.output, "ball.exr");
+    EXPECT_EQ(run.mode, Mode::serial);
+    EXPECT_EQ(run.graph.nodes[1].kind, "PathTracing");
+    EXPECT_EQ(run.read->scene.shapes.size(), 1u) << "read once, for its size and for the run";
+}
+
+TEST(Render, TakesTheOptionsOfRun) {
+    Bench lightnet;
+    lightnet({"render", lightnet.scene, "--samples", "3", "--size", "8x4", "-o", "y.exr", "--local-workers", "2",
+              "--lighting", "ao", "--env", "1,0.5,0.25", "--exposure", "2"});
+    const RunRequest& run = lightnet.runs.at(0);
+    EXPECT_EQ(film_of(run.graph, lightnet.registry), (GraphFilm{8, 4, ""}));
+    EXPECT_EQ(run.output, "y.exr");
+    EXPECT_EQ(run.mode, Mode::local_workers);
+    EXPECT_EQ(run.graph.nodes[1].kind, "AmbientOcclusion");
+    EXPECT_EQ(lightnet.overrides().environment, (std::variant<std::monostate, Rgb, std::string>(Rgb{1, 0.5f, 0.25f})));
+    EXPECT_EQ(lightnet.overrides().exposure, 2);
+}
+
+TEST(Render, LightsByAnyGraph) {
+    Bench lightnet;
+    const std::string graph = lightnet.write("two.lua",
+                                             "strong = 2 scene = Scene { 'missing.pbrt', exposure = strong }\n"
+                                             "a = DirectLighting {} b = PathTracing {} both = Combine { a, b }\n"
+                                             "image = RayTracer { both, scene = scene, film = { 512, 512 } }");
+    const std::string sky = lightnet.write("sky.hdr", "");
+    lightnet({"render", lightnet.scene, "--lighting", graph, "--env", sky, "-D", "strong=3"});
+    const RunRequest& run = lightnet.runs.at(0);
+    EXPECT_EQ(run.scene, lightnet.scene);
+    EXPECT_EQ(film_of(run.graph, lightnet.registry), (GraphFilm{30, 20, ""}));
+    EXPECT_EQ(std::get<std::string>(lightnet.overrides().environment), sky);
+    EXPECT_EQ(lightnet.overrides().exposure, 3);
+}
+
+TEST(Render, SaysWhatIsWrong) {
+    Bench lightnet;
+    EXPECT_EQ(lightnet({"render", lightnet.scene, "--lighting", "pth"}), 2);
+    EXPECT_THAT(lightnet.err,
+                HasSubstr("must be path, direct, ao or a graph file (.lua), not 'pth' (did you mean 'path'?)"));
+    EXPECT_EQ(lightnet({"render", lightnet.scene, "--env", "no.exr"}), 2);
+    EXPECT_THAT(lightnet.err, HasSubstr("no.exr'"));
+    EXPECT_EQ(lightnet({"render", "no.pbrt"}), 2);
+    EXPECT_THAT(lightnet.err, HasSubstr("can't read the scene"));
+    EXPECT_EQ(lightnet({"render", lightnet.scene, "--smaples", "3"}), 2);
+    EXPECT_THAT(lightnet.err, HasSubstr("did you mean '--samples'?"));
+    EXPECT_THAT(lightnet.runs, IsEmpty());
+}
+
+TEST(SceneInfo, TellsWhatIsInAFile) {
+    Bench lightnet;
+    EXPECT_EQ(lightnet({"scene", "info", lightnet.scene}), 0) << lightnet.err;
+    for (const char* part : {"0 in 0 meshes", "1 spheres", "1 diffuse", "1 even environments",
+                             "(-1, -1, -1) to (1, 1, 1)", "perspective, 90 degrees", "30 x 20", "s to read",
+                             "MiB in all", "ball.pbrt:6: participating media are not supported"})
+        EXPECT_THAT(lightnet.out, HasSubstr(part));
+}
+
+TEST(SceneInfo, CountsInstances) {
+    Bench lightnet;
+    const std::string scene = lightnet.write(
+        "two.pbrt",
+        "WorldBegin ObjectBegin \"o\" Shape \"trianglemesh\" \"point3 P\" [ 0 0 0 1 0 0 0 1 0 ] ObjectEnd\n"
+        "ObjectInstance \"o\" Translate 5 0 0 ObjectInstance \"o\" LightSource \"point\" LightSource \"distant\"");
+    EXPECT_EQ(lightnet({"scene", "info", scene}), 0) << lightnet.err;
+    for (const char* part : {"1 in 1 meshes, 2 with all instances", "1 objects, 2 instances", "1 directions, 1 points",
+                             "(0, 0, 0) to (6, 1, 0)", "none in the file", "all was taken literally"})
+        EXPECT_THAT(lightnet.out, HasSubstr(part));
+}
+
+}  // namespace
+}  // namespace lightnet

@@ -1,0 +1,85 @@
+#include "tools/render.hpp"
+
+#include <charconv>
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include "core/suggestion.hpp"
+#include "lua/load_graph.hpp"
+
+namespace lightnet {
+namespace {
+
+constexpr double usual_samples = 64;
+
+/// "0.5" or "1,0.9,0.8" as a table of three numbers; none: something else.
+std::optional<Table> colour_of(std::string_view text) {
+    Table colour;
+    while (true) {
+        double part = 0;
+        const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), part);
+        if (fault != std::errc{}) return std::nullopt;
+        colour.list.push_back({part});
+        text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+        if (text.empty()) break;
+        if (text[0] != ',') return std::nullopt;
+        text.remove_prefix(1);
+    }
+    if (colour.list.size() == 1) colour.list.resize(3, colour.list[0]);
+    return colour;
+}
+
+/// Files in a graph are named from the graph's folder, wherever the user stands.
+std::string from_anywhere(const std::string& file) { return std::filesystem::absolute(file).lexically_normal(); }
+
+void override_scene(Node& scene, const Options& options) {
+    if (!options.environment.empty()) {
+        if (auto colour = colour_of(options.environment))
+            scene.params["environment"] = {std::move(*colour)};
+        else
+            scene.params["environment"] = {from_anywhere(options.environment)};
+    }
+    if (options.exposure) scene.params["exposure"] = {*options.exposure};
+}
+
+Graph own_graph(const Options& options, const std::string& kind) {
+    const SourceLine where{options.scene, 0};
+    Graph graph;
+    graph.file = options.scene;
+    const std::string file = std::filesystem::path(options.scene).filename().string();
+    graph.nodes.push_back({"scene", "Scene", {{file}}, {}, where});
+    graph.nodes.push_back({"light", kind, {}, {}, where});
+    Node image{"image", "RayTracer", {{NodeRef{"light"}}}, {}, where};
+    image.params["scene"] = {NodeRef{"scene"}};
+    image.params["samples"] = {usual_samples};
+    image.params["film"] = {Table{{{512.0}, {512.0}}, {}}};  // overridden by the scene's
+    graph.nodes.push_back(std::move(image));
+    return graph;
+}
+
+}  // namespace
+
+RenderGraph render_graph(const Options& options) {
+    static const std::map<std::string, std::string> kinds{
+        {"ao", "AmbientOcclusion"}, {"direct", "DirectLighting"}, {"path", "PathTracing"}};
+    RenderGraph result;
+    if (const auto kind = kinds.find(options.lighting); kind != kinds.end()) {
+        result.graph = own_graph(options, kind->second);
+    } else if (!options.lighting.ends_with(".lua")) {
+        throw UserError({"--lighting", 0}, "must be path, direct, ao or a graph file (.lua), not '" + options.lighting +
+                                               "'" + did_you_mean(options.lighting, {"path", "direct", "ao"}));
+    } else {
+        GraphFile file = read_graph(options.lighting, {.constants = options.constants});
+        result = {std::move(file.graph), std::move(file.problems)};
+        for (auto& node : result.graph.nodes)
+            if (node.kind == "Scene") node.entries = {{from_anywhere(options.scene)}};
+    }
+    for (auto& node : result.graph.nodes)
+        if (node.kind == "Scene") override_scene(node, options);
+    return result;
+}
+
+std::string picture_of(const std::string& scene) { return std::filesystem::path(scene).stem().string() + ".exr"; }
+
+}  // namespace lightnet

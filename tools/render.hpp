@@ -1,0 +1,26 @@
+// What `lightnet render` makes of a scene file: a graph, which then runs like any other.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/graph/graph.hpp"
+#include "tools/options.hpp"
+
+namespace lightnet {
+
+/// A graph that has not been checked, and what was wrong on the way to it.
+struct RenderGraph {
+    Graph graph;
+    std::vector<Problem> problems;
+};
+
+/// The graph that lights the scene file of the options in the way of `--lighting`: "path", "direct", "ao", or a graph
+/// file whose scenes are replaced by this one. `--env` and `--exposure` become overrides of the scene.
+RenderGraph render_graph(const Options& options);
+
+/// "x.exr" for a scene "…/x.pbrt": the picture lies here, as no folder of scenes should be written to.
+std::string picture_of(const std::string& scene);
+
+}  // namespace lightnet

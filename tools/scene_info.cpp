@@ -1,0 +1,105 @@
+#include "tools/scene_info.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <fstream>
+#include <ostream>
+#include <string_view>
+#include <utility>
+
+#include "core/runtime/fingerprint.hpp"
+#include "core/scene/read_scene.hpp"
+#include "core/scene/scene.hpp"
+#include "core/scene/statistics.hpp"
+
+namespace lightnet {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+std::string mebibytes(std::uint64_t bytes) { return fmt::format("{:.1f} MiB", double(bytes) / (1 << 20)); }
+
+/// Of this process, in bytes; 0 where the system doesn't tell.
+std::uint64_t resident_memory() {
+    std::ifstream status("/proc/self/statm");
+    std::uint64_t all = 0, resident = 0;
+    status >> all >> resident;
+    return resident * 4096;
+}
+
+std::string counts_text(const std::map<std::string, std::size_t>& counts) {
+    std::string text;
+    for (const auto& [name, count] : counts) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, name);
+    return text.empty() ? "none" : text;
+}
+
+std::string point_text(Vec3 p) { return fmt::format("({:.4g}, {:.4g}, {:.4g})", p.x, p.y, p.z); }
+
+std::string camera_text(const SceneData& scene) {
+    const CameraData& camera = scene.camera;
+    if (!scene.camera_given) return "none in the file: everything is looked at";
+    const auto column = [&](int j) {
+        return Vec3{float(camera.to_world.m[0][j]), float(camera.to_world.m[1][j]), float(camera.to_world.m[2][j])};
+    };
+    std::string text = camera.orthographic ? "orthographic" : fmt::format("perspective, {:.4g} degrees", camera.fov);
+    text += fmt::format(", at {}, looks along {}", point_text(column(3)), point_text(column(2)));
+    if (camera.lens_radius > 0)
+        text += fmt::format(", lens of {:.4g} m, sharp at {:.4g} m", camera.lens_radius, camera.focus_distance);
+    return text;
+}
+
+void line(std::ostream& out, std::string_view what, const std::string& text) {
+    out << fmt::format("{:<11} {}\n", what, text);
+}
+
+void print(const SceneData& scene, const SceneStatistics& found, std::ostream& out) {
+    line(out, "triangles",
+         fmt::format("{} in {} meshes, {} with all instances", found.triangles, found.meshes, found.seen_triangles));
+    line(out, "shapes",
+         fmt::format("{} spheres, {} objects, {} instances", found.spheres, found.objects, found.instances));
+    line(out, "materials", counts_text(found.materials));
+    line(out, "lights", counts_text(found.lights));
+    line(out, "textures",
+         fmt::format("{}, {} pictures, {}", found.textures, found.pictures, mebibytes(found.picture_bytes)));
+    line(out, "bounds", point_text(found.least) + " to " + point_text(found.most));
+    line(out, "camera", camera_text(scene));
+    line(out, "film",
+         fmt::format("{} x {}, brightness times {:.4g}", scene.film.width, scene.film.height, scene.film.scale));
+}
+
+}  // namespace
+
+void print_scene_info(const std::string& file, std::ostream& out) {
+    const auto begin = Clock::now();
+    SceneData scene;
+    std::uint64_t file_bytes = 0;
+    {
+        DiskFiles files;
+        scene = read_scene(files, file);
+        for (const auto& [path, bytes] : files.seen()) file_bytes += bytes->size();
+    }
+    const double reading = seconds_since(begin);
+    const SceneStatistics found = statistics_of(scene);
+    const auto warnings = scene.warnings;
+    line(out, "file", fmt::format("{}, {} with all that it names", file, mebibytes(file_bytes)));
+    print(scene, found, out);
+    SceneOptions options;
+    options.isa = usual_isa();
+    const auto middle = Clock::now();
+    const Scene built(std::move(scene), options);
+    line(out, "time", fmt::format("{:.3f} s to read, {:.3f} s to build", reading, seconds_since(middle)));
+    const std::uint64_t resident = resident_memory();
+    std::string memory = fmt::format("{} of shapes, {} in all", mebibytes(found.geometry_bytes), mebibytes(resident));
+    if (found.triangles)
+        memory += fmt::format("; per triangle {:.0f} bytes, {:.0f} in all",
+                              double(found.geometry_bytes) / double(found.triangles),
+                              double(resident) / double(found.triangles));
+    line(out, "memory", memory);
+    if (warnings.empty()) line(out, "liberties", "none: all was taken literally");
+    for (const auto& warning : warnings) line(out, "liberty", to_string(warning));
+}
+
+}  // namespace lightnet
