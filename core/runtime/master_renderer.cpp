@@ -16,7 +16,7 @@ void MasterRenderer::use(const Plan& plan) {
     if (!std::exchange(planned_, true)) {
         MultiplexerRules rules;
         rules.scheduling.strategy = plan.strategy_of(job_.image);
-        rules.scheduling.double_tail = true;
+        rules.scheduling.double_tail = job_.double_tail;
         rules.clock = job_.clock;
         if (job_.check) rules.differs = [this](const std::string& what) { error_ = what; };
         replicas_.follow(std::move(rules), &counters_);

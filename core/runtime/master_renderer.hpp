@@ -24,6 +24,7 @@ public:
         std::uint32_t width = 1;  // colours per pixel
         std::vector<Tile> tiles;  // in the order of handing out
         Credit credit{3, 3};      // tiles in flight per place
+        bool double_tail = true;  // idle places do the last tiles once more
         bool check = false;       // tiles that are done twice must have the same bits
         std::function<double()> clock = steady_seconds;
     };
