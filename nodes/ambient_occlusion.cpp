@@ -57,6 +57,7 @@ Kind ambient_occlusion_kind() {
     return {
         .name = "AmbientOcclusion",
         .help = "how open the surroundings of a point are: 1 where nothing is near",
+        .paths = [](const Node&) { return std::vector<std::string>{}; },
         .params =
             {
                 {.name = "samples",

@@ -60,6 +60,7 @@ Kind direct_lighting_kind() {
     return {
         .name = "DirectLighting",
         .help = "light that comes straight from lamps and environment",
+        .paths = [](const Node&) { return std::vector<std::string>{"LD"}; },
         .params =
             {
                 {.name = "samples",

@@ -1,5 +1,8 @@
 // The renderer: finds what each pixel sees, and asks how bright it is.
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
 
 #include "core/graph/kind.hpp"
 #include "core/light/node_context.hpp"
@@ -10,9 +13,53 @@
 namespace lightnet {
 namespace {
 
+/// Where the samples of a pixel lie: distributed like its filter (Ernst et al. 2006, "Filter importance sampling").
+/// Filters with negative lobes (Mitchell's) have no such density, and would need weights of both signs.
+class PixelFilter {
+public:
+    PixelFilter(const std::string& shape, float radius) {
+        if (shape == "box") {
+            box_ = true;
+            radius_ = radius > 0 ? radius : 0.5f;
+            return;
+        }
+        const bool tent = shape == "tent";
+        radius_ = radius > 0 ? radius : tent ? 1 : 1.5f;
+        // Gaussian of deviation radius / 3, lowered so that it ends in 0.
+        const auto height = [&](double t) { return tent ? 1 - std::fabs(t) : std::exp(-4.5 * t * t) - std::exp(-4.5); };
+        ends_[0] = 0;
+        for (std::size_t i = 0; i < steps; ++i) {
+            const double left = 2.0 * double(i) / steps - 1, right = 2.0 * double(i + 1) / steps - 1;
+            ends_[i + 1] = ends_[i] + (height(left) + height(right)) / steps;
+        }
+        for (double& end : ends_) end /= ends_[steps];
+    }
+
+    /// From the pixel's upper left corner.
+    Vec2 place(Vec2 u) const {
+        if (box_ && radius_ == 0.5f) return u;
+        return {0.5f + radius_ * offset(u.x), 0.5f + radius_ * offset(u.y)};
+    }
+
+private:
+    // In -1 … 1. Within a step the density is taken for constant.
+    float offset(float u) const {
+        if (box_) return 2 * u - 1;
+        const auto end = std::upper_bound(ends_.begin() + 1, ends_.end() - 1, double{u});
+        const auto step = end - ends_.begin() - 1;
+        const double part = (u - ends_[std::size_t(step)]) / (*end - ends_[std::size_t(step)]);
+        return float(2 * (double(step) + part) / steps - 1);
+    }
+
+    static constexpr std::size_t steps = 256;
+    bool box_ = false;
+    float radius_ = 0.5f;
+    std::array<double, steps + 1> ends_{};  // share of the filter up to each step
+};
+
 /// Follows rays from the eye through mirrors and glass. Where a surface scatters in other ways too it asks its lighting
-/// input about those; what shines by itself it adds to layer 0. Samples are spread over the square of the pixel (a box
-/// filter). Questions leave in large chunks.
+/// input about those; what shines by itself it adds to layer 0. Samples are spread around the pixel with the density of
+/// its filter, so each counts alike, and none crosses the border of a tile. Questions leave in large chunks.
 class RayTracer final : public Renderer {
 public:
     explicit RayTracer(const NodeContext& here)
@@ -20,7 +67,8 @@ public:
           inputs_(here.inputs()),
           key_(here.key()),
           seed_(here.seed()),
-          max_depth_(static_cast<std::uint32_t>(here.integer("max_depth"))) {}
+          max_depth_(static_cast<std::uint32_t>(here.integer("max_depth"))),
+          filter_(here.text("filter"), static_cast<float>(here.number("filter_radius"))) {}
 
     void render(const Tile& tile, std::span<Rgb> pixels) const override {
         const std::size_t at_once = std::max<std::size_t>(1, samples_at_once / std::max(1u, tile.samples));
@@ -54,8 +102,11 @@ private:
             const Key key = pixel_key(seed_, x, y);
             for (std::uint32_t s = 0; s < tile.samples; ++s) {
                 const Look& look = looks.emplace_back(Look{pixel, key, tile.first_sample + s});
-                const Vec2 u = Samples(key, look.sample).next_2d();
-                rays.push_back(scene_.camera().ray(float(x) + u.x, float(y) + u.y));
+                Samples samples(key, look.sample);
+                const Vec2 u = filter_.place(samples.next_2d());
+                const Camera& camera = scene_.camera();
+                rays.push_back(camera.has_lens() ? camera.ray(float(x) + u.x, float(y) + u.y, samples.next_2d())
+                                                 : camera.ray(float(x) + u.x, float(y) + u.y));
             }
         }
         std::vector<std::optional<Hit>> hits(rays.size());
@@ -133,6 +184,7 @@ private:
     Key key_;
     std::uint64_t seed_;
     std::uint32_t max_depth_;
+    PixelFilter filter_;
 };
 
 }  // namespace
@@ -145,6 +197,8 @@ Kind ray_tracer_kind() {
             "makes the picture: follows rays from the eye through mirrors and glass, and asks how bright things are",
         .least_inputs = 1,
         .most_inputs = 1,
+        .paths = [](const Node&) { return std::vector<std::string>{"LS*E"}; },
+        .onward = "S*E",
         .params =
             {
                 {.name = "scene", .type = ParamType::scene, .help = "what is seen"},
@@ -162,6 +216,18 @@ Kind ray_tracer_kind() {
                  .initial = Value{100.0},
                  .least = 0,
                  .most = 255},
+                {.name = "filter",
+                 .type = ParamType::text,
+                 .help = "what a pixel sees of its surroundings",
+                 .initial = Value{"box"},
+                 .choices = {"box", "tent", "gaussian"}},
+                {.name = "filter_radius",
+                 .type = ParamType::number,
+                 .help = "how far from its middle; 0: as is usual (box 0.5, tent 1, gaussian 1.5)",
+                 .unit = "pixels",
+                 .initial = Value{0.0},
+                 .least = 0,
+                 .most = 16},
             },
         .make_renderer = [](const NodeContext& here) { return std::make_unique<RayTracer>(here); },
     };

@@ -29,6 +29,7 @@ RunRequest request_of(const Options& options, const Registry& registry, Loaded l
     request.progress = options.progress;
     request.listen = options.listen;
     request.tuning = options.tuning;
+    request.check_wrapped = options.check_wrapped;
     request.threads = options.threads.value_or(1);
     request.local_workers = options.local_workers.value_or(0);
     if (!options.hosts.empty() || !options.listen.empty())
@@ -115,6 +116,7 @@ int Launcher::perform_check(const Options& options) const {
     warn(loaded.warnings, err);
     DiskFiles files;
     warn(load_scene(loaded.graph, registry, files, scene_file(loaded.graph, registry)).warnings, err);
+    for (const auto& note : loaded.notes) err << "note: " << to_string(note) << '\n';
     const auto format = film_of(loaded.graph, registry);
     out << options.graph << ": sound: " << loaded.graph.nodes.size() << " nodes, " << format.width << "x"
         << format.height << ", layers";

@@ -63,7 +63,7 @@ Loaded finish(Graph graph, std::vector<Problem> problems, const Options& options
     if (names_of_hosts) check_names(hosts, problems);
     sort_by_line(problems, graph.file);
     if (!problems.empty()) throw UserError(std::move(problems));
-    return {std::move(found.graph), std::move(hosts), std::move(found.warnings)};
+    return {std::move(found.graph), std::move(hosts), std::move(found.warnings), std::move(found.notes)};
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace lightnet {
 struct Loaded {
     Graph graph;  // checked
     Hosts hosts;  // empty without a hosts file
-    std::vector<Problem> warnings;
+    std::vector<Problem> warnings, notes;
 };
 
 /// Reads the files that the options name, applies what they override, and checks all of it. Throws UserError that

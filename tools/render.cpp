@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -43,13 +44,20 @@ void override_scene(Node& scene, const Options& options) {
     if (options.exposure) scene.params["exposure"] = {*options.exposure};
 }
 
-Graph own_graph(const Options& options, const std::string& kind) {
+/// `kinds`: what is added up.
+Graph own_graph(const Options& options, const std::vector<std::string>& kinds) {
     const SourceLine where{options.scene, 0};
     Graph graph;
     graph.file = options.scene;
     const std::string file = std::filesystem::path(options.scene).filename().string();
     graph.nodes.push_back({"scene", "Scene", {{file}}, {}, where});
-    graph.nodes.push_back({"light", kind, {}, {}, where});
+    Node sum{"light", "Combine", {}, {}, where};
+    for (const auto& kind : kinds) {
+        const std::string name = kind == "DirectLighting" ? "direct" : kind == "PathTracing" ? "bounce" : "openness";
+        graph.nodes.push_back({name, kind, {}, {}, where});
+        sum.entries.push_back({NodeRef{name}});
+    }
+    graph.nodes.push_back(std::move(sum));
     Node image{"image", "RayTracer", {{NodeRef{"light"}}}, {}, where};
     image.params["scene"] = {NodeRef{"scene"}};
     image.params["samples"] = {usual_samples};
@@ -61,10 +69,12 @@ Graph own_graph(const Options& options, const std::string& kind) {
 }  // namespace
 
 RenderGraph render_graph(const Options& options) {
-    static const std::map<std::string, std::string> kinds{
-        {"ao", "AmbientOcclusion"}, {"direct", "DirectLighting"}, {"path", "PathTracing"}};
+    static const std::map<std::string, std::vector<std::string>> kinds{
+        {"ao", {"AmbientOcclusion"}}, {"direct", {"DirectLighting"}}, {"path", {"DirectLighting", "PathTracing"}}};
     RenderGraph result;
     if (const auto kind = kinds.find(options.lighting); kind != kinds.end()) {
+        if (!options.constants.empty())
+            throw UserError({"-D", 0}, "only a graph file has constants: write --lighting GRAPH.lua");
         result.graph = own_graph(options, kind->second);
     } else if (!options.lighting.ends_with(".lua")) {
         throw UserError({"--lighting", 0}, "must be path, direct, ao or a graph file (.lua), not '" + options.lighting +

@@ -13,6 +13,7 @@
 
 #include "core/build_info.hpp"
 #include "core/error.hpp"
+#include "core/graph/check.hpp"
 #include "core/graph/graph_film.hpp"
 #include "core/hash.hpp"
 #include "core/runtime/conductor.hpp"
@@ -72,7 +73,7 @@ void check_output(const std::string& output) {
     if (::access(folder.c_str(), W_OK) != 0) throw UserError({output, 0}, "the folder can't be written to");
 }
 
-RunReport first_page(const RunRequest& request, const FilmFormat& film) {
+RunReport first_page(const RunRequest& request, const Registry& registry, const FilmFormat& film) {
     RunReport report;
     report.graph = request.graph.file;
     report.graph_hash = to_hex(content_hash(to_json(request.graph)));
@@ -83,6 +84,8 @@ RunReport first_page(const RunRequest& request, const FilmFormat& film) {
     report.settings["seed"] = std::to_string(request.seed);
     report.settings["tile"] = std::to_string(request.tuning.tile);
     report.settings["bundle"] = std::to_string(request.tuning.bundle);
+    for (const auto& warning : irreproducible_nodes(request.graph, registry))  // said already, when it was checked
+        report.warnings.push_back(to_string(warning));
     return report;
 }
 
@@ -96,7 +99,7 @@ public:
           image_(renderer_of(request.graph, registry)),
           format_(format()),
           tiles_(tiles_of(format_.width, format_.height, request.tuning.tile, format_.samples)),
-          book_(format_, request.progress, tiles_.size(), first_page(request, format_)) {}
+          book_(format_, request.progress, tiles_.size(), first_page(request, registry, format_)) {}
 
     int perform();
 
@@ -145,6 +148,8 @@ Job Run::make_job(DiskFiles& files) const {
     job.height = format_.height;
     job.rules.bundles.questions = request_.tuning.bundle;
     job.rules.credit.bundles = request_.tuning.credit;
+    job.rules.side_fibers = request_.tuning.side_fibers;
+    job.checking = request_.check_wrapped;
     job.rules.spare_fibers = request_.tuning.spare_fibers;
     return job;
 }

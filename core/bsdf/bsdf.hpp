@@ -41,7 +41,7 @@ public:
 
     /// Black from behind.
     void make_one_sided() { one_sided_ = true; }
-    /// What lies behind the surface absorbs that much per metre. Keeps looking at it.
+    /// What lies behind the surface absorbs that much per metre. Keeps looking at it; blends have none.
     void fill_with(const Rgb* absorption) { absorption_ = absorption; }
 
     /// Which lobes the surface has.
@@ -59,9 +59,19 @@ public:
     }
     /// One direction of light, by importance. None: absorbed.
     std::optional<BsdfSample> sample(Vec3 outgoing, float choice, Vec2 u, std::uint8_t lobes) const;
+    /// What a way into `direction` leads through absorbs, per metre: of light on a way of that length exp(-it × length)
+    /// is left. Null: nothing.
+    const Rgb* absorption(Vec3 direction) const {
+        return absorption_ && dot(direction, normal_) < 0 ? absorption_ : nullptr;
+    }
 
 private:
-    Frame frame_for(Vec3 outgoing) const;
+    // Where the shading normal turns away from a viewer who sees the surface, the geometric one takes its place; the
+    // surface would be black there otherwise.
+    Frame frame_for(Vec3 outgoing) const {
+        const bool agree = (dot(outgoing, normal_) > 0) == (dot(outgoing, shading_.z) > 0);
+        return agree ? shading_ : Frame::around(normal_);
+    }
     float chance_of(const Part& part, Vec3 outgoing, std::uint8_t lobes) const;
     BsdfValue blended_value(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const;
     std::optional<BsdfSample> blended_sample(Vec3 outgoing, float choice, Vec2 u, std::uint8_t lobes) const;

@@ -17,9 +17,7 @@ struct BsdfSample {
     float pdf = 0;          // per steradian, over all lobes asked for; meaningless for a specular lobe
     std::uint8_t lobe = 0;  // the one that was sampled: one of lobe::diffuse, glossy, specular
     bool transmitted = false;
-    float eta = 1;                    // of a refraction: index on the incoming side over the one on the outgoing side
-    const Rgb* absorption = nullptr;  // null: none; else per metre on the way from which the light comes, which lies
-                                      // inside of something solid: it leaves exp(-absorption × length)
+    float eta = 1;  // of a refraction: index on the incoming side over the one on the outgoing side
 };
 
 /// What a BSDF says of a pair of directions.

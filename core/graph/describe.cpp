@@ -1,5 +1,7 @@
 #include "core/graph/describe.hpp"
 
+#include "core/graph/light_paths.hpp"
+
 #include <algorithm>
 #include <limits>
 
@@ -41,6 +43,14 @@ std::string default_text(const Param& param) {
     return param.optional ? "optional" : "must be given";
 }
 
+// What a node with the defaults of its kind counts.
+std::string default_paths(const Kind& kind) {
+    Node node{"", kind.name, {}, {}, {}};
+    for (const auto& param : kind.params)
+        if (param.initial) node.params.emplace(param.name, *param.initial);
+    return paths_text(node, kind);
+}
+
 std::string facts_text(const Param& param) {
     std::string facts{to_string(param.type)};
     for (const auto& fact : {param.unit.empty() ? "" : "in " + param.unit, default_text(param), range_text(param),
@@ -76,6 +86,7 @@ std::string describe(const Kind& kind) {
     text += "gives: " + std::string(to_string(kind.role)) + "\n";
     text += "inputs: " + inputs_text(kind) + "\n";
     if (kind.linear) text += "linear: the layers of its inputs pass through\n";
+    if (const auto paths = default_paths(kind); !paths.empty()) text += "light paths: " + paths + "\n";
     if (kind.params.empty()) return text + "parameters: none\n";
     text += "parameters:\n";
     std::size_t width = 0;

@@ -1,5 +1,7 @@
 #include "core/graph/dot.hpp"
 
+#include "core/graph/light_paths.hpp"
+
 #include <algorithm>
 #include <string_view>
 
@@ -47,7 +49,9 @@ protected:
         if (role(node) == Role::scene)
             return line(depth, id + " [shape=note, label=" + escaped(name + "\n" + scene_name(node)) + "];");
         const bool image = role(node) == Role::image;
-        line(depth, id + " [label=" + escaped(name + "\n" + kind) + (image ? ", penwidth=2" : "") + "];");
+        const auto paths = paths_text(graph_.nodes[node], *registry_.find(kind));
+        line(depth, id + " [label=" + escaped(name + "\n" + kind + (paths.empty() ? "" : "\n" + paths)) +
+                        (image ? ", penwidth=2" : "") + "];");
     }
 
     void edge(const std::string& from, const std::string& to, const std::string& label, const char* more = "") {

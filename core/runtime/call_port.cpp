@@ -45,8 +45,9 @@ CallPort::CallPort(Called node, std::size_t width, std::uint64_t& count, std::fu
     : node_(node), width_(width), count_(count), pause_(std::move(pause)) {}
 
 Port::Ticket CallPort::begin(std::span<const Query> questions, std::span<Rgb> answers) {
-    for (std::size_t first = 0; first < questions.size(); first += piece) {
-        const std::size_t n = std::min(piece, questions.size() - first);
+    const std::size_t most = node_.whole ? questions.size() : piece;
+    for (std::size_t first = 0; first < questions.size(); first += most) {
+        const std::size_t n = std::min(most, questions.size() - first);
         if (pause_) pause_();
         answer(node_, width_, questions.subspan(first, n), answers.subspan(first * width_, n * width_));
     }

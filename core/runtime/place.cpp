@@ -18,6 +18,7 @@ Place::Place(const Network& network, const PlaceAt& me, const Plan& plan, std::u
       rules_(rules),
       carrier_(carrier),
       rays_before_(Scene::rays_of_this_thread()),
+      rounds_(fibers_, rules.side_fibers, [this](Fibers::Fiber* fiber) { ready_.push_back(fiber); }),
       inboxes_(network.graph.nodes.size()),
       by_rank_(network.graph.nodes.size()),
       channels_(carrier, run, name_of(me), counters_),
@@ -25,7 +26,7 @@ Place::Place(const Network& network, const PlaceAt& me, const Plan& plan, std::u
           fibers_, [this](Fibers::Fiber* fiber) { ready_.push_back(fiber); },
           [this](Message reply) { carrier_.reply(std::move(reply)); }),
       assembly_(
-          network, [this](std::size_t node, std::size_t width) { return port_to(node, width); }, locks_),
+          network, [this](std::size_t node, std::size_t width) { return port_to(node, width); }, locks_, &rounds_),
       preparer_(network, assembly_, fibers_,
                 {my_name(), [this](Fibers::Fiber* fiber) { ready_.push_back(fiber); },
                  [this](Message reply) { carrier_.reply(std::move(reply)); },
@@ -103,6 +104,7 @@ void Place::serve(const std::atomic<bool>& stop, std::atomic<std::uint64_t>& pro
     progress_ = &progress;
     while (!stopping_ && !stop.load(std::memory_order_relaxed)) {
         take_in();
+        flush(false);
         if (!step()) {
             if (!flush(true)) carrier_.wait(patience());
             continue;
@@ -115,7 +117,8 @@ void Place::serve(const std::atomic<bool>& stop, std::atomic<std::uint64_t>& pro
     fibers_.cancel_all();
 }
 
-// Runs one thing: fibers whose answers are there, then bundles of the lowest rank, then paused work, then new tiles.
+// Runs one thing: fibers whose answers are there, then bundles of the lowest rank, then more of what nodes do side by
+// side, then paused work, then new tiles.
 bool Place::step() {
     const auto resume_first_of = [&](auto& queue) {
         if (queue.empty()) return false;
@@ -124,8 +127,8 @@ bool Place::step() {
         fibers_.resume(fiber);
         return true;
     };
-    return resume_first_of(ready_) || preparer_.start_next() || start_next(false) || resume_first_of(paused_) ||
-           start_next(true);
+    return resume_first_of(ready_) || preparer_.start_next() || start_next(false) || rounds_.start_one() ||
+           resume_first_of(paused_) || start_next(true);
 }
 
 bool Place::may_start(std::size_t node) const {

@@ -20,6 +20,7 @@
 #include "core/runtime/lock_desk.hpp"
 #include "core/runtime/preparer.hpp"
 #include "core/runtime/remote_channels.hpp"
+#include "core/runtime/rounds.hpp"
 
 namespace lightnet {
 
@@ -27,9 +28,10 @@ namespace lightnet {
 struct PlaceRules {
     BundleRules bundles;
     Credit credit;
-    std::size_t spare_fibers = 16;  // beside the one that each node has for itself
-    bool check = false;             // what is answered twice must have the same bits
-    bool call_own_nodes = true;     // false: even a node of the same place is asked by bundles (for tests)
+    std::size_t spare_fibers = 16;   // beside the one that each node has for itself
+    std::size_t side_fibers = 2048;  // of a place, for questions that wrapped code waits for one by one
+    bool check = false;              // what is answered twice must have the same bits
+    bool call_own_nodes = true;      // false: even a node of the same place is asked by bundles (for tests)
     friend bool operator==(const PlaceRules&, const PlaceRules&) = default;
 };
 
@@ -37,7 +39,8 @@ struct PlaceRules {
 ///
 /// No graph can make places wait for each other for ever: a bundle whose node has no fiber running is always given
 /// one, bundles of the lowest rank (the longest way down to a node that asks nobody) go first, and the asker has kept
-/// room for the reply. So the nodes that ask nobody always finish, then those that ask only them, and so on.
+/// room for the reply. A node that answers its questions side by side needs no other fiber than that one to go on;
+/// see Rounds. So the nodes that ask nobody always finish, then those that ask only them, and so on.
 class Place {
 public:
     Place(const Network& network, const PlaceAt& me, const Plan& plan, std::uint64_t run, PlaceRules rules,
@@ -105,6 +108,7 @@ private:
     Fibers fibers_;
     std::deque<Fibers::Fiber*> ready_;   // whose answers are there
     std::deque<Fibers::Fiber*> paused_;  // that made way for others
+    Rounds rounds_;
     std::size_t spare_in_use_ = 0;
     Clock::time_point last_look_{};
 

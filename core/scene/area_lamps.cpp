@@ -104,6 +104,7 @@ void AreaLamps::add_lamp(std::uint32_t shape, std::uint32_t first, std::uint32_t
         lamp.area += 0.5f * length(cross(facets_[f].first_edge, facets_[f].second_edge));
     if (const auto* ball = std::get_if<Sphere>(&data_.shapes[shape].geometry))
         lamp.area = 4 * pi * ball->radius * ball->radius;
+    if (!std::isfinite(lamp.area)) lamp.area = 0;  // never chosen
     lamp.mean = mean_of_texture(lamp);
     lamps_.push_back(lamp);
 }

@@ -2,7 +2,7 @@
 
 namespace lightnet {
 
-Rgb light_by_lamp(const Scene& scene, const Gathering& at, Samples& samples, Heuristic heuristic) {
+std::optional<LampRay> ray_to_lamp(const Scene& scene, const Gathering& at, Samples& samples, Heuristic heuristic) {
     const bool useless = !(at.lobes & at.bsdf.lobes() & lobe::rough) || !scene.has_lamps();
     const float choice = useless || !scene.has_many_lamps() ? samples.skip() : samples.next();
     if (useless) {
@@ -13,9 +13,14 @@ Rgb light_by_lamp(const Scene& scene, const Gathering& at, Samples& samples, Heu
     const auto lamp = scene.sample_light(at.point.position, choice, u);
     if (!lamp) return {};
     const auto [value, pdf] = at.bsdf.value_and_pdf(at.outgoing, lamp->direction, at.lobes);
-    if (is_black(value) || !scene.visible(at.point, *lamp)) return {};
+    if (is_black(value)) return {};
     const float weight = lamp->bare ? 1 : share(heuristic, lamp->pdf, pdf);
-    return value * lamp->radiance * (weight / lamp->pdf);
+    return LampRay{scene.ray_to(at.point, *lamp), value * lamp->radiance * (weight / lamp->pdf)};
+}
+
+Rgb light_by_lamp(const Scene& scene, const Gathering& at, Samples& samples, Heuristic heuristic) {
+    const auto found = ray_to_lamp(scene, at, samples, heuristic);
+    return found && !scene.occluded(found->ray) ? found->light : Rgb{};
 }
 
 Rgb light_by_bsdf(const Scene& scene, Vec3 from, const BsdfSample& sample, const SurfacePoint* end,

@@ -28,6 +28,15 @@ struct Gathering {
     std::uint8_t lobes;
 };
 
+/// What one sampled light sends to a surface point and on, if nothing is in the way of the ray.
+struct LampRay {
+    Ray ray;
+    Rgb light;
+};
+
+/// light_by_lamp() before it is known what is in the way. None: no light by this sample, whatever is in between.
+std::optional<LampRay> ray_to_lamp(const Scene& scene, const Gathering& at, Samples& samples, Heuristic heuristic);
+
 /// Radiance that one sampled light sends to `at` and on into its direction: a point of a lamp, a bare light or a part
 /// of the environment; weighted against finding it by a direction from the BSDF. Uses two dimensions.
 Rgb light_by_lamp(const Scene& scene, const Gathering& at, Samples& samples, Heuristic heuristic);

@@ -39,10 +39,12 @@ void wrap(std::int64_t& x, std::int64_t& y, std::int64_t width, std::int64_t hei
     y = std::clamp<std::int64_t>(y, 0, height - 1);
 }
 
-// The frame whose axes are the columns of a rotation; of a reflection, too.
+// The frame whose axes are the columns of a rotation; of a reflection, too. What is neither turns nothing.
 Frame axes_of(const Matrix& to_world) {
     const auto axis = [&](Vec3 v) { return normalize(transform_direction(to_world, v)); };
-    return {axis({1, 0, 0}), axis({0, 1, 0}), axis({0, 0, 1})};
+    const Frame axes{axis({1, 0, 0}), axis({0, 1, 0}), axis({0, 0, 1})};
+    const bool usable = finite(axes.x) && finite(axes.y) && finite(axes.z);
+    return usable ? axes : Frame{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 }
 
 std::uint32_t cell(float at, std::uint32_t count) {
@@ -116,7 +118,9 @@ void Environment::weigh() {
 
 Vec2 Environment::to_square(Vec3 direction) const {
     const Vec3 d = axes_.to_local(direction);
-    return layout_ == EnvironmentData::Layout::equal_area ? to_equal_area(d) : to_latitude_longitude(d);
+    const Vec2 p = layout_ == EnvironmentData::Layout::equal_area ? to_equal_area(d) : to_latitude_longitude(d);
+    const auto within = [](float t) { return t >= 0 && t <= 1 ? t : t > 1 ? 1.0f : 0.0f; };  // no number: 0
+    return {within(p.x), within(p.y)};
 }
 
 Rgb Environment::radiance(Vec3 direction) const {

@@ -145,6 +145,35 @@ constexpr std::size_t lanes = 16;
 // than ours it goes by the rays, and traces each that does not end before it begins.
 constexpr Ray no_ray{{0, 0, 0}, {0, 0, 1}, -std::numeric_limits<float>::infinity()};
 
+// Fills a packet's rays, and says which lanes there are.
+void fill(RTCRay16& packet, std::array<int, lanes>& valid, std::span<const Ray> rays) {
+    for (std::size_t i = 0; i < lanes; ++i) {
+        const Ray& ray = i < rays.size() ? rays[i] : no_ray;
+        valid[i] = i < rays.size() ? -1 : 0;
+        packet.org_x[i] = ray.origin.x;
+        packet.org_y[i] = ray.origin.y;
+        packet.org_z[i] = ray.origin.z;
+        packet.tnear[i] = 0;
+        packet.dir_x[i] = ray.direction.x;
+        packet.dir_y[i] = ray.direction.y;
+        packet.dir_z[i] = ray.direction.z;
+        packet.time[i] = 0;
+        packet.tfar[i] = ray.far;
+        packet.mask[i] = ~0u;
+        packet.id[i] = 0;
+        packet.flags[i] = 0;
+    }
+}
+
+void look_through(RTCScene scene, std::span<const Ray> rays, std::span<std::uint8_t> hidden) {
+    alignas(64) std::array<int, lanes> valid;
+    alignas(64) RTCRay16 packet;
+    fill(packet, valid, rays);
+    auto context = any_rays();
+    rtcOccluded16(valid.data(), scene, &context, &packet);
+    for (std::size_t i = 0; i < rays.size(); ++i) hidden[i] = packet.tfar[i] < 0;
+}
+
 // Embree takes names that it doesn't know, or whose processor isn't here, for something else, and says nothing.
 bool has_isa(const std::string& isa) {
     __builtin_cpu_init();
@@ -235,21 +264,8 @@ struct Geometry::Tracer {
 void Geometry::Tracer::packet(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const {
     alignas(64) std::array<int, lanes> valid;
     alignas(64) RTCRayHit16 together;
+    fill(together.ray, valid, rays);
     for (std::size_t i = 0; i < lanes; ++i) {
-        const Ray& ray = i < rays.size() ? rays[i] : no_ray;
-        valid[i] = i < rays.size() ? -1 : 0;
-        together.ray.org_x[i] = ray.origin.x;
-        together.ray.org_y[i] = ray.origin.y;
-        together.ray.org_z[i] = ray.origin.z;
-        together.ray.tnear[i] = 0;
-        together.ray.dir_x[i] = ray.direction.x;
-        together.ray.dir_y[i] = ray.direction.y;
-        together.ray.dir_z[i] = ray.direction.z;
-        together.ray.time[i] = 0;
-        together.ray.tfar[i] = ray.far;
-        together.ray.mask[i] = ~0u;
-        together.ray.id[i] = 0;
-        together.ray.flags[i] = 0;
         together.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
         together.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
@@ -326,6 +342,15 @@ bool Geometry::occluded(const Ray& ray) const {
     auto context = any_rays();
     rtcOccluded1(tracer_->scene, &context, &query);
     return query.tfar < 0;
+}
+
+void Geometry::occluded(std::span<const Ray> rays, std::span<std::uint8_t> hidden) const {
+    assert(rays.size() == hidden.size() && "each ray has its answer");
+    rays_traced += rays.size();
+    for (std::size_t first = 0; first < rays.size(); first += lanes) {
+        const std::size_t count = std::min(lanes, rays.size() - first);
+        look_through(tracer_->scene, rays.subspan(first, count), hidden.subspan(first, count));
+    }
 }
 
 Geometry::Box Geometry::bounds() const {

@@ -33,6 +33,7 @@ public:
     std::optional<Hit> intersect(const Ray& ray) const;
     void intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const;
     bool occluded(const Ray& ray) const;
+    void occluded(std::span<const Ray> rays, std::span<std::uint8_t> hidden) const;
 
     struct Box {
         Vec3 lower, upper;

@@ -48,8 +48,8 @@ public:
     /// Radiance of all environments.
     Rgb environment(Vec3 direction) const;
     bool has_environment() const { return has_environment_; }
-    /// Could the ray end where light comes from? False is certain.
-    bool may_meet(const Ray& ray) const { return has_environment_ || lamps_.may_meet(ray); }
+    /// Could the ray meet a lamp? False is certain.
+    bool may_meet_lamp(const Ray& ray) const { return lamps_.may_meet(ray); }
 
     /// Light leaving one of all lights, chosen by power; what comes from infinity goes into the ball around the scene.
     /// None: nothing leaves by this sample.

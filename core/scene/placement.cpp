@@ -55,6 +55,8 @@ SurfacePoint Placement::place(const SurfacePoint& point) const {
     SurfacePoint placed = point;
     placed.position = point_to_world(point.position);
     placed.normal = gradient / steepness;
+    placed.along_u = direction_to_world(point.along_u);
+    placed.along_v = direction_to_world(point.along_v);
 
     // What the point was off in its object, as the world sees it; what the world's own numbers round; and what Embree
     // rounds when it takes a ray into the object, which shear makes worse.
@@ -62,6 +64,9 @@ SurfacePoint Placement::place(const SurfacePoint& point) const {
     const Vec3 rounded = magnitudes(inverse_[0]) * n.x + magnitudes(inverse_[1]) * n.y + magnitudes(inverse_[2]) * n.z;
     placed.offset = std::max(
         {point.offset / steepness, 0x1p-16f * largest(placed.position), 0x1p-20f * dot(rounded, at) / steepness});
+
+    placed.along_u = direction_to_world(point.along_u);
+    placed.along_v = direction_to_world(point.along_v);
 
     Vec3 z = normal_to_world(point.shading.z);
     const float size = length(z);

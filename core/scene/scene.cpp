@@ -8,6 +8,8 @@
 #include "core/scene/shading.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <tuple>
 #include <vector>
 
 namespace lightnet {
@@ -112,6 +114,10 @@ void Scene::intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> h
 
 bool Scene::occluded(const Ray& ray) const { return built_->geometry.occluded(ray); }
 
+void Scene::occluded(std::span<const Ray> rays, std::span<std::uint8_t> hidden) const {
+    built_->geometry.occluded(rays, hidden);
+}
+
 SurfacePoint Scene::surface(const Hit& hit) const {
     return built_->point(hit.instance, hit.geometry, hit.primitive, hit.u, hit.v);
 }
@@ -126,6 +132,16 @@ SurfacePoint Scene::surface(const Query& query) const {
         (query.instance != Query::no_instance && query.instance >= built_->placements.size()))
         throw Error("scene", "a question names a surface that isn't there");  // it may come from another host
     return built_->point(query.instance, query.geometry, query.primitive, query.u, query.v);
+}
+
+const std::string& Scene::material_of(const SurfacePoint& point) const {
+    return built_->data.materials[built_->data.shapes[point.geometry].material].name;
+}
+
+bool Scene::has_material(const std::string& name) const {
+    const auto& [shapes, materials] = std::tie(built_->data.shapes, built_->data.materials);
+    return std::any_of(shapes.begin(), shapes.end(),
+                       [&](const Shape& shape) { return materials[shape.material].name == name; });
 }
 
 Bsdf Scene::bsdf(const SurfacePoint& point) const { return built_->shading.bsdf(point); }
@@ -153,16 +169,20 @@ std::optional<Emission> Scene::emit(float choice, Vec2 where, Vec2 whither) cons
     return built_->lights.emit(choice, where, whither);
 }
 
-bool Scene::may_shine(const Ray& ray) const { return built_->lights.may_meet(ray); }
+bool Scene::may_shine(const Ray& ray) const { return has_environment() || may_meet_lamp(ray); }
+bool Scene::may_meet_lamp(const Ray& ray) const { return built_->lights.may_meet_lamp(ray); }
 
-bool Scene::visible(const SurfacePoint& from, const LightSample& lamp) const {
+Ray Scene::ray_to(const SurfacePoint& from, const LightSample& lamp) const {
     const Vec3 origin = from.origin_towards(lamp.direction);
-    if (lamp.from_infinity) return !occluded({origin, lamp.direction});
+    if (lamp.from_infinity) return {origin, lamp.direction};
     constexpr float nearly = 1 - 1e-4f;  // the lamp itself is not in the way
     const Vec3 way = lamp.position - origin;
     const float distance = length(way);
-    return !(distance > 0) || !occluded({origin, way / distance, distance * nearly});
+    if (!(distance > 0)) return {origin, lamp.direction, 0};
+    return {origin, way / distance, distance * nearly};
 }
+
+bool Scene::visible(const SurfacePoint& from, const LightSample& lamp) const { return !occluded(ray_to(from, lamp)); }
 
 const Camera& Scene::camera() const { return built_->camera; }
 const FilmData& Scene::film() const { return built_->film; }

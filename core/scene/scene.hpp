@@ -51,9 +51,15 @@ public:
     void intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const;
     /// Is anything in (0, ray.far)?
     bool occluded(const Ray& ray) const;
+    /// The same for many rays: `hidden[i]` is 1 where something is in the way of ray i, else 0.
+    void occluded(std::span<const Ray> rays, std::span<std::uint8_t> hidden) const;
 
     SurfacePoint surface(const Hit& hit) const;
     SurfacePoint surface(const Query& query) const;
+    /// The name that the scene's file gives to the material of the shape; may be empty.
+    const std::string& material_of(const SurfacePoint& point) const;
+    /// Has any shape a material of that name?
+    bool has_material(const std::string& name) const;
     /// How the surface scatters there.
     Bsdf bsdf(const SurfacePoint& point) const;
 
@@ -79,6 +85,10 @@ public:
     std::optional<Emission> emit(float choice, Vec2 where, Vec2 whither) const;
     /// Could the ray end where light comes from? False is certain, true is a guess that is cheaper than tracing it.
     bool may_shine(const Ray& ray) const;
+    /// The same of lamps alone: where it is false, all that the ray could find is the environment.
+    bool may_meet_lamp(const Ray& ray) const;
+    /// The ray on which nothing may be if the surface point is to see a light.
+    Ray ray_to(const SurfacePoint& from, const LightSample& lamp) const;
     /// Is nothing between the surface point and a light?
     bool visible(const SurfacePoint& from, const LightSample& lamp) const;
 

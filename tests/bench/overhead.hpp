@@ -11,9 +11,5 @@ void measure_serial(const Picture& picture);
 void measure_threads(const Picture& picture, const Registry& registry, const char* name = "overhead.threads");
 /// overhead.network: two daemons of one place each beside the same.
 void measure_network(const Picture& picture, const Registry& registry, const char* name = "overhead.network");
-/// carrier.inproc, carrier.tcp: questions per second beside plain ZeroMQ with the same bytes. `picture` lends its
-/// scene: a host serves no run without one.
-void measure_inproc(const Picture& picture);
-void measure_tcp(const Picture& picture);
 
 }  // namespace lightnet::bench

@@ -87,6 +87,16 @@ INSTANTIATE_TEST_SUITE_P(Strict, References,
                                                      256, 32, 0.003, 0.005}),
                          [](const auto& reference) { return reference.param.name; });
 
+// The same scenes, as Mitsuba's files say them.
+INSTANTIATE_TEST_SUITE_P(Mitsuba, References,
+                         ::testing::Values(Reference{"cornell_grey", "cornell_grey.mits_path_2048.exr",
+                                                     "cornell_grey.path.xml", "", 256, 256, 64, 0.003, 0.005},
+                                           Reference{"cornell_rgb", "cornell_rgb.mits_path_1024.exr",
+                                                     "cornell_rgb.path.xml", "", 256, 256, 64, 0.003, 0.005},
+                                           Reference{"furnace08", "furnace08.analytic.exr", "furnace08.path.xml", "",
+                                                     256, 256, 32, 0.003, 0.005}),
+                         [](const auto& reference) { return reference.param.name; });
+
 INSTANTIATE_TEST_SUITE_P(
     Real, References,
     ::testing::Values(Reference{"veach_mis", "scenes/veach-mis/veach-mis.exr", "scenes/veach-mis/veach-mis.pbrt",

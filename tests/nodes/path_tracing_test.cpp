@@ -72,6 +72,70 @@ TEST(WhiteSky, HidesAnythingThatLosesNothing) {
     EXPECT_LT(error, 5e-3);
 }
 
+std::unique_ptr<Renderer> all_paths(Rig& rig, double samples) {
+    rig.add("PathTracing", "paths", {}, {{"paths", Value{"all"}}, {"samples", Value{samples}}});
+    return rig.renderer("paths");
+}
+
+TEST_P(Furnace, IsAsBrightWhenOneNodeFollowsAllPaths) {
+    const float albedo = GetParam();
+    const Scene scene(furnace(albedo, 1));
+    Rig rig(scene);
+    const auto [mean, error] = measure(*all_paths(rig, 2), 24, 32);
+    EXPECT_NEAR(mean, 1 / (1 - albedo), 4 * error + 1e-5);
+    EXPECT_LT(error * (1 - albedo), 5e-3);
+}
+
+// Two directions share what they see of the sky half and half; together they must see all of it.
+TEST(WhiteSky, HidesAnythingWhenOneNodeFollowsAllPaths) {
+    SceneData data;
+    data.environments.push_back({{1, 1, 1}});
+    data.camera = camera({0, 2, 6}, {0, 0.5f, 0}, 40);
+    data.camera_given = true;
+    add(data, quad({-20, 0, -20}, {0, 0, 40}, {40, 0, 0}), diffuse(data, 1));
+    add(data, ball({-1.2f, 1, 0}, 0.9f), material(data, DielectricMaterial{}));
+    add(data, ball({1.2f, 1, 0}, 0.9f), material(data, CoatedDiffuseMaterial{colour(data, {1, 1, 1})}));
+    const Scene scene(data);
+    Rig rig(scene);
+    const auto [mean, error] = measure(*all_paths(rig, 1), 24, 64);
+    EXPECT_NEAR(mean, 1, 4 * error + 1e-3);
+    EXPECT_LT(error, 5e-3);
+}
+
+// A ball on the floor in a room with a lamp and a sky through the open roof: both ways must agree.
+TEST(PathTracing, FindsAllThatDirectAndIndirectLightAddUpTo) {
+    SceneData data;
+    data.environments.push_back({{0.5f, 0.5f, 0.5f}});
+    data.camera = camera({0, 2, 6}, {0, 0.5f, 0}, 40);
+    data.camera_given = true;
+    add(data, quad({-5, 0, -5}, {0, 0, 10}, {10, 0, 0}), diffuse(data, 0.7f));
+    add(data, ball({0.5f, 1, 0}, 0.9f), diffuse(data, 0.5f));
+    add(data, ball({-2, 3, 0}, 0.3f), diffuse(data, 0)).emission = AreaEmission{{20, 20, 20}, false};
+    const Scene scene(data);
+    Rig apart(scene, 1), together(scene, 2);
+    const auto first = measure(*apart.path_tracer(), 24, 64);
+    const auto all = picture(*all_paths(together, 1), 24, 24, 64), sum = picture(*apart.path_tracer(), 24, 24, 64);
+    double difference = 0, squares = 0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const double d = double{all[i].g} - sum[i].g;
+        difference += d;
+        squares += d * d;
+    }
+    const double n = double(all.size()), mean = difference / n;
+    const double error = std::sqrt((squares / n - mean * mean) / n);
+    EXPECT_NEAR(mean, 0, 4 * error);
+    EXPECT_LT(error, 0.01 * first.mean) << "the bound says too little";
+}
+
+// Noise of independent samples: twice as many halve the variance. Stratified ones may do better, never worse.
+TEST(PathTracing, HalvesItsVarianceWithTwiceTheSamples) {
+    const Scene scene(furnace(0.8f, 1));
+    Rig one(scene, 1), two(scene, 1);
+    const double few = measure(*all_paths(one, 1), 32, 8).error, many = measure(*all_paths(two, 1), 32, 16).error;
+    EXPECT_LT(many * many, few * few * 0.5 * 1.3);
+    EXPECT_GT(many, 0);
+}
+
 TEST(PathTracing, LeavesDirectLightToOthers) {
     SceneData data;
     add(data, quad({-50, 0, -50}, {0, 0, 100}, {100, 0, 0}), diffuse(data, 0.6f));

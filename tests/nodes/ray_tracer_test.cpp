@@ -1,5 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <utility>
+
 #include "tests/support/rig.hpp"
 #include "tests/support/small_scenes.hpp"
 
@@ -49,6 +53,71 @@ TEST(RayTracer, PutsWhatShinesIntoLayerZero) {
         EXPECT_EQ(pixels[2 * i], (Rgb{12, 12, 12}));
         EXPECT_EQ(pixels[2 * i + 1], (Rgb{}));
     }
+}
+
+// The edge of a white half-plane between two pixels: each filter spreads it as far as it reaches, and symmetrically.
+class Filters : public testing::TestWithParam<std::pair<const char*, float>> {};
+
+TEST_P(Filters, SpreadAnEdgeAsFarAsTheyReach) {
+    const auto [filter, beyond] = GetParam();  // share of a pixel's filter that lies outside the pixel, on one side
+    SceneData data;
+    add(data, quad({0, -100, -1}, {100, 0, 0}, {0, 200, 0}), diffuse(data, 0)).emission = AreaEmission{{1, 1, 1}, true};
+    data.camera = camera({0, 0, 4}, {0, 0, 0}, 20);
+    data.camera_given = true;
+    const Scene scene(data);
+    Rig rig(scene);
+    rig.add("AmbientOcclusion", "nothing");
+    const std::uint32_t width = scene.film().width, row = scene.film().height / 2;
+    const auto renderer = rig.renderer("nothing", {{"filter", Value{filter}}});
+    const Tile tile{width / 2 - 2, row, 4, 64, 0, 16};
+    std::vector<Rgb> pixels(2 * tile.pixels());
+    for (std::uint32_t block = 0; block < 4; ++block) {
+        Tile part = tile;
+        part.first_sample = 16 * block;
+        renderer->render(part, pixels);
+    }
+    std::array<double, 4> columns{};
+    for (std::size_t i = 0; i < tile.pixels(); ++i) {
+        const Rgb seen = pixels[2 * i];  // what shines; the other layer is openness
+        columns[i % 4] += double{seen.g} / (64.0 * double(tile.pixels() / 4));
+    }
+    if (columns[0] > 0.5) std::reverse(columns.begin(), columns.end());
+    EXPECT_NEAR(columns[1], beyond, 0.01);
+    EXPECT_NEAR(columns[1] + columns[2], 1, 0.01) << "both sides of the edge look alike";
+    EXPECT_NEAR(columns[0] + columns[3], 1, 0.01);
+}
+
+// The tent of radius 1: ½ × (½)². The lowered gaussian of radius 1.5: its integral from 0.5 on, over the whole of it.
+INSTANTIATE_TEST_SUITE_P(Shapes, Filters,
+                         testing::Values(std::pair{"box", 0.0f}, std::pair{"tent", 0.125f},
+                                         std::pair{"gaussian", 0.1529f}),
+                         [](const auto& shape) { return std::string(shape.param.first); });
+
+// A shining half-plane 4 m away, through a lens of 0.2 m: how much the pixels beside its edge see of it.
+double blur_at(float focus_distance) {
+    SceneData data;
+    add(data, quad({0, -100, 0}, {100, 0, 0}, {0, 200, 0}), diffuse(data, 0)).emission = AreaEmission{{1, 1, 1}, true};
+    data.camera = camera({0, 0, 4}, {0, 0, 0}, 20);
+    data.camera_given = true;
+    data.camera.lens_radius = 0.2f;
+    data.camera.focus_distance = focus_distance;
+    const Scene scene(data);
+    Rig rig(scene);
+    rig.add("AmbientOcclusion", "nothing");
+    const std::uint32_t middle = scene.film().width / 2;
+    std::vector<Rgb> pixels(2 * 40);
+    rig.renderer("nothing")->render({middle - 20, scene.film().height / 2, 40, 1, 0, 16}, pixels);
+    double mixed = 0;  // a pixel that sees both
+    for (std::size_t i = 0; i < 40; ++i) {
+        const double seen = double{pixels[2 * i].g} / 16;
+        mixed += seen > 0.01 && seen < 0.99;
+    }
+    return mixed;
+}
+
+TEST(RayTracer, IsSharpInTheFocusOfItsLensAndNowhereElse) {
+    EXPECT_LE(blur_at(4), 2);
+    EXPECT_GE(blur_at(2), 38) << "the circle of confusion is far wider than 40 pixels";
 }
 
 TEST(RayTracer, TilesAndSamplesMakeNoDifference) {

@@ -115,8 +115,8 @@ TEST(PbrtSubdivision, EndsOnTheLimitSurface) {
         EXPECT_EQ(mesh.triangles.size(), 8u << (2 * levels));
         // β = 3/32, so the neighbours' share is 4 / (4 + 4) and they cancel out
         expect_near(mesh.positions[4], {0, 0, 0.5f});
-        expect_near(mesh.normals[4], {0, 0, 1});
-        for (std::size_t i = 0; i < mesh.positions.size(); ++i) EXPECT_GT(dot(mesh.positions[i], mesh.normals[i]), 0);
+        expect_near(mesh.normals[4], {0, 0, -1});  // as in pbrt: against the order of vertices
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i) EXPECT_LT(dot(mesh.positions[i], mesh.normals[i]), 0);
         EXPECT_THAT(scene.warnings, IsEmpty());
     }
 }
@@ -126,7 +126,7 @@ TEST(PbrtSubdivision, KeepsBoundariesWhereTheyAre) {
         "Shape \"loopsubdiv\" \"integer levels\" 2 \"integer indices\" [ 0 1 2 0 2 3 ]\n"
         "\"point3 P\" [ 0 0 0  1 0 0  1 1 0  0 1 0 ]");
     for (const Vec3& p : mesh_of(scene).positions) EXPECT_EQ(p.z, 0);
-    expect_near(normal_of(mesh_of(scene)), {0, 0, 1});
+    expect_near(normal_of(mesh_of(scene)), {0, 0, -1});
     EXPECT_THAT(
         errors_of_world("Shape \"loopsubdiv\" \"integer levels\" 30 \"integer indices\" [ 0 1 2 ] \"point3 P\" [ 0 0 "
                         "0 1 0 0 0 1 0 ]"),

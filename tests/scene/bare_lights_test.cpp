@@ -259,6 +259,19 @@ TEST(ManyLights, LightAsMuchTogetherAsOneByOne) {
     EXPECT_LT(together.error / together.mean, 0.005);
 }
 
+TEST(ManyLights, BearLampsWithoutAPlace) {
+    SceneData data = lamps(8);
+    Mesh lost = quad({std::nanf(""), 1, 0}, {1, 0, 0}, {0, 0, 1});
+    add(data, lost, diffuse(data, 0)).emission = AreaEmission{{1, 1, 1}};
+    add(data, quad({0, 1, 0}, {1, 0, 0}, {2, 0, 0}), diffuse(data, 0)).emission = AreaEmission{{1, 1, 1}};  // no area
+    data.lights.push_back(PointLight{{0, 1, 0}, {0, 0, 0}});
+    data.lights.push_back(SpotLight{{0, 1, 0}, {0, -1, 0}, {1, 1, 1}, 0.4f, 0.4f});
+    const auto light = reflected(Scene(data));
+    EXPECT_TRUE(std::isfinite(light.mean));
+    EXPECT_GT(light.mean, 0);
+    EXPECT_TRUE(std::isfinite(flux_emitted(Scene(data)).mean));
+}
+
 TEST(LightTree, ChoosesAsOftenAsItSays) {
     std::vector<LightBounds> lights;
     for (std::uint32_t i = 0; i < 33; ++i) {

@@ -212,6 +212,14 @@ TEST(Environment, TakesNumbersThatAreNoneForNothing) {
     }
 }
 
+TEST(Environment, BearsATransformThatIsNone) {
+    EnvironmentData data = map_of(Layout::equal_area);
+    data.to_world.m = {};
+    const Environment sky(data);
+    EXPECT_GT(sky.pdf({0, 0, 1}), 0);
+    EXPECT_TRUE(finite(sky.radiance({std::nanf(""), 0, 1})));
+}
+
 TEST(Environment, OfABlackMapIsNeverChosen) {
     SceneData data;
     data.environments.push_back({});

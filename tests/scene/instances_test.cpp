@@ -162,6 +162,25 @@ TEST(Instances, AreMetLikeTheirCopies) {
     EXPECT_LT(elsewhere, 3u);
 }
 
+// Bumps and brushed metals lie along the texture's axes, wherever the object stands.
+TEST(Instances, CarryTheAxesOfTheirTextures) {
+    SceneData data = without_its_sphere(instanced(false));
+    data.textures.push_back({{1, 1, 1}, CheckerTexture{0, 0, {}}});
+    data.materials[data.shapes[1].material].bump_map = TextureId(data.textures.size() - 1);
+    const Scene scene(data);
+    for (std::uint32_t i = 0; i < 12; ++i) {
+        const auto at = [&](std::uint32_t instance) {
+            return scene.surface(Query{.instance = instance, .geometry = 1, .primitive = 17, .u = 0.2f, .v = 0.5f});
+        };
+        const SurfacePoint in_object = at(Query::no_instance), in_world = at(i);
+        const Matrix& to_world = data.instances[i].to_world;
+        ASSERT_GT(length(in_object.along_u), 0);
+        EXPECT_NEAR(length(in_world.along_u - transform_direction(to_world, in_object.along_u)), 0, 1e-6f);
+        EXPECT_NEAR(length(in_world.along_v - transform_direction(to_world, in_object.along_v)), 0, 1e-6f);
+        EXPECT_NEAR(dot(in_world.along_u, in_world.normal), 0, 1e-6f);
+    }
+}
+
 // What a mirror does to an object, it does to its normals: up stays up.
 TEST(Instances, KeepTheSidesOfTheirSurfaces) {
     const SceneData data = instanced(false);

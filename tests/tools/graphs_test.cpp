@@ -32,6 +32,15 @@ TEST(Graphs, AreSound) {
     EXPECT_GE(count, 4);
 }
 
+TEST(Graphs, LeaveOutOnlyTheLightThatTheyMeanTo) {
+    const Registry registry(standard_nodes());
+    for (const char* whole : {"cornell.lua", "path.lua", "path_all.lua", "weights.lua", "ambient.lua"})
+        EXPECT_THAT(examine(graph_called(whole), registry).notes, IsEmpty()) << whole;
+    const auto notes = examine(graph_called("direct.lua"), registry).notes;
+    ASSERT_EQ(notes.size(), 1u);
+    EXPECT_EQ(notes[0].what, "RayTracer 'image': no node counts LDDE");
+}
+
 TEST(Graphs, RunOnTheHostsThatComeWithThem) {
     const Registry registry(standard_nodes());
     for (const char* hosts : {"hosts/two.lua", "hosts/spread.lua", "hosts/affinity.lua"})

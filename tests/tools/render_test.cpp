@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "core/graph/graph_film.hpp"
+#include "core/graph/plan.hpp"
 #include "core/runtime/load_scene.hpp"
 #include "nodes/standard_nodes.hpp"
 #include "tests/support/folder.hpp"
@@ -60,7 +61,8 @@ TEST(Render, MakesAGraphOfASceneFile) {
     EXPECT_EQ(run.scene, lightnet.scene);
     EXPECT_EQ(run.output, "ball.exr");
     EXPECT_EQ(run.mode, Mode::serial);
-    EXPECT_EQ(run.graph.nodes[1].kind, "PathTracing");
+    EXPECT_EQ(layers_of(run.graph, lightnet.registry).film, (std::vector<std::string>{"emission", "direct", "bounce"}))
+        << "all light, in layers";
     EXPECT_EQ(run.read->scene.shapes.size(), 1u) << "read once, for its size and for the run";
 }
 
@@ -99,6 +101,8 @@ TEST(Render, SaysWhatIsWrong) {
                 HasSubstr("must be path, direct, ao or a graph file (.lua), not 'pth' (did you mean 'path'?)"));
     EXPECT_EQ(lightnet({"render", lightnet.scene, "--env", "no.exr"}), 2);
     EXPECT_THAT(lightnet.err, HasSubstr("no.exr'"));
+    EXPECT_EQ(lightnet({"render", lightnet.scene, "-D", "a=1"}), 2);
+    EXPECT_THAT(lightnet.err, HasSubstr("only a graph file has constants"));
     EXPECT_EQ(lightnet({"render", "no.pbrt"}), 2);
     EXPECT_THAT(lightnet.err, HasSubstr("can't read the scene"));
     EXPECT_EQ(lightnet({"render", lightnet.scene, "--smaples", "3"}), 2);

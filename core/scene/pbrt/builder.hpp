@@ -26,6 +26,7 @@ namespace lightnet::pbrt {
 class Builder {
 public:
     explicit Builder(const Sources& sources);
+    ~Builder() { workshop_.finish(); }  // what is under way looks at other members
     Builder(const Builder&) = delete;
     Builder& operator=(const Builder&) = delete;
 

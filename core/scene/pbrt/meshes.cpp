@@ -157,7 +157,10 @@ std::optional<Mesh> subdivision_mesh(Parameters& parameters) {
             fmt::format("{} levels of subdivision would make more than 2^24 triangles, or less than none", levels));
         return std::nullopt;
     }
-    return subdivide(*control, levels);
+    Mesh fine = subdivide(*control, levels);
+    // pbrt goes around its vertices clockwise, so that its normals lie on the other side
+    for (auto& n : fine.normals) n = -n;
+    return fine;
 }
 
 std::string place(Mesh& mesh, const Placement& placement, bool turn) {

@@ -39,9 +39,8 @@ std::optional<Geometry> bilinear(Parameters& parameters, const Placement& placem
     return placed(bilinear_mesh(parameters), parameters, placement, placement.reversed);
 }
 
-// the normals are our own, so they turn with the surface
 std::optional<Geometry> subdivision(Parameters& parameters, const Placement& placement) {
-    return placed(subdivision_mesh(parameters), parameters, placement, placement.flips());
+    return placed(subdivision_mesh(parameters), parameters, placement, placement.reversed);
 }
 
 /// The axes of a transform that scales all directions alike: its rotation (and mirroring) alone.

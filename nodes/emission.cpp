@@ -1,0 +1,36 @@
+// What shines by itself.
+#include "core/graph/kind.hpp"
+#include "core/light/light_op.hpp"
+#include "core/light/node_context.hpp"
+#include "core/scene/scene.hpp"
+
+namespace lightnet {
+namespace {
+
+/// Answers with the radiance that the surface itself emits. The renderer sees that anyhow; nodes that gather light from
+/// other surfaces do not.
+class SelfEmission final : public LightOp {
+public:
+    explicit SelfEmission(const NodeContext& here) : scene_(here.scene()) {}
+
+    void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
+        for (std::size_t i = 0; i < questions.size(); ++i)
+            answers[i] = scene_.emission(scene_.surface(questions[i]), questions[i].outgoing);
+    }
+
+private:
+    const Scene& scene_;
+};
+
+}  // namespace
+
+Kind emission_kind() {
+    return {
+        .name = "Emission",
+        .help = "what surfaces shine by themselves; for nodes that gather light, as the renderer sees it anyhow",
+        .paths = [](const Node&) { return std::vector<std::string>{"A"}; },
+        .make_light = [](const NodeContext& here) { return std::make_unique<SelfEmission>(here); },
+    };
+}
+
+}  // namespace lightnet

@@ -1,0 +1,78 @@
+// Light that comes straight from the environment.
+#include <algorithm>
+#include <vector>
+
+#include "core/graph/kind.hpp"
+#include "core/light/light_op.hpp"
+#include "core/light/node_context.hpp"
+#include "core/math/samples.hpp"
+#include "core/scene/scene.hpp"
+
+namespace lightnet {
+namespace {
+
+/// Looks into directions that the surface scatters much light from. What is in the way counts as black, even if it
+/// shines: that is what lamps bring.
+class SkyLight final : public LightOp {
+public:
+    explicit SkyLight(const NodeContext& here)
+        : scene_(here.scene()), key_(here.key()), samples_(static_cast<std::uint32_t>(here.integer("samples"))) {}
+
+    void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
+        std::fill(answers.begin(), answers.end(), Rgb{});
+        if (!scene_.has_environment()) return;
+        Looks looks;
+        for (std::size_t i = 0; i < questions.size(); ++i) look(questions[i], i, looks);
+        looks.hidden.resize(looks.rays.size());
+        scene_.occluded(looks.rays, looks.hidden);
+        for (std::size_t k = 0; k < looks.rays.size(); ++k)
+            if (!looks.hidden[k]) answers[looks.askers[k]] += looks.light[k];
+    }
+
+private:
+    struct Looks {
+        std::vector<Ray> rays;
+        std::vector<Rgb> light;  // that they bring if nothing is in the way
+        std::vector<std::size_t> askers;
+        std::vector<std::uint8_t> hidden;
+    };
+
+    void look(const Query& question, std::size_t asker, Looks& looks) const {
+        const SurfacePoint point = scene_.surface(question);
+        const Bsdf bsdf = scene_.bsdf(point);
+        const Key stream = child(question.stream, key_);
+        for (std::uint32_t i = 0; i < samples_; ++i) {
+            Samples samples(stream, question.sample * samples_ + i);
+            const float choice = bsdf.chooses() ? samples.next() : samples.skip();
+            const auto sample = bsdf.sample(question.outgoing, choice, samples.next_2d(), question.lobes);
+            if (!sample) continue;
+            looks.rays.push_back({point.origin_towards(sample->incoming), sample->incoming});
+            looks.light.push_back(sample->weight * scene_.environment(sample->incoming) / float(samples_));
+            looks.askers.push_back(asker);
+        }
+    }
+
+    const Scene& scene_;
+    Key key_;
+    std::uint32_t samples_;
+};
+
+}  // namespace
+
+Kind environment_kind() {
+    return {
+        .name = "Environment",
+        .help = "light that comes straight from the environment, without that of lamps; a part of DirectLighting",
+        .paths = [](const Node&) { return std::vector<std::string>{"VD"}; },
+        .params = {{.name = "samples",
+                    .type = ParamType::integer,
+                    .help = "directions per question",
+                    .unit = "samples",
+                    .initial = Value{1.0},
+                    .least = 1,
+                    .most = 65536}},
+        .make_light = [](const NodeContext& here) { return std::make_unique<SkyLight>(here); },
+    };
+}
+
+}  // namespace lightnet

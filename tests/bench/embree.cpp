@@ -1,0 +1,146 @@
+// How much of a rendering is tracing rays: a whole serial render by PathTracing beside a bare loop over Embree that
+// traces the same rays. The linker puts the functions of this file in the place of Embree's (--wrap), so that they can
+// record what the renderer asks for, packet by packet. Arguments: samples per pixel (4).
+#include <embree3/rtcore.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <variant>
+#include <vector>
+
+#include "core/film/film.hpp"
+#include "core/graph/check.hpp"
+#include "core/graph/graph_film.hpp"
+#include "core/runtime/fingerprint.hpp"
+#include "core/runtime/job.hpp"
+#include "core/runtime/serial.hpp"
+#include "core/scene/read_scene.hpp"
+#include "core/scene/scene.hpp"
+#include "lua/load_graph.hpp"
+#include "nodes/standard_nodes.hpp"
+#include "tests/bench/figure.hpp"
+
+namespace {
+
+struct Recorded {
+    RTCScene scene;
+    std::variant<RTCRayHit, RTCRay, RTCRayHit16, RTCRay16> rays;
+    std::array<int, 16> valid{};
+};
+
+std::vector<Recorded>* recording = nullptr;
+
+}  // namespace
+
+extern "C" {
+void __real_rtcIntersect1(RTCScene, RTCIntersectContext*, RTCRayHit*);
+void __real_rtcOccluded1(RTCScene, RTCIntersectContext*, RTCRay*);
+void __real_rtcIntersect16(const int*, RTCScene, RTCIntersectContext*, RTCRayHit16*);
+void __real_rtcOccluded16(const int*, RTCScene, RTCIntersectContext*, RTCRay16*);
+
+void __wrap_rtcIntersect1(RTCScene scene, RTCIntersectContext* context, RTCRayHit* rays) {
+    if (recording) recording->push_back({scene, *rays, {}});
+    __real_rtcIntersect1(scene, context, rays);
+}
+void __wrap_rtcOccluded1(RTCScene scene, RTCIntersectContext* context, RTCRay* rays) {
+    if (recording) recording->push_back({scene, *rays, {}});
+    __real_rtcOccluded1(scene, context, rays);
+}
+void __wrap_rtcIntersect16(const int* valid, RTCScene scene, RTCIntersectContext* context, RTCRayHit16* rays) {
+    if (recording) {
+        recording->push_back({scene, *rays, {}});
+        std::copy(valid, valid + 16, recording->back().valid.begin());
+    }
+    __real_rtcIntersect16(valid, scene, context, rays);
+}
+void __wrap_rtcOccluded16(const int* valid, RTCScene scene, RTCIntersectContext* context, RTCRay16* rays) {
+    if (recording) {
+        recording->push_back({scene, *rays, {}});
+        std::copy(valid, valid + 16, recording->back().valid.begin());
+    }
+    __real_rtcOccluded16(valid, scene, context, rays);
+}
+}
+
+namespace lightnet::bench {
+namespace {
+
+constexpr std::uint32_t side = 128, tile_size = 32;
+constexpr int rounds = 7;
+
+std::shared_ptr<const Network> network_of(const std::string& scene, const Registry& registry,
+                                          const std::string& samples) {
+    LuaOptions constants{{{"width", std::to_string(side)}, {"height", std::to_string(side)}, {"samples", samples}}};
+    if (!scene.empty()) constants.constants["file"] = scene;
+    Job job;
+    job.graph = check(load_graph(LIGHTNET_SOURCE_DIR "/graphs/path_all.lua", constants), registry);
+    job.scene = scene_file(job.graph, registry);
+    job.isa = usual_isa();
+    job.width = job.height = side;
+    DiskFiles disk;
+    return build_network(job, registry, disk);
+}
+
+void replay(const std::vector<Recorded>& recorded) {
+    for (const Recorded& each : recorded) {
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+        alignas(64) std::array<int, 16> valid = each.valid;
+        alignas(64) auto rays = each.rays;
+        if (auto* one = std::get_if<RTCRayHit>(&rays)) __real_rtcIntersect1(each.scene, &context, one);
+        if (auto* one = std::get_if<RTCRay>(&rays)) __real_rtcOccluded1(each.scene, &context, one);
+        if (auto* many = std::get_if<RTCRayHit16>(&rays))
+            __real_rtcIntersect16(valid.data(), each.scene, &context, many);
+        if (auto* many = std::get_if<RTCRay16>(&rays)) __real_rtcOccluded16(valid.data(), each.scene, &context, many);
+    }
+}
+
+void measure(const char* name, const std::string& scene, const Registry& registry, std::uint32_t samples) {
+    const auto network = network_of(scene, registry, std::to_string(samples));
+    const auto tiles = tiles_of(side, side, tile_size, samples);
+    const auto render = [&] {
+        SerialRun run(*network);
+        for (const auto& tile : tiles) run.render(tile);
+    };
+    std::vector<Recorded> recorded;
+    recording = &recorded;
+    const auto before = Scene::rays_of_this_thread();
+    render();
+    const double rays = double(Scene::rays_of_this_thread() - before);
+    recording = nullptr;
+    std::vector<double> ratios, whole_rates, bare_rates;
+    for (int round = 0; round < rounds; ++round) {
+        const double begun = thread_seconds();
+        replay(recorded);
+        const double middle = thread_seconds();
+        render();
+        const double bare = middle - begun, whole = thread_seconds() - middle;
+        ratios.push_back(bare / whole);
+        whole_rates.push_back(rays / whole * 1e-6);
+        bare_rates.push_back(rays / bare * 1e-6);
+    }
+    std::printf("  %s: %.2f M rays/s of work in a whole render, %.2f M rays/s in the bare loop\n", name,
+                median(whole_rates), median(bare_rates));
+    show("part of the bare rate", ratios);
+    figure(name, median(ratios), 0.6, true);
+}
+
+}  // namespace
+}  // namespace lightnet::bench
+
+int main(int argc, char** argv) {
+    try {
+        const auto samples = static_cast<std::uint32_t>(argc > 1 ? std::max(1, std::atoi(argv[1])) : 4);
+        const lightnet::Registry registry{lightnet::standard_nodes()};
+        lightnet::bench::measure("embree.cornell", "", registry, samples);
+        if (const char* shared = std::getenv("LIGHTNET_SHARED"))
+            lightnet::bench::measure("embree.terrain", std::string(shared) + "/reference/terrain.pbrt", registry,
+                                     samples);
+        return 0;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "embree: %s\n", error.what());
+        return 1;
+    }
+}
