@@ -38,7 +38,9 @@ Job job_of(const Picture& picture) {
     job.graph.nodes = {emulated_light("direct", microseconds(1, 2 * questions)),
                        emulated_light("caustics", microseconds(3, questions)),
                        emulated_light("bounce", microseconds(2, questions), {"direct"}),
-                       emulated_image(milliseconds, questions, {"direct", "caustics", "bounce"})};
+                       emulated_image(milliseconds, questions, {"direct", "caustics", "bounce"}),
+                       {"scene", "Scene", {Value{job.scene}}, {}, {}}};
+    job.graph.nodes[3].params["scene"] = Value{NodeRef{"scene"}};
     job.rules.bundles.questions = 128;
     return job;
 }
