@@ -78,7 +78,7 @@ void measure() {
     Cluster cluster(std::move(options));
     const std::atomic<bool> never{false};
     cluster.gather(10s, never);
-    std::printf("  %zu places\n", cluster.plan().places.size());
+    cluster.adopt(cluster.plan());
     std::vector<double> efficiency;
     for (int round = 0; round < 3; ++round)
         efficiency.push_back(tiles * milliseconds * 1e-3 /
