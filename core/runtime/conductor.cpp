@@ -341,6 +341,8 @@ bool Conductor::ask(const PlaceAt& to, Message& message) {
     return false;
 }
 
+void Conductor::give_up(std::uint32_t channel) { carrier_.give_up(channel | epoch_ << epoch_bits); }
+
 std::optional<Message> Conductor::receive() {
     while (true) {
         if (!arrived_.empty()) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -63,6 +64,7 @@ public:
     /// The place is gone: nothing more is sent, and what still comes from it is dropped.
     void close() {
         closed_ = true;
+        carrier_.give_up(ends_.channel);
         carrier_.forget(ends_.place);
     }
 
@@ -75,5 +77,15 @@ private:
     BundleOwner<Question>* owner_ = nullptr;  // of all that is under way
     bool closed_ = false;
 };
+
+/// Closes the channels to places that are not in the plan any more. A place that is there but holds the node no longer
+/// gets no new bundles, and answers those that it has: so a host that was told to stop loses no work.
+template <class Question>
+void close_absent(const std::vector<std::unique_ptr<RemoteChannel<Question>>>& channels, const Plan& plan) {
+    for (const auto& channel : channels)
+        if (!channel->closed() &&
+            std::find(plan.places.begin(), plan.places.end(), channel->place()) == plan.places.end())
+            channel->close();
+}
 
 }  // namespace lightnet
