@@ -78,14 +78,4 @@ private:
     bool closed_ = false;
 };
 
-/// Closes the channels to places that are not in the plan any more. A place that is there but holds the node no longer
-/// gets no new bundles, and answers those that it has: so a host that was told to stop loses no work.
-template <class Question>
-void close_absent(const std::vector<std::unique_ptr<RemoteChannel<Question>>>& channels, const Plan& plan) {
-    for (const auto& channel : channels)
-        if (!channel->closed() &&
-            std::find(plan.places.begin(), plan.places.end(), channel->place()) == plan.places.end())
-            channel->close();
-}
-
 }  // namespace lightnet
