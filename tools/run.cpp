@@ -325,6 +325,11 @@ void Run::hand_out(Carrier& carrier, const Plan& plan, const LookAround& look_ar
         while (master.outstanding() > 0 && Clock::now() < end && !signals_.interrupted) master.work(50ms);
     }
     book_.count(master.counters());
+    if (const auto& aside = master.set_aside_tiles(); !aside.empty()) {
+        std::string all = "the picture lacks " + std::to_string(aside.size()) + " of its tiles, and is not written:";
+        for (const auto& tile : aside) all += "\n  " + tile;
+        throw Error("node '" + job_.graph.nodes[image_].name + "'", all);
+    }
 }
 
 Cluster::Options Run::cluster_options(const DiskFiles& files) {

@@ -305,6 +305,7 @@ void Conductor::begin_rehearsal(std::uint32_t call) {
     job.width = options_.width;
     job.tiles = rehearsal_tiles(*options_.graph, *options_.registry, calls_.of(order_[done_], call).what().count);
     job.credit = {tiles_per_place, tiles_per_place};
+    job.double_tail = false;  // what is still under way at its end would note questions in the next rehearsal
     ++epoch_;
     rehearsing_.emplace();
     rehearsing_->call = call;
