@@ -54,14 +54,14 @@ void RunBook::take(const Tile& tile, std::span<const Rgb> pixels) {
 
 void RunBook::keep_checkpoint(const std::string& exr, std::map<std::string, std::string> recipe,
                               std::chrono::seconds period) {
-    keeping_ = Keeping{checkpoint_beside(exr), std::move(recipe), period, Clock::now() + period, {}, 0};
+    keeping_ = Keeping{checkpoint_beside(exr), {std::move(recipe), {}}, period, Clock::now() + period, {}, 0};
 }
 
 void RunBook::take_up_checkpoint() {
     const auto& file = keeping_->file;
     auto found = read_checkpoint(file);
     if (!found) return say("there is no " + file.string() + "; beginning at the beginning");
-    if (const auto other = differences(found->of, keeping_->recipe); !other.empty())
+    if (const auto other = differences(found->of, keeping_->last.of); !other.empty())
         throw UserError({file.string(), 0}, "is the checkpoint of another picture (" + other + ")");
     film_.restore(std::move(found->film));
     say(fmt::format("going on from {}", file.string()));
@@ -87,19 +87,21 @@ void RunBook::save_in_background(Clock::time_point now) {
         }
     }
     keeping_->saved = tiles_;
-    keeping_->saving = std::async(std::launch::async,
-                                  [file = keeping_->file, checkpoint = Checkpoint{keeping_->recipe, film_.state()}] {
-                                      const auto begun = Clock::now();
-                                      write_checkpoint(file, checkpoint);
-                                      return std::chrono::duration<double>(Clock::now() - begun).count();
-                                  });
+    film_.state(keeping_->last.film);
+    keeping_->saving = std::async(std::launch::async, [&keeping = *keeping_] {
+        const auto begun = Clock::now();
+        write_checkpoint(keeping.file, keeping.last);
+        return std::chrono::duration<double>(Clock::now() - begun).count();
+    });
 }
 
 bool RunBook::save_checkpoint() {
     if (!keeping_ || tiles_ == 0) return false;
     if (keeping_->saving.valid()) keeping_->saving.wait();
-    if (keeping_->saved != tiles_ || !std::filesystem::exists(keeping_->file))
-        write_checkpoint(keeping_->file, {keeping_->recipe, film_.state()});
+    if (keeping_->saved != tiles_ || !std::filesystem::exists(keeping_->file)) {
+        film_.state(keeping_->last.film);
+        write_checkpoint(keeping_->file, keeping_->last);
+    }
     return true;
 }
 

@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 
+#include "core/film/checkpoint.hpp"
 #include "core/film/film.hpp"
 #include "core/film/progress.hpp"
 #include "core/film/run_report.hpp"
@@ -69,7 +70,7 @@ private:
     std::uint64_t tiles_ = 0, repeated_ = 0;
     struct Keeping {
         std::filesystem::path file;
-        std::map<std::string, std::string> recipe;
+        Checkpoint last;  // being saved, or what was; its room is used again
         std::chrono::seconds period;
         std::chrono::steady_clock::time_point next;
         std::future<double> saving;  // seconds that it took

@@ -336,7 +336,9 @@ Counters Cluster::finish(std::chrono::milliseconds patience) {
 bool Cluster::ask(const PlaceAt& to, Message& message) {
     if (to.host.empty()) return links_->own && links_->own->ask(message, to.index);
     auto* link = links_->find(to.host);
-    return link && link->state() == State::ready && link->send(message, to.index);
+    // A host that leaves gets no more work; but who waits there for a lock is to get it.
+    const bool step = std::holds_alternative<Questions<Step>>(message.questions);
+    return link && (link->state() == State::ready || (step && link->takes_part())) && link->send(message, to.index);
 }
 
 void Cluster::reply(Message) {}  // nobody asks the launcher

@@ -110,7 +110,7 @@ void Host::Service::work(const packet::Header& header, Frames frames) {
         door.send(frames);  // say it again
         return;
     }
-    ++given;
+    given += header.width > 0;
     if (leaving) leaving->last_work = Clock::now();
 }
 
@@ -139,7 +139,9 @@ void Host::Service::advance() {
 void Host::Service::pass_replies(std::uint32_t place) {
     if (!run || !run->serving()) return;
     while (auto frames = receive_frames(run->places()->to(place))) {
-        ++answered;
+        if (frames->size() < 3) continue;
+        const auto header = packet::peek_header(bytes_of((*frames)[frames->size() - 2]));
+        answered += !header || header->width > 0;  // as in work()
         door.send(*frames);
     }
 }

@@ -29,6 +29,10 @@ void Host::Service::control(const std::string& route, const packet::Header& head
                              Fields{}
                                  .set("incarnation", incarnation)
                                  .set("run", run ? run->id() : 0)
+                                 .set("sent", fields.number("sent"))
+                                 .set("line", door.tally().line)
+                                 .set("taken", door.tally().taken)
+                                 .set("told", door.tally().told)
                                  .set("progress", run && run->places() ? run->places()->progress() : 0));
         case Type::plan:
             if (ours) run->use(plan_from_json(fields.text("plan")));
@@ -85,6 +89,7 @@ void Host::Service::begin(const std::string& route, std::uint64_t id, const Fiel
         options.log("serves a run" + (who.empty() ? "" : " of " + who));
     }
     launcher = route;
+    door.count(route);
     heard = std::chrono::steady_clock::now();
     run->use(plan_from_json(fields.text("plan")));
     run->expect_files_anew();

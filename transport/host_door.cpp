@@ -18,6 +18,12 @@ constexpr auto shortest_silence = 2000ms, longest_silence = 10'000ms;
 // ZeroMQ's own routes begin with a zero.
 const std::string launcher_route = "launcher";
 
+bool is_counted(const Frames& frames) {
+    if (frames.size() < 3) return false;
+    const auto header = packet::peek_header(bytes_of(frames[frames.size() - 2]));
+    return header && packet::is_counted(header->type);
+}
+
 }  // namespace
 
 HostDoor::HostDoor(zmq::context_t& context, Ends ends)
@@ -59,12 +65,19 @@ std::optional<Frames> HostDoor::from_launcher(Time now) {
 }
 
 std::optional<Frames> HostDoor::receive(Time now) {
+    auto frames = from_anyone(now);
+    if (frames && text_of(frames->front()) == counted_ && is_counted(*frames)) ++tally_.taken;
+    return frames;
+}
+
+std::optional<Frames> HostDoor::from_anyone(Time now) {
     if (port_)
         if (auto frames = receive_frames(*port_)) return frames;
     return launcher_ ? from_launcher(now) : std::nullopt;
 }
 
 bool HostDoor::send(Frames& frames) {
+    if (text_of(frames.front()) == counted_ && is_counted(frames)) ++tally_.told;  // even if it is lost right here
     if (text_of(frames.front()) != launcher_route) return port_ && send_frames(*port_, frames);
     frames.erase(frames.begin());
     return launcher_ && send_frames(*launcher_, frames);
@@ -96,6 +109,12 @@ void HostDoor::keep_in_touch(Time now) {
                Type::join, 0,
                Fields{}.set("name", ends_.name).set("incarnation", ends_.incarnation).set("endpoint", endpoint())));
     if (!send_frames(*launcher_, frames)) next_join_ = now + 20ms;
+}
+
+void HostDoor::count(const std::string& route) {
+    if (route == counted_) return;
+    counted_ = route;
+    tally_ = {tally_.line + 1, 0, 0};
 }
 
 std::vector<zmq::socket_t*> HostDoor::sockets() {

@@ -39,15 +39,27 @@ public:
     void keep_in_touch(Time now);
     std::vector<zmq::socket_t*> sockets();
 
+    /// How many messages came and went on the line to the launcher of the run; see packet::is_counted().
+    struct Tally {
+        std::uint64_t line = 0;  // another number: another line, counted from nothing
+        std::uint64_t taken = 0, told = 0;
+    };
+    /// From now on this is the line.
+    void count(const std::string& route);
+    const Tally& tally() const { return tally_; }
+
 private:
     void dial(Time now);
     std::optional<Frames> from_launcher(Time now);
+    std::optional<Frames> from_anyone(Time now);
 
     zmq::context_t& context_;
     Ends ends_;
     std::unique_ptr<zmq::socket_t> port_, launcher_;
     Time heard_{}, dialled_{}, next_join_{};
     std::chrono::milliseconds silence_;  // after which it dials anew
+    std::string counted_;                // route
+    Tally tally_;
 };
 
 }  // namespace lightnet

@@ -16,6 +16,7 @@ constexpr auto connect_interval = std::chrono::milliseconds(5);
 constexpr auto busy_interval = std::chrono::seconds(1);
 constexpr auto ping_interval = std::chrono::milliseconds(400);
 constexpr auto lease = std::chrono::milliseconds(1500);
+constexpr auto longest_chunk = std::chrono::seconds(15);  // for a piece of a file to be taken
 constexpr std::size_t chunk_size = 256 << 10;
 constexpr std::size_t chunks_under_way = 16;
 
@@ -29,7 +30,9 @@ HostLink::~HostLink() = default;
 bool HostLink::send(Type type, const Fields& fields) {
     Frames frames;
     append(frames, packet::pack(type, told_.run, fields));
-    return line_->send(frames, false);
+    const bool sent = line_->send(frames, false);
+    if (sent && packet::is_counted(type)) ++sent_;
+    return sent;
 }
 
 void HostLink::tick(Time now, const ExpectedPlan& plan) {
@@ -45,14 +48,22 @@ void HostLink::tick(Time now, const ExpectedPlan& plan) {
             send(Type::begin,
                  Fields{}.set("job", told_.job).set("plan", *expected).set("you", name_).set("who", told_.who));
     }
-    if (!chunks_.empty()) send_blobs();
+    if (chunks_out_ > 0 && now - chunk_taken_ > longest_chunk) return lose(now, "it takes no files");
+    if (!chunks_.empty()) send_blobs(now);
 }
 
 void HostLink::heartbeat(Time now) {
     if (now - heard_ > lease) return lose(now, "it does not answer");
     if (now < next_ping_) return;
     next_ping_ = now + ping_interval;
-    send(Type::ping, {});
+    send(Type::ping, Fields{}.set("sent", sent_));
+}
+
+// A flipped bit can make a message vanish without a trace.
+bool HostLink::lacks_something(const Fields& pong) {
+    const Between now{pong.number("line"), pong.number("taken") - pong.number("sent"), pong.number("told") - received_};
+    if (!between_ || between_->line != now.line) between_ = now;
+    return *between_ != now;
 }
 
 void HostLink::lose(Time now, const std::string& why) {
@@ -62,6 +73,7 @@ void HostLink::lose(Time now, const std::string& why) {
     chunks_.clear();
     chunks_out_ = 0;
     brought_.clear();
+    between_.reset();
     line_->renew();
 }
 
@@ -74,6 +86,8 @@ bool HostLink::receive(Time now, const Takers& takers) {
     }
     if (frames->size() == 3) {
         heard_ = now;
+        const auto passing = packet::peek_header(bytes_of((*frames)[1]));
+        received_ += passing && packet::is_counted(passing->type);
         takers.passing_by(*this, *frames);
         return true;
     }
@@ -88,6 +102,7 @@ bool HostLink::receive(Time now, const Takers& takers) {
         return true;
     }
     heard_ = now;
+    if (packet::is_counted(header->type)) ++received_;
     if (header->type < Type::hello) {
         counters_.bytes += header_bytes.size() + body.size();
         if (auto message = packet::unpack(header_bytes, body)) takers.work(std::move(*message));
@@ -127,6 +142,7 @@ void HostLink::control(Type type, const Fields& fields, Time now) {
             return;
         case Type::blob_taken:
             if (chunks_out_ > 0) --chunks_out_;
+            chunk_taken_ = now;
             if (state_ == State::sending && chunks_.empty() && chunks_out_ == 0) state_ = State::building;
             return;
         case Type::lacks:
@@ -151,6 +167,8 @@ void HostLink::control(Type type, const Fields& fields, Time now) {
                 lose(now, "it was started anew");
             else if (state_ != State::greeted && fields.number("run") != told_.run)
                 lose(now, "it gave the run up");
+            else if (fields.number("run") == told_.run && lacks_something(fields))
+                lose(now, "a message to or from it was lost");
             progress_ = fields.number("progress");
             return;
         case Type::leaving:
@@ -216,7 +234,7 @@ bool HostLink::bring(const Hash& name, const Bytes& bytes) {
     return !first && brought->second.here;
 }
 
-void HostLink::send_blobs() {
+void HostLink::send_blobs(Time now) {
     while (!chunks_.empty() && chunks_out_ < chunks_under_way) {
         const auto& [hash, offset] = chunks_.front();
         const auto whole = blob(hash);
@@ -231,7 +249,7 @@ void HostLink::send_blobs() {
                                     Fields{}.set("hash", to_hex(hash)).set("offset", offset).set("bytes", bytes)));
         if (!line_->send(frames, true)) return;
         counters_.file_bytes += bytes.size();
-        ++chunks_out_;
+        if (chunks_out_++ == 0) chunk_taken_ = now;
         chunks_.pop_front();
     }
 }
@@ -245,11 +263,16 @@ bool HostLink::send(Message& message, std::uint32_t place) {
         return false;
     }
     counters_.bytes += size;
+    ++sent_;
     return true;
 }
 
 bool HostLink::pass(Frames& frames) {
-    if (line_->send(frames, false)) return true;
+    const bool work = frames.size() == 3;  // or that something is to be said again
+    if (line_->send(frames, false)) {
+        sent_ += work;
+        return true;
+    }
     ++counters_.refused_sends;
     return false;
 }

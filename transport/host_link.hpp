@@ -96,8 +96,9 @@ private:
     void queue_blobs(const std::string& hashes);
     void queue_blob(const Hash& hash);
     Bytes blob(const Hash& hash) const;
-    void send_blobs();
+    void send_blobs(Time now);
     void heartbeat(Time now);
+    bool lacks_something(const packet::Fields& pong);
     void damaged(Time now, std::span<const std::byte> header);
 
     const Told& told_;
@@ -110,7 +111,15 @@ private:
     std::uint32_t places_ = 0;
     std::uint64_t incarnation_ = 0, progress_ = 0;
     Machine machine_;
-    Time heard_{}, next_call_{}, next_ping_{};
+    Time heard_{}, next_call_{}, next_ping_{}, chunk_taken_{};
+    // Messages that this end and the other have counted. What lies between their counts is the same on an undamaged
+    // line at each heartbeat.
+    struct Between {
+        std::uint64_t line, asks, replies;
+        friend bool operator==(const Between&, const Between&) = default;
+    };
+    std::uint64_t sent_ = 0, received_ = 0;
+    std::optional<Between> between_;
     struct Chunk {
         Hash hash;
         std::uint64_t offset;

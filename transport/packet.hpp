@@ -50,17 +50,17 @@ enum class Type : std::uint8_t {
     blob_taken,  //                             hash, offset
     ready,       //                             all places are assembled
     broken,      //                             text: the run can't be served here
-    ping,
-    pong,     //                             incarnation, run, progress
-    plan,     // who answers for which node from now on
-    end,      // of the run
-    ended,    //                             counters
-    leaving,  //                             it was told to stop: it answers what it has, then ends the run
-    join,     //                             name, incarnation, endpoint: "I am here", from a host that dialled out
-    joined,   // to such a host
-    expect,   // hash, size: bytes that a step will name
-    lacks,    //                             hash: please send them
-    here,     //                             hash: it has them
+    ping,        // sent: messages so far, see is_counted()
+    pong,        //                          incarnation, run, progress, sent (as in the ping), taken, told, line
+    plan,        // who answers for which node from now on
+    end,         // of the run
+    ended,       //                             counters
+    leaving,     //                             it was told to stop: it answers what it has, then ends the run
+    join,        //                             name, incarnation, endpoint: "I am here", from a host that dialled out
+    joined,      // to such a host
+    expect,      // hash, size: bytes that a step will name
+    lacks,       //                             hash: please send them
+    here,        //                             hash: it has them
     // anyone → a host or a launcher
     status,
     state,  // a host in words; `left` more follow
@@ -69,6 +69,21 @@ enum class Type : std::uint8_t {
 
 constexpr bool is_ask(Type type) {
     return type == Type::ask_light || type == Type::ask_pixels || type == Type::ask_step;
+}
+/// Both ends of a line between launcher and host count these, as nothing else would tell that one has vanished.
+constexpr bool is_counted(Type type) {
+    switch (type) {
+        case Type::need:
+        case Type::ready:
+        case Type::plan:
+        case Type::leaving:
+        case Type::expect:
+        case Type::lacks:
+        case Type::here:
+            return true;
+        default:
+            return type < Type::hello;
+    }
 }
 constexpr bool is_reply(Type type) { return type < Type::hello && !is_ask(type); }
 

@@ -70,9 +70,11 @@ void sync_folder(const std::filesystem::path& folder) {
 
 }  // namespace
 
-void write_file(const std::filesystem::path& path, std::string_view bytes) {
+void write_file(const std::filesystem::path& path, std::string_view bytes) { write_file(path, std::span(&bytes, 1)); }
+
+void write_file(const std::filesystem::path& path, std::span<const std::string_view> pieces) {
     TemporaryFile file(path);
-    file.write(bytes);
+    for (const auto piece : pieces) file.write(piece);
     file.become_target();
     sync_folder(path.parent_path());
 }

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <sstream>
 #include <type_traits>
 
@@ -19,9 +20,9 @@ namespace {
 constexpr std::string_view magic = "lightnet checkpoint 1\n";
 
 template <class T>
-void put(std::string& out, const T* values, std::size_t count) {
+std::string_view bytes_of(std::span<const T> values) {
     static_assert(std::is_trivially_copyable_v<T>);
-    out.append(reinterpret_cast<const char*>(values), count * sizeof(T));
+    return {reinterpret_cast<const char*>(values.data()), values.size_bytes()};
 }
 
 class Reader {
@@ -45,7 +46,7 @@ private:
     std::string_view left_;
 };
 
-std::string to_bytes(const Checkpoint& checkpoint) {
+std::string text_of(const Checkpoint& checkpoint) {
     const auto& film = checkpoint.film;
     nlohmann::json parts = nlohmann::json::array();
     for (const auto& part : film.parts) {
@@ -53,19 +54,8 @@ std::string to_bytes(const Checkpoint& checkpoint) {
         for (const auto& [block, pixels] : part.waiting) waiting.push_back({block, pixels.size()});
         parts.push_back({part.x, part.y, part.width, part.height, part.next_block, std::move(waiting)});
     }
-    const std::string text =
-        nlohmann::json{{"of", checkpoint.of}, {"sums", film.sums.size()}, {"lost", film.lost}, {"parts", parts}}.dump(
-            -1, ' ', false, nlohmann::json::error_handler_t::replace);
-    std::string out(magic);
-    const std::uint64_t size = text.size();
-    put(out, &size, 1);
-    out += text;
-    put(out, film.sums.data(), film.sums.size());
-    for (const auto& part : film.parts)
-        for (const auto& [block, pixels] : part.waiting) put(out, pixels.data(), pixels.size());
-    const Hash hash = content_hash(out);
-    put(out, hash.bytes.data(), hash.bytes.size());
-    return out;
+    return nlohmann::json{{"of", checkpoint.of}, {"sums", film.sums.size()}, {"lost", film.lost}, {"parts", parts}}
+        .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 std::vector<Rgb> colours(Reader& reader, std::size_t count) {
@@ -105,7 +95,18 @@ std::filesystem::path checkpoint_beside(const std::filesystem::path& picture) {
 }
 
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint) {
-    write_file(path, to_bytes(checkpoint));
+    const auto& film = checkpoint.film;
+    const std::string text = text_of(checkpoint);
+    const std::uint64_t size = text.size();
+    // From where it lies: a large film is not copied again.
+    std::vector<std::string_view> pieces{magic, bytes_of(std::span(&size, 1)), text, bytes_of(std::span(film.sums))};
+    for (const auto& part : film.parts)
+        for (const auto& [block, pixels] : part.waiting) pieces.push_back(bytes_of(std::span(pixels)));
+    Hasher hasher;
+    for (const auto piece : pieces) hasher.add(std::as_bytes(std::span(piece)));
+    const Hash hash = hasher.finish();
+    pieces.push_back(bytes_of(std::span<const unsigned char>(hash.bytes)));
+    write_file(path, pieces);
 }
 
 std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& path) {

@@ -104,12 +104,19 @@ bool Film::has(const Tile& tile) const {
 }
 
 FilmState Film::state() const {
-    FilmState state{sums_, lost_, {}};
+    FilmState made;
+    state(made);
+    return made;
+}
+
+void Film::state(FilmState& into) const {
+    into.sums = sums_;
+    into.lost = lost_;
+    into.parts.clear();
     for (const auto& [area, rectangle] : rectangles_) {
         const auto& [x, y, width, height] = area;
-        state.parts.push_back({x, y, width, height, rectangle.next_block, rectangle.waiting});
+        into.parts.push_back({x, y, width, height, rectangle.next_block, rectangle.waiting});
     }
-    return state;
 }
 
 void Film::restore(FilmState state) {

@@ -56,6 +56,8 @@ public:
     /// Is this block there already?
     bool has(const Tile& tile) const;
     FilmState state() const;
+    /// The same, into room that is there already.
+    void state(FilmState& into) const;
     /// Takes up what another film of this format held. This one must be empty. Throws Error when it does not fit.
     void restore(FilmState state);
 

@@ -46,13 +46,14 @@ void Conductor::propose(const Plan& plan) {
     std::set<PlaceKey> gone;
     for (const auto& place : proposal_.places) gone.insert({place.host, place.index});
     for (const auto& place : plan.places) gone.erase({place.host, place.index});
-    const auto before = done_ < order_.size() ? holders(done_) : std::vector<PlaceKey>();
     proposal_ = plan;
     lose(gone);
-    // One that only leaves is no longer asked what it has noted, either.
-    const auto now = done_ < order_.size() ? holders(done_) : std::vector<PlaceKey>();
-    for (const auto& place : before)
-        if (rehearsing_ && std::find(now.begin(), now.end(), place) == now.end()) rehearsing_->broken = true;
+    if (rehearsing_) {  // nobody will ask a place that holds the node no more what it has noted
+        const auto places = holders(done_);
+        rehearsing_->broken |= std::any_of(rehearsing_->places.begin(), rehearsing_->places.end(), [&](const auto& at) {
+            return std::find(places.begin(), places.end(), at) == places.end();
+        });
+    }
     advance();
 }
 
@@ -72,6 +73,7 @@ void Conductor::lose(const std::set<PlaceKey>& gone) {
     for (const auto& place : gone) {
         known_prepared_.erase(place);
         attended_.erase(place);
+        heard_of_.erase(place);
         desk_.lose(place);
         std::erase_if(grants_, [&](const auto& grant) { return grant.first == place; });
     }
@@ -97,6 +99,10 @@ Plan Conductor::restricted() {
             const PlaceKey key{proposal_.places[place].host, proposal_.places[place].index};
             if (!known_prepared_.contains(key) && !is_done(key, position)) asked[place] = false;
         }
+    if (rehearsing_)  // who came in its middle would not note what it is asked
+        for (const auto place : proposal_.places_of[order_[done_]])
+            if (!rehearsing_->places.contains({proposal_.places[place].host, proposal_.places[place].index}))
+                asked[place] = false;
     for (std::size_t place = 0; place < asked.size(); ++place)
         if (asked[place]) known_prepared_.insert({proposal_.places[place].host, proposal_.places[place].index});
     Plan plan = proposal_;
@@ -145,7 +151,11 @@ void Conductor::attend() {
     if (!locks_) return;
     for (const auto& place : proposal_.places) {
         const PlaceKey key{place.host, place.index};
-        if (!attended_.contains(key) && send(key, 0, {.kind = Step::Kind::attend})) attended_.insert(key);
+        if (attended_.contains(key)) continue;
+        const bool anew = !heard_of_.contains(key);
+        if (!send(key, 0, {.kind = Step::Kind::attend, .call = anew})) continue;
+        attended_.insert(key);
+        heard_of_.insert(key);
     }
     for (auto& grant : desk_.granted()) grants_.push_back(std::move(grant));
     std::erase_if(grants_, [&](const auto& grant) {
@@ -196,6 +206,7 @@ bool Conductor::send(const PlaceKey& place, std::size_t position, Step step) {
     message.run = options_.run;
     message.channel = own_channel;
     message.bundle = next_;
+    message.width = step.kind == Step::Kind::attend ? 0 : 1;
     message.node = step.kind < Step::Kind::attend ? static_cast<std::uint32_t>(order_[position]) : 0;
     message.questions = std::make_shared<const std::vector<Step>>(1, step);
     if (step.kind == Step::Kind::go_on) message.data = calls_.of(order_[position], step.call).result();
@@ -252,7 +263,12 @@ void Conductor::say(std::size_t position, std::string_view lines) {
 
 void Conductor::shard_done(const Sent& sent, const Bytes& data) {
     auto& call = calls_.of(order_[sent.position], sent.step.call);
-    if (!call.answer(sent.step.shard, data)) return hand_out(sent.place, sent.position, call);
+    if (!call.answer(sent.step.shard, data)) {
+        const auto places = holders(sent.position);  // a host that was told to stop gets no more
+        if (std::find(places.begin(), places.end(), sent.place) != places.end())
+            hand_out(sent.place, sent.position, call);
+        return;
+    }
     call.complete_from_shards();
     calls_.keep(order_[sent.position], sent.step.call);
     advance();
@@ -276,7 +292,7 @@ void Conductor::collect() {
         return begin_rehearsal(followers_[{places[0], done_}].at.call);
     }
     if (!rehearsing_->rendered || rehearsing_->broken) return;
-    for (const auto& place : places)
+    for (const auto& place : rehearsing_->places)
         if (!rehearsing_->collecting.contains(place) &&
             send(place, done_, {.kind = Step::Kind::collect, .call = rehearsing_->call}))
             rehearsing_->collecting.insert(place);
@@ -293,6 +309,7 @@ void Conductor::begin_rehearsal(std::uint32_t call) {
     ++epoch_;
     rehearsing_.emplace();
     rehearsing_->call = call;
+    for (const auto& place : holders(done_)) rehearsing_->places.insert(place);
     rehearsing_->master =
         std::make_unique<MasterRenderer>(std::move(job), *this, [](const Tile&, std::span<const Rgb>) {});
     rehearsing_->master->use(in_force_);
@@ -302,7 +319,7 @@ void Conductor::noted(const Sent& sent, const Bytes& data) {
     if (!rehearsing_ || rehearsing_->broken || sent.position != done_ || sent.step.call != rehearsing_->call) return;
     const auto more = values_of<Query>(data);
     rehearsing_->noted.insert(rehearsing_->noted.end(), more.begin(), more.end());
-    if (++rehearsing_->collected < holders(sent.position).size()) return;
+    if (++rehearsing_->collected < rehearsing_->places.size()) return;
     sort_and_unite(rehearsing_->noted);
     const auto bytes = std::as_bytes(std::span(rehearsing_->noted));
     const std::vector<std::byte> shard(bytes.begin(), bytes.end());

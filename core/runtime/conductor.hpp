@@ -85,6 +85,7 @@ private:
         std::uint32_t call = 0;
         std::unique_ptr<MasterRenderer> master;
         bool rendered = false;
+        std::set<PlaceKey> places;      // that hold the node and take part; who comes later does not
         bool broken = false;            // a place was lost, and with it what it had noted
         std::set<PlaceKey> collecting;  // have been asked what they noted
         std::size_t collected = 0;      // have said so
@@ -118,7 +119,8 @@ private:
     std::vector<std::size_t> order_;  // nodes that prepare
     bool locks_;                      // somebody in the graph does
     LockDesk desk_;
-    std::set<PlaceKey> attended_;
+    std::set<PlaceKey> attended_;                    // have a step `attend` now
+    std::set<PlaceKey> heard_of_;                    // had one
     std::vector<std::pair<PlaceKey, Hash>> grants_;  // to be passed on
     Plan proposal_, in_force_;
     std::deque<Message> arrived_;

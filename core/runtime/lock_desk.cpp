@@ -10,6 +10,10 @@ void LockDesk::hear(const PlaceKey& place, const LockWord& word) {
         auto& queue = queues_[word.lock];
         queue.push_back(place);
         if (queue.size() == 1) granted_.emplace_back(place, word.lock);
+    } else if (word.kind == LockWord::Kind::hold) {
+        // Somebody else may have been given it while this place was out of sight; nothing can be done about that now.
+        auto& queue = queues_[word.lock];
+        if (queue.empty()) queue.push_back(place);
     } else if (const auto found = queues_.find(word.lock); found != queues_.end() && found->second.front() == place) {
         release(word.lock);
     }
@@ -42,6 +46,7 @@ void PlaceLocks::take(Message ask) {
     const Step step = std::get<Questions<Step>>(ask.questions)->front();
     if (step.kind == Step::Kind::attend) {
         attended_ = std::move(ask);
+        if (step.call) say_all();
         return speak();
     }
     auto& waiting = waiting_[step.data];
@@ -50,6 +55,7 @@ void PlaceLocks::take(Message ask) {
     } else {
         resume_(waiting.front());
         waiting.pop_front();
+        ++held_[step.data];
     }
     auto reply = reply_to(ask);
     reply.data = std::make_shared<const std::vector<std::byte>>();
@@ -63,7 +69,19 @@ void PlaceLocks::wait_for(const std::string& name) {
     fibers_.park();
 }
 
-void PlaceLocks::give_back(const std::string& name) noexcept { say(LockWord::Kind::release, content_hash(name)); }
+void PlaceLocks::give_back(const std::string& name) noexcept {
+    const Hash lock = content_hash(name);
+    if (const auto held = held_.find(lock); held != held_.end() && --held->second == 0) held_.erase(held);
+    say(LockWord::Kind::release, lock);
+}
+
+// The launcher knows nothing of this place, whatever has been said before.
+void PlaceLocks::say_all() {
+    words_.clear();
+    for (const auto& [lock, times] : held_) words_.push_back({LockWord::Kind::hold, lock});
+    for (const auto& [lock, fibers] : waiting_)
+        words_.insert(words_.end(), fibers.size(), {LockWord::Kind::want, lock});
+}
 
 void PlaceLocks::say(LockWord::Kind kind, const Hash& lock) {
     words_.push_back({kind, lock});

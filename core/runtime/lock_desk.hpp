@@ -19,7 +19,12 @@ namespace lightnet {
 
 /// What a place has to say about a lock, which is named by the hash of its name. Travels as bytes.
 struct LockWord {
-    enum class Kind : std::uint32_t { want, release, last = release };
+    enum class Kind : std::uint32_t {
+        want,
+        release,
+        hold,  // said to a launcher that had lost sight of the place
+        last = hold
+    };
     Kind kind = Kind::want;
     Hash lock{};
     friend bool operator==(const LockWord&, const LockWord&) = default;
@@ -59,12 +64,14 @@ protected:
 
 private:
     void say(LockWord::Kind kind, const Hash& lock);
+    void say_all();
     void speak();
 
     Fibers& fibers_;
     std::function<void(Fibers::Fiber*)> resume_;
     std::function<void(Message)> reply_;
     std::map<Hash, std::deque<Fibers::Fiber*>> waiting_;
+    std::map<Hash, std::size_t> held_;  // how often: twice when a grant came twice
     std::vector<LockWord> words_;
     std::optional<Message> attended_;
 };

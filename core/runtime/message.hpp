@@ -48,7 +48,7 @@ struct Message {
     std::uint32_t channel = 0;  // the asker's; comes back with the reply
     std::uint64_t bundle = 0;   // unique per channel
     std::uint32_t node = 0;     // index in the graph
-    std::uint32_t width = 1;    // colours per question that are wanted
+    std::uint32_t width = 1;    // colours per question that are wanted; 0: nobody waits for the reply
     std::uint64_t asker = 0;    // of an ask: name_of() the asking place; 0: the launcher
     std::variant<std::monostate, Questions<Query>, Questions<Tile>, Questions<Step>> questions;
     std::vector<Rgb> answers;

@@ -15,7 +15,7 @@ struct Step {
         go_on,    // the result of call `call` is there: `data` names it. Answered by the next Report
         shard,    // do shard `shard` of call `call`; answered by its results
         collect,  // answered by what the node has noted in the rehearsal that is call `call`
-        attend,   // answered by LockWords as soon as there are some
+        attend,   // answered by LockWords as soon as there are some; `call` 1: by all that holds now, once more
         grant,    // the lock that `data` names belongs to this place until it says otherwise
         last = grant,
     };

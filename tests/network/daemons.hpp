@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/support/process.hpp"
+#include "tests/support/slowdown.hpp"
 
 namespace lightnet::test {
 
@@ -64,9 +65,10 @@ inline std::vector<std::string> launch_words(const std::string& graph, const std
     return words;
 }
 
-inline Launch finish(Process& process, const std::filesystem::path& out) {
+inline Launch finish(Process& process, const std::filesystem::path& out,
+                     std::chrono::milliseconds patience = slowdown * std::chrono::seconds(60)) {
     Launch launch;
-    launch.code = process.wait();
+    launch.code = process.wait(patience);
     launch.said = process.output();
     if (launch.code != 0) return launch;
     launch.picture = bytes_of(out);
@@ -74,10 +76,11 @@ inline Launch finish(Process& process, const std::filesystem::path& out) {
     return launch;
 }
 
-inline Launch launch(const std::string& graph, const Folder& folder, const std::vector<std::string>& more) {
+inline Launch launch(const std::string& graph, const Folder& folder, const std::vector<std::string>& more,
+                     std::chrono::milliseconds patience = slowdown * std::chrono::seconds(60)) {
     const auto out = folder / "picture.exr";
     Process process(launch_words(graph, out, more));
-    return finish(process, out);
+    return finish(process, out, patience);
 }
 
 /// The number behind `"name": ` in a run.json.

@@ -18,6 +18,7 @@
 #include "core/runtime/job.hpp"
 #include "core/runtime/serial.hpp"
 #include "nodes/standard_nodes.hpp"
+#include "tests/support/bad_line.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/support/learner.hpp"
 #include "tests/support/process.hpp"
@@ -306,6 +307,32 @@ TEST(Prepare, LetsAHostJoinInTheMiddle) {
     cluster.finish();
 }
 
+// Cuts a line again and again, as long as it lives.
+class Scissors {
+public:
+    Scissors(test::BadLine& line, std::chrono::milliseconds pause)
+        : thread_([&line, pause](const std::stop_token& stop) {
+              for (; !stop.stop_requested(); std::this_thread::sleep_for(pause)) line.cut();
+          }) {}
+
+private:
+    std::jthread thread_;
+};
+
+TEST(Prepare, GoesOnWhenALineIsCutAgainAndAgain) {
+    const Learning learning;
+    const auto expected = learning.serial();
+    const test::Folder folder;
+    HostThread one(learning.registry, folder.file("one"), 1), two(learning.registry, folder.file("two"), 1);
+    test::BadLine line(two.endpoint());
+    const std::atomic<bool> never{false};
+    Cluster cluster(cluster_of(learning, {one.endpoint(), line.endpoint()}));
+    cluster.gather(test::slowdown * 5s, never);
+    const Scissors scissors(line, test::slowdown * 40ms);
+    EXPECT_EQ(learning.networked(cluster), expected);
+    cluster.finish();
+}
+
 // ---- locks ----------------------------------------------------------------------------------------------------------
 
 std::atomic<int> holders{0}, most_holders{0}, times_held{0};
@@ -365,6 +392,20 @@ TEST(Locks, AreHeldByOneCallInTheWholeRun) {
     cluster.gather(test::slowdown * 5s, never);
     EXPECT_EQ(rare.networked(cluster), expected);
     EXPECT_EQ(most_holders, 1);
+    cluster.finish();
+}
+
+TEST(Locks, AreGivenOnWhenALineIsCutAgainAndAgain) {
+    const Learning rare(with_rare(), rare_nodes(false));
+    const auto expected = rare.serial();
+    const test::Folder folder;
+    HostThread one(rare.registry, folder.file("one"), 2), two(rare.registry, folder.file("two"), 2);
+    test::BadLine line(two.endpoint());
+    const std::atomic<bool> never{false};
+    Cluster cluster(cluster_of(rare, {one.endpoint(), line.endpoint()}));
+    cluster.gather(test::slowdown * 5s, never);
+    const Scissors scissors(line, test::slowdown * 40ms);
+    EXPECT_EQ(rare.networked(cluster), expected) << "nobody may wait for ever";
     cluster.finish();
 }
 

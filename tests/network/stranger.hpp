@@ -6,6 +6,7 @@
 #include <utility>
 #include <zmq.hpp>
 
+#include "tests/support/slowdown.hpp"
 #include "transport/packet.hpp"
 
 namespace lightnet::test {

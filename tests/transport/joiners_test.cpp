@@ -1,0 +1,134 @@
+// Hosts that dial in at the launcher's port, and others who knock.
+#include <gmock/gmock.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+#include <zmq.hpp>
+
+#include "tests/network/stranger.hpp"
+#include "transport/cluster.hpp"
+#include "transport/joiners.hpp"
+
+namespace lightnet {
+namespace {
+
+using packet::Fields;
+using packet::Type;
+using test::Stranger;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+class JoinersTest : public ::testing::Test {
+protected:
+    // Takes in what comes, until `enough`.
+    template <class Enough>
+    bool wait_for(const Enough& enough) {
+        const auto end = std::chrono::steady_clock::now() + test::slowdown * std::chrono::seconds(5);
+        while (!enough() && std::chrono::steady_clock::now() < end) {
+            zmq::pollitem_t item{joiners.socket().handle(), 0, ZMQ_POLLIN, 0};
+            zmq::poll(&item, 1, std::chrono::milliseconds(20));
+            broken += joiners.receive(
+                {[this](const std::string& endpoint) { called.push_back(endpoint); },
+                 [this](const std::string& name, std::unique_ptr<JoinedLine> line) { lines[name] = std::move(line); },
+                 [this](const std::string& name, const std::string& why) { lost.push_back(name + ": " + why); },
+                 [] {
+                     return std::vector<HostState>{{"onyx1", "is ready", 2, 7, {}}};
+                 }});
+        }
+        return enough();
+    }
+    static packet::Packet join(const std::string& name, std::uint64_t incarnation) {
+        return packet::pack(Type::join, 0, Fields{}.set("name", name).set("incarnation", incarnation));
+    }
+
+    zmq::context_t context;
+    Joiners joiners{context, "tcp://127.0.0.1:*", 1};
+    std::vector<std::string> called, lost;
+    std::map<std::string, std::unique_ptr<JoinedLine>> lines;
+    std::uint64_t broken = 0;
+};
+
+TEST_F(JoinersTest, GiveEachHostALineUnderItsName) {
+    Stranger host(joiners.endpoint());
+    host.send(join("onyx1", 1));
+    ASSERT_TRUE(wait_for([&] { return lines.contains("onyx1"); }));
+    EXPECT_EQ(host.receive().first, Type::joined);
+    Frames frames;
+    append(frames, packet::pack(Type::hello, 1, {}));
+    EXPECT_TRUE(lines["onyx1"]->send(frames, false));
+    EXPECT_EQ(host.receive().first, Type::hello);
+    host.send(packet::pack(Type::welcome, 1, {}));
+    bool arrived = false;
+    EXPECT_TRUE(wait_for([&] { return arrived |= lines["onyx1"]->receive().has_value(); }));
+}
+
+TEST_F(JoinersTest, KnowAHostThatDialsInAgainAndSayThatItWasCut) {
+    auto host = std::make_unique<Stranger>(joiners.endpoint());
+    host->send(join("onyx1", 1));
+    ASSERT_TRUE(wait_for([&] { return lines.contains("onyx1"); }));
+    host = std::make_unique<Stranger>(joiners.endpoint());
+    host->send(join("onyx1", 1));
+    ASSERT_TRUE(wait_for([&] { return !lost.empty(); }));
+    EXPECT_THAT(lost, ElementsAre("onyx1: its connection was cut"));
+    EXPECT_EQ(lines.size(), 1u);
+}
+
+TEST_F(JoinersTest, TellTwoHostsOfOneNameApart) {
+    Stranger one(joiners.endpoint()), two(joiners.endpoint());
+    one.send(join("onyx1", 1));
+    ASSERT_TRUE(wait_for([&] { return lines.contains("onyx1"); }));
+    // Both keep in touch; so the first is not the predecessor of the second.
+    ASSERT_TRUE(wait_for([&] {
+        one.send(join("onyx1", 1));
+        two.send(join("onyx1", 2));
+        return lines.size() == 2;
+    }));
+    EXPECT_TRUE(lines.contains("onyx1-2"));
+    EXPECT_THAT(lost, IsEmpty());
+}
+
+TEST_F(JoinersTest, GiveANewProcessTheNameOfItsDeadPredecessor) {
+    auto host = std::make_unique<Stranger>(joiners.endpoint());
+    host->send(join("onyx1", 1));
+    ASSERT_TRUE(wait_for([&] { return lines.contains("onyx1"); }));
+    host = std::make_unique<Stranger>(joiners.endpoint());
+    ASSERT_TRUE(wait_for([&] {
+        host->send(join("onyx1", 2));
+        return !lost.empty();
+    }));
+    EXPECT_THAT(lost, ElementsAre("onyx1: it was started anew"));
+    EXPECT_EQ(lines.size(), 1u);
+}
+
+TEST_F(JoinersTest, CallBackWhoHasAPort) {
+    Stranger host(joiners.endpoint());
+    host.send(packet::pack(Type::join, 0, Fields{}.set("endpoint", "tcp://0.0.0.0:7777").set("incarnation", 1)));
+    ASSERT_TRUE(wait_for([&] { return !called.empty(); }));
+    EXPECT_THAT(called, ElementsAre("tcp://127.0.0.1:7777")) << "at the address from which it came";
+    EXPECT_THAT(lines, IsEmpty());
+}
+
+TEST_F(JoinersTest, TellAnyoneHowTheHostsAre) {
+    Stranger anyone(joiners.endpoint());
+    anyone.send(packet::pack(Type::status, 0, {}));
+    int looks = 0;
+    wait_for([&] { return ++looks > 5; });
+    const auto [type, fields] = anyone.receive();
+    EXPECT_EQ(type, Type::state);
+    EXPECT_EQ(fields.text("name"), "onyx1");
+    EXPECT_EQ(fields.number("progress"), 7u);
+}
+
+TEST_F(JoinersTest, CountWhatStrangersSay) {
+    Stranger anyone(joiners.endpoint());
+    anyone.send("nonsense");
+    anyone.send(packet::pack(Type::end, 1, {}));
+    anyone.send(packet::pack(Type::join, 0, Fields{}.set("name", "no incarnation")));
+    ASSERT_TRUE(wait_for([&] { return broken == 3; }));
+    EXPECT_THAT(lines, IsEmpty());
+}
+
+}  // namespace
+}  // namespace lightnet
