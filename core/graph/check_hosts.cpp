@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/graph/check_params.hpp"
+#include "core/graph/strategy.hpp"
 
 namespace lightnet {
 namespace {
@@ -36,6 +37,22 @@ private:
     std::vector<Problem>& problems_;
 };
 
+void check_strategy(const StrategyEntry& entry, const Graph& graph, const Registry& registry,
+                    const std::vector<std::string>& names, std::vector<Problem>& problems) {
+    const auto complain = [&](const std::string& what) {
+        problems.push_back({entry.where, "strategy" + (entry.node.empty() ? "" : " of " + quoted(entry.node)) + what});
+    };
+    if (!entry.node.empty()) {
+        const auto node = graph.find(entry.node);
+        const Kind* kind = node ? registry.find(graph.nodes[*node].kind) : nullptr;
+        if (!node) complain(": there is no node of that name" + suggest(entry.node, names));
+        if (kind && kind->role == Role::scene) complain(": it is a scene, which nobody asks");
+    }
+    const std::vector<std::string> known(strategy_names.begin(), strategy_names.end());
+    if (!strategy_called(entry.name))
+        complain(": there is none called " + quoted(entry.name) + suggest(entry.name, known));
+}
+
 }  // namespace
 
 std::optional<Address> address_of(std::string_view endpoint) {
@@ -52,6 +69,13 @@ std::optional<Address> address_of(std::string_view endpoint) {
     return Address{std::string(host), port};
 }
 
+bool is_joining_name(std::string_view name) {
+    return !name.empty() && name.size() <= 200 &&
+           name.find_first_not_of(
+               "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQ"
+               "RSTUVWXYZ0123456789-_.") == name.npos;
+}
+
 void check_hosts(const Hosts& hosts, const Graph& graph, const Registry& registry, std::vector<Problem>& problems) {
     std::vector<std::string> names;
     for (const auto& node : graph.nodes)
@@ -59,7 +83,8 @@ void check_hosts(const Hosts& hosts, const Graph& graph, const Registry& registr
     std::set<std::string> seen;
     for (const auto& entry : hosts.hosts) {
         const EntryCheck check(entry, problems);
-        if (!address_of(entry.endpoint)) check.complain("a host is named like tcp://host:7777");
+        if (!address_of(entry.endpoint) && !is_joining_name(entry.endpoint))
+            check.complain("a host is named like tcp://host:7777 (or, when it joins by itself, like onyx1)");
         if (!seen.insert(entry.endpoint).second) check.complain("the host stands here twice");
         if (entry.places < 0 || entry.places > most_places)
             check.complain("'places' must be 1 … " + std::to_string(most_places));
@@ -74,6 +99,7 @@ void check_hosts(const Hosts& hosts, const Graph& graph, const Registry& registr
                 check.replica(name, count);
         }
     }
+    for (const auto& entry : hosts.strategies) check_strategy(entry, graph, registry, names, problems);
 }
 
 }  // namespace lightnet

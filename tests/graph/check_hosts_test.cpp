@@ -32,10 +32,14 @@ TEST(CheckHosts, KeepsScenesOutOfIt) {
 }
 
 TEST(CheckHosts, WantsAnEndpoint) {
-    for (const char* endpoint : {"onyx1", "tcp://onyx1", "tcp://:7", "tcp://a:0", "tcp://a:70000", "tcp://a:7x",
+    for (const char* endpoint : {"onyx1:7777", "tcp://onyx1", "tcp://:7", "tcp://a:0", "tcp://a:70000", "tcp://a:7x",
                                  "udp://a:7", "tcp://a b:7", "tcp://*:7"})
         EXPECT_THAT(problems_with_hosts("place '" + std::string(endpoint) + "' {}"), HasSubstr("tcp://host:7777"))
             << endpoint;
+}
+
+TEST(CheckHosts, TakesNamesOfHostsThatJoinByThemselves) {
+    EXPECT_EQ(problems_with_hosts("place 'onyx1' {}\nplace 'slurm-12_3.a' {}"), "");
 }
 
 TEST(CheckHosts, WantsEachHostOnce) {
@@ -49,6 +53,14 @@ TEST(CheckHosts, WantsCountsThatMakeSense) {
     EXPECT_THAT(problems_with_hosts("place 'tcp://a:7' { sky = 3, places = 2 }"),
                 HasSubstr("need as many places, but it has 2"));
     EXPECT_THAT(problems_with_hosts("place 'tcp://a:7' { places = 5000 }"), HasSubstr("'places' must be 1 … 1024"));
+}
+
+TEST(CheckHosts, WantsStrategiesAndNodesThatThereAre) {
+    EXPECT_THAT(problems_with_hosts("strategy = 'afinity'"),
+                HasSubstr("hosts.lua:1: strategy: there is none called 'afinity' (did you mean 'affinity'?)"));
+    EXPECT_THAT(problems_with_hosts("strategy { sly = 'fastest' }"),
+                HasSubstr("strategy of 'sly': there is no node of that name (did you mean 'sky'?)"));
+    EXPECT_THAT(problems_with_hosts("strategy { box = 'fastest' }"), HasSubstr("it is a scene, which nobody asks"));
 }
 
 TEST(Address, IsTakenApart) {
