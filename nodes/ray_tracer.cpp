@@ -8,6 +8,7 @@
 #include "core/light/node_context.hpp"
 #include "core/light/renderer.hpp"
 #include "core/math/samples.hpp"
+#include "core/scene/direct_light.hpp"
 #include "core/scene/scene.hpp"
 
 namespace lightnet {
@@ -124,9 +125,11 @@ private:
     /// Follows one ray until no mirror or glass carries it on. Returns what shines by itself on the way.
     Rgb follow(const Look& look, Ray ray, std::optional<Hit> hit, Seen& seen) const {
         Rgb emitted, weight{1, 1, 1};
-        float squeezed = 1;  // by refraction, which is no loss: roulette must not see it
+        const Rgb* inside = nullptr;  // what the ray leads through
+        float squeezed = 1;           // by refraction, which is no loss: roulette must not see it
         for (std::uint32_t depth = 0;; ++depth) {
             if (!hit) return emitted + weight * scene_.environment(ray.direction);
+            if (inside) weight *= left_after(inside, hit->distance);
             const SurfacePoint point = scene_.surface(*hit);
             const Bsdf bsdf = scene_.bsdf(point);
             const Vec3 outgoing = -ray.direction;
@@ -149,6 +152,7 @@ private:
             const float chance = std::min(1.0f, max_component(weight) * squeezed * 10);
             if (!(samples.next() < chance)) return emitted;
             weight *= 1 / chance;
+            inside = filling(bsdf, point, outgoing, sample->incoming, inside);
             ray = {point.origin_towards(sample->incoming), sample->incoming};
             hit = scene_.intersect(ray);
         }

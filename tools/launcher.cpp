@@ -93,7 +93,7 @@ int Launcher::perform(const Options& options) const {
         case Verb::render:
             return perform_render(options);
         case Verb::scene_info:
-            print_scene_info(options.scene, out);
+            print_scene_info(options.scene, options.constants, out);
             return exit_code::done;
         case Verb::check:
             return perform_check(options);
@@ -115,7 +115,9 @@ int Launcher::perform_run(const Options& options) const {
 
 int Launcher::perform_render(Options options) const {
     auto read = std::make_shared<ReadScene>();
-    read->scene = read_scene(read->files, options.scene);
+    const bool own_graph = !options.lighting.ends_with(".lua");  // else the constants are the graph's
+    read->scene =
+        read_scene(read->files, options.scene, own_graph ? options.constants : std::map<std::string, std::string>{});
     if (!options.size) options.size = PictureSize{read->scene.film.width, read->scene.film.height};
     if (options.output.empty()) options.output = picture_of(options.scene);
     Loaded loaded = load_render(options, registry);

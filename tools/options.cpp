@@ -111,11 +111,11 @@ private:
         add_constants_option(verb);
     }
 
-    void add_constants_option(CLI::App& verb) {
+    void add_constants_option(CLI::App& verb,
+                              const char* help = "override a constant of the graph file (may be repeated)") {
         // one value each time, or it would take the graph's name as well
         verb.add_option_function<std::vector<std::string>>(
-                "-D", [this](const std::vector<std::string>& given) { add_constants(given); },
-                "override a constant of the graph file (may be repeated)")
+                "-D", [this](const std::vector<std::string>& given) { add_constants(given); }, help)
             ->type_name("NAME=VALUE")
             ->expected(1)
             ->allow_extra_args(false)
@@ -172,7 +172,7 @@ private:
             ->type_name("FILE|COLOUR");
         verb.add_option("--exposure", options_.exposure, "how many times the picture becomes twice as bright")
             ->type_name("STOPS");
-        add_constants_option(verb);
+        add_constants_option(verb, "define a variable of the scene file, or a constant of GRAPH.lua (may be repeated)");
         add_running(verb);
         verb.add_option("-o,--output", options_.output, "the picture, instead of the scene's name with .exr here")
             ->type_name("OUT.exr");
@@ -183,6 +183,7 @@ private:
         verb.require_subcommand(1);
         CLI::App& info = *verb.add_subcommand("info", "tell what is in a scene file, and what of it is not supported");
         info.add_option("FILE", options_.scene, "the scene file")->required();
+        add_constants_option(info, "define a variable of the scene file (may be repeated)");
     }
 
     // What all verbs that make a picture take.

@@ -73,9 +73,12 @@ RenderGraph render_graph(const Options& options) {
         {"ao", {"AmbientOcclusion"}}, {"direct", {"DirectLighting"}}, {"path", {"DirectLighting", "PathTracing"}}};
     RenderGraph result;
     if (const auto kind = kinds.find(options.lighting); kind != kinds.end()) {
-        if (!options.constants.empty())
-            throw UserError({"-D", 0}, "only a graph file has constants: write --lighting GRAPH.lua");
         result.graph = own_graph(options, kind->second);
+        if (!options.constants.empty()) {
+            Table constants;
+            for (const auto& [name, value] : options.constants) constants.named[name] = {value};
+            result.graph.nodes.front().params["constants"] = {std::move(constants)};
+        }
     } else if (!options.lighting.ends_with(".lua")) {
         throw UserError({"--lighting", 0}, "must be path, direct, ao or a graph file (.lua), not '" + options.lighting +
                                                "'" + did_you_mean(options.lighting, {"path", "direct", "ao"}));

@@ -185,7 +185,7 @@ int Run::perform() {
         book_.phase("load");
         const auto read = request_.read ? request_.read : std::make_shared<ReadScene>();
         DiskFiles& files = read->files;
-        if (!request_.read) read->scene = read_scene(files, request_.scene);
+        if (!request_.read) read->scene = read_scene(files, request_.scene, scene_constants(request_.graph, registry_));
         SceneData scene = std::move(read->scene);
         override_scene(request_.graph, registry_, files, scene);
         for (const auto& warning : scene.warnings) book_.warn(to_string(warning));

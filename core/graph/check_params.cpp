@@ -144,6 +144,12 @@ private:
         if (!given) return;
         if (!given->list.empty()) complain_(quoted(param_.name) + " must be " + std::string(wanted(param_.type)));
         const Complain inside = [&](const std::string& what) { complain_(quoted(param_.name) + ": " + what); };
+        if (param_.fields.empty()) {
+            for (const auto& [name, entry] : given->named)
+                if (std::holds_alternative<Table>(entry.data) || std::holds_alternative<NodeRef>(entry.data))
+                    inside(quoted(name) + " must be a number, a text or a flag, not " + std::string(type_name(entry)));
+            return;
+        }
         std::vector<std::string> names;
         for (const auto& field : param_.fields) names.push_back(field.name);
         for (const auto& [name, entry] : given->named) {

@@ -50,7 +50,7 @@ struct Param {
     bool optional = false;                  // may be absent without a default
     bool per_input = false;                 // for numbers: one for each input of the node, or none at all
     std::size_t count = 0;                  // for numbers: how many; 0: any number
-    std::vector<Param> fields = {};         // of a table
+    std::vector<Param> fields = {};         // of a table; none: any names, with numbers, texts or flags
 };
 
 /// One kind of node.
