@@ -10,11 +10,11 @@ namespace lightnet::test {
 namespace {
 
 #if defined(LIGHTNET_LARGE)
-const std::vector<std::string> small{"--size", "160x120", "--samples", "40", "--seed", "7", "--progress", "none"};
+const std::vector<std::string> small{"--size", "160x120", "--samples", "40", "--seed", "7", "--progress", "none", "--cache", "none"};
 const std::vector<std::string> threads_tried{"1", "2", "3", "4", "8"}, tiles_tried{"64", "32", "11", "3"};
 const std::vector<std::string> daemons_tried{"1", "2", "3", "4"}, bundles_tried{"4096", "512", "61", "37", "8"};
 #else
-const std::vector<std::string> small{"--size", "64x64", "--samples", "4", "--progress", "none"};
+const std::vector<std::string> small{"--size", "64x64", "--samples", "4", "--progress", "none", "--cache", "none"};
 const std::vector<std::string> threads_tried{"1", "2", "3"}, tiles_tried{"32", "11"};
 const std::vector<std::string> daemons_tried{"1", "2", "3"}, bundles_tried{"512", "37", "1"};
 #endif
