@@ -29,6 +29,7 @@ RunRequest request_of(const Options& options, const Registry& registry, Loaded l
     request.progress = options.progress;
     request.listen = options.listen;
     request.tuning = options.tuning;
+    request.check_wrapped = options.check_wrapped;
     request.threads = options.threads.value_or(1);
     request.local_workers = options.local_workers.value_or(0);
     if (!options.hosts.empty() || !options.listen.empty())

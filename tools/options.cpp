@@ -204,6 +204,8 @@ private:
             ->type_name("tcp://HOST:PORT")
             ->excludes(threads);
         verb.add_flag("--insecure", options_.insecure, "listen beyond this machine, on a network that is yours alone");
+        verb.add_flag("--check-wrapped", options_.check_wrapped,
+                      "ask wrapped classes some questions twice, to find those whose history changes answers");
         add_tuning(verb);
     }
 
@@ -220,6 +222,7 @@ private:
             ->type_name("FOLDER")
             ->group("Tuning");
         add("--spare-fibers", tuning.spare_fibers, 0, 4096, "fibers of a place beside one per node");
+        add("--side-fibers", tuning.side_fibers, 0, 8192, "fibers of a place for questions that wrapped code asks");
     }
 
     void add_check() {

@@ -41,6 +41,7 @@ struct Options {
     std::string listen;     // endpoint where hosts may join
     bool insecure = false;  // even beyond this machine
     Tuning tuning;
+    bool check_wrapped = false;
     std::string kind;  // for describe; "": all
 };
 

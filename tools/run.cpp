@@ -13,6 +13,7 @@
 
 #include "core/build_info.hpp"
 #include "core/error.hpp"
+#include "core/graph/check.hpp"
 #include "core/graph/graph_film.hpp"
 #include "core/hash.hpp"
 #include "core/runtime/conductor.hpp"
@@ -72,7 +73,7 @@ void check_output(const std::string& output) {
     if (::access(folder.c_str(), W_OK) != 0) throw UserError({output, 0}, "the folder can't be written to");
 }
 
-RunReport first_page(const RunRequest& request, const FilmFormat& film) {
+RunReport first_page(const RunRequest& request, const Registry& registry, const FilmFormat& film) {
     RunReport report;
     report.graph = request.graph.file;
     report.graph_hash = to_hex(content_hash(to_json(request.graph)));
@@ -83,6 +84,8 @@ RunReport first_page(const RunRequest& request, const FilmFormat& film) {
     report.settings["seed"] = std::to_string(request.seed);
     report.settings["tile"] = std::to_string(request.tuning.tile);
     report.settings["bundle"] = std::to_string(request.tuning.bundle);
+    for (const auto& warning : irreproducible_nodes(request.graph, registry))  // said already, when it was checked
+        report.warnings.push_back(to_string(warning));
     return report;
 }
 
@@ -96,7 +99,7 @@ public:
           image_(renderer_of(request.graph, registry)),
           format_(format()),
           tiles_(tiles_of(format_.width, format_.height, request.tuning.tile, format_.samples)),
-          book_(format_, request.progress, tiles_.size(), first_page(request, format_)) {}
+          book_(format_, request.progress, tiles_.size(), first_page(request, registry, format_)) {}
 
     int perform();
 
@@ -145,6 +148,8 @@ Job Run::make_job(DiskFiles& files) const {
     job.height = format_.height;
     job.rules.bundles.questions = request_.tuning.bundle;
     job.rules.credit.bundles = request_.tuning.credit;
+    job.rules.side_fibers = request_.tuning.side_fibers;
+    job.checking = request_.check_wrapped;
     job.rules.spare_fibers = request_.tuning.spare_fibers;
     return job;
 }
@@ -205,7 +210,7 @@ void Run::render_serially(SceneData scene) {
     });
     book_.use(Plan{{PlaceAt{}}, std::vector<std::vector<std::uint32_t>>(job_.graph.nodes.size(), {0})}, job_.graph);
     try {
-        run.prepare(made_from(job_), cache());
+        run.prepare(made_from(job_), cache(), [this](const std::string& text) { book_.say(text); });
         book_.phase("render");
         for (const auto& tile : tiles_) {
             if (stopped()) break;
@@ -269,6 +274,7 @@ void Run::hand_out(Carrier& carrier, const Plan& plan, const LookAround& look_ar
     options.width = static_cast<std::uint32_t>(format_.layers.size());
     options.made_from = made_from(job_);
     options.cache = cache();
+    options.say = [this](const std::string& text) { book_.say(text); };
     Conductor conductor(std::move(options), carrier);
     conductor.propose(plan);
     if (!prepare(conductor, look_around)) return;
@@ -290,6 +296,11 @@ void Run::hand_out(Carrier& carrier, const Plan& plan, const LookAround& look_ar
         while (master.outstanding() > 0 && Clock::now() < end && !signals_.interrupted) master.work(50ms);
     }
     book_.count(master.counters());
+    if (const auto& aside = master.set_aside_tiles(); !aside.empty()) {
+        std::string all = "the picture lacks " + std::to_string(aside.size()) + " of its tiles, and is not written:";
+        for (const auto& tile : aside) all += "\n  " + tile;
+        throw Error("node '" + job_.graph.nodes[image_].name + "'", all);
+    }
 }
 
 void Run::render_on_hosts(const DiskFiles& files) {

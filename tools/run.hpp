@@ -19,11 +19,12 @@ enum class Mode { serial, threads, hosts, local_workers };
 
 /// Sizes that decide how fast a run is, and never what it computes.
 struct Tuning {
-    std::uint32_t tile = 32;          // pixels along a side of a tile
-    std::uint32_t bundle = 512;       // questions in a full bundle
-    std::uint32_t credit = 8;         // bundles under way to one place, for each node that is asked
-    std::string cache;                // folder for what nodes prepare; "": the usual one, "none": nowhere
-    std::uint32_t spare_fibers = 16;  // of a place, beside the one that each node has for itself
+    std::uint32_t tile = 32;           // pixels along a side of a tile
+    std::uint32_t bundle = 512;        // questions in a full bundle
+    std::uint32_t credit = 8;          // bundles under way to one place, for each node that is asked
+    std::string cache;                 // folder for what nodes prepare; "": the usual one, "none": nowhere
+    std::uint32_t spare_fibers = 16;   // of a place, beside the one that each node has for itself
+    std::uint32_t side_fibers = 2048;  // of a place, for questions that wrapped code waits for one by one
 };
 
 /// A scene that has been read before its run, with the files that it took. As its file says: nothing is overridden yet.
@@ -45,6 +46,7 @@ struct RunRequest {
     std::shared_ptr<ReadScene> read;  // it, read already; the run takes it away. None: still to be read
     std::string output;               // "x.exr", as seen from here
     std::uint64_t seed = 0;
+    bool check_wrapped = false;  // ask wrapped classes twice, to find those with a memory
     ProgressMode progress = ProgressMode::automatic;
 };
 

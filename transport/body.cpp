@@ -91,6 +91,12 @@ std::optional<std::span<const std::byte>> BodyReader::bytes(std::string_view nam
     return std::nullopt;
 }
 
+std::optional<std::uint64_t> BodyReader::number(std::string_view name) const {
+    for (const auto& entry : tree_->entries())
+        if (name_of(entry) == name && entry.val.type == msgpack::type::POSITIVE_INTEGER) return entry.val.via.u64;
+    return std::nullopt;
+}
+
 std::vector<std::pair<std::string_view, std::uint64_t>> BodyReader::all_numbers() const {
     std::vector<std::pair<std::string_view, std::uint64_t>> all;
     for (const auto& entry : tree_->entries())

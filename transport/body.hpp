@@ -36,6 +36,7 @@ public:
     /// False: it is no such map.
     bool good() const { return good_; }
     std::optional<std::span<const std::byte>> bytes(std::string_view name) const;
+    std::optional<std::uint64_t> number(std::string_view name) const;
     std::vector<std::pair<std::string_view, std::uint64_t>> all_numbers() const;
     std::vector<std::pair<std::string_view, std::span<const std::byte>>> all_bytes() const;
 

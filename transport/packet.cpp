@@ -1,7 +1,5 @@
 #include "transport/packet.hpp"
 
-#include <array>
-#include <bit>
 #include <cstring>
 #include <memory>
 #include <type_traits>
@@ -9,11 +7,10 @@
 #include <xxhash.h>
 
 #include "transport/body.hpp"
+#include "transport/columns.hpp"
 
 namespace lightnet::packet {
 namespace {
-
-static_assert(std::endian::native == std::endian::little, "columns are little-endian, and copied as they are");
 
 using Buffer = std::vector<std::byte>;
 using View = std::span<const std::byte>;
@@ -78,89 +75,6 @@ Buffer write_header(const Header& header, View body) {
 
 // ---- body -----------------------------------------------------------------------------------------------------------
 
-// One column of a bundle: `size` bytes at `offset` of each question.
-struct Column {
-    const char* name;
-    std::size_t offset, size;
-};
-
-template <class Question>
-constexpr std::array<Column, 0> columns{};
-
-template <>
-constexpr std::array columns<Query>{Column{"stream", offsetof(Query, stream), 8},
-                                    Column{"instance", offsetof(Query, instance), 4},
-                                    Column{"geometry", offsetof(Query, geometry), 4},
-                                    Column{"primitive", offsetof(Query, primitive), 4},
-                                    Column{"uv", offsetof(Query, u), 8},
-                                    Column{"outgoing", offsetof(Query, outgoing), 12},
-                                    Column{"sample", offsetof(Query, sample), 4},
-                                    Column{"flags", offsetof(Query, lobes), 4}};
-
-template <>
-constexpr std::array columns<Tile>{Column{"x", offsetof(Tile, x), 4},
-                                   Column{"y", offsetof(Tile, y), 4},
-                                   Column{"width", offsetof(Tile, width), 4},
-                                   Column{"height", offsetof(Tile, height), 4},
-                                   Column{"first", offsetof(Tile, first_sample), 4},
-                                   Column{"samples", offsetof(Tile, samples), 4},
-                                   Column{"stride", offsetof(Tile, stride), 4}};
-
-template <>
-constexpr std::array columns<Step>{Column{"kind", offsetof(Step, kind), 4}, Column{"call", offsetof(Step, call), 4},
-                                   Column{"shard", offsetof(Step, shard), 4}, Column{"data", offsetof(Step, data), 32}};
-
-// A loop whose copies have a constant size.
-template <std::size_t Size>
-void copy_strided(std::byte* to, std::size_t to_step, const std::byte* from, std::size_t from_step, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) std::memcpy(to + i * to_step, from + i * from_step, Size);
-}
-
-void copy_column(std::size_t size, std::byte* to, std::size_t to_step, const std::byte* from, std::size_t from_step,
-                 std::size_t count) {
-    switch (size) {
-        case 4:
-            return copy_strided<4>(to, to_step, from, from_step, count);
-        case 8:
-            return copy_strided<8>(to, to_step, from, from_step, count);
-        case 12:
-            return copy_strided<12>(to, to_step, from, from_step, count);
-        default:
-            return copy_strided<32>(to, to_step, from, from_step, count);
-    }
-}
-
-template <class Question>
-void pack_columns(const std::vector<Question>& questions, Buffer& body) {
-    body.reserve(questions.size() * sizeof(Question) + 256);
-    BodyWriter writer(body, columns<Question>.size());
-    for (const auto& column : columns<Question>)
-        copy_column(column.size, writer.room(column.name, questions.size() * column.size).data(), column.size,
-                    reinterpret_cast<const std::byte*>(questions.data()) + column.offset, sizeof(Question),
-                    questions.size());
-}
-
-template <class Question>
-std::optional<Questions<Question>> unpack_columns(const Header& header, View body) {
-    if (header.count == 0 || header.count > most_questions || body.size() > most_bytes) return std::nullopt;
-    const BodyReader map(body);
-    if (!map.good()) return std::nullopt;
-    // Every column is there and has its size: only then room is made for the questions.
-    std::array<View, columns<Question>.size()> found;
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        const auto bytes = map.bytes(columns<Question>[i].name);
-        if (!bytes || bytes->size() != header.count * columns<Question>[i].size) return std::nullopt;
-        found[i] = *bytes;
-    }
-    auto questions = std::make_shared<std::vector<Question>>(header.count);
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        const auto& column = columns<Question>[i];
-        copy_column(column.size, reinterpret_cast<std::byte*>(questions->data()) + column.offset, sizeof(Question),
-                    found[i].data(), column.size, header.count);
-    }
-    return questions;
-}
-
 bool sane(const Tile& tile) {
     constexpr std::uint32_t most = 1 << 16;
     return tile.width > 0 && tile.height > 0 && tile.pixels() <= most && tile.x < most && tile.y < most &&
@@ -173,7 +87,9 @@ bool sane(const Query&) { return true; }
 
 template <class Question>
 bool take_questions(const Header& header, View body, Message& message) {
-    auto questions = unpack_columns<Question>(header, body);
+    message.load = {};
+    message.asker = (std::uint64_t{header.service_ns} << 32) | header.fill;
+    auto questions = unpack_columns<Question>(header.count, body);
     if (!questions) return false;
     for (const auto& question : **questions)
         if (!sane(question)) return false;
@@ -245,6 +161,8 @@ Packet pack(const Message& message, std::uint32_t place) {
     Buffer body;
     const auto ask = [&](Type type, const auto& questions) {
         header.type = type;
+        header.fill = static_cast<std::uint32_t>(message.asker);
+        header.service_ns = static_cast<std::uint32_t>(message.asker >> 32);
         header.count = static_cast<std::uint32_t>(questions->size());
         pack_columns(*questions, body);
     };

@@ -1,8 +1,8 @@
 // The protocol, on one page. ROUTER answers, DEALER asks. On the wire a packet is two frames, behind the route:
 //
 //   header   64 bytes, little-endian, in the order of the members of Header
-//   body     a msgpack map. Asks and replies: columns, each a `bin` with one entry per question. Control: small maps of
-//            numbers and texts; unknown keys are skipped.
+//   body     a msgpack map. Asks: columns, see columns.hpp. Replies: one column, a `bin` of colours. Control: small maps
+//            of numbers and texts; unknown keys are skipped.
 //
 // Every size is checked before anything is allocated, and a packet that breaks a rule is dropped and counted.
 // Version 1. A peer of another version is refused at HELLO, with a text that names both.
@@ -19,13 +19,13 @@
 #include <vector>
 
 #include "core/runtime/message.hpp"
+#include "transport/columns.hpp"
 
 namespace lightnet::packet {
 
 inline constexpr std::uint32_t magic = 0x54454e4c;  // "LNET"
 inline constexpr std::uint16_t version = 1;
 inline constexpr std::size_t header_size = 64;
-inline constexpr std::size_t most_questions = 1 << 16;  // in one bundle
 inline constexpr std::size_t most_bytes = 64 << 20;     // in one body
 
 enum class Type : std::uint8_t {
@@ -70,7 +70,7 @@ struct Header {
     std::uint32_t place = 0;       // of the host
     std::uint32_t width = 0;       // colours per question
     std::uint32_t count = 0;       // questions, or colours of an answer
-    std::uint32_t fill = 0;        // questions that wait at the answerer
+    std::uint32_t fill = 0;        // questions that wait at the answerer; in an ask, with the next: who asks
     std::uint32_t service_ns = 0;  // per question
 };
 

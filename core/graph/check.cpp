@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 #include <map>
 #include <tuple>
 
@@ -185,6 +186,16 @@ std::vector<Problem> unused_nodes(const Graph& graph, const Registry& registry) 
 
 }  // namespace
 
+std::vector<Problem> irreproducible_nodes(const Graph& graph, const Registry& registry) {
+    std::vector<Problem> warnings;
+    for (const auto& node : graph.nodes)
+        if (const Kind* kind = registry.find(node.kind); kind && !kind->reproducible)
+            warnings.push_back({node.where, node.kind + " " + quoted(node.name) +
+                                                ": draws random numbers that can't be seeded, so another run gives "
+                                                "other bytes"});
+    return warnings;
+}
+
 void sort_by_line(std::vector<Problem>& problems, const std::string& first_file) {
     const auto key = [&](const Problem& problem) {
         return std::tuple(problem.where.file != first_file, problem.where.file, problem.where.line);
@@ -199,6 +210,7 @@ Examined examine(const Graph& graph, const Registry& registry, const Hosts& host
     sort_by_line(found.problems, graph.file);
     if (!found.problems.empty()) return found;
     found.warnings = unused_nodes(graph, registry);
+    std::ranges::move(irreproducible_nodes(graph, registry), std::back_inserter(found.warnings));
     PathReport paths = report_paths(found.graph, registry);
     found.warnings.insert(found.warnings.end(), paths.doubles.begin(), paths.doubles.end());
     sort_by_line(found.warnings, graph.file);

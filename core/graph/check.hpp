@@ -15,8 +15,8 @@ namespace lightnet {
 struct Examined {
     Graph graph;                    // with defaults filled in
     std::vector<Problem> problems;  // all of them, in the order of the files' lines; empty: the graph is sound
-    std::vector<Problem> warnings;  // what works, but is probably not meant: nodes that the picture doesn't need, light
-                                    // that is counted twice
+    std::vector<Problem> warnings;  // what works, but is probably not meant: nodes that the picture doesn't need, or
+                                    // whose bytes are others each time, light that is counted twice
     std::vector<Problem> notes;     // what is often meant, and good to know: light that no node counts
 };
 
@@ -28,6 +28,9 @@ Examined examine(const Graph& graph, const Registry& registry, const Hosts& host
 /// The graph with defaults filled in. Throws UserError that names *all* problems of examine(), each with file, line,
 /// the node's name and a suggestion.
 Graph check(const Graph& graph, const Registry& registry, const Hosts& hosts = {});
+
+/// Warnings of nodes whose kind draws random numbers that nobody can seed.
+std::vector<Problem> irreproducible_nodes(const Graph& graph, const Registry& registry);
 
 /// Problems of the graph's file first, then of other files, each in the order of lines.
 void sort_by_line(std::vector<Problem>& problems, const std::string& first_file);

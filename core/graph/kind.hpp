@@ -63,6 +63,9 @@ struct Kind {
     bool prepares = false;  // learns something before the first question: LightOp::prepare()
     bool locks = false;     // holds named locks: NodeContext::locks()
     bool linear = false;    // answers with a weighted sum of its inputs: layers pass through
+    bool merges = false;    // of a renderer: what comes from its inputs can't be told apart, its picture is one layer
+    bool side_by_side = false;  // wants all questions of a call at once, to have them wait at the same time
+    bool reproducible = true;   // false: draws random numbers that nobody seeds
     /// Which light paths a node (defaults filled in) counts by itself, as sets for PathSet::parse(): from the light to
     /// the point asked about, whose own scattering is the last letter. An empty list: what it answers is no light.
     std::function<std::vector<std::string>(const Node&)> paths = {};

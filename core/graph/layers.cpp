@@ -51,7 +51,10 @@ Layers layers_of(const Graph& graph, const Registry& registry) {
     const std::size_t renderer = renderer_of(graph, registry);
     Terminals terminals(graph, registry);
     Layers layers{{"emission"}, {}};
-    for (const std::size_t terminal : terminals.below(renderer)) layers.film.push_back(graph.nodes[terminal].name);
+    if (registry.find(graph.nodes[renderer].kind)->merges)
+        layers.film = {graph.nodes[renderer].name};
+    else
+        for (const std::size_t terminal : terminals.below(renderer)) layers.film.push_back(graph.nodes[terminal].name);
     layers.of_node = terminals.take();
     // whoever is on no additive path answers with one colour of its own
     for (std::size_t node = 0; node < graph.nodes.size(); ++node) {

@@ -1,5 +1,6 @@
 #include "core/light/inputs.hpp"
 
+#include <cassert>
 #include <utility>
 
 namespace lightnet {
@@ -49,6 +50,13 @@ Part ask(const Inputs& inputs, std::size_t index, std::span<const Query> questio
     Part part = empty_part(inputs, index, questions.size());
     Asking(*part.input, questions, part.answers).finish();
     return part;
+}
+
+Rgb ask_one(const Input& input, const Query& question) {
+    assert(input.width() == 1 && "an input with layers is asked with room for all of them");
+    Rgb answer;
+    if (const auto ticket = input.port->begin({&question, 1}, {&answer, 1})) input.port->finish(ticket);
+    return answer;
 }
 
 void add(const Part& part, std::span<Rgb> answers, float weight) {

@@ -53,6 +53,9 @@ std::vector<Part> ask_all(const Inputs& inputs, std::span<const Query> questions
 /// Asks one input.
 Part ask(const Inputs& inputs, std::size_t index, std::span<const Query> questions);
 
+/// Asks one input one question. No colour of the answer is kept apart: only for an input of one colour.
+Rgb ask_one(const Input& input, const Query& question);
+
 /// answers += weight × part, each colour into its own layer.
 void add(const Part& part, std::span<Rgb> answers, float weight = 1);
 

@@ -27,6 +27,11 @@ NodeContext::NodeContext(const Node& node, Inputs inputs, const Scene& scene, st
     if (!own_.locks) own_.locks = &no_locks;
 }
 
+void NodeContext::each(std::size_t count, std::size_t at_once, const SideBySide::Work& work) const {
+    if (own_.side_by_side) return own_.side_by_side->each(node_.name.c_str(), count, at_once, work);
+    for (std::size_t piece = 0; piece < count; ++piece) work(piece);
+}
+
 const Value& NodeContext::value(const std::string& param) const {
     const auto found = node_.params.find(param);
     if (found == node_.params.end())

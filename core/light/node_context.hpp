@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/graph/graph.hpp"
 #include "core/light/inputs.hpp"
+#include "core/light/side_by_side.hpp"
 #include "core/math/random.hpp"
 
 namespace lightnet {
@@ -16,15 +18,20 @@ class Rehearsal;
 class Scene;
 
 /// Handed to a node's constructor. Parameters have passed the schema of the node's kind and defaults are filled in,
-/// so reading one that the schema doesn't name is a bug of the node.
+/// so reading one that the schema doesn't name is a bug of the node. A node may keep a copy of it.
 class NodeContext {
 public:
-    /// What a place gives each node beside its inputs. Null: a rehearsal that is never on, locks that are always free.
+    /// What a place gives each node beside its inputs. Null: a rehearsal that is never on, locks that are always free,
+    /// one piece of work after the other.
     struct Own {
         Rehearsal* rehearsal = nullptr;
         Locks* locks = nullptr;
+        SideBySide* side_by_side = nullptr;
+        bool checking = false;  // is this a run that looks for wrapped classes with a memory?
     };
-    NodeContext(const Node& node, Inputs inputs, const Scene& scene, std::uint64_t seed, Own own = {nullptr, nullptr});
+    NodeContext(const Node& node, Inputs inputs, const Scene& scene, std::uint64_t seed)
+        : NodeContext(node, std::move(inputs), scene, seed, Own{}) {}
+    NodeContext(const Node& node, Inputs inputs, const Scene& scene, std::uint64_t seed, Own own);
 
     const std::string& name() const { return node_.name; }
     /// The node's own key: derive streams as child(query.stream, here.key(), i).
@@ -36,6 +43,11 @@ public:
     Rehearsal& rehearsal() const { return *own_.rehearsal; }
     /// For nodes whose kind says that it locks. Lives as long as the node.
     Locks& locks() const { return *own_.locks; }
+
+    bool checking() const { return own_.checking; }
+
+    /// Calls `work` for each of `count` pieces, one after the other or side by side: see SideBySide. From light() only.
+    void each(std::size_t count, std::size_t at_once, const SideBySide::Work& work) const;
 
     double number(const std::string& param) const;
     std::int64_t integer(const std::string& param) const;

@@ -55,7 +55,7 @@ std::size_t Network::width_of(std::size_t node) const {
 Inputs Assembly::inputs_of(std::size_t node) {
     const auto& of_node = network_.layers.of_node;
     const bool image = network_.kind_of(node).role == Role::image;
-    const bool additive = image || of_node[node] != Terminals{node};
+    const bool additive = image ? !network_.kind_of(node).merges : of_node[node] != Terminals{node};
     std::vector<Input> inputs;
     for (const auto asked : network_.graph.inputs_of(node)) {
         Input input;
@@ -71,8 +71,7 @@ Inputs Assembly::inputs_of(std::size_t node) {
 
 const LightOp& Assembly::light(std::size_t node) {
     auto& light = lights_[node];
-    if (!light)
-        light = made(network_, node, inputs_of(node), {&rehearsals_[node], &locks_}, network_.kind_of(node).make_light);
+    if (!light) light = made(network_, node, inputs_of(node), own_of(node), network_.kind_of(node).make_light);
     return *light;
 }
 
@@ -88,9 +87,7 @@ void Assembly::prepare(std::size_t node, Services& services) {
 
 const Renderer& Assembly::renderer(std::size_t node) {
     auto& renderer = renderers_[node];
-    if (!renderer)
-        renderer =
-            made(network_, node, inputs_of(node), {&rehearsals_[node], &locks_}, network_.kind_of(node).make_renderer);
+    if (!renderer) renderer = made(network_, node, inputs_of(node), own_of(node), network_.kind_of(node).make_renderer);
     return *renderer;
 }
 

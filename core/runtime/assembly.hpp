@@ -13,6 +13,7 @@
 #include "core/light/inputs.hpp"
 #include "core/light/light_op.hpp"
 #include "core/light/locks.hpp"
+#include "core/light/node_context.hpp"
 #include "core/light/rehearsal.hpp"
 #include "core/light/renderer.hpp"
 #include "core/runtime/call_port.hpp"
@@ -31,6 +32,7 @@ struct Network {
     Layers layers = layers_of(graph, registry);
     std::shared_ptr<SharedValues> shared = std::make_shared<SharedValues>();
     std::function<Bytes(const Hash&)> results = {};  // of preparing, that came by themselves; called from any place
+    bool checking = false;                           // wrapped classes are asked twice, to find those with a memory
 
     const Kind& kind_of(std::size_t node) const { return *registry.find(graph.nodes[node].kind); }
     /// Colours per answer when nothing is added up.
@@ -44,23 +46,31 @@ public:
     /// outlive the assembly.
     using PortTo = std::function<Port*(std::size_t node, std::size_t width)>;
 
-    /// `locks` are those of the place.
-    Assembly(const Network& network, PortTo port_to, Locks& locks)
-        : network_(network), port_to_(std::move(port_to)), locks_(locks) {}
+    /// `locks` are those of the place. `side_by_side` serves the nodes that have many small things to wait for; none:
+    /// one after the other.
+    Assembly(const Network& network, PortTo port_to, Locks& locks, SideBySide* side_by_side = nullptr)
+        : network_(network), port_to_(std::move(port_to)), locks_(locks), side_by_side_(side_by_side) {}
 
     const LightOp& light(std::size_t node);
     /// Has the node prepare itself.
     void prepare(std::size_t node, Services& services);
     Rehearsal& rehearsal(std::size_t node) { return rehearsals_[node]; }
-    Called called(std::size_t node) { return {light(node), network_.graph.nodes[node].name, network_.width_of(node)}; }
+    Called called(std::size_t node) {
+        return {light(node), network_.graph.nodes[node].name, network_.width_of(node),
+                network_.kind_of(node).side_by_side};
+    }
     const Renderer& renderer(std::size_t node);
 
 private:
     Inputs inputs_of(std::size_t node);
+    NodeContext::Own own_of(std::size_t node) {
+        return {&rehearsals_[node], &locks_, side_by_side_, network_.checking};
+    }
 
     const Network& network_;
     PortTo port_to_;
     Locks& locks_;
+    SideBySide* side_by_side_;
     std::vector<std::unique_ptr<Port>> guarded_;
     std::map<std::size_t, Rehearsal> rehearsals_;
     std::map<std::size_t, std::unique_ptr<LightOp>> lights_;

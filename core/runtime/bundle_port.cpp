@@ -2,26 +2,65 @@
 
 #include <algorithm>
 #include <cassert>
-#include <memory>
 #include <utility>
 
 #include "core/error.hpp"
 
 namespace lightnet {
+namespace {
+
+// Tickets and numbers of bundles: the slot + 1 below, how often it had been used before above.
+constexpr std::uint64_t number_of(std::uint32_t slot, std::uint32_t uses) {
+    return (std::uint64_t{uses} << 32) | (slot + 1);
+}
+constexpr std::uint32_t slot_of(std::uint64_t number) { return static_cast<std::uint32_t>(number) - 1; }
+constexpr std::uint32_t uses_of(std::uint64_t number) { return static_cast<std::uint32_t>(number >> 32); }
+
+}  // namespace
 
 Port::Ticket BundlePort::begin(std::span<const Query> questions, std::span<Rgb> answers) {
     assert(answers.size() == questions.size() * width_ && "room for every answer is reserved by the asker");
-    const Ticket ticket = next_ticket_++;
-    const auto now = Clock::now();
-    asks_[ticket] = {questions, answers, 0, questions.size(), now, nullptr, {}};
+    if (closed_.empty()) {
+        closed_.push_back(static_cast<std::uint32_t>(asks_.size()));
+        asks_.emplace_back();
+    }
+    const std::uint32_t slot = closed_.back();
+    closed_.pop_back();
+    auto& ask = asks_[slot];
+    ask.open = true;
+    ask.questions = questions, ask.answers = answers;
+    ask.bundled = 0, ask.unanswered = questions.size();
+    const Ticket ticket = number_of(slot, ask.uses);
+    if (waiting_ == 0) oldest_ = Clock::now();
     unbundled_.push_back(ticket);
     waiting_ += questions.size();
-    flush(now, false);
+    if (waiting_ >= rules_.questions) flush(Clock::now(), false);
     return ticket;
 }
 
+BundlePort::Ask* BundlePort::find(Ticket ticket) {
+    auto& ask = asks_[slot_of(ticket)];
+    return ask.open && ask.uses == uses_of(ticket) ? &ask : nullptr;
+}
+
+void BundlePort::close(Ticket ticket) {
+    auto& ask = asks_[slot_of(ticket)];
+    ask.open = false;
+    ask.waiting = nullptr;
+    ask.error.clear();
+    ++ask.uses;
+    closed_.push_back(slot_of(ticket));
+}
+
+void BundlePort::abandon(Ticket ticket) noexcept {
+    if (auto* ask = find(ticket)) {
+        waiting_ -= ask->questions.size() - ask->bundled;
+        close(ticket);
+    }
+}
+
 void BundlePort::finish(Ticket ticket) {
-    auto& ask = asks_.at(ticket);  // stays in place: the map does not move its elements
+    auto& ask = *find(ticket);
     try {
         while (ask.unanswered > 0 && ask.error.empty()) {
             ask.waiting = fibers_.current();
@@ -29,29 +68,31 @@ void BundlePort::finish(Ticket ticket) {
             fibers_.park();
         }
     } catch (...) {
-        asks_.erase(ticket);
+        abandon(ticket);
         throw;
     }
+    if (ask.error.empty()) return close(ticket);
     const std::string error = std::move(ask.error);
-    asks_.erase(ticket);
-    if (!error.empty()) throw Error(error);
+    abandon(ticket);
+    throw NodeError(error);
+}
+
+// Who waits long for an answer anyway loses little by waiting for company first.
+std::chrono::nanoseconds BundlePort::patience() const {
+    return std::clamp<std::chrono::nanoseconds>(answer_time_ / 2, rules_.oldest, 16 * rules_.oldest);
 }
 
 bool BundlePort::due(Clock::time_point now, bool idle) {
-    while (!unbundled_.empty() && !asks_.contains(unbundled_.front())) unbundled_.pop_front();  // given up meanwhile
-    if (unbundled_.empty()) {
-        waiting_ = 0;
-        return false;
-    }
+    if (waiting_ == 0) return false;
     if (waiting_ >= rules_.questions) return true;
-    if (now - asks_.at(unbundled_.front()).begun >= rules_.oldest) return true;
+    if (now - oldest_ >= patience()) return true;
     return idle && replicas_.bundles_outstanding() < rules_.eager * replicas_.size();
 }
 
 bool BundlePort::flush(Clock::time_point now, bool idle) {
-    bool sent = false;
-    while (replicas_.has_credit() && (!again_.empty() || due(now, idle))) {
-        if (again_.empty()) again_.push_back(make_bundle());
+    bool sent = (idle || replicas_.has_waiting()) && replicas_.tick();
+    while ((!again_.empty() || due(now, idle)) && replicas_.has_credit()) {
+        if (again_.empty()) again_.push_back(make_bundle(now));
         if (!replicas_.send(again_.front())) break;
         again_.pop_front();
         sent = true;
@@ -59,65 +100,108 @@ bool BundlePort::flush(Clock::time_point now, bool idle) {
     return sent;
 }
 
-Bundle<Query> BundlePort::make_bundle() {
-    auto questions = std::make_shared<std::vector<Query>>();
-    questions->reserve(std::min(waiting_, rules_.questions));
-    const std::uint64_t number = next_bundle_++;
-    auto& pieces = pieces_[number];
-    while (!unbundled_.empty() && questions->size() < rules_.questions) {
-        const Ticket ticket = unbundled_.front();
-        const auto found = asks_.find(ticket);
-        if (found == asks_.end()) {
-            unbundled_.pop_front();
+// A buffer comes back when nobody else holds it: the answerer lets go of it before it replies.
+BundlePort::Buffer BundlePort::empty_buffer() {
+    if (buffers_.empty()) {
+        buffers_.push_back(std::make_shared<std::vector<Query>>());
+        buffers_.back()->reserve(std::min(waiting_, rules_.questions));
+    }
+    auto buffer = std::move(buffers_.back());
+    buffers_.pop_back();
+    buffer->clear();
+    return buffer;
+}
+
+std::uint64_t BundlePort::open_pieces() {
+    if (unused_.empty()) {
+        unused_.push_back(static_cast<std::uint32_t>(pieces_.size()));
+        pieces_.emplace_back();
+    }
+    const std::uint32_t slot = unused_.back();
+    unused_.pop_back();
+    pieces_[slot].open = true;
+    return number_of(slot, pieces_[slot].uses);
+}
+
+// Null: the bundle has been answered already.
+BundlePort::Pieces* BundlePort::pieces_of(const Bundle<Query>& bundle) {
+    auto& pieces = pieces_[slot_of(bundle.number)];
+    return pieces.open && pieces.uses == uses_of(bundle.number) ? &pieces : nullptr;
+}
+
+Bundle<Query> BundlePort::make_bundle(Clock::time_point now) {
+    auto questions = empty_buffer();
+    const std::uint64_t number = open_pieces();
+    pieces_[slot_of(number)].sent = now;
+    auto& pieces = pieces_[slot_of(number)].all;
+    while (first_ < unbundled_.size() && questions->size() < rules_.questions) {
+        const Ticket ticket = unbundled_[first_];
+        auto* const ask = find(ticket);
+        if (!ask) {  // given up meanwhile
+            ++first_;
             continue;
         }
-        auto& ask = found->second;
-        const std::size_t count = std::min(rules_.questions - questions->size(), ask.questions.size() - ask.bundled);
-        const auto piece = ask.questions.subspan(ask.bundled, count);
+        const std::size_t count = std::min(rules_.questions - questions->size(), ask->questions.size() - ask->bundled);
+        const auto piece = ask->questions.subspan(ask->bundled, count);
         questions->insert(questions->end(), piece.begin(), piece.end());
-        pieces.push_back({ticket, ask.bundled, count});
-        ask.bundled += count;
-        waiting_ -= std::min(waiting_, count);
-        if (ask.bundled == ask.questions.size()) unbundled_.pop_front();
+        pieces.push_back({ticket, ask->bundled, count});
+        ask->bundled += count;
+        waiting_ -= count;
+        if (ask->bundled == ask->questions.size()) ++first_;
     }
+    unbundled_.erase(unbundled_.begin(), unbundled_.begin() + static_cast<std::ptrdiff_t>(first_));
+    first_ = 0;
+    oldest_ = now;  // what is left came later than what goes
     return {std::move(questions), this, number, static_cast<std::uint32_t>(width_)};
 }
 
 std::chrono::nanoseconds BundlePort::until_due(Clock::time_point now) const {
-    constexpr std::chrono::nanoseconds never = std::chrono::milliseconds(100);
+    const auto never = replicas_.until_due();
     if (!again_.empty()) return std::chrono::milliseconds(1);
-    if (unbundled_.empty() || !replicas_.has_credit()) return never;
-    const auto found = asks_.find(unbundled_.front());
-    if (found == asks_.end()) return never;
-    return std::max<std::chrono::nanoseconds>(found->second.begun + rules_.oldest - now, std::chrono::microseconds(50));
+    if (waiting_ == 0 || !replicas_.has_credit()) return never;
+    return std::max<std::chrono::nanoseconds>(oldest_ + patience() - now, std::chrono::microseconds(50));
 }
 
 void BundlePort::settle(Ask& ask) {
     if (auto* fiber = std::exchange(ask.waiting, nullptr)) wake_(fiber);
 }
 
+void BundlePort::close(Pieces& pieces, const Bundle<Query>& bundle) {
+    pieces.all.clear();
+    pieces.open = false;
+    ++pieces.uses;
+    unused_.push_back(slot_of(bundle.number));
+    if (bundle.questions.use_count() == 1)
+        buffers_.push_back(std::const_pointer_cast<std::vector<Query>>(bundle.questions));
+}
+
 void BundlePort::answered(const Bundle<Query>& bundle, std::vector<Rgb> answers) {
-    const auto pieces = pieces_.extract(bundle.number);
+    auto* const pieces = pieces_of(bundle);
+    if (!pieces) return;
+    const auto took = std::chrono::nanoseconds(Clock::now() - pieces->sent);
+    answer_time_ = answer_time_ == answer_time_.zero() ? took : (3 * answer_time_ + took) / 4;
     auto from = answers.begin();
-    for (const auto& piece : pieces.mapped()) {
+    for (const auto& piece : pieces->all) {
         const auto next = from + static_cast<std::ptrdiff_t>(piece.count * width_);
-        if (const auto found = asks_.find(piece.ask); found != asks_.end()) {
-            auto& ask = found->second;
-            std::copy(from, next, ask.answers.begin() + static_cast<std::ptrdiff_t>(piece.first * width_));
-            ask.unanswered -= piece.count;
-            if (ask.unanswered == 0) settle(ask);
+        if (auto* const ask = find(piece.ask)) {
+            std::copy(from, next, ask->answers.begin() + static_cast<std::ptrdiff_t>(piece.first * width_));
+            ask->unanswered -= piece.count;
+            if (ask->unanswered == 0) settle(*ask);
         }
         from = next;
     }
+    close(*pieces, bundle);
 }
 
 void BundlePort::failed(const Bundle<Query>& bundle, const std::string& why) {
-    const auto pieces = pieces_.extract(bundle.number);
-    for (const auto& piece : pieces.mapped())
-        if (const auto found = asks_.find(piece.ask); found != asks_.end()) {
-            found->second.error = why;
-            settle(found->second);
+    auto* const pieces = pieces_of(bundle);
+    if (!pieces) return;
+    for (const auto& piece : pieces->all)
+        if (auto* const ask = find(piece.ask)) {
+            ask->error = why;
+            settle(*ask);
         }
+    close(*pieces, bundle);
 }
 
 }  // namespace lightnet

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 #include "core/light/port.hpp"
@@ -20,13 +20,14 @@ namespace lightnet {
 /// When a bundle goes.
 struct BundleRules {
     std::size_t questions = 512;             // it is full
-    std::chrono::microseconds oldest{1000};  // a question has waited so long
+    std::chrono::microseconds oldest{1000};  // a question has waited so long, and half of what an answer takes
     std::size_t eager = 2;                   // else only when the place has nothing else to do and fewer are out
     friend bool operator==(const BundleRules&, const BundleRules&) = default;
 };
 
 /// Questions of all askers of this place to one node leave together. An asking fiber parks until all of its answers
-/// are there. Lives on the place's thread.
+/// are there. Lives on the place's thread. What asks and bundles are kept in is kept for the next ones, so that a
+/// question that is asked alone costs no memory of its own.
 class BundlePort final : public Port, public BundleOwner<Query> {
 public:
     using Clock = std::chrono::steady_clock;
@@ -40,7 +41,7 @@ public:
 
     Ticket begin(std::span<const Query> questions, std::span<Rgb> answers) override;
     void finish(Ticket ticket) override;
-    void abandon(Ticket ticket) noexcept override { asks_.erase(ticket); }
+    void abandon(Ticket ticket) noexcept override;
 
     /// Sends the bundles that are due; `idle`: the place has nothing else to do. True if anything was sent.
     bool flush(Clock::time_point now, bool idle);
@@ -52,12 +53,14 @@ public:
     void returned(Bundle<Query> bundle) override { again_.push_back(std::move(bundle)); }
 
 private:
+    // Kept in slots that are used again; the ticket says which slot, and how often it had been used before.
     struct Ask {
+        std::uint32_t uses = 0;
+        bool open = false;
         std::span<const Query> questions;
         std::span<Rgb> answers;
         std::size_t bundled = 0;  // questions that are in bundles already
         std::size_t unanswered = 0;
-        Clock::time_point begun;
         Fibers::Fiber* waiting = nullptr;
         std::string error;
     };
@@ -66,23 +69,42 @@ private:
         Ticket ask;
         std::size_t first, count;
     };
+    // Those of one bundle; kept in slots as well.
+    struct Pieces {
+        std::uint32_t uses = 0;
+        bool open = false;
+        Clock::time_point sent;
+        std::vector<Piece> all;
+    };
+    using Buffer = std::shared_ptr<std::vector<Query>>;
 
+    Ask* find(Ticket ticket);
+    void close(Ticket ticket);
+    std::chrono::nanoseconds patience() const;
     bool due(Clock::time_point now, bool idle);
-    Bundle<Query> make_bundle();
+    Bundle<Query> make_bundle(Clock::time_point now);
+    Buffer empty_buffer();
+    std::uint64_t open_pieces();
+    Pieces* pieces_of(const Bundle<Query>& bundle);
     void settle(Ask& ask);
+    void close(Pieces& pieces, const Bundle<Query>& bundle);
 
     Fibers& fibers_;
     Wake wake_;
     std::size_t width_;
     BundleRules rules_;
     Multiplexer<Query> replicas_;
-    std::unordered_map<Ticket, Ask> asks_;
-    std::deque<Ticket> unbundled_;                                  // asks with questions in no bundle yet
-    std::size_t waiting_ = 0;                                       // questions in no bundle yet
-    std::unordered_map<std::uint64_t, std::vector<Piece>> pieces_;  // by number of the bundle
-    std::deque<Bundle<Query>> again_;                               // came back unanswered
-    Ticket next_ticket_ = 1;
-    std::uint64_t next_bundle_ = 1;
+    std::deque<Ask> asks_;               // stay where they are
+    std::vector<std::uint32_t> closed_;  // slots
+    std::vector<Ticket> unbundled_;      // asks with questions in no bundle yet, from first_ on
+    std::size_t first_ = 0;
+    std::size_t waiting_ = 0;                  // questions in no bundle yet
+    std::chrono::nanoseconds answer_time_{0};  // from sending a bundle to its answer, smoothed
+    Clock::time_point oldest_;                 // since when the first of them has waited, at most
+    std::deque<Pieces> pieces_;                // by slot in the number of the bundle
+    std::vector<std::uint32_t> unused_;        // slots of pieces_
+    std::vector<Buffer> buffers_;              // that no bundle has now
+    std::deque<Bundle<Query>> again_;          // came back unanswered
 };
 
 }  // namespace lightnet

@@ -15,6 +15,7 @@ struct Called {
     const LightOp& light;
     const std::string& name;  // as in the graph
     std::size_t layers = 1;   // colours per answer when nothing is added up
+    bool whole = false;       // it looks at the sockets by itself: long asks are not cut
 };
 
 /// Calls the node. Long asks are cut into pieces, between which the place may look at its sockets; an answer does not

@@ -4,8 +4,8 @@
 #include <boost/context/preallocated.hpp>
 
 #include <cxxabi.h>
+#include <x86intrin.h>
 #include <cassert>
-#include <optional>
 #include <utility>
 
 #include "core/runtime/fiber_stack.hpp"
@@ -21,6 +21,16 @@ namespace lightnet {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+// Reading the clock costs as much as the switch itself, so the switches count the processor's own ticks; the clock says
+// how long one is.
+std::uint64_t ticks_now() { return __rdtsc(); }
+
+// The counters of two processors may differ by a little.
+std::uint64_t ticks_since(std::uint64_t then) {
+    const auto now = ticks_now();
+    return now > then ? now - then : 0;
+}
 
 // What the C++ runtime keeps per thread about exceptions in flight, and must be kept per fiber: a fiber that parks
 // inside a catch block would else have its exception rethrown in another one.
@@ -77,11 +87,10 @@ public:
     boost::context::fiber inside;  // the fiber while it does not run
     std::function<void()> work;
     const char* owner = "";
-    bool parked = false, cancelled = false, retiring = false;
+    bool parked = false, cancelled = false, retiring = false, used_by_others = false;
     ExceptionState exceptions;
     SanitizerView view;
-    Clock::time_point entered;
-    std::chrono::nanoseconds ran{0};
+    Ticks entered = 0, ran = 0;
     [[maybe_unused]] void* tsan = nullptr;
 };
 
@@ -94,6 +103,8 @@ struct Fibers::Shared {
     SanitizerView view;
     const void* outside_lowest = nullptr;
     std::size_t outside_size = 0;
+    const Clock::time_point began = Clock::now();
+    const Ticks began_ticks = ticks_now();
     [[maybe_unused]] void* tsan = nullptr;
 };
 
@@ -112,8 +123,10 @@ void Fibers::start(const char* owner, std::function<void()> work) {
     if (idle_.empty()) {
         auto* fresh = fibers_.emplace_back(std::make_unique<Fiber>(stack_size_)).get();
         boost::context::stack_context context;
-        context.size = fresh->stack.size;
-        context.sp = fresh->stack.lowest + fresh->stack.size;
+        // Stacks begin at different distances from the ends of their pages, or all would want the same cache lines.
+        const std::size_t colour = fibers_.size() % 16 * 192;
+        context.size = fresh->stack.size - colour;
+        context.sp = fresh->stack.lowest + context.size;
         fresh->inside =
             boost::context::fiber(std::allocator_arg, boost::context::preallocated(context.sp, context.size, context),
                                   BorrowedStack{}, [this, fresh](boost::context::fiber&& outside) {
@@ -128,8 +141,7 @@ void Fibers::start(const char* owner, std::function<void()> work) {
                                           fresh->cancelled = false;
                                           --alive_;
                                           idle_.push_back(fresh);
-                                          current_ = fresh;
-                                          park();
+                                          leave();
                                       }
                                       fresh->view.leave(shared_->outside_lowest, shared_->outside_size, true);
 #if defined(__SANITIZE_THREAD__)
@@ -144,7 +156,7 @@ void Fibers::start(const char* owner, std::function<void()> work) {
     fiber->owner = owner;
     fiber->work = std::move(work);
     fiber->cancelled = false;
-    fiber->ran = {};
+    fiber->ran = 0;
     ++alive_;
     switch_to(fiber);
 }
@@ -153,7 +165,7 @@ void Fibers::switch_to(Fiber* fiber) {
     current_ = fiber;
     fiber->parked = false;
     shared_->running = {fiber->stack, fiber->owner};
-    fiber->entered = Clock::now();
+    fiber->entered = ticks_now();
     shared_->exceptions = std::exchange(ExceptionState::here(), fiber->exceptions);
     shared_->view.leave(fiber->stack.lowest, fiber->stack.size);
 #if defined(__SANITIZE_THREAD__)
@@ -163,15 +175,28 @@ void Fibers::switch_to(Fiber* fiber) {
     fiber->inside = std::move(fiber->inside).resume();
     shared_->view.entered();
     fiber->exceptions = std::exchange(ExceptionState::here(), shared_->exceptions);
-    fiber->ran += Clock::now() - fiber->entered;
+    fiber->ran += ticks_since(fiber->entered);
     shared_->running = {};
     current_ = nullptr;
 }
 
 void Fibers::park() {
+    if (current_ && current_->cancelled) throw Cancelled{};
+    auto* const fiber = current_;
+    leave();
+    if (fiber->cancelled && fiber->work) throw Cancelled{};
+}
+
+void Fibers::park_for_others() {
+    assert(current_ && "only a fiber can park");
+    current_->used_by_others = true;
+    leave();
+}
+
+// Back to the thread's own stack, until somebody switches here again.
+void Fibers::leave() {
     auto* const fiber = current_;
     assert(fiber && "only a fiber can park");
-    if (fiber->cancelled) throw Cancelled{};
     fiber->parked = true;
     fiber->view.leave(shared_->outside_lowest, shared_->outside_size);
 #if defined(__SANITIZE_THREAD__)
@@ -179,8 +204,9 @@ void Fibers::park() {
 #endif
     shared_->outside = std::move(shared_->outside).resume();
     fiber->view.entered(&shared_->outside_lowest, &shared_->outside_size);
-    if (fiber->cancelled && fiber->work) throw Cancelled{};
 }
+
+void Fibers::release(Fiber* fiber) { fiber->used_by_others = false; }
 
 void Fibers::resume(Fiber* fiber) {
     assert(!current_ && fiber->parked && "only a parked fiber can be resumed, from the thread's own stack");
@@ -192,7 +218,7 @@ void Fibers::cancel_all() {
         const std::size_t before = alive_;
         for (std::size_t i = 0; i < fibers_.size(); ++i) {
             auto* fiber = fibers_[i].get();
-            if (!fiber->work || !fiber->parked) continue;
+            if (!fiber->work || !fiber->parked || fiber->used_by_others) continue;
             fiber->cancelled = true;
             switch_to(fiber);
         }
@@ -201,8 +227,29 @@ void Fibers::cancel_all() {
     }
 }
 
-std::chrono::nanoseconds Fibers::running_time(const Fiber* fiber) const {
-    return fiber == current_ ? fiber->ran + (Clock::now() - fiber->entered) : fiber->ran;
+Fibers::Ticks Fibers::ticks_of(const Fiber* fiber) const {
+    return fiber == current_ ? fiber->ran + ticks_since(fiber->entered) : fiber->ran;
 }
+
+std::chrono::nanoseconds Fibers::running_time(const Fiber* fiber) const {
+    const auto elapsed = std::chrono::duration<double, std::nano>(Clock::now() - shared_->began);
+    const auto elapsed_ticks = static_cast<double>(ticks_since(shared_->began_ticks));
+    const double share = elapsed_ticks > 0 ? static_cast<double>(ticks_of(fiber)) / elapsed_ticks : 0;
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(elapsed * share);
+}
+
+void Fibers::give_time_to(Fiber* other) {
+    other->ran += ticks_of(current_);
+    current_->ran = 0;
+    current_->entered = ticks_now();
+}
+
+const char* Fibers::rename(const char* owner) {
+    assert(current_ && "only a fiber has a name");
+    shared_->running.owner = owner;
+    return std::exchange(current_->owner, owner);
+}
+
+bool Fibers::roomy() const { return !idle_.empty() || stacks_mapped() < most_stacks; }
 
 }  // namespace lightnet

@@ -3,7 +3,7 @@
 
 #include <chrono>
 #include <cstddef>
-#include <deque>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -33,6 +33,11 @@ public:
     Fiber* current() const { return current_; }
     /// Parks the current fiber until resume(). Throws Cancelled if cancel_all() ended the wait.
     void park();
+    /// Parks the current fiber until resume(). Never throws and is not cancelled: other fibers still use its stack.
+    /// Whoever ends the wait calls release() first.
+    void park_for_others();
+    /// What a fiber in park_for_others() has waited for is there.
+    void release(Fiber* fiber);
     /// Continues a parked fiber until it parks again or ends. Call from outside fibers only.
     void resume(Fiber* fiber);
     /// Resumes every parked fiber with Cancelled, until all have unwound.
@@ -42,9 +47,18 @@ public:
     std::size_t alive() const { return alive_; }
     /// How long `fiber` has been running (not waiting) since its start.
     std::chrono::nanoseconds running_time(const Fiber* fiber) const;
+    /// Counts the running time of the current fiber as that of `other`: it worked for it.
+    void give_time_to(Fiber* other);
+    /// Names the current fiber anew, should its stack run out. Returns the name that it had.
+    const char* rename(const char* owner);
+    /// Is there room for one more fiber, as far as the process is concerned?
+    bool roomy() const;
 
 private:
+    using Ticks = std::uint64_t;
     void switch_to(Fiber* fiber);
+    void leave();
+    Ticks ticks_of(const Fiber* fiber) const;
 
     struct Shared;
     std::size_t stack_size_;

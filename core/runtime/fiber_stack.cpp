@@ -1,5 +1,6 @@
 #include "core/runtime/fiber_stack.hpp"
 
+#include <atomic>
 #include <csignal>
 #include <cstring>
 #include <mutex>
@@ -10,6 +11,8 @@
 
 namespace lightnet {
 namespace {
+
+std::atomic<std::size_t> mapped{0};
 
 thread_local const StackGuard::Running* running_here = nullptr;
 
@@ -31,10 +34,16 @@ StackMemory map_stack(std::size_t size) {
         munmap(memory, whole);
         throw std::bad_alloc();
     }
+    mapped.fetch_add(1, std::memory_order_relaxed);
     return {lowest + guard, whole - guard};
 }
 
-void unmap_stack(const StackMemory& stack) noexcept { munmap(stack.lowest - page_size(), stack.size + page_size()); }
+void unmap_stack(const StackMemory& stack) noexcept {
+    munmap(stack.lowest - page_size(), stack.size + page_size());
+    mapped.fetch_sub(1, std::memory_order_relaxed);
+}
+
+std::size_t stacks_mapped() { return mapped.load(std::memory_order_relaxed); }
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 // The sanitizers bring handlers and signal stacks of their own.

@@ -16,6 +16,12 @@ struct StackMemory {
 StackMemory map_stack(std::size_t size);
 void unmap_stack(const StackMemory& stack) noexcept;
 
+/// Stacks that this process has mapped. Any thread.
+std::size_t stacks_mapped();
+/// Each stack is two mappings, of the 65,530 that Linux allows a process. What can be done with fewer is done with
+/// fewer from here on.
+inline constexpr std::size_t most_stacks = 16 * 1024;
+
 /// From now on, a write into the guard page of the stack that `running` names on this thread ends the process with a
 /// sentence that says whose stack ran out. `running` must live as long as the guard.
 class StackGuard {

@@ -34,6 +34,7 @@ struct Job {
     std::string isa;                      // of Embree
     std::uint32_t width = 0, height = 0;  // of the picture, pixels
     PlaceRules rules;
+    bool checking = false;  // wrapped classes are asked twice, to find those with a memory
     friend bool operator==(const Job&, const Job&) = default;
 };
 

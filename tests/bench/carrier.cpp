@@ -1,4 +1,5 @@
-// Questions per second from node to node, beside plain ZeroMQ that moves the same bytes.
+// What it costs to carry questions. This file: questions per second from node to node, beside plain ZeroMQ that moves
+// the same bytes.
 //
 // The full way of a question: a fiber of the asking place asks, and parks; a bundle of 256 goes through ZeroMQ to the
 // answering place, whose node is called in a fiber; the reply comes back and wakes the asker. Eight fibers ask at a
@@ -19,10 +20,12 @@
 #include "core/light/node_context.hpp"
 #include "core/light/renderer.hpp"
 #include "core/runtime/master_renderer.hpp"
+#include "nodes/standard_nodes.hpp"
 #include "tests/bench/figure.hpp"
-#include "tests/bench/overhead.hpp"
+#include "tests/bench/host_thread.hpp"
+#include "tests/bench/picture.hpp"
+#include "tests/bench/scalar.hpp"
 #include "transport/cluster.hpp"
-#include "transport/host.hpp"
 #include "transport/threaded_run.hpp"
 
 namespace lightnet::bench {
@@ -224,27 +227,6 @@ void measure(const char* name, Carrier& carrier, const Plan& plan, const std::st
     figure(name, median(ratios), 0.6, true);
 }
 
-// A daemon in a thread.
-class HostThread {
-public:
-    explicit HostThread(const Registry& kinds) : host_(one_place(), kinds) {}
-    ~HostThread() { stop_ = true; }
-    std::string endpoint() const { return host_.endpoint(); }
-
-private:
-    static Host::Options one_place() {
-        Host::Options options;
-        options.places = 1;
-        return options;
-    }
-
-    Host host_;
-    std::atomic<bool> stop_{false};
-    std::jthread thread_{[this] { host_.serve(stop_); }};
-};
-
-}  // namespace
-
 void measure_inproc(const Picture& picture) {
     const Registry kinds = asking_kinds();
     const Job job = asking_job(picture);
@@ -273,4 +255,21 @@ void measure_tcp(const Picture& picture) {
     cluster.finish();
 }
 
+}  // namespace
 }  // namespace lightnet::bench
+
+int main() {
+    namespace bench = lightnet::bench;
+    try {
+        const lightnet::Registry registry{lightnet::standard_nodes()};
+        const bench::Picture picture(registry, 128, 16);
+        bench::measure_inproc(picture);
+        bench::measure_tcp(picture);
+        bench::measure_scalar_inproc(picture);
+        bench::measure_scalar_tcp(picture);
+        return 0;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "carrier: %s\n", error.what());
+        return 1;
+    }
+}

@@ -42,7 +42,15 @@ inline void show(const char* name, const std::vector<double>& ratios) {
 /// The line that `./bench` collects. `value` and `goal` are percentages; `at_least`: more is better.
 inline void figure(const char* name, double value, double goal, bool at_least) {
     const bool met = at_least ? value >= goal : value <= goal;
-    std::printf("%s %.1f%% %s%g%% %s\n", name, 100 * value, at_least ? ">=" : "<=", 100 * goal, met ? "ok" : "short");
+    std::printf("%s %.*f%% %s%g%% %s\n", name, value < 0.1 ? 2 : 1, 100 * value, at_least ? ">=" : "<=", 100 * goal,
+                met ? "ok" : "short");
+    std::fflush(stdout);
+}
+
+/// The same for a quantity that is no percentage.
+inline void quantity(const char* name, double value, const char* unit, double goal, bool at_least) {
+    const bool met = at_least ? value >= goal : value <= goal;
+    std::printf("%s %.1f %s%g (%s) %s\n", name, value, at_least ? ">=" : "<=", goal, unit, met ? "ok" : "short");
     std::fflush(stdout);
 }
 

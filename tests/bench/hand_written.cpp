@@ -34,7 +34,8 @@ public:
           assembly_(*picture.network,
                     [this](std::size_t node, std::size_t) {
                         return ports_.emplace_back(std::make_unique<PlainCall>(assembly_.light(node))).get();
-                    }),
+                    },
+                    locks_),
           renderer_(assembly_.renderer(picture.image)) {}
 
     std::vector<Rgb> render(const Tile& tile) const {
@@ -46,6 +47,7 @@ public:
 private:
     std::size_t width_;
     std::vector<std::unique_ptr<PlainCall>> ports_;
+    NoLocks locks_;
     Assembly assembly_;
     const Renderer& renderer_;
 };

@@ -1,6 +1,6 @@
 // What the framework costs: serial, threaded and networked runs beside loops that do without it. All figures are ratios
 // of what was measured in turns, in one run; medians over the rounds.
-// Arguments: serial, threads, network, inproc, tcp; without any, all of them.
+// Arguments: serial, threads, network; without any, all of them.
 #include "tests/bench/overhead.hpp"
 
 #include <algorithm>
@@ -21,8 +21,6 @@ int main(int argc, char** argv) {
         if (wanted("serial")) bench::measure_serial(small);
         if (wanted("threads")) bench::measure_threads(large, registry);
         if (wanted("network")) bench::measure_network(large, registry);
-        if (wanted("inproc")) bench::measure_inproc(small);
-        if (wanted("tcp")) bench::measure_tcp(small);
         return 0;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "overhead: %s\n", error.what());

@@ -8,12 +8,8 @@ namespace lightnet::bench {
 /// overhead.serial: a SerialRun beside a hand-written loop over the same nodes.
 void measure_serial(const Picture& picture);
 /// overhead.threads: two places in threads beside two independent serial runs of half of the tiles.
-void measure_threads(const Picture& picture, const Registry& registry);
+void measure_threads(const Picture& picture, const Registry& registry, const char* name = "overhead.threads");
 /// overhead.network: two daemons of one place each beside the same.
-void measure_network(const Picture& picture, const Registry& registry);
-/// carrier.inproc, carrier.tcp: questions per second beside plain ZeroMQ with the same bytes. `picture` lends its
-/// scene: a host serves no run without one.
-void measure_inproc(const Picture& picture);
-void measure_tcp(const Picture& picture);
+void measure_network(const Picture& picture, const Registry& registry, const char* name = "overhead.network");
 
 }  // namespace lightnet::bench

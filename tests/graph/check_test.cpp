@@ -182,6 +182,17 @@ TEST(Examine, WarnsOfNodesThatThePictureDoesNotNeed) {
     EXPECT_THAT(found.warnings, ElementsAre(Problem{{"graph.lua", 2}, "Ambient 'idle': the picture doesn't need it"}));
 }
 
+TEST(Examine, WarnsOfNodesWhoseBytesAreOthersEachTime) {
+    auto dice = test::ambient();
+    dice.name = "Dice";
+    dice.reproducible = false;
+    const Registry registry({test::ray_tracer(), dice});
+    const Examined found = examine(parse("sky = Dice {}\n" + rest), registry);
+    EXPECT_THAT(found.problems, testing::IsEmpty());
+    ASSERT_EQ(found.warnings.size(), 1u);
+    EXPECT_THAT(found.warnings[0].what, HasSubstr("Dice 'sky': draws random numbers that can't be seeded"));
+}
+
 TEST(FilmFormat, IsTheOneOfTheRenderer) {
     EXPECT_EQ(film_of(sound_graph("lighting = Ambient {}"), fake_registry()), (GraphFilm{8, 4, ""}));
 }

@@ -93,7 +93,8 @@ TEST_P(Oracle, AgreesWithSerialBitForBit) {
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryGraph, Oracle,
-                         ::testing::Values("cornell.lua", "weights.lua", "ambient.lua", "direct.lua"),
+                         ::testing::Values("cornell.lua", "weights.lua", "ambient.lua", "direct.lua", "traditional.lua",
+                                           "traditional_eye.lua"),
                          [](const auto& graph) { return std::filesystem::path(graph.param).stem().string(); });
 
 // image on both; lighting asks direct at the other place, which asks nobody; so each place asks and serves the other.

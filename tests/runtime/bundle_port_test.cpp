@@ -14,6 +14,7 @@ using test::FakeChannel;
 class BundlePortTest : public ::testing::Test {
 protected:
     BundlePortTest() { port.replicas().use({&channel}); }
+    ~BundlePortTest() override { fibers.cancel_all(); }
 
     std::vector<Query> questions(std::uint32_t count) {
         std::vector<Query> queries(count);
@@ -121,6 +122,59 @@ TEST_F(BundlePortTest, ThrowsWhereTheAnswerWasAwaited) {
     bundle.owner->failed(bundle, "'bounce' on onyx2: out of photons");
     run_ready();
     EXPECT_EQ(what, "'bounce' on onyx2: out of photons");
+}
+
+TEST_F(BundlePortTest, SendsWhatHasWaitedForLong) {
+    ask(1);
+    const auto now = BundlePort::Clock::now();
+    EXPECT_FALSE(port.flush(now, false));
+    EXPECT_TRUE(port.flush(now + std::chrono::seconds(2), false));
+    channel.answer();
+    run_ready();
+}
+
+TEST_F(BundlePortTest, WaitsLongerForCompanyWhereAnswersTakeLong) {
+    using std::chrono::seconds;
+    ask(1);
+    port.flush(BundlePort::Clock::now() - seconds(10), true);  // sent so long ago
+    channel.answer();
+    run_ready();
+    ask(1);
+    const auto now = BundlePort::Clock::now();
+    EXPECT_FALSE(port.flush(now + seconds(2), false)) << "five seconds are half of what the last answer took";
+    EXPECT_TRUE(port.flush(now + seconds(6), false));
+    channel.answer();
+    run_ready();
+}
+
+TEST_F(BundlePortTest, UsesItsBuffersAgain) {
+    ask(8);
+    const auto* const first = channel.sent.front().questions->data();
+    channel.answer();
+    run_ready();
+    ask(8);
+    EXPECT_EQ(channel.sent.front().questions->data(), first);
+    const auto kept = channel.sent.front().questions;  // somebody still reads it when the answer is there
+    channel.answer();
+    run_ready();
+    ask(8);
+    EXPECT_NE(channel.sent.front().questions->data(), first);
+    channel.answer();
+    run_ready();
+    EXPECT_EQ(answered, 3);
+}
+
+TEST_F(BundlePortTest, TakesTheFirstOfTwoAnswersToABundle) {
+    ask(8);
+    const auto bundle = channel.sent.front();
+    channel.answer();
+    run_ready();
+    ask(8);
+    bundle.owner->answered(bundle, std::vector<Rgb>(8, Rgb{9, 9, 9}));
+    EXPECT_EQ(answered, 1);
+    channel.answer();
+    run_ready();
+    EXPECT_EQ(answered, 2);
 }
 
 TEST_F(BundlePortTest, ForgetsAnAskThatWasGivenUp) {

@@ -49,6 +49,16 @@ private:
     const test::Folder folder_;
 };
 
+TEST(Launcher, HasWrappedClassesCheckedWhenAsked) {
+    Bench lightnet;
+    lightnet({"run", lightnet.graph});
+    lightnet({"run", lightnet.graph, "--check-wrapped", "--side-fibers", "0"});
+    ASSERT_EQ(lightnet.runs.size(), 2u);
+    EXPECT_FALSE(lightnet.runs[0].check_wrapped);
+    EXPECT_TRUE(lightnet.runs[1].check_wrapped);
+    EXPECT_EQ(lightnet.runs[1].tuning.side_fibers, 0u);
+}
+
 TEST(Launcher, RunsASoundGraph) {
     Bench lightnet;
     EXPECT_EQ(lightnet({"run", lightnet.graph}), 7) << "the run's own exit code";

@@ -92,6 +92,19 @@ TEST(Packet, TakesAtMost48BytesPerQuestionAndAFewPerBundle) {
     EXPECT_LE(packed.body.size() + packed.header.size(), 256 * sizeof(Query) + 192);
 }
 
+TEST(Packet, WritesSmallNumbersInFewBytesAndEqualOnesOnce) {
+    for (const auto& [step, most] : {std::pair{0u, 28u}, {1u, 29u}, {200u, 30u}, {100000u, 32u}})
+        for (const std::size_t count : {1, 2, 4, 200}) {
+            auto queries = std::make_shared<std::vector<Query>>(count);
+            for (std::uint32_t i = 0; i < count; ++i) (*queries)[i].primitive = i * step, (*queries)[i].stream = i;
+            Message message;
+            message.questions = Questions<Query>(queries);
+            const auto packed = packet::pack(message, 0);
+            EXPECT_LE(packed.body.size(), count * most + 100);
+            EXPECT_EQ(*std::get<Questions<Query>>(packet::unpack(packed.header, packed.body)->questions), *queries);
+        }
+}
+
 TEST(Packet, BringsTilesAnswersAndFailuresBack) {
     const auto tiles = packet::pack(tile_ask(), 0);
     EXPECT_EQ(*std::get<Questions<Tile>>(packet::unpack(tiles.header, tiles.body)->questions),

@@ -1,0 +1,12 @@
+// The classes of Candela as kinds of nodes.
+#pragma once
+
+#include <vector>
+
+#include "core/graph/kind.hpp"
+
+namespace lightnet {
+
+std::vector<Kind> candela_kinds();
+
+}  // namespace lightnet

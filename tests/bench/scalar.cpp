@@ -1,0 +1,185 @@
+#include "tests/bench/scalar.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <stdexcept>
+
+#include "core/light/light_op.hpp"
+#include "core/light/renderer.hpp"
+#include "core/light/wrap.hpp"
+#include "core/runtime/master_renderer.hpp"
+#include "tests/bench/figure.hpp"
+#include "tests/bench/host_thread.hpp"
+#include "transport/cluster.hpp"
+#include "transport/threaded_run.hpp"
+
+namespace lightnet {
+namespace bench {
+namespace {
+
+/// Traditional code: asks its input again and again, and waits each time.
+class Patient {
+public:
+    explicit Patient(OneByOne& input) : input_(input) {}
+    void ask(const Query& question) {
+        Query next = question;
+        for (std::uint32_t i = 0; i < times; ++i) {
+            next.u = static_cast<float>(i);
+            if (input_.ask(0, next).r != next.u) throw std::runtime_error("a wrong answer came back");
+        }
+    }
+    static constexpr std::uint32_t times = 200;
+
+private:
+    OneByOne& input_;
+};
+
+}  // namespace
+}  // namespace bench
+
+template <>
+struct Bridge<bench::Patient> {
+    Bridge(const NodeContext&, OneByOne& inputs) : instance_(inputs) {}
+    Rgb light(const Query& question) {
+        instance_.ask(question);
+        return {1, 1, 1};
+    }
+
+private:
+    bench::Patient instance_;
+};
+
+namespace bench {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::size_t patients = 2048;  // at a time
+constexpr double asks = double{patients} * Patient::times;
+constexpr std::uint64_t run_id = 1;
+constexpr int rounds = 9;
+enum : std::size_t { answerer, patient, asker };
+
+/// Answers at once.
+class Echo final : public LightOp {
+public:
+    void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
+        for (std::size_t i = 0; i < questions.size(); ++i) answers[i] = {questions[i].u, questions[i].v, 0};
+    }
+};
+
+/// Asks the wrapped node of its own place, and answers with the seconds that its thread has computed meanwhile.
+class Watch final : public Renderer {
+public:
+    explicit Watch(const NodeContext& here) : inputs_(here.inputs()) {}
+    void render(const Tile&, std::span<Rgb> pixels) const override {
+        const std::vector<Query> questions(patients);
+        const double begun = thread_seconds();
+        const Part part = ask(inputs_, 0, questions);
+        pixels[0].r = static_cast<float>(thread_seconds() - begun);
+        for (const auto& answer : part.answers)
+            if (answer != Rgb{1, 1, 1}) throw std::runtime_error("a wrong answer came back");
+    }
+
+private:
+    Inputs inputs_;
+};
+
+Registry kinds() {
+    return Registry({{.name = "Echo",
+                      .help = "answers at once",
+                      .make_light = [](const NodeContext&) { return std::make_unique<Echo>(); }},
+                     wrap<Patient>("Patient", {.help = "asks one by one", .least_inputs = 1}),
+                     {.name = "Watch",
+                      .role = Role::image,
+                      .help = "asks, and takes the time",
+                      .least_inputs = 1,
+                      .most_inputs = 1,
+                      .make_renderer = [](const NodeContext& here) { return std::make_unique<Watch>(here); }}});
+}
+
+Job scalar_job(const Picture& picture) {
+    Job job;
+    job.scene = picture.job.scene;
+    job.files = picture.job.files;
+    job.isa = picture.job.isa;
+    job.graph.file = "scalar.lua";
+    job.graph.nodes = {{"answerer", "Echo", {}, {}, {}},
+                       {"patient", "Patient", {Value{NodeRef{"answerer"}}}, {}, {}},
+                       {"asker", "Watch", {Value{NodeRef{"patient"}}}, {}, {}}};
+    return job;
+}
+
+Plan asked_elsewhere(const PlaceAt& first, const PlaceAt& second) {
+    Plan plan{{first, second}, std::vector<std::vector<std::uint32_t>>(3)};
+    plan.places_of[asker] = plan.places_of[patient] = {0};
+    plan.places_of[answerer] = {1};
+    return plan;
+}
+
+/// Has the asker ask once. Returns the seconds that its thread computed.
+double round(Carrier& carrier, const Plan& plan) {
+    MasterRenderer::Job job;
+    job.run = run_id;
+    job.image = asker;
+    job.width = 2;  // emission, patient
+    job.tiles = {Tile{0, 0, 1, 1, 0, 1}};
+    double seconds = 0;
+    MasterRenderer master(std::move(job), carrier,
+                          [&](const Tile&, std::span<const Rgb> pixels) { seconds = double{pixels[0].r}; });
+    master.use(plan);
+    while (!master.work(50ms)) {
+    }
+    return seconds;
+}
+
+double process_seconds() {
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+void report(const char* name, const std::vector<double>& each_ns, const Counters& counters, double goal) {
+    show("nanoseconds per question", each_ns);
+    std::printf("  %.0f questions per bundle\n",
+                static_cast<double>(counters.questions) / static_cast<double>(counters.bundles));
+    quantity(name, median(each_ns), "ns of processor time per question", goal, false);
+}
+
+}  // namespace
+
+void measure_scalar_inproc(const Picture& picture) {
+    const Registry registry = kinds();
+    const Job job = scalar_job(picture);
+    const Plan plan = asked_elsewhere({"", 0}, {"", 1});
+    ThreadedRun run(build_network(job, registry, SceneData{}), run_id, plan, job.rules);
+    std::vector<double> each;
+    for (int i = 0; i < rounds; ++i) each.push_back(1e9 * round(run.carrier(), plan) / asks);
+    report("carrier.scalar_inproc", each, run.stop(), 150);
+}
+
+void measure_scalar_tcp(const Picture& picture) {
+    const Registry registry = kinds();
+    const HostThread first(registry), second(registry);
+    Cluster::Options options;
+    options.run = run_id;
+    options.job = scalar_job(picture);
+    options.files = picture.files;
+    options.endpoints = {first.endpoint(), second.endpoint()};
+    options.plan = [&](const std::vector<HostOffer>&) {
+        return asked_elsewhere({first.endpoint(), 0}, {second.endpoint(), 0});
+    };
+    Cluster cluster(std::move(options));
+    const std::atomic<bool> never{false};
+    cluster.gather(5s, never);
+    std::vector<double> each;
+    for (int i = 0; i < rounds; ++i) {
+        const double before = process_seconds();
+        round(cluster, cluster.plan());
+        each.push_back(1e9 * (process_seconds() - before) / asks);
+    }
+    report("carrier.scalar_tcp", each, cluster.finish(), 400);
+}
+
+}  // namespace bench
+}  // namespace lightnet

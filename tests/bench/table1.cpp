@@ -1,0 +1,170 @@
+// Table 1 of the paper: what bundling is worth. The unchanged scalar classes of nodes/traditional: CandelaGathered,
+// which asks its input about one spot after the other, on one host, and CandelaDirect on another, one millisecond away
+// in each direction. Once every question travels alone and is waited for; once as the network does it by itself. One by
+// one, a twentieth of the picture is rendered, and the time of the whole follows from it.
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <map>
+#include <stdexcept>
+
+#include "core/film/film.hpp"
+#include "core/graph/check.hpp"
+#include "core/graph/graph_film.hpp"
+#include "core/runtime/fingerprint.hpp"
+#include "core/runtime/job.hpp"
+#include "core/runtime/master_renderer.hpp"
+#include "core/scene/read_scene.hpp"
+#include "nodes/standard_nodes.hpp"
+#include "tests/bench/figure.hpp"
+#include "tests/bench/host_thread.hpp"
+#include "tests/support/delaying_proxy.hpp"
+#include "transport/cluster.hpp"
+
+namespace lightnet::bench {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::uint32_t side = 76;  // pixels; with 2 samples and 16 rays about 128,000 questions
+constexpr double samples = 2, rays = 16;
+constexpr int rounds = 3;
+
+// As graphs/traditional.lua, without what would ask CandelaDirect in other ways.
+Graph gathering() {
+    Graph graph;
+    graph.file = LIGHTNET_SOURCE_DIR "/graphs/table1.lua";
+    const auto ref = [](const char* name) { return Value{NodeRef{name}}; };
+    Table film;
+    film.list = {Value{double{side}}, Value{double{side}}};
+    graph.nodes = {{"scene", "Scene", {Value{std::string("cornell_box.pbrt")}}, {}, {}},
+                   {"direct", "CandelaDirect", {}, {}, {}},
+                   {"gathered", "CandelaGathered", {ref("direct")}, {{"rays", Value{rays}}}, {}},
+                   {"image",
+                    "RayTracer",
+                    {ref("gathered")},
+                    {{"scene", ref("scene")}, {"film", Value{film}}, {"samples", Value{samples}}},
+                    {}}};
+    return graph;
+}
+
+/// What one way of working took.
+struct Cost {
+    double seconds = 0, questions = 0, messages = 0, bytes = 0;
+};
+
+class Bench {
+public:
+    explicit Bench(const Registry& registry) : registry_(registry) {
+        job_.graph = check(gathering(), registry);
+        job_.scene = scene_file(job_.graph, registry);
+        job_.isa = usual_isa();
+        job_.width = job_.height = side;
+        DiskFiles disk;
+        read_scene(disk, job_.scene);
+        files_ = disk.seen();
+        for (const auto& [path, bytes] : files_) job_.files.push_back({path, content_hash(*bytes), bytes->size()});
+    }
+
+    /// As the launcher does it, with bundles as large as they get.
+    Cost bundled() {
+        Job job = job_;
+        job.rules.bundles.questions = 1024;
+        return measure(job, tiles_of(side, side, 38, std::uint32_t(samples)), 6);
+    }
+    /// One question at a time, waited for; a twentieth of the picture's rows, spread over it.
+    Cost one_by_one() {
+        Job job = job_;
+        job.rules.bundles.questions = 1;
+        job.rules.credit = {1, 1};
+        job.rules.spare_fibers = job.rules.side_fibers = 0;
+        std::vector<Tile> tiles;
+        for (std::uint32_t y = 10; y < side; y += 20) tiles.push_back({0, y, side, 1, 0, std::uint32_t(samples)});
+        return measure(job, tiles, 1);
+    }
+
+private:
+    Cost measure(const Job& job, const std::vector<Tile>& tiles, std::size_t tiles_under_way) {
+        const HostThread near(registry_), far(registry_);
+        const test::DelayingProxy line(far.endpoint(), 1ms);
+        Plan plan{{{near.endpoint(), 0}, {line.endpoint(), 0}},
+                  std::vector<std::vector<std::uint32_t>>(job.graph.nodes.size())};
+        plan.places_of[*job.graph.find("image")] = plan.places_of[*job.graph.find("gathered")] = {0};
+        plan.places_of[*job.graph.find("direct")] = {1};
+        Cluster::Options options;
+        options.run = 1;
+        options.job = job;
+        options.files = files_;
+        options.endpoints = {near.endpoint(), line.endpoint()};
+        options.plan = [&](const std::vector<HostOffer>&) { return plan; };
+        Cluster cluster(std::move(options));
+        const std::atomic<bool> never{false};
+        cluster.gather(5s, never);
+
+        const auto before = line.bytes();
+        Cost cost;
+        cost.seconds = render(job, cluster, tiles, tiles_under_way);
+        cost.bytes = static_cast<double>(line.bytes() - before);
+        const Counters counters = cluster.finish();
+        cost.questions = static_cast<double>(counters.questions);
+        cost.messages = static_cast<double>(counters.bundles);
+        return cost;
+    }
+
+    double render(const Job& job, Cluster& cluster, const std::vector<Tile>& tiles, std::size_t under_way) {
+        MasterRenderer::Job task;
+        task.run = 1;
+        task.image = static_cast<std::uint32_t>(*job.graph.find("image"));
+        task.width = 2;  // emission, gathered
+        task.tiles = tiles;
+        task.credit = {under_way, under_way};
+        return seconds_of([&] {
+            MasterRenderer master(std::move(task), cluster, [](const Tile&, std::span<const Rgb>) {});
+            master.use(cluster.plan());
+            while (!master.work(50ms)) {
+            }
+        });
+    }
+
+    const Registry& registry_;
+    Job job_;
+    std::map<std::string, Bytes> files_;
+};
+
+void show_cost(const char* name, const Cost& cost) {
+    std::printf("  %s: %.0f questions in %.0f messages, %.2f s, %.1f bytes per question there and back\n", name,
+                cost.questions, cost.messages, cost.seconds, cost.bytes / cost.questions);
+    std::fflush(stdout);
+}
+
+void run() {
+    const Registry registry{standard_nodes()};
+    Bench bench(registry);
+    const Cost slow = bench.one_by_one();
+    show_cost("one by one, a part", slow);
+    std::vector<double> times, messages, bytes;
+    for (int round = 0; round < rounds; ++round) {
+        const Cost fast = bench.bundled();
+        show_cost("bundled", fast);
+        times.push_back(fast.seconds / fast.questions / (slow.seconds / slow.questions));
+        messages.push_back(fast.questions / fast.messages / (slow.questions / slow.messages));
+        bytes.push_back(fast.bytes / fast.questions);
+    }
+    figure("table1.time", median(times), 0.005, false);
+    quantity("table1.messages", median(messages), "times fewer", 600, true);
+    quantity("table1.bytes", median(bytes), "bytes per question, answer included", 48, false);
+}
+
+}  // namespace
+}  // namespace lightnet::bench
+
+int main() {
+    try {
+        lightnet::bench::run();
+        return 0;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "table1: %s\n", error.what());
+        return 1;
+    }
+}

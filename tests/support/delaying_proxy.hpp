@@ -1,0 +1,36 @@
+// A line between two ends of tcp on which everything takes its time.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <thread>
+
+namespace lightnet::test {
+
+/// Passes on what comes, in both directions, `delay` after it came, on a thread of its own. Loopback only.
+class DelayingProxy {
+public:
+    /// `to`: "tcp://127.0.0.1:port". Throws std::runtime_error when it can't listen.
+    DelayingProxy(const std::string& to, std::chrono::microseconds delay);
+    ~DelayingProxy();
+    DelayingProxy(const DelayingProxy&) = delete;
+    DelayingProxy& operator=(const DelayingProxy&) = delete;
+
+    /// Where it listens instead.
+    std::string endpoint() const;
+    /// Bytes passed on so far, both directions.
+    std::uint64_t bytes() const { return bytes_; }
+
+private:
+    void serve(const std::stop_token& stop);
+
+    std::chrono::microseconds delay_;
+    std::uint16_t to_ = 0, port_ = 0;
+    int listener_ = -1;
+    std::atomic<std::uint64_t> bytes_{0};
+    std::jthread thread_;
+};
+
+}  // namespace lightnet::test
