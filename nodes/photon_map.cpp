@@ -1,5 +1,6 @@
 // Light that was sent from the lamps beforehand, and kept where it met surfaces.
 #include <algorithm>
+#include <cassert>
 #include <memory>
 #include <vector>
 
@@ -38,7 +39,7 @@ public:
     }
 
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
-        if (!tree_) return;
+        assert(tree_ && "nobody asks before it is prepared");
         std::vector<PhotonTree::Near> scratch;
         for (std::size_t i = 0; i < questions.size(); ++i) {
             const Query& question = questions[i];

@@ -165,11 +165,16 @@ std::shared_ptr<const Aim> take_aim(Services& services, const Scene& scene, cons
     return aim;
 }
 
-Mapped<Photon> shoot(Services& services, const Scene& scene, const Shooting& shooting, const Aim& aim) {
-    const PhotonShooter shooter(scene, shooting.paths, shooting.key);
-    const std::uint64_t shards = (shooting.ways + ways_per_shard - 1) / ways_per_shard;
-    auto photons = services.map<Photon>(shards, [&](std::size_t shard, std::vector<Photon>& out) {
-        const std::uint64_t first = shard * ways_per_shard;
+std::size_t shards_each(const Shooting& shooting) {
+    return std::size_t((shooting.ways + ways_per_shard - 1) / ways_per_shard);
+}
+
+Mapped<Photon> shoot(Services& services, const Scene& scene, const Shooting& shooting, const Aim& aim,
+                     std::size_t times) {
+    const std::size_t each = shards_each(shooting);
+    auto photons = services.map<Photon>(times * each, [&](std::size_t shard, std::vector<Photon>& out) {
+        const std::uint64_t first = shard % each * ways_per_shard;
+        const PhotonShooter shooter(scene, shooting.paths, child(shooting.key, key_of("ways"), shard / each));
         shooter.shoot(first, std::min<std::uint64_t>(ways_per_shard, shooting.ways - first), 1 / double(shooting.ways),
                       aim, out);
     });

@@ -64,7 +64,10 @@ struct Shooting {
 
 /// Learns where to aim, from trials: two rounds on all places. Even, unless it is asked for.
 std::shared_ptr<const Aim> take_aim(Services& services, const Scene& scene, const Shooting& shooting);
-/// Shoots on all places; photons come in the order of their ways.
-Mapped<Photon> shoot(Services& services, const Scene& scene, const Shooting& shooting, const Aim& aim);
+/// Shoots on all places, so many times anew; photons come in the order of their ways. Shards (see Mapped) of each time
+/// stand together: shards_each() of them. Throws Error when that takes more memory than it may.
+Mapped<Photon> shoot(Services& services, const Scene& scene, const Shooting& shooting, const Aim& aim,
+                     std::size_t times = 1);
+std::size_t shards_each(const Shooting& shooting);
 
 }  // namespace lightnet
