@@ -97,6 +97,48 @@ bool Film::add(const Tile& tile, std::span<const Rgb> pixels) {
     return true;
 }
 
+bool Film::has(const Tile& tile) const {
+    const auto known = rectangles_.find({tile.x, tile.y, tile.width, tile.height});
+    return known != rectangles_.end() &&
+           (tile.block() < known->second.next_block || known->second.waiting.contains(tile.block()));
+}
+
+FilmState Film::state() const {
+    FilmState state{sums_, lost_, {}};
+    for (const auto& [area, rectangle] : rectangles_) {
+        const auto& [x, y, width, height] = area;
+        state.parts.push_back({x, y, width, height, rectangle.next_block, rectangle.waiting});
+    }
+    return state;
+}
+
+void Film::restore(FilmState state) {
+    if (!rectangles_.empty()) throw Error("film", "only an empty film can take up another");
+    if (state.sums.size() != sums_.size() || state.lost.size() != lost_.size())
+        throw Error("film", "what is taken up is of another size");
+    for (auto& part : state.parts) {
+        Tile tile{part.x, part.y, part.width, part.height, 0, samples_of(0, format_.samples)};
+        expect_valid(tile, tile.pixels() * format_.layers.size());
+        if (part.next_block > blocks_) throw Error("film", "what is taken up has more samples");
+        auto& rectangle = rectangle_of(tile);
+        rectangle.next_block = part.next_block;
+        for (auto& [block, pixels] : part.waiting) {
+            if (block <= part.next_block || block >= blocks_)
+                throw Error("film", "what is taken up has a block that can't wait");
+            tile.first_sample = block * samples_per_block;
+            tile.samples = samples_of(block, format_.samples);
+            expect_valid(tile, pixels.size());
+        }
+        rectangle.waiting = std::move(part.waiting);
+        for (std::uint32_t y = part.y; y < part.y + part.height; ++y)
+            for (std::uint32_t x = part.x; x < part.x + part.width; ++x)
+                block_of_[std::size_t{y} * format_.width + x] = part.next_block;
+        folded_ += tile.pixels() * part.next_block;
+    }
+    sums_ = std::move(state.sums);
+    lost_ = std::move(state.lost);
+}
+
 void Film::expect_valid(const Tile& tile, std::size_t colours) const {
     const bool inside = tile.width > 0 && tile.height > 0 && tile.x < format_.width && tile.y < format_.height &&
                         tile.width <= format_.width - tile.x && tile.height <= format_.height - tile.y;

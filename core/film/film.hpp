@@ -26,6 +26,21 @@ struct FilmFormat {
     std::uint32_t samples = 0;            // per pixel
 };
 
+/// What a film holds, to be kept and taken up again. A value.
+struct FilmState {
+    /// One rectangle of the tiling.
+    struct Part {
+        std::uint32_t x = 0, y = 0, width = 0, height = 0;
+        std::uint32_t next_block = 0;                       // the first one that is not in the sums
+        std::map<std::uint32_t, std::vector<Rgb>> waiting;  // blocks that came before their turn
+        friend bool operator==(const Part&, const Part&) = default;
+    };
+    std::vector<Rgb> sums;  // pixel × layer
+    std::vector<std::uint64_t> lost;
+    std::vector<Part> parts;
+    friend bool operator==(const FilmState&, const FilmState&) = default;
+};
+
 /// Adds up the blocks of samples of each pixel in the order of their index, whatever the order in which they arrive and
 /// however the picture was cut into tiles. Rectangles of one film are those of one tiling. Owned by whoever makes the
 /// picture; one thread.
@@ -37,6 +52,12 @@ public:
     /// Takes the sums of one block: a colour per pixel (row by row) and layer, side by side. False when the film has
     /// that block already (the first one counts). Throws Error on a tile that is none of this film's.
     bool add(const Tile& tile, std::span<const Rgb> pixels);
+
+    /// Is this block there already?
+    bool has(const Tile& tile) const;
+    FilmState state() const;
+    /// Takes up what another film of this format held. This one must be empty. Throws Error when it does not fit.
+    void restore(FilmState state);
 
     /// Every block of every pixel is there.
     bool complete() const { return folded_ == std::uint64_t{blocks_} * format_.width * format_.height; }
