@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -38,9 +40,16 @@ std::uint32_t samples_of(std::uint32_t block, std::uint32_t samples) {
     return std::min(samples_per_block, samples - block * samples_per_block);
 }
 
+std::uint32_t up_to_whole(std::uint32_t number, std::uint32_t step) { return (number + step - 1) / step * step; }
+
 }  // namespace
 
 std::vector<Tile> tiles_of(std::uint32_t width, std::uint32_t height, std::uint32_t tile_size, std::uint32_t samples) {
+    return tiles_of(Window{0, 0, width, height}, tile_size, samples);
+}
+
+std::vector<Tile> tiles_of(const Window& window, std::uint32_t tile_size, std::uint32_t samples) {
+    const std::uint32_t width = window.width, height = window.height;
     if (!width || !height || !tile_size) return {};
     const std::uint32_t columns = (width - 1) / tile_size + 1, rows = (height - 1) / tile_size + 1;
     const std::uint32_t side = std::bit_ceil(std::max(columns, rows));
@@ -50,7 +59,8 @@ std::vector<Tile> tiles_of(std::uint32_t width, std::uint32_t height, std::uint3
         const auto [column, row] = hilbert(side, d);
         if (column >= columns || row >= rows) continue;
         const std::uint32_t x = column * tile_size, y = row * tile_size;
-        tiles.push_back({x, y, std::min(tile_size, width - x), std::min(tile_size, height - y), 0, 0});
+        tiles.push_back(
+            {window.x + x, window.y + y, std::min(tile_size, width - x), std::min(tile_size, height - y), 0, 0});
     }
     const std::size_t per_block = tiles.size();
     if (blocks_in(samples) == 0) return {};
@@ -64,14 +74,42 @@ std::vector<Tile> tiles_of(std::uint32_t width, std::uint32_t height, std::uint3
     return tiles;
 }
 
-Film::Film(FilmFormat format) : format_(std::move(format)), blocks_(blocks_in(format_.samples)) {
+std::vector<Tile> tiles_of(const FilmFormat& format, std::uint32_t tile_size) {
+    if (format.adaptive()) tile_size = up_to_whole(tile_size, cell_size);
+    return tiles_of(format.work(), tile_size, format.least_samples());
+}
+
+std::uint32_t FilmFormat::least_samples() const {
+    if (!adaptive() || samples <= 2 * samples_per_block) return samples;
+    const std::uint32_t wanted = std::clamp(refinement.least, 2 * samples_per_block, samples);
+    return std::min(samples, up_to_whole(wanted, samples_per_block));
+}
+
+Window FilmFormat::work() const {
+    const Window wanted = crop.value_or(Window{0, 0, width, height});
+    if (!adaptive()) return wanted;
+    const std::uint32_t x = wanted.x / cell_size * cell_size, y = wanted.y / cell_size * cell_size;
+    return {x, y, std::min(width, up_to_whole(wanted.x + wanted.width, cell_size)) - x,
+            std::min(height, up_to_whole(wanted.y + wanted.height, cell_size)) - y};
+}
+
+Film::Film(FilmFormat format)
+    : format_(std::move(format)), window_(format_.work()), blocks_(blocks_in(format_.samples)) {
     const auto& layers = format_.layers;
     if (!format_.width || !format_.height) throw Error("film", "a picture needs at least one pixel");
     if (!format_.samples) throw Error("film", "a picture needs at least one sample per pixel");
     if (layers.empty()) throw Error("film", "a picture needs at least one layer");
     if (std::set<std::string>(layers.begin(), layers.end()).size() != layers.size())
         throw Error("film", "two layers have the same name");
-    const std::size_t pixels = std::size_t{format_.width} * format_.height;
+    const auto lies_within = [](std::uint32_t from, std::uint32_t size, std::uint32_t side) {
+        return size > 0 && from < side && size <= side - from;
+    };
+    if (const auto& crop = format_.crop)
+        if (!lies_within(crop->x, crop->width, format_.width) || !lies_within(crop->y, crop->height, format_.height))
+            throw Error("film", "the crop is not inside of the picture");
+    const std::size_t pixels = window_.pixels();
+    all_ = std::uint64_t{blocks_} * pixels;
+    if (format_.adaptive()) spreads_.resize(pixels);
     sums_.resize(pixels * layers.size());
     block_of_.resize(pixels);
     taken_.resize(pixels);
@@ -80,26 +118,103 @@ Film::Film(FilmFormat format) : format_(std::move(format)), blocks_(blocks_in(fo
 
 bool Film::add(const Tile& tile, std::span<const Rgb> pixels) {
     expect_valid(tile, pixels.size());
+    if (!format_.adaptive()) return add_area(tile, pixels);
+    bool added = false;
+    std::vector<Rgb> piece;
+    const std::size_t layers = format_.layers.size();
+    for (const Tile& cell : cells_of(tile)) {
+        piece.clear();
+        for (std::uint32_t row = cell.y - tile.y; row < cell.y - tile.y + cell.height; ++row) {
+            const auto first =
+                pixels.begin() + std::ptrdiff_t((std::size_t{row} * tile.width + cell.x - tile.x) * layers);
+            piece.insert(piece.end(), first, first + std::ptrdiff_t(cell.width * layers));
+        }
+        added = add_area(cell, piece) || added;
+    }
+    return added;
+}
+
+bool Film::add_area(const Tile& tile, std::span<const Rgb> pixels) {
     auto& rectangle = rectangle_of(tile);
     const std::uint32_t block = tile.block();
-    if (block < rectangle.next_block || rectangle.waiting.contains(block)) return false;
+    if (rectangle.done || block < rectangle.next_block || rectangle.waiting.contains(block)) return false;
     if (block > rectangle.next_block) {
         rectangle.waiting.emplace(block, std::vector<Rgb>(pixels.begin(), pixels.end()));
         return true;
     }
-    fold(tile, pixels);
-    ++rectangle.next_block;
+    fold_next(rectangle, tile, pixels);
     for (auto next = rectangle.waiting.begin(); next != rectangle.waiting.end() && next->first == rectangle.next_block;
-         next = rectangle.waiting.erase(next)) {
-        fold(tile, next->second);
-        ++rectangle.next_block;
-    }
+         next = rectangle.waiting.erase(next))
+        fold_next(rectangle, tile, next->second);
     return true;
 }
 
+// The block after those that are in the sums.
+void Film::fold_next(Rectangle& rectangle, const Tile& tile, std::span<const Rgb> pixels) {
+    if (rectangle.done) return;
+    fold(tile, pixels);
+    ++rectangle.next_block;
+    const bool may_end = format_.adaptive() && rectangle.next_block >= blocks_in(format_.least_samples());
+    if (rectangle.next_block == blocks_ || (may_end && enough(tile))) {
+        rectangle.done = true;
+        spared_ += tile.pixels() * (blocks_ - rectangle.next_block);
+    }
+}
+
+std::vector<Tile> Film::cells_of(const Tile& tile) const {
+    std::vector<Tile> cells;
+    for (std::uint32_t y = tile.y; y < tile.y + tile.height; y += cell_size)
+        for (std::uint32_t x = tile.x; x < tile.x + tile.width; x += cell_size) {
+            Tile& cell = cells.emplace_back(tile);
+            cell.x = x, cell.width = std::min(cell_size, tile.x + tile.width - x);
+            cell.y = y, cell.height = std::min(cell_size, tile.y + tile.height - y);
+        }
+    return cells;
+}
+
+std::vector<Tile> Film::more(const Tile& tile) const {
+    std::vector<Tile> wanted;
+    if (!format_.adaptive()) return wanted;
+    for (Tile cell : cells_of(tile)) {
+        const auto known = rectangles_.find({cell.x, cell.y, cell.width, cell.height});
+        if (known == rectangles_.end() || known->second.done) continue;
+        const std::uint32_t next = known->second.next_block;
+        // Blocks that every pixel gets are handed out anyhow; a later one was asked for when its turn came.
+        if (next <= tile.block() || next < blocks_in(format_.least_samples())) continue;
+        cell.first_sample = next * samples_per_block;
+        cell.samples = samples_of(next, format_.samples);
+        // Neighbours of a row go together: fewer tiles for the same work.
+        if (!wanted.empty() && wanted.back().y == cell.y && wanted.back().first_sample == cell.first_sample &&
+            wanted.back().x + wanted.back().width == cell.x)
+            wanted.back().width += cell.width;
+        else
+            wanted.push_back(cell);
+    }
+    std::vector<Tile> merged;
+    for (const Tile& run : wanted) {
+        const auto above = std::find_if(merged.begin(), merged.end(), [&](const Tile& other) {
+            return other.x == run.x && other.width == run.width && other.y + other.height == run.y &&
+                   other.first_sample == run.first_sample;
+        });
+        if (above == merged.end())
+            merged.push_back(run);
+        else
+            above->height += run.height;
+    }
+    return merged;
+}
+
 void Film::expect_valid(const Tile& tile, std::size_t colours) const {
-    const bool inside = tile.width > 0 && tile.height > 0 && tile.x < format_.width && tile.y < format_.height &&
-                        tile.width <= format_.width - tile.x && tile.height <= format_.height - tile.y;
+    const auto within = [](std::uint32_t from, std::uint32_t size, std::uint32_t begin, std::uint32_t extent) {
+        return size > 0 && from >= begin && from - begin < extent && size <= extent - (from - begin);
+    };
+    const auto of_cells = [&](std::uint32_t from, std::uint32_t size, std::uint32_t end) {
+        return !format_.adaptive() || (from % cell_size == 0 && (size % cell_size == 0 || from + size == end));
+    };
+    const bool inside = within(tile.x, tile.width, window_.x, window_.width) &&
+                        within(tile.y, tile.height, window_.y, window_.height) &&
+                        of_cells(tile.x, tile.width, window_.x + window_.width) &&
+                        of_cells(tile.y, tile.height, window_.y + window_.height);
     const bool one_block = tile.first_sample % samples_per_block == 0 && tile.first_sample < format_.samples &&
                            tile.samples == samples_of(tile.block(), format_.samples);
     if (!inside || !one_block)
@@ -117,7 +232,7 @@ Film::Rectangle& Film::rectangle_of(const Tile& tile) {
     for (const bool claim : {false, true})
         for (std::uint32_t y = tile.y; y < tile.y + tile.height; ++y)
             for (std::uint32_t x = tile.x; x < tile.x + tile.width; ++x) {
-                auto&& pixel = taken_[std::size_t{y} * format_.width + x];
+                auto&& pixel = taken_[index(x, y)];
                 if (!claim && pixel) throw Error("film", fmt::format("two tiles overlap at pixel {},{}", x, y));
                 if (claim) pixel = true;
             }
@@ -127,32 +242,76 @@ Film::Rectangle& Film::rectangle_of(const Tile& tile) {
 void Film::fold(const Tile& tile, std::span<const Rgb> pixels) {
     const std::size_t layers = format_.layers.size();
     const Rgb* next = pixels.data();
+    std::vector<Rgb> sound(layers);
     for (std::uint32_t y = tile.y; y < tile.y + tile.height; ++y)
         for (std::uint32_t x = tile.x; x < tile.x + tile.width; ++x) {
-            const std::size_t pixel = std::size_t{y} * format_.width + x;
+            const std::size_t pixel = index(x, y);
             for (std::size_t k = 0; k < layers; ++k, ++next) {
+                sound[k] = finite(*next) ? *next : Rgb{};
                 if (finite(*next))
                     sums_[pixel * layers + k] += *next;
                 else
                     ++lost_[k];
             }
+            if (format_.adaptive()) note(pixel, sound, samples_of(block_of_[pixel], format_.samples));
             ++block_of_[pixel];
         }
     folded_ += tile.pixels();
 }
 
-double Film::done() const {
-    return static_cast<double>(folded_) / (static_cast<double>(blocks_) * format_.width * format_.height);
+void Film::note(std::size_t pixel, std::span<const Rgb> layers, std::uint32_t samples) {
+    const auto& [r, g, b] = std::accumulate(layers.begin(), layers.end(), Rgb{});
+    const double weight = double(scale_) / samples, block[3] = {r * weight, g * weight, b * weight};
+    Spread& spread = spreads_[pixel];
+    for (int c = 0; c < 3; ++c) {
+        const double step = block[c] - spread.mean[c];
+        spread.mean[c] += step / (block_of_[pixel] + 1);
+        spread.squares[c] += step * (block[c] - spread.mean[c]);
+    }
+}
+
+bool Film::enough(const Tile& cell) const {
+    double sum = 0;
+    for (std::uint32_t y = cell.y; y < cell.y + cell.height; ++y)
+        for (std::uint32_t x = cell.x; x < cell.x + cell.width; ++x) {
+            const auto& [mean, squares] = spreads_[index(x, y)];
+            const double blocks = block_of_[index(x, y)];
+            for (int c = 0; c < 3; ++c) sum += squares[c] / (blocks * (blocks - 1)) / (mean[c] * mean[c] + 0.01);
+        }
+    return sum <= double(format_.refinement.error) * format_.refinement.error * 3 * double(cell.pixels());
+}
+
+double Film::done() const { return static_cast<double>(folded_ + spared_) / static_cast<double>(all_); }
+
+double Film::mean_samples() const {
+    double sum = 0;
+    for (const auto blocks : block_of_) sum += std::min(blocks * samples_per_block, format_.samples);
+    return sum / static_cast<double>(block_of_.size());
 }
 
 Picture Film::picture(float scale) const {
-    const std::size_t pixels = block_of_.size(), layers = format_.layers.size();
-    Picture picture{format_.width, format_.height, {}, {}};
+    const Window wanted = format_.crop.value_or(window_);
+    const std::size_t pixels = wanted.pixels(), layers = format_.layers.size();
+    Picture picture{wanted.width, wanted.height, {}, {}};
+    if (format_.crop) {
+        picture.x = wanted.x, picture.y = wanted.y;
+        picture.whole_width = format_.width, picture.whole_height = format_.height;
+    }
+    picture.done = complete() ? 1 : std::min(float(done()), std::nextafter(1.0f, 0.0f));
+    // What was rendered and what is wanted differ where a crop cuts cells.
+    std::vector<std::size_t> from(pixels);
+    for (std::size_t i = 0; i < pixels; ++i)
+        from[i] = index(wanted.x + std::uint32_t(i % wanted.width), wanted.y + std::uint32_t(i / wanted.width));
+    const auto samples_of_pixel = [&](std::size_t i) {
+        return std::min(block_of_[from[i]] * samples_per_block, format_.samples);
+    };
+    if (format_.adaptive())
+        for (std::size_t i = 0; i < pixels; ++i) picture.samples.push_back(float(samples_of_pixel(i)));
     for (std::size_t k = 0; k < layers; ++k) {
         auto& layer = picture.layers.emplace_back(PictureLayer{format_.layers[k], std::vector<Rgb>(pixels)});
         for (std::size_t i = 0; i < pixels; ++i) {
-            const std::uint32_t samples = std::min(block_of_[i] * samples_per_block, format_.samples);
-            if (samples) layer.pixels[i] = sums_[i * layers + k] / static_cast<float>(samples) * scale;
+            const std::uint32_t samples = samples_of_pixel(i);
+            if (samples) layer.pixels[i] = sums_[from[i] * layers + k] / static_cast<float>(samples) * scale;
         }
     }
     picture.beauty = sum_of(picture.layers);

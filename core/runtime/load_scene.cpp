@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <vector>
 
 #include "core/graph/graph_film.hpp"
 #include "core/scene/read_scene.hpp"
@@ -55,6 +56,12 @@ SceneOverrides scene_overrides(const Graph& graph, const Registry& registry) {
 
 void override_scene(const Graph& graph, const Registry& registry, Files& files, SceneData& scene) {
     apply(scene_overrides(graph, registry), scene, files, scene_of(graph, registry).where);
+    std::vector<Problem> problems;
+    for (const auto& node : graph.nodes)
+        if (const Kind* kind = registry.find(node.kind); kind && kind->mistakes)
+            for (const auto& what : kind->mistakes(node, &scene))
+                problems.push_back({node.where, node.kind + " '" + node.name + "': " + what});
+    if (!problems.empty()) throw UserError(std::move(problems));
 }
 
 SceneData load_scene(const Graph& graph, const Registry& registry, Files& files, const std::string& path) {

@@ -14,7 +14,7 @@ namespace lightnet {
 /// What the Scene node of a checked graph's renderer overrides. Names of files are taken from the graph's folder.
 SceneOverrides scene_overrides(const Graph& graph, const Registry& registry);
 
-/// Changes a scene as read from its file. Throws UserError.
+/// Changes a scene as read from its file. Throws UserError, also with what nodes of the graph find wrong with it.
 void override_scene(const Graph& graph, const Registry& registry, Files& files, SceneData& scene);
 
 /// Reads the scene in the file at `path` and applies what the graph changes. Throws UserError with all that is wrong.

@@ -28,6 +28,12 @@ void MasterRenderer::use(const Plan& plan) {
         if (!places_.contains(key)) channels_[number]->close();
 }
 
+void MasterRenderer::append(const std::vector<Tile>& tiles) {
+    if (draining_) return;
+    job_.tiles.insert(job_.tiles.end(), tiles.begin(), tiles.end());
+    unanswered_ += tiles.size();
+}
+
 void MasterRenderer::hand_out() {
     while (replicas_.has_credit()) {
         if (again_.empty()) {

@@ -37,6 +37,8 @@ public:
     /// Hands out tiles and takes in pixels until all are there, or for about `most`. True when all are there. Throws
     /// Error when a node failed.
     bool work(std::chrono::nanoseconds most);
+    /// More tiles, after all others. May be called while pixels are handed on.
+    void append(const std::vector<Tile>& tiles);
     /// Hands out no more tiles.
     void drain() { next_ = job_.tiles.size(), again_.clear(), draining_ = true; }
     /// Tiles that are handed out and not answered.
