@@ -44,4 +44,10 @@ public:
     explicit Error(const std::string& what) : std::runtime_error(what) {}
 };
 
+/// An Error that names the node and the question already.
+class NodeError : public Error {
+public:
+    using Error::Error;
+};
+
 }  // namespace lightnet

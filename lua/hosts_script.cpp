@@ -19,11 +19,50 @@ std::string quoted(const std::string& text) { return "'" + text + "'"; }
 HostsScript::HostsScript(Sandbox& sandbox, std::map<std::string, std::string> constants)
     : Globals(sandbox, std::move(constants)), hosts_{sandbox.file(), {}} {
     offer("place", &HostsScript::place);
+    offer("strategy", &HostsScript::strategy);
 }
 
 int HostsScript::call(lua_State*, Unknown& callee) {
     callee.taken = true;
-    throw Error("a hosts file knows only place \"tcp://host:port\" { node = replicas }, not " + quoted(callee.name));
+    throw Error("a hosts file knows only place \"tcp://host:port\" { node = replicas } and strategy, not " +
+                quoted(callee.name));
+}
+
+// strategy = "name": for all nodes. The name stays what it was, so that strategy { … } may follow.
+void HostsScript::assigned(lua_State* L, const std::string& name) {
+    if (name != "strategy") return;
+    const auto where = sandbox_.caller();
+    if (lua_type(L, -1) == LUA_TSTRING && is_utf8(lua_tostring(L, -1)))
+        hosts_.strategies.push_back({"", lua_tostring(L, -1), where});
+    else
+        complain(where, "strategy is called by name: strategy = \"fastest\"");
+    lua_pushlightuserdata(L, this);
+    lua_pushcclosure(L, &HostsScript::strategy, 1);
+    lua_replace(L, -2);
+}
+
+// strategy { node = "name" }
+int HostsScript::strategy(lua_State* L) {
+    return guarded(L, [&] {
+        auto& script = *static_cast<HostsScript*>(lua_touserdata(L, lua_upvalueindex(1)));
+        if (lua_gettop(L) != 1 || !lua_istable(L, 1))
+            throw Error("strategy takes a table, strategy { node = \"name\" }, or is one for all: strategy = \"name\"");
+        script.take_strategies(L);
+        return 0;
+    });
+}
+
+void HostsScript::take_strategies(lua_State* L) {
+    const auto where = sandbox_.caller();
+    std::map<std::string, std::string> named;  // in an order that does not change
+    for (lua_pushnil(L); lua_next(L, 1); lua_settop(L, 2)) {
+        if (lua_type(L, 2) != LUA_TSTRING || lua_type(L, 3) != LUA_TSTRING || !is_utf8(lua_tostring(L, 2)) ||
+            !is_utf8(lua_tostring(L, 3)))
+            complain(where, "strategy: nodes and strategies go by name: strategy { node = \"fastest\" }");
+        else
+            named.emplace(lua_tostring(L, 2), lua_tostring(L, 3));
+    }
+    for (auto& [node, name] : named) hosts_.strategies.push_back({node, std::move(name), where});
 }
 
 // place "endpoint" gives the function that takes the table.
@@ -73,7 +112,7 @@ void HostsScript::take_replicas(lua_State* L, HostEntry& entry) {
 }
 
 Hosts HostsScript::finish() {
-    Globals::finish({"place"});
+    Globals::finish({"place", "strategy"});
     return std::move(hosts_);
 }
 

@@ -8,7 +8,8 @@
 
 namespace lightnet::lua {
 
-/// Makes an entry of every `place "tcp://host:port" { … }`.
+/// Makes an entry of every `place "tcp://host:port" { … }`, of `strategy = "name"` and of each in
+/// `strategy { node = "name" }`.
 class HostsScript final : public Globals {
 public:
     HostsScript(Sandbox& sandbox, std::map<std::string, std::string> constants);
@@ -18,11 +19,13 @@ public:
 
 private:
     int call(lua_State* L, Unknown& callee) override;
-    void assigned(lua_State*, const std::string&) override {}
+    void assigned(lua_State* L, const std::string& name) override;
 
     static int place(lua_State* L);
     static int fill(lua_State* L);
+    static int strategy(lua_State* L);
     void take_replicas(lua_State* L, HostEntry& entry);
+    void take_strategies(lua_State* L);
 
     Hosts hosts_;
 };

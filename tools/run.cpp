@@ -227,7 +227,7 @@ void Run::render_serially(SceneData scene) {
     });
     book_.use(Plan{{PlaceAt{}}, std::vector<std::vector<std::uint32_t>>(job_.graph.nodes.size(), {0})}, job_.graph);
     try {
-        run.prepare(made_from(job_), cache());
+        run.prepare(made_from(job_), cache(), [this](const std::string& text) { book_.say(text); });
         book_.phase("render");
         for (std::size_t next = 0; next < tiles_.size() && !stopped(); ++next) {
             const Tile tile = tiles_[next];
@@ -292,6 +292,7 @@ void Run::hand_out(Carrier& carrier, const Plan& plan, const LookAround& look_ar
     options.width = static_cast<std::uint32_t>(format_.layers.size());
     options.made_from = made_from(job_);
     options.cache = cache();
+    options.say = [this](const std::string& text) { book_.say(text); };
     Conductor conductor(std::move(options), carrier);
     conductor.propose(plan);
     if (!prepare(conductor, look_around)) return;
@@ -316,6 +317,11 @@ void Run::hand_out(Carrier& carrier, const Plan& plan, const LookAround& look_ar
         while (master.outstanding() > 0 && Clock::now() < end && !signals_.interrupted) master.work(50ms);
     }
     book_.count(master.counters());
+    if (const auto& aside = master.set_aside_tiles(); !aside.empty()) {
+        std::string all = "the picture lacks " + std::to_string(aside.size()) + " of its tiles, and is not written:";
+        for (const auto& tile : aside) all += "\n  " + tile;
+        throw Error("node '" + job_.graph.nodes[image_].name + "'", all);
+    }
 }
 
 void Run::render_on_hosts(const DiskFiles& files) {

@@ -87,6 +87,8 @@ bool sane(const Query&) { return true; }
 
 template <class Question>
 bool take_questions(const Header& header, View body, Message& message) {
+    message.load = {};
+    message.asker = (std::uint64_t{header.service_ns} << 32) | header.fill;
     auto questions = unpack_columns<Question>(header.count, body);
     if (!questions) return false;
     for (const auto& question : **questions)
@@ -159,6 +161,8 @@ Packet pack(const Message& message, std::uint32_t place) {
     Buffer body;
     const auto ask = [&](Type type, const auto& questions) {
         header.type = type;
+        header.fill = static_cast<std::uint32_t>(message.asker);
+        header.service_ns = static_cast<std::uint32_t>(message.asker >> 32);
         header.count = static_cast<std::uint32_t>(questions->size());
         pack_columns(*questions, body);
     };

@@ -70,7 +70,7 @@ struct Header {
     std::uint32_t place = 0;       // of the host
     std::uint32_t width = 0;       // colours per question
     std::uint32_t count = 0;       // questions, or colours of an answer
-    std::uint32_t fill = 0;        // questions that wait at the answerer
+    std::uint32_t fill = 0;        // questions that wait at the answerer; in an ask, with the next: who asks
     std::uint32_t service_ns = 0;  // per question
 };
 

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/graph/check_params.hpp"
+#include "core/graph/strategy.hpp"
 
 namespace lightnet {
 namespace {
@@ -35,6 +36,22 @@ private:
     const HostEntry& entry_;
     std::vector<Problem>& problems_;
 };
+
+void check_strategy(const StrategyEntry& entry, const Graph& graph, const Registry& registry,
+                    const std::vector<std::string>& names, std::vector<Problem>& problems) {
+    const auto complain = [&](const std::string& what) {
+        problems.push_back({entry.where, "strategy" + (entry.node.empty() ? "" : " of " + quoted(entry.node)) + what});
+    };
+    if (!entry.node.empty()) {
+        const auto node = graph.find(entry.node);
+        const Kind* kind = node ? registry.find(graph.nodes[*node].kind) : nullptr;
+        if (!node) complain(": there is no node of that name" + suggest(entry.node, names));
+        if (kind && kind->role == Role::scene) complain(": it is a scene, which nobody asks");
+    }
+    const std::vector<std::string> known(strategy_names.begin(), strategy_names.end());
+    if (!strategy_called(entry.name))
+        complain(": there is none called " + quoted(entry.name) + suggest(entry.name, known));
+}
 
 }  // namespace
 
@@ -74,6 +91,7 @@ void check_hosts(const Hosts& hosts, const Graph& graph, const Registry& registr
                 check.replica(name, count);
         }
     }
+    for (const auto& entry : hosts.strategies) check_strategy(entry, graph, registry, names, problems);
 }
 
 }  // namespace lightnet

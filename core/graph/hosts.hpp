@@ -19,10 +19,19 @@ struct HostEntry {
     friend bool operator==(const HostEntry&, const HostEntry&) = default;
 };
 
+/// `strategy = "affinity"`, or one entry of `strategy { bounce = "affinity" }`
+struct StrategyEntry {
+    std::string node;  // "": all that have none of their own
+    std::string name;  // of a Strategy, as it stands there
+    SourceLine where;
+    friend bool operator==(const StrategyEntry&, const StrategyEntry&) = default;
+};
+
 /// All hosts of a run, in the order of the file.
 struct Hosts {
     std::string file;
     std::vector<HostEntry> hosts;
+    std::vector<StrategyEntry> strategies{};  // in the order of the file; later ones win
     friend bool operator==(const Hosts&, const Hosts&) = default;
 };
 

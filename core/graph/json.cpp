@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -168,6 +169,27 @@ HostEntry host_of(const Json& json) {
     return host;
 }
 
+Strategy strategy_of(const Json& json) {
+    const auto strategy = strategy_called(text_of(json));
+    if (!strategy) malformed("'" + text_of(json) + "' is no strategy");
+    return *strategy;
+}
+
+void take_strategies(const Json& json, Plan& plan) {
+    if (!json.is_object()) malformed("an object was expected");
+    for (const auto& [node, strategy] : json.items()) {
+        std::uint32_t index = 0;
+        const auto [end, fault] = std::from_chars(node.data(), node.data() + node.size(), index);
+        if (fault != std::errc{} || end != node.data() + node.size()) malformed("'" + node + "' is no node");
+        plan.strategies[index] = strategy_of(strategy);
+    }
+}
+
+StrategyEntry strategy_entry_of(const Json& json) {
+    object_of(json, 3);
+    return {text_of(member(json, "node")), text_of(member(json, "name")), where_of(member(json, "where"))};
+}
+
 }  // namespace
 
 std::string to_json(const Graph& graph) {
@@ -191,26 +213,35 @@ std::string to_json(const Hosts& hosts) {
                         {"replicas", host.replicas},
                         {"places", host.places},
                         {"where", json_of(host.where)}});
-    return dump({{"file", hosts.file}, {"hosts", std::move(list)}});
+    Json strategies = Json::array();
+    for (const auto& entry : hosts.strategies)
+        strategies.push_back({{"node", entry.node}, {"name", entry.name}, {"where", json_of(entry.where)}});
+    return dump({{"file", hosts.file}, {"hosts", std::move(list)}, {"strategies", std::move(strategies)}});
 }
 
 Hosts hosts_from_json(std::string_view text) {
     const Json json = parse(text);
-    object_of(json, 2);
+    object_of(json, 3);
     Hosts hosts{text_of(member(json, "file")), {}};
     for (const auto& host : array_of(member(json, "hosts"))) hosts.hosts.push_back(host_of(host));
+    for (const auto& entry : array_of(member(json, "strategies"))) hosts.strategies.push_back(strategy_entry_of(entry));
     return hosts;
 }
 
 std::string to_json(const Plan& plan) {
     Json places = Json::array();
     for (const auto& place : plan.places) places.push_back(Json::array({place.host, place.index}));
-    return dump({{"places", std::move(places)}, {"places_of", plan.places_of}});
+    Json strategies = Json::object();
+    for (const auto& [node, strategy] : plan.strategies) strategies[std::to_string(node)] = name_of(strategy);
+    return dump({{"places", std::move(places)},
+                 {"places_of", plan.places_of},
+                 {"strategy", name_of(plan.strategy)},
+                 {"strategies", std::move(strategies)}});
 }
 
 Plan plan_from_json(std::string_view text) {
     const Json json = parse(text);
-    object_of(json, 2);
+    object_of(json, 4);
     Plan plan;
     for (const auto& place : array_of(member(json, "places"))) {
         if (array_of(place).size() != 2) malformed("a host and an index were expected");
@@ -223,6 +254,8 @@ Plan plan_from_json(std::string_view text) {
             if (held.back() >= plan.places.size()) malformed("a node is held by a place that isn't there");
         }
     }
+    plan.strategy = strategy_of(member(json, "strategy"));
+    take_strategies(member(json, "strategies"), plan);
     return plan;
 }
 

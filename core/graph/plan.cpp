@@ -46,6 +46,18 @@ public:
             }
     }
 
+    /// Names that are no strategy, or no node, have been complained of by check_hosts().
+    void choose_strategies(const Hosts& hosts) {
+        for (const auto& entry : hosts.strategies) {
+            const auto strategy = strategy_called(entry.name);
+            const auto node = graph_.find(entry.node);
+            if (strategy && entry.node.empty())
+                plan_.strategy = *strategy;
+            else if (strategy && node)
+                plan_.strategies[static_cast<std::uint32_t>(*node)] = *strategy;
+        }
+    }
+
     bool empty() const { return plan_.places.empty(); }
 
     Plan take() {
@@ -100,6 +112,7 @@ Plan plan(const Graph& graph, const Registry& registry, const Hosts& hosts, cons
     }
     if (planner.empty()) throw Error("no host offers a place");
     planner.rescue_homeless();
+    planner.choose_strategies(hosts);
     return planner.take();
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "core/graph/graph.hpp"
 #include "core/graph/hosts.hpp"
 #include "core/graph/kind.hpp"
+#include "core/graph/strategy.hpp"
 
 namespace lightnet {
 
@@ -31,10 +33,18 @@ struct PlaceAt {
     friend bool operator==(const PlaceAt&, const PlaceAt&) = default;
 };
 
-/// All places of a run, and which of them answer for each node.
+/// All places of a run, and which of them answer for each node. One that is there and holds no node any more answers
+/// what it has, and is asked no more; one that is gone has left its work undone.
 struct Plan {
     std::vector<PlaceAt> places;
     std::vector<std::vector<std::uint32_t>> places_of;  // node index → places (indices) that hold it; scenes: none
+    Strategy strategy = Strategy::fastest;              // by which askers choose among the places of a node ...
+    std::map<std::uint32_t, Strategy> strategies{};     // ... but of these nodes
+
+    Strategy strategy_of(std::size_t node) const {
+        const auto own = strategies.find(static_cast<std::uint32_t>(node));
+        return own == strategies.end() ? strategy : own->second;
+    }
     friend bool operator==(const Plan&, const Plan&) = default;
 };
 

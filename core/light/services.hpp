@@ -57,6 +57,9 @@ public:
     virtual std::vector<Query> rehearse(std::uint32_t stride) = 0;
 
     virtual Whereabouts whereabouts() const = 0;
+    /// A line for the user: how many photons were kept, how large a cache is. What several places say alike is shown
+    /// once.
+    virtual void say(const std::string& text) = 0;
 
 protected:
     using Shard = std::function<void(std::size_t shard, std::vector<std::byte>& out)>;

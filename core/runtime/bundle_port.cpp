@@ -74,7 +74,7 @@ void BundlePort::finish(Ticket ticket) {
     if (ask.error.empty()) return close(ticket);
     const std::string error = std::move(ask.error);
     abandon(ticket);
-    throw Error(error);
+    throw NodeError(error);
 }
 
 // Who waits long for an answer anyway loses little by waiting for company first.
@@ -90,7 +90,7 @@ bool BundlePort::due(Clock::time_point now, bool idle) {
 }
 
 bool BundlePort::flush(Clock::time_point now, bool idle) {
-    bool sent = false;
+    bool sent = (idle || replicas_.has_waiting()) && replicas_.tick();
     while ((!again_.empty() || due(now, idle)) && replicas_.has_credit()) {
         if (again_.empty()) again_.push_back(make_bundle(now));
         if (!replicas_.send(again_.front())) break;
@@ -156,7 +156,7 @@ Bundle<Query> BundlePort::make_bundle(Clock::time_point now) {
 }
 
 std::chrono::nanoseconds BundlePort::until_due(Clock::time_point now) const {
-    constexpr std::chrono::nanoseconds never = std::chrono::milliseconds(100);
+    const auto never = replicas_.until_due();
     if (!again_.empty()) return std::chrono::milliseconds(1);
     if (waiting_ == 0 || !replicas_.has_credit()) return never;
     return std::max<std::chrono::nanoseconds>(oldest_ + patience() - now, std::chrono::microseconds(50));

@@ -2,22 +2,41 @@
 
 #include <xmmintrin.h>
 #include <algorithm>
+#include <string>
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/runtime/describe_question.hpp"
 
 namespace lightnet {
 namespace {
 
 constexpr std::size_t piece = 256;
+constexpr unsigned usual_float_mode = 0x1f80;
 
 // Flush-to-zero, denormals-are-zero and rounding must be those that every place starts with.
 void check_float_mode() {
-    constexpr unsigned modes = 0xffc0, usual = 0x1f80;
-    if ((_mm_getcsr() & modes) != usual) {
-        _mm_setcsr(usual);
+    constexpr unsigned modes = 0xffc0;
+    if ((_mm_getcsr() & modes) != usual_float_mode) {
+        _mm_setcsr(usual_float_mode);
         throw Error("the node changed the floating-point mode of its thread");
     }
+}
+
+// Which question a node threw at: each is asked alone until it throws again. Empty: none is to blame.
+std::string culprit(const Called& node, std::span<const Query> questions) {
+    std::vector<Rgb> answer(node.layers);
+    std::string found;
+    for (const auto& question : questions) {
+        try {
+            node.light.light({&question, 1}, answer);
+        } catch (const std::exception&) {
+            found = " at " + describe(question);
+            break;
+        }
+    }
+    _mm_setcsr(usual_float_mode);
+    return found;
 }
 
 }  // namespace
@@ -50,8 +69,10 @@ void answer(const Called& node, std::size_t width, std::span<const Query> questi
         }
     }
     check_float_mode();
+} catch (const NodeError& error) {
+    throw NodeError("'" + node.name + "'", error.what());
 } catch (const std::exception& error) {
-    throw Error("'" + node.name + "'", error.what());
+    throw NodeError("'" + node.name + "'" + culprit(node, questions), error.what());
 }
 
 }  // namespace lightnet

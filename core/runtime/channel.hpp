@@ -1,12 +1,12 @@
 // The way of a bundle to whoever answers it: one place, or one of several.
 #pragma once
 
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "core/runtime/credit.hpp"
 #include "core/runtime/message.hpp"
 
 namespace lightnet {
@@ -23,7 +23,7 @@ struct Bundle {
     std::uint32_t width = 1;                 // colours per question that are wanted
 };
 
-/// Makes bundles, and gets each back once: answered, failed, or returned unanswered because its place is gone.
+/// Makes bundles, and gets each back once: answered, failed, set aside, or returned unanswered.
 template <class Question>
 class BundleOwner {
 public:
@@ -31,6 +31,8 @@ public:
     virtual void answered(const Bundle<Question>& bundle, std::vector<Rgb> answers) = 0;
     virtual void failed(const Bundle<Question>& bundle, const std::string& why) = 0;
     virtual void returned(Bundle<Question> bundle) = 0;
+    /// It seems to kill hosts, and is asked no more.
+    virtual void set_aside(const Bundle<Question>& bundle, const std::string& why) { failed(bundle, why); }
 };
 
 /// Takes bundles and has them answered. A multiplexer is itself a channel, made of channels.
@@ -38,15 +40,16 @@ template <class Question>
 class Channel {
 public:
     virtual ~Channel() = default;
-    /// May a bundle be sent now? Credit is what the answerer has promised to take, and the asker to keep room for.
-    virtual bool has_credit() const = 0;
     /// Sends a bundle. False: it could not be sent after all, and nothing has changed.
     virtual bool send(const Bundle<Question>& bundle) = 0;
-    /// When a bundle of `more` questions, sent now, would be answered: seconds, as far as is known.
-    virtual double completion_time(std::size_t more) const = 0;
-    /// Questions that are sent and not answered.
-    virtual std::size_t outstanding() const = 0;
-    virtual std::size_t bundles_outstanding() const = 0;
+    /// How much may be under way on it.
+    virtual Credit credit() const { return {}; }
+    /// How busy the answerer was when it last replied.
+    virtual Load load() const { return {}; }
+    /// The host of the answerer; places of one host are lost together. "": this process.
+    virtual std::string host() const { return {}; }
+    /// A short name for the answerer, the same whenever it comes back.
+    virtual std::uint64_t name() const { return 0; }
 };
 
 }  // namespace lightnet

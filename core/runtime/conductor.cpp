@@ -224,13 +224,25 @@ void Conductor::take(Message message) {
 }
 
 void Conductor::reported(const Sent& sent, const Bytes& data) {
-    const auto reports = values_of<Report>(data);
-    if (reports.size() != 1 || reports[0].kind > Report::Kind::last)
+    Report report;
+    if (data && data->size() >= sizeof report) std::memcpy(&report, data->data(), sizeof report);
+    if (!data || data->size() < sizeof report || report.kind > Report::Kind::last)
         throw Error("'" + name_of(sent.position) + "': a report of preparing is damaged");
+    say(sent.position, {reinterpret_cast<const char*>(data->data()) + sizeof report, data->size() - sizeof report});
     auto& follower = followers_[{sent.place, sent.position}];
-    follower.at = reports[0];
+    follower.at = report;
     follower.state = follower.at.kind == Report::Kind::done ? Follower::State::done : Follower::State::waiting;
     advance();
+}
+
+// Each line once, however many places say it.
+void Conductor::say(std::size_t position, std::string_view lines) {
+    while (!lines.empty()) {
+        const auto end = std::min(lines.find('\n'), lines.size());
+        const std::string line = name_of(position) + ": " + std::string(lines.substr(0, end));
+        if (said_.insert(line).second) options_.say(line);
+        lines.remove_prefix(std::min(end + 1, lines.size()));
+    }
 }
 
 void Conductor::shard_done(const Sent& sent, const Bytes& data) {
@@ -272,6 +284,7 @@ void Conductor::begin_rehearsal(std::uint32_t call) {
     job.width = options_.width;
     job.tiles = rehearsal_tiles(*options_.graph, *options_.registry, calls_.of(order_[done_], call).what().count);
     job.credit = {tiles_per_place, tiles_per_place};
+    job.double_tail = false;  // what is still under way at its end would note questions in the next rehearsal
     ++epoch_;
     rehearsing_.emplace();
     rehearsing_->call = call;

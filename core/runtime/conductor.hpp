@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -101,6 +102,7 @@ private:
     bool send(const PlaceKey& place, std::size_t position, Step step);
     void take(Message message);
     void reported(const Sent& sent, const Bytes& data);
+    void say(std::size_t position, std::string_view lines);
     void shard_done(const Sent& sent, const Bytes& data);
     void noted(const Sent& sent, const Bytes& data);
     void lose(const std::set<PlaceKey>& gone);
@@ -125,6 +127,7 @@ private:
     std::size_t done_ = 0;               // positions of order_ that are prepared everywhere
     std::set<PlaceKey> known_prepared_;  // have caught up once
     std::optional<Rehearsing> rehearsing_;
+    std::set<std::string> said_;
     std::uint32_t epoch_ = 0;  // of the master whose replies count
 };
 

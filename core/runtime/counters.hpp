@@ -18,10 +18,18 @@ struct Counters {
     std::uint64_t bytes = 0;            // sent and received over sockets between hosts
     std::uint64_t file_bytes = 0;       // of scene files, sent to hosts that did not have them
     std::uint64_t tiles = 0;            // rendered
-    std::uint64_t asked_again = 0;      // bundles whose first place was lost
-    std::uint64_t late_replies = 0;     // of bundles that were answered already; dropped
-    std::uint64_t refused_sends = 0;    // at a full or broken socket; tried again
-    std::uint64_t broken_packets = 0;   // dropped
+    std::uint64_t merged = 0;           // bundles that were answered together with one before them
+    std::uint64_t cut_bundles = 0;      // cut up, so that several places share them
+    std::uint64_t spilled = 0;         // bundles and tiles that did not go to the place of their region, as it was busy
+    std::uint64_t asked_again = 0;     // bundles and tiles whose place was lost
+    std::uint64_t overdue = 0;         // asked again elsewhere, as a place that is not lost kept silent
+    std::uint64_t doubled = 0;         // done once more at the end, by places with nothing else to do
+    std::uint64_t compared = 0;        // answers that came twice and were compared bit for bit
+    std::uint64_t set_aside = 0;       // bundles and tiles that seem to kill hosts
+    std::uint64_t cancelled = 0;       // asks of lost places, dropped before they were answered
+    std::uint64_t late_replies = 0;    // of bundles that were answered already; dropped
+    std::uint64_t refused_sends = 0;   // at a full or broken socket; tried again
+    std::uint64_t broken_packets = 0;  // dropped
 
     Counters& operator+=(const Counters& more) {
         for (const auto& [name, count] : all) this->*count += more.*count;
@@ -34,11 +42,11 @@ struct Counters {
     }
 
     /// Every count and its name, as in run.json and on the wire.
-    static const std::array<std::pair<const char*, std::uint64_t Counters::*>, 11> all;
+    static const std::array<std::pair<const char*, std::uint64_t Counters::*>, 19> all;
     friend bool operator==(const Counters&, const Counters&) = default;
 };
 
-inline constexpr std::array<std::pair<const char*, std::uint64_t Counters::*>, 11> Counters::all{{
+inline constexpr std::array<std::pair<const char*, std::uint64_t Counters::*>, 19> Counters::all{{
     {"rays", &Counters::rays},
     {"local_questions", &Counters::local_questions},
     {"questions", &Counters::questions},
@@ -46,7 +54,15 @@ inline constexpr std::array<std::pair<const char*, std::uint64_t Counters::*>, 1
     {"bytes", &Counters::bytes},
     {"file_bytes", &Counters::file_bytes},
     {"tiles", &Counters::tiles},
+    {"merged", &Counters::merged},
+    {"cut_bundles", &Counters::cut_bundles},
+    {"spilled", &Counters::spilled},
     {"asked_again", &Counters::asked_again},
+    {"overdue", &Counters::overdue},
+    {"doubled", &Counters::doubled},
+    {"compared", &Counters::compared},
+    {"set_aside", &Counters::set_aside},
+    {"cancelled", &Counters::cancelled},
     {"late_replies", &Counters::late_replies},
     {"refused_sends", &Counters::refused_sends},
     {"broken_packets", &Counters::broken_packets},

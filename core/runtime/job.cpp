@@ -51,8 +51,10 @@ std::string to_json(const Job& job) {
                   {"eager", rules.bundles.eager},
                   {"credit_bundles", rules.credit.bundles},
                   {"credit_questions", rules.credit.questions},
+                  {"credit_bytes", rules.credit.bytes},
                   {"spare_fibers", rules.spare_fibers},
                   {"side_fibers", rules.side_fibers},
+                  {"check", rules.check},
                   {"call_own_nodes", rules.call_own_nodes}}},
                 {"checking", job.checking}}
         .dump();
@@ -79,8 +81,10 @@ Job job_from_json(std::string_view text) {
         job.rules.bundles.eager = count_of<std::size_t>(rules, "eager");
         job.rules.credit.bundles = count_of<std::size_t>(rules, "credit_bundles");
         job.rules.credit.questions = count_of<std::size_t>(rules, "credit_questions");
+        job.rules.credit.bytes = count_of<std::size_t>(rules, "credit_bytes");
         job.rules.spare_fibers = count_of<std::size_t>(rules, "spare_fibers");
         job.rules.side_fibers = count_of<std::size_t>(rules, "side_fibers");
+        job.rules.check = rules.at("check");
         job.rules.call_own_nodes = rules.at("call_own_nodes");
         job.checking = json.at("checking");
         return job;

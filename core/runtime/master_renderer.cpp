@@ -5,27 +5,23 @@
 namespace lightnet {
 
 MasterRenderer::MasterRenderer(Job job, Carrier& carrier, Done done)
-    : job_(std::move(job)), carrier_(carrier), done_(std::move(done)), unanswered_(job_.tiles.size()) {}
+    : job_(std::move(job)),
+      carrier_(carrier),
+      done_(std::move(done)),
+      channels_(carrier, job_.run, 0, counters_),
+      edge_{job_.image, job_.credit, {}},
+      unanswered_(job_.tiles.size()) {}
 
 void MasterRenderer::use(const Plan& plan) {
-    std::map<std::pair<std::string, std::uint32_t>, std::uint32_t> places;
-    std::vector<Channel<Tile>*> replicas;
-    for (const auto place : plan.places_of[job_.image]) {
-        const auto& at = plan.places[place];
-        const std::pair key{at.host, at.index};
-        if (const auto known = places_.find(key); known != places_.end()) {
-            places.insert(*known);
-        } else {
-            places[key] = static_cast<std::uint32_t>(channels_.size());
-            channels_.push_back(std::make_unique<RemoteChannel<Tile>>(
-                carrier_, RemoteChannel<Tile>::Ends{job_.run, places[key], job_.image, at}, job_.credit, counters_));
-        }
-        replicas.push_back(channels_[places[key]].get());
+    if (!std::exchange(planned_, true)) {
+        MultiplexerRules rules;
+        rules.scheduling.strategy = plan.strategy_of(job_.image);
+        rules.scheduling.double_tail = job_.double_tail;
+        rules.clock = job_.clock;
+        if (job_.check) rules.differs = [this](const std::string& what) { error_ = what; };
+        replicas_.follow(std::move(rules), &counters_);
     }
-    const auto before = std::exchange(places_, std::move(places));
-    replicas_.use(std::move(replicas));
-    for (const auto& [key, number] : before)
-        if (!places_.contains(key)) channels_[number]->close();
+    channels_.connect(edge_, replicas_, plan);
 }
 
 void MasterRenderer::append(const std::vector<Tile>& tiles) {
@@ -35,37 +31,52 @@ void MasterRenderer::append(const std::vector<Tile>& tiles) {
 }
 
 void MasterRenderer::hand_out() {
-    while (replicas_.has_credit()) {
-        if (again_.empty()) {
-            if (next_ == job_.tiles.size()) return;
-            auto tile = std::make_shared<const std::vector<Tile>>(1, job_.tiles[next_]);
-            again_.push_back({std::move(tile), this, next_, job_.width});
-            ++next_;
-        }
-        if (!replicas_.send(again_.front())) return;
-        again_.pop_front();
+    replicas_.foresee(job_.tiles.size() - next_);
+    while (next_ < job_.tiles.size() && replicas_.has_credit()) {
+        const auto number = next_++;
+        replicas_.foresee(job_.tiles.size() - next_);
+        auto tile = std::make_shared<const std::vector<Tile>>(1, job_.tiles[number]);
+        replicas_.send({std::move(tile), this, number, job_.width});
+    }
+    replicas_.tick();
+}
+
+void MasterRenderer::take_in() {
+    while (auto message = carrier_.receive()) {
+        if (message->run != job_.run) continue;
+        if (message->type == Message::Type::plan)
+            use(*message->plan);
+        else if (message->type == Message::Type::reply || message->type == Message::Type::failure)
+            channels_.arrived(*message);
+        if (!error_.empty()) throw Error(error_);
     }
 }
 
 bool MasterRenderer::work(std::chrono::nanoseconds most) {
-    const auto end = std::chrono::steady_clock::now() + most;
+    const double end = job_.clock() + std::chrono::duration<double>(most).count();
     while (unanswered_ > 0) {
         hand_out();
-        const auto left = end - std::chrono::steady_clock::now();
-        if (left.count() <= 0) return false;
-        carrier_.wait(std::min<std::chrono::nanoseconds>(left, std::chrono::milliseconds(again_.empty() ? 100 : 2)));
-        while (auto message = carrier_.receive()) {
-            if (message->run != job_.run) continue;
-            if (message->type == Message::Type::plan) {
-                use(*message->plan);
-            } else if (message->channel < channels_.size() &&
-                       (message->type == Message::Type::reply || message->type == Message::Type::failure)) {
-                channels_[message->channel]->arrived(*message);
-            }
-            if (!error_.empty()) throw Error(error_);
-        }
+        const double left = end - job_.clock();
+        if (left <= 0) return false;
+        carrier_.wait(std::min(std::chrono::nanoseconds(static_cast<std::int64_t>(left * 1e9)), replicas_.until_due()));
+        take_in();
     }
     return true;
+}
+
+void MasterRenderer::settle(std::chrono::nanoseconds most) {
+    const double end = job_.clock() + std::chrono::duration<double>(most).count();
+    while (outstanding() > 0 && job_.clock() < end) {
+        replicas_.tick();
+        carrier_.wait(replicas_.until_due());
+        take_in();
+    }
+}
+
+void MasterRenderer::drain() {
+    draining_ = true;
+    next_ = job_.tiles.size();
+    replicas_.drop_waiting();
 }
 
 void MasterRenderer::answered(const Bundle<Tile>& bundle, std::vector<Rgb> pixels) {
@@ -75,6 +86,11 @@ void MasterRenderer::answered(const Bundle<Tile>& bundle, std::vector<Rgb> pixel
 
 void MasterRenderer::failed(const Bundle<Tile>&, const std::string& why) {
     if (error_.empty()) error_ = why;
+}
+
+void MasterRenderer::set_aside(const Bundle<Tile>&, const std::string& why) {
+    --unanswered_;
+    set_aside_.push_back(why);
 }
 
 }  // namespace lightnet

@@ -1,25 +1,20 @@
 // Hands out the tiles of a picture.
 #pragma once
 
-#include <deque>
 #include <functional>
-#include <map>
-#include <memory>
-#include <set>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/runtime/carrier.hpp"
 #include "core/runtime/multiplexer.hpp"
-#include "core/runtime/remote_channel.hpp"
+#include "core/runtime/remote_channels.hpp"
 
 namespace lightnet {
 
-/// Has every tile rendered once, by whichever place will finish it first, and hands the pixels on. Renders nothing
-/// itself. Lives on the launcher's thread.
-class MasterRenderer final : public BundleOwner<Tile> {
+/// Has every tile rendered, by whichever place will finish it first, and hands the pixels on, once for each tile.
+/// Renders nothing itself. Lives on the launcher's thread.
+class MasterRenderer final : private BundleOwner<Tile> {
 public:
     using Done = std::function<void(const Tile&, std::span<const Rgb>)>;
 
@@ -29,44 +24,51 @@ public:
         std::uint32_t width = 1;  // colours per pixel
         std::vector<Tile> tiles;  // in the order of handing out
         Credit credit{3, 3};      // tiles in flight per place
+        bool double_tail = true;  // idle places do the last tiles once more
+        bool check = false;       // tiles that are done twice must have the same bits
+        std::function<double()> clock = steady_seconds;
     };
     MasterRenderer(Job job, Carrier& carrier, Done done);
 
     /// From now on, these places render.
     void use(const Plan& plan);
-    /// Hands out tiles and takes in pixels until all are there, or for about `most`. True when all are there. Throws
-    /// Error when a node failed.
+    /// Hands out tiles and takes in pixels until all are there, or for about `most`. True when none is missing but
+    /// those set aside. Throws Error when a node failed, or when a tile was done twice with different bits.
     bool work(std::chrono::nanoseconds most);
     /// More tiles, after all others. May be called while pixels are handed on.
     void append(const std::vector<Tile>& tiles);
+    /// Takes in what is still under way of tiles that are done, for about `most`: copies, that are compared when
+    /// checking.
+    void settle(std::chrono::nanoseconds most);
     /// Hands out no more tiles.
-    void drain() { next_ = job_.tiles.size(), again_.clear(), draining_ = true; }
+    void drain();
     /// Tiles that are handed out and not answered.
     std::size_t outstanding() const { return replicas_.outstanding(); }
     /// Places that render now.
     std::size_t renderers() const { return replicas_.size(); }
+    /// Tiles that seem to kill hosts, and on which hosts they did: one sentence each.
+    const std::vector<std::string>& set_aside_tiles() const { return set_aside_; }
     const Counters& counters() const { return counters_; }
 
+private:
     void answered(const Bundle<Tile>& bundle, std::vector<Rgb> pixels) override;
     void failed(const Bundle<Tile>& bundle, const std::string& why) override;
-    void returned(Bundle<Tile> bundle) override {
-        if (!draining_) again_.push_back(std::move(bundle));
-    }
-
-private:
+    void returned(Bundle<Tile>) override {}  // a multiplexer keeps what it has taken
+    void set_aside(const Bundle<Tile>& bundle, const std::string& why) override;
     void hand_out();
+    void take_in();
 
     Job job_;
     Carrier& carrier_;
     Done done_;
     Counters counters_;
-    std::map<std::pair<std::string, std::uint32_t>, std::uint32_t> places_;  // → index in channels_
-    std::vector<std::unique_ptr<RemoteChannel<Tile>>> channels_;
+    RemoteChannels<Tile> channels_;
+    RemoteChannels<Tile>::Edge edge_;
     Multiplexer<Tile> replicas_;
-    std::deque<Bundle<Tile>> again_;  // came back unanswered
-    std::size_t next_ = 0;            // tile to hand out
+    bool planned_ = false, draining_ = false;
+    std::size_t next_ = 0;  // tile to hand out
     std::size_t unanswered_;
-    bool draining_ = false;
+    std::vector<std::string> set_aside_;
     std::string error_;
 };
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -48,6 +49,7 @@ struct Message {
     std::uint64_t bundle = 0;   // unique per channel
     std::uint32_t node = 0;     // index in the graph
     std::uint32_t width = 1;    // colours per question that are wanted
+    std::uint64_t asker = 0;    // of an ask: name_of() the asking place; 0: the launcher
     std::variant<std::monostate, Questions<Query>, Questions<Tile>, Questions<Step>> questions;
     std::vector<Rgb> answers;
     Bytes data;  // what a step is about, or its answer
@@ -65,6 +67,18 @@ inline Message reply_to(Message& ask) {
     reply.width = ask.width;
     reply.route = std::move(ask.route);
     return reply;
+}
+
+/// How many questions a message asks.
+inline std::size_t questions_of(const Message& message) {
+    return std::visit(
+        [](const auto& questions) -> std::size_t {
+            if constexpr (std::is_same_v<std::decay_t<decltype(questions)>, std::monostate>)
+                return 0;
+            else
+                return questions->size();
+        },
+        message.questions);
 }
 
 /// How many colours answer one question when each has `width`.

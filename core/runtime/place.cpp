@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/scene/scene.hpp"
@@ -19,6 +21,7 @@ Place::Place(const Network& network, const PlaceAt& me, const Plan& plan, std::u
       rounds_(fibers_, rules.side_fibers, [this](Fibers::Fiber* fiber) { ready_.push_back(fiber); }),
       inboxes_(network.graph.nodes.size()),
       by_rank_(network.graph.nodes.size()),
+      channels_(carrier, run, name_of(me), counters_),
       locks_(
           fibers_, [this](Fibers::Fiber* fiber) { ready_.push_back(fiber); },
           [this](Message reply) { carrier_.reply(std::move(reply)); }),
@@ -59,42 +62,41 @@ Port* Place::port_to(std::size_t node, std::size_t width) {
     }
     auto& remote = remotes_[{node, width}];
     if (!remote.port) {
-        remote.node = node;
+        remote.edge = {static_cast<std::uint32_t>(node), rules_.credit, {}};
         remote.port = std::make_unique<BundlePort>(
             fibers_, [this](Fibers::Fiber* fiber) { ready_.push_back(fiber); }, width, rules_.bundles);
-        connect(remote);
+        remote.port->replicas().follow(multiplexer_rules(node), &counters_);
+        channels_.connect(remote.edge, remote.port->replicas(), plan_);
     }
     return remote.port.get();
 }
 
-// Makes the replicas of a port those of the plan: opens channels to new places, closes those to lost ones.
-void Place::connect(Remote& remote) {
-    std::map<std::pair<std::string, std::uint32_t>, std::uint32_t> channels;
-    std::vector<Channel<Query>*> replicas;
-    for (const auto place : plan_.places_of[remote.node]) {
-        const auto& at = plan_.places[place];
-        const std::pair key{at.host, at.index};
-        const auto known = remote.channels.find(key);
-        if (known != remote.channels.end()) {
-            channels.insert(*known);
-        } else {
-            const auto number = static_cast<std::uint32_t>(channels_.size());
-            channels_.push_back(std::make_unique<RemoteChannel<Query>>(
-                carrier_, RemoteChannel<Query>::Ends{run_, number, static_cast<std::uint32_t>(remote.node), at},
-                rules_.credit, counters_));
-            channels[key] = number;
-        }
-        replicas.push_back(channels_[channels[key]].get());
-    }
-    const auto before = std::exchange(remote.channels, std::move(channels));
-    remote.port->replicas().use(std::move(replicas));
-    for (const auto& [key, number] : before)
-        if (!remote.channels.contains(key)) channels_[number]->close();
+MultiplexerRules Place::multiplexer_rules(std::size_t node) {
+    MultiplexerRules rules;
+    rules.scheduling.strategy = plan_.strategy_of(node);
+    rules.scheduling.usual = rules_.bundles.questions;
+    if (rules_.check) rules.differs = [](const std::string& what) { throw Error(what); };
+    return rules;
 }
 
 void Place::use(const Plan& plan) {
-    plan_ = plan;
-    for (auto& [key, remote] : remotes_) connect(remote);
+    const auto before = std::exchange(plan_, plan);
+    for (auto& [key, remote] : remotes_) channels_.connect(remote.edge, remote.port->replicas(), plan_);
+    cancel_asks_of_lost(before);
+}
+
+// Nobody waits any more for answers to a place that is gone. One that this place has not heard of yet is not gone.
+void Place::cancel_asks_of_lost(const Plan& before) {
+    std::set<std::uint64_t> lost;
+    for (const auto& place : before.places) lost.insert(name_of(place));
+    for (const auto& place : plan_.places) lost.erase(name_of(place));
+    if (lost.empty()) return;
+    for (auto& inbox : inboxes_) {
+        counters_.cancelled +=
+            std::erase_if(inbox.waiting, [&](const Message& ask) { return lost.contains(ask.asker); });
+        inbox.questions = inbox.answering;
+        for (const auto& ask : inbox.waiting) inbox.questions += questions_of(ask);
+    }
 }
 
 void Place::serve(const std::atomic<bool>& stop, std::atomic<std::uint64_t>& progress) {
@@ -137,10 +139,8 @@ bool Place::may_start(std::size_t node) const {
 bool Place::start_next(bool images) {
     for (const auto node : by_rank_) {
         if (!may_start(node) || (network_.kind_of(node).role == Role::image) != images) continue;
-        auto& inbox = inboxes_[node];
-        auto message = std::make_shared<Message>(std::move(inbox.waiting.front()));
-        inbox.waiting.pop_front();
-        fibers_.start(network_.graph.nodes[node].name.c_str(), [this, message] { answer(*message); });
+        auto asks = std::make_shared<std::vector<Message>>(next_asks(node));
+        fibers_.start(network_.graph.nodes[node].name.c_str(), [this, asks] { answer(*asks); });
         return true;
     }
     return false;
@@ -155,21 +155,15 @@ void Place::take(Message message) {
     switch (message.type) {
         case Message::Type::ask: {
             if (message.run != run_ || message.node >= inboxes_.size()) return;
-            if (const auto* steps = std::get_if<Questions<Step>>(&message.questions)) {
-                const auto kind = (*steps)->front().kind;
-                if (kind == Step::Kind::shard) return queue(std::move(message), 1);
-                if (kind >= Step::Kind::attend) return locks_.take(std::move(message));
-                if (network_.kind_of(message.node).prepares) preparer_.take(std::move(message));
-            } else if (const auto* queries = std::get_if<Questions<Query>>(&message.questions)) {
-                queue(std::move(message), (*queries)->size());
-            } else {
-                queue(std::move(message), 1);
-            }
+            const auto* steps = std::get_if<Questions<Step>>(&message.questions);
+            if (!steps || (*steps)->front().kind == Step::Kind::shard) return queue(std::move(message));
+            if ((*steps)->front().kind >= Step::Kind::attend) return locks_.take(std::move(message));
+            if (network_.kind_of(message.node).prepares) preparer_.take(std::move(message));
             return;
         }
         case Message::Type::reply:
         case Message::Type::failure:
-            if (message.run == run_ && message.channel < channels_.size()) channels_[message.channel]->arrived(message);
+            if (message.run == run_) channels_.arrived(message);
             return;
         case Message::Type::plan:
             if (message.run == run_ && message.plan) use(*message.plan);
@@ -180,73 +174,10 @@ void Place::take(Message message) {
     }
 }
 
-void Place::queue(Message message, std::size_t questions) {
+void Place::queue(Message message) {
     auto& inbox = inboxes_[message.node];
-    inbox.questions += questions;
+    inbox.questions += questions_of(message);
     inbox.waiting.push_back(std::move(message));
-}
-
-void Place::answer(Message& message) {
-    auto& inbox = inboxes_[message.node];
-    const bool spare = inbox.fibers++ > 0;
-    spare_in_use_ += spare;
-    const auto* fiber = fibers_.current();
-    Message reply = reply_to(message);
-    const bool pixels = std::holds_alternative<Questions<Tile>>(message.questions);
-    std::size_t count = 1;
-    try {
-        if (pixels) {
-            reply.answers = pixel_answers(message);
-        } else if (const auto* steps = std::get_if<Questions<Step>>(&message.questions)) {
-            reply.data = preparer_.shard(message.node, (*steps)->front());
-        } else {
-            count = std::get<Questions<Query>>(message.questions)->size();
-            reply.answers = light_answers(message);
-        }
-    } catch (const Cancelled&) {
-        throw;
-    } catch (const std::exception& error) {
-        reply.type = Message::Type::failure;
-        // What a light operator threw has its name already.
-        reply.text = (pixels ? "'" + network_.graph.nodes[message.node].name + "' " : std::string()) + "on " +
-                     my_name() + ": " + error.what();
-    }
-    const double ns =
-        static_cast<double>(fibers_.running_time(fiber).count()) / static_cast<double>(std::max(count, std::size_t{1}));
-    inbox.service_ns = inbox.service_ns > 0 ? 0.8 * inbox.service_ns + 0.2 * ns : ns;
-    inbox.questions -= std::min(inbox.questions, count);
-    message.questions = {};  // before the reply: the asker writes its next questions there
-    --inbox.fibers;
-    spare_in_use_ -= spare;
-    reply.load = load_of(message.node);
-    carrier_.reply(std::move(reply));
-    progress_->fetch_add(1, std::memory_order_relaxed);
-}
-
-std::vector<Rgb> Place::light_answers(const Message& message) {
-    const auto& questions = *std::get<Questions<Query>>(message.questions);
-    const std::size_t layers = network_.width_of(message.node);
-    if (network_.kind_of(message.node).role != Role::light || (message.width != 1 && message.width != layers))
-        throw Error("was asked for light in a way that its graph does not have");
-    std::vector<Rgb> answers(questions.size() * message.width);
-    lightnet::answer(assembly_.called(message.node), message.width, questions, answers);
-    return answers;
-}
-
-std::vector<Rgb> Place::pixel_answers(const Message& message) {
-    const auto& tiles = *std::get<Questions<Tile>>(message.questions);
-    const std::size_t layers = network_.width_of(message.node);
-    if (network_.kind_of(message.node).role != Role::image || message.width != layers)
-        throw Error("was asked for pixels in a way that its graph does not have");
-    std::vector<Rgb> pixels(answers_to(tiles, layers));
-    std::size_t first = 0;
-    for (const auto& tile : tiles) {
-        const std::size_t size = tile.pixels() * layers;
-        assembly_.renderer(message.node).render(tile, std::span(pixels).subspan(first, size));
-        first += size;
-        ++counters_.tiles;
-    }
-    return pixels;
 }
 
 // Called by running work at every ask of a node of this place: a busy place still serves others.
@@ -278,12 +209,6 @@ std::chrono::nanoseconds Place::patience() const {
     const auto now = Clock::now();
     for (const auto& [key, remote] : remotes_) least = std::min(least, remote.port->until_due(now));
     return least;
-}
-
-Load Place::load_of(std::size_t node) const {
-    const auto& inbox = inboxes_[node];
-    return {static_cast<std::uint32_t>(inbox.questions),
-            static_cast<std::uint32_t>(std::clamp(inbox.service_ns, 1.0, 4e9))};
 }
 
 Counters Place::counters() const {

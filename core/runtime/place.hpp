@@ -7,6 +7,7 @@
 #include <deque>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,7 +19,7 @@
 #include "core/runtime/fiber.hpp"
 #include "core/runtime/lock_desk.hpp"
 #include "core/runtime/preparer.hpp"
-#include "core/runtime/remote_channel.hpp"
+#include "core/runtime/remote_channels.hpp"
 #include "core/runtime/rounds.hpp"
 
 namespace lightnet {
@@ -29,6 +30,7 @@ struct PlaceRules {
     Credit credit;
     std::size_t spare_fibers = 16;   // beside the one that each node has for itself
     std::size_t side_fibers = 2048;  // of a place, for questions that wrapped code waits for one by one
+    bool check = false;              // what is answered twice must have the same bits
     bool call_own_nodes = true;      // false: even a node of the same place is asked by bundles (for tests)
     friend bool operator==(const PlaceRules&, const PlaceRules&) = default;
 };
@@ -56,30 +58,34 @@ private:
     using Clock = std::chrono::steady_clock;
     struct Inbox {
         std::deque<Message> waiting;
-        std::size_t questions = 0;  // in `waiting`
+        std::size_t questions = 0;  // in `waiting`, and in answering
+        std::size_t answering = 0;  // that fibers answer now
         std::size_t fibers = 0;     // that answer for this node now
         double service_ns = 0;      // per question, smoothed
     };
 
     // The port to a node of other places, and its channels to each of them.
     struct Remote {
-        std::size_t node;
         std::unique_ptr<BundlePort> port;
-        std::map<std::pair<std::string, std::uint32_t>, std::uint32_t> channels;  // place → index in channels_
+        RemoteChannels<Query>::Edge edge;
     };
 
     void assemble(std::size_t node);
     Port* port_to(std::size_t node, std::size_t width);
     void use(const Plan& plan);
-    void connect(Remote& remote);
+    void cancel_asks_of_lost(const Plan& before);
+    MultiplexerRules multiplexer_rules(std::size_t node);
     void take_in();
     void take(Message message);
-    void queue(Message message, std::size_t questions);
+    void queue(Message message);
     bool step();
     bool start_next(bool images);
     bool may_start(std::size_t node) const;
-    void answer(Message& message);
-    std::vector<Rgb> light_answers(const Message& message);
+    std::vector<Message> next_asks(std::size_t node);
+    void answer(std::vector<Message>& asks);
+    bool answer_together(const std::vector<Message>& asks, std::vector<Message>& replies);
+    void answer_alone(const Message& ask, Message& reply);
+    std::vector<Rgb> light_answers(std::size_t node, std::size_t width, std::span<const Query> questions);
     std::vector<Rgb> pixel_answers(const Message& message);
     void pause();
     bool flush(bool idle);
@@ -110,7 +116,7 @@ private:
     std::vector<std::size_t> by_rank_;  // nodes, lowest rank first
     std::vector<std::unique_ptr<CallPort>> call_ports_;
     std::map<std::pair<std::size_t, std::size_t>, Remote> remotes_;  // by node and width
-    std::vector<std::unique_ptr<RemoteChannel<Query>>> channels_;
+    RemoteChannels<Query> channels_;
     PlaceLocks locks_;
     Assembly assembly_;
     Preparer preparer_;

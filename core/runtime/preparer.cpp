@@ -91,6 +91,7 @@ public:
         return {noted.begin(), noted.end()};
     }
     Whereabouts whereabouts() const override { return {preparer_.place_.name, preparer_.place_.places_of(index_)}; }
+    void say(const std::string& text) override { said_ += text + '\n'; }
 
 protected:
     Bytes map_bytes(std::size_t count, const Shard& work) override {
@@ -115,7 +116,11 @@ private:
         auto ask = *std::exchange(asked_, std::nullopt);
         if (!failure_.empty()) return fail(ask, failure_);
         auto reply = reply_to(ask);
-        reply.data = bytes_of<Report>(std::span(&at_, 1));
+        auto data = std::make_shared<std::vector<std::byte>>(sizeof at_ + said_.size());
+        std::memcpy(data->data(), &at_, sizeof at_);
+        std::memcpy(data->data() + sizeof at_, said_.data(), said_.size());
+        said_.clear();
+        reply.data = std::move(data);
         preparer_.place_.reply(std::move(reply));
     }
 
@@ -136,7 +141,7 @@ private:
     std::optional<Message> asked_;  // the step that the next report answers
     Report at_;
     bool waiting_ = false;  // at at_, for a result, or for nothing more
-    std::string failure_;
+    std::string failure_, said_;
     const Shard* work_ = nullptr;
     std::size_t shards_ = 0;  // that are being done
     Bytes result_;

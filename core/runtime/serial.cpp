@@ -11,8 +11,10 @@ namespace lightnet {
 /// One node's services, in a run of one thread: loops.
 class SerialRun::Preparing final : public Services {
 public:
-    Preparing(SerialRun& run, std::size_t node, const Recipes& recipes, ResultCache* cache)
-        : run_(run), node_(node), recipes_(recipes), cache_(cache) {}
+    using Say = std::function<void(const std::string&)>;
+
+    Preparing(SerialRun& run, std::size_t node, const Recipes& recipes, ResultCache* cache, const Say& say)
+        : run_(run), node_(node), recipes_(recipes), cache_(cache), say_(say) {}
 
     std::vector<Query> rehearse(std::uint32_t stride) override {
         rehearsed_ = true;
@@ -29,6 +31,9 @@ public:
         return {noted.begin(), noted.end()};
     }
     Whereabouts whereabouts() const override { return {"this thread", 1}; }
+    void say(const std::string& text) override {
+        if (say_) say_(run_.network_.graph.nodes[node_].name + ": " + text);
+    }
 
 protected:
     Bytes map_bytes(std::size_t count, const Shard& work) override {
@@ -60,6 +65,7 @@ private:
     std::size_t node_;
     const Recipes& recipes_;
     ResultCache* cache_;
+    const Say& say_;
     std::uint32_t call_ = 0;
     bool rehearsed_ = false;
 };
@@ -80,10 +86,11 @@ SerialRun::SerialRun(const Network& network, std::function<void()> pause)
     assembly_.renderer(image_);
 }
 
-void SerialRun::prepare(const std::string& made_from, ResultCache* cache) {
+void SerialRun::prepare(const std::string& made_from, ResultCache* cache,
+                        const std::function<void(const std::string&)>& say) {
     const Recipes recipes(network_.graph, made_from);
     for (const auto node : preparing_nodes(network_.graph, network_.registry)) {
-        Preparing services(*this, node, recipes, cache);
+        Preparing services(*this, node, recipes, cache, say);
         assembly_.prepare(node, services);
     }
     counters_.tiles = 0;  // those of rehearsals make no picture

@@ -18,8 +18,10 @@ public:
     /// `pause` is called often; it may throw to end the work.
     explicit SerialRun(const Network& network, std::function<void()> pause = {});
 
-    /// Has all nodes that prepare do so. Before the first tile. Results are looked for in `cache`, and kept there.
-    void prepare(const std::string& made_from, ResultCache* cache = nullptr);
+    /// Has all nodes that prepare do so. Before the first tile. Results are looked for in `cache`, and kept there;
+    /// lines for the user go to `say`.
+    void prepare(const std::string& made_from, ResultCache* cache = nullptr,
+                 const std::function<void(const std::string&)>& say = {});
     /// All samples of the tile's block: see Renderer::render.
     std::vector<Rgb> render(const Tile& tile);
     Counters counters() const;

@@ -27,7 +27,7 @@ struct Step {
     friend bool operator==(const Step&, const Step&) = default;
 };
 
-/// Where a node's prepare() is at one place.
+/// Where a node's prepare() is at one place. On the wire, lines that the node says to the user follow it.
 struct Report {
     enum class Kind : std::uint32_t {
         map,       // waits for the result of `count` shards

@@ -36,14 +36,14 @@ void measure_efficiency(const char* name, const Picture& picture, Carrier& carri
 
 }  // namespace
 
-void measure_threads(const Picture& picture, const Registry& registry) {
+void measure_threads(const Picture& picture, const Registry& registry, const char* name) {
     const Plan two = plan(picture.job.graph, registry, {}, {{"", 2}});
     ThreadedRun run(picture.network, run_id, two, picture.job.rules);
-    measure_efficiency("overhead.threads", picture, run.carrier(), two);
+    measure_efficiency(name, picture, run.carrier(), two);
     run.stop();
 }
 
-void measure_network(const Picture& picture, const Registry& registry) {
+void measure_network(const Picture& picture, const Registry& registry, const char* name) {
     const LocalWorkers workers(LIGHTNET_DAEMON, 2, 1);
     Cluster::Options options;
     options.run = run_id;
@@ -54,7 +54,7 @@ void measure_network(const Picture& picture, const Registry& registry) {
     Cluster cluster(std::move(options));
     const std::atomic<bool> never{false};
     cluster.gather(5s, never);
-    measure_efficiency("overhead.network", picture, cluster, cluster.plan());
+    measure_efficiency(name, picture, cluster, cluster.plan());
     cluster.finish();
 }
 

@@ -51,6 +51,14 @@ TEST(CheckHosts, WantsCountsThatMakeSense) {
     EXPECT_THAT(problems_with_hosts("place 'tcp://a:7' { places = 5000 }"), HasSubstr("'places' must be 1 … 1024"));
 }
 
+TEST(CheckHosts, WantsStrategiesAndNodesThatThereAre) {
+    EXPECT_THAT(problems_with_hosts("strategy = 'afinity'"),
+                HasSubstr("hosts.lua:1: strategy: there is none called 'afinity' (did you mean 'affinity'?)"));
+    EXPECT_THAT(problems_with_hosts("strategy { sly = 'fastest' }"),
+                HasSubstr("strategy of 'sly': there is no node of that name (did you mean 'sky'?)"));
+    EXPECT_THAT(problems_with_hosts("strategy { box = 'fastest' }"), HasSubstr("it is a scene, which nobody asks"));
+}
+
 TEST(Address, IsTakenApart) {
     const auto address = address_of("tcp://onyx1.lab:7777");
     ASSERT_TRUE(address);

@@ -83,6 +83,14 @@ TEST(Plan, LeavesOutWhatThePictureDoesNotNeed) {
     EXPECT_THAT(plan(idle, fake_registry(), {}, {{"", 2}}).places_of[0], IsEmpty());
 }
 
+TEST(Plan, SaysHowAskersChoose) {
+    const Plan where = plan_for("strategy = 'affinity'\nstrategy { b = 'round_robin' }\nplace 'tcp://x:1'",
+                                {{"tcp://x:1", 1}});
+    EXPECT_EQ(where.strategy_of(0), Strategy::affinity);
+    EXPECT_EQ(where.strategy_of(1), Strategy::round_robin);
+    EXPECT_EQ(plan_from_json(to_json(where)), where);
+}
+
 TEST(Plan, WantsAPlace) { EXPECT_THROW(plan(graph(), fake_registry(), {}, {}), Error); }
 
 }  // namespace

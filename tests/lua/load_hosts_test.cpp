@@ -37,6 +37,17 @@ TEST(LoadHosts, WantsWholeNumbersOfReplicas) {
     EXPECT_THAT(error_in("place 'tcp://a:7' { 'sky' }"), HasSubstr("nodes go by name"));
 }
 
+TEST(LoadHosts, TakesAStrategyForAllAndForSomeNodes) {
+    const Hosts hosts = parse_hosts(
+        "strategy = 'affinity'\nstrategy { sky = 'round_robin', bounce = 'fastest' }\nplace 'tcp://a:7'", "hosts.lua");
+    EXPECT_EQ(hosts.strategies, (std::vector<StrategyEntry>{{"", "affinity", {"hosts.lua", 1}},
+                                                            {"bounce", "fastest", {"hosts.lua", 2}},
+                                                            {"sky", "round_robin", {"hosts.lua", 2}}}));
+    EXPECT_THAT(error_in("strategy = 3"), HasSubstr("hosts.lua:1: strategy is called by name"));
+    EXPECT_THAT(error_in("strategy { 'fastest' }"), HasSubstr("nodes and strategies go by name"));
+    EXPECT_THAT(error_in("strategy(1)"), HasSubstr("strategy takes a table"));
+}
+
 TEST(LoadHosts, KnowsNothingButPlaces) {
     EXPECT_THAT(error_in("\nsky = Ambient {}"), HasSubstr("hosts.lua:2: a hosts file knows only place"));
     EXPECT_THAT(error_in("place { sky = 1 }"), HasSubstr("place takes the host first"));

@@ -114,6 +114,7 @@ public:
         conductor.propose(plan);
         EXPECT_TRUE(conductor.prepare(test::slowdown * 30s)) << "preparing hangs: " << conductor.progress();
         EXPECT_EQ(conductor.in_force(), plan);
+        EXPECT_LE(said.size(), 2u) << "each line once, however many places say it";
         auto pixels = render(conductor);
         run.stop();
         return pixels;
@@ -121,6 +122,8 @@ public:
 
     Conductor::Options options() const {
         Conductor::Options options;
+        said.clear();
+        options.say = [this](const std::string& line) { said.push_back(line); };
         options.run = 1;
         options.graph = &network->graph;
         options.registry = &registry;
@@ -149,6 +152,7 @@ public:
     std::map<std::string, Bytes> files;
     std::shared_ptr<const Network> network;
     std::vector<Tile> tiles;
+    mutable std::vector<std::string> said;  // by the nodes of the last run
 };
 
 // A daemon in a thread of this process: its nodes may be those of a test.
@@ -192,6 +196,13 @@ TEST(Prepare, GivesTheBytesOfASerialRunInThreads) {
         EXPECT_EQ(learning.threaded(spread(learning.network->graph.nodes.size(), threads), {}), expected)
             << "spread over " << threads;
     }
+}
+
+TEST(Prepare, PassesOnWhatNodesSayOnce) {
+    const Learning learning;
+    learning.threaded(plan(learning.network->graph, learning.registry, {}, {{"", 3}}), {});
+    EXPECT_THAT(learning.said, testing::ElementsAre(testing::MatchesRegex("first: .* points at 3 places"),
+                                                    testing::MatchesRegex("second: .* points at 3 places")));
 }
 
 TEST(Prepare, GetsByWithOneFiberPerNodeAndBundlesOfOne) {

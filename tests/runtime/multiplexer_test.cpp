@@ -9,51 +9,201 @@ namespace {
 
 using test::FakeChannel;
 
-Bundle<Query> bundle_of(std::size_t questions) {
-    return {std::make_shared<const std::vector<Query>>(questions), nullptr, 0, 1};
-}
+// Gets bundles back and remembers how.
+template <class Question>
+struct Owner final : BundleOwner<Question> {
+    void answered(const Bundle<Question>& bundle, std::vector<Rgb> colours) override {
+        numbers.push_back(bundle.number);
+        answers.push_back(std::move(colours));
+    }
+    void failed(const Bundle<Question>&, const std::string& why) override { failures.push_back(why); }
+    void returned(Bundle<Question>) override { FAIL() << "a multiplexer keeps what it has taken"; }
+    void set_aside(const Bundle<Question>&, const std::string& why) override { aside.push_back(why); }
 
-TEST(Multiplexer, AsksTheReplicaThatWillFinishFirst) {
-    FakeChannel<Query> slow(1000, 4.0), fast(1000, 1.0);
-    Multiplexer<Query> replicas({&slow, &fast});
+    std::vector<std::uint64_t> numbers;
+    std::vector<std::vector<Rgb>> answers;
+    std::vector<std::string> failures, aside;
+};
+
+class MultiplexerTest : public ::testing::Test {
+protected:
+    Bundle<Query> bundle_of(std::size_t questions) {
+        auto queries = std::make_shared<std::vector<Query>>(questions);
+        for (std::size_t i = 0; i < questions; ++i) {
+            (*queries)[i].sample = static_cast<std::uint32_t>(i);
+            (*queries)[i].geometry = static_cast<std::uint32_t>(i % 16);
+        }
+        return {std::move(queries), &owner, ++number, 1};
+    }
+    MultiplexerRules rules(Strategy strategy = Strategy::fastest) {
+        MultiplexerRules rules;
+        rules.clock = [this] { return now; };
+        rules.scheduling.strategy = strategy;
+        return rules;
+    }
+    double now = 0;
+    std::uint64_t number = 0;
+    Owner<Query> owner;
+    Counters counters;
+};
+
+TEST_F(MultiplexerTest, AsksTheReplicaThatWillFinishFirst) {
+    FakeChannel<Query> slow(1000, 4000), fast(1000, 1000);
+    Multiplexer<Query> replicas({&slow, &fast}, rules());
+    for (int i = 0; i < 2; ++i) replicas.send(bundle_of(1));
+    slow.answer(), fast.answer();  // now their speeds are known
     for (int i = 0; i < 10; ++i) replicas.send(bundle_of(1));
     EXPECT_EQ(slow.sent.size(), 2u);
     EXPECT_EQ(fast.sent.size(), 8u);
 }
 
-TEST(Multiplexer, PassesOverReplicasWithoutCredit) {
-    FakeChannel<Query> full(0), free(1);
-    Multiplexer<Query> replicas({&full, &free});
+TEST_F(MultiplexerTest, KeepsWhatNoReplicaHasCreditFor) {
+    FakeChannel<Query> only(1);
+    Multiplexer<Query> replicas({&only}, rules());
     EXPECT_TRUE(replicas.has_credit());
-    EXPECT_TRUE(replicas.send(bundle_of(1)));
-    EXPECT_EQ(free.sent.size(), 1u);
+    replicas.send(bundle_of(1)), replicas.send(bundle_of(2));
     EXPECT_FALSE(replicas.has_credit());
+    EXPECT_EQ(only.sent.size(), 1u);
+    only.answer();
+    EXPECT_TRUE(replicas.tick());
+    only.answer();
+    EXPECT_EQ(owner.numbers, (std::vector<std::uint64_t>{1, 2}));
 }
 
-TEST(Multiplexer, TriesTheNextReplicaWhenOneRefuses) {
-    FakeChannel<Query> broken, good(1000, 5.0);
+TEST_F(MultiplexerTest, TriesTheNextReplicaWhenOneRefuses) {
+    FakeChannel<Query> broken, good;
     broken.refuse = true;
-    Multiplexer<Query> replicas({&broken, &good});
-    EXPECT_TRUE(replicas.send(bundle_of(1)));
+    Multiplexer<Query> replicas({&broken, &good}, rules());
+    replicas.send(bundle_of(1));
     EXPECT_EQ(good.sent.size(), 1u);
 }
 
-TEST(Multiplexer, IsItselfAChannelAndNests) {
-    FakeChannel<Query> a(1000, 1.0), b(1000, 1.0), c(1000, 1.0);
-    Multiplexer<Query> pair({&a, &b});
-    Multiplexer<Query> all({&pair, &c});
-    for (int i = 0; i < 9; ++i) all.send(bundle_of(1));
-    EXPECT_EQ(all.bundles_outstanding(), 9u);
-    EXPECT_EQ(a.sent.size(), 3u);
-    EXPECT_EQ(b.sent.size(), 3u);
-    EXPECT_EQ(c.sent.size(), 3u);
+TEST_F(MultiplexerTest, AsksAgainElsewhereWhatALostReplicaHad) {
+    FakeChannel<Query> lost(1000, 1), other(1000, 1);
+    Multiplexer<Query> replicas;
+    replicas.follow(rules(), &counters);
+    replicas.use({&lost});
+    replicas.send(bundle_of(3));
+    replicas.use({&other});
+    EXPECT_TRUE(replicas.tick());
+    other.answer();
+    EXPECT_EQ(owner.numbers.size(), 1u);
+    EXPECT_EQ(counters.asked_again, 1u);
+    lost.answer();
+    EXPECT_EQ(owner.numbers.size(), 1u) << "this answer comes too late";
+    EXPECT_EQ(counters.late_replies, 1u);
 }
 
-TEST(Multiplexer, ServesRenderingAsItServesLight) {
+TEST_F(MultiplexerTest, LetsADrainingReplicaFinishAndAsksItNoMore) {
+    FakeChannel<Query> leaving, staying;
+    Multiplexer<Query> replicas({&leaving}, rules());
+    replicas.send(bundle_of(1));
+    replicas.use({&leaving, &staying}, {&leaving});
+    replicas.send(bundle_of(1));
+    EXPECT_EQ(leaving.sent.size(), 1u);
+    EXPECT_EQ(staying.sent.size(), 1u);
+    leaving.answer();
+    EXPECT_EQ(owner.numbers, (std::vector<std::uint64_t>{1}));
+}
+
+TEST_F(MultiplexerTest, CutsALargeCostlyBundleForIdleReplicasAndPutsItsAnswersTogether) {
+    FakeChannel<Query> a(1000, 100000), b(1000, 100000);
+    Multiplexer<Query> replicas;
+    replicas.follow(rules(), &counters);
+    replicas.use({&a, &b});
+    replicas.send(bundle_of(1)), replicas.send(bundle_of(1));
+    a.answer(), b.answer();
+    replicas.send(bundle_of(200));
+    ASSERT_EQ(a.sent.size(), 1u);
+    ASSERT_EQ(b.sent.size(), 1u);
+    EXPECT_EQ(counters.cut_bundles, 1u);
+    b.answer(), a.answer();
+    ASSERT_EQ(owner.answers.size(), 3u);
+    ASSERT_EQ(owner.answers[2].size(), 200u);
+    for (std::size_t i = 0; i < 200; ++i) EXPECT_EQ(owner.answers[2][i].r, static_cast<float>(i));
+}
+
+TEST_F(MultiplexerTest, GivesEachReplicaTheQuestionsOfItsRegions) {
+    FakeChannel<Query> a, b;
+    Multiplexer<Query> replicas({&a, &b}, rules(Strategy::affinity));
+    for (int i = 0; i < 3; ++i) replicas.send(bundle_of(512));
+    std::map<std::uint32_t, std::set<FakeChannel<Query>*>> homes;
+    for (auto* channel : {&a, &b})
+        for (const auto& bundle : channel->sent)
+            for (const auto& query : *bundle.questions) homes[query.geometry].insert(channel);
+    ASSERT_FALSE(a.sent.empty());
+    ASSERT_FALSE(b.sent.empty());
+    for (const auto& [geometry, where] : homes) EXPECT_EQ(where.size(), 1u) << geometry;
+    while (!a.sent.empty()) a.answer();
+    while (!b.sent.empty()) b.answer();
+    ASSERT_EQ(owner.answers.size(), 3u);
+    for (std::size_t i = 0; i < 512; ++i) EXPECT_EQ(owner.answers[0][i].r, static_cast<float>(i));
+}
+
+TEST_F(MultiplexerTest, FailsABundleWhoseAnswerHasAWrongSize) {
+    FakeChannel<Query> only;
+    Multiplexer<Query> replicas({&only}, rules());
+    replicas.send(bundle_of(3));
+    const auto bundle = only.take();
+    bundle.owner->answered(bundle, std::vector<Rgb>(2));
+    ASSERT_EQ(owner.failures.size(), 1u);
+}
+
+TEST_F(MultiplexerTest, ComparesAnswersThatComeTwiceBitForBit) {
+    FakeChannel<Query> first, second;
+    auto checking = rules();
+    std::string said;
+    checking.differs = [&](const std::string& what) { said = what; };
+    Multiplexer<Query> replicas;
+    replicas.follow(std::move(checking), &counters);
+    replicas.use({&first, &second});
+    replicas.send(bundle_of(1));
+    now = 1000;  // overdue
+    replicas.tick();
+    ASSERT_EQ(first.sent.size() + second.sent.size(), 2u);
+    first.answer();
+    const auto bundle = second.take();
+    bundle.owner->answered(bundle, {Rgb{1, 2, 3}});
+    EXPECT_EQ(owner.numbers.size(), 1u);
+    EXPECT_EQ(counters.compared, 1u);
+    EXPECT_NE(said.find("differently"), std::string::npos);
+}
+
+TEST_F(MultiplexerTest, NamesTheBundleThatIsSetAsideAndTheHostsThatDiedOfIt) {
+    FakeChannel<Query> one, two, three;
+    one.where = "onyx1", two.where = "onyx2", three.where = "onyx3";
+    Multiplexer<Query> replicas({&one}, rules());
+    replicas.send(bundle_of(1));
+    replicas.use({&two}), replicas.tick();
+    replicas.use({&three}), replicas.tick();
+    replicas.use({});
+    ASSERT_EQ(owner.aside.size(), 1u);
+    EXPECT_NE(owner.aside[0].find("shape 0"), std::string::npos) << owner.aside[0];
+    EXPECT_NE(owner.aside[0].find("onyx1, onyx2, onyx3"), std::string::npos) << owner.aside[0];
+}
+
+TEST_F(MultiplexerTest, IsItselfAChannelAndNests) {
+    FakeChannel<Query> a, b, c;
+    Multiplexer<Query> pair({&a, &b}, rules());
+    Multiplexer<Query> all({&pair, &c}, rules(Strategy::least_loaded));
+    for (int i = 0; i < 8; ++i) all.send(bundle_of(1));
+    EXPECT_EQ(a.sent.size() + b.sent.size(), 4u);
+    EXPECT_EQ(c.sent.size(), 4u);
+    while (!a.sent.empty()) a.answer();
+    while (!b.sent.empty()) b.answer();
+    while (!c.sent.empty()) c.answer();
+    EXPECT_EQ(owner.numbers.size(), 8u);
+    EXPECT_EQ(all.outstanding(), 0u);
+}
+
+TEST_F(MultiplexerTest, ServesRenderingAsItServesLight) {
     FakeChannel<Tile> only;
-    Multiplexer<Tile> replicas({&only});
-    EXPECT_TRUE(replicas.send({std::make_shared<const std::vector<Tile>>(1), nullptr, 0, 1}));
-    EXPECT_EQ(only.sent.size(), 1u);
+    Owner<Tile> tiles;
+    Multiplexer<Tile> replicas({&only}, rules());
+    replicas.send({std::make_shared<const std::vector<Tile>>(1, Tile{0, 0, 2, 2, 0, 1}), &tiles, 0, 1});
+    const auto bundle = only.take();
+    bundle.owner->answered(bundle, std::vector<Rgb>(4));
+    EXPECT_EQ(tiles.numbers.size(), 1u);
 }
 
 }  // namespace

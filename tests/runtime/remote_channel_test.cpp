@@ -1,4 +1,4 @@
-#include "core/runtime/remote_channel.hpp"
+#include "core/runtime/remote_channels.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,94 +7,111 @@ namespace {
 
 class RecordingCarrier final : public Carrier {
 public:
-    bool ask(const PlaceAt&, Message& message) override {
+    bool ask(const PlaceAt& to, Message& message) override {
         if (refuse) return false;
+        where.push_back(to);
         asked.push_back(std::move(message));
         return true;
     }
     void reply(Message) override {}
     std::optional<Message> receive() override { return std::nullopt; }
     void wait(std::chrono::nanoseconds) override {}
-    void forget(const PlaceAt&) override { ++forgotten; }
+    void forget(const PlaceAt& place) override { forgotten.push_back(place); }
     const Counters& counters() const override { return none; }
 
+    std::vector<PlaceAt> where, forgotten;
     std::vector<Message> asked;
     bool refuse = false;
-    int forgotten = 0;
     Counters none;
 };
 
 struct Owner final : BundleOwner<Query> {
-    void answered(const Bundle<Query>&, std::vector<Rgb>) override { ++answers; }
+    void answered(const Bundle<Query>& bundle, std::vector<Rgb>) override { answers.push_back(bundle.number); }
     void failed(const Bundle<Query>&, const std::string& why) override { failures.push_back(why); }
-    void returned(Bundle<Query> bundle) override { back.push_back(bundle.number); }
-    int answers = 0;
+    void returned(Bundle<Query>) override {}
+    std::vector<std::uint64_t> answers;
     std::vector<std::string> failures;
-    std::vector<std::uint64_t> back;
 };
+
+Message reply_for(const Message& ask) {
+    Message reply;
+    reply.type = Message::Type::reply;
+    reply.channel = ask.channel, reply.bundle = ask.bundle;
+    reply.answers.resize(std::get<Questions<Query>>(ask.questions)->size());
+    reply.load = {7, 1000};
+    return reply;
+}
 
 class RemoteChannelTest : public ::testing::Test {
 protected:
-    void send(std::uint64_t number, std::size_t questions = 1) {
-        channel.send({std::make_shared<const std::vector<Query>>(questions), &owner, number, 1});
-    }
-    Message reply_to(const Message& ask) {
-        Message reply;
-        reply.type = Message::Type::reply;
-        reply.bundle = ask.bundle;
-        reply.answers.resize(std::get<Questions<Query>>(ask.questions)->size());
-        reply.load = {0, 1000};
-        return reply;
+    Bundle<Query> bundle(std::uint64_t number) {
+        return {std::make_shared<const std::vector<Query>>(1), &owner, number, 1};
     }
     RecordingCarrier carrier;
     Owner owner;
     Counters counters;
-    RemoteChannel<Query> channel{carrier, {1, 0, 0, {"tcp://onyx1:7777", 0}}, Credit{2, 100}, counters};
 };
 
-TEST_F(RemoteChannelTest, HasCreditForSoManyBundlesAndGetsItBackWithTheReplies) {
-    send(1), send(2);
-    EXPECT_FALSE(channel.has_credit());
-    auto reply = reply_to(carrier.asked[0]);
+TEST_F(RemoteChannelTest, BringsAnswersAndTheLoadOfTheAnswererBack) {
+    RemoteChannel<Query> channel{carrier, {1, 0, 3, {"tcp://onyx1:7777", 0}, 9}, {}, counters};
+    EXPECT_TRUE(channel.send(bundle(5)));
+    EXPECT_EQ(carrier.asked[0].node, 3u);
+    EXPECT_EQ(carrier.asked[0].asker, 9u);
+    auto reply = reply_for(carrier.asked[0]);
     channel.arrived(reply);
-    EXPECT_TRUE(channel.has_credit());
-    EXPECT_EQ(owner.answers, 1);
+    EXPECT_EQ(owner.answers, (std::vector<std::uint64_t>{5}));
+    EXPECT_EQ(channel.load(), (Load{7, 1000}));
 }
 
-TEST_F(RemoteChannelTest, DropsAndCountsALateOrDoubledReply) {
-    send(1);
-    auto first = reply_to(carrier.asked[0]), second = reply_to(carrier.asked[0]);
-    channel.arrived(first);
-    channel.arrived(second);
-    EXPECT_EQ(owner.answers, 1);
-    EXPECT_EQ(counters.late_replies, 1u);
-}
-
-TEST_F(RemoteChannelTest, GivesEverythingBackInOrderWhenItsPlaceIsLost) {
-    send(7), send(8);
+TEST_F(RemoteChannelTest, DropsAndCountsWhatComesAfterItsPlaceWasLost) {
+    RemoteChannel<Query> channel{carrier, {1, 0, 0, {"tcp://onyx1:7777", 0}, 0}, {}, counters};
+    channel.send(bundle(5));
     channel.close();
-    EXPECT_EQ(owner.back, (std::vector<std::uint64_t>{7, 8}));
-    EXPECT_FALSE(channel.has_credit());
-    EXPECT_EQ(counters.asked_again, 2u);
-    auto late = reply_to(carrier.asked[0]);
-    channel.arrived(late);
-    EXPECT_EQ(owner.answers, 0) << "the work is asked again elsewhere; this answer comes too late";
+    auto reply = reply_for(carrier.asked[0]);
+    channel.arrived(reply);
+    EXPECT_TRUE(owner.answers.empty());
+    EXPECT_EQ(counters.late_replies, 1u);
+    EXPECT_EQ(carrier.forgotten, (std::vector<PlaceAt>{{"tcp://onyx1:7777", 0}}));
 }
 
-TEST_F(RemoteChannelTest, FailsABundleWhoseAnswerHasAWrongSize) {
-    send(1, 3);
-    auto reply = reply_to(carrier.asked[0]);
-    reply.answers.pop_back();
-    channel.arrived(reply);
-    ASSERT_EQ(owner.failures.size(), 1u);
+Plan plan_of(std::vector<PlaceAt> there, std::vector<std::uint32_t> holding) {
+    Plan plan;
+    plan.places = std::move(there);
+    plan.places_of = {std::move(holding)};
+    return plan;
 }
 
-TEST_F(RemoteChannelTest, ExpectsCompletionFromOutstandingWorkFillLevelAndServiceTime) {
-    send(1, 10);
-    auto reply = reply_to(carrier.asked[0]);
-    reply.load = {5, 2000};
-    channel.arrived(reply);
-    EXPECT_NEAR(channel.completion_time(10), (5 + 10) * 2e-6, 1e-12);
+TEST_F(RemoteChannelTest, AreOpenedAndClosedAsThePlanWantsIt) {
+    const PlaceAt one{"one", 0}, two{"two", 0};
+    RemoteChannels<Query> channels(carrier, 1, 0, counters);
+    RemoteChannels<Query>::Edge edge{0, {}, {}};
+    Multiplexer<Query> replicas;
+    channels.connect(edge, replicas, plan_of({one, two}, {0, 1}));
+    EXPECT_EQ(replicas.size(), 2u);
+    channels.connect(edge, replicas, plan_of({two}, {0}));
+    EXPECT_EQ(replicas.size(), 1u);
+    EXPECT_EQ(carrier.forgotten, (std::vector<PlaceAt>{one}));
+    replicas.send(bundle(1));
+    ASSERT_EQ(carrier.where, (std::vector<PlaceAt>{two}));
+    auto reply = reply_for(carrier.asked[0]);
+    channels.arrived(reply);
+    EXPECT_EQ(owner.answers, (std::vector<std::uint64_t>{1}));
+}
+
+TEST_F(RemoteChannelTest, ToAPlaceThatHoldsTheNodeNoMoreStaysOpenForItsAnswers) {
+    const PlaceAt one{"one", 0}, two{"two", 0};
+    RemoteChannels<Query> channels(carrier, 1, 0, counters);
+    RemoteChannels<Query>::Edge edge{0, {}, {}};
+    Multiplexer<Query> replicas;
+    channels.connect(edge, replicas, plan_of({one}, {0}));
+    replicas.send(bundle(1));
+    channels.connect(edge, replicas, plan_of({one, two}, {1}));
+    replicas.send(bundle(2));
+    EXPECT_EQ(carrier.where, (std::vector<PlaceAt>{one, two}));
+    auto reply = reply_for(carrier.asked[0]);
+    channels.arrived(reply);
+    EXPECT_EQ(owner.answers, (std::vector<std::uint64_t>{1}));
+    EXPECT_EQ(counters.asked_again, 0u);
 }
 
 }  // namespace

@@ -1,7 +1,9 @@
 // A channel under the test's control.
 #pragma once
 
+#include <cstdint>
 #include <deque>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -13,23 +15,17 @@ namespace lightnet::test {
 template <class Question>
 class FakeChannel final : public Channel<Question> {
 public:
-    explicit FakeChannel(std::size_t credit = 1000, double seconds = 0) : credit_(credit), seconds_(seconds) {}
+    explicit FakeChannel(std::size_t credit = 1000, std::uint32_t service_ns = 0)
+        : credit_(credit), load_{0, service_ns} {}
 
-    bool has_credit() const override { return sent.size() < credit_; }
     bool send(const Bundle<Question>& bundle) override {
         if (refuse) return false;
         sent.push_back(bundle);
         return true;
     }
-    double completion_time(std::size_t more) const override {
-        return seconds_ * static_cast<double>(outstanding() + more);
-    }
-    std::size_t outstanding() const override {
-        std::size_t sum = 0;
-        for (const auto& bundle : sent) sum += bundle.questions->size();
-        return sum;
-    }
-    std::size_t bundles_outstanding() const override { return sent.size(); }
+    Credit credit() const override { return {credit_, 1u << 20, 1u << 30}; }
+    Load load() const override { return load_; }
+    std::string host() const override { return where; }
 
     /// Answers the oldest bundle.
     void answer() {
@@ -48,10 +44,11 @@ public:
 
     std::deque<Bundle<Question>> sent;
     bool refuse = false;
+    std::string where = "host " + std::to_string(reinterpret_cast<std::uintptr_t>(this));  // one of its own
 
 private:
     std::size_t credit_;
-    double seconds_;
+    Load load_;
 };
 
 }  // namespace lightnet::test

@@ -41,6 +41,8 @@ public:
             });
             for (std::size_t i = 0; i < noted.size(); ++i) known_.push_back({noted[i], lit.all()[i]});
         }
+        services.say(std::to_string(known_.size()) + " points at " + std::to_string(services.whereabouts().places) +
+                     " places");
         order_ = services.once<std::vector<std::uint32_t>>([&] {
             std::vector<std::uint32_t> order(known_.size());
             for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;

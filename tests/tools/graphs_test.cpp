@@ -43,7 +43,7 @@ TEST(Graphs, LeaveOutOnlyTheLightThatTheyMeanTo) {
 
 TEST(Graphs, RunOnTheHostsThatComeWithThem) {
     const Registry registry(standard_nodes());
-    for (const char* hosts : {"hosts/two.lua", "hosts/spread.lua"})
+    for (const char* hosts : {"hosts/two.lua", "hosts/spread.lua", "hosts/affinity.lua"})
         EXPECT_THAT(examine(graph_called("cornell.lua"), registry, load_hosts((graphs / hosts).string())).problems,
                     IsEmpty());
 }

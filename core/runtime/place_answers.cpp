@@ -1,0 +1,129 @@
+// How a place answers what it is asked.
+#include <algorithm>
+#include <chrono>
+
+#include "core/error.hpp"
+#include "core/runtime/describe_question.hpp"
+#include "core/runtime/place.hpp"
+
+namespace lightnet {
+
+// The first that waits, and small bundles behind it, from whomever, that make no more than a full one with it: a node
+// that is called once for all has fewer, larger bundles to send itself, and answers don't depend on neighbours.
+std::vector<Message> Place::next_asks(std::size_t node) {
+    auto& waiting = inboxes_[node].waiting;
+    std::vector<Message> asks;
+    std::size_t questions = 0;
+    const auto fits = [&](const Message& ask) {
+        return asks.empty() ||
+               (std::holds_alternative<Questions<Query>>(ask.questions) &&
+                std::holds_alternative<Questions<Query>>(asks.front().questions) && ask.width == asks.front().width &&
+                questions + questions_of(ask) <= rules_.bundles.questions);
+    };
+    while (!waiting.empty() && fits(waiting.front())) {
+        questions += questions_of(waiting.front());
+        asks.push_back(std::move(waiting.front()));
+        waiting.pop_front();
+    }
+    counters_.merged += asks.size() - 1;
+    return asks;
+}
+
+void Place::answer(std::vector<Message>& asks) {
+    auto& inbox = inboxes_[asks.front().node];
+    const bool spare = inbox.fibers++ > 0;
+    spare_in_use_ += spare;
+    std::size_t questions = 0;
+    for (const auto& ask : asks) questions += questions_of(ask);
+    inbox.answering += questions;
+    const auto* fiber = fibers_.current();
+    std::vector<Message> replies;
+    for (auto& ask : asks) replies.push_back(reply_to(ask));
+    if (asks.size() == 1 || !answer_together(asks, replies))
+        for (std::size_t i = 0; i < asks.size(); ++i) answer_alone(asks[i], replies[i]);
+
+    const double ns = static_cast<double>(fibers_.running_time(fiber).count()) / static_cast<double>(questions);
+    inbox.service_ns = inbox.service_ns > 0 ? 0.8 * inbox.service_ns + 0.2 * ns : ns;
+    inbox.questions -= questions;
+    inbox.answering -= questions;
+    --inbox.fibers;
+    spare_in_use_ -= spare;
+    const auto node = asks.front().node;
+    asks.clear();  // before the replies: an asker may use the memory of its questions again
+    for (auto& reply : replies) {
+        reply.load = load_of(node);
+        carrier_.reply(std::move(reply));
+        progress_->fetch_add(1, std::memory_order_relaxed);
+    }
+}
+
+// Calls the node once for several bundles. False: it threw, and nobody has an answer.
+bool Place::answer_together(const std::vector<Message>& asks, std::vector<Message>& replies) {
+    std::vector<Query> questions;
+    for (const auto& ask : asks) {
+        const auto& more = *std::get<Questions<Query>>(ask.questions);
+        questions.insert(questions.end(), more.begin(), more.end());
+    }
+    try {
+        const auto answers = light_answers(asks.front().node, asks.front().width, questions);
+        auto from = answers.begin();
+        for (std::size_t i = 0; i < asks.size(); ++i) {
+            const auto next = from + static_cast<std::ptrdiff_t>(questions_of(asks[i]) * asks[i].width);
+            replies[i].answers.assign(from, next);
+            from = next;
+        }
+        return true;
+    } catch (const std::exception&) {  // each alone will tell whose question it was
+        return false;
+    }
+}
+
+void Place::answer_alone(const Message& ask, Message& reply) {
+    std::string who;  // what a light operator threw has its name already
+    try {
+        if (const auto* steps = std::get_if<Questions<Step>>(&ask.questions)) {
+            reply.data = preparer_.shard(ask.node, (*steps)->front());
+        } else if (const auto* tiles = std::get_if<Questions<Tile>>(&ask.questions)) {
+            who = "'" + network_.graph.nodes[ask.node].name + "' at " + describe(**tiles) + ", ";
+            reply.answers = pixel_answers(ask);
+        } else {
+            reply.answers = light_answers(ask.node, ask.width, *std::get<Questions<Query>>(ask.questions));
+        }
+    } catch (const std::exception& error) {
+        reply.type = Message::Type::failure;
+        reply.text = who + "on " + my_name() + ": " + error.what();
+    }
+}
+
+std::vector<Rgb> Place::light_answers(std::size_t node, std::size_t width, std::span<const Query> questions) {
+    const std::size_t layers = network_.width_of(node);
+    if (network_.kind_of(node).role != Role::light || (width != 1 && width != layers))
+        throw Error("was asked for light in a way that its graph does not have");
+    std::vector<Rgb> answers(questions.size() * width);
+    lightnet::answer(assembly_.called(node), width, questions, answers);
+    return answers;
+}
+
+std::vector<Rgb> Place::pixel_answers(const Message& message) {
+    const auto& tiles = *std::get<Questions<Tile>>(message.questions);
+    const std::size_t layers = network_.width_of(message.node);
+    if (network_.kind_of(message.node).role != Role::image || message.width != layers)
+        throw Error("was asked for pixels in a way that its graph does not have");
+    std::vector<Rgb> pixels(answers_to(tiles, layers));
+    std::size_t first = 0;
+    for (const auto& tile : tiles) {
+        const std::size_t size = tile.pixels() * layers;
+        assembly_.renderer(message.node).render(tile, std::span(pixels).subspan(first, size));
+        first += size;
+        ++counters_.tiles;
+    }
+    return pixels;
+}
+
+Load Place::load_of(std::size_t node) const {
+    const auto& inbox = inboxes_[node];
+    return {static_cast<std::uint32_t>(inbox.questions),
+            static_cast<std::uint32_t>(std::clamp(inbox.service_ns, 1.0, 4e9))};
+}
+
+}  // namespace lightnet

@@ -1,0 +1,12 @@
+// A short name for a place, the same on every host.
+#pragma once
+
+#include "core/graph/plan.hpp"
+#include "core/math/random.hpp"
+
+namespace lightnet {
+
+/// Never 0, which stands for the launcher.
+inline std::uint64_t name_of(const PlaceAt& place) { return child(key_of(place.host), 0, place.index) | 1; }
+
+}  // namespace lightnet

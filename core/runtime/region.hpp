@@ -1,0 +1,29 @@
+// Coarse regions of scene and picture, for replicas that cache.
+#pragma once
+
+#include <cstdint>
+
+#include "core/film/tile.hpp"
+#include "core/light/query.hpp"
+
+namespace lightnet {
+
+/// Questions without a place in scene or picture share one region.
+template <class Question>
+std::uint64_t region_of(const Question&) {
+    return 0;
+}
+
+/// A quarter by a quarter of a primitive, or 64 neighbouring small ones.
+inline std::uint64_t region_of(const Query& query) {
+    const auto quarter = [](float coordinate) { return static_cast<std::uint64_t>(coordinate * 3.999f) & 3; };
+    std::uint64_t region = query.instance;
+    region = region * 0x9e3779b97f4a7c15ull + query.geometry;
+    region = region * 0x9e3779b97f4a7c15ull + query.primitive / 64;
+    return region * 16 + quarter(query.u) * 4 + quarter(query.v);
+}
+
+/// 64 by 64 pixels.
+inline std::uint64_t region_of(const Tile& tile) { return (std::uint64_t{tile.y / 64} << 32) | (tile.x / 64); }
+
+}  // namespace lightnet

@@ -1,0 +1,60 @@
+// A master and ten thousand simulated workers, a million tiles: how much of a processor the decisions take, and whether
+// the same seed gives the same story.
+#include <cstdio>
+#include <exception>
+
+#include "tests/bench/figure.hpp"
+#include "tests/runtime/simulator.hpp"
+
+namespace lightnet::bench {
+namespace {
+
+test::World large(std::uint64_t seed, std::size_t tiles) {
+    test::World world{.seed = seed, .hosts = 10000, .places_per_host = 1, .tiles = tiles};
+    world.twice = 0.01, world.loss = 0.0001, world.deaths = 2e-6, world.drains = 2e-6, world.hangs = 1e-5;
+    world.most_events = 100'000'000;
+    return world;
+}
+
+void check(bool good, const char* what) {
+    if (!good) throw std::runtime_error(what);
+}
+
+void measure() {
+    constexpr std::size_t tiles = 1'000'000;
+    auto world = large(1, tiles);
+    world.remember = false;
+    const double begun = thread_seconds();
+    const auto told = test::play(world);
+    const double seconds = thread_seconds() - begun;
+    check(told.folded.size() + told.set_aside.size() == tiles, "tiles are missing");
+    for (const auto& [tile, times] : told.folded) check(times == 1, "a tile came twice");
+    std::printf(
+        "  %zu events, %llu doubled, %llu overdue, %llu asked again, %zu set aside; %.2f microseconds per tile\n",
+        told.events, static_cast<unsigned long long>(told.counters.doubled),
+        static_cast<unsigned long long>(told.counters.overdue),
+        static_cast<unsigned long long>(told.counters.asked_again), told.set_aside.size(),
+        1e6 * seconds / static_cast<double>(tiles));
+    std::printf("scheduler.cpu %.1f s <=60 s %s\n", seconds, seconds <= 60 ? "ok" : "short");
+
+    int same = 0;
+    constexpr int seeds = 5;
+    for (int seed = 1; seed <= seeds; ++seed) {
+        const auto once_more = large(static_cast<std::uint64_t>(seed), 50000);
+        same += test::play(once_more).story == test::play(once_more).story;
+    }
+    figure("scheduler.replay", same / static_cast<double>(seeds), 1, true);
+}
+
+}  // namespace
+}  // namespace lightnet::bench
+
+int main() {
+    try {
+        lightnet::bench::measure();
+        return 0;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "scheduler: %s\n", error.what());
+        return 1;
+    }
+}

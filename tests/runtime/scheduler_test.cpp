@@ -1,0 +1,278 @@
+#include "core/runtime/scheduler.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+namespace lightnet {
+namespace {
+
+// Tells a scheduler stories, and collects what it does.
+class SchedulerTest : public ::testing::Test {
+protected:
+    using Replicas = std::vector<Scheduler::Replica>;
+
+    void use(Scheduler::Rules rules) { scheduler = Scheduler(rules); }
+    void join(Scheduler::Replica replica, Credit credit = {1, 1000, 1 << 20}) { join_on(replica, replica, credit); }
+    void join_on(Scheduler::Host host, Scheduler::Replica replica, Credit credit = {1, 1000, 1 << 20}) {
+        tell(Scheduler::Joined{replica, host, replica + 1, credit});
+    }
+    void add(Scheduler::WorkId work, std::size_t bytes = 0, std::uint64_t region = 0) {
+        tell(Scheduler::Added{work, 1, bytes, region});
+    }
+    // The replicas to which a tick sends.
+    Replicas tick() {
+        tell(Scheduler::Tick{});
+        Replicas to;
+        for (const auto& action : actions)
+            if (const auto* send = std::get_if<Scheduler::Send>(&action)) {
+                copies[{send->work, send->replica}] = send->copy;
+                to.push_back(send->replica);
+            }
+        return to;
+    }
+    void reply(Scheduler::WorkId work, Scheduler::Replica from, double service = 0, std::size_t fill = 0) {
+        tell(Scheduler::Replied{copies.at({work, from}), fill, service});
+    }
+    void tell(const Scheduler::Event& event) {
+        actions.clear();
+        scheduler.on(event, now, actions);
+    }
+    template <class Action>
+    bool did() const {
+        return !actions.empty() && std::holds_alternative<Action>(actions.front());
+    }
+
+    Scheduler scheduler{{}};
+    double now = 0;
+    std::vector<Scheduler::Action> actions;
+    std::map<std::pair<Scheduler::WorkId, Scheduler::Replica>, Scheduler::CopyId> copies;
+};
+
+TEST_F(SchedulerTest, GivesCreditBackWithTheReply) {
+    join(0);
+    add(1), add(2);
+    EXPECT_EQ(tick(), (Replicas{0}));
+    EXPECT_FALSE(scheduler.has_room());
+    reply(1, 0);
+    EXPECT_TRUE(did<Scheduler::Accept>());
+    EXPECT_EQ(tick(), (Replicas{0}));
+}
+
+TEST_F(SchedulerTest, CountsCreditInBytesToo) {
+    join(0, {8, 1000, 100});
+    add(1, 60), add(2, 60), add(3, 60);
+    EXPECT_EQ(tick().size(), 2u) << "the second begins below the limit, the third does not";
+}
+
+TEST_F(SchedulerTest, ExpectsCompletionFromOutstandingWorkFillLevelAndServiceTime) {
+    join(0, {8, 1000, 1000});
+    add(1);
+    tick();
+    reply(1, 0, 2e-6, 5);
+    EXPECT_NEAR(scheduler.completion_time(0, 10), (5 + 10) * 2e-6, 1e-12);
+}
+
+TEST_F(SchedulerTest, TrustsItsOwnClockMoreThanAnAnswererThatWaitsForOthers) {
+    join(0);
+    add(1);
+    tick();
+    now = 3;  // though the answerer says that it took a microsecond
+    reply(1, 0, 1e-6);
+    EXPECT_NEAR(scheduler.completion_time(0, 1), 3, 1e-9);
+}
+
+TEST_F(SchedulerTest, DropsLateAndDoubledReplies) {
+    join(0);
+    add(1);
+    tick();
+    reply(1, 0);
+    reply(1, 0);
+    EXPECT_TRUE(did<Scheduler::Drop>());
+}
+
+TEST_F(SchedulerTest, HoldsTheLastWorkBackFromAReplicaThatIsTooSlowForIt) {
+    join(0), join(1);
+    add(1), add(2);
+    tick();
+    now = 1, reply(1, 0);
+    now = 10, reply(2, 1);
+    add(3), add(4);
+    EXPECT_EQ(tick(), (Replicas{0})) << "the fast one will have done both before the slow one has one";
+    now = 11, reply(3, 0);
+    EXPECT_EQ(tick(), (Replicas{0}));
+}
+
+TEST_F(SchedulerTest, AsksElsewhereWhatIsOverdueAndTakesTheFirstAnswer) {
+    join(0), join(1);
+    add(1), add(2);
+    tick();
+    now = 1, reply(2, 1);
+    now = 100;  // 0 hangs
+    EXPECT_EQ(tick(), (Replicas{1}));
+    reply(1, 1);
+    EXPECT_TRUE(did<Scheduler::Accept>());
+    reply(1, 0);
+    EXPECT_TRUE(did<Scheduler::Drop>());
+    EXPECT_EQ(scheduler.copies_out(), 0u);
+}
+
+TEST_F(SchedulerTest, TakesTheAnswerOfAHangingReplicaWhenItIsTheFirstAfterAll) {
+    join(0);
+    add(1);
+    tick();
+    now = 100;
+    EXPECT_EQ(tick(), (Replicas{0})) << "nobody else is there";
+    const auto second = copies.at({1, 0});
+    tell(Scheduler::Replied{second - 1});
+    EXPECT_TRUE(did<Scheduler::Accept>());
+}
+
+TEST_F(SchedulerTest, AsksASilentReplicaMoreAndMoreRarely) {
+    join(0, {4, 1000, 1000});
+    add(1);
+    tick();
+    int asked = 0;
+    for (; now < 10000; now += 1) asked += static_cast<int>(tick().size());
+    EXPECT_GT(asked, 3);
+    EXPECT_LT(asked, 15);
+}
+
+TEST_F(SchedulerTest, LetsIdleReplicasDoTheTailOnceMore) {
+    Scheduler::Rules rules;
+    rules.double_tail = true;
+    use(rules);
+    join(0), join(1);
+    add(1), add(2);
+    tick();
+    now = 1, reply(1, 0, 1), reply(2, 1, 1);
+    add(3), add(4);
+    tick();
+    now = 2, reply(3, 0, 1);
+    now = 3;  // what 1 has is late by its whole time
+    EXPECT_EQ(tick(), (Replicas{0}));
+    EXPECT_EQ(scheduler.counts().doubled, 1u);
+    tell(Scheduler::Foreseen{5});
+    EXPECT_TRUE(tick().empty());
+}
+
+TEST_F(SchedulerTest, RunsSuspectsAloneAndConvictsAfterThreeDeathsAlone) {
+    join(0, {2, 1000, 1000});
+    add(1), add(2);
+    EXPECT_EQ(tick().size(), 2u);
+    tell(Scheduler::Gone{{0}, true});
+    EXPECT_FALSE(did<Scheduler::SetAside>());
+    std::set<Scheduler::WorkId> alone;
+    for (int death = 0; death < 6; ++death) {
+        join(0, {2, 1000, 1000});
+        EXPECT_EQ(tick().size(), 1u) << "one suspect at a time";
+        alone.insert(std::get<Scheduler::Send>(actions.front()).work);
+        tell(Scheduler::Gone{{0}, true});
+        EXPECT_EQ(did<Scheduler::SetAside>(), death >= 4) << death;
+    }
+    EXPECT_EQ(alone, (std::set<Scheduler::WorkId>{1, 2}));
+    EXPECT_EQ(scheduler.unfinished(), 0u);
+}
+
+TEST_F(SchedulerTest, CountsNoDeathAgainstWorkThatSharedItsHost) {
+    join_on(7, 0), join_on(7, 1);
+    for (int death = 0; death < 5; ++death) {
+        if (death == 0) add(1), add(2);
+        if (death > 0) break;
+        EXPECT_EQ(tick().size(), 2u);
+        tell(Scheduler::Gone{{0, 1}, true});
+    }
+    join_on(7, 0), join_on(7, 1);
+    EXPECT_EQ(tick().size(), 1u) << "places of one host die together, so suspects have the whole host";
+}
+
+TEST_F(SchedulerTest, BlamesNoWorkOfAReplicaThatLeftInGoodOrder) {
+    join(0, {2, 1000, 1000});
+    add(1), add(2);
+    tick();
+    tell(Scheduler::Gone{{0}, false});
+    join(1, {2, 1000, 1000});
+    EXPECT_EQ(tick(), (Replicas{1, 1}));
+}
+
+TEST_F(SchedulerTest, FreesASuspectThatIsAnswered) {
+    join(0, {2, 1000, 1000});
+    add(1);
+    tick();
+    tell(Scheduler::Gone{{0}, true});
+    join(1, {2, 1000, 1000});
+    add(2);
+    EXPECT_EQ(tick(), (Replicas{1}));
+    EXPECT_EQ(copies.count({1, 1}), 1u) << "the suspect, alone";
+    reply(1, 1);
+    EXPECT_EQ(tick(), (Replicas{1}));
+}
+
+TEST_F(SchedulerTest, TakesTurnsWhenToldSo) {
+    Scheduler::Rules rules;
+    rules.strategy = Strategy::round_robin;
+    use(rules);
+    for (Scheduler::Replica replica = 0; replica < 3; ++replica) join(replica, {8, 1000, 1000});
+    for (Scheduler::WorkId work = 1; work <= 6; ++work) add(work);
+    EXPECT_EQ(tick(), (Replicas{0, 1, 2, 0, 1, 2}));
+}
+
+TEST_F(SchedulerTest, AsksTheLeastLoadedWhenToldSo) {
+    Scheduler::Rules rules;
+    rules.strategy = Strategy::least_loaded;
+    use(rules);
+    join(0, {8, 1000, 1000}), join(1, {8, 1000, 1000});
+    add(1);
+    tick();
+    reply(1, 0, 0, 50);  // others have it busy
+    add(2), add(3);
+    EXPECT_EQ(tick(), (Replicas{1, 1}));
+}
+
+TEST_F(SchedulerTest, SendsARegionHomeUnlessHomeIsOverloaded) {
+    Scheduler::Rules rules;
+    rules.strategy = Strategy::affinity;
+    use(rules);
+    for (Scheduler::Replica replica = 0; replica < 4; ++replica) join(replica, {100, 1000, 1000});
+    const auto home = scheduler.home(42);
+    for (Scheduler::WorkId work = 1; work <= 3; ++work) add(work, 0, 42);
+    EXPECT_EQ(tick(), (Replicas{home, home, home}));
+    for (Scheduler::WorkId work = 4; work <= 20; ++work) add(work, 0, 42);
+    tick();
+    EXPECT_GT(scheduler.counts().spilled, 0u);
+}
+
+TEST_F(SchedulerTest, MovesOnlyTheRegionsOfAReplicaThatGoes) {
+    Scheduler::Rules rules;
+    rules.strategy = Strategy::affinity;
+    use(rules);
+    for (Scheduler::Replica replica = 0; replica < 8; ++replica) join(replica);
+    std::map<std::uint64_t, Scheduler::Replica> before;
+    for (std::uint64_t region = 0; region < 1000; ++region) before[region] = scheduler.home(region);
+    tell(Scheduler::Gone{{3}, true});
+    for (const auto& [region, home] : before) EXPECT_TRUE(home == 3 || scheduler.home(region) == home) << region;
+    join(3);
+    for (const auto& [region, home] : before) EXPECT_EQ(scheduler.home(region), home) << "and they come back with it";
+}
+
+TEST(Lowest, KnowsTheLowestKeyThroughAllChanges) {
+    Lowest lowest;
+    std::map<std::size_t, double> keys;
+    std::uint64_t random = 1;
+    for (int change = 0; change < 5000; ++change) {
+        random = random * 6364136223846793005ull + 1442695040888963407ull;
+        const std::size_t number = (random >> 33) % 37;
+        const double key = (random >> 40) % 5 == 0 ? Lowest::none : static_cast<double>((random >> 45) % 100);
+        lowest.set(number, key);
+        keys[number] = key;
+        auto first = keys.begin();
+        for (auto it = keys.begin(); it != keys.end(); ++it)
+            if (it->second < first->second) first = it;
+        ASSERT_EQ(lowest.least(), first->second);
+        ASSERT_TRUE(!lowest.any() || lowest.first() == first->first);
+    }
+}
+
+}  // namespace
+}  // namespace lightnet

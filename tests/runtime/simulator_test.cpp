@@ -1,0 +1,119 @@
+// Thousands of invented runs: whatever workers and network do, every tile comes once, and the run ends.
+#include "tests/runtime/simulator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <functional>
+
+#include "tests/support/slowdown.hpp"
+
+namespace lightnet::test {
+namespace {
+
+constexpr std::uint64_t seeds = 500 / slowdown;  // of each kind of world
+
+// `LIGHTNET_SEED` in the environment plays one seed again.
+void for_every_seed(const std::function<void(std::uint64_t)>& play_seed) {
+    if (const char* only = std::getenv("LIGHTNET_SEED")) return play_seed(std::stoull(only));
+    for (std::uint64_t seed = 1; seed <= seeds && !::testing::Test::HasFailure(); ++seed) play_seed(seed);
+}
+
+Told expect_sound(const World& world) {
+    SCOPED_TRACE("play it again with LIGHTNET_SEED=" + std::to_string(world.seed));
+    Told told;
+    try {
+        told = play(world);
+    } catch (const std::exception& error) {
+        ADD_FAILURE() << error.what();
+        return told;
+    }
+    EXPECT_EQ(told.folded.size() + told.set_aside.size(), world.tiles) << "tiles are missing";
+    for (const auto& [tile, times] : told.folded) EXPECT_EQ(times, 1) << "tile " << tile;
+    EXPECT_EQ(told.outstanding, 0u) << "credit that did not come back";
+    const bool poisoned = !world.poisonous.empty() || world.deaths > 0;
+    if (!poisoned) {
+        const auto n = static_cast<double>(world.tiles);
+        EXPECT_EQ(told.sum, n * (n - 1) / 2);
+        EXPECT_TRUE(told.set_aside.empty());
+    }
+    return told;
+}
+
+TEST(SimulatedRun, IsTheSameToTheLastByteForTheSameSeed) {
+    for_every_seed([](std::uint64_t seed) {
+        World world{.seed = seed, .loss = 0.02, .twice = 0.1, .deaths = 0.01, .drains = 0.01, .hangs = 0.01};
+        world.tiles = 30;
+        EXPECT_EQ(play(world).story, play(world).story) << "seed " << seed;
+    });
+}
+
+TEST(SimulatedRun, EndsThoughMessagesAreLostDelayedDoubledAndReordered) {
+    for_every_seed([](std::uint64_t seed) { expect_sound({.seed = seed, .delay = 2, .loss = 0.1, .twice = 0.5}); });
+}
+
+TEST(SimulatedRun, EndsThoughHostsDieAndComeBack) {
+    for_every_seed([](std::uint64_t seed) {
+        const auto told = expect_sound({.seed = seed, .twice = 0.1, .deaths = 0.03});
+        for (const auto& text : told.set_aside) EXPECT_NE(text.find("tile 1x1"), std::string::npos);
+    });
+}
+
+TEST(SimulatedRun, LosesNothingToHostsThatLeaveInGoodOrder) {
+    for_every_seed([](std::uint64_t seed) {
+        const auto told = expect_sound({.seed = seed, .drains = 0.03});
+        EXPECT_EQ(told.counters.set_aside, 0u);
+    });
+}
+
+TEST(SimulatedRun, DoesTheWorkOfHangingHostsElsewhereAndKillsNobody) {
+    for_every_seed([](std::uint64_t seed) { expect_sound({.seed = seed, .hangs = 0.02}); });
+}
+
+TEST(SimulatedRun, EndsOnTheLastPlaceThatIsLeft) {
+    for_every_seed([](std::uint64_t seed) {
+        World world{.seed = seed, .hosts = 1, .places_per_host = 1, .loss = 0.05, .twice = 0.2, .deaths = 0.005};
+        world.tiles = 20;
+        expect_sound(world);
+    });
+}
+
+TEST(SimulatedRun, EndsWithAllOfThisAtOnceWhateverTheStrategy) {
+    for_every_seed([](std::uint64_t seed) {
+        World world{
+            .seed = seed, .delay = 0.5, .loss = 0.02, .twice = 0.1, .deaths = 0.01, .drains = 0.01, .hangs = 0.01};
+        world.strategy = static_cast<Strategy>(seed % strategy_names.size());
+        world.credit = {1 + seed % 4, 1 + seed % 4};
+        expect_sound(world);
+    });
+}
+
+TEST(SimulatedRun, SetsAsideTilesThatKillHostsAndNoOthers) {
+    for_every_seed([](std::uint64_t seed) {
+        World world{.seed = seed};
+        world.poisonous = {7, 31};
+        const auto told = expect_sound(world);
+        SCOPED_TRACE("play it again with LIGHTNET_SEED=" + std::to_string(seed));
+        EXPECT_FALSE(told.folded.contains(7));
+        EXPECT_FALSE(told.folded.contains(31));
+        ASSERT_EQ(told.set_aside.size(), 2u);
+        for (const auto tile : world.poisonous) EXPECT_GE(told.died_alone.at(tile), 3);
+    });
+}
+
+TEST(SimulatedRun, ConvictsOnlyAfterThreeDeathsAlone) {
+    for_every_seed([](std::uint64_t seed) {
+        World world{.seed = seed, .deaths = 0.05};
+        world.poisonous = {5};
+        const auto told = expect_sound(world);
+        SCOPED_TRACE("play it again with LIGHTNET_SEED=" + std::to_string(seed));
+        for (std::uint32_t tile = 0; tile < world.tiles; ++tile) {
+            if (told.folded.contains(tile)) continue;
+            const auto deaths = told.died_alone.find(tile);
+            EXPECT_TRUE(deaths != told.died_alone.end() && deaths->second >= 3) << "tile " << tile;
+        }
+    });
+}
+
+}  // namespace
+}  // namespace lightnet::test
