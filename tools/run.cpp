@@ -195,6 +195,7 @@ int Run::perform() {
             return exit_code::interrupted;
         }
         book_.phase("write");
+        book_.name_not_finite(job_.graph);
         book_.write_picture(request_.output);
         book_.write_report(request_.output, "done");
         return exit_code::done;

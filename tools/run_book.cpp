@@ -95,6 +95,19 @@ void RunBook::write_files(const std::string& exr) {
     report_.settings["tone of the PNG"] = std::string(png_tone);
 }
 
+void RunBook::name_not_finite(const Graph& graph) {
+    const auto& counts = counters_.not_finite;
+    for (std::size_t node = 0; node < graph.nodes.size(); ++node) {
+        const auto count = counts.find(graph.nodes[node].name);
+        const auto inputs = graph.inputs_of(node);
+        const bool passed_on = std::any_of(inputs.begin(), inputs.end(),
+                                           [&](std::size_t input) { return counts.contains(graph.nodes[input].name); });
+        if (count != counts.end() && !passed_on)
+            warn(fmt::format("{} '{}' gave {} answers that are not finite", graph.nodes[node].kind,
+                             graph.nodes[node].name, count->second));
+    }
+}
+
 void RunBook::use(const Plan& plan, const Graph& graph) {
     report_.places.clear();
     for (std::uint32_t place = 0; place < plan.places.size(); ++place) {

@@ -38,6 +38,8 @@ public:
     /// A line of run.json's settings.
     void set(const std::string& name, const std::string& value) { report_.settings[name] = value; }
     void count(const Counters& counters) { counters_ += counters; }
+    /// Warns of the nodes that made what is not finite: those that answered so, while none that they ask did.
+    void name_not_finite(const Graph& graph);
 
     /// Writes x.exr, x.png and run.json beside them, each whole or not at all. Says what was written.
     void write_picture(const std::string& exr);

@@ -149,9 +149,7 @@ void HostLink::control(Type type, const Fields& fields, Time now) {
             send_end();
             return;
         case Type::ended: {
-            Counters counters;
-            for (const auto& [name, count] : Counters::all) counters.*count = fields.number(name);
-            ended_ = counters;
+            ended_ = Counters::from(fields.numbers);
             return;
         }
         default:

@@ -1,6 +1,7 @@
 // Where the picture grows: takes tiles in any order and gives the same bytes.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -16,6 +17,12 @@
 #include "core/math/rgb.hpp"
 
 namespace lightnet {
+
+inline std::uint32_t blocks_in(std::uint32_t samples) { return (samples + samples_per_block - 1) / samples_per_block; }
+/// Of block `block` of so many samples: the last one may be short.
+inline std::uint32_t samples_of(std::uint32_t block, std::uint32_t samples) {
+    return std::min(samples_per_block, samples - block * samples_per_block);
+}
 
 /// The tiles of a part of a picture in the order in which they are handed out: one block of samples of the whole
 /// picture after the other, and within a block along a Hilbert curve, so that neighbours in time are neighbours in the
