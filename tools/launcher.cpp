@@ -1,8 +1,12 @@
 #include "tools/launcher.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <iterator>
 #include <ostream>
+#include <sstream>
 
+#include "core/graph/check_hosts.hpp"
 #include "core/graph/check_params.hpp"
 #include "core/graph/describe.hpp"
 #include "core/graph/dot.hpp"
@@ -10,7 +14,9 @@
 #include "core/graph/plan.hpp"
 #include "core/runtime/load_scene.hpp"
 #include "core/scene/read_scene.hpp"
+#include "lua/load_graph.hpp"
 #include "tools/exit_code.hpp"
+#include "tools/host_table.hpp"
 #include "tools/loading.hpp"
 #include "tools/overrides.hpp"
 #include "tools/render.hpp"
@@ -18,6 +24,11 @@
 
 namespace lightnet {
 namespace {
+
+std::vector<std::string> words_of(const std::string& text) {
+    std::istringstream in(text);
+    return {std::istream_iterator<std::string>(in), {}};
+}
 
 RunRequest request_of(const Options& options, const Registry& registry, Loaded loaded) {
     RunRequest request;
@@ -31,12 +42,13 @@ RunRequest request_of(const Options& options, const Registry& registry, Loaded l
     request.listen = options.listen;
     request.tuning = options.tuning;
     request.check_wrapped = options.check_wrapped;
-    request.threads = options.threads.value_or(1);
+    request.threads = options.threads.value_or(0);
     request.local_workers = options.local_workers.value_or(0);
-    if (!options.hosts.empty() || !options.listen.empty())
-        request.mode = Mode::hosts;
-    else if (options.local_workers)
-        request.mode = Mode::local_workers;
+    request.slurm = {options.slurm.value_or(0), options.partition, words_of(options.slurm_arguments)};
+    request.wait = std::chrono::seconds(options.wait);
+    request.resume = options.resume;
+    if (!options.hosts.empty() || !options.listen.empty() || options.local_workers)
+        request.mode = Mode::network;
     else if (options.threads)
         request.mode = Mode::threads;
     return request;
@@ -90,6 +102,8 @@ int Launcher::perform(const Options& options) const {
             return perform_dot(options);
         case Verb::describe:
             return perform_describe(options);
+        case Verb::hosts:
+            return perform_hosts(options);
     }
     return exit_code::usage;
 }
@@ -155,6 +169,23 @@ int Launcher::perform_describe(const Options& options) const {
     for (const auto& kind : registry.kinds()) known.push_back(kind.name);
     err << "lightnet: there is no kind '" << options.kind << "'" << suggest(options.kind, known) << '\n';
     return exit_code::usage;
+}
+
+int Launcher::perform_hosts(const Options& options) const {
+    std::vector<std::string> endpoints;
+    for (const auto& one : options.whom) {
+        if (address_of(one)) {
+            endpoints.push_back(one);
+            continue;
+        }
+        for (const auto& host : load_hosts(one).hosts)
+            if (address_of(host.endpoint)) endpoints.push_back(host.endpoint);
+    }
+    const auto answers = ask_state(endpoints, std::chrono::seconds(2));
+    out << host_table(answers);
+    const bool nobody =
+        std::all_of(answers.begin(), answers.end(), [](const auto& host) { return host.machine.name.empty(); });
+    return nobody ? exit_code::no_worker : exit_code::done;
 }
 
 }  // namespace lightnet

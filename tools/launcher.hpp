@@ -29,6 +29,7 @@ private:
     int perform_check(const Options& options) const;
     int perform_dot(const Options& options) const;
     int perform_describe(const Options& options) const;
+    int perform_hosts(const Options& options) const;
 };
 
 }  // namespace lightnet

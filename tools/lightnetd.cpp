@@ -4,9 +4,11 @@
 #include <sys/prctl.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <iostream>
+#include <optional>
 #include <string>
 
 #include "core/build_info.hpp"
@@ -15,6 +17,7 @@
 #include "tools/exit_code.hpp"
 #include "tools/reach.hpp"
 #include "tools/signals.hpp"
+#include "tools/single_instance.hpp"
 #include "transport/host.hpp"
 
 namespace {
@@ -31,10 +34,20 @@ int main(int argc, char** argv) {
     CLI::App app("lightnetd: renders for others. Serves one run at a time, run after run, until it is told to stop.");
     lightnet::Host::Options options;
     bool insecure = false, quiet = false;
-    int parent = 0;
-    app.add_option("--listen", options.listen, "where launchers find it; port * lets the system choose")
-        ->capture_default_str();
-    app.add_option("--join", options.join, "endpoint of a launcher to report to");
+    int parent = 0, drain = 20, patience = 0;
+    std::string single;
+    auto* const listen =
+        app.add_option("--listen", options.listen, "where launchers find it; port * lets the system choose")
+            ->capture_default_str();
+    app.add_option("--join", options.join,
+                   "dial out to this launcher, now or when it comes; lets nobody in unless --listen is given, too")
+        ->type_name("tcp://HOST:PORT");
+    app.add_option("--name", options.name, "under which it joins (default: the name of the machine)");
+    app.add_option("--drain", drain, "seconds to finish what it has when it is told to stop (SIGTERM)")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 86400));
+    app.add_option("--leave-after", patience, "stop after so many seconds without a run")->check(CLI::Range(1, 864000));
+    app.add_option("--single", single, "wait until no other daemon of this user on this machine has this name");
     app.add_option("--places", options.places, "threads that render; 0: one per core")->capture_default_str();
     app.add_option("--cache", options.cache, "folder for files of scenes (default: ~/.cache/lightnet)");
     app.add_flag("--insecure", insecure, "listen beyond this machine: whoever reaches the port can have it render");
@@ -46,7 +59,10 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? lightnet::exit_code::done : lightnet::exit_code::usage;
     }
-    if (!insecure && !lightnet::stays_on_this_machine(options.listen)) {
+    if (!options.join.empty() && listen->count() == 0) options.listen.clear();
+    options.drain = std::chrono::seconds(drain);
+    if (patience) options.patience = std::chrono::seconds(patience);
+    if (!insecure && !options.listen.empty() && !lightnet::stays_on_this_machine(options.listen)) {
         std::cerr << "lightnetd: " << lightnet::beyond_this_machine("--listen " + options.listen) << '\n';
         return lightnet::exit_code::usage;
     }
@@ -55,9 +71,14 @@ int main(int argc, char** argv) {
         options.log = [](const std::string& text) { std::cerr << "lightnetd: " << text << std::endl; };
     try {
         const auto& stop = lightnet::watch_signals();
+        std::optional<lightnet::SingleInstance> only;
+        if (!single.empty()) only.emplace(single, stop.any);
         const lightnet::Registry registry{lightnet::standard_nodes()};
         lightnet::Host host(options, registry);
-        std::cout << "listening on " << host.endpoint() << std::endl;
+        if (options.listen.empty())
+            std::cout << "joining " << options.join << std::endl;
+        else
+            std::cout << "listening on " << host.endpoint() << std::endl;
         host.serve(stop.any);
         return 0;
     } catch (const std::exception& error) {

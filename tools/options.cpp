@@ -16,9 +16,9 @@
 namespace lightnet {
 namespace {
 
-const std::vector<std::pair<std::string, Verb>> verbs{{"run", Verb::run},           {"render", Verb::render},
-                                                      {"check", Verb::check},       {"dot", Verb::dot},
-                                                      {"describe", Verb::describe}, {"scene", Verb::scene_info}};
+const std::vector<std::pair<std::string, Verb>> verbs{
+    {"run", Verb::run},           {"render", Verb::render},    {"check", Verb::check}, {"dot", Verb::dot},
+    {"describe", Verb::describe}, {"scene", Verb::scene_info}, {"hosts", Verb::hosts}};
 
 std::optional<std::uint32_t> side_of(std::string_view text) {
     std::uint32_t side = 0;
@@ -63,6 +63,7 @@ public:
         add_check();
         add_dot();
         add_describe();
+        add_hosts_verb();
     }
 
     std::variant<Options, Finished> parse(std::vector<std::string> arguments) {
@@ -84,6 +85,8 @@ public:
             if (app_.got_subcommand(name)) options_.verb = verb;
         if (!options_.listen.empty() && !options_.insecure && !stays_on_this_machine(options_.listen))
             return usage(beyond_this_machine("--listen " + options_.listen));
+        if (options_.slurm && options_.listen.empty())
+            options_.listen = options_.insecure ? "tcp://0.0.0.0:*" : "tcp://127.0.0.1:*";
         return options_;
     }
 
@@ -206,13 +209,9 @@ private:
     // What all verbs that make a picture take.
     void add_running(CLI::App& verb) {
         add_picture(verb);
-        auto* const hosts = add_hosts(verb);
-        auto* const threads = add_threads(verb)->excludes(hosts);
-        verb.add_option("--local-workers", options_.local_workers, "daemons to start on this machine")
-            ->type_name("N")
-            ->check(CLI::Range(1, 1024))
-            ->excludes(hosts)
-            ->excludes(threads);
+        add_hosts(verb);
+        add_threads(verb);
+        add_helpers(verb);
         verb.add_option("--seed", options_.seed, "root of all random numbers")
             ->type_name("N")
             ->check(CLI::NonNegativeNumber);  // or -1 would be a very large number
@@ -224,13 +223,29 @@ private:
         verb.add_option("--preview", options_.preview, "write the picture so far from time to time")
             ->type_name("SECONDS")
             ->check(CLI::PositiveNumber);
-        verb.add_option("--listen", options_.listen, "where lightnetd --join may join, even in the middle of the run")
-            ->type_name("tcp://HOST:PORT")
-            ->excludes(threads);
-        verb.add_flag("--insecure", options_.insecure, "listen beyond this machine, on a network that is yours alone");
+        verb.add_flag("--resume", options_.resume, "go on from the checkpoint beside the picture, if there is one");
         verb.add_flag("--check-wrapped", options_.check_wrapped,
                       "ask wrapped classes some questions twice, to find those whose history changes answers");
         add_tuning(verb);
+    }
+
+    // Where the places come from; all of these go together.
+    void add_helpers(CLI::App& verb) {
+        verb.add_option("--local-workers", options_.local_workers, "daemons to start on this machine")
+            ->type_name("N")
+            ->check(CLI::Range(1, 1024));
+        verb.add_option("--listen", options_.listen, "where lightnetd --join may join, even in the middle of the run")
+            ->type_name("tcp://HOST:PORT");
+        verb.add_flag("--insecure", options_.insecure, "listen beyond this machine, on a network that is yours alone");
+        verb.add_option("--wait", options_.wait, "seconds to wait for a host when a node has no place any more")
+            ->type_name("SECONDS")
+            ->check(CLI::Range(0, 864000))
+            ->capture_default_str();
+        auto* const slurm = verb.add_option("--slurm", options_.slurm, "daemons to start as a job array of Slurm")
+                                ->type_name("N")
+                                ->check(CLI::Range(1, 10000));
+        verb.add_option("--partition", options_.partition, "of Slurm")->type_name("P")->needs(slurm);
+        verb.add_option("--slurm-args", options_.slurm_arguments, "more words for sbatch, in one")->needs(slurm);
     }
 
     // The picture does not depend on any of these.
@@ -242,6 +257,7 @@ private:
         add("--tile", tuning.tile, 1, 256, "pixels along a side of a tile");
         add("--bundle", tuning.bundle, 1, 65536, "questions in a full bundle");
         add("--credit", tuning.credit, 1, 1024, "bundles under way to one place, per node asked");
+        add("--checkpoint", tuning.checkpoint, 1, 86400, "seconds between two checkpoints");
         verb.add_option("--cache", tuning.cache, "where what nodes prepare is kept from run to run; 'none': nowhere")
             ->type_name("FOLDER")
             ->group("Tuning");
@@ -266,6 +282,12 @@ private:
     void add_describe() {
         CLI::App& verb = *app_.add_subcommand("describe", "list the kinds of nodes, or tell all of one");
         verb.add_option("KIND", options_.kind, "the kind to tell of");
+    }
+
+    void add_hosts_verb() {
+        CLI::App& verb = *app_.add_subcommand("hosts", "tell how daemons are, and what their machines are like");
+        verb.add_option("WHOM", options_.whom, "hosts files, endpoints of daemons, or that of a launcher (--listen)")
+            ->required();
     }
 
     CLI::App app_;

@@ -13,7 +13,7 @@
 
 namespace lightnet {
 
-enum class Verb { run, render, check, dot, describe, scene_info };
+enum class Verb { run, render, check, dot, describe, scene_info, hosts };
 
 /// Width and height, pixels.
 struct PictureSize {
@@ -46,11 +46,16 @@ struct Options {
     std::uint64_t seed = 0;
     std::map<std::string, std::string> constants;  // -D
     ProgressMode progress = ProgressMode::automatic;
-    std::string listen;     // endpoint where hosts may join
-    bool insecure = false;  // even beyond this machine
+    std::string listen;                  // endpoint where hosts may join
+    bool insecure = false;               // even beyond this machine
+    int wait = 30;                       // seconds for a host to come when a node has no place any more
+    std::optional<std::uint32_t> slurm;  // daemons to start as a job array
+    std::string partition, slurm_arguments;
+    bool resume = false;  // from a checkpoint
     Tuning tuning;
     bool check_wrapped = false;
-    std::string kind;  // for describe; "": all
+    std::string kind;               // for describe; "": all
+    std::vector<std::string> whom;  // for hosts: endpoints and hosts files
 };
 
 /// The command line leaves nothing to do: print, and exit with `code`.

@@ -1,15 +1,17 @@
 #include "tools/run.hpp"
 
 #include <fmt/format.h>
+#include <pwd.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <filesystem>
 #include <functional>
 #include <iostream>
+#include <optional>
 #include <random>
-#include <thread>
 
 #include "core/build_info.hpp"
 #include "core/error.hpp"
@@ -23,11 +25,11 @@
 #include "core/runtime/master_renderer.hpp"
 #include "core/runtime/serial.hpp"
 #include "core/scene/read_scene.hpp"
+#include "tools/crew.hpp"
 #include "tools/exit_code.hpp"
 #include "tools/run_book.hpp"
 #include "tools/signals.hpp"
 #include "transport/cluster.hpp"
-#include "transport/local_workers.hpp"
 #include "transport/result_cache.hpp"
 #include "transport/threaded_run.hpp"
 
@@ -37,19 +39,19 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
-constexpr auto join_patience = 10min;  // for the first host, when none is named
-constexpr auto host_patience = 5s;     // for hosts that do not answer when the run begins
-constexpr auto empty_patience = 10s;   // for a host to come when none is left
-constexpr auto drain_deadline = 5s;    // for tiles that are under way when the run is told to stop
+constexpr auto drain_deadline = 5s;  // for tiles that are under way when the run is told to stop
 
 std::uint64_t random_number() {
     std::random_device device;  // names a run; nothing that is computed depends on it
     return (std::uint64_t{device()} << 32) | device();
 }
 
-// lightnetd stands beside the launcher.
-std::string daemon_program() {
-    return std::filesystem::read_symlink("/proc/self/exe").replace_filename("lightnetd").string();
+// For those who have to wait for the hosts of this run.
+std::string who_runs(const Graph& graph) {
+    std::array<char, 256> machine{};
+    gethostname(machine.data(), machine.size() - 1);
+    const passwd* user = getpwuid(getuid());
+    return fmt::format("{}@{} ({})", user ? user->pw_name : std::to_string(getuid()), machine.data(), graph.file);
 }
 
 const char* name_of(Mode mode) {
@@ -111,10 +113,13 @@ public:
 private:
     FilmFormat format() const;
     Job make_job(DiskFiles& files) const;
+    std::map<std::string, std::string> recipe() const;
+    void take_up_checkpoint();
     void report_failure();
     void render_serially(SceneData scene);
     void render_in_threads(SceneData scene);
-    void render_on_hosts(const DiskFiles& files);
+    void render_on_hosts(const DiskFiles& files, SceneData scene);
+    Cluster::Options cluster_options(const DiskFiles& files);
     /// Called several times a second with the number of places that render.
     using LookAround = std::function<void(std::size_t renderers)>;
     void hand_out(Carrier& carrier, const Plan& plan, const LookAround& look_around);
@@ -168,6 +173,29 @@ Job Run::make_job(DiskFiles& files) const {
     return job;
 }
 
+// What a picture depends on. Tiles don't change it, but a film is cut in one way.
+std::map<std::string, std::string> Run::recipe() const {
+    std::string files = job_.scene;
+    for (const auto& file : job_.files) files += "\n" + file.path + " " + to_hex(file.hash);
+    return {{"graph", to_hex(content_hash(to_json(job_.graph)))},
+            {"scene", to_hex(content_hash(files))},
+            {"seed", std::to_string(job_.seed)},
+            {"size", fmt::format("{}x{}", format_.width, format_.height)},
+            {"samples", std::to_string(format_.samples)},
+            {"error", fmt::format("{}", format_.refinement.error)},
+            {"tile", std::to_string(request_.tuning.tile)},
+            {"build", build_id()},
+            {"arithmetic", std::to_string(fingerprint(job_.isa))}};
+}
+
+void Run::take_up_checkpoint() {
+    book_.keep_checkpoint(request_.output, recipe(), std::chrono::seconds(request_.tuning.checkpoint));
+    if (request_.resume) book_.take_up_checkpoint();
+    book_.found(std::erase_if(tiles_, [this](const Tile& tile) { return book_.has(tile); }));
+    const auto more = book_.going_on();
+    tiles_.insert(tiles_.end(), more.begin(), more.end());
+}
+
 int Run::perform() {
     check_output(request_.output);
     try {
@@ -182,21 +210,25 @@ int Run::perform() {
         job_ = make_job(files);
         book_.expose(scale);
         if (request_.preview > 0) book_.preview(request_.output, request_.preview);
+        take_up_checkpoint();
         if (request_.mode == Mode::serial)
             render_serially(std::move(scene));
         else if (request_.mode == Mode::threads)
             render_in_threads(std::move(scene));
         else
-            render_on_hosts(files);
+            render_on_hosts(files, std::move(scene));
         if (stopped()) {
+            const bool kept = book_.save_checkpoint();
             book_.write_report(request_.output, "cancelled");
-            std::cerr << (book_.previewed() ? "cancelled; the picture is a preview\n"
-                                            : "cancelled; no picture was written\n");
+            std::cerr << (book_.previewed() ? "cancelled; the picture is a preview"
+                                            : "cancelled; no picture was written")
+                      << (kept ? "; --resume goes on from here" : "") << '\n';
             return exit_code::interrupted;
         }
         book_.phase("write");
         book_.name_not_finite(job_.graph);
         book_.write_picture(request_.output);
+        book_.remove_checkpoint();
         book_.write_report(request_.output, "done");
         return exit_code::done;
     } catch (const UserError&) {
@@ -214,6 +246,7 @@ int Run::perform() {
 // What went wrong is said anyhow; a report that can't be written must not hide it.
 void Run::report_failure() {
     try {
+        if (book_.save_checkpoint()) book_.say("what is there is kept: --resume goes on from here");
         book_.write_report(request_.output, "failed");
     } catch (const std::exception& error) {
         book_.say(error.what());
@@ -325,44 +358,47 @@ void Run::hand_out(Carrier& carrier, const Plan& plan, const LookAround& look_ar
     }
 }
 
-void Run::render_on_hosts(const DiskFiles& files) {
-    book_.phase("prepare");
-    std::optional<LocalWorkers> workers;
+Cluster::Options Run::cluster_options(const DiskFiles& files) {
     Cluster::Options options;
     options.run = id_;
+    options.who = who_runs(job_.graph);
     options.job = job_;
     options.files = files.seen();
-    options.listen = request_.listen;
-    for (const auto& host : request_.hosts.hosts) options.endpoints.push_back(host.endpoint);
-    if (request_.local_workers) {
-        const auto places = std::max(1u, std::thread::hardware_concurrency() / request_.local_workers);
-        workers.emplace(daemon_program(), request_.local_workers, places);
-        for (const auto& endpoint : workers->endpoints()) options.endpoints.push_back(endpoint);
-    }
     options.plan = [this](const std::vector<HostOffer>& offers) {
         return lightnet::plan(job_.graph, registry_, request_.hosts, offers);
     };
     options.say = [this](const std::string& text) { book_.say(text); };
+    return options;
+}
 
-    const bool nobody_named = options.endpoints.empty();
-    Cluster cluster(std::move(options));
-    if (!request_.listen.empty()) book_.say("hosts may join at " + cluster.join_endpoint());
-    cluster.gather(nobody_named ? join_patience : host_patience, signals_.any);
+void Run::render_on_hosts(const DiskFiles& files, SceneData scene) {
+    book_.phase("prepare");
+    auto options = cluster_options(files);
+    if (request_.threads) options.network = build_network(job_, registry_, std::move(scene));
+    Crew crew(request_, std::move(options));
+    auto& cluster = crew.cluster();
+    crew.gather(signals_.any);
     if (stopped()) {
         cluster.finish(300ms);
         return;
     }
     book_.use(cluster.plan(), job_.graph);
-    auto last_host = Clock::now();
+    std::optional<Clock::time_point> homeless;
     hand_out(cluster, cluster.plan(), [&](std::size_t renderers) {
-        if (workers)
-            for (const auto& endpoint : workers->ended()) cluster.lost(endpoint);
-        if (renderers > 0) last_host = Clock::now();
-        if (Clock::now() - last_host > empty_patience)
-            throw Error("node '" + job_.graph.nodes[image_].name + "' has no place any more, and no host came within " +
-                        std::to_string(empty_patience.count()) + " s");
+        crew.look_after();
+        if (renderers > 0) return homeless.reset();
+        const auto& name = job_.graph.nodes[image_].name;
+        if (!homeless) {
+            book_.say(fmt::format("node '{}' has no place any more; waiting {} s for a host to come", name,
+                                  request_.wait.count()));
+            homeless = Clock::now();
+        }
+        if (Clock::now() - *homeless > request_.wait)
+            throw Error(fmt::format("node '{}' has no place any more, and no host came within {} s", name,
+                                    request_.wait.count()));
     });
     book_.use(cluster.plan(), job_.graph);
+    for (const auto& host : cluster.hosts()) book_.use(host);
     book_.count(cluster.finish(stopped() ? 300ms : 1000ms));
 }
 

@@ -1,9 +1,11 @@
 // What the launcher's verb `run` is to do.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/film/progress.hpp"
 #include "core/graph/graph.hpp"
@@ -14,8 +16,8 @@
 
 namespace lightnet {
 
-/// Where the places of a run are.
-enum class Mode { serial, threads, hosts, local_workers };
+/// How a run is: in one thread, in places of this process, or with hosts of any kind (and places of this process).
+enum class Mode { serial, threads, network };
 
 /// Sizes that decide how fast a run is, and never what it computes.
 struct Tuning {
@@ -25,6 +27,7 @@ struct Tuning {
     std::string cache;                 // folder for what nodes prepare; "": the usual one, "none": nowhere
     std::uint32_t spare_fibers = 16;   // of a place, beside the one that each node has for itself
     std::uint32_t side_fibers = 2048;  // of a place, for questions that wrapped code waits for one by one
+    std::uint32_t checkpoint = 5;      // seconds between two checkpoints
 };
 
 /// A scene that has been read before its run, with the files that it took. As its file says: nothing is overridden yet.
@@ -33,14 +36,24 @@ struct ReadScene {
     SceneData scene;
 };
 
+/// Daemons to be started by Slurm.
+struct SlurmRequest {
+    std::uint32_t daemons = 0;
+    std::string partition;               // "": Slurm's usual one
+    std::vector<std::string> arguments;  // more words for sbatch
+};
+
 /// A run, ready to go.
 struct RunRequest {
     Graph graph;  // checked; --samples and --size are in it
-    Hosts hosts;  // mode hosts: at least one; else empty
+    Hosts hosts;  // mode network: those to be called, or that join by name
     Mode mode = Mode::serial;
-    std::uint32_t threads = 1;        // mode threads: places in this process
-    std::uint32_t local_workers = 0;  // mode local_workers: daemons to start
-    std::string listen;               // endpoint where hosts may join; "": nowhere
+    std::uint32_t threads = 0;        // places in this process
+    std::uint32_t local_workers = 0;  // mode network: daemons to start
+    std::string listen;               // mode network: endpoint where hosts may join; "": nowhere
+    SlurmRequest slurm;               // mode network
+    std::chrono::seconds wait{30};    // for a host when a node has no place any more
+    bool resume = false;              // from the checkpoint beside the output, if there is one
     Tuning tuning;
     std::string scene;                // file, as seen from here
     std::shared_ptr<ReadScene> read;  // it, read already; the run takes it away. None: still to be read

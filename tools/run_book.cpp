@@ -7,6 +7,8 @@
 #include <iostream>
 #include <utility>
 
+#include "core/error.hpp"
+#include "core/film/checkpoint.hpp"
 #include "core/film/exr.hpp"
 #include "core/film/png.hpp"
 
@@ -15,7 +17,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-std::filesystem::path beside(const std::string& exr, const std::string& name) {
+std::filesystem::path next_to(const std::string& exr, const std::string& name) {
     return std::filesystem::path(exr).replace_filename(name);
 }
 
@@ -61,7 +63,9 @@ std::vector<Tile> RunBook::take(const Tile& tile, std::span<const Rgb> pixels) {
     // Tiles differ in size where cells decide.
     const bool differ = film_.format().adaptive();
     progress_.update(differ ? static_cast<std::uint64_t>(film_.done() * double(all_tiles_)) : tiles_, Clock::now());
-    if (preview_ && Clock::now() >= preview_->next && !film_.complete()) write_preview();
+    const auto now = Clock::now();
+    if (preview_ && now >= preview_->next && !film_.complete()) write_preview();
+    if (keeping_ && now >= keeping_->next) save_in_background(now);
     return added ? film_.more(tile) : std::vector<Tile>{};
 }
 
@@ -93,6 +97,71 @@ void RunBook::write_files(const std::string& exr) {
     write_png(png, picture);
     report_.outputs = {exr, png.string()};
     report_.settings["tone of the PNG"] = std::string(png_tone);
+}
+
+void RunBook::keep_checkpoint(const std::string& exr, std::map<std::string, std::string> recipe,
+                              std::chrono::seconds period) {
+    keeping_ = Keeping{checkpoint_beside(exr), std::move(recipe), period, Clock::now() + period, {}, 0};
+}
+
+void RunBook::take_up_checkpoint() {
+    const auto& file = keeping_->file;
+    auto found = read_checkpoint(file);
+    if (!found) return say("there is no " + file.string() + "; beginning at the beginning");
+    if (const auto other = differences(found->of, keeping_->recipe); !other.empty())
+        throw UserError({file.string(), 0}, "is the checkpoint of another picture (" + other + ")");
+    film_.restore(std::move(found->film));
+    say(fmt::format("going on from {}", file.string()));
+}
+
+void RunBook::found(std::uint64_t tiles) {
+    tiles_ = keeping_->saved = tiles;
+    if (tiles) progress_.found_done(tiles, Clock::now());
+}
+
+void RunBook::save_in_background(Clock::time_point now) {
+    keeping_->next = now + keeping_->period;
+    if (keeping_->saved == tiles_) return;
+    if (keeping_->saving.valid()) {
+        if (keeping_->saving.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+        try {
+            // Saving takes at most a small part of the time.
+            const auto pause = std::chrono::duration<double>(20 * keeping_->saving.get());
+            keeping_->next =
+                now + std::max<Clock::duration>(keeping_->period, std::chrono::ceil<Clock::duration>(pause));
+        } catch (const std::exception& error) {
+            warn(std::string("no checkpoint: ") + error.what());
+        }
+    }
+    keeping_->saved = tiles_;
+    keeping_->saving = std::async(std::launch::async,
+                                  [file = keeping_->file, checkpoint = Checkpoint{keeping_->recipe, film_.state()}] {
+                                      const auto begun = Clock::now();
+                                      write_checkpoint(file, checkpoint);
+                                      return std::chrono::duration<double>(Clock::now() - begun).count();
+                                  });
+}
+
+bool RunBook::save_checkpoint() {
+    if (!keeping_ || tiles_ == 0) return false;
+    if (keeping_->saving.valid()) keeping_->saving.wait();
+    if (keeping_->saved != tiles_ || !std::filesystem::exists(keeping_->file))
+        write_checkpoint(keeping_->file, {keeping_->recipe, film_.state()});
+    return true;
+}
+
+void RunBook::remove_checkpoint() {
+    if (!keeping_) return;
+    if (keeping_->saving.valid()) keeping_->saving.wait();
+    std::error_code ignored;
+    std::filesystem::remove(keeping_->file, ignored);
+    keeping_.reset();
+}
+
+void RunBook::use(const HostState& host) {
+    const auto& machine = host.machine;
+    report_.hosts.push_back({host.name, host.state, machine.name, machine.cpu, machine.isa, machine.version,
+                             machine.cores, machine.memory, host.places});
 }
 
 void RunBook::name_not_finite(const Graph& graph) {
@@ -136,7 +205,7 @@ void RunBook::write_report(const std::string& exr, const std::string& outcome) {
     report_.outcome = outcome;
     report_.counters = counters_.named();
     report_.counters["repeated_tiles"] = repeated_;
-    lightnet::write_report(beside(exr, "run.json"), report_);
+    lightnet::write_report(next_to(exr, "run.json"), report_);
 }
 
 }  // namespace lightnet

@@ -3,6 +3,9 @@
 
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
+#include <future>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,6 +15,7 @@
 #include "core/film/run_report.hpp"
 #include "core/graph/plan.hpp"
 #include "core/runtime/counters.hpp"
+#include "transport/cluster.hpp"
 
 namespace lightnet {
 
@@ -40,6 +44,24 @@ public:
     void count(const Counters& counters) { counters_ += counters; }
     /// Warns of the nodes that made what is not finite: those that answered so, while none that they ask did.
     void name_not_finite(const Graph& graph);
+    /// Who took part.
+    void use(const HostState& host);
+
+    /// From now on the film is saved beside `exr` from time to time, in the background. `recipe` is what the picture
+    /// depends on.
+    void keep_checkpoint(const std::string& exr, std::map<std::string, std::string> recipe,
+                         std::chrono::seconds period);
+    /// Takes up what an earlier run left there, if anything. Throws UserError when that was another picture's.
+    void take_up_checkpoint();
+    /// Is this block there already?
+    bool has(const Tile& tile) const { return film_.has(tile); }
+    /// What else is wanted, of cells that need more.
+    std::vector<Tile> going_on() const { return film_.going_on(); }
+    /// So many tiles were there already.
+    void found(std::uint64_t tiles);
+    /// Saves what is there now; false: nothing was worth it.
+    bool save_checkpoint();
+    void remove_checkpoint();
 
     /// Writes x.exr, x.png and run.json beside them, each whole or not at all. Says what was written.
     void write_picture(const std::string& exr);
@@ -56,6 +78,7 @@ private:
     void write_files(const std::string& exr);
     void write_preview();
     void end_phase(std::chrono::steady_clock::time_point now);
+    void save_in_background(std::chrono::steady_clock::time_point now);
 
     Film film_;
     float scale_ = 1;
@@ -66,6 +89,15 @@ private:
     Progress progress_;
     Counters counters_;
     std::uint64_t tiles_ = 0, repeated_ = 0;
+    struct Keeping {
+        std::filesystem::path file;
+        std::map<std::string, std::string> recipe;
+        std::chrono::seconds period;
+        std::chrono::steady_clock::time_point next;
+        std::future<double> saving;  // seconds that it took
+        std::uint64_t saved = 0;     // tiles
+    };
+    std::optional<Keeping> keeping_;
     std::optional<std::chrono::steady_clock::time_point> phase_begun_;
 };
 

@@ -8,6 +8,9 @@
 #include "core/error.hpp"
 #include "core/runtime/fingerprint.hpp"
 #include "transport/host_link.hpp"
+#include "transport/joiners.hpp"
+#include "transport/own_places.hpp"
+#include "transport/relays.hpp"
 #include "transport/sockets.hpp"
 
 namespace lightnet {
@@ -16,20 +19,32 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using State = HostLink::State;
 
-// Where a host that listens on all its addresses can be called: at the one from which it dialled in.
-std::string callable(const std::string& endpoint, zmq::message_t& from) {
-    const std::string all = "tcp://0.0.0.0:";
-    if (!endpoint.starts_with(all)) return endpoint;
-    const char* address = from.gets("Peer-Address");
-    return address ? "tcp://" + std::string(address) + ":" + endpoint.substr(all.size()) : endpoint;
-}
-
 constexpr std::size_t most_hosts = 4096;
 
 Told told_of(const Cluster::Options& options) {
-    Told told{options.run, options.job.isa, fingerprint(options.job.isa), to_json(options.job), {}};
+    Told told{options.run, options.who, options.job.isa, fingerprint(options.job.isa), to_json(options.job), {}};
     for (const auto& file : options.job.files) told.blobs[file.hash] = options.files.at(file.path);
     return told;
+}
+
+std::string words_for(const HostLink& link) {
+    switch (link.state()) {
+        case State::calling:
+            return link.reason().empty() ? "does not answer" : "is lost: " + link.reason();
+        case State::greeted:
+            return link.reason().empty() ? "is greeted" : "waits: " + link.reason();
+        case State::sending:
+            return "takes in files";
+        case State::building:
+            return "builds";
+        case State::ready:
+            return "is ready";
+        case State::leaving:
+            return "leaves";
+        case State::refused:
+            return "takes no part: " + link.reason();
+    }
+    return {};
 }
 
 }  // namespace
@@ -38,93 +53,163 @@ struct Cluster::Links {
     Options options;
     Told told;
     zmq::context_t context{1};
-    std::optional<zmq::socket_t> joining;  // where hosts dial in
+    std::optional<Joiners> joiners;  // hosts that dial in
     std::vector<std::unique_ptr<HostLink>> links;
+    std::unique_ptr<OwnPlaces> own;
+    bool own_ready = false;
     std::map<std::string, State> states;  // as last told
     Plan plan;                            // proposed
     std::string in_force;                 // the plan that hosts are to go by, as text
     std::deque<Message> arrived;
-    Counters counters;
+    Counters counters, ended;
+    Relays relays{counters, ways()};
+    Clock::time_point hold_until{};  // nobody begins before all are greeted: places make their nodes by the first plan
 
     explicit Links(Options given) : options(std::move(given)), told(told_of(options)) {
         plan.places_of.resize(options.job.graph.nodes.size());
-        if (!options.listen.empty()) {
-            joining.emplace(answering_socket(context));
-            joining->bind(options.listen);
-        }
-        for (const auto& endpoint : options.endpoints) add(endpoint);
+        if (!options.listen.empty()) joiners.emplace(context, options.listen, options.run);
+        for (const auto& endpoint : options.endpoints) call(endpoint);
+        if (options.threads)
+            own = std::make_unique<OwnPlaces>(context, options.network, options.run, options.threads,
+                                              options.plan({{"", options.threads}}), options.job.rules);
     }
 
-    HostLink* find(const std::string& endpoint) {
+    HostLink* find(const std::string& name) const {
         for (auto& link : links)
-            if (link->endpoint() == endpoint) return link.get();
+            if (link->name() == name) return link.get();
         return nullptr;
     }
-    void add(const std::string& endpoint) {
-        if (!find(endpoint)) links.push_back(std::make_unique<HostLink>(context, told, counters, endpoint));
+    void call(const std::string& endpoint) {
+        if (!find(endpoint)) add(endpoint, std::make_unique<CalledLine>(context, endpoint));
+    }
+    void add(const std::string& name, std::unique_ptr<HostLine> line) {
+        links.push_back(std::make_unique<HostLink>(told, counters, name, std::move(line)));
     }
 
     // Offers of all hosts that are at least so far, in the order in which they were named.
     std::vector<HostOffer> offers(bool ready_only) const {
         std::vector<HostOffer> offers;
+        if (own_ready || (own && !ready_only)) offers.push_back({"", own->count()});
         for (const auto& link : links) {
             const auto state = link->state();
             const bool greeted = state == State::greeted || state == State::sending || state == State::building;
-            if (state == State::ready || (!ready_only && greeted)) offers.push_back({link->endpoint(), link->places()});
+            if (state == State::ready || (!ready_only && greeted)) offers.push_back({link->name(), link->places()});
         }
         return offers;
     }
 
+    // Hosts that leave hold no node any more, but are still there: their askers wait for what is under way.
+    Plan plan_for(const std::vector<HostOffer>& there) const {
+        Plan made;
+        made.places_of.resize(options.job.graph.nodes.size());
+        if (!there.empty()) made = options.plan(there);
+        for (const auto& link : links)
+            for (std::uint32_t place = 0; link->state() == State::leaving && place < places_before(*link); ++place)
+                made.places.push_back({link->name(), place});
+        return made;
+    }
+    std::uint32_t places_before(const HostLink& link) const {
+        return static_cast<std::uint32_t>(std::count_if(plan.places.begin(), plan.places.end(),
+                                                        [&](const auto& at) { return at.host == link.name(); }));
+    }
+
     void look() {
         const auto now = Clock::now();
-        take_joiners();
-        const auto expected_plan = [&] { return to_json(options.plan(offers(false))); };
+        take_joiners(now);
+        const auto expected_plan = [&]() -> std::optional<std::string> {
+            if (now < hold_until && absent()) return std::nullopt;
+            return to_json(plan_for(offers(false)));
+        };
+        const HostLink::Takers takers{[&](Message message) { arrived.push_back(std::move(message)); },
+                                      [&](HostLink& from, Frames& frames) { relays.pass_on(from.name(), frames); }};
         for (auto& link : links) {
             // What has come counts before the lease is looked at: we may have been busy ourselves.
-            for (auto [any, message] = link->receive(now); any; std::tie(any, message) = link->receive(now))
-                if (message) arrived.push_back(std::move(*message));
+            while (link->receive(now, takers)) {
+            }
             link->tick(now, expected_plan);
+            if (const auto counted = link->take_ended()) ended += *counted;
         }
+        look_at_own();
+        relays.say_again(now);
         tell_changes();
     }
 
-    void take_joiners() {
-        if (!joining) return;
-        while (auto frames = receive_frames(*joining)) {
-            if (frames->size() != 3) continue;
-            const auto header = packet::read_header(bytes_of((*frames)[1]), bytes_of((*frames)[2]));
-            const auto fields = header ? packet::unpack_fields(bytes_of((*frames)[2])) : std::nullopt;
-            if (!fields || header->type != packet::Type::join) continue;
-            try {
-                if (links.size() < most_hosts) add(callable(fields->text("endpoint"), frames->back()));
-            } catch (const zmq::error_t&) {  // not an endpoint at all
-                ++counters.broken_packets;
-                continue;
-            }
-            frames->resize(1);
-            append(*frames, packet::pack(packet::Type::joined, told.run, {}));
-            send_frames(*joining, *frames);
-        }
+    void take_joiners(Clock::time_point now) {
+        if (!joiners) return;
+        const Joiners::Takers takers{
+            [&](const std::string& endpoint) {
+                if (links.size() < most_hosts) call(endpoint);
+            },
+            [&](const std::string& name, std::unique_ptr<JoinedLine> line) { add(name, std::move(line)); },
+            [&](const std::string& name, const std::string& why) {
+                if (auto* link = find(name)) link->lose(now, why);
+            },
+            [&] { return hosts(); }};
+        counters.broken_packets += joiners->receive(takers);
     }
+
+    // ---- from host to host ------------------------------------------------------------------------------------------
+
+    Relays::Ways ways() {
+        return {[this](const std::string& to, Frames& frames, std::uint32_t place) {
+                    if (to.empty()) return own && own->pass_ask(frames, place);
+                    auto* link = find(to);
+                    return link && link->takes_part() && link->pass(frames);
+                },
+                [this](const RelayAddress& asker, Frames& frames) {
+                    auto* link = find(asker.host);
+                    if (!asker.host.empty()) return !link || !link->takes_part() || link->pass(frames);
+                    frames.erase(frames.begin());
+                    return own && own->pass_reply(asker.place, frames);
+                },
+                [this](const std::string& host) {
+                    auto frames = empty_message();
+                    if (host.empty() && own) own->say_again();
+                    if (auto* link = find(host); link && link->takes_part()) link->pass(frames);
+                },
+                [this] {
+                    relays.must_say_again("");
+                    for (const auto& link : links) relays.must_say_again(link->name());
+                }};
+    }
+
+    void look_at_own() {
+        if (!own) return;
+        if (own->ready() && !std::exchange(own_ready, true)) options.say("places of this process are ready");
+        own->receive({[&](Message message) { arrived.push_back(std::move(message)); },
+                      [&](Frames& frames) {
+                          Frames packet;
+                          packet.push_back(frame_of(seal({text_of(frames[1]), text_of(frames[0])})));
+                          for (auto i : {2, 3}) packet.push_back(std::move(frames[static_cast<std::size_t>(i)]));
+                          relays.pass_on("", packet);
+                      },
+                      [&](Frames& frames) {
+                          if (frames.size() == 3) relays.pass_on("", frames);
+                      }});
+    }
+
+    // ---- who is there -----------------------------------------------------------------------------------------------
 
     // Hosts that became ready or are no more: a new plan is proposed, and a line said for the user.
     void tell_changes() {
-        bool changed = false;
+        bool changed = own_ready && !states.contains("");
+        if (changed) states[""] = State::ready;
         for (auto& link : links) {
-            const auto before = states.contains(link->endpoint()) ? states[link->endpoint()] : State::calling;
-            const auto state = states[link->endpoint()] = link->state();
+            const auto before = states.contains(link->name()) ? states[link->name()] : State::calling;
+            const auto state = states[link->name()] = link->state();
             if (state == before) continue;
-            if (state == State::ready) options.say(link->endpoint() + " is ready");
-            if (state == State::ready && !in_force.empty()) link->send_plan(in_force);
-            if (state == State::refused) options.say(link->endpoint() + " takes no part: " + link->reason());
-            if (before == State::ready && state != State::refused)
-                options.say(link->endpoint() + " is lost: " + link->reason() + "; its work is asked again elsewhere");
-            changed |= state == State::ready || before == State::ready;
+            const bool was_there = before == State::ready || before == State::leaving;
+            if (state == State::ready) options.say(link->name() + " is ready");
+            if (link->takes_part() && !in_force.empty()) link->send_plan(in_force);
+            if (state == State::refused) options.say(link->name() + " takes no part: " + link->reason());
+            if (state == State::leaving) options.say(link->name() + " was told to stop: it finishes what it has");
+            if (before == State::leaving) options.say(link->name() + " has left");
+            if (before == State::ready && state == State::calling)
+                options.say(link->name() + " is lost: " + link->reason() + "; its work is asked again elsewhere");
+            changed |= state == State::ready || was_there;
         }
         if (!changed) return;
-        const auto there = offers(true);
-        plan = there.empty() ? Plan{{}, std::vector<std::vector<std::uint32_t>>(options.job.graph.nodes.size())}
-                             : options.plan(there);
+        plan = plan_for(offers(true));
         Message message;
         message.type = Message::Type::plan;
         message.run = options.run;
@@ -132,57 +217,93 @@ struct Cluster::Links {
         arrived.push_back(std::move(message));
     }
 
+    std::vector<HostState> hosts() const {
+        std::vector<HostState> hosts;
+        if (own) hosts.push_back({"", "is ready", own->count(), own->progress(), this_machine()});
+        for (const auto& link : links)
+            hosts.push_back({link->name(), words_for(*link), link->places(), link->progress(), link->machine()});
+        return hosts;
+    }
+
     std::string reasons() const {
         std::string text;
         for (const auto& link : links)
-            text += "\n  " + link->endpoint() + ": " + (link->reason().empty() ? "does not answer" : link->reason());
+            text += "\n  " + link->name() + ": " + (link->reason().empty() ? "does not answer" : link->reason());
         return text;
+    }
+
+    // Somebody who is to be there from the beginning is not.
+    bool absent() const {
+        return std::any_of(options.expected.begin(), options.expected.end(),
+                           [&](const auto& name) { return !find(name); }) ||
+               std::any_of(links.begin(), links.end(),
+                           [](const auto& link) { return link->state() == State::calling; });
+    }
+
+    // What the hosts are up to before the work begins.
+    struct Standing {
+        bool ready = false, pending = false, absent = false, busy = false;
+    };
+    Standing standing() const {
+        Standing all;
+        all.ready = own_ready;
+        all.pending = own && !own_ready;
+        all.absent = absent();
+        for (const auto& link : links) {
+            if (link->broken()) throw Error(link->name(), link->reason());
+            const auto state = link->state();
+            all.ready |= state == State::ready;
+            all.busy |= state == State::greeted && !link->reason().empty();
+            all.pending |= (state == State::greeted && link->reason().empty()) || state == State::sending ||
+                           state == State::building;
+        }
+        return all;
     }
 };
 
 Cluster::Cluster(Options options) : links_(std::make_unique<Links>(std::move(options))) {}
 Cluster::~Cluster() = default;
 
-void Cluster::gather(std::chrono::milliseconds patience, const std::atomic<bool>& cancelled) {
+void Cluster::gather(Patience patience, const std::atomic<bool>& cancelled, const std::function<void()>& look_around) {
     const auto begun = Clock::now();
+    links_->hold_until = begun + patience.absent;
     std::string said;
     while (!cancelled) {
         wait(std::chrono::milliseconds(20));
-        bool ready = false, pending = false, absent = false, busy = false;
-        for (const auto& link : links_->links) {
-            if (link->broken()) throw Error(link->endpoint(), link->reason());
-            ready |= link->state() == State::ready;
-            absent |= link->state() == State::calling;
-            const bool greeted = link->state() == State::greeted;
-            busy |= greeted && !link->reason().empty();
-            pending |= (greeted && link->reason().empty()) || link->state() == State::sending ||
-                       link->state() == State::building;
-        }
-        if (busy && said.empty())
+        look_around();
+        const auto all = links_->standing();
+        if (all.busy && said.empty())
             links_->options.say(said = "waiting for hosts that serve another run" + links_->reasons());
-        const bool patient = Clock::now() - begun < patience;
-        if (pending || (patient && (absent || busy || links_->links.empty()))) continue;
-        if (ready) {
+        const auto waited = Clock::now() - begun;
+        if (all.pending || (waited < patience.absent && (all.absent || all.busy))) continue;
+        if (all.ready) {
             links_->arrived.clear();  // plans on the way here; plan() is the one that counts
             return;
         }
-        if (!busy) throw NoWorker("no worker can be reached:" + links_->reasons());
+        const bool somebody_may_come = links_->links.empty() || links_->joiners;
+        if (!all.busy && (waited >= patience.nobody || !somebody_may_come))
+            throw NoWorker("no worker can be reached:" + links_->reasons());
     }
 }
 
 const Plan& Cluster::plan() const { return links_->plan; }
 
-void Cluster::call(const std::string& endpoint) { links_->add(endpoint); }
+void Cluster::call(const std::string& endpoint) { links_->call(endpoint); }
 
-void Cluster::lost(const std::string& endpoint) {
-    if (auto* link = links_->find(endpoint); link && link->state() != State::calling)
+void Cluster::lost(const std::string& name) {
+    if (auto* link = links_->find(name); link && link->state() != State::calling)
         link->lose(Clock::now(), "its process has ended");
     links_->tell_changes();
 }
 
-std::string Cluster::join_endpoint() const {
-    return links_->joining ? links_->joining->get(zmq::sockopt::last_endpoint) : std::string();
+bool Cluster::ready(const std::string& name) const {
+    const auto* link = links_->find(name);
+    return link && link->state() == State::ready;
 }
+
+std::vector<HostState> Cluster::hosts() const { return links_->hosts(); }
+
+std::string Cluster::join_endpoint() const { return links_->joiners ? links_->joiners->endpoint() : std::string(); }
 
 Counters Cluster::finish(std::chrono::milliseconds patience) {
     std::set<HostLink*> open;
@@ -192,22 +313,28 @@ Counters Cluster::finish(std::chrono::milliseconds patience) {
             open.insert(link.get());
         }
     const auto end = Clock::now() + patience;
-    Counters sum = links_->counters;
+    const HostLink::Takers nobody{[](Message) {}, [](HostLink&, Frames&) {}};
     while (!open.empty() && Clock::now() < end) {
+        links_->take_joiners(Clock::now());
         for (auto* link : std::set(open)) {
-            while (link->receive(Clock::now()).first) {
+            while (link->receive(Clock::now(), nobody)) {
             }
-            if (link->ended()) {
-                sum += *link->ended();
+            if (const auto counted = link->take_ended()) {
+                links_->ended += *counted;
                 open.erase(link);
             }
         }
         if (!open.empty()) wait(std::chrono::milliseconds(5));
     }
+    Counters sum = links_->counters;
+    sum += links_->ended;
+    if (links_->own) sum += links_->own->stop();
+    links_->own.reset();
     return sum;
 }
 
 bool Cluster::ask(const PlaceAt& to, Message& message) {
+    if (to.host.empty()) return links_->own && links_->own->ask(message, to.index);
     auto* link = links_->find(to.host);
     return link && link->state() == State::ready && link->send(message, to.index);
 }
@@ -225,15 +352,19 @@ std::optional<Message> Cluster::receive() {
 void Cluster::wait(std::chrono::nanoseconds most) {
     links_->look();
     if (!links_->arrived.empty()) return;
-    std::vector<zmq::pollitem_t> items;
-    bool sending = false;
+    std::vector<zmq::socket_t*> sockets;
+    bool soon = links_->relays.waiting();
     for (auto& link : links_->links) {
-        sending |= link->state() == State::sending;
-        for (auto* socket : link->sockets()) items.push_back({socket->handle(), 0, ZMQ_POLLIN, 0});
+        soon |= link->state() == State::sending;
+        for (auto* socket : link->line().sockets()) sockets.push_back(socket);
     }
-    if (links_->joining) items.push_back({links_->joining->handle(), 0, ZMQ_POLLIN, 0});
+    if (links_->joiners) sockets.push_back(&links_->joiners->socket());
+    if (links_->own)
+        for (auto* socket : links_->own->sockets()) sockets.push_back(socket);
+    std::vector<zmq::pollitem_t> items;
+    for (auto* socket : sockets) items.push_back({socket->handle(), 0, ZMQ_POLLIN, 0});
     const auto ms = std::clamp(std::chrono::ceil<std::chrono::milliseconds>(most), std::chrono::milliseconds(1),
-                               std::chrono::milliseconds(sending ? 5 : 100));
+                               std::chrono::milliseconds(soon ? 5 : 100));
     try {
         zmq::poll(items, ms);
     } catch (const zmq::error_t& error) {
@@ -242,6 +373,7 @@ void Cluster::wait(std::chrono::nanoseconds most) {
 }
 
 bool Cluster::bring(const PlaceAt& to, const Hash& name, const Bytes& bytes) {
+    if (to.host.empty()) return true;  // goes by pointer
     auto* link = links_->find(to.host);
     return link && link->state() == State::ready && link->bring(name, bytes);
 }
@@ -249,7 +381,8 @@ bool Cluster::bring(const PlaceAt& to, const Hash& name, const Bytes& bytes) {
 void Cluster::adopt(const Plan& plan) {
     links_->in_force = to_json(plan);
     for (auto& link : links_->links)
-        if (link->state() == State::ready) link->send_plan(links_->in_force);
+        if (link->takes_part()) link->send_plan(links_->in_force);
+    if (links_->own_ready) links_->own->use(plan);
 }
 
 const Counters& Cluster::counters() const { return links_->counters; }

@@ -13,18 +13,33 @@
 #include "core/graph/plan.hpp"
 #include "core/runtime/carrier.hpp"
 #include "core/runtime/job.hpp"
+#include "transport/machine.hpp"
 
 namespace lightnet {
 
-/// Brings hosts into the run, keeps their leases, and carries the master's asks to them. A host that is lost, stops or
-/// comes late changes what is proposed: the new plan comes out of receive(), and goes to hosts when it is adopted. Used
-/// by one thread, which must look in (receive() or wait()) several times a second, as it also sends the heartbeats.
+/// One host of a run, for display.
+struct HostState {
+    std::string name;   // as in plans
+    std::string state;  // "ready", "does not answer", …
+    std::uint32_t places = 0;
+    std::uint64_t progress = 0;  // bundles and tiles answered, as of its last heartbeat
+    Machine machine;
+};
+
+/// Brings hosts into the run, keeps their leases, and carries the master's asks to them, and those that hosts can't
+/// send to each other. Hosts are called, or dial in, or are places of this process. A host that is lost, stops or comes
+/// late changes what is proposed: the new plan comes out of receive(), and goes to hosts when it is adopted. Used by
+/// one thread, which must look in (receive() or wait()) several times a second, as it also sends the heartbeats.
 class Cluster final : public Carrier {
 public:
     struct Options {
         std::uint64_t run = 0;
-        std::vector<std::string> endpoints;  // of hosts to call
-        std::string listen;                  // where hosts may join; empty: nowhere
+        std::string who;                         // runs it, for those who have to wait
+        std::vector<std::string> endpoints;      // of hosts to call
+        std::string listen;                      // where hosts may join; empty: nowhere
+        std::vector<std::string> expected;       // names of hosts that are to join before the work begins
+        std::uint32_t threads = 0;               // places of this process, called "" in plans
+        std::shared_ptr<const Network> network;  // for them
         Job job;
         std::map<std::string, Bytes> files;                       // the scene's, by path
         std::function<Plan(const std::vector<HostOffer>&)> plan;  // for the hosts that are there
@@ -33,15 +48,25 @@ public:
     explicit Cluster(Options options);
     ~Cluster() override;
 
-    /// Returns when every host is ready, refused, or has been absent for `patience`; at least one must be ready by
-    /// then. Throws NoWorker when none is, Error when the job can't be served.
-    void gather(std::chrono::milliseconds patience, const std::atomic<bool>& cancelled);
+    /// How long to wait for hosts before the work begins.
+    struct Patience {
+        std::chrono::milliseconds absent{5000};  // with hosts that do not answer
+        std::chrono::milliseconds nobody{5000};  // when none is there at all
+    };
+    /// Returns when every host is ready, refused, or has been absent for too long; at least one must be ready by then.
+    /// Calls `look_around` several times a second. Throws NoWorker when none is, Error when the job can't be served.
+    void gather(Patience patience, const std::atomic<bool>& cancelled, const std::function<void()>& look_around);
+    void gather(std::chrono::milliseconds patience, const std::atomic<bool>& cancelled) {
+        gather(Patience{patience, patience}, cancelled, [] {});
+    }
     /// What is proposed now.
     const Plan& plan() const;
     /// Calls another host.
     void call(const std::string& endpoint);
     /// A host whose process is known to have ended.
-    void lost(const std::string& endpoint);
+    void lost(const std::string& name);
+    bool ready(const std::string& name) const;
+    std::vector<HostState> hosts() const;
     /// Where hosts may join, with the port that the system chose.
     std::string join_endpoint() const;
     /// Ends the run on all hosts and returns what they counted, as far as they say so within `patience`.

@@ -2,25 +2,30 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "core/graph/kind.hpp"
 
 namespace lightnet {
 
-/// Listens on one port. The thread of serve() owns it: it answers heartbeats, takes in the job and its files, and hands
-/// packets on to its places without looking inside. Places render in threads of their own, so a busy host never looks
-/// dead.
+/// Listens on one port, or dials out to a launcher and lets nobody in. The thread of serve() owns its sockets: it
+/// answers heartbeats, takes in the job and its files, and hands packets on to its places without looking inside.
+/// Places render in threads of their own, so a busy host never looks dead.
 class Host {
 public:
     struct Options {
-        std::string listen = "tcp://127.0.0.1:*";
-        std::string join;          // endpoint of a launcher to report to; empty: wait to be asked
-        std::uint32_t places = 0;  // 0: one per core
-        std::string cache;         // folder for blobs; empty: default_cache_folder()
+        std::string listen = "tcp://127.0.0.1:*";  // empty: lets nobody in
+        std::string join;                          // endpoint of a launcher to report to; empty: wait to be asked
+        std::string name;                          // under which it joins; empty: that of the machine
+        std::uint32_t places = 0;                  // 0: one per core
+        std::string cache;                         // folder for blobs; empty: default_cache_folder()
+        std::chrono::milliseconds drain{20'000};   // to answer what it has when it is told to stop
+        std::optional<std::chrono::milliseconds> patience;  // it leaves when nobody needs it for so long
         std::function<void(const std::string&)> log = [](const std::string&) {};
     };
     /// Throws Error when the port can't be had.
@@ -29,15 +34,15 @@ public:
     Host(const Host&) = delete;
     Host& operator=(const Host&) = delete;
 
-    /// Where it listens, with the port that the system chose.
+    /// Where it listens, with the port that the system chose; empty: nowhere.
     std::string endpoint() const;
-    /// Serves until `stop` is set, then tells the launcher, which takes the work back, and returns: within some
-    /// seconds, whatever the launcher does.
+    /// Serves until `stop` is set; then takes no more work, answers what it has, and returns, after `drain` at the
+    /// latest.
     void serve(const std::atomic<bool>& stop);
 
 private:
-    struct Door;
-    std::unique_ptr<Door> door_;
+    struct Service;
+    std::unique_ptr<Service> service_;
 };
 
 }  // namespace lightnet

@@ -4,7 +4,6 @@
 #include <zmq.hpp>
 
 #include "core/build_info.hpp"
-#include "transport/sockets.hpp"
 
 namespace lightnet {
 namespace {
@@ -22,33 +21,29 @@ constexpr std::size_t chunks_under_way = 16;
 
 }  // namespace
 
-HostLink::HostLink(zmq::context_t& context, const Told& told, Counters& counters, std::string endpoint)
-    : context_(context),
-      told_(told),
-      counters_(counters),
-      endpoint_(std::move(endpoint)),
-      lane_(std::make_unique<zmq::socket_t>(asking_socket(context, endpoint_))),
-      bulk_(std::make_unique<zmq::socket_t>(asking_socket(context, endpoint_))) {}
+HostLink::HostLink(const Told& told, Counters& counters, std::string name, std::unique_ptr<HostLine> line)
+    : told_(told), counters_(counters), name_(std::move(name)), line_(std::move(line)) {}
 
 HostLink::~HostLink() = default;
-
-std::vector<zmq::socket_t*> HostLink::sockets() { return {lane_.get(), bulk_.get()}; }
 
 bool HostLink::send(Type type, const Fields& fields) {
     Frames frames;
     append(frames, packet::pack(type, told_.run, fields));
-    return send_frames(*lane_, frames);
+    return line_->send(frames, false);
 }
 
-void HostLink::tick(Time now, const std::function<std::string()>& plan) {
+void HostLink::tick(Time now, const ExpectedPlan& plan) {
     if (state_ == State::refused) return;
     if (state_ != State::calling) heartbeat(now);
     if (now >= next_call_ && state_ == State::calling) {
         const bool connected = send(Type::hello, Fields{}.set("build", build_id()).set("isa", told_.isa));
         next_call_ = now + (connected ? call_interval : connect_interval);
     } else if (now >= next_call_ && state_ == State::greeted) {
-        next_call_ = now + busy_interval;
-        send(Type::begin, Fields{}.set("job", told_.job).set("plan", plan()).set("you", endpoint_));
+        const auto expected = plan();
+        next_call_ = now + (expected ? std::chrono::milliseconds(busy_interval) : connect_interval);
+        if (expected)
+            send(Type::begin,
+                 Fields{}.set("job", told_.job).set("plan", *expected).set("you", name_).set("who", told_.who));
     }
     if (!chunks_.empty()) send_blobs();
 }
@@ -63,42 +58,55 @@ void HostLink::heartbeat(Time now) {
 void HostLink::lose(Time now, const std::string& why) {
     state_ = State::calling;
     reason_ = why;
-    next_call_ = now + call_interval;
+    next_call_ = now;
     chunks_.clear();
     chunks_out_ = 0;
     brought_.clear();
-    // New sockets: nothing that was meant for the lost one may reach the next.
-    lane_ = std::make_unique<zmq::socket_t>(asking_socket(context_, endpoint_));
-    bulk_ = std::make_unique<zmq::socket_t>(asking_socket(context_, endpoint_));
+    line_->renew();
 }
 
-std::pair<bool, std::optional<Message>> HostLink::receive(Time now) {
-    auto frames = receive_frames(*lane_);
-    if (!frames) frames = receive_frames(*bulk_);
-    if (!frames) return {false, std::nullopt};
+bool HostLink::receive(Time now, const Takers& takers) {
+    auto frames = line_->receive();
+    if (!frames) return false;
+    if (is_empty(*frames)) {
+        if (state_ != State::calling && state_ != State::refused) lose(now, "its connection was cut");
+        return true;
+    }
+    if (frames->size() == 3) {
+        heard_ = now;
+        takers.passing_by(*this, *frames);
+        return true;
+    }
     if (frames->size() != 2) {
-        ++counters_.broken_packets;
-        return {true, std::nullopt};
+        damaged(now, {});
+        return true;
     }
     const auto header_bytes = bytes_of((*frames)[0]), body = bytes_of((*frames)[1]);
     const auto header = packet::read_header(header_bytes, body);
     if (!header) {
-        const auto theirs = packet::claimed_version(header_bytes);
-        if (theirs && *theirs != packet::version) {
-            state_ = State::refused;
-            reason_ = "it speaks protocol version " + std::to_string(*theirs) + ", we speak " +
-                      std::to_string(packet::version);
-        }
-        ++counters_.broken_packets;
-        return {true, std::nullopt};
+        damaged(now, header_bytes);
+        return true;
     }
     heard_ = now;
     if (header->type < Type::hello) {
         counters_.bytes += header_bytes.size() + body.size();
-        return {true, packet::unpack(header_bytes, body)};
+        if (auto message = packet::unpack(header_bytes, body)) takers.work(std::move(*message));
+    } else if (const auto fields = packet::unpack_fields(body)) {
+        control(header->type, *fields, now);
     }
-    if (const auto fields = packet::unpack_fields(body)) control(header->type, *fields, now);
-    return {true, std::nullopt};
+    return true;
+}
+
+void HostLink::damaged(Time now, std::span<const std::byte> header) {
+    ++counters_.broken_packets;
+    const auto theirs = packet::claimed_version(header);
+    if (state_ == State::calling && theirs && *theirs != packet::version) {
+        state_ = State::refused;
+        reason_ =
+            "it speaks protocol version " + std::to_string(*theirs) + ", we speak " + std::to_string(packet::version);
+    } else if (state_ != State::calling && state_ != State::refused) {
+        lose(now, "what it sent was damaged");
+    }
 }
 
 void HostLink::control(Type type, const Fields& fields, Time now) {
@@ -138,18 +146,25 @@ void HostLink::control(Type type, const Fields& fields, Time now) {
             state_ = State::refused;
             return;
         case Type::pong:
+            if (state_ == State::calling || state_ == State::refused) return;
             if (fields.number("incarnation") != incarnation_)
                 lose(now, "it was started anew");
             else if (state_ != State::greeted && fields.number("run") != told_.run)
                 lose(now, "it gave the run up");
+            progress_ = fields.number("progress");
             return;
         case Type::leaving:
-            state_ = State::refused;
-            reason_ = "it was told to stop";
-            send_end();
+            if (state_ == State::ready)
+                state_ = State::leaving;
+            else if (state_ != State::leaving)
+                lose(now, "it was told to stop");
             return;
         case Type::ended: {
             ended_ = Counters::from(fields.numbers);
+            if (state_ == State::leaving) {
+                send_end();
+                lose(now, "it was told to stop");
+            }
             return;
         }
         default:
@@ -165,6 +180,7 @@ void HostLink::welcome(const Fields& fields) {
     }
     places_ = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(fields.number("places"), 1, 1024));
     incarnation_ = fields.number("incarnation");
+    machine_ = machine_from(fields);
     state_ = State::greeted;
 }
 
@@ -211,7 +227,7 @@ void HostLink::send_blobs() {
         Frames frames;
         append(frames, packet::pack(Type::blob, told_.run,
                                     Fields{}.set("hash", to_hex(hash)).set("offset", offset).set("bytes", bytes)));
-        if (!send_frames(*bulk_, frames)) return;
+        if (!line_->send(frames, true)) return;
         counters_.file_bytes += bytes.size();
         ++chunks_out_;
         chunks_.pop_front();
@@ -222,12 +238,18 @@ bool HostLink::send(Message& message, std::uint32_t place) {
     Frames frames;
     append(frames, packet::pack(message, place));
     const std::size_t size = frames[0].size() + frames[1].size();
-    if (!send_frames(*lane_, frames)) {
+    if (!line_->send(frames, false)) {
         ++counters_.refused_sends;
         return false;
     }
     counters_.bytes += size;
     return true;
+}
+
+bool HostLink::pass(Frames& frames) {
+    if (line_->send(frames, false)) return true;
+    ++counters_.refused_sends;
+    return false;
 }
 
 void HostLink::send_plan(const std::string& plan) { send(Type::plan, Fields{}.set("plan", plan)); }

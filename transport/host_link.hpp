@@ -8,25 +8,25 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/hash.hpp"
 #include "core/runtime/counters.hpp"
 #include "core/runtime/message.hpp"
 #include "core/scene/files.hpp"
+#include "transport/host_line.hpp"
+#include "transport/machine.hpp"
 #include "transport/packet.hpp"
-
-namespace zmq {
-class context_t;
-class socket_t;
-}  // namespace zmq
 
 namespace lightnet {
 
 /// What every link of a run shares: what hosts are told. Outlives the links.
 struct Told {
     std::uint64_t run = 0;
+    std::string who;  // runs it, for those who have to wait
     std::string isa;
     std::uint64_t fingerprint = 0;
     std::string job;  // as text
@@ -34,40 +34,60 @@ struct Told {
 };
 
 /// Greets a host, sends it the job and the files that it lacks, waits until its places are ready, and keeps its lease:
-/// a host that does not answer three heartbeats in a row is lost, and greeted anew. Time is an argument.
+/// a host that does not answer three heartbeats in a row, or whose connection was cut, is lost, and greeted anew. Time
+/// is an argument.
 class HostLink {
 public:
     using Time = std::chrono::steady_clock::time_point;
-    enum class State { calling, greeted, sending, building, ready, refused };
+    enum class State {
+        calling,
+        greeted,
+        sending,
+        building,
+        ready,
+        leaving,  // was told to stop; answers what it has
+        refused
+    };
+    /// Who takes what comes from the host and is not for the link itself.
+    struct Takers {
+        std::function<void(Message)> work;                   // a reply
+        std::function<void(HostLink&, Frames&)> passing_by;  // [address][header][body]: to or from another host
+    };
 
-    /// Counts what it sends and receives in `counters`, which must outlive it.
-    HostLink(zmq::context_t& context, const Told& told, Counters& counters, std::string endpoint);
+    /// Counts what it sends and receives in `counters`, which must outlive it. `name` is that of the host in plans.
+    HostLink(const Told& told, Counters& counters, std::string name, std::unique_ptr<HostLine> line);
     ~HostLink();
 
-    const std::string& endpoint() const { return endpoint_; }
+    const std::string& name() const { return name_; }
     State state() const { return state_; }
+    bool takes_part() const { return state_ == State::ready || state_ == State::leaving; }
     std::uint32_t places() const { return places_; }
-    /// Why it is refused, or what it waits for.
+    /// Why it is refused or lost, or what it waits for.
     const std::string& reason() const { return reason_; }
     /// It can't build the job: the run is at fault, not the host.
     bool broken() const { return broken_; }
-    /// Its counters, once it has ended the run.
-    const std::optional<Counters>& ended() const { return ended_; }
+    /// Its counters, once after it has ended the run.
+    std::optional<Counters> take_ended() { return std::exchange(ended_, std::nullopt); }
+    /// What it said of its machine; bundles and tiles that it says it has answered.
+    const Machine& machine() const { return machine_; }
+    std::uint64_t progress() const { return progress_; }
+    HostLine& line() { return *line_; }
 
-    /// Sends what is due. `plan` gives the plan that is to be expected, as text; it is called when it is needed.
-    void tick(Time now, const std::function<std::string()>& plan);
-    /// Takes one message from the host, if there is one, and gives it on if it is work: then `.second`. `.first`:
-    /// anything came.
-    std::pair<bool, std::optional<Message>> receive(Time now);
+    /// Gives the plan that is to be expected, as text; none when that can't be said yet. Called when it is needed.
+    using ExpectedPlan = std::function<std::optional<std::string>()>;
+    /// Sends what is due.
+    void tick(Time now, const ExpectedPlan& plan);
+    /// Takes one message from the host, if there is one. True if there was.
+    bool receive(Time now, const Takers& takers);
     bool send(Message& message, std::uint32_t place);
+    /// Frames that come from another host.
+    bool pass(Frames& frames);
     void send_plan(const std::string& plan);
     /// Sees to it that the host has these bytes. True when it has said so.
     bool bring(const Hash& name, const Bytes& bytes);
     void send_end();
-    /// The host is gone; calls it again.
+    /// The host is gone, or what was under way to it; calls it again.
     void lose(Time now, const std::string& why);
-    /// For polling.
-    std::vector<zmq::socket_t*> sockets();
 
 private:
     bool send(packet::Type type, const packet::Fields& fields);
@@ -78,17 +98,18 @@ private:
     Bytes blob(const Hash& hash) const;
     void send_blobs();
     void heartbeat(Time now);
+    void damaged(Time now, std::span<const std::byte> header);
 
-    zmq::context_t& context_;
     const Told& told_;
     Counters& counters_;
-    std::string endpoint_;
-    std::unique_ptr<zmq::socket_t> lane_, bulk_;  // work and control; files
+    std::string name_;
+    std::unique_ptr<HostLine> line_;
     State state_ = State::calling;
     std::string reason_;
     bool broken_ = false;
     std::uint32_t places_ = 0;
-    std::uint64_t incarnation_ = 0;
+    std::uint64_t incarnation_ = 0, progress_ = 0;
+    Machine machine_;
     Time heard_{}, next_call_{}, next_ping_{};
     struct Chunk {
         Hash hash;

@@ -136,4 +136,32 @@ Counters HostedRun::stop() {
     return counters;
 }
 
+const char* HostedRun::words() const {
+    switch (state_) {
+        case State::looking:
+            return "looks for files";
+        case State::fetching:
+            return "takes in files";
+        case State::building:
+            return "builds";
+        case State::starting:
+            return "starts its places";
+        case State::serving:
+            return "serves";
+    }
+    return "";
+}
+
+std::string HostedRun::nodes() const {
+    std::string names;
+    for (std::size_t node = 0; node < given_.plan.places_of.size(); ++node) {
+        const auto& holders = given_.plan.places_of[node];
+        const auto here = std::count_if(holders.begin(), holders.end(),
+                                        [&](auto place) { return given_.plan.places[place].host == given_.me; });
+        if (here > 0) names += (names.empty() ? "" : " ") + given_.job.graph.nodes[node].name;
+        if (here > 1) names += "×" + std::to_string(here);
+    }
+    return names;
+}
+
 }  // namespace lightnet

@@ -55,6 +55,9 @@ public:
     PlaceThreads* places() { return places_.get(); }
     void use(const Plan& plan);
     Counters stop();
+    /// What it is at, and the nodes that this host holds now, by name, for display.
+    const char* words() const;
+    std::string nodes() const;
 
 private:
     // Results of preparing, by name. Places read them.

@@ -1,48 +1,23 @@
 #include "transport/local_workers.hpp"
 
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
-#include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <cstring>
 #include <thread>
 
 #include <poll.h>
 
 #include "core/error.hpp"
-
-extern char** environ;
+#include "transport/child.hpp"
 
 namespace lightnet {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Starts a program whose standard output comes back through `*out`.
-pid_t spawn(std::vector<std::string> words, int* out) {
-    int ends[2];
-    if (pipe(ends) != 0) throw Error(std::string("no pipe to a worker: ") + std::strerror(errno));
-    std::vector<char*> argv;
-    for (auto& word : words) argv.push_back(word.data());
-    argv.push_back(nullptr);
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-    posix_spawn_file_actions_addclose(&actions, ends[0]);
-    posix_spawn_file_actions_addclose(&actions, ends[1]);
-    pid_t process = 0;
-    const int error = posix_spawn(&process, words[0].c_str(), &actions, nullptr, argv.data(), environ);
-    posix_spawn_file_actions_destroy(&actions);
-    close(ends[1]);
-    if (error) {
-        close(ends[0]);
-        throw Error(words[0], std::string("can't be started: ") + std::strerror(error));
-    }
-    *out = ends[0];
-    return process;
-}
+constexpr int most_useless_deaths = 5;
+constexpr auto first_delay = std::chrono::milliseconds(50);  // before a worker is started anew; doubles
 
 // The first line of a daemon: "listening on ENDPOINT".
 std::string read_endpoint(int in) {
@@ -64,44 +39,72 @@ std::string read_endpoint(int in) {
 
 }  // namespace
 
-LocalWorkers::LocalWorkers(const std::string& program, std::uint32_t count, std::uint32_t places) {
-    for (std::uint32_t i = 0; i < count; ++i) {
-        int out = -1;
-        processes_.push_back(spawn({program, "--listen", "tcp://127.0.0.1:*", "--places", std::to_string(places),
-                                    "--parent", std::to_string(getpid())},
-                                   &out));
-        try {
-            endpoints_.push_back(read_endpoint(out));
-            close(out);
-        } catch (...) {
-            close(out);
-            for (const auto process : processes_) kill(process, SIGKILL);
-            for (const auto process : processes_) waitpid(process, nullptr, 0);
-            throw;
+int LocalWorkers::start(const std::string& listen, int* out) const {
+    return spawn(
+        {program_, "--listen", listen, "--places", std::to_string(places_), "--parent", std::to_string(getpid())}, out);
+}
+
+LocalWorkers::LocalWorkers(std::string program, std::uint32_t count, std::uint32_t places)
+    : program_(std::move(program)), places_(places) {
+    std::vector<int> outs;
+    try {
+        for (std::uint32_t i = 0; i < count; ++i) {  // all start together
+            int out = -1;
+            workers_.push_back({.endpoint = {}, .process = start("tcp://127.0.0.1:*", &out)});
+            outs.push_back(out);
         }
+        for (std::uint32_t i = 0; i < count; ++i) workers_[i].endpoint = read_endpoint(outs[i]);
+    } catch (...) {
+        for (const auto out : outs) close(out);
+        for (const auto& worker : workers_) kill(worker.process, SIGKILL);
+        for (const auto& worker : workers_) waitpid(worker.process, nullptr, 0);
+        throw;
     }
+    for (const auto out : outs) close(out);
 }
 
 LocalWorkers::~LocalWorkers() {
-    for (const auto process : processes_)
-        if (process) kill(process, SIGTERM);
+    for (const auto& worker : workers_)
+        if (worker.process) kill(worker.process, SIGTERM);
     const auto end = Clock::now() + std::chrono::seconds(1);
-    for (const auto process : processes_) {
-        while (process && waitpid(process, nullptr, WNOHANG) == 0) {
-            if (Clock::now() > end) kill(process, SIGKILL);
+    for (const auto& worker : workers_) {
+        while (worker.process && waitpid(worker.process, nullptr, WNOHANG) == 0) {
+            if (Clock::now() > end) kill(worker.process, SIGKILL);
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
         }
     }
 }
 
-std::vector<std::string> LocalWorkers::ended() {
-    std::vector<std::string> ended;
-    for (std::size_t i = 0; i < processes_.size(); ++i)
-        if (processes_[i] && waitpid(processes_[i], nullptr, WNOHANG) == processes_[i]) {
-            processes_[i] = 0;
-            ended.push_back(endpoints_[i]);
+std::vector<std::string> LocalWorkers::endpoints() const {
+    std::vector<std::string> endpoints;
+    for (const auto& worker : workers_) endpoints.push_back(worker.endpoint);
+    return endpoints;
+}
+
+void LocalWorkers::look_after(Time now, const Talk& talk) {
+    for (auto& worker : workers_) {
+        if (worker.process) {
+            worker.was_of_use |= talk.of_use(worker.endpoint);
+            if (waitpid(worker.process, nullptr, WNOHANG) == worker.process) died(worker, now, talk);
+        } else if (worker.useless_deaths < most_useless_deaths && now >= worker.next_start) {
+            int out = -1;
+            worker.process = start(worker.endpoint, &out);
+            close(out);  // where it listens is known
+            worker.was_of_use = false;
         }
-    return ended;
+    }
+}
+
+void LocalWorkers::died(Worker& worker, Time now, const Talk& talk) {
+    worker.process = 0;
+    talk.ended(worker.endpoint);
+    worker.useless_deaths = worker.was_of_use ? 0 : worker.useless_deaths + 1;
+    worker.next_start = now + first_delay * (1 << worker.useless_deaths);
+    if (worker.useless_deaths < most_useless_deaths)
+        talk.say("local worker " + worker.endpoint + " has died; it is started anew");
+    else
+        talk.say("local worker " + worker.endpoint + " has died " + std::to_string(most_useless_deaths) +
+                 " times without being of use, and is given up");
 }
 
 }  // namespace lightnet

@@ -1,8 +1,12 @@
-// The protocol, on one page. ROUTER answers, DEALER asks. On the wire a packet is two frames, behind the route:
+// The protocol, on one page. ROUTER answers, DEALER asks. On the wire a packet is two frames, behind the route (and, on
+// its way through the launcher, behind the sealed address of relay.hpp):
 //
 //   header   64 bytes, little-endian, in the order of the members of Header
-//   body     a msgpack map. Asks: columns, see columns.hpp. Replies: one column, a `bin` of colours. Control: small maps
+//   body     a msgpack map. Asks: columns, see columns.hpp. Replies: one column, a `bin` of colours. Control: small
+//   maps
 //            of numbers and texts; unknown keys are skipped.
+//
+// A message of one empty frame instead: a connection was made, or a packet was damaged; what was under way may be lost.
 //
 // Every size is checked before anything is allocated, and a packet that breaks a rule is dropped and counted.
 // Version 1. A peer of another version is refused at HELLO, with a text that names both.
@@ -26,7 +30,7 @@ namespace lightnet::packet {
 inline constexpr std::uint32_t magic = 0x54454e4c;  // "LNET"
 inline constexpr std::uint16_t version = 1;
 inline constexpr std::size_t header_size = 64;
-inline constexpr std::size_t most_bytes = 64 << 20;     // in one body
+inline constexpr std::size_t most_bytes = 64 << 20;  // in one body
 
 enum class Type : std::uint8_t {
     // work: goes through to a place
@@ -40,7 +44,7 @@ enum class Type : std::uint8_t {
     hello = 16,  // version, build, isa
     welcome,     //                             places, incarnation, fingerprint
     refuse,      //                             text: what differs, or who is being served
-    begin,       // graph, plan, seed, rules, manifest of the scene's files
+    begin,       // graph, plan, seed, rules, manifest of the scene's files, who
     need,        //                             hashes that are not in the host's cache
     blob,        // hash, offset, bytes
     blob_taken,  //                             hash, offset
@@ -51,14 +55,22 @@ enum class Type : std::uint8_t {
     plan,     // who answers for which node from now on
     end,      // of the run
     ended,    //                             counters
-    leaving,  //                             it was told to stop: give it no more work
-    join,     //                             endpoint: "I am here", from a host that dialled out
+    leaving,  //                             it was told to stop: it answers what it has, then ends the run
+    join,     //                             name, incarnation, endpoint: "I am here", from a host that dialled out
     joined,   // to such a host
     expect,   // hash, size: bytes that a step will name
     lacks,    //                             hash: please send them
     here,     //                             hash: it has them
-    last = here,
+    // anyone → a host or a launcher
+    status,
+    state,  // a host in words; `left` more follow
+    last = state,
 };
+
+constexpr bool is_ask(Type type) {
+    return type == Type::ask_light || type == Type::ask_pixels || type == Type::ask_step;
+}
+constexpr bool is_reply(Type type) { return type < Type::hello && !is_ask(type); }
 
 /// The fixed part of a packet. Never trusted before magic, version, size and checksum have been checked.
 struct Header {

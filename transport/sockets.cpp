@@ -1,5 +1,6 @@
 #include "transport/sockets.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <zmq.hpp>
 
@@ -38,12 +39,22 @@ zmq::socket_t answering_socket(zmq::context_t& context) {
     return socket;
 }
 
+zmq::socket_t door_socket(zmq::context_t& context) {
+    auto socket = answering_socket(context);
+    socket.set(zmq::sockopt::probe_router, true);
+    return socket;
+}
+
 zmq::socket_t asking_socket(zmq::context_t& context, const std::string& endpoint) {
     zmq::socket_t socket(context, zmq::socket_type::dealer);
     common_options(socket);
     socket.set(zmq::sockopt::immediate, true);
     socket.set(zmq::sockopt::reconnect_ivl, 50);
     socket.set(zmq::sockopt::reconnect_ivl_max, 1000);
+    if (!endpoint.starts_with("inproc://")) {  // a peer that swallows what it gets looks connected for ever
+        socket.set(zmq::sockopt::heartbeat_ivl, 500);
+        socket.set(zmq::sockopt::heartbeat_timeout, 1500);
+    }
     socket.connect(endpoint);
     return socket;
 }
@@ -76,6 +87,16 @@ std::optional<Frames> receive_frames(zmq::socket_t& socket) {
         throw;
     }
     after_receive();
+    return frames;
+}
+
+bool is_empty(const Frames& frames) {
+    return frames.size() <= 2 && std::all_of(frames.begin(), frames.end(), [](const auto& f) { return f.size() == 0; });
+}
+
+Frames empty_message() {
+    Frames frames;
+    frames.emplace_back();
     return frames;
 }
 

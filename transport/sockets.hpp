@@ -24,6 +24,9 @@ using Frames = std::vector<zmq::message_t>;
 
 /// A socket that binds and answers: knows its peers, refuses those that are gone, never blocks, never lingers.
 zmq::socket_t answering_socket(zmq::context_t& context);
+/// The same for other hosts: greets each connection with an empty message, so that a peer whose connection was cut
+/// knows that what was under way may be lost.
+zmq::socket_t door_socket(zmq::context_t& context);
 /// A socket that connects and asks: one peer only, sends nothing before the peer is there, says hello by itself after
 /// each reconnection.
 zmq::socket_t asking_socket(zmq::context_t& context, const std::string& endpoint);
@@ -32,6 +35,10 @@ zmq::socket_t asking_socket(zmq::context_t& context, const std::string& endpoint
 bool send_frames(zmq::socket_t& socket, Frames& frames);
 /// One whole message, if there is one.
 std::optional<Frames> receive_frames(zmq::socket_t& socket);
+
+/// A message of nothing but an empty frame (or a header and a body that are): what was under way may be lost.
+bool is_empty(const Frames& frames);
+Frames empty_message();
 
 zmq::message_t frame_of(const std::string& bytes);
 /// Moves the bytes into the frame: no copy.

@@ -17,7 +17,8 @@ namespace lightnet {
 std::string inproc_endpoint(std::uint64_t run, std::uint32_t place);
 
 /// Within the process a message is handed over by pointer. To another host it goes as a packet, to the one port of
-/// that host, whose door hands it on to the place. Belongs to one thread.
+/// that host, whose door hands it on to the place; or, where that port can't be reached, through the launcher. A packet
+/// is kept until its reply is there, and sent again whenever a connection was cut. Belongs to one thread.
 class ZmqCarrier final : public Carrier {
 public:
     struct Ends {
@@ -33,6 +34,7 @@ public:
     void reply(Message message) override;
     std::optional<Message> receive() override;
     void wait(std::chrono::nanoseconds most) override;
+    void give_up(std::uint32_t channel) override;
     void forget(const PlaceAt& place) override;
     const Counters& counters() const override;
 

@@ -72,6 +72,10 @@ void Film::fold_next(Rectangle& rectangle, const Tile& tile, std::span<const Rgb
     if (rectangle.done) return;
     fold(tile, pixels);
     ++rectangle.next_block;
+    end_if_enough(rectangle, tile);
+}
+
+void Film::end_if_enough(Rectangle& rectangle, const Tile& tile) {
     const bool may_end = format_.adaptive() && rectangle.next_block >= blocks_in(format_.least_samples());
     if (rectangle.next_block == blocks_ || (may_end && enough(tile))) {
         rectangle.done = true;
@@ -90,17 +94,34 @@ std::vector<Tile> Film::cells_of(const Tile& tile) const {
     return cells;
 }
 
+// The block that a cell goes on with, beyond those that every pixel gets and that are handed out anyhow.
+std::optional<Tile> Film::next_of(const Tile& place) const {
+    const auto known = rectangles_.find({place.x, place.y, place.width, place.height});
+    if (known == rectangles_.end() || known->second.done) return std::nullopt;
+    const std::uint32_t next = known->second.next_block;
+    if (next < blocks_in(format_.least_samples())) return std::nullopt;
+    return Tile{
+        place.x, place.y, place.width, place.height, next * samples_per_block, samples_of(next, format_.samples)};
+}
+
+std::vector<Tile> Film::going_on() const {
+    std::vector<Tile> wanted;
+    if (!format_.adaptive()) return wanted;
+    for (const auto& [area, rectangle] : rectangles_) {
+        const auto& [x, y, width, height] = area;
+        if (const auto next = next_of({x, y, width, height})) wanted.push_back(*next);
+    }
+    return wanted;
+}
+
 std::vector<Tile> Film::more(const Tile& tile) const {
     std::vector<Tile> wanted;
     if (!format_.adaptive()) return wanted;
-    for (Tile cell : cells_of(tile)) {
-        const auto known = rectangles_.find({cell.x, cell.y, cell.width, cell.height});
-        if (known == rectangles_.end() || known->second.done) continue;
-        const std::uint32_t next = known->second.next_block;
-        // Blocks that every pixel gets are handed out anyhow; a later one was asked for when its turn came.
-        if (next <= tile.block() || next < blocks_in(format_.least_samples())) continue;
-        cell.first_sample = next * samples_per_block;
-        cell.samples = samples_of(next, format_.samples);
+    for (const Tile& place : cells_of(tile)) {
+        const auto next = next_of(place);
+        // A block that is not above this one was asked for when its turn came.
+        if (!next || next->block() <= tile.block()) continue;
+        const Tile& cell = *next;
         // Neighbours of a row go together: fewer tiles for the same work.
         if (!wanted.empty() && wanted.back().y == cell.y && wanted.back().first_sample == cell.first_sample &&
             wanted.back().x + wanted.back().width == cell.x)
@@ -120,6 +141,59 @@ std::vector<Tile> Film::more(const Tile& tile) const {
             above->height += run.height;
     }
     return merged;
+}
+
+bool Film::has(const Tile& tile) const {
+    if (!format_.adaptive()) return has_area(tile);
+    const auto cells = cells_of(tile);
+    return std::all_of(cells.begin(), cells.end(), [&](const Tile& cell) { return has_area(cell); });
+}
+
+bool Film::has_area(const Tile& tile) const {
+    const auto known = rectangles_.find({tile.x, tile.y, tile.width, tile.height});
+    return known != rectangles_.end() && (known->second.done || tile.block() < known->second.next_block ||
+                                          known->second.waiting.contains(tile.block()));
+}
+
+FilmState Film::state() const {
+    FilmState state{sums_, spreads_, lost_, {}};
+    for (const auto& [area, rectangle] : rectangles_) {
+        const auto& [x, y, width, height] = area;
+        state.parts.push_back({x, y, width, height, rectangle.next_block, rectangle.waiting});
+    }
+    return state;
+}
+
+void Film::restore(FilmState state) {
+    if (!rectangles_.empty()) throw Error("film", "only an empty film can take up another");
+    if (state.sums.size() != sums_.size() || state.spreads.size() != spreads_.size() ||
+        state.lost.size() != lost_.size())
+        throw Error("film", "what is taken up is of another size");
+    for (auto& part : state.parts) {
+        Tile tile{part.x, part.y, part.width, part.height, 0, samples_of(0, format_.samples)};
+        expect_valid(tile, tile.pixels() * format_.layers.size());
+        if (part.next_block > blocks_) throw Error("film", "what is taken up has more samples");
+        auto& rectangle = rectangle_of(tile);
+        rectangle.next_block = part.next_block;
+        for (auto& [block, pixels] : part.waiting) {
+            if (block <= part.next_block || block >= blocks_)
+                throw Error("film", "what is taken up has a block that can't wait");
+            tile.first_sample = block * samples_per_block;
+            tile.samples = samples_of(block, format_.samples);
+            expect_valid(tile, pixels.size());
+        }
+        rectangle.waiting = std::move(part.waiting);
+        for (std::uint32_t y = part.y; y < part.y + part.height; ++y)
+            for (std::uint32_t x = part.x; x < part.x + part.width; ++x) block_of_[index(x, y)] = part.next_block;
+        folded_ += tile.pixels() * part.next_block;
+    }
+    sums_ = std::move(state.sums);
+    spreads_ = std::move(state.spreads);
+    for (auto& [area, rectangle] : rectangles_) {
+        const auto& [x, y, width, height] = area;
+        end_if_enough(rectangle, {x, y, width, height});
+    }
+    lost_ = std::move(state.lost);
 }
 
 void Film::expect_valid(const Tile& tile, std::size_t colours) const {

@@ -63,6 +63,27 @@ struct FilmFormat {
 /// the others.
 std::vector<Tile> tiles_of(const FilmFormat& format, std::uint32_t tile_size);
 
+/// What a film holds, to be kept and taken up again. A value.
+struct FilmState {
+    /// One rectangle of the tiling.
+    struct Part {
+        std::uint32_t x = 0, y = 0, width = 0, height = 0;
+        std::uint32_t next_block = 0;                       // the first one that is not in the sums
+        std::map<std::uint32_t, std::vector<Rgb>> waiting;  // blocks that came before their turn
+        friend bool operator==(const Part&, const Part&) = default;
+    };
+    /// Of a pixel's blocks, per channel (Welford 1962).
+    struct Spread {
+        double mean[3] = {}, squares[3] = {};
+        friend bool operator==(const Spread&, const Spread&) = default;
+    };
+    std::vector<Rgb> sums;        // pixel × layer
+    std::vector<Spread> spreads;  // per pixel, where cells decide
+    std::vector<std::uint64_t> lost;
+    std::vector<Part> parts;
+    friend bool operator==(const FilmState&, const FilmState&) = default;
+};
+
 /// Adds up the blocks of samples of each pixel in the order of their index, whatever the order in which they arrive and
 /// however the picture was cut into tiles. Rectangles of one film are those of one tiling. Owned by whoever makes the
 /// picture; one thread.
@@ -86,6 +107,14 @@ public:
     /// The tiles that are wanted now that `tile` was added: those cells of it that aren't done. None without
     /// refinement.
     std::vector<Tile> more(const Tile& tile) const;
+    /// The same for all that is there: what a film that was taken up goes on with, beside what tiles_of() gives.
+    std::vector<Tile> going_on() const;
+
+    /// Is this block there already?
+    bool has(const Tile& tile) const;
+    FilmState state() const;
+    /// Takes up what another film of this format held. This one must be empty. Throws Error when it does not fit.
+    void restore(FilmState state);
 
     /// Every block that is wanted of every pixel is there.
     bool complete() const { return folded_ + spared_ == all_; }
@@ -107,13 +136,13 @@ private:
         std::map<std::uint32_t, std::vector<Rgb>> waiting;  // blocks that came before their turn
         bool done = false;                                  // needs no further block
     };
-    /// Of a pixel's blocks, per channel (Welford 1962).
-    struct Spread {
-        double mean[3] = {}, squares[3] = {};
-    };
+    using Spread = FilmState::Spread;
     using Area = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>;  // x, y, width, height
 
     void expect_valid(const Tile& tile, std::size_t colours) const;
+    bool has_area(const Tile& tile) const;
+    std::optional<Tile> next_of(const Tile& place) const;
+    void end_if_enough(Rectangle& rectangle, const Tile& tile);
     bool add_area(const Tile& tile, std::span<const Rgb> pixels);
     std::vector<Tile> cells_of(const Tile& tile) const;
     Rectangle& rectangle_of(const Tile& tile);

@@ -11,6 +11,17 @@ std::string to_json(const RunReport& report) {
     Json places = Json::array(), phases = Json::array();
     for (const auto& [host, index, nodes] : report.places)
         places.push_back({{"host", host}, {"index", index}, {"nodes", nodes}});
+    Json hosts = Json::array();
+    for (const auto& host : report.hosts)
+        hosts.push_back({{"host", host.host},
+                         {"state", host.state},
+                         {"machine", host.machine},
+                         {"cpu", host.cpu},
+                         {"isa", host.isa},
+                         {"version", host.version},
+                         {"cores", host.cores},
+                         {"memory", host.memory},
+                         {"places", host.places}});
     for (const auto& [name, seconds] : report.phases) phases.push_back({{"name", name}, {"seconds", seconds}});
 
     Json json;
@@ -20,6 +31,7 @@ std::string to_json(const RunReport& report) {
     json["mode"] = report.mode;
     json["outputs"] = report.outputs;
     json["places"] = places;
+    if (!report.hosts.empty()) json["hosts"] = hosts;
     json["phases"] = phases;
     json["counters"] = report.counters;
     json["settings"] = report.settings;

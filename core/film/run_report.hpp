@@ -16,6 +16,15 @@ struct PlaceReport {
     std::vector<std::string> nodes;
 };
 
+/// One host that took part, and its machine, as it said itself.
+struct HostReport {
+    std::string host;   // as in the places; "" for the launcher's process
+    std::string state;  // at the end: "is ready", "is lost: …"
+    std::string machine, cpu, isa, version;
+    std::uint64_t cores = 0, memory = 0;  // bytes
+    std::uint32_t places = 0;
+};
+
 /// A part of the life of a run: "load", "prepare", "render", …
 struct PhaseReport {
     std::string name;
@@ -30,6 +39,7 @@ struct RunReport {
     std::string mode;                  // "serial", "threads", "network"
     std::vector<std::string> outputs;  // files written
     std::vector<PlaceReport> places;
+    std::vector<HostReport> hosts;
     std::vector<PhaseReport> phases;
     std::map<std::string, std::uint64_t> counters;  // questions, bundles, bytes, rays, tiles, lost, duplicates, …
     std::map<std::string, std::string> versions;    // of the program and the libraries

@@ -69,6 +69,13 @@ std::optional<Address> address_of(std::string_view endpoint) {
     return Address{std::string(host), port};
 }
 
+bool is_joining_name(std::string_view name) {
+    return !name.empty() && name.size() <= 200 &&
+           name.find_first_not_of(
+               "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQ"
+               "RSTUVWXYZ0123456789-_.") == name.npos;
+}
+
 void check_hosts(const Hosts& hosts, const Graph& graph, const Registry& registry, std::vector<Problem>& problems) {
     std::vector<std::string> names;
     for (const auto& node : graph.nodes)
@@ -76,7 +83,8 @@ void check_hosts(const Hosts& hosts, const Graph& graph, const Registry& registr
     std::set<std::string> seen;
     for (const auto& entry : hosts.hosts) {
         const EntryCheck check(entry, problems);
-        if (!address_of(entry.endpoint)) check.complain("a host is named like tcp://host:7777");
+        if (!address_of(entry.endpoint) && !is_joining_name(entry.endpoint))
+            check.complain("a host is named like tcp://host:7777 (or, when it joins by itself, like onyx1)");
         if (!seen.insert(entry.endpoint).second) check.complain("the host stands here twice");
         if (entry.places < 0 || entry.places > most_places)
             check.complain("'places' must be 1 … " + std::to_string(most_places));

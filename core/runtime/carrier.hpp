@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <optional>
 
 #include "core/runtime/counters.hpp"
@@ -22,6 +23,8 @@ public:
     virtual std::optional<Message> receive() = 0;
     /// Returns when something may have arrived, or after `most`.
     virtual void wait(std::chrono::nanoseconds most) = 0;
+    /// Nobody waits any more for replies to what was asked on this channel.
+    virtual void give_up(std::uint32_t /*channel*/) {}
     /// Brings bytes that an ask will name to a place, if need be. True when they are there; else ask again later.
     virtual bool bring(const PlaceAt&, const Hash&, const Bytes&) { return true; }
     /// From now on everybody asks by this plan. For carriers that propose plans.

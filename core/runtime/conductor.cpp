@@ -46,8 +46,13 @@ void Conductor::propose(const Plan& plan) {
     std::set<PlaceKey> gone;
     for (const auto& place : proposal_.places) gone.insert({place.host, place.index});
     for (const auto& place : plan.places) gone.erase({place.host, place.index});
+    const auto before = done_ < order_.size() ? holders(done_) : std::vector<PlaceKey>();
     proposal_ = plan;
     lose(gone);
+    // One that only leaves is no longer asked what it has noted, either.
+    const auto now = done_ < order_.size() ? holders(done_) : std::vector<PlaceKey>();
+    for (const auto& place : before)
+        if (rehearsing_ && std::find(now.begin(), now.end(), place) == now.end()) rehearsing_->broken = true;
     advance();
 }
 
@@ -340,6 +345,8 @@ bool Conductor::ask(const PlaceAt& to, Message& message) {
     message.channel = channel;
     return false;
 }
+
+void Conductor::give_up(std::uint32_t channel) { carrier_.give_up(channel | epoch_ << epoch_bits); }
 
 std::optional<Message> Conductor::receive() {
     while (true) {

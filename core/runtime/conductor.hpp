@@ -60,6 +60,7 @@ public:
     /// Work for the master; plans in force. Preparing goes on inside.
     std::optional<Message> receive() override;
     void wait(std::chrono::nanoseconds most) override;
+    void give_up(std::uint32_t channel) override;
     void forget(const PlaceAt& place) override { carrier_.forget(place); }
     const Counters& counters() const override { return carrier_.counters(); }
 

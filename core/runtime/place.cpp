@@ -52,22 +52,34 @@ std::string Place::my_name() const {
 }
 
 Port* Place::port_to(std::size_t node, std::size_t width) {
+    auto& port = ports_[{node, width}];
+    if (!port) {
+        port = std::make_unique<PlannedPort>([=, this] { return call_port_to(node, width); },
+                                             [=, this] { return bundle_port_to(node, width); });
+        port->use(called_here(node));
+    }
+    return port.get();
+}
+
+bool Place::called_here(std::size_t node) const {
     const auto& holders = plan_.places_of[node];
-    const bool mine = std::any_of(holders.begin(), holders.end(), [&](auto i) { return plan_.places[i] == me_; });
-    if (mine && rules_.call_own_nodes) {
-        const auto called = assembly_.called(node);
-        return call_ports_
-            .emplace_back(std::make_unique<CallPort>(called, width, counters_.local_questions, [this] { pause(); }))
-            .get();
-    }
+    return rules_.call_own_nodes &&
+           std::any_of(holders.begin(), holders.end(), [&](auto i) { return plan_.places[i] == me_; });
+}
+
+Port* Place::call_port_to(std::size_t node, std::size_t width) {
+    call_ports_.push_back(
+        std::make_unique<CallPort>(assembly_.called(node), width, counters_.local_questions, [this] { pause(); }));
+    return call_ports_.back().get();
+}
+
+Port* Place::bundle_port_to(std::size_t node, std::size_t width) {
     auto& remote = remotes_[{node, width}];
-    if (!remote.port) {
-        remote.edge = {static_cast<std::uint32_t>(node), rules_.credit, {}};
-        remote.port = std::make_unique<BundlePort>(
-            fibers_, [this](Fibers::Fiber* fiber) { ready_.push_back(fiber); }, width, rules_.bundles);
-        remote.port->replicas().follow(multiplexer_rules(node), &counters_);
-        channels_.connect(remote.edge, remote.port->replicas(), plan_);
-    }
+    remote.edge = {static_cast<std::uint32_t>(node), rules_.credit, {}};
+    remote.port = std::make_unique<BundlePort>(
+        fibers_, [this](Fibers::Fiber* fiber) { ready_.push_back(fiber); }, width, rules_.bundles);
+    remote.port->replicas().follow(multiplexer_rules(node), &counters_);
+    channels_.connect(remote.edge, remote.port->replicas(), plan_);
     return remote.port.get();
 }
 
@@ -81,6 +93,7 @@ MultiplexerRules Place::multiplexer_rules(std::size_t node) {
 
 void Place::use(const Plan& plan) {
     const auto before = std::exchange(plan_, plan);
+    for (auto& [key, port] : ports_) port->use(called_here(key.first));
     for (auto& [key, remote] : remotes_) channels_.connect(remote.edge, remote.port->replicas(), plan_);
     cancel_asks_of_lost(before);
 }

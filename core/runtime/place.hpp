@@ -18,6 +18,7 @@
 #include "core/runtime/carrier.hpp"
 #include "core/runtime/fiber.hpp"
 #include "core/runtime/lock_desk.hpp"
+#include "core/runtime/planned_port.hpp"
 #include "core/runtime/preparer.hpp"
 #include "core/runtime/remote_channels.hpp"
 #include "core/runtime/rounds.hpp"
@@ -72,6 +73,9 @@ private:
 
     void assemble(std::size_t node);
     Port* port_to(std::size_t node, std::size_t width);
+    bool called_here(std::size_t node) const;
+    Port* call_port_to(std::size_t node, std::size_t width);
+    Port* bundle_port_to(std::size_t node, std::size_t width);
     void use(const Plan& plan);
     void cancel_asks_of_lost(const Plan& before);
     MultiplexerRules multiplexer_rules(std::size_t node);
@@ -112,8 +116,9 @@ private:
     std::size_t spare_in_use_ = 0;
     Clock::time_point last_look_{};
 
-    std::vector<Inbox> inboxes_;        // by node
-    std::vector<std::size_t> by_rank_;  // nodes, lowest rank first
+    std::vector<Inbox> inboxes_;                                                         // by node
+    std::vector<std::size_t> by_rank_;                                                   // nodes, lowest rank first
+    std::map<std::pair<std::size_t, std::size_t>, std::unique_ptr<PlannedPort>> ports_;  // by node and width
     std::vector<std::unique_ptr<CallPort>> call_ports_;
     std::map<std::pair<std::size_t, std::size_t>, Remote> remotes_;  // by node and width
     RemoteChannels<Query> channels_;

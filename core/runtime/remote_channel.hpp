@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -63,6 +64,7 @@ public:
     /// The place is gone: nothing more is sent, and what still comes from it is dropped.
     void close() {
         closed_ = true;
+        carrier_.give_up(ends_.channel);
         carrier_.forget(ends_.place);
     }
 

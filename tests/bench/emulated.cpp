@@ -107,7 +107,9 @@ Registry emulated_kinds(std::shared_ptr<Slowness> slowness, const std::string& s
           .role = Role::image,
           .help = "waits, and asks",
           .most_inputs = 8,
-          .params = {{.name = "milliseconds", .help = "per tile"}, {.name = "questions", .help = "per tile"}},
+          .params = {{.name = "milliseconds", .help = "per tile"},
+                     {.name = "questions", .help = "per tile"},
+                     {.name = "scene", .type = ParamType::scene, .help = "is not seen", .optional = true}},
           .make_renderer = [=](const NodeContext& here) { return std::make_unique<EmulatedImage>(here, image); }}});
 }
 

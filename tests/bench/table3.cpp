@@ -38,7 +38,9 @@ Job job_of(const Picture& picture) {
     job.graph.nodes = {emulated_light("direct", microseconds(1, 2 * questions)),
                        emulated_light("caustics", microseconds(3, questions)),
                        emulated_light("bounce", microseconds(2, questions), {"direct"}),
-                       emulated_image(milliseconds, questions, {"direct", "caustics", "bounce"})};
+                       emulated_image(milliseconds, questions, {"direct", "caustics", "bounce"}),
+                       {"scene", "Scene", {Value{job.scene}}, {}, {}}};
+    job.graph.nodes[3].params["scene"] = Value{NodeRef{"scene"}};
     job.rules.bundles.questions = 128;
     return job;
 }
@@ -76,7 +78,7 @@ void measure() {
     Cluster cluster(std::move(options));
     const std::atomic<bool> never{false};
     cluster.gather(10s, never);
-    std::printf("  %zu places\n", cluster.plan().places.size());
+    cluster.adopt(cluster.plan());
     std::vector<double> efficiency;
     for (int round = 0; round < 3; ++round)
         efficiency.push_back(tiles * milliseconds * 1e-3 /

@@ -32,10 +32,14 @@ TEST(CheckHosts, KeepsScenesOutOfIt) {
 }
 
 TEST(CheckHosts, WantsAnEndpoint) {
-    for (const char* endpoint : {"onyx1", "tcp://onyx1", "tcp://:7", "tcp://a:0", "tcp://a:70000", "tcp://a:7x",
+    for (const char* endpoint : {"onyx1:7777", "tcp://onyx1", "tcp://:7", "tcp://a:0", "tcp://a:70000", "tcp://a:7x",
                                  "udp://a:7", "tcp://a b:7", "tcp://*:7"})
         EXPECT_THAT(problems_with_hosts("place '" + std::string(endpoint) + "' {}"), HasSubstr("tcp://host:7777"))
             << endpoint;
+}
+
+TEST(CheckHosts, TakesNamesOfHostsThatJoinByThemselves) {
+    EXPECT_EQ(problems_with_hosts("place 'onyx1' {}\nplace 'slurm-12_3.a' {}"), "");
 }
 
 TEST(CheckHosts, WantsEachHostOnce) {

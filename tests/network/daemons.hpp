@@ -34,6 +34,23 @@ public:
     std::string endpoint;
 };
 
+/// A lightnetd that dials out to a launcher, and lets nobody in.
+inline std::unique_ptr<Process> joining_daemon(const Folder& folder, const std::string& launcher,
+                                               const std::string& name, std::vector<std::string> more = {}) {
+    std::vector<std::string> words{program("lightnetd"), "--join", launcher,  "--name",        name,
+                                   "--places",           "1",      "--cache", folder / "cache"};
+    words.insert(words.end(), more.begin(), more.end());
+    return std::make_unique<Process>(words);
+}
+
+/// Where the hosts of a run may join, as it says itself.
+inline std::string join_endpoint(Process& run) {
+    const std::string before = "hosts may join at ";
+    EXPECT_TRUE(run.wait_for(before) && run.wait_for("\n")) << run.output();
+    const auto at = run.output().find(before) + before.size();
+    return run.output().substr(at, run.output().find_first_of("\"\n", at) - at);
+}
+
 /// Renders a graph with these words behind it; the bytes of the EXR file.
 struct Launch {
     int code = -1;

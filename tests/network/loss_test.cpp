@@ -104,7 +104,7 @@ TEST_F(Loss, OfTheOnlyHostOfAnOperatorMovesItElsewhere) {
 
 TEST_F(Loss, OfAllHostsEndsTheRunWithTheNameOfWhatHasNoPlace) {
     const Daemon one(folder);
-    const auto run = start({whole(one.endpoint)});
+    const auto run = start({whole(one.endpoint)}, {"--wait", "1"});
     ASSERT_TRUE(in_the_middle(*run));
     one.process->signal(SIGKILL);
     EXPECT_EQ(run->wait(slowdown * seconds(30)), 1);

@@ -159,9 +159,14 @@ public:
 class HostThread {
 public:
     HostThread(const Registry& registry, const std::string& cache, std::uint32_t places)
-        : host_({"tcp://127.0.0.1:*", "", places, cache, [](const std::string&) {}}, registry),
-          thread_([this] { host_.serve(stop_); }) {}
+        : host_(options(cache, places), registry), thread_([this] { host_.serve(stop_); }) {}
     ~HostThread() { stop_ = true; }
+    static Host::Options options(const std::string& cache, std::uint32_t places) {
+        Host::Options options;
+        options.cache = cache;
+        options.places = places;
+        return options;
+    }
     void leave() { stop_ = true; }
     std::string endpoint() const { return host_.endpoint(); }
 

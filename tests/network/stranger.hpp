@@ -25,7 +25,10 @@ public:
     void send(const std::string& bytes) { socket_.send(zmq::const_buffer(bytes.data(), bytes.size())); }
     std::pair<packet::Type, packet::Fields> receive() {
         zmq::message_t header, body;
-        if (!socket_.recv(header) || !socket_.recv(body)) return {packet::Type::ping, {}};
+        do {  // connections are greeted with an empty message
+            if (!socket_.recv(header)) return {packet::Type::ping, {}};
+        } while (header.size() == 0 && !header.more());
+        if (!socket_.recv(body)) return {packet::Type::ping, {}};
         const auto view = [](const zmq::message_t& m) {
             return std::span(static_cast<const std::byte*>(m.data()), m.size());
         };

@@ -9,9 +9,10 @@
 
 int main(int, char** words) {
     const auto registry = lightnet::test::with_learner();
-    lightnet::Host host(
-        {"tcp://127.0.0.1:*", "", static_cast<std::uint32_t>(std::atoi(words[2])), words[1], [](const std::string&) {}},
-        registry);
+    lightnet::Host::Options options;
+    options.cache = words[1];
+    options.places = static_cast<std::uint32_t>(std::atoi(words[2]));
+    lightnet::Host host(options, registry);
     std::cout << "listening on " << host.endpoint() << std::endl;
     const std::atomic<bool> never{false};
     host.serve(never);

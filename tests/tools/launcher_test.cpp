@@ -88,7 +88,7 @@ TEST(Launcher, KnowsTheHosts) {
     Bench lightnet;
     lightnet({"run", lightnet.graph, "--hosts", lightnet.write("h.lua", "place 'tcp://127.0.0.1:7777' { image = 1 }")});
     ASSERT_EQ(lightnet.runs.size(), 1u) << lightnet.err;
-    EXPECT_EQ(lightnet.runs[0].mode, Mode::hosts);
+    EXPECT_EQ(lightnet.runs[0].mode, Mode::network);
     EXPECT_EQ(lightnet.runs[0].hosts.hosts.at(0).endpoint, "tcp://127.0.0.1:7777");
 }
 

@@ -72,11 +72,15 @@ TEST(Options, TakeConstantsOneByOne) {
     EXPECT_THAT(usage_error({"run", "g.lua", "-D", "a"}), HasSubstr("wants NAME=VALUE"));
 }
 
-TEST(Options, SayWhereToRunOnce) {
+TEST(Options, MixAllWaysToRun) {
     EXPECT_EQ(options_of({"run", "g.lua", "--hosts", "h.lua"}).hosts, "h.lua");
     EXPECT_EQ(options_of({"run", "g.lua", "--local-workers", "2"}).local_workers, 2u);
-    EXPECT_THAT(usage_error({"run", "g.lua", "--hosts", "h.lua", "--threads", "2"}), HasSubstr("excludes"));
-    EXPECT_THAT(usage_error({"run", "g.lua", "--local-workers", "2", "--threads", "2"}), HasSubstr("excludes"));
+    const auto mixed = options_of({"run", "g.lua", "--hosts", "h.lua", "--threads", "2", "--local-workers", "1"});
+    EXPECT_EQ(mixed.hosts, "h.lua");
+    EXPECT_EQ(mixed.threads, 2u);
+    EXPECT_EQ(mixed.local_workers, 1u);
+    EXPECT_EQ(mixed.wait, 30);
+    EXPECT_THAT(usage_error({"run", "g.lua", "--partition", "main"}), HasSubstr("--slurm"));
 }
 
 TEST(Options, ChooseHowProgressIsShown) {

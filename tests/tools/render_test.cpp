@@ -73,7 +73,7 @@ TEST(Render, TakesTheOptionsOfRun) {
     const RunRequest& run = lightnet.runs.at(0);
     EXPECT_EQ(film_of(run.graph, lightnet.registry), (GraphFilm{8, 4, ""}));
     EXPECT_EQ(run.output, "y.exr");
-    EXPECT_EQ(run.mode, Mode::local_workers);
+    EXPECT_EQ(run.mode, Mode::network);
     EXPECT_EQ(run.graph.nodes[1].kind, "AmbientOcclusion");
     EXPECT_EQ(lightnet.overrides().environment, (std::variant<std::monostate, Rgb, std::string>(Rgb{1, 0.5f, 0.25f})));
     EXPECT_EQ(lightnet.overrides().exposure, 2);

@@ -1,0 +1,146 @@
+#include "core/film/checkpoint.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <type_traits>
+
+#include "core/error.hpp"
+#include "core/film/atomic_file.hpp"
+#include "core/hash.hpp"
+
+namespace lightnet {
+namespace {
+
+// magic, size of the text, text (JSON), sums, blocks that wait, hash of all before it. Little-endian, as in memory.
+constexpr std::string_view magic = "lightnet checkpoint 2\n";
+
+template <class T>
+void put(std::string& out, const T* values, std::size_t count) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    out.append(reinterpret_cast<const char*>(values), count * sizeof(T));
+}
+
+class Reader {
+public:
+    explicit Reader(std::string_view bytes) : left_(bytes) {}
+    template <class T>
+    void get(T* values, std::size_t count) {
+        if (count > left_.size() / sizeof(T)) throw Error("it is damaged");
+        std::memcpy(values, left_.data(), count * sizeof(T));
+        left_.remove_prefix(count * sizeof(T));
+    }
+    std::string_view text(std::size_t size) {
+        if (size > left_.size()) throw Error("it is damaged");
+        const auto text = left_.substr(0, size);
+        left_.remove_prefix(size);
+        return text;
+    }
+    std::size_t left() const { return left_.size(); }
+
+private:
+    std::string_view left_;
+};
+
+std::string to_bytes(const Checkpoint& checkpoint) {
+    const auto& film = checkpoint.film;
+    nlohmann::json parts = nlohmann::json::array();
+    for (const auto& part : film.parts) {
+        nlohmann::json waiting = nlohmann::json::array();
+        for (const auto& [block, pixels] : part.waiting) waiting.push_back({block, pixels.size()});
+        parts.push_back({part.x, part.y, part.width, part.height, part.next_block, std::move(waiting)});
+    }
+    const std::string text = nlohmann::json{
+        {"of", checkpoint.of},
+        {"sums", film.sums.size()},
+        {"spreads", film.spreads.size()},
+        {"lost", film.lost},
+        {"parts", parts}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    std::string out(magic);
+    const std::uint64_t size = text.size();
+    put(out, &size, 1);
+    out += text;
+    put(out, film.sums.data(), film.sums.size());
+    put(out, film.spreads.data(), film.spreads.size());
+    for (const auto& part : film.parts)
+        for (const auto& [block, pixels] : part.waiting) put(out, pixels.data(), pixels.size());
+    const Hash hash = content_hash(out);
+    put(out, hash.bytes.data(), hash.bytes.size());
+    return out;
+}
+
+std::vector<Rgb> colours(Reader& reader, std::size_t count) {
+    if (count > reader.left() / sizeof(Rgb)) throw Error("it is damaged");
+    std::vector<Rgb> colours(count);
+    reader.get(colours.data(), count);
+    return colours;
+}
+
+Checkpoint from_bytes(std::string_view bytes) {
+    if (!bytes.starts_with(magic)) throw Error("it is no checkpoint");
+    Hash hash;
+    if (bytes.size() < magic.size() + sizeof hash.bytes) throw Error("it is damaged");
+    const auto content = bytes.substr(0, bytes.size() - sizeof hash.bytes);
+    std::memcpy(hash.bytes.data(), bytes.data() + content.size(), sizeof hash.bytes);
+    if (content_hash(content) != hash) throw Error("it is damaged");
+    Reader reader(content.substr(magic.size()));
+    std::uint64_t size = 0;
+    reader.get(&size, 1);
+    const auto text = nlohmann::json::parse(reader.text(size));
+    Checkpoint checkpoint;
+    checkpoint.of = text.at("of");
+    auto& film = checkpoint.film;
+    film.sums = colours(reader, text.at("sums"));
+    const std::size_t spreads = text.at("spreads");
+    if (spreads > reader.left() / sizeof(FilmState::Spread)) throw Error("it is damaged");
+    film.spreads.resize(spreads);
+    reader.get(film.spreads.data(), spreads);
+    film.lost = text.at("lost").get<std::vector<std::uint64_t>>();
+    for (const auto& part : text.at("parts")) {
+        auto& made = film.parts.emplace_back(FilmState::Part{part[0], part[1], part[2], part[3], part[4], {}});
+        for (const auto& one : part[5]) made.waiting.emplace(one[0], colours(reader, one[1]));
+    }
+    return checkpoint;
+}
+
+}  // namespace
+
+std::filesystem::path checkpoint_beside(const std::filesystem::path& picture) {
+    return picture.string() + ".checkpoint";
+}
+
+void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint) {
+    write_file(path, to_bytes(checkpoint));
+}
+
+std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& path) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(path, ignored)) return std::nullopt;
+    std::ifstream in(path, std::ios::binary);
+    std::ostringstream bytes;
+    if (!in || !(bytes << in.rdbuf())) throw Error(path.string(), "can't be read");
+    try {
+        return from_bytes(bytes.view());
+    } catch (const std::exception& error) {
+        throw Error(path.string(), error.what());
+    }
+}
+
+std::string differences(const std::map<std::string, std::string>& theirs,
+                        const std::map<std::string, std::string>& ours) {
+    std::string text;
+    for (const auto& [name, value] : ours) {
+        const auto found = theirs.find(name);
+        const auto other = found == theirs.end() ? std::string("unknown") : found->second;
+        if (other == value) continue;
+        constexpr std::size_t longest = 40;  // hashes say little
+        text += (text.empty() ? "" : "; ") + name;
+        if (other.size() < longest && value.size() < longest) text += " " + other + " there, " + value + " here";
+    }
+    return text;
+}
+
+}  // namespace lightnet

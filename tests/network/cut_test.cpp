@@ -1,0 +1,160 @@
+// Lines that are cut, hang and damage what they carry, and workers that are killed and stopped over and over: the bytes
+// stay the same, nothing is lost or counted twice.
+#include <gtest/gtest.h>
+
+#include <csignal>
+
+#include "tests/network/daemons.hpp"
+#include "tests/support/bad_line.hpp"
+
+namespace lightnet::test {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using Clock = std::chrono::steady_clock;
+
+#ifdef LIGHTNET_LARGE
+constexpr int cuts = 100, kills = 100, stops = 50;
+const std::string samples = "8192";
+#else
+constexpr int cuts = 10, kills = 4, stops = 1;
+const std::string samples = "128";
+#endif
+
+class Cut : public ::testing::Test {
+protected:
+    static void SetUpTestSuite() {
+        const Folder folder;
+        auto words = picture;
+        words.insert(words.end(), {"--threads", "2"});
+        reference = new Launch(launch(graph_file("cornell.lua"), folder, words));
+        ASSERT_EQ(reference->code, 0) << reference->said;
+    }
+    static void TearDownTestSuite() { delete reference; }
+
+    std::unique_ptr<Process> start(std::vector<std::string> more) {
+        auto words = picture;
+        words.insert(words.end(), more.begin(), more.end());
+        return std::make_unique<Process>(launch_words(graph_file("cornell.lua"), out, words));
+    }
+    // Both daemons stand behind bad lines; operators are on both, so that they ask each other.
+    std::unique_ptr<Process> start_between(const std::string& one, const std::string& two) {
+        return start(
+            {"--hosts", folder.write("hosts.lua", "place '" + one + "' { image = 1, direct = 1, lighting = 1 }\n" +
+                                                      "place '" + two + "' { image = 1, bounce = 1 }\n")});
+    }
+    static std::size_t times(const std::string& text, const std::string& word) {
+        std::size_t count = 0;
+        for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++count;
+        return count;
+    }
+    // False: the run is over.
+    static bool pause(Process& run, int ms) {
+        run.wait_for("never said", milliseconds(ms));
+        return run.wait(milliseconds(1)) < 0;
+    }
+    // Every tile is there once.
+    Launch expect_same(Process& run) {
+        auto end = finish(run, out);
+        EXPECT_EQ(end.code, 0) << end.said;
+        EXPECT_TRUE(end.picture == reference->picture) << "the bytes differ\n" << end.said;
+        return end;
+    }
+
+    static inline const std::vector<std::string> picture{"--size",     "64x64", "--samples", samples,
+                                                         "--progress", "json",  "--tile",    "16"};
+    static inline Launch* reference = nullptr;
+    Folder folder;
+    std::filesystem::path out = folder / "picture.exr";
+};
+
+TEST_F(Cut, LinesHealAndChangeNoByte) {
+    const Daemon one(folder), two(folder);
+    BadLine first(one.endpoint), second(two.endpoint);
+    const auto run = start_between(first.endpoint(), second.endpoint());
+    ASSERT_TRUE(run->wait_for("\"event\":\"progress\"")) << run->output();
+    int done = 0;
+    for (; done < cuts && pause(*run, 60); ++done) {
+        auto& line = done % 2 ? first : second;
+        done % 3 == 2 ? line.truncate() : line.cut();
+    }
+    expect_same(*run);
+    EXPECT_GE(done, cuts) << "the run was too short";
+}
+
+TEST_F(Cut, LinesOfHostsThatDialledInHealToo) {
+    const auto run = start({"--listen", "tcp://127.0.0.1:*", "--hosts",
+                            folder.write("hosts.lua", "place 'left' { image = 1 }\nplace 'right' { bounce = 1 }\n")});
+    BadLine first(join_endpoint(*run)), second(join_endpoint(*run));
+    const auto left = joining_daemon(folder, first.endpoint(), "left"),
+               right = joining_daemon(folder, second.endpoint(), "right");
+    ASSERT_TRUE(run->wait_for("\"event\":\"progress\"")) << run->output();
+    int done = 0;
+    for (; done < cuts && pause(*run, 60); ++done) (done % 2 ? first : second).cut();
+    expect_same(*run);
+    EXPECT_GE(done, cuts) << "the run was too short";
+}
+
+TEST_F(Cut, DamagedBytesAreNeverTakenForAnswers) {
+    const Daemon one(folder), two(folder);
+    BadLine first(one.endpoint), second(two.endpoint);
+    const auto run = start_between(first.endpoint(), second.endpoint());
+    ASSERT_TRUE(run->wait_for("\"event\":\"progress\"")) << run->output();
+    for (auto* line : {&first, &second}) line->flip_every(1'000'000);
+    const auto end = expect_same(*run);
+    EXPECT_GT(first.flips() + second.flips(), 0u);
+}
+
+TEST_F(Cut, LinesThatHangWithoutAWordAreNoticed) {
+    const Daemon one(folder), two(folder);
+    BadLine first(one.endpoint), second(two.endpoint);
+    const auto run = start_between(first.endpoint(), second.endpoint());
+    ASSERT_TRUE(run->wait_for("\"event\":\"progress\"")) << run->output();
+    second.hold(true);
+    const auto begun = Clock::now();
+    ASSERT_TRUE(run->wait_for("is lost")) << run->output();
+    EXPECT_LT(Clock::now() - begun, slowdown * milliseconds(2000));
+    second.hold(false);
+    expect_same(*run);
+}
+
+TEST_F(Cut, WorkersThatAreKilledAgainAndAgainAreStartedAnew) {
+    const auto run = start({"--local-workers", "2"});
+    ASSERT_TRUE(run->wait_for("\"event\":\"progress\"")) << run->output();
+    const auto mark = "--parent " + std::to_string(run->id());
+    int done = 0;
+    for (; done < kills && pause(*run, 50); ++done) {
+        for (const auto end = Clock::now() + slowdown * seconds(5); Clock::now() < end && pause(*run, 10);)
+            if (processes_with(mark).size() == 2) break;
+        const auto workers = processes_with(mark);
+        if (workers.empty()) break;
+        ::kill(workers[static_cast<std::size_t>(done) % workers.size()], SIGKILL);
+    }
+    const auto end = expect_same(*run);
+    EXPECT_GE(done, kills) << "the run was too short";
+    EXPECT_NE(end.said.find("it is started anew"), std::string::npos) << end.said;
+    EXPECT_TRUE(processes_with(mark).empty()) << "no process may stay behind";
+}
+
+TEST_F(Cut, HostsThatAreStoppedAgainAndAgainAreLostAndFound) {
+    const Daemon one(folder), two(folder);
+    const auto run = start_between(one.endpoint, two.endpoint);
+    ASSERT_TRUE(run->wait_for("\"event\":\"progress\"")) << run->output();
+    for (int i = 0; i < stops; ++i) {
+        const auto before = times(run->output(), "is lost");
+        two.process->signal(SIGSTOP);
+        const auto begun = Clock::now();
+        while (times(run->output(), "is lost") == before && Clock::now() - begun < slowdown * seconds(5))
+            if (!pause(*run, 10)) break;
+        EXPECT_LT(Clock::now() - begun, slowdown * milliseconds(2000)) << "at stop " << i;
+        two.process->signal(SIGCONT);
+        const auto ready = times(run->output(), two.endpoint + " is ready");
+        while (times(run->output(), two.endpoint + " is ready") == ready && pause(*run, 10)) {
+        }
+    }
+    expect_same(*run);
+}
+
+}  // namespace
+}  // namespace lightnet::test

@@ -1,0 +1,44 @@
+// What `lightnet hosts` tells of daemons and launchers.
+#include <gtest/gtest.h>
+
+#include "tests/network/daemons.hpp"
+
+namespace lightnet::test {
+namespace {
+
+std::string told_of(const std::string& whom, int code = 0) {
+    Process ask({program("lightnet"), "hosts", whom});
+    EXPECT_EQ(ask.wait(), code) << ask.output();
+    return ask.output();
+}
+
+TEST(Hosts, TellOfTheirMachineAndThatTheyAreFree) {
+    const Folder folder;
+    const Daemon daemon(folder, 3);
+    const auto told = told_of(daemon.endpoint);
+    for (const auto* word : {"is free", "3 places", " cores", "GiB"})
+        EXPECT_NE(told.find(word), std::string::npos) << word << "\n" << told;
+}
+
+TEST(Hosts, TellWhomTheyServeAndWithWhat) {
+    const Folder folder;
+    const Daemon daemon(folder);
+    const auto hosts = folder.write("hosts.lua", "place '" + daemon.endpoint + "' {}");
+    Process run(launch_words(graph_file("cornell.lua"), folder / "x.exr",
+                             {"--size", "128x128", "--samples", "4096", "--progress", "json", "--hosts", hosts,
+                              "--listen", "tcp://127.0.0.1:*"}));
+    ASSERT_TRUE(run.wait_for("\"event\":\"progress\"")) << run.output();
+    const auto told = told_of(hosts);
+    for (const auto* word : {"serves", "run of ", "cornell.lua", "holds ", "bounce", " answered"})
+        EXPECT_NE(told.find(word), std::string::npos) << word << "\n" << told;
+    const auto of_launcher = told_of(join_endpoint(run));
+    EXPECT_NE(of_launcher.find(daemon.endpoint), std::string::npos) << of_launcher;
+    EXPECT_NE(of_launcher.find("is ready"), std::string::npos) << of_launcher;
+}
+
+TEST(Hosts, ThatAreNotThereAreSaidToBe) {
+    EXPECT_NE(told_of("tcp://127.0.0.1:1", 3).find("does not answer"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace lightnet::test

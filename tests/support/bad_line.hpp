@@ -1,0 +1,51 @@
+// A line to a tcp port that can be cut, held and damaged.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <list>
+#include <string>
+#include <thread>
+
+namespace lightnet::test {
+
+/// Passes on what comes to its own port, until it is told otherwise. Everything but the constructor may be called from
+/// any thread.
+class BadLine {
+public:
+    /// `target`: "tcp://127.0.0.1:PORT".
+    explicit BadLine(const std::string& target);
+    ~BadLine();
+
+    /// "tcp://127.0.0.1:PORT" of this end.
+    std::string endpoint() const;
+    /// Resets all connections (RST).
+    void cut() { cut_ = true; }
+    /// The next that is sent on each connection is cut off in its middle.
+    void truncate() { truncate_ = true; }
+    /// Nothing passes, and nobody is told.
+    void hold(bool on) { held_ = on; }
+    /// One bit is flipped after about so many bytes, again and again; 0: none.
+    void flip_every(std::uint64_t bytes) { flip_every_ = bytes; }
+
+    std::uint64_t cuts() const { return cuts_; }  // of connections
+    std::uint64_t flips() const { return flips_; }
+
+private:
+    struct Connection {
+        int ends[2];
+    };
+    void serve(const std::stop_token& stop);
+    void accept_one();
+    bool pass(Connection& connection, int from);
+    void reset(const Connection& connection);
+
+    int target_port_ = 0, listener_ = -1, port_ = 0;
+    std::atomic<bool> cut_{false}, truncate_{false}, held_{false};
+    std::atomic<std::uint64_t> flip_every_{0}, cuts_{0}, flips_{0};
+    std::uint64_t passed_ = 0;  // since the last flip
+    std::list<Connection> connections_;
+    std::jthread thread_;
+};
+
+}  // namespace lightnet::test

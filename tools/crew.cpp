@@ -1,0 +1,73 @@
+#include "tools/crew.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <filesystem>
+#include <thread>
+
+#include "core/error.hpp"
+#include "core/graph/check_hosts.hpp"
+
+namespace lightnet {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto host_patience = 5s;     // for hosts that do not answer when the run begins
+constexpr auto join_patience = 10min;  // for the first host, when none is named
+
+// lightnetd stands beside the launcher.
+std::string daemon_program() {
+    return std::filesystem::read_symlink("/proc/self/exe").replace_filename("lightnetd").string();
+}
+
+// What nodes elsewhere dial: a port on all addresses is known to them by the name of this machine.
+std::string seen_from_elsewhere(const std::string& endpoint) {
+    const std::string all = "tcp://0.0.0.0:";
+    if (!endpoint.starts_with(all)) return endpoint;
+    std::array<char, 256> name{};
+    gethostname(name.data(), name.size() - 1);
+    return std::string("tcp://") + name.data() + ":" + endpoint.substr(all.size());
+}
+
+}  // namespace
+
+Crew::Crew(const RunRequest& request, Cluster::Options cluster) : request_(request), say_(cluster.say) {
+    for (const auto& host : request.hosts.hosts)
+        (address_of(host.endpoint) ? cluster.endpoints : cluster.expected).push_back(host.endpoint);
+    if (!cluster.expected.empty() && request.listen.empty())
+        throw UserError({request.hosts.file, 0}, "place '" + cluster.expected.front() +
+                                                     "' joins by itself, which takes --listen tcp://HOST:PORT");
+    if (request.local_workers) {
+        const auto places = std::max(1u, std::thread::hardware_concurrency() / request.local_workers);
+        local_.emplace(daemon_program(), request.local_workers, places);
+        for (const auto& endpoint : local_->endpoints()) cluster.endpoints.push_back(endpoint);
+    }
+    cluster.listen = request.listen;
+    cluster.threads = request.threads;
+    cluster_ = std::make_unique<Cluster>(std::move(cluster));
+    if (!request.listen.empty()) say_("hosts may join at " + cluster_->join_endpoint());
+    if (request.slurm.daemons) {
+        slurm_.emplace(SlurmWorkers::Request{daemon_program(), seen_from_elsewhere(cluster_->join_endpoint()),
+                                             request.slurm.daemons, request.slurm.partition, request.slurm.arguments});
+        say_("Slurm has taken job " + slurm_->job() + " of " + std::to_string(request.slurm.daemons) + " daemons");
+    }
+}
+
+void Crew::gather(const std::atomic<bool>& cancelled) {
+    Cluster::Patience patience{host_patience, host_patience};
+    if (!request_.listen.empty()) patience.nobody = join_patience;
+    cluster_->gather(patience, cancelled, [this] { look_after(); });
+}
+
+void Crew::look_after() {
+    if (!local_) return;
+    local_->look_after(std::chrono::steady_clock::now(),
+                       {[this](const std::string& endpoint) { cluster_->lost(endpoint); },
+                        [this](const std::string& endpoint) { return cluster_->ready(endpoint); }, say_});
+}
+
+}  // namespace lightnet

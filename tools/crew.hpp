@@ -1,0 +1,37 @@
+// All that takes part in a run beside the launcher's own thread, wherever it comes from.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "tools/run.hpp"
+#include "transport/cluster.hpp"
+#include "transport/local_workers.hpp"
+#include "transport/slurm_workers.hpp"
+
+namespace lightnet {
+
+/// Hosts that are called, local workers, daemons of Slurm and places of this process, in any mix. One thread's.
+class Crew {
+public:
+    /// `cluster` is what does not depend on where hosts come from. Starts what is to be started.
+    Crew(const RunRequest& request, Cluster::Options cluster);
+
+    Cluster& cluster() { return *cluster_; }
+    /// Waits for those that are to be there from the beginning.
+    void gather(const std::atomic<bool>& cancelled);
+    /// To be called several times a second: starts local workers anew.
+    void look_after();
+
+private:
+    const RunRequest& request_;
+    std::function<void(const std::string&)> say_;
+    std::optional<LocalWorkers> local_;
+    std::unique_ptr<Cluster> cluster_;
+    std::optional<SlurmWorkers> slurm_;
+};
+
+}  // namespace lightnet

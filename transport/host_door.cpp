@@ -1,0 +1,108 @@
+#include "transport/host_door.hpp"
+
+#include <algorithm>
+#include <zmq.hpp>
+
+#include "core/error.hpp"
+
+namespace lightnet {
+namespace {
+
+using namespace std::chrono_literals;
+using packet::Fields;
+using packet::Type;
+
+constexpr auto join_interval = 500ms;
+constexpr auto shortest_silence = 2000ms, longest_silence = 10'000ms;
+
+// ZeroMQ's own routes begin with a zero.
+const std::string launcher_route = "launcher";
+
+}  // namespace
+
+HostDoor::HostDoor(zmq::context_t& context, Ends ends)
+    : context_(context), ends_(std::move(ends)), silence_(shortest_silence) {
+    if (!ends_.listen.empty()) {
+        port_ = std::make_unique<zmq::socket_t>(door_socket(context_));
+        try {
+            port_->bind(ends_.listen);
+        } catch (const zmq::error_t& error) {
+            throw Error(ends_.listen, std::string("can't listen there: ") + error.what());
+        }
+    }
+    if (!ends_.join.empty()) dial(std::chrono::steady_clock::now());
+}
+
+HostDoor::~HostDoor() = default;
+
+std::string HostDoor::endpoint() const { return port_ ? port_->get(zmq::sockopt::last_endpoint) : std::string(); }
+
+void HostDoor::dial(Time now) {
+    try {
+        launcher_ = std::make_unique<zmq::socket_t>(asking_socket(context_, ends_.join));
+    } catch (const zmq::error_t& error) {
+        throw Error(ends_.join, std::string("can't be dialled: ") + error.what());
+    }
+    heard_ = dialled_ = now;
+    next_join_ = {};
+}
+
+std::optional<Frames> HostDoor::from_launcher(Time now) {
+    while (auto frames = receive_frames(*launcher_)) {
+        heard_ = now;
+        silence_ = shortest_silence;
+        if (frames->size() == 1 && is_empty(*frames)) next_join_ = {};  // a new connection: it does not know us yet
+        frames->insert(frames->begin(), frame_of(launcher_route));
+        return frames;
+    }
+    return std::nullopt;
+}
+
+std::optional<Frames> HostDoor::receive(Time now) {
+    if (port_)
+        if (auto frames = receive_frames(*port_)) return frames;
+    return launcher_ ? from_launcher(now) : std::nullopt;
+}
+
+bool HostDoor::send(Frames& frames) {
+    if (text_of(frames.front()) != launcher_route) return port_ && send_frames(*port_, frames);
+    frames.erase(frames.begin());
+    return launcher_ && send_frames(*launcher_, frames);
+}
+
+bool HostDoor::send(const std::string& route, Frames& frames) {
+    frames.insert(frames.begin(), frame_of(route));
+    return send(frames);
+}
+
+void HostDoor::send(const std::string& route, Type type, std::uint64_t run, const Fields& fields) {
+    Frames frames;
+    append(frames, packet::pack(type, run, fields));
+    send(route, frames);
+}
+
+void HostDoor::keep_in_touch(Time now) {
+    if (!launcher_) return;
+    if (now - heard_ > silence_) {
+        // Half of the connection may be gone without a word.
+        silence_ = std::min<std::chrono::milliseconds>(2 * silence_, longest_silence);
+        dial(now);
+    }
+    if (now < next_join_) return;
+    next_join_ = now + join_interval;
+    Frames frames;
+    append(frames,
+           packet::pack(
+               Type::join, 0,
+               Fields{}.set("name", ends_.name).set("incarnation", ends_.incarnation).set("endpoint", endpoint())));
+    if (!send_frames(*launcher_, frames)) next_join_ = now + 20ms;
+}
+
+std::vector<zmq::socket_t*> HostDoor::sockets() {
+    std::vector<zmq::socket_t*> sockets;
+    for (auto* socket : {port_.get(), launcher_.get()})
+        if (socket) sockets.push_back(socket);
+    return sockets;
+}
+
+}  // namespace lightnet

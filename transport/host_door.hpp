@@ -1,0 +1,53 @@
+// The sockets of a host: its port, if it has one, and its connection to a launcher that it dialled.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "transport/packet.hpp"
+#include "transport/sockets.hpp"
+
+namespace lightnet {
+
+/// Whatever way a message comes, its first frame is the route on which answers go back. One thread's.
+class HostDoor {
+public:
+    using Time = std::chrono::steady_clock::time_point;
+    struct Ends {
+        std::string listen;  // empty: nobody can call this host
+        std::string join;    // of a launcher; empty: none is dialled
+        std::string name;    // under which it joins
+        std::uint64_t incarnation = 0;
+    };
+    /// Throws Error when the port can't be had.
+    HostDoor(zmq::context_t& context, Ends ends);
+    ~HostDoor();
+
+    /// Where it listens, with the port that the system chose; empty: nowhere.
+    std::string endpoint() const;
+    /// What arrived, if anything.
+    std::optional<Frames> receive(Time now);
+    bool send(const std::string& route, Frames& frames);
+    void send(const std::string& route, packet::Type type, std::uint64_t run, const packet::Fields& fields);
+    /// Route first.
+    bool send(Frames& frames);
+    /// Reports to the launcher that was dialled, until it answers and from time to time; dials anew when it is silent.
+    void keep_in_touch(Time now);
+    std::vector<zmq::socket_t*> sockets();
+
+private:
+    void dial(Time now);
+    std::optional<Frames> from_launcher(Time now);
+
+    zmq::context_t& context_;
+    Ends ends_;
+    std::unique_ptr<zmq::socket_t> port_, launcher_;
+    Time heard_{}, dialled_{}, next_join_{};
+    std::chrono::milliseconds silence_;  // after which it dials anew
+};
+
+}  // namespace lightnet

@@ -1,0 +1,81 @@
+// What a host is made of. For the .cpp files of hosts.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "transport/blob_cache.hpp"
+#include "transport/host.hpp"
+#include "transport/host_door.hpp"
+#include "transport/hosted_run.hpp"
+#include "transport/machine.hpp"
+#include "transport/packet.hpp"
+#include "transport/relay_door.hpp"
+
+namespace zmq {
+class context_t;
+}
+
+namespace lightnet {
+
+/// The host itself. What it serves is one run at a time; all of it belongs to the thread of serve().
+struct Host::Service {
+    using Time = std::chrono::steady_clock::time_point;
+    Options options;
+    const Registry& registry;
+    BlobCache cache;
+    Machine machine = this_machine();
+    std::uint64_t incarnation = incarnation_number();
+    std::unique_ptr<zmq::context_t> context;
+    HostDoor door;
+    std::uint64_t broken_packets = 0;
+    std::unique_ptr<HostedRun> run;
+    std::unique_ptr<RelayDoor> relay;       // of the run
+    std::string who;                        // began it
+    std::string launcher;                   // route to it
+    Time heard{};                           // from it
+    std::uint64_t given = 0, answered = 0;  // asks of others
+    Time needed{};                          // last, by anyone
+
+    // On the way out: told to stop, the launcher gives no more work, what was given is answered, it says farewell.
+    struct Leaving {
+        Time since, last_work;
+        bool known = false;  // to the launcher
+        std::optional<Time> farewell;
+    };
+    std::optional<Leaving> leaving;
+
+    Service(Options given, const Registry& kinds);
+    ~Service();
+    void arrived(Frames frames);
+    void damaged(const std::string& route);
+    void work(const packet::Header& header, Frames frames);
+    void from_another(const packet::Header& header, Frames frames);
+    void control(const std::string& route, const packet::Header& header, const packet::Fields& fields);
+    void greet(const std::string& route, const packet::Fields& fields);
+    void begin(const std::string& route, std::uint64_t id, const packet::Fields& fields);
+    void tell_needs();
+    void tell_state(const std::string& route);
+    void tell_found();
+    void take_blob(const std::string& route, std::uint64_t id, const packet::Fields& fields);
+    Counters stop_run();
+    void end(const std::string& route, std::uint64_t id);
+    void drop_run(const std::string& why);
+    void advance();
+    // Who has something to be read. Looking at an empty socket costs a system call, so only these are looked at.
+    struct Readable {
+        bool door = false, relay = false, reports = false;
+        std::vector<std::uint32_t> places;
+    };
+    Readable wait();
+    void pass_replies(std::uint32_t place);
+    void pass_asks();
+    void leave(Time now);
+    bool gone(Time now);
+};
+
+}  // namespace lightnet

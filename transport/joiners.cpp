@@ -1,0 +1,148 @@
+#include "transport/joiners.hpp"
+
+#include <algorithm>
+#include <zmq.hpp>
+
+#include "core/error.hpp"
+#include "transport/cluster.hpp"
+
+namespace lightnet {
+namespace {
+
+using packet::Fields;
+using packet::Type;
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t most_joined = 4096;
+constexpr auto lease = std::chrono::milliseconds(1500);
+constexpr std::size_t longest_name = 200;
+
+// Where a host that listens on all its addresses can be called: at the one from which it dialled in.
+std::string callable(const std::string& endpoint, zmq::message_t& from) {
+    const std::string all = "tcp://0.0.0.0:";
+    if (!endpoint.starts_with(all)) return endpoint;
+    const char* address = from.gets("Peer-Address");
+    return address ? "tcp://" + std::string(address) + ":" + endpoint.substr(all.size()) : endpoint;
+}
+
+// A name that can't be taken for an endpoint, nor for the launcher.
+bool is_name(const std::string& text) {
+    return !text.empty() && text.size() <= longest_name &&
+           std::all_of(text.begin(), text.end(), [](unsigned char c) { return c > ' ' && c < 127 && c != '/'; });
+}
+
+}  // namespace
+
+Joiners::Joiners(zmq::context_t& context, const std::string& endpoint, std::uint64_t run)
+    : socket_(std::make_unique<zmq::socket_t>(door_socket(context))), run_(run) {
+    try {
+        socket_->bind(endpoint);
+    } catch (const zmq::error_t& error) {
+        throw Error(endpoint, std::string("can't listen there: ") + error.what());
+    }
+}
+
+Joiners::~Joiners() = default;
+
+std::string Joiners::endpoint() const { return socket_->get(zmq::sockopt::last_endpoint); }
+
+std::uint64_t Joiners::receive(const Takers& takers) {
+    std::uint64_t broken = 0;
+    while (auto frames = receive_frames(*socket_)) {
+        if (frames->size() == 3 && control(*frames, takers)) continue;
+        const auto from = by_route_.find(text_of(frames->front()));
+        if (from == by_route_.end()) {
+            ++broken;
+            continue;
+        }
+        auto& host = joined_.at(from->second);
+        host.heard = Clock::now();
+        frames->erase(frames->begin());
+        host.line->arrived(std::move(*frames));
+    }
+    return broken;
+}
+
+// What concerns the port itself. False: it is for a host's line.
+bool Joiners::control(Frames& frames, const Takers& takers) {
+    const auto header = packet::peek_header(bytes_of(frames[1]));
+    if (!header || (header->type != Type::join && header->type != Type::status)) return false;
+    if (!packet::read_header(bytes_of(frames[1]), bytes_of(frames[2]))) return false;
+    const auto fields = packet::unpack_fields(bytes_of(frames[2]));
+    if (!fields) return false;
+    const auto route = text_of(frames[0]);
+    if (header->type == Type::status) {
+        tell_state(route, takers.hosts());
+    } else if (const auto& endpoint = fields->text("endpoint"); !endpoint.empty()) {
+        try {
+            takers.call(callable(endpoint, frames[2]));
+        } catch (const zmq::error_t&) {  // not an endpoint at all
+            return false;
+        }
+        send(route, Type::joined, {});
+    } else if (fields->number("incarnation")) {
+        join(route, *fields, takers);
+    } else {
+        return false;
+    }
+    return true;
+}
+
+void Joiners::join(const std::string& route, const Fields& fields, const Takers& takers) {
+    const auto incarnation = fields.number("incarnation");
+    send(route, Type::joined, {});
+    const auto name = name_for(fields.text("name"), incarnation);
+    if (!name || (!joined_.contains(*name) && joined_.size() >= most_joined)) return;
+    auto& known = joined_[*name];
+    if (!known.line) {
+        auto line = std::make_unique<JoinedLine>(*socket_, route);
+        known.line = line.get();
+        takers.add(*name, std::move(line));
+    } else if (known.line->route() != route) {
+        by_route_.erase(known.line->route());
+        known.line->use(route);
+        takers.lost(*name, known.incarnation == incarnation ? "its connection was cut" : "it was started anew");
+    }
+    known.incarnation = incarnation;
+    known.heard = Clock::now();
+    by_route_[route] = *name;
+}
+
+// A host that was started anew gets the name that it had, as soon as it is clear that its predecessor is gone; of two
+// that are both there, the later gets a number. None: not clear yet.
+std::optional<std::string> Joiners::name_for(std::string wanted, std::uint64_t incarnation) {
+    if (!is_name(wanted)) wanted = "host";
+    const auto now = Clock::now();
+    for (int number = 1;; ++number) {
+        const auto name = number == 1 ? wanted : wanted + "-" + std::to_string(number);
+        const auto known = joined_.find(name);
+        if (known == joined_.end() || known->second.incarnation == incarnation || now - known->second.heard > lease) {
+            rivals_.erase(incarnation);
+            return name;
+        }
+        if (rivals_.size() > most_joined) rivals_.clear();
+        if (now - rivals_.try_emplace(incarnation, now).first->second < lease + std::chrono::milliseconds(500))
+            return std::nullopt;
+    }
+}
+
+void Joiners::tell_state(const std::string& route, const std::vector<HostState>& hosts) {
+    for (std::size_t i = 0; i < hosts.size(); ++i) {
+        Fields fields;
+        set(fields, hosts[i].machine);
+        fields.set("name", hosts[i].name).set("state", hosts[i].state).set("left", hosts.size() - 1 - i);
+        fields.set("places", hosts[i].places).set("progress", hosts[i].progress);
+        send(route, Type::state, fields);
+    }
+    if (hosts.empty()) send(route, Type::state, Fields{}.set("state", "a launcher without hosts"));
+}
+
+void Joiners::send(const std::string& route, Type type, const Fields& fields) {
+    Frames frames;
+    frames.push_back(frame_of(route));
+    append(frames, packet::pack(type, run_, fields));
+    send_frames(*socket_, frames);
+}
+
+}  // namespace lightnet

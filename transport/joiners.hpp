@@ -1,0 +1,57 @@
+// The launcher's open port: where hosts dial in, and where anyone may ask how the run is.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "transport/host_line.hpp"
+
+namespace lightnet {
+
+struct HostState;
+
+/// Knows hosts by the name that they give, made unique, and tells a host that dials in anew from another one. One
+/// thread's.
+class Joiners {
+public:
+    struct Takers {
+        std::function<void(const std::string& endpoint)> call;  // a host that wants to be called
+        std::function<void(const std::string& name, std::unique_ptr<JoinedLine>)> add;
+        std::function<void(const std::string& name, const std::string& why)> lost;  // what was under way to it
+        std::function<std::vector<HostState>()> hosts;                              // for those who ask
+    };
+    Joiners(zmq::context_t& context, const std::string& endpoint, std::uint64_t run);
+    ~Joiners();
+
+    std::string endpoint() const;
+    zmq::socket_t& socket() { return *socket_; }
+    /// Takes in what there is, and gives it to the lines. Returns how many packets were damaged.
+    std::uint64_t receive(const Takers& takers);
+
+private:
+    using Time = std::chrono::steady_clock::time_point;
+    struct Joined {
+        std::uint64_t incarnation = 0;
+        JoinedLine* line = nullptr;
+        Time heard{};
+    };
+    bool control(Frames& frames, const Takers& takers);
+    void join(const std::string& route, const packet::Fields& fields, const Takers& takers);
+    std::optional<std::string> name_for(std::string wanted, std::uint64_t incarnation);
+    void tell_state(const std::string& route, const std::vector<HostState>& hosts);
+    void send(const std::string& route, packet::Type type, const packet::Fields& fields);
+
+    std::unique_ptr<zmq::socket_t> socket_;
+    std::uint64_t run_;
+    std::map<std::string, Joined> joined_;         // by name
+    std::map<std::string, std::string> by_route_;  // names
+    std::map<std::uint64_t, Time> rivals_;         // incarnations that want a name that is taken, since when
+};
+
+}  // namespace lightnet

@@ -1,0 +1,37 @@
+// Daemons that Slurm starts, on whatever nodes it has.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace lightnet {
+
+/// A job array, each element a lightnetd that dials in at the launcher. Slurm starts them when it has nodes, and anew
+/// when a node is lost. Cancelled with this object; elements whose launcher is gone leave by themselves.
+class SlurmWorkers {
+public:
+    struct Request {
+        std::string program;  // lightnetd, as the nodes find it
+        std::string join;     // endpoint of the launcher, as the nodes reach it
+        std::uint32_t daemons = 1;
+        std::string partition;               // "": Slurm's usual one
+        std::vector<std::string> arguments;  // more words for sbatch
+    };
+    /// Submits the array. Throws Error with what sbatch said when it doesn't take it.
+    explicit SlurmWorkers(const Request& request);
+    ~SlurmWorkers();
+    SlurmWorkers(const SlurmWorkers&) = delete;
+    SlurmWorkers& operator=(const SlurmWorkers&) = delete;
+
+    /// Number of the array job.
+    const std::string& job() const { return job_; }
+
+private:
+    std::string job_;
+};
+
+/// What each element runs.
+std::string slurm_script(const SlurmWorkers::Request& request);
+
+}  // namespace lightnet
