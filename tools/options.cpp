@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <sstream>
 
@@ -32,6 +33,19 @@ std::optional<PictureSize> size_of(std::string_view text) {
     const auto width = side_of(text.substr(0, cross)), height = side_of(text.substr(cross + 1));
     if (!width || !height) return std::nullopt;
     return PictureSize{*width, *height};
+}
+
+std::optional<PictureCrop> crop_of(std::string_view text) {
+    std::array<std::uint32_t, 4> edges{};
+    const char* at = text.begin();
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        if (i > 0 && (at == text.end() || *at++ != ',')) return std::nullopt;
+        const auto [end, fault] = std::from_chars(at, text.end(), edges[i]);
+        if (fault != std::errc{}) return std::nullopt;
+        at = end;
+    }
+    if (at != text.end()) return std::nullopt;
+    return PictureCrop{edges[0], edges[1], edges[2], edges[3]};
 }
 
 /// The grammar of the command line, and what it fills.
@@ -150,6 +164,13 @@ private:
                 "size of the picture, instead of the graph's")
             ->type_name("WxH")
             ->check([](const std::string& text) { return size_of(text) ? "" : "a size is like 640x480, not " + text; });
+        verb.add_option_function<std::string>(
+                "--crop", [this](const std::string& text) { options_.crop = crop_of(text); },
+                "only this part of the picture, instead of the graph's: edges in pixels, from the upper left corner")
+            ->type_name("X0,Y0,X1,Y1")
+            ->check([](const std::string& text) {
+                return crop_of(text) ? "" : "a crop is like 10,20,110,80 (left, top, right, bottom), not " + text;
+            });
     }
 
     void add_run() {
@@ -200,6 +221,9 @@ private:
                 "how progress is shown")
             ->type_name("auto|bar|plain|json|none")
             ->check(CLI::IsMember({"auto", "bar", "plain", "json", "none"}));
+        verb.add_option("--preview", options_.preview, "write the picture so far from time to time")
+            ->type_name("SECONDS")
+            ->check(CLI::PositiveNumber);
         verb.add_flag("--resume", options_.resume, "go on from the checkpoint beside the picture, if there is one");
         verb.add_flag("--check-wrapped", options_.check_wrapped,
                       "ask wrapped classes some questions twice, to find those whose history changes answers");

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <vector>
 
 #include "core/graph/graph_film.hpp"
 #include "core/scene/read_scene.hpp"
@@ -67,6 +68,12 @@ std::map<std::string, std::string> scene_constants(const Graph& graph, const Reg
 
 void override_scene(const Graph& graph, const Registry& registry, Files& files, SceneData& scene) {
     apply(scene_overrides(graph, registry), scene, files, scene_of(graph, registry).where);
+    std::vector<Problem> problems;
+    for (const auto& node : graph.nodes)
+        if (const Kind* kind = registry.find(node.kind); kind && kind->mistakes)
+            for (const auto& what : kind->mistakes(node, &scene))
+                problems.push_back({node.where, node.kind + " '" + node.name + "': " + what});
+    if (!problems.empty()) throw UserError(std::move(problems));
 }
 
 SceneData load_scene(const Graph& graph, const Registry& registry, Files& files, const std::string& path) {

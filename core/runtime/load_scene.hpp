@@ -18,7 +18,7 @@ SceneOverrides scene_overrides(const Graph& graph, const Registry& registry);
 /// What it says of the variables of the scene's file: for read_scene().
 std::map<std::string, std::string> scene_constants(const Graph& graph, const Registry& registry);
 
-/// Changes a scene as read from its file. Throws UserError.
+/// Changes a scene as read from its file. Throws UserError, also with what nodes of the graph find wrong with it.
 void override_scene(const Graph& graph, const Registry& registry, Files& files, SceneData& scene);
 
 /// Reads the scene in the file at `path` and applies what the graph changes. Throws UserError with all that is wrong.

@@ -112,6 +112,21 @@ TEST(Render, LightsByAnyGraph) {
     EXPECT_EQ(lightnet.overrides().exposure, 3);
 }
 
+TEST(Render, KeepsTheCropOfTheScene) {
+    Bench lightnet;
+    const std::string scene = lightnet.write("part.pbrt",
+                                             "Film \"rgb\" \"integer xresolution\" 30 \"integer yresolution\" 20 "
+                                             "\"float cropwindow\" [ 0.25 0.5 0 1 ]\n"
+                                             "Camera \"perspective\"\nWorldBegin\nShape \"sphere\"\n");
+    lightnet({"render", scene});
+    lightnet({"render", scene, "--size", "100x100"});
+    lightnet({"render", scene, "--crop", "1,2,3,4"});
+    const auto crop = [&](std::size_t run) { return film_of(lightnet.runs.at(run).graph, lightnet.registry).crop; };
+    EXPECT_EQ(crop(0), (Window{8, 0, 7, 20}));
+    EXPECT_EQ(crop(1), (Window{25, 0, 25, 100}));
+    EXPECT_EQ(crop(2), (Window{1, 2, 2, 2}));
+}
+
 TEST(Render, SaysWhatIsWrong) {
     Bench lightnet;
     EXPECT_EQ(lightnet({"render", lightnet.scene, "--lighting", "pth"}), 2);
