@@ -45,7 +45,8 @@ private:
         const auto hit = scene_.intersect(ray);
         if (!hit) return sample->weight * light_by_bsdf(scene_, at.point.position, *sample, nullptr, heuristic_);
         const SurfacePoint end = scene_.surface(*hit);
-        return sample->weight * light_by_bsdf(scene_, at.point.position, *sample, &end, heuristic_);
+        const Rgb left = left_after(at.bsdf.absorption(ray.direction), hit->distance);
+        return sample->weight * left * light_by_bsdf(scene_, at.point.position, *sample, &end, heuristic_);
     }
 
     const Scene& scene_;

@@ -52,6 +52,7 @@ private:
         std::uint32_t path;  // index into Paths::sums
         Vec3 from;
         BsdfSample step;
+        const Rgb* inside;  // what it leads through; may be null
         Rgb weight;
         float squeezed;  // by refraction, which is no loss: roulette must not see it
     };
@@ -78,7 +79,7 @@ private:
             const Key stream = child(question.stream, key_);
             for (; path < end; ++path) {
                 const auto index = question.sample * samples_ + static_cast<std::uint32_t>(path % samples_);
-                Walk walk{Samples(stream, index), static_cast<std::uint32_t>(path - first), {}, {}, {1, 1, 1}, 1};
+                Walk walk{Samples(stream, index), static_cast<std::uint32_t>(path - first), {}, {}, {}, {1, 1, 1}, 1};
                 if (all_) look_around(walk, at, 0, going);
                 scatter(walk, at, 1, going);
             }
@@ -127,7 +128,8 @@ private:
         take_in(going);
     }
 
-    void visit(const Walk& walk, const std::optional<Hit>& hit, std::uint32_t depth, Paths& going) const {
+    void visit(Walk& walk, const std::optional<Hit>& hit, std::uint32_t depth, Paths& going) const {
+        if (walk.inside && hit) walk.weight *= left_after(walk.inside, hit->distance);
         const SurfacePoint point = hit ? scene_.surface(*hit) : SurfacePoint{};
         if (all_ || depth > 1) {
             const float part = !hit && two_looks(depth - 1) ? 0.5f : 1.0f;
@@ -136,7 +138,7 @@ private:
         }
         if (!hit || (max_depth_ && depth > max_depth_)) return;
         const Bsdf bsdf = scene_.bsdf(point);
-        const Gathering at{point, bsdf, -walk.step.incoming, lobe::all};
+        const Gathering at{point, bsdf, -walk.step.incoming, lobe::all, walk.inside};
         Walk next = walk;
         look_around(next, at, depth, going);
         scatter(next, at, depth + 1, going);
@@ -153,6 +155,7 @@ private:
         if (!survives(depth, max_component(walk.weight) * walk.squeezed / before, walk)) return;
         walk.from = at.point.position;
         walk.step = *step;
+        walk.inside = filling(at.bsdf, at.point, at.outgoing, step->incoming, at.inside);
         going.walks.push_back(walk);
         going.rays.push_back({at.point.origin_towards(step->incoming), step->incoming});
     }

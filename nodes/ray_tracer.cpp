@@ -8,6 +8,7 @@
 #include "core/light/node_context.hpp"
 #include "core/light/renderer.hpp"
 #include "core/math/samples.hpp"
+#include "core/scene/direct_light.hpp"
 #include "core/scene/scene.hpp"
 
 namespace lightnet {
@@ -124,9 +125,11 @@ private:
     /// Follows one ray until no mirror or glass carries it on. Returns what shines by itself on the way.
     Rgb follow(const Look& look, Ray ray, std::optional<Hit> hit, Seen& seen) const {
         Rgb emitted, weight{1, 1, 1};
-        float squeezed = 1;  // by refraction, which is no loss: roulette must not see it
+        const Rgb* inside = nullptr;  // what the ray leads through
+        float squeezed = 1;           // by refraction, which is no loss: roulette must not see it
         for (std::uint32_t depth = 0;; ++depth) {
             if (!hit) return emitted + weight * scene_.environment(ray.direction);
+            if (inside) weight *= left_after(inside, hit->distance);
             const SurfacePoint point = scene_.surface(*hit);
             const Bsdf bsdf = scene_.bsdf(point);
             const Vec3 outgoing = -ray.direction;
@@ -149,6 +152,7 @@ private:
             const float chance = std::min(1.0f, max_component(weight) * squeezed * 10);
             if (!(samples.next() < chance)) return emitted;
             weight *= 1 / chance;
+            inside = filling(bsdf, point, outgoing, sample->incoming, inside);
             ray = {point.origin_towards(sample->incoming), sample->incoming};
             hit = scene_.intersect(ray);
         }
@@ -205,9 +209,22 @@ Kind ray_tracer_kind() {
                 {.name = "film", .type = ParamType::film, .help = "width, height, and file of the picture"},
                 {.name = "samples",
                  .type = ParamType::integer,
-                 .help = "rays from the eye per pixel",
+                 .help = "rays from the eye per pixel; with an error: at most",
                  .unit = "samples",
                  .initial = Value{16.0},
+                 .least = 1,
+                 .most = 1 << 24},
+                {.name = "error",
+                 .help = "ends a cell of 8 x 8 pixels before it has all samples: when the root of its mean square "
+                         "error, each pixel relative to its value, is estimated at this; 0: never",
+                 .initial = Value{0.0},
+                 .least = 0,
+                 .most = 1},
+                {.name = "least_samples",
+                 .type = ParamType::integer,
+                 .help = "with an error: what every pixel gets, in whole blocks of 16, and at least 32",
+                 .unit = "samples",
+                 .initial = Value{64.0},
                  .least = 1,
                  .most = 1 << 24},
                 {.name = "max_depth",

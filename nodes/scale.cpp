@@ -1,5 +1,4 @@
 // Light, made stronger, weaker or coloured.
-#include "core/error.hpp"
 #include "core/graph/kind.hpp"
 #include "core/light/light_op.hpp"
 #include "core/light/node_context.hpp"
@@ -13,11 +12,8 @@ public:
     explicit Scale(const NodeContext& here) : inputs_(here.inputs()) {
         const auto factor = static_cast<float>(here.number("factor"));
         const auto colour = here.numbers("colour");
-        if (!colour.empty() && colour.size() != 3)
-            throw Error("Scale '" + here.name() + "'", "'colour' has " + std::to_string(colour.size()) +
-                                                           " numbers, but must have 3: red, green, blue");
         factor_ = {factor, factor, factor};
-        if (!colour.empty())
+        if (colour.size() == 3)
             factor_ *= Rgb{static_cast<float>(colour[0]), static_cast<float>(colour[1]), static_cast<float>(colour[2])};
     }
 
@@ -46,7 +42,8 @@ Kind scale_kind() {
                     .type = ParamType::numbers,
                     .help = "factors for red, green and blue; none: all 1",
                     .initial = Value{Table{}},
-                    .least = 0}},
+                    .least = 0,
+                    .count = 3}},
         .make_light = [](const NodeContext& here) { return std::make_unique<Scale>(here); },
     };
 }

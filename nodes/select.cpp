@@ -1,12 +1,17 @@
 // Light on some surfaces only.
+#include <algorithm>
 #include <array>
+#include <set>
+#include <string>
 #include <vector>
 
-#include "core/error.hpp"
+#include "core/graph/check_params.hpp"
+#include "core/graph/graph.hpp"
 #include "core/graph/kind.hpp"
 #include "core/light/light_op.hpp"
 #include "core/light/node_context.hpp"
 #include "core/scene/scene.hpp"
+#include "core/scene/scene_data.hpp"
 
 namespace lightnet {
 namespace {
@@ -22,14 +27,7 @@ public:
           except_(here.flag("except")),
           boxed_(!here.numbers("box").empty()) {
         const auto box = here.numbers("box");
-        const auto wrong = [&](const std::string& what) { return Error("Select '" + here.name() + "'", what); };
-        if (boxed_ && box.size() != 6)
-            throw wrong("'box' has " + std::to_string(box.size()) +
-                        " numbers, but must have 6: x, y, z of its lower corner, then of its upper one");
-        for (std::size_t i = 0; i < box.size(); ++i) box_[i] = static_cast<float>(box[i]);
-        if (material_.empty() && !boxed_) throw wrong("selects nothing: give it a 'material' or a 'box'");
-        if (!material_.empty() && !scene_.has_material(material_))
-            throw wrong("no shape has a material called '" + material_ + "'");
+        for (std::size_t i = 0; i < std::min(box.size(), box_.size()); ++i) box_[i] = static_cast<float>(box[i]);
     }
 
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
@@ -65,6 +63,29 @@ private:
     std::array<float, 6> box_{};
 };
 
+std::vector<std::string> names_of(const SceneData& scene) {
+    std::set<std::string> names;
+    for (const auto& shape : scene.shapes)
+        if (shape.material < scene.materials.size()) names.insert(scene.materials[shape.material].name);
+    names.erase("");
+    return {names.begin(), names.end()};
+}
+
+std::vector<std::string> mistakes(const Node& node, const SceneData* scene) {
+    const auto& material = std::get<std::string>(node.params.at("material").data);
+    const auto& box = std::get<Table>(node.params.at("box").data).list;
+    if (material.empty() && box.empty()) return {"selects nothing: give it a 'material' or a 'box'"};
+    std::vector<std::string> wrong;
+    for (std::size_t axis = 0; axis < 3 && !box.empty(); ++axis)
+        if (std::get<double>(box[axis].data) > std::get<double>(box[axis + 3].data))
+            wrong.push_back(std::string("'box' ends before it begins along ") + "xyz"[axis]);
+    if (!scene || material.empty()) return wrong;
+    const auto names = names_of(*scene);
+    if (std::find(names.begin(), names.end(), material) == names.end())
+        wrong.push_back("no shape has a material called '" + material + "'" + suggest(material, names));
+    return wrong;
+}
+
 }  // namespace
 
 Kind select_kind() {
@@ -74,6 +95,7 @@ Kind select_kind() {
         .least_inputs = 1,
         .most_inputs = 1,
         .linear = true,
+        .mistakes = mistakes,
         .partial = true,
         .params = {{.name = "material",
                     .type = ParamType::text,
@@ -83,7 +105,8 @@ Kind select_kind() {
                     .type = ParamType::numbers,
                     .help = "lower x, y, z and upper x, y, z; empty: anywhere",
                     .unit = "m",
-                    .initial = Value{Table{}}},
+                    .initial = Value{Table{}},
+                    .count = 6},
                    {.name = "except",
                     .type = ParamType::flag,
                     .help = "all other surfaces instead",

@@ -37,6 +37,7 @@ RunRequest request_of(const Options& options, const Registry& registry, Loaded l
     request.graph = std::move(loaded.graph);
     request.hosts = std::move(loaded.hosts);
     request.seed = options.seed;
+    request.preview = options.preview;
     request.progress = options.progress;
     request.listen = options.listen;
     request.tuning = options.tuning;
@@ -93,7 +94,7 @@ int Launcher::perform(const Options& options) const {
         case Verb::render:
             return perform_render(options);
         case Verb::scene_info:
-            print_scene_info(options.scene, out);
+            print_scene_info(options.scene, options.constants, out);
             return exit_code::done;
         case Verb::check:
             return perform_check(options);
@@ -115,8 +116,11 @@ int Launcher::perform_run(const Options& options) const {
 
 int Launcher::perform_render(Options options) const {
     auto read = std::make_shared<ReadScene>();
-    read->scene = read_scene(read->files, options.scene);
+    const bool own_graph = !options.lighting.ends_with(".lua");  // else the constants are the graph's
+    read->scene =
+        read_scene(read->files, options.scene, own_graph ? options.constants : std::map<std::string, std::string>{});
     if (!options.size) options.size = PictureSize{read->scene.film.width, read->scene.film.height};
+    if (!options.crop) options.crop = crop_in_pixels(read->scene.film.crop, *options.size);
     if (options.output.empty()) options.output = picture_of(options.scene);
     Loaded loaded = load_render(options, registry);
     warn(loaded.warnings, err);
@@ -133,7 +137,9 @@ int Launcher::perform_check(const Options& options) const {
     for (const auto& note : loaded.notes) err << "note: " << to_string(note) << '\n';
     const auto format = film_of(loaded.graph, registry);
     out << options.graph << ": sound: " << loaded.graph.nodes.size() << " nodes, " << format.width << "x"
-        << format.height << ", layers";
+        << format.height;
+    if (const auto& crop = format.crop) out << " (" << crop->width << "x" << crop->height << " of it)";
+    out << ", layers";
     for (const auto& layer : layers_of(loaded.graph, registry).film) out << ' ' << layer;
     out << '\n';
     return exit_code::done;

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <sstream>
 
@@ -32,6 +33,19 @@ std::optional<PictureSize> size_of(std::string_view text) {
     const auto width = side_of(text.substr(0, cross)), height = side_of(text.substr(cross + 1));
     if (!width || !height) return std::nullopt;
     return PictureSize{*width, *height};
+}
+
+std::optional<PictureCrop> crop_of(std::string_view text) {
+    std::array<std::uint32_t, 4> edges{};
+    const char* at = text.begin();
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        if (i > 0 && (at == text.end() || *at++ != ',')) return std::nullopt;
+        const auto [end, fault] = std::from_chars(at, text.end(), edges[i]);
+        if (fault != std::errc{}) return std::nullopt;
+        at = end;
+    }
+    if (at != text.end()) return std::nullopt;
+    return PictureCrop{edges[0], edges[1], edges[2], edges[3]};
 }
 
 /// The grammar of the command line, and what it fills.
@@ -111,11 +125,11 @@ private:
         add_constants_option(verb);
     }
 
-    void add_constants_option(CLI::App& verb) {
+    void add_constants_option(CLI::App& verb,
+                              const char* help = "override a constant of the graph file (may be repeated)") {
         // one value each time, or it would take the graph's name as well
         verb.add_option_function<std::vector<std::string>>(
-                "-D", [this](const std::vector<std::string>& given) { add_constants(given); },
-                "override a constant of the graph file (may be repeated)")
+                "-D", [this](const std::vector<std::string>& given) { add_constants(given); }, help)
             ->type_name("NAME=VALUE")
             ->expected(1)
             ->allow_extra_args(false)
@@ -150,6 +164,13 @@ private:
                 "size of the picture, instead of the graph's")
             ->type_name("WxH")
             ->check([](const std::string& text) { return size_of(text) ? "" : "a size is like 640x480, not " + text; });
+        verb.add_option_function<std::string>(
+                "--crop", [this](const std::string& text) { options_.crop = crop_of(text); },
+                "only this part of the picture, instead of the graph's: edges in pixels, from the upper left corner")
+            ->type_name("X0,Y0,X1,Y1")
+            ->check([](const std::string& text) {
+                return crop_of(text) ? "" : "a crop is like 10,20,110,80 (left, top, right, bottom), not " + text;
+            });
     }
 
     void add_run() {
@@ -172,7 +193,7 @@ private:
             ->type_name("FILE|COLOUR");
         verb.add_option("--exposure", options_.exposure, "how many times the picture becomes twice as bright")
             ->type_name("STOPS");
-        add_constants_option(verb);
+        add_constants_option(verb, "define a variable of the scene file, or a constant of GRAPH.lua (may be repeated)");
         add_running(verb);
         verb.add_option("-o,--output", options_.output, "the picture, instead of the scene's name with .exr here")
             ->type_name("OUT.exr");
@@ -183,6 +204,7 @@ private:
         verb.require_subcommand(1);
         CLI::App& info = *verb.add_subcommand("info", "tell what is in a scene file, and what of it is not supported");
         info.add_option("FILE", options_.scene, "the scene file")->required();
+        add_constants_option(info, "define a variable of the scene file (may be repeated)");
     }
 
     // What all verbs that make a picture take.
@@ -199,6 +221,9 @@ private:
                 "how progress is shown")
             ->type_name("auto|bar|plain|json|none")
             ->check(CLI::IsMember({"auto", "bar", "plain", "json", "none"}));
+        verb.add_option("--preview", options_.preview, "write the picture so far from time to time")
+            ->type_name("SECONDS")
+            ->check(CLI::PositiveNumber);
         verb.add_flag("--resume", options_.resume, "go on from the checkpoint beside the picture, if there is one");
         verb.add_flag("--check-wrapped", options_.check_wrapped,
                       "ask wrapped classes some questions twice, to find those whose history changes answers");

@@ -21,6 +21,12 @@ struct PictureSize {
     friend bool operator==(const PictureSize&, const PictureSize&) = default;
 };
 
+/// Edges of what is wanted of a picture, pixels; the last column and row are excluded.
+struct PictureCrop {
+    std::uint32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+    friend bool operator==(const PictureCrop&, const PictureCrop&) = default;
+};
+
 /// The command line, taken apart. What wasn't given is absent.
 struct Options {
     Verb verb = Verb::run;
@@ -35,6 +41,8 @@ struct Options {
     std::string output;                          // file; "": as the graph says
     std::optional<std::uint32_t> samples;        // per pixel
     std::optional<PictureSize> size;
+    std::optional<PictureCrop> crop;
+    double preview = 0;  // seconds between two pictures of what is there; 0: none
     std::uint64_t seed = 0;
     std::map<std::string, std::string> constants;  // -D
     ProgressMode progress = ProgressMode::automatic;

@@ -13,6 +13,12 @@ void set_size(Value& film, const PictureSize& size) {
         table->list = {{static_cast<double>(size.width)}, {static_cast<double>(size.height)}};
 }
 
+void set_crop(Value& film, const PictureCrop& crop) {
+    if (auto* table = std::get_if<Table>(&film.data))
+        table->named["crop"] = {
+            Table{{{double(crop.x0)}, {double(crop.y0)}, {double(crop.x1)}, {double(crop.y1)}}, {}}};
+}
+
 }  // namespace
 
 void override_picture(Graph& graph, const Registry& registry, const Options& options) {
@@ -22,8 +28,10 @@ void override_picture(Graph& graph, const Registry& registry, const Options& opt
         for (const auto& param : kind->params) {
             if (options.samples && param.name == "samples")
                 node.params[param.name] = {static_cast<double>(*options.samples)};
-            if (options.size && param.type == ParamType::film)
-                set_size(node.params.try_emplace(param.name, Value{Table{}}).first->second, *options.size);
+            if (param.type != ParamType::film || !(options.size || options.crop)) continue;
+            Value& film = node.params.try_emplace(param.name, Value{Table{}}).first->second;
+            if (options.size) set_size(film, *options.size);
+            if (options.crop) set_crop(film, *options.crop);
         }
     }
 }

@@ -1,6 +1,8 @@
 #include "tools/render.hpp"
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -73,9 +75,12 @@ RenderGraph render_graph(const Options& options) {
         {"ao", {"AmbientOcclusion"}}, {"direct", {"DirectLighting"}}, {"path", {"DirectLighting", "PathTracing"}}};
     RenderGraph result;
     if (const auto kind = kinds.find(options.lighting); kind != kinds.end()) {
-        if (!options.constants.empty())
-            throw UserError({"-D", 0}, "only a graph file has constants: write --lighting GRAPH.lua");
         result.graph = own_graph(options, kind->second);
+        if (!options.constants.empty()) {
+            Table constants;
+            for (const auto& [name, value] : options.constants) constants.named[name] = {value};
+            result.graph.nodes.front().params["constants"] = {std::move(constants)};
+        }
     } else if (!options.lighting.ends_with(".lua")) {
         throw UserError({"--lighting", 0}, "must be path, direct, ao or a graph file (.lua), not '" + options.lighting +
                                                "'" + did_you_mean(options.lighting, {"path", "direct", "ao"}));
@@ -88,6 +93,17 @@ RenderGraph render_graph(const Options& options) {
     for (auto& node : result.graph.nodes)
         if (node.kind == "Scene") override_scene(node, options);
     return result;
+}
+
+std::optional<PictureCrop> crop_in_pixels(const std::array<float, 4>& crop, const PictureSize& size) {
+    const auto edge = [](float part, std::uint32_t side) {
+        return static_cast<std::uint32_t>(std::ceil(std::clamp(part, 0.0f, 1.0f) * static_cast<float>(side)));
+    };
+    const PictureCrop made{edge(crop[0], size.width), edge(crop[2], size.height), edge(crop[1], size.width),
+                           edge(crop[3], size.height)};
+    if (made.x0 >= made.x1 || made.y0 >= made.y1 || made == PictureCrop{0, 0, size.width, size.height})
+        return std::nullopt;
+    return made;
 }
 
 std::string picture_of(const std::string& scene) { return std::filesystem::path(scene).stem().string() + ".exr"; }

@@ -83,6 +83,10 @@ RunReport first_page(const RunRequest& request, const Registry& registry, const 
     report.versions["lightnet"] = build_id();
     report.settings["samples"] = std::to_string(film.samples);
     report.settings["size"] = fmt::format("{}x{}", film.width, film.height);
+    if (const auto& crop = film.crop)
+        report.settings["crop"] =
+            fmt::format("{},{},{},{}", crop->x, crop->y, crop->x + crop->width, crop->y + crop->height);
+    if (film.adaptive()) report.settings["error"] = fmt::format("{}", film.refinement.error);
     report.settings["seed"] = std::to_string(request.seed);
     report.settings["tile"] = std::to_string(request.tuning.tile);
     report.settings["bundle"] = std::to_string(request.tuning.bundle);
@@ -100,8 +104,9 @@ public:
           signals_(watch_signals()),
           image_(renderer_of(request.graph, registry)),
           format_(format()),
-          tiles_(tiles_of(format_.width, format_.height, request.tuning.tile, format_.samples)),
-          book_(format_, request.progress, tiles_.size(), first_page(request, registry, format_)) {}
+          tiles_(tiles_of(format_, request.tuning.tile)),
+          book_(format_, request.progress, tiles_of(format_.work(), request.tuning.tile, format_.samples).size(),
+                first_page(request, registry, format_)) {}
 
     int perform();
 
@@ -137,9 +142,18 @@ private:
 
 FilmFormat Run::format() const {
     const auto film = film_of(request_.graph, registry_);
-    const auto& samples = request_.graph.nodes[image_].params.at("samples");
-    return {film.width, film.height, layers_of(request_.graph, registry_).film,
-            static_cast<std::uint32_t>(std::get<double>(samples.data))};
+    const auto& params = request_.graph.nodes[image_].params;
+    // Renderers other than our own may have no cells.
+    const auto number = [&](const char* name) {
+        const auto param = params.find(name);
+        return param == params.end() ? 0 : std::get<double>(param->second.data);
+    };
+    return {film.width,
+            film.height,
+            layers_of(request_.graph, registry_).film,
+            static_cast<std::uint32_t>(number("samples")),
+            film.crop,
+            {static_cast<float>(number("error")), static_cast<std::uint32_t>(number("least_samples"))}};
 }
 
 Job Run::make_job(DiskFiles& files) const {
@@ -168,6 +182,7 @@ std::map<std::string, std::string> Run::recipe() const {
             {"seed", std::to_string(job_.seed)},
             {"size", fmt::format("{}x{}", format_.width, format_.height)},
             {"samples", std::to_string(format_.samples)},
+            {"error", fmt::format("{}", format_.refinement.error)},
             {"tile", std::to_string(request_.tuning.tile)},
             {"build", build_id()},
             {"arithmetic", std::to_string(fingerprint(job_.isa))}};
@@ -177,6 +192,8 @@ void Run::take_up_checkpoint() {
     book_.keep_checkpoint(request_.output, recipe(), std::chrono::seconds(request_.tuning.checkpoint));
     if (request_.resume) book_.take_up_checkpoint();
     book_.found(std::erase_if(tiles_, [this](const Tile& tile) { return book_.has(tile); }));
+    const auto more = book_.going_on();
+    tiles_.insert(tiles_.end(), more.begin(), more.end());
 }
 
 int Run::perform() {
@@ -185,12 +202,14 @@ int Run::perform() {
         book_.phase("load");
         const auto read = request_.read ? request_.read : std::make_shared<ReadScene>();
         DiskFiles& files = read->files;
-        if (!request_.read) read->scene = read_scene(files, request_.scene);
+        if (!request_.read) read->scene = read_scene(files, request_.scene, scene_constants(request_.graph, registry_));
         SceneData scene = std::move(read->scene);
         override_scene(request_.graph, registry_, files, scene);
         for (const auto& warning : scene.warnings) book_.warn(to_string(warning));
         const float scale = scene.film.scale;
         job_ = make_job(files);
+        book_.expose(scale);
+        if (request_.preview > 0) book_.preview(request_.output, request_.preview);
         take_up_checkpoint();
         if (request_.mode == Mode::serial)
             render_serially(std::move(scene));
@@ -201,11 +220,14 @@ int Run::perform() {
         if (stopped()) {
             const bool kept = book_.save_checkpoint();
             book_.write_report(request_.output, "cancelled");
-            std::cerr << "cancelled; no picture was written" << (kept ? "; --resume goes on from here" : "") << '\n';
+            std::cerr << (book_.previewed() ? "cancelled; the picture is a preview"
+                                            : "cancelled; no picture was written")
+                      << (kept ? "; --resume goes on from here" : "") << '\n';
             return exit_code::interrupted;
         }
         book_.phase("write");
-        book_.write_picture(request_.output, scale);
+        book_.name_not_finite(job_.graph);
+        book_.write_picture(request_.output);
         book_.remove_checkpoint();
         book_.write_report(request_.output, "done");
         return exit_code::done;
@@ -241,9 +263,10 @@ void Run::render_serially(SceneData scene) {
     try {
         run.prepare(made_from(job_), cache(), [this](const std::string& text) { book_.say(text); });
         book_.phase("render");
-        for (const auto& tile : tiles_) {
-            if (stopped()) break;
-            book_.take(tile, run.render(tile));
+        for (std::size_t next = 0; next < tiles_.size() && !stopped(); ++next) {
+            const Tile tile = tiles_[next];
+            const auto more = book_.take(tile, run.render(tile));
+            tiles_.insert(tiles_.end(), more.begin(), more.end());
         }
     } catch (const Cancelled&) {
     }
@@ -315,8 +338,11 @@ void Run::hand_out(Carrier& carrier, const Plan& plan, const LookAround& look_ar
     job.tiles = tiles_;
     const auto tiles = tiles_per_place(plan);
     job.credit = {tiles, tiles};
-    MasterRenderer master(std::move(job), conductor,
-                          [this](const Tile& tile, std::span<const Rgb> pixels) { book_.take(tile, pixels); });
+    MasterRenderer* more = nullptr;
+    MasterRenderer master(std::move(job), conductor, [this, &more](const Tile& tile, std::span<const Rgb> pixels) {
+        more->append(book_.take(tile, pixels));
+    });
+    more = &master;
     master.use(conductor.in_force());
     while (!stopped() && !master.work(50ms)) look_around(master.renderers());
     if (signals_.terminated) {

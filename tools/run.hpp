@@ -59,6 +59,7 @@ struct RunRequest {
     std::shared_ptr<ReadScene> read;  // it, read already; the run takes it away. None: still to be read
     std::string output;               // "x.exr", as seen from here
     std::uint64_t seed = 0;
+    double preview = 0;          // seconds between two pictures of what is there; 0: none
     bool check_wrapped = false;  // ask wrapped classes twice, to find those with a memory
     ProgressMode progress = ProgressMode::automatic;
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/film/checkpoint.hpp"
@@ -25,6 +26,7 @@ std::filesystem::path next_to(const std::string& exr, const std::string& name) {
 RunBook::RunBook(FilmFormat format, ProgressMode progress, std::uint64_t tiles, RunReport report)
     : film_(std::move(format)),
       report_(std::move(report)),
+      all_tiles_(tiles),
       progress_(tiles, Progress::style_of_stderr(progress), std::cerr, Clock::now()) {}
 
 void RunBook::end_phase(Clock::time_point now) {
@@ -45,11 +47,56 @@ void RunBook::warn(const std::string& text) {
     progress_.say("warning: " + text);
 }
 
-void RunBook::take(const Tile& tile, std::span<const Rgb> pixels) {
-    film_.add(tile, pixels) ? ++tiles_ : ++repeated_;
+void RunBook::expose(float scale) {
+    scale_ = scale;
+    film_.expose(scale);
+}
+
+void RunBook::preview(const std::string& exr, double seconds) {
+    const std::chrono::duration<double> period(seconds);
+    preview_ = Preview{exr, period, Clock::now() + std::chrono::ceil<Clock::duration>(period)};
+}
+
+std::vector<Tile> RunBook::take(const Tile& tile, std::span<const Rgb> pixels) {
+    const bool added = film_.add(tile, pixels);
+    added ? ++tiles_ : ++repeated_;
+    // Tiles differ in size where cells decide.
+    const bool differ = film_.format().adaptive();
+    progress_.update(differ ? static_cast<std::uint64_t>(film_.done() * double(all_tiles_)) : tiles_, Clock::now());
     const auto now = Clock::now();
-    progress_.update(tiles_, now);
+    if (preview_ && now >= preview_->next && !film_.complete()) write_preview();
     if (keeping_ && now >= keeping_->next) save_in_background(now);
+    return added ? film_.more(tile) : std::vector<Tile>{};
+}
+
+// A preview that can't be written is no reason to lose the picture.
+void RunBook::write_preview() {
+    const auto begun = Clock::now();
+    try {
+        write_files(preview_->exr);
+        previewed_ = true;
+        RunReport report = report_;
+        report.outcome = "preview";
+        report.settings["done"] = fmt::format("{:.4f}", film_.done());
+        report.settings["mean_samples"] = fmt::format("{:.2f}", film_.mean_samples());
+        lightnet::write_report(beside(preview_->exr, "run.json"), report);
+        if (!std::exchange(preview_->said, true)) say(preview_->exr + " shows the picture so far");
+    } catch (const Error& error) {
+        warn(std::string("no preview: ") + error.what());
+    }
+    // Writing takes at most a tenth of the time, however large the picture.
+    const auto now = Clock::now();
+    preview_->next =
+        now + std::max<Clock::duration>(std::chrono::ceil<Clock::duration>(preview_->period), 9 * (now - begun));
+}
+
+void RunBook::write_files(const std::string& exr) {
+    const auto picture = film_.picture(scale_);
+    const auto png = std::filesystem::path(exr).replace_extension(".png");
+    write_exr(exr, picture);
+    write_png(png, picture);
+    report_.outputs = {exr, png.string()};
+    report_.settings["tone of the PNG"] = std::string(png_tone);
 }
 
 void RunBook::keep_checkpoint(const std::string& exr, std::map<std::string, std::string> recipe,
@@ -119,6 +166,19 @@ void RunBook::use(const HostState& host) {
                              machine.cores, machine.memory, host.places});
 }
 
+void RunBook::name_not_finite(const Graph& graph) {
+    const auto& counts = counters_.not_finite;
+    for (std::size_t node = 0; node < graph.nodes.size(); ++node) {
+        const auto count = counts.find(graph.nodes[node].name);
+        const auto inputs = graph.inputs_of(node);
+        const bool passed_on = std::any_of(inputs.begin(), inputs.end(),
+                                           [&](std::size_t input) { return counts.contains(graph.nodes[input].name); });
+        if (count != counts.end() && !passed_on)
+            warn(fmt::format("{} '{}' gave {} answers that are not finite", graph.nodes[node].kind,
+                             graph.nodes[node].name, count->second));
+    }
+}
+
 void RunBook::use(const Plan& plan, const Graph& graph) {
     report_.places.clear();
     for (std::uint32_t place = 0; place < plan.places.size(); ++place) {
@@ -130,17 +190,14 @@ void RunBook::use(const Plan& plan, const Graph& graph) {
     }
 }
 
-void RunBook::write_picture(const std::string& exr, float scale) {
-    const auto picture = film_.picture(scale);
+void RunBook::write_picture(const std::string& exr) {
     for (std::size_t layer = 0; layer < film_.lost().size(); ++layer)
         if (const auto lost = film_.lost()[layer])
             warn(fmt::format("{} colours of layer '{}' were not finite and count as black", lost,
                              film_.format().layers[layer]));
-    const auto png = std::filesystem::path(exr).replace_extension(".png");
-    write_exr(exr, picture);
-    write_png(png, picture);
-    report_.outputs = {exr, png.string()};
-    report_.settings["tone of the PNG"] = std::string(png_tone);
+    write_files(exr);
+    previewed_ = false;
+    if (film_.format().adaptive()) report_.settings["mean_samples"] = fmt::format("{:.2f}", film_.mean_samples());
 }
 
 void RunBook::write_report(const std::string& exr, const std::string& outcome) {

@@ -23,19 +23,28 @@ namespace lightnet {
 /// One thread's. Tiles come in, files go out.
 class RunBook {
 public:
+    /// `tiles`: how many there are if all pixels get all samples.
     RunBook(FilmFormat format, ProgressMode progress, std::uint64_t tiles, RunReport report);
 
     /// Another part of the run begins; the one before has ended.
     void phase(const std::string& name);
     void say(const std::string& text) { progress_.say(text); }
     void warn(const std::string& text);
-    /// Pixels of a tile.
-    void take(const Tile& tile, std::span<const Rgb> pixels);
+    /// What the scene's film makes of radiance. Before the first tile.
+    void expose(float scale);
+    /// From now on, writes what is there every so many seconds.
+    void preview(const std::string& exr, double seconds);
+    /// A preview was written, and no picture since.
+    bool previewed() const { return previewed_; }
+    /// Pixels of a tile. Returns the tiles that are wanted now, beside those that are wanted anyhow.
+    std::vector<Tile> take(const Tile& tile, std::span<const Rgb> pixels);
     /// Who holds what, from now on.
     void use(const Plan& plan, const Graph& graph);
     /// A line of run.json's settings.
     void set(const std::string& name, const std::string& value) { report_.settings[name] = value; }
     void count(const Counters& counters) { counters_ += counters; }
+    /// Warns of the nodes that made what is not finite: those that answered so, while none that they ask did.
+    void name_not_finite(const Graph& graph);
     /// Who took part.
     void use(const HostState& host);
 
@@ -47,24 +56,37 @@ public:
     void take_up_checkpoint();
     /// Is this block there already?
     bool has(const Tile& tile) const { return film_.has(tile); }
+    /// What else is wanted, of cells that need more.
+    std::vector<Tile> going_on() const { return film_.going_on(); }
     /// So many tiles were there already.
     void found(std::uint64_t tiles);
     /// Saves what is there now; false: nothing was worth it.
     bool save_checkpoint();
     void remove_checkpoint();
 
-    /// Writes x.exr, x.png and run.json beside them, each whole or not at all. `scale` is what the scene's film makes
-    /// of radiance. Says what was written.
-    void write_picture(const std::string& exr, float scale);
+    /// Writes x.exr, x.png and run.json beside them, each whole or not at all. Says what was written.
+    void write_picture(const std::string& exr);
     /// Writes run.json beside `exr`.
     void write_report(const std::string& exr, const std::string& outcome);
 
 private:
+    struct Preview {
+        std::string exr;
+        std::chrono::duration<double> period;
+        std::chrono::steady_clock::time_point next;
+        bool said = false;
+    };
+    void write_files(const std::string& exr);
+    void write_preview();
     void end_phase(std::chrono::steady_clock::time_point now);
     void save_in_background(std::chrono::steady_clock::time_point now);
 
     Film film_;
+    float scale_ = 1;
+    std::optional<Preview> preview_;
+    bool previewed_ = false;
     RunReport report_;
+    std::uint64_t all_tiles_;
     Progress progress_;
     Counters counters_;
     std::uint64_t tiles_ = 0, repeated_ = 0;

@@ -72,13 +72,13 @@ void print(const SceneData& scene, const SceneStatistics& found, std::ostream& o
 
 }  // namespace
 
-void print_scene_info(const std::string& file, std::ostream& out) {
+void print_scene_info(const std::string& file, const std::map<std::string, std::string>& constants, std::ostream& out) {
     const auto begin = Clock::now();
     SceneData scene;
     std::uint64_t file_bytes = 0;
     {
         DiskFiles files;
-        scene = read_scene(files, file);
+        scene = read_scene(files, file, constants);
         for (const auto& [path, bytes] : files.seen()) file_bytes += bytes->size();
     }
     const double reading = seconds_since(begin);

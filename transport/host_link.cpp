@@ -178,9 +178,7 @@ void HostLink::control(Type type, const Fields& fields, Time now) {
                 lose(now, "it was told to stop");
             return;
         case Type::ended: {
-            Counters counters;
-            for (const auto& [name, count] : Counters::all) counters.*count = fields.number(name);
-            ended_ = counters;
+            ended_ = Counters::from(fields.numbers);
             if (state_ == State::leaving) {
                 send_end();
                 lose(now, "it was told to stop");

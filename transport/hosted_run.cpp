@@ -84,7 +84,10 @@ bool HostedRun::take_blob(const Hash& hash, std::uint64_t offset, std::string_vi
     }
     if (state_ == State::looking) return false;
     if (!missing_.contains(hash)) return true;
-    auto& blob = incoming_.try_emplace(hash, cache_.receive(hash)).first->second;
+    auto found = incoming_.find(hash);
+    // a second one for the same file would take its first chunks away
+    if (found == incoming_.end()) found = incoming_.emplace(hash, cache_.receive(hash)).first;
+    auto& blob = found->second;
     if (offset != blob.size()) return offset < blob.size();  // pieces come in order; some may come again
     if (bytes.size() > size_of(hash) - offset) throw Error("a file of the scene is longer than it was said to be");
     blob.add(std::as_bytes(std::span(bytes)));

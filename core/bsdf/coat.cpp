@@ -25,11 +25,25 @@ float rough_reflectance(const Ggx& facets, float eta, float cosine, int grid) {
     return float(sum / (grid * grid));
 }
 
+/// What absorption leaves of diffuse light on its way from the base to a smooth coat, where it is reflected, and back.
+/// That of rough coats differs little.
+float left_of_reflected(float eta, float thickness) {
+    constexpr int strips = 1024;
+    double all = 0, left = 0;
+    for (int i = 0; i < strips; ++i) {
+        const float cosine = (float(i) + 0.5f) / strips;
+        const double share = cosine * fresnel_dielectric(-cosine, eta);
+        all += share;
+        left += share * std::exp(-2 * thickness / cosine);
+    }
+    return float(left / all);
+}
+
 }  // namespace
 
-Coat::Coat(float eta, const Ggx& facets) : eta_(eta), rows_{row_of(facets)} {}
+Coat::Coat(float eta, const Ggx& facets, Layer layer) : eta_(eta), layer_(layer), rows_{row_of(facets)} {}
 
-Coat::Coat(float eta) : eta_(eta) {
+Coat::Coat(float eta, Layer layer) : eta_(eta), layer_(layer) {
     for (std::size_t i = 0; i < roughnesses; ++i) {
         const float root = float(i) / (roughnesses - 1), alpha = root * root;
         rows_.push_back(row_of({alpha, alpha}));
@@ -50,6 +64,7 @@ Coat::Row Coat::row_of(const Ggx& facets) const {
         outer += 2 * cosine * (smooth ? fresnel_dielectric(cosine, eta_) : row.at(cosine)) / strips;
     }
     row.inner = float(1 - (1 - outer) / (double{eta_} * eta_));  // radiance squeezed into a smaller cone below
+    if (layer_.thickness > 0) row.inner *= left_of_reflected(eta_, layer_.thickness);
     return row;
 }
 
@@ -73,6 +88,17 @@ float Coat::reflectance(const Ggx& facets, float cosine) const {
     const auto [low, share] = between(facets);
     const float first = rows_[low].at(cosine);
     return share == 0 ? first : first * (1 - share) + rows_[low + 1].at(cosine) * share;
+}
+
+float Coat::left_within(float cosine) const {
+    if (layer_.thickness == 0) return 1;
+    const float inside2 = 1 - (1 - cosine * cosine) / (eta_ * eta_);
+    return inside2 > 0 ? std::exp(-layer_.thickness / std::sqrt(inside2)) : 0;
+}
+
+float Coat::series(float reflectance, float back) const {
+    const float sum = reflectance / (1 - back);
+    return layer_.bounces ? sum * (1 - std::pow(back, float(layer_.bounces))) : sum;
 }
 
 float Coat::inner_reflectance(const Ggx& facets) const {

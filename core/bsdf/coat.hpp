@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "core/bsdf/ggx.hpp"
@@ -12,16 +13,28 @@ namespace lightnet {
 /// How much light coats of one index reflect, by roughness and angle. Made once per material; any thread may ask.
 class Coat {
 public:
+    /// What becomes of light within: exp(-thickness) of what goes straight through is left, and of ways that meet the
+    /// base more than `bounces` times nothing (0: of any number). Clear and complete, if nothing else is said.
+    struct Layer {
+        float thickness = 0;
+        std::uint32_t bounces = 0;
+    };
     /// Of one roughness.
-    Coat(float eta, const Ggx& facets);
+    Coat(float eta, const Ggx& facets, Layer layer);
+    Coat(float eta, const Ggx& facets) : Coat(eta, facets, Layer{}) {}
     /// Of any roughness (the same along both tangents), for those that change over a surface.
-    explicit Coat(float eta);
+    Coat(float eta, Layer layer);
+    explicit Coat(float eta) : Coat(eta, Layer{}) {}
 
     float eta() const { return eta_; }
     /// Share of light from direction `cosine` that the coat itself reflects.
     float reflectance(const Ggx& facets, float cosine) const;
-    /// Share of diffuse light from below that the coat sends back down.
+    /// Share of diffuse light from the base that the coat sends back down to it.
     float inner_reflectance(const Ggx& facets) const;
+    /// Share of light that is left on the way from the coat's surface to the base; `cosine` above the coat.
+    float left_within(float cosine) const;
+    /// All ways off a base of that reflectance, of which the coat sends `back` that share each time.
+    float series(float reflectance, float back) const;
 
 private:
     static constexpr std::size_t steps = 64;
@@ -39,6 +52,7 @@ private:
     Between between(const Ggx& facets) const;
 
     float eta_;
+    Layer layer_;
     std::vector<Row> rows_;  // one, or by the square root of α
 };
 

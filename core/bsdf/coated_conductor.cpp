@@ -32,11 +32,12 @@ std::optional<Vec3> CoatedConductorBsdf::outwards(Vec3 w) const {
 }
 
 // What both layers let through and reflect, for light that is neither coat's nor metal's alone. The smaller of the two
-// reflectances makes the series symmetric, and never gives more than was let in.
-Rgb CoatedConductorBsdf::through(float cosine, float reflected_o, float reflected_i) const {
+// reflectances makes the series symmetric, and never gives more than was let in. `left` by absorption, down and up.
+Rgb CoatedConductorBsdf::through(float cosine, float reflected_o, float reflected_i, float left) const {
     const Rgb below = metal.tint * fresnel_conductor(cosine, metal.eta, metal.k);
-    const float again = std::min(reflected_o, reflected_i), passes = (1 - reflected_o) * (1 - reflected_i);
-    const auto series = [&](float r) { return passes * r / (1 - r * again); };
+    const float again = std::min(reflected_o, reflected_i) * left,
+                passes = (1 - reflected_o) * (1 - reflected_i) * left;
+    const auto series = [&](float r) { return passes * coat->series(r, r * again); };
     return {series(below.r), series(below.g), series(below.b)};
 }
 
@@ -45,7 +46,7 @@ float CoatedConductorBsdf::coat_chance(Vec3 outgoing, std::uint8_t lobes) const 
     if (!(lobes & metal.lobes())) return 1;
     if (!(lobes & own)) return 0;
     const float top = coat->reflectance(facets, outgoing.z);
-    const float below = max_component(through(inwards(outgoing).z, top, top));
+    const float below = max_component(through(inwards(outgoing).z, top, top, 1));
     return top > 0 ? top / (top + below) : 0;
 }
 
@@ -57,7 +58,8 @@ BsdfValue CoatedConductorBsdf::metal_value(Vec3 outgoing, Vec3 incoming) const {
     const float spread = incoming.z / (i.z * coat->eta() * coat->eta());
     const float reflected_o = coat->reflectance(facets, outgoing.z),
                 reflected_i = coat->reflectance(facets, incoming.z);
-    return {through(cosine, reflected_o, reflected_i) * (value * spread), pdf * spread};
+    const float left = coat->left_within(outgoing.z) * coat->left_within(incoming.z);
+    return {through(cosine, reflected_o, reflected_i, left) * (value * spread), pdf * spread};
 }
 
 BsdfValue CoatedConductorBsdf::evaluate(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const {
@@ -89,7 +91,8 @@ std::optional<BsdfSample> CoatedConductorBsdf::sample(Vec3 outgoing, float choic
         return BsdfSample{mirrored, {weight, weight, weight}, 0, lobe::specular};
     }
     if (!top && metal.smooth()) {
-        const Rgb weight = through(inwards(outgoing).z, reflected, reflected) / (1 - chance);
+        const float left = coat->left_within(outgoing.z);
+        const Rgb weight = through(inwards(outgoing).z, reflected, reflected, left * left) / (1 - chance);
         return BsdfSample{mirrored, weight, 0, lobe::specular};
     }
     std::optional<Vec3> incoming;

@@ -28,7 +28,7 @@ struct CoatedConductorBsdf {
 
 private:
     float coat_chance(Vec3 outgoing, std::uint8_t lobes) const;
-    Rgb through(float cosine, float reflected_o, float reflected_i) const;
+    Rgb through(float cosine, float reflected_o, float reflected_i, float left) const;
     BsdfValue metal_value(Vec3 outgoing, Vec3 incoming) const;
     Vec3 inwards(Vec3 w) const;
     std::optional<Vec3> outwards(Vec3 w) const;

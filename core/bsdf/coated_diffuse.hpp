@@ -8,7 +8,8 @@ namespace lightnet {
 
 /// An approximation of what pbrt finds by random walks between the layers: light is reflected by the coat, or enters
 /// it, is scattered by the base, partly sent back down by the coat any number of times (a geometric series), and
-/// leaves. Neither thickness nor a medium in between. A white base under any coat reflects everything.
+/// leaves. A white base under any coat that absorbs nothing reflects everything. With a smooth coat the
+/// sum is exact.
 struct CoatedDiffuseBsdf {
     static constexpr bool two_sided = true;
     Rgb albedo;                  // of the base
@@ -25,7 +26,7 @@ struct CoatedDiffuseBsdf {
 
 private:
     float coat_chance(float reflectance, std::uint8_t lobes) const;
-    Rgb base_value(float reflectance, Vec3 incoming) const;
+    Rgb base_value(float reflectance, Vec3 outgoing, Vec3 incoming) const;
 };
 
 }  // namespace lightnet

@@ -17,7 +17,7 @@ namespace lightnet {
 namespace {
 
 // magic, size of the text, text (JSON), sums, blocks that wait, hash of all before it. Little-endian, as in memory.
-constexpr std::string_view magic = "lightnet checkpoint 1\n";
+constexpr std::string_view magic = "lightnet checkpoint 2\n";
 
 template <class T>
 std::string_view bytes_of(std::span<const T> values) {
@@ -54,7 +54,11 @@ std::string text_of(const Checkpoint& checkpoint) {
         for (const auto& [block, pixels] : part.waiting) waiting.push_back({block, pixels.size()});
         parts.push_back({part.x, part.y, part.width, part.height, part.next_block, std::move(waiting)});
     }
-    return nlohmann::json{{"of", checkpoint.of}, {"sums", film.sums.size()}, {"lost", film.lost}, {"parts", parts}}
+    return nlohmann::json{{"of", checkpoint.of},
+                          {"sums", film.sums.size()},
+                          {"spreads", film.spreads.size()},
+                          {"lost", film.lost},
+                          {"parts", parts}}
         .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
@@ -80,6 +84,10 @@ Checkpoint from_bytes(std::string_view bytes) {
     checkpoint.of = text.at("of");
     auto& film = checkpoint.film;
     film.sums = colours(reader, text.at("sums"));
+    const std::size_t spreads = text.at("spreads");
+    if (spreads > reader.left() / sizeof(FilmState::Spread)) throw Error("it is damaged");
+    film.spreads.resize(spreads);
+    reader.get(film.spreads.data(), spreads);
     film.lost = text.at("lost").get<std::vector<std::uint64_t>>();
     for (const auto& part : text.at("parts")) {
         auto& made = film.parts.emplace_back(FilmState::Part{part[0], part[1], part[2], part[3], part[4], {}});
@@ -99,7 +107,8 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint& check
     const std::string text = text_of(checkpoint);
     const std::uint64_t size = text.size();
     // From where it lies: a large film is not copied again.
-    std::vector<std::string_view> pieces{magic, bytes_of(std::span(&size, 1)), text, bytes_of(std::span(film.sums))};
+    std::vector<std::string_view> pieces{magic, bytes_of(std::span(&size, 1)), text, bytes_of(std::span(film.sums)),
+                                         bytes_of(std::span(film.spreads))};
     for (const auto& part : film.parts)
         for (const auto& [block, pixels] : part.waiting) pieces.push_back(bytes_of(std::span(pixels)));
     Hasher hasher;

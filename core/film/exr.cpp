@@ -1,6 +1,7 @@
 #include "core/film/exr.hpp"
 
 #include <ImfChannelList.h>
+#include <ImfFloatAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfIO.h>
@@ -20,6 +21,8 @@ namespace lightnet {
 namespace {
 
 constexpr const char* layers_attribute = "layers";
+constexpr const char* done_attribute = "done";
+constexpr const char* samples_channel = "samples";
 
 /// A file in memory, so that the disk sees one checked write and tests see the bytes.
 class Memory final : public Imf::OStream {
@@ -51,26 +54,36 @@ void for_channels(const std::string& layer, Plane& pixels, const Visit& visit) {
 }
 
 // OpenEXR takes one type of slice for reading and writing, hence the cast where it only reads.
-Imf::Slice slice(const float* first, const Imath::Box2i& window) {
-    return Imf::Slice::Make(Imf::FLOAT, const_cast<float*>(first), window, sizeof(Rgb),
-                            sizeof(Rgb) * static_cast<std::size_t>(window.max.x - window.min.x + 1));
+Imf::Slice slice(const float* first, const Imath::Box2i& window, std::size_t step = sizeof(Rgb)) {
+    return Imf::Slice::Make(Imf::FLOAT, const_cast<float*>(first), window, step,
+                            step * static_cast<std::size_t>(window.max.x - window.min.x + 1));
 }
 
 Imf::Header header_of(const Picture& picture) {
-    Imf::Header header(static_cast<int>(picture.width), static_cast<int>(picture.height));
+    const auto box = [](std::uint32_t x, std::uint32_t y, std::uint32_t width, std::uint32_t height) {
+        const auto left = static_cast<int>(x), top = static_cast<int>(y);
+        return Imath::Box2i({left, top}, {left + static_cast<int>(width) - 1, top + static_cast<int>(height) - 1});
+    };
+    const auto data = box(picture.x, picture.y, picture.width, picture.height);
+    Imf::Header header(picture.whole_width ? box(0, 0, picture.whole_width, picture.whole_height) : data, data);
     header.compression() = Imf::ZIP_COMPRESSION;
     header.lineOrder() = Imf::INCREASING_Y;
     Imf::StringVector names;
     for (const auto& layer : picture.layers) names.push_back(layer.name);
     if (!names.empty()) header.insert(layers_attribute, Imf::StringVectorAttribute(names));
+    if (picture.done < 1) header.insert(done_attribute, Imf::FloatAttribute(picture.done));
     return header;
+}
+
+std::size_t pixels_of(const Imath::Box2i& window) {
+    return static_cast<std::size_t>(window.max.x - window.min.x + 1) *
+           static_cast<std::size_t>(window.max.y - window.min.y + 1);
 }
 
 // One layer of an open file; none if it lacks a channel of it.
 std::vector<Rgb> read_layer(Imf::InputFile& file, const std::string& layer) {
     const auto window = file.header().dataWindow();
-    std::vector<Rgb> pixels(static_cast<std::size_t>(window.max.x - window.min.x + 1) *
-                            static_cast<std::size_t>(window.max.y - window.min.y + 1));
+    std::vector<Rgb> pixels(pixels_of(window));
     Imf::FrameBuffer buffer;
     for_channels(layer, pixels, [&](const std::string& name, const float* first) {
         if (!file.header().channels().findChannel(name)) throw Error(file.fileName(), "has no channel " + name);
@@ -79,6 +92,29 @@ std::vector<Rgb> read_layer(Imf::InputFile& file, const std::string& layer) {
     file.setFrameBuffer(buffer);
     file.readPixels(window.min.y, window.max.y);
     return pixels;
+}
+
+std::vector<float> read_samples(Imf::InputFile& file) {
+    if (!file.header().channels().findChannel(samples_channel)) return {};
+    const auto window = file.header().dataWindow();
+    std::vector<float> samples(pixels_of(window));
+    Imf::FrameBuffer buffer;
+    buffer.insert(samples_channel, slice(samples.data(), window, sizeof(float)));
+    file.setFrameBuffer(buffer);
+    file.readPixels(window.min.y, window.max.y);
+    return samples;
+}
+
+// Where the picture lies in a whole, as far as its file tells; files of other programs may lie outside of it.
+void read_place(const Imf::Header& header, Picture& picture) {
+    const auto data = header.dataWindow(), whole = header.displayWindow();
+    const bool inside = whole.min.x == 0 && whole.min.y == 0 && data.min.x >= 0 && data.min.y >= 0 &&
+                        data.max.x <= whole.max.x && data.max.y <= whole.max.y;
+    if (!inside || data == whole) return;
+    picture.x = static_cast<std::uint32_t>(data.min.x);
+    picture.y = static_cast<std::uint32_t>(data.min.y);
+    picture.whole_width = static_cast<std::uint32_t>(whole.max.x + 1);
+    picture.whole_height = static_cast<std::uint32_t>(whole.max.y + 1);
 }
 
 }  // namespace
@@ -92,6 +128,10 @@ std::string exr_of(const Picture& picture) {
     };
     for_channels("", picture.beauty, add_channel);
     for (const auto& layer : picture.layers) for_channels(layer.name, layer.pixels, add_channel);
+    if (!picture.samples.empty()) {
+        header.channels().insert(samples_channel, Imf::Channel(Imf::FLOAT));
+        buffer.insert(samples_channel, slice(picture.samples.data(), header.dataWindow(), sizeof(float)));
+    }
 
     Memory memory;
     {
@@ -113,6 +153,10 @@ Picture read_exr(const std::filesystem::path& path) try {
                     {}};
     if (const auto* names = file.header().findTypedAttribute<Imf::StringVectorAttribute>(layers_attribute))
         for (const auto& name : names->value()) picture.layers.push_back({name, read_layer(file, name)});
+    picture.samples = read_samples(file);
+    read_place(file.header(), picture);
+    if (const auto* done = file.header().findTypedAttribute<Imf::FloatAttribute>(done_attribute))
+        picture.done = done->value();
     return picture;
 } catch (const Error&) {
     throw;

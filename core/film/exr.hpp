@@ -9,14 +9,16 @@
 namespace lightnet {
 
 /// The bytes of an OpenEXR file of `picture`: one part; channels R, G, B are the beauty, `NAME.R`, `NAME.G`, `NAME.B`
-/// each layer; float32, ZIP. The attribute "layers" names the layers in the order in which they add up. The same
-/// picture gives the same bytes: nothing of when, where or by whom it was made is in them.
+/// each layer, `samples` (where their number differs) the samples of each pixel; float32, ZIP. The attribute "layers"
+/// names the layers in the order in which they add up. The display window is the whole picture, the data window what of
+/// it is there. A preview says how much of it is done in the attribute "done". The same picture gives the same bytes:
+/// nothing of when, where or by whom it was made is in them.
 std::string exr_of(const Picture& picture);
 
 /// Writes it, whole or not at all. Throws Error.
 void write_exr(const std::filesystem::path& path, const Picture& picture);
 
-/// Reads R, G, B (half or float) and, if the file names them in order, the layers. Throws Error.
+/// Reads R, G, B (half or float) and, if the file has them, the layers in their order and the samples. Throws Error.
 Picture read_exr(const std::filesystem::path& path);
 
 }  // namespace lightnet

@@ -3,75 +3,31 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
+#include <cmath>
+#include <numeric>
 #include <set>
 #include <utility>
 
 #include "core/error.hpp"
 
 namespace lightnet {
-namespace {
-
-struct Cell {
-    std::uint32_t x = 0, y = 0;
-};
-
-// The d-th cell of a Hilbert curve through a square of `side` (a power of two) cells.
-Cell hilbert(std::uint32_t side, std::uint64_t d) {
-    Cell cell;
-    for (std::uint32_t s = 1; s < side; s *= 2, d /= 4) {
-        const bool right = d & 2, up = (d ^ (d >> 1)) & 1;
-        if (!up) {
-            if (right) cell = {s - 1 - cell.x, s - 1 - cell.y};
-            std::swap(cell.x, cell.y);
-        }
-        cell.x += right ? s : 0;
-        cell.y += up ? s : 0;
-    }
-    return cell;
-}
-
-std::uint32_t blocks_in(std::uint32_t samples) { return (samples + samples_per_block - 1) / samples_per_block; }
-
-// Samples of block `block`; the last one may be short.
-std::uint32_t samples_of(std::uint32_t block, std::uint32_t samples) {
-    return std::min(samples_per_block, samples - block * samples_per_block);
-}
-
-}  // namespace
-
-std::vector<Tile> tiles_of(std::uint32_t width, std::uint32_t height, std::uint32_t tile_size, std::uint32_t samples) {
-    if (!width || !height || !tile_size) return {};
-    const std::uint32_t columns = (width - 1) / tile_size + 1, rows = (height - 1) / tile_size + 1;
-    const std::uint32_t side = std::bit_ceil(std::max(columns, rows));
-    std::vector<Tile> tiles;
-    tiles.reserve(std::size_t{columns} * rows * blocks_in(samples));
-    for (std::uint64_t d = 0; d < std::uint64_t{side} * side; ++d) {
-        const auto [column, row] = hilbert(side, d);
-        if (column >= columns || row >= rows) continue;
-        const std::uint32_t x = column * tile_size, y = row * tile_size;
-        tiles.push_back({x, y, std::min(tile_size, width - x), std::min(tile_size, height - y), 0, 0});
-    }
-    const std::size_t per_block = tiles.size();
-    if (blocks_in(samples) == 0) return {};
-    for (std::uint32_t block = 0; block < blocks_in(samples); ++block)
-        for (std::size_t i = 0; i < per_block; ++i) {
-            if (block > 0) tiles.push_back(tiles[i]);
-            Tile& tile = tiles[block * per_block + i];
-            tile.first_sample = block * samples_per_block;
-            tile.samples = samples_of(block, samples);
-        }
-    return tiles;
-}
-
-Film::Film(FilmFormat format) : format_(std::move(format)), blocks_(blocks_in(format_.samples)) {
+Film::Film(FilmFormat format)
+    : format_(std::move(format)), window_(format_.work()), blocks_(blocks_in(format_.samples)) {
     const auto& layers = format_.layers;
     if (!format_.width || !format_.height) throw Error("film", "a picture needs at least one pixel");
     if (!format_.samples) throw Error("film", "a picture needs at least one sample per pixel");
     if (layers.empty()) throw Error("film", "a picture needs at least one layer");
     if (std::set<std::string>(layers.begin(), layers.end()).size() != layers.size())
         throw Error("film", "two layers have the same name");
-    const std::size_t pixels = std::size_t{format_.width} * format_.height;
+    const auto lies_within = [](std::uint32_t from, std::uint32_t size, std::uint32_t side) {
+        return size > 0 && from < side && size <= side - from;
+    };
+    if (const auto& crop = format_.crop)
+        if (!lies_within(crop->x, crop->width, format_.width) || !lies_within(crop->y, crop->height, format_.height))
+            throw Error("film", "the crop is not inside of the picture");
+    const std::size_t pixels = window_.pixels();
+    all_ = std::uint64_t{blocks_} * pixels;
+    if (format_.adaptive()) spreads_.resize(pixels);
     sums_.resize(pixels * layers.size());
     block_of_.resize(pixels);
     taken_.resize(pixels);
@@ -80,27 +36,123 @@ Film::Film(FilmFormat format) : format_(std::move(format)), blocks_(blocks_in(fo
 
 bool Film::add(const Tile& tile, std::span<const Rgb> pixels) {
     expect_valid(tile, pixels.size());
+    if (!format_.adaptive()) return add_area(tile, pixels);
+    bool added = false;
+    std::vector<Rgb> piece;
+    const std::size_t layers = format_.layers.size();
+    for (const Tile& cell : cells_of(tile)) {
+        piece.clear();
+        for (std::uint32_t row = cell.y - tile.y; row < cell.y - tile.y + cell.height; ++row) {
+            const auto first =
+                pixels.begin() + std::ptrdiff_t((std::size_t{row} * tile.width + cell.x - tile.x) * layers);
+            piece.insert(piece.end(), first, first + std::ptrdiff_t(cell.width * layers));
+        }
+        added = add_area(cell, piece) || added;
+    }
+    return added;
+}
+
+bool Film::add_area(const Tile& tile, std::span<const Rgb> pixels) {
     auto& rectangle = rectangle_of(tile);
     const std::uint32_t block = tile.block();
-    if (block < rectangle.next_block || rectangle.waiting.contains(block)) return false;
+    if (rectangle.done || block < rectangle.next_block || rectangle.waiting.contains(block)) return false;
     if (block > rectangle.next_block) {
         rectangle.waiting.emplace(block, std::vector<Rgb>(pixels.begin(), pixels.end()));
         return true;
     }
-    fold(tile, pixels);
-    ++rectangle.next_block;
+    fold_next(rectangle, tile, pixels);
     for (auto next = rectangle.waiting.begin(); next != rectangle.waiting.end() && next->first == rectangle.next_block;
-         next = rectangle.waiting.erase(next)) {
-        fold(tile, next->second);
-        ++rectangle.next_block;
-    }
+         next = rectangle.waiting.erase(next))
+        fold_next(rectangle, tile, next->second);
     return true;
 }
 
+// The block after those that are in the sums.
+void Film::fold_next(Rectangle& rectangle, const Tile& tile, std::span<const Rgb> pixels) {
+    if (rectangle.done) return;
+    fold(tile, pixels);
+    ++rectangle.next_block;
+    end_if_enough(rectangle, tile);
+}
+
+void Film::end_if_enough(Rectangle& rectangle, const Tile& tile) {
+    const bool may_end = format_.adaptive() && rectangle.next_block >= blocks_in(format_.least_samples());
+    if (rectangle.next_block == blocks_ || (may_end && enough(tile))) {
+        rectangle.done = true;
+        spared_ += tile.pixels() * (blocks_ - rectangle.next_block);
+    }
+}
+
+std::vector<Tile> Film::cells_of(const Tile& tile) const {
+    std::vector<Tile> cells;
+    for (std::uint32_t y = tile.y; y < tile.y + tile.height; y += cell_size)
+        for (std::uint32_t x = tile.x; x < tile.x + tile.width; x += cell_size) {
+            Tile& cell = cells.emplace_back(tile);
+            cell.x = x, cell.width = std::min(cell_size, tile.x + tile.width - x);
+            cell.y = y, cell.height = std::min(cell_size, tile.y + tile.height - y);
+        }
+    return cells;
+}
+
+// The block that a cell goes on with, beyond those that every pixel gets and that are handed out anyhow.
+std::optional<Tile> Film::next_of(const Tile& place) const {
+    const auto known = rectangles_.find({place.x, place.y, place.width, place.height});
+    if (known == rectangles_.end() || known->second.done) return std::nullopt;
+    const std::uint32_t next = known->second.next_block;
+    if (next < blocks_in(format_.least_samples())) return std::nullopt;
+    return Tile{
+        place.x, place.y, place.width, place.height, next * samples_per_block, samples_of(next, format_.samples)};
+}
+
+std::vector<Tile> Film::going_on() const {
+    std::vector<Tile> wanted;
+    if (!format_.adaptive()) return wanted;
+    for (const auto& [area, rectangle] : rectangles_) {
+        const auto& [x, y, width, height] = area;
+        if (const auto next = next_of({x, y, width, height})) wanted.push_back(*next);
+    }
+    return wanted;
+}
+
+std::vector<Tile> Film::more(const Tile& tile) const {
+    std::vector<Tile> wanted;
+    if (!format_.adaptive()) return wanted;
+    for (const Tile& place : cells_of(tile)) {
+        const auto next = next_of(place);
+        // A block that is not above this one was asked for when its turn came.
+        if (!next || next->block() <= tile.block()) continue;
+        const Tile& cell = *next;
+        // Neighbours of a row go together: fewer tiles for the same work.
+        if (!wanted.empty() && wanted.back().y == cell.y && wanted.back().first_sample == cell.first_sample &&
+            wanted.back().x + wanted.back().width == cell.x)
+            wanted.back().width += cell.width;
+        else
+            wanted.push_back(cell);
+    }
+    std::vector<Tile> merged;
+    for (const Tile& run : wanted) {
+        const auto above = std::find_if(merged.begin(), merged.end(), [&](const Tile& other) {
+            return other.x == run.x && other.width == run.width && other.y + other.height == run.y &&
+                   other.first_sample == run.first_sample;
+        });
+        if (above == merged.end())
+            merged.push_back(run);
+        else
+            above->height += run.height;
+    }
+    return merged;
+}
+
 bool Film::has(const Tile& tile) const {
+    if (!format_.adaptive()) return has_area(tile);
+    const auto cells = cells_of(tile);
+    return std::all_of(cells.begin(), cells.end(), [&](const Tile& cell) { return has_area(cell); });
+}
+
+bool Film::has_area(const Tile& tile) const {
     const auto known = rectangles_.find({tile.x, tile.y, tile.width, tile.height});
-    return known != rectangles_.end() &&
-           (tile.block() < known->second.next_block || known->second.waiting.contains(tile.block()));
+    return known != rectangles_.end() && (known->second.done || tile.block() < known->second.next_block ||
+                                          known->second.waiting.contains(tile.block()));
 }
 
 FilmState Film::state() const {
@@ -111,6 +163,7 @@ FilmState Film::state() const {
 
 void Film::state(FilmState& into) const {
     into.sums = sums_;
+    into.spreads = spreads_;
     into.lost = lost_;
     into.parts.clear();
     for (const auto& [area, rectangle] : rectangles_) {
@@ -121,7 +174,8 @@ void Film::state(FilmState& into) const {
 
 void Film::restore(FilmState state) {
     if (!rectangles_.empty()) throw Error("film", "only an empty film can take up another");
-    if (state.sums.size() != sums_.size() || state.lost.size() != lost_.size())
+    if (state.sums.size() != sums_.size() || state.spreads.size() != spreads_.size() ||
+        state.lost.size() != lost_.size())
         throw Error("film", "what is taken up is of another size");
     for (auto& part : state.parts) {
         Tile tile{part.x, part.y, part.width, part.height, 0, samples_of(0, format_.samples)};
@@ -138,17 +192,29 @@ void Film::restore(FilmState state) {
         }
         rectangle.waiting = std::move(part.waiting);
         for (std::uint32_t y = part.y; y < part.y + part.height; ++y)
-            for (std::uint32_t x = part.x; x < part.x + part.width; ++x)
-                block_of_[std::size_t{y} * format_.width + x] = part.next_block;
+            for (std::uint32_t x = part.x; x < part.x + part.width; ++x) block_of_[index(x, y)] = part.next_block;
         folded_ += tile.pixels() * part.next_block;
     }
     sums_ = std::move(state.sums);
+    spreads_ = std::move(state.spreads);
+    for (auto& [area, rectangle] : rectangles_) {
+        const auto& [x, y, width, height] = area;
+        end_if_enough(rectangle, {x, y, width, height});
+    }
     lost_ = std::move(state.lost);
 }
 
 void Film::expect_valid(const Tile& tile, std::size_t colours) const {
-    const bool inside = tile.width > 0 && tile.height > 0 && tile.x < format_.width && tile.y < format_.height &&
-                        tile.width <= format_.width - tile.x && tile.height <= format_.height - tile.y;
+    const auto within = [](std::uint32_t from, std::uint32_t size, std::uint32_t begin, std::uint32_t extent) {
+        return size > 0 && from >= begin && from - begin < extent && size <= extent - (from - begin);
+    };
+    const auto of_cells = [&](std::uint32_t from, std::uint32_t size, std::uint32_t end) {
+        return !format_.adaptive() || (from % cell_size == 0 && (size % cell_size == 0 || from + size == end));
+    };
+    const bool inside = within(tile.x, tile.width, window_.x, window_.width) &&
+                        within(tile.y, tile.height, window_.y, window_.height) &&
+                        of_cells(tile.x, tile.width, window_.x + window_.width) &&
+                        of_cells(tile.y, tile.height, window_.y + window_.height);
     const bool one_block = tile.first_sample % samples_per_block == 0 && tile.first_sample < format_.samples &&
                            tile.samples == samples_of(tile.block(), format_.samples);
     if (!inside || !one_block)
@@ -166,7 +232,7 @@ Film::Rectangle& Film::rectangle_of(const Tile& tile) {
     for (const bool claim : {false, true})
         for (std::uint32_t y = tile.y; y < tile.y + tile.height; ++y)
             for (std::uint32_t x = tile.x; x < tile.x + tile.width; ++x) {
-                auto&& pixel = taken_[std::size_t{y} * format_.width + x];
+                auto&& pixel = taken_[index(x, y)];
                 if (!claim && pixel) throw Error("film", fmt::format("two tiles overlap at pixel {},{}", x, y));
                 if (claim) pixel = true;
             }
@@ -176,32 +242,76 @@ Film::Rectangle& Film::rectangle_of(const Tile& tile) {
 void Film::fold(const Tile& tile, std::span<const Rgb> pixels) {
     const std::size_t layers = format_.layers.size();
     const Rgb* next = pixels.data();
+    std::vector<Rgb> sound(layers);
     for (std::uint32_t y = tile.y; y < tile.y + tile.height; ++y)
         for (std::uint32_t x = tile.x; x < tile.x + tile.width; ++x) {
-            const std::size_t pixel = std::size_t{y} * format_.width + x;
+            const std::size_t pixel = index(x, y);
             for (std::size_t k = 0; k < layers; ++k, ++next) {
+                sound[k] = finite(*next) ? *next : Rgb{};
                 if (finite(*next))
                     sums_[pixel * layers + k] += *next;
                 else
                     ++lost_[k];
             }
+            if (format_.adaptive()) note(pixel, sound, samples_of(block_of_[pixel], format_.samples));
             ++block_of_[pixel];
         }
     folded_ += tile.pixels();
 }
 
-double Film::done() const {
-    return static_cast<double>(folded_) / (static_cast<double>(blocks_) * format_.width * format_.height);
+void Film::note(std::size_t pixel, std::span<const Rgb> layers, std::uint32_t samples) {
+    const auto& [r, g, b] = std::accumulate(layers.begin(), layers.end(), Rgb{});
+    const double weight = double(scale_) / samples, block[3] = {r * weight, g * weight, b * weight};
+    Spread& spread = spreads_[pixel];
+    for (int c = 0; c < 3; ++c) {
+        const double step = block[c] - spread.mean[c];
+        spread.mean[c] += step / (block_of_[pixel] + 1);
+        spread.squares[c] += step * (block[c] - spread.mean[c]);
+    }
+}
+
+bool Film::enough(const Tile& cell) const {
+    double sum = 0;
+    for (std::uint32_t y = cell.y; y < cell.y + cell.height; ++y)
+        for (std::uint32_t x = cell.x; x < cell.x + cell.width; ++x) {
+            const auto& [mean, squares] = spreads_[index(x, y)];
+            const double blocks = block_of_[index(x, y)];
+            for (int c = 0; c < 3; ++c) sum += squares[c] / (blocks * (blocks - 1)) / (mean[c] * mean[c] + 0.01);
+        }
+    return sum <= double(format_.refinement.error) * format_.refinement.error * 3 * double(cell.pixels());
+}
+
+double Film::done() const { return static_cast<double>(folded_ + spared_) / static_cast<double>(all_); }
+
+double Film::mean_samples() const {
+    double sum = 0;
+    for (const auto blocks : block_of_) sum += std::min(blocks * samples_per_block, format_.samples);
+    return sum / static_cast<double>(block_of_.size());
 }
 
 Picture Film::picture(float scale) const {
-    const std::size_t pixels = block_of_.size(), layers = format_.layers.size();
-    Picture picture{format_.width, format_.height, {}, {}};
+    const Window wanted = format_.crop.value_or(window_);
+    const std::size_t pixels = wanted.pixels(), layers = format_.layers.size();
+    Picture picture{wanted.width, wanted.height, {}, {}};
+    if (format_.crop) {
+        picture.x = wanted.x, picture.y = wanted.y;
+        picture.whole_width = format_.width, picture.whole_height = format_.height;
+    }
+    picture.done = complete() ? 1 : std::min(float(done()), std::nextafter(1.0f, 0.0f));
+    // What was rendered and what is wanted differ where a crop cuts cells.
+    std::vector<std::size_t> from(pixels);
+    for (std::size_t i = 0; i < pixels; ++i)
+        from[i] = index(wanted.x + std::uint32_t(i % wanted.width), wanted.y + std::uint32_t(i / wanted.width));
+    const auto samples_of_pixel = [&](std::size_t i) {
+        return std::min(block_of_[from[i]] * samples_per_block, format_.samples);
+    };
+    if (format_.adaptive())
+        for (std::size_t i = 0; i < pixels; ++i) picture.samples.push_back(float(samples_of_pixel(i)));
     for (std::size_t k = 0; k < layers; ++k) {
         auto& layer = picture.layers.emplace_back(PictureLayer{format_.layers[k], std::vector<Rgb>(pixels)});
         for (std::size_t i = 0; i < pixels; ++i) {
-            const std::uint32_t samples = std::min(block_of_[i] * samples_per_block, format_.samples);
-            if (samples) layer.pixels[i] = sums_[i * layers + k] / static_cast<float>(samples) * scale;
+            const std::uint32_t samples = samples_of_pixel(i);
+            if (samples) layer.pixels[i] = sums_[from[i] * layers + k] / static_cast<float>(samples) * scale;
         }
     }
     picture.beauty = sum_of(picture.layers);

@@ -1,9 +1,11 @@
 // Where the picture grows: takes tiles in any order and gives the same bytes.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <tuple>
@@ -11,20 +13,55 @@
 
 #include "core/film/picture.hpp"
 #include "core/film/tile.hpp"
+#include "core/film/window.hpp"
 #include "core/math/rgb.hpp"
 
 namespace lightnet {
 
-/// The tiles of a picture in the order in which they are handed out: one block of samples of the whole picture after
-/// the other, and within a block along a Hilbert curve, so that neighbours in time are neighbours in the scene.
+inline std::uint32_t blocks_in(std::uint32_t samples) { return (samples + samples_per_block - 1) / samples_per_block; }
+/// Of block `block` of so many samples: the last one may be short.
+inline std::uint32_t samples_of(std::uint32_t block, std::uint32_t samples) {
+    return std::min(samples_per_block, samples - block * samples_per_block);
+}
+
+/// The tiles of a part of a picture in the order in which they are handed out: one block of samples of the whole
+/// picture after the other, and within a block along a Hilbert curve, so that neighbours in time are neighbours in the
+/// scene.
+std::vector<Tile> tiles_of(const Window& window, std::uint32_t tile_size, std::uint32_t samples);
+/// Of a whole picture.
 std::vector<Tile> tiles_of(std::uint32_t width, std::uint32_t height, std::uint32_t tile_size, std::uint32_t samples);
+
+/// Pixels get samples together with the others of their cell: the picture is cut into squares of this many pixels along
+/// a side, from its upper left corner. Fixed for ever, like samples_per_block.
+inline constexpr std::uint32_t cell_size = 8;
+
+/// When a cell has samples enough. Decided from its own blocks alone, in the order of their index.
+struct Refinement {
+    float error = 0;          // of a cell's pixels: see Film; 0: every pixel gets all samples
+    std::uint32_t least = 0;  // samples that every pixel gets; taken up to whole blocks, and at least two
+    friend bool operator==(const Refinement&, const Refinement&) = default;
+};
 
 /// What a film will hold.
 struct FilmFormat {
     std::uint32_t width = 0, height = 0;  // pixels
     std::vector<std::string> layers;      // names, in the order in which they add up; at least one, all different
-    std::uint32_t samples = 0;            // per pixel
+    std::uint32_t samples = 0;            // per pixel, at most
+    std::optional<Window> crop{};         // what is wanted of the picture; none: all of it
+    Refinement refinement{};
+
+    /// Samples differ from cell to cell.
+    bool adaptive() const { return refinement.error > 0; }
+    /// Samples that every pixel gets.
+    std::uint32_t least_samples() const;
+    /// What must be rendered: the crop, and where cells decide, all of each cell that it touches, so that a pixel is
+    /// the same in every crop.
+    Window work() const;
 };
+
+/// The tiles that such a film needs in any case. Where cells decide, tiles are of whole cells, and Film::more() gives
+/// the others.
+std::vector<Tile> tiles_of(const FilmFormat& format, std::uint32_t tile_size);
 
 /// What a film holds, to be kept and taken up again. A value.
 struct FilmState {
@@ -35,7 +72,13 @@ struct FilmState {
         std::map<std::uint32_t, std::vector<Rgb>> waiting;  // blocks that came before their turn
         friend bool operator==(const Part&, const Part&) = default;
     };
-    std::vector<Rgb> sums;  // pixel × layer
+    /// Of a pixel's blocks, per channel (Welford 1962).
+    struct Spread {
+        double mean[3] = {}, squares[3] = {};
+        friend bool operator==(const Spread&, const Spread&) = default;
+    };
+    std::vector<Rgb> sums;        // pixel × layer
+    std::vector<Spread> spreads;  // per pixel, where cells decide
     std::vector<std::uint64_t> lost;
     std::vector<Part> parts;
     friend bool operator==(const FilmState&, const FilmState&) = default;
@@ -44,6 +87,12 @@ struct FilmState {
 /// Adds up the blocks of samples of each pixel in the order of their index, whatever the order in which they arrive and
 /// however the picture was cut into tiles. Rectangles of one film are those of one tiling. Owned by whoever makes the
 /// picture; one thread.
+///
+/// With a refinement, a cell is done when sqrt(mean(v / (m² + 0.01))) over its pixels and channels is at most the
+/// error, or when it has all samples. m is the mean of a pixel's k blocks as the picture shows it, v = Σ(b - m)² / (k
+/// (k - 1)) the variance of that mean. Blocks of a scrambled sequence complete each other, so v is rather too large
+/// than too small; what no block has found (a caustic that is met once in a thousand samples) it can't know of, and as
+/// samples decide about their own number, pixels come out too dark by a part of their error.
 class Film {
 public:
     /// Throws Error on a format without pixels, samples or layers, or with two layers of one name.
@@ -53,6 +102,14 @@ public:
     /// that block already (the first one counts). Throws Error on a tile that is none of this film's.
     bool add(const Tile& tile, std::span<const Rgb> pixels);
 
+    /// What becomes of radiance in the picture, for errors as they are seen. Before the first tile.
+    void expose(float scale) { scale_ = scale; }
+    /// The tiles that are wanted now that `tile` was added: those cells of it that aren't done. None without
+    /// refinement.
+    std::vector<Tile> more(const Tile& tile) const;
+    /// The same for all that is there: what a film that was taken up goes on with, beside what tiles_of() gives.
+    std::vector<Tile> going_on() const;
+
     /// Is this block there already?
     bool has(const Tile& tile) const;
     FilmState state() const;
@@ -61,10 +118,12 @@ public:
     /// Takes up what another film of this format held. This one must be empty. Throws Error when it does not fit.
     void restore(FilmState state);
 
-    /// Every block of every pixel is there.
-    bool complete() const { return folded_ == std::uint64_t{blocks_} * format_.width * format_.height; }
+    /// Every block that is wanted of every pixel is there.
+    bool complete() const { return folded_ + spared_ == all_; }
     /// How much of it is there, 0 … 1.
     double done() const;
+    /// Samples per pixel so far, on average.
+    double mean_samples() const;
     /// Colours that were not finite and count as black, per layer.
     const std::vector<std::uint64_t>& lost() const { return lost_; }
     const FilmFormat& format() const { return format_; }
@@ -77,20 +136,36 @@ private:
     struct Rectangle {
         std::uint32_t next_block = 0;                       // the first one that is not in the sums
         std::map<std::uint32_t, std::vector<Rgb>> waiting;  // blocks that came before their turn
+        bool done = false;                                  // needs no further block
     };
+    using Spread = FilmState::Spread;
     using Area = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>;  // x, y, width, height
 
     void expect_valid(const Tile& tile, std::size_t colours) const;
+    bool has_area(const Tile& tile) const;
+    std::optional<Tile> next_of(const Tile& place) const;
+    void end_if_enough(Rectangle& rectangle, const Tile& tile);
+    bool add_area(const Tile& tile, std::span<const Rgb> pixels);
+    std::vector<Tile> cells_of(const Tile& tile) const;
     Rectangle& rectangle_of(const Tile& tile);
     void fold(const Tile& tile, std::span<const Rgb> pixels);
+    void fold_next(Rectangle& rectangle, const Tile& tile, std::span<const Rgb> pixels);
+    void note(std::size_t pixel, std::span<const Rgb> layers, std::uint32_t samples);
+    bool enough(const Tile& cell) const;
+    std::size_t index(std::uint32_t x, std::uint32_t y) const {
+        return std::size_t{y - window_.y} * window_.width + (x - window_.x);
+    }
 
     FilmFormat format_;
+    Window window_;
+    float scale_ = 1;
     std::uint32_t blocks_ = 0;
     std::vector<Rgb> sums_;                // pixel × layer
     std::vector<std::uint32_t> block_of_;  // per pixel: how many blocks are in its sums
+    std::vector<Spread> spreads_;          // per pixel, where cells decide
     std::vector<bool> taken_;              // per pixel: it lies in a rectangle that was seen
     std::map<Area, Rectangle> rectangles_;
-    std::uint64_t folded_ = 0;  // pixels × blocks in the sums
+    std::uint64_t folded_ = 0, spared_ = 0, all_ = 0;  // pixels × blocks: in the sums, not needed, at most
     std::vector<std::uint64_t> lost_;
 };
 

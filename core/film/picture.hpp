@@ -16,11 +16,15 @@ struct PictureLayer {
     friend bool operator==(const PictureLayer&, const PictureLayer&) = default;
 };
 
-/// A picture and what it is the sum of. Linear RGB with the primaries of BT.709.
+/// A picture and what it is the sum of. Linear RGB with the primaries of BT.709. May be cut out of a larger one.
 struct Picture {
-    std::uint32_t width = 0, height = 0;
-    std::vector<Rgb> beauty;           // row by row, row 0 on top
-    std::vector<PictureLayer> layers;  // in the order in which they add up to the beauty; may be empty
+    std::uint32_t width = 0, height = 0;              // of what is there
+    std::vector<Rgb> beauty;                          // row by row, row 0 on top
+    std::vector<PictureLayer> layers;                 // in the order in which they add up to the beauty; may be empty
+    std::uint32_t x = 0, y = 0;                       // of its upper left pixel, in the whole picture
+    std::uint32_t whole_width = 0, whole_height = 0;  // 0: this is the whole picture
+    std::vector<float> samples{};                     // per pixel; empty: the same number everywhere
+    float done = 1;                                   // how much of the work is in it; below 1: a preview
     friend bool operator==(const Picture&, const Picture&) = default;
 };
 

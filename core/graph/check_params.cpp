@@ -131,7 +131,8 @@ private:
         if (!table->named.empty()) complain_(quoted(param_.name) + " must be a table of numbers without keys");
         for (std::size_t i = 0; i < table->list.size(); ++i)
             number(table->list[i], "entry " + std::to_string(i + 1) + " of " + quoted(param_.name), false);
-        if (param_.count && table->list.size() != param_.count)
+        const bool as_default = param_.initial && value == *param_.initial;
+        if (param_.count && table->list.size() != param_.count && !as_default)
             complain_(quoted(param_.name) + " must have " + std::to_string(param_.count) + " numbers, not " +
                       std::to_string(table->list.size()));
         if (param_.per_input && !table->list.empty() && table->list.size() != node_.entries.size())
@@ -144,6 +145,12 @@ private:
         if (!given) return;
         if (!given->list.empty()) complain_(quoted(param_.name) + " must be " + std::string(wanted(param_.type)));
         const Complain inside = [&](const std::string& what) { complain_(quoted(param_.name) + ": " + what); };
+        if (param_.fields.empty()) {
+            for (const auto& [name, entry] : given->named)
+                if (std::holds_alternative<Table>(entry.data) || std::holds_alternative<NodeRef>(entry.data))
+                    inside(quoted(name) + " must be a number, a text or a flag, not " + std::string(type_name(entry)));
+            return;
+        }
         std::vector<std::string> names;
         for (const auto& field : param_.fields) names.push_back(field.name);
         for (const auto& [name, entry] : given->named) {
@@ -180,11 +187,34 @@ private:
                           std::to_string(longest_side) + " pixels");
         }
         for (const auto& [name, entry] : table->named) {
-            if (name != "file")
-                complain_(quoted(param_.name) + " has an unknown entry " + quoted(name) + suggest(name, {"file"}));
+            if (name == "crop")
+                crop(entry, table->list);
+            else if (name != "file")
+                complain_(quoted(param_.name) + " has an unknown entry " + quoted(name) +
+                          suggest(name, {"file", "crop"}));
             else if (!std::holds_alternative<std::string>(entry.data))
                 complain_("'file' of " + quoted(param_.name) + " must be a text, not " + std::string(type_name(entry)));
         }
+    }
+
+    // Edges in pixels of the whole picture, the last column and row excluded. Sides that are wrong were said.
+    void crop(const Value& value, const List& sides) const {
+        const auto* given = std::get_if<Table>(&value.data);
+        const auto edge = [&](std::size_t i) {
+            const auto* number = std::get_if<double>(&given->list[i].data);
+            return number && std::trunc(*number) == *number ? *number : -1;
+        };
+        const auto side = [&](std::size_t i) {
+            const auto* number = i < sides.size() ? std::get_if<double>(&sides[i].data) : nullptr;
+            return number ? *number : unlimited;
+        };
+        if (!given || given->list.size() != 4 || !given->named.empty())
+            return complain_("'crop' of " + quoted(param_.name) + " must be { x0, y0, x1, y1 } in pixels");
+        for (std::size_t axis : {0u, 1u})
+            if (!(0 <= edge(axis) && edge(axis) < edge(axis + 2) && edge(axis + 2) <= side(axis)))
+                complain_("'crop' of " + quoted(param_.name) + " goes from " + to_string(given->list[axis]) + " to " +
+                          to_string(given->list[axis + 2]) + ", but must lie within whole pixels 0 … " +
+                          number_text(side(axis)));
     }
 
     void scene(const Value& value) const {
@@ -214,7 +244,9 @@ std::string suggest(const std::string& word, const std::vector<std::string>& kno
     return known.empty() ? "" : " (there is: " + joined(known) + ")";
 }
 
-void check_params(Node& node, const Kind& kind, const Graph& graph, const Complain& complain) {
+void check_params(Node& node, const Kind& kind, const Graph& graph, const Complain& complain_of) {
+    bool sound = true;
+    const Complain complain = [&](const std::string& what) { complain_of(what), sound = false; };
     std::vector<std::string> names;
     for (const auto& param : kind.params) names.push_back(param.name);
     for (const auto& [name, value] : node.params)
@@ -229,6 +261,8 @@ void check_params(Node& node, const Kind& kind, const Graph& graph, const Compla
         else if (!param.optional)
             complain("parameter " + quoted(param.name) + " is missing: " + param.help);
     }
+    if (sound && kind.mistakes)
+        for (const auto& mistake : kind.mistakes(node, nullptr)) complain(mistake);
 }
 
 }  // namespace lightnet

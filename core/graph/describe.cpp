@@ -30,7 +30,8 @@ std::string range_text(const Param& param) {
         for (const auto& choice : param.choices) text += (text.empty() ? "" : " | ") + to_string(Value{choice});
         return text;
     }
-    if (param.type == ParamType::film) return "{ width, height, file = \"picture.exr\" }, sides in pixels";
+    if (param.type == ParamType::film)
+        return "{ width, height, crop = { x0, y0, x1, y1 }, file = \"picture.exr\" }, in pixels";
     if (param.count) return std::to_string(param.count) + " of them";
     if (param.least == -unlimited && param.most == unlimited) return "";
     if (param.most == unlimited) return "at least " + number_text(param.least);

@@ -23,7 +23,13 @@ GraphFilm film_of(const Graph& graph, const Registry& registry) {
     const auto& film = std::get<Table>(param_of(graph, registry, ParamType::film).data);
     const auto side = [&](std::size_t i) { return static_cast<std::uint32_t>(std::get<double>(film.list.at(i).data)); };
     const auto file = film.named.find("file");
-    return {side(0), side(1), file == film.named.end() ? "" : std::get<std::string>(file->second.data)};
+    GraphFilm made{side(0), side(1), file == film.named.end() ? "" : std::get<std::string>(file->second.data)};
+    if (const auto crop = film.named.find("crop"); crop != film.named.end()) {
+        const auto& edges = std::get<Table>(crop->second.data).list;
+        const auto edge = [&](std::size_t i) { return static_cast<std::uint32_t>(std::get<double>(edges[i].data)); };
+        made.crop = Window{edge(0), edge(1), edge(2) - edge(0), edge(3) - edge(1)};
+    }
+    return made;
 }
 
 const Node& scene_of(const Graph& graph, const Registry& registry) {

@@ -3,17 +3,20 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 
+#include "core/film/window.hpp"
 #include "core/graph/graph.hpp"
 #include "core/graph/kind.hpp"
 
 namespace lightnet {
 
-/// `film = { width, height, file = "x.exr" }`
+/// `film = { width, height, crop = { x0, y0, x1, y1 }, file = "x.exr" }`
 struct GraphFilm {
     std::uint32_t width = 0, height = 0;  // pixels
     std::string file;                     // "" where the graph names none
+    std::optional<Window> crop{};         // none: the whole picture
     friend bool operator==(const GraphFilm&, const GraphFilm&) = default;
 };
 

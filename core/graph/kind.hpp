@@ -15,6 +15,7 @@
 namespace lightnet {
 
 struct Node;
+struct SceneData;
 class LightOp;
 class NodeContext;
 class Renderer;
@@ -49,8 +50,8 @@ struct Param {
     std::vector<std::string> choices = {};  // for text: what it may be; empty: anything
     bool optional = false;                  // may be absent without a default
     bool per_input = false;                 // for numbers: one for each input of the node, or none at all
-    std::size_t count = 0;                  // for numbers: how many; 0: any number
-    std::vector<Param> fields = {};         // of a table
+    std::size_t count = 0;                  // for numbers: how many (or as many as the default has); 0: any number
+    std::vector<Param> fields = {};         // of a table; none: any names, with numbers, texts or flags
 };
 
 /// One kind of node.
@@ -72,6 +73,9 @@ struct Kind {
     /// What happens on to the light of its inputs ("D": it is scattered once more; "": nothing). Linear kinds pass it
     /// on as it is.
     std::optional<std::string> onward = {};
+    /// What is wrong with a node whose parameters fit the schema, one sentence each. `scene`: what it will be made
+    /// with; null as long as that has not been read.
+    std::function<std::vector<std::string>(const Node&, const SceneData* scene)> mistakes = {};
     bool partial = false;  // passes on a part of its inputs' light, on purpose
     std::vector<Param> params = {};
     std::function<std::unique_ptr<LightOp>(const NodeContext&)> make_light = {};

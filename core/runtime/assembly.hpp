@@ -57,7 +57,14 @@ public:
     Rehearsal& rehearsal(std::size_t node) { return rehearsals_[node]; }
     Called called(std::size_t node) {
         return {light(node), network_.graph.nodes[node].name, network_.width_of(node),
-                network_.kind_of(node).side_by_side};
+                network_.kind_of(node).side_by_side, &not_finite_[node]};
+    }
+    /// Answers that were infinite or no numbers, by name of the node; nodes that gave none are left out.
+    std::map<std::string, std::uint64_t> not_finite() const {
+        std::map<std::string, std::uint64_t> counts;
+        for (const auto& [node, count] : not_finite_)
+            if (count) counts[network_.graph.nodes[node].name] = count;
+        return counts;
     }
     const Renderer& renderer(std::size_t node);
 
@@ -73,6 +80,7 @@ private:
     SideBySide* side_by_side_;
     std::vector<std::unique_ptr<Port>> guarded_;
     std::map<std::size_t, Rehearsal> rehearsals_;
+    std::map<std::size_t, std::uint64_t> not_finite_;
     std::map<std::size_t, std::unique_ptr<LightOp>> lights_;
     std::map<std::size_t, std::unique_ptr<Renderer>> renderers_;
 };

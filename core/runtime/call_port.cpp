@@ -69,6 +69,8 @@ void answer(const Called& node, std::size_t width, std::span<const Query> questi
         }
     }
     check_float_mode();
+    if (node.not_finite)
+        for (const Rgb& colour : answers) *node.not_finite += !finite(colour);
 } catch (const NodeError& error) {
     throw NodeError("'" + node.name + "'", error.what());
 } catch (const std::exception& error) {

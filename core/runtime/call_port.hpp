@@ -13,9 +13,10 @@ namespace lightnet {
 /// A node that can be called.
 struct Called {
     const LightOp& light;
-    const std::string& name;  // as in the graph
-    std::size_t layers = 1;   // colours per answer when nothing is added up
-    bool whole = false;       // it looks at the sockets by itself: long asks are not cut
+    const std::string& name;              // as in the graph
+    std::size_t layers = 1;               // colours per answer when nothing is added up
+    bool whole = false;                   // it looks at the sockets by itself: long asks are not cut
+    std::uint64_t* not_finite = nullptr;  // counts its answers that are infinite or no numbers
 };
 
 /// Calls the node. Long asks are cut into pieces, between which the place may look at its sockets; an answer does not

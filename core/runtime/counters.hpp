@@ -31,18 +31,33 @@ struct Counters {
     std::uint64_t late_replies = 0;    // of bundles that were answered already; dropped
     std::uint64_t refused_sends = 0;   // at a full or broken socket; tried again
     std::uint64_t broken_packets = 0;  // dropped
+    std::map<std::string, std::uint64_t> not_finite;  // answers that were infinite or no numbers, by node
 
     Counters& operator+=(const Counters& more) {
         for (const auto& [name, count] : all) this->*count += more.*count;
+        for (const auto& [node, count] : more.not_finite) not_finite[node] += count;
         return *this;
     }
     std::map<std::string, std::uint64_t> named() const {
         std::map<std::string, std::uint64_t> counts;
         for (const auto& [name, count] : all) counts[name] = this->*count;
+        for (const auto& [node, count] : not_finite) counts[not_finite_of + node] = count;
         return counts;
     }
+    /// From what named() gave; other names are left out.
+    static Counters from(const std::map<std::string, std::uint64_t>& named) {
+        Counters counters;
+        for (const auto& [name, count] : all)
+            if (const auto found = named.find(name); found != named.end()) counters.*count = found->second;
+        for (const auto& [name, count] : named)
+            if (name.starts_with(not_finite_of)) counters.not_finite[name.substr(not_finite_of.size())] = count;
+        return counters;
+    }
 
-    /// Every count and its name, as in run.json and on the wire.
+    /// Stands before the name of a node.
+    static inline const std::string not_finite_of = "not_finite.";
+
+    /// Every other count and its name, as in run.json and on the wire.
     static const std::array<std::pair<const char*, std::uint64_t Counters::*>, 20> all;
     friend bool operator==(const Counters&, const Counters&) = default;
 };

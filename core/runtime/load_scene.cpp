@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <vector>
 
 #include "core/graph/graph_film.hpp"
 #include "core/scene/read_scene.hpp"
@@ -53,12 +54,30 @@ SceneOverrides scene_overrides(const Graph& graph, const Registry& registry) {
     return overrides;
 }
 
+std::map<std::string, std::string> scene_constants(const Graph& graph, const Registry& registry) {
+    const Values& params = scene_of(graph, registry).params;
+    std::map<std::string, std::string> constants;
+    const auto given = params.find("constants");
+    if (given == params.end()) return constants;
+    for (const auto& [name, value] : std::get<Table>(given->second.data).named) {
+        const auto* text = std::get_if<std::string>(&value.data);
+        constants[name] = text ? *text : to_string(value);
+    }
+    return constants;
+}
+
 void override_scene(const Graph& graph, const Registry& registry, Files& files, SceneData& scene) {
     apply(scene_overrides(graph, registry), scene, files, scene_of(graph, registry).where);
+    std::vector<Problem> problems;
+    for (const auto& node : graph.nodes)
+        if (const Kind* kind = registry.find(node.kind); kind && kind->mistakes)
+            for (const auto& what : kind->mistakes(node, &scene))
+                problems.push_back({node.where, node.kind + " '" + node.name + "': " + what});
+    if (!problems.empty()) throw UserError(std::move(problems));
 }
 
 SceneData load_scene(const Graph& graph, const Registry& registry, Files& files, const std::string& path) {
-    SceneData scene = read_scene(files, path);
+    SceneData scene = read_scene(files, path, scene_constants(graph, registry));
     override_scene(graph, registry, files, scene);
     return scene;
 }

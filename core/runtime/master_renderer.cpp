@@ -24,6 +24,12 @@ void MasterRenderer::use(const Plan& plan) {
     channels_.connect(edge_, replicas_, plan);
 }
 
+void MasterRenderer::append(const std::vector<Tile>& tiles) {
+    if (draining_) return;
+    job_.tiles.insert(job_.tiles.end(), tiles.begin(), tiles.end());
+    unanswered_ += tiles.size();
+}
+
 void MasterRenderer::hand_out() {
     replicas_.foresee(job_.tiles.size() - next_);
     while (next_ < job_.tiles.size() && replicas_.has_credit()) {
@@ -68,6 +74,7 @@ void MasterRenderer::settle(std::chrono::nanoseconds most) {
 }
 
 void MasterRenderer::drain() {
+    draining_ = true;
     next_ = job_.tiles.size();
     replicas_.drop_waiting();
 }

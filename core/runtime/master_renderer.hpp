@@ -35,6 +35,8 @@ public:
     /// Hands out tiles and takes in pixels until all are there, or for about `most`. True when none is missing but
     /// those set aside. Throws Error when a node failed, or when a tile was done twice with different bits.
     bool work(std::chrono::nanoseconds most);
+    /// More tiles, after all others. May be called while pixels are handed on.
+    void append(const std::vector<Tile>& tiles);
     /// Takes in what is still under way of tiles that are done, for about `most`: copies, that are compared when
     /// checking.
     void settle(std::chrono::nanoseconds most);
@@ -63,7 +65,7 @@ private:
     RemoteChannels<Tile> channels_;
     RemoteChannels<Tile>::Edge edge_;
     Multiplexer<Tile> replicas_;
-    bool planned_ = false;
+    bool planned_ = false, draining_ = false;
     std::size_t next_ = 0;  // tile to hand out
     std::size_t unanswered_;
     std::vector<std::string> set_aside_;

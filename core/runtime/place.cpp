@@ -227,6 +227,7 @@ std::chrono::nanoseconds Place::patience() const {
 Counters Place::counters() const {
     Counters counters = counters_;
     counters += carrier_.counters();
+    counters.not_finite = assembly_.not_finite();
     counters.rays = Scene::rays_of_this_thread() - rays_before_;
     return counters;
 }

@@ -105,6 +105,7 @@ std::vector<Rgb> SerialRun::render(const Tile& tile) {
 
 Counters SerialRun::counters() const {
     Counters counters = counters_;
+    counters.not_finite = assembly_.not_finite();
     counters.rays = Scene::rays_of_this_thread() - rays_before_;
     return counters;
 }

@@ -1,6 +1,20 @@
 #include "core/scene/direct_light.hpp"
 
+#include <cmath>
+
 namespace lightnet {
+
+Rgb left_after(const Rgb* absorption, float distance) {
+    if (!absorption || !std::isfinite(distance)) return {1, 1, 1};
+    return {std::exp(-absorption->r * distance), std::exp(-absorption->g * distance),
+            std::exp(-absorption->b * distance)};
+}
+
+const Rgb* filling(const Bsdf& bsdf, const SurfacePoint& point, Vec3 outgoing, Vec3 direction, const Rgb* arriving) {
+    if (const Rgb* own = bsdf.absorption(direction)) return own;
+    const bool same_side = (dot(outgoing, point.normal) > 0) == (dot(direction, point.normal) > 0);
+    return same_side ? arriving : nullptr;
+}
 
 std::optional<LampRay> ray_to_lamp(const Scene& scene, const Gathering& at, Samples& samples, Heuristic heuristic) {
     const bool useless = !(at.lobes & at.bsdf.lobes() & lobe::rough) || !scene.has_lamps();
@@ -15,7 +29,11 @@ std::optional<LampRay> ray_to_lamp(const Scene& scene, const Gathering& at, Samp
     const auto [value, pdf] = at.bsdf.value_and_pdf(at.outgoing, lamp->direction, at.lobes);
     if (is_black(value)) return {};
     const float weight = lamp->bare ? 1 : share(heuristic, lamp->pdf, pdf);
-    return LampRay{scene.ray_to(at.point, *lamp), value * lamp->radiance * (weight / lamp->pdf)};
+    const Ray ray = scene.ray_to(at.point, *lamp);
+    Rgb light = value * lamp->radiance * (weight / lamp->pdf);
+    if (const Rgb* inside = filling(at.bsdf, at.point, at.outgoing, ray.direction, at.inside))
+        light *= left_after(inside, ray.far);
+    return LampRay{ray, light};
 }
 
 Rgb light_by_lamp(const Scene& scene, const Gathering& at, Samples& samples, Heuristic heuristic) {

@@ -20,12 +20,21 @@ inline float share(Heuristic heuristic, float mine, float other) {
     return 1 / (1 + (heuristic == Heuristic::power ? ratio * ratio : ratio));
 }
 
+/// What is left of light after that way through something that absorbs: Beer and Lambert's law. `absorption` per metre,
+/// null: nothing absorbs. What has no end, as behind a solid that has a hole, absorbs nothing.
+Rgb left_after(const Rgb* absorption, float distance);
+
+/// What a way into `direction` leads through from a surface, when light arrived there through `arriving` from
+/// `outgoing`: what the surface is filled with; on the viewer's side what was there; else nothing.
+const Rgb* filling(const Bsdf& bsdf, const SurfacePoint& point, Vec3 outgoing, Vec3 direction, const Rgb* arriving);
+
 /// A point as its light is gathered.
 struct Gathering {
     const SurfacePoint& point;
     const Bsdf& bsdf;
     Vec3 outgoing;
     std::uint8_t lobes;
+    const Rgb* inside = nullptr;  // what the way to the viewer leads through
 };
 
 /// What one sampled light sends to a surface point and on, if nothing is in the way of the ray.

@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <string>
 
 #include "core/error.hpp"
 
 namespace lightnet {
 namespace {
-
-constexpr std::size_t largest = std::size_t{1} << 30;
 
 struct End {
     void operator()(z_stream* stream) const { inflateEnd(stream); }
@@ -23,12 +22,12 @@ bool is_gzip(std::span<const std::byte> bytes) {
     return bytes.size() >= 2 && bytes[0] == std::byte{0x1f} && bytes[1] == std::byte{0x8b};
 }
 
-std::vector<std::byte> gunzip(std::span<const std::byte> bytes) {
+std::vector<std::byte> gunzip(std::span<const std::byte> bytes, std::size_t most_unpacked) {
     z_stream stream{};
     constexpr int gzip_only = 16;
     if (inflateInit2(&stream, MAX_WBITS + gzip_only) != Z_OK) throw Error("no memory to unpack it");
     const std::unique_ptr<z_stream, End> end(&stream);
-    std::vector<std::byte> result(std::max<std::size_t>(bytes.size() * 3, 4096));
+    std::vector<std::byte> result(std::min(std::max<std::size_t>(bytes.size() * 3, 4096), most_unpacked));
     std::size_t read = 0, written = 0;
     for (;;) {
         const auto most = std::size_t{std::numeric_limits<uInt>::max()};
@@ -41,9 +40,10 @@ std::vector<std::byte> gunzip(std::span<const std::byte> bytes) {
         read += in - stream.avail_in, written += out - stream.avail_out;
         if (state == Z_STREAM_END) break;
         if (state != Z_OK && state != Z_BUF_ERROR) throw Error("its gzip packing is broken");
-        if (written == result.size() && written >= largest) throw Error("more than 1 GiB when unpacked");
+        if (written == result.size() && written >= most_unpacked)
+            throw Error("more than " + std::to_string(most_unpacked >> 20) + " MiB when unpacked");
         if (written == result.size())
-            result.resize(std::min(result.size() * 2, largest));
+            result.resize(std::min(result.size() * 2, most_unpacked));
         else if (read == bytes.size())
             throw Error("its gzip packing ends early");
     }

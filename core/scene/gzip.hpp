@@ -10,7 +10,8 @@ namespace lightnet {
 /// Told by the first bytes.
 bool is_gzip(std::span<const std::byte> bytes);
 
-/// Unpacks. Throws Error (without a file name) when the bytes are broken or would become more than 1 GiB.
-std::vector<std::byte> gunzip(std::span<const std::byte> bytes);
+/// Unpacks. Throws Error (without a file name) when the bytes are broken or would become more than `most` bytes;
+/// holds no more than that at any time.
+std::vector<std::byte> gunzip(std::span<const std::byte> bytes, std::size_t most = std::size_t{1} << 30);
 
 }  // namespace lightnet

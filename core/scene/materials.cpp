@@ -174,10 +174,8 @@ public:
         const Ggx coat = facets(m.coat);
         ConductorBsdf metal =
             metal_of(m.metal, CoatedConductorBsdf::seen_through(facets(m.roughness), coat, m.coat_eta));
-        if (!m.metal.reflectance) {
-            metal.eta = metal.eta / m.coat_eta;
-            metal.k = metal.k / m.coat_eta;
-        }
+        metal.eta = metal.eta / m.coat_eta;
+        metal.k = metal.k / m.coat_eta;
         return CoatedConductorBsdf{metal, coat_, coat};
     }
     Bsdf::Model operator()(const PrincipledMaterial& m) const;
@@ -265,12 +263,15 @@ Materials::Made Materials::made_of(MaterialId id) const {
     const Material& material = data_.materials[id];
     Made made;
     made.needs = needs_of(id);
-    const auto coat = [](float eta, const Roughness& roughness) {
-        return roughness.texture ? std::make_unique<const Coat>(eta)
-                                 : std::make_unique<const Coat>(eta, facets_of(roughness, 1));
+    const auto coat = [](float eta, const Roughness& roughness, const CoatLayer& within) {
+        const Coat::Layer layer{within.thickness, within.bounces};
+        return roughness.texture ? std::make_unique<const Coat>(eta, layer)
+                                 : std::make_unique<const Coat>(eta, facets_of(roughness, 1), layer);
     };
-    if (const auto* m = std::get_if<CoatedDiffuseMaterial>(&material.model)) made.coat = coat(m->eta, m->roughness);
-    if (const auto* m = std::get_if<CoatedConductorMaterial>(&material.model)) made.coat = coat(m->coat_eta, m->coat);
+    if (const auto* m = std::get_if<CoatedDiffuseMaterial>(&material.model))
+        made.coat = coat(m->eta, m->roughness, m->layer);
+    if (const auto* m = std::get_if<CoatedConductorMaterial>(&material.model))
+        made.coat = coat(m->coat_eta, m->coat, m->layer);
     made.bumpy = material.normal_map || material.bump_map;
     if (material.bump_map) made.step = step_of(data_, *material.bump_map);
     made.filled = is_solid(material) && !is_black(material.absorption);

@@ -11,11 +11,14 @@
 
 namespace lightnet {
 
-SceneData read_scene(Files& files, const std::string& path) {
+SceneData read_scene(Files& files, const std::string& path, const std::map<std::string, std::string>& constants) {
     std::string ending = path.substr(std::min(path.rfind('.'), path.size()));
     std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    if (ending == ".xml") return mitsuba::read(files, path, constants);
+    if (!constants.empty())
+        throw UserError({path, 0}, "only Mitsuba's scenes ('.xml') have variables: there is no '" +
+                                       constants.begin()->first + "' to define");
     if (ending == ".pbrt") return pbrt::read(files, path);
-    if (ending == ".xml") return mitsuba::read(files, path);
     if (ending == ".gltf" || ending == ".glb") return gltf::read(files, path);
     if (ending == ".obj") return obj::read(files, path);
     if (ending == ".ply") return read_ply_scene(files, path);

@@ -138,12 +138,6 @@ const std::string& Scene::material_of(const SurfacePoint& point) const {
     return built_->data.materials[built_->data.shapes[point.geometry].material].name;
 }
 
-bool Scene::has_material(const std::string& name) const {
-    const auto& [shapes, materials] = std::tie(built_->data.shapes, built_->data.materials);
-    return std::any_of(shapes.begin(), shapes.end(),
-                       [&](const Shape& shape) { return materials[shape.material].name == name; });
-}
-
 Bsdf Scene::bsdf(const SurfacePoint& point) const { return built_->shading.bsdf(point); }
 
 Rgb Scene::emission(const SurfacePoint& point, Vec3 direction) const {

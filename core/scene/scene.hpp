@@ -58,8 +58,6 @@ public:
     SurfacePoint surface(const Query& query) const;
     /// The name that the scene's file gives to the material of the shape; may be empty.
     const std::string& material_of(const SurfacePoint& point) const;
-    /// Has any shape a material of that name?
-    bool has_material(const std::string& name) const;
     /// How the surface scatters there.
     Bsdf bsdf(const SurfacePoint& point) const;
 

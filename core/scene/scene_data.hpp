@@ -94,6 +94,11 @@ struct DielectricMaterial {
     std::optional<TextureId> reflected{}, transmitted{};  // not physical, but in files: tints
     bool thin = false;                                    // a pane: what enters leaves on the other side, undeflected
 };
+/// What becomes of light within a coat.
+struct CoatLayer {
+    float thickness = 0;        // of light straight through, exp(-thickness) is left
+    std::uint32_t bounces = 0;  // off the base, that count; 0: all
+};
 /// A diffuse base under a dielectric coat.
 struct CoatedDiffuseMaterial {
     TextureId reflectance = 0;  // of the base
@@ -101,6 +106,7 @@ struct CoatedDiffuseMaterial {
     Roughness roughness{};            // of the coat
     std::optional<TextureId> tint{};  // not physical, but in files: times the coat's reflection
     bool base_colours_repeat = true;  // light that goes back and forth below the coat takes the base's colour each time
+    CoatLayer layer{};
 };
 /// A metal under a dielectric coat.
 struct CoatedConductorMaterial {
@@ -108,6 +114,7 @@ struct CoatedConductorMaterial {
     Roughness roughness{};  // of the metal
     float coat_eta = 1.5f;  // over air; the metal's index is over air, too
     Roughness coat{};
+    CoatLayer layer{};
 };
 /// The principled model of Burley (2012, 2015), of which glTF's metallic-roughness model with its extensions is a part.
 /// Numbers are 0 … 1 where nothing else is said; a texture multiplies.

@@ -74,6 +74,26 @@ TEST(Exr, SaysNothingOfWhenWhereOrByWhom) {
                                                             "screenWindowCenter", "screenWindowWidth"));
 }
 
+TEST(Exr, ShowsWhereACropLies) {
+    const Folder folder;
+    Picture picture = noisy_picture(4, 3);
+    picture.x = 5, picture.y = 7, picture.whole_width = 20, picture.whole_height = 10;
+    picture.samples = std::vector<float>(12, 64);
+    write_exr(folder / "x.exr", picture);
+    EXPECT_TRUE(read_exr(folder / "x.exr") == picture);
+    const Imf::InputFile file((folder / "x.exr").c_str());
+    EXPECT_EQ(file.header().displayWindow(), Imath::Box2i({0, 0}, {19, 9}));
+    EXPECT_EQ(file.header().dataWindow(), Imath::Box2i({5, 7}, {8, 9}));
+}
+
+TEST(Exr, SaysThatItIsAPreview) {
+    const Folder folder;
+    Picture picture = noisy_picture(4, 3);
+    picture.done = 0.25f;
+    write_exr(folder / "x.exr", picture);
+    EXPECT_EQ(read_exr(folder / "x.exr").done, 0.25f);
+}
+
 TEST(Exr, NeedsNoLayers) {
     const Folder folder;
     const Picture picture{2, 1, {{1, 2, 3}, {4, 5, 6}}, {}};

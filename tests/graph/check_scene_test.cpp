@@ -29,6 +29,9 @@ TEST(CheckScene, TakesAllThatItDescribes) {
             "environment = 'sky.exr', environment_scale = 2, exposure = -1.5, material = 'clay'"),
         IsEmpty());
     EXPECT_THAT(problems_of("environment = { 0.5, 0.6, 0.7 }"), IsEmpty());
+    EXPECT_THAT(problems_of("constants = { spp = 16, wood = 'oak.jpg', hidden = true }"), IsEmpty());
+    EXPECT_THAT(problems_of("constants = { spp = { 16 } }"),
+                HasSubstr("'constants': 'spp' must be a number, a text or a flag, not a table"));
 }
 
 TEST(CheckScene, SuggestsTheEntryYouMeant) {

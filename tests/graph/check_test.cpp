@@ -197,6 +197,22 @@ TEST(FilmFormat, IsTheOneOfTheRenderer) {
     EXPECT_EQ(film_of(sound_graph("lighting = Ambient {}"), fake_registry()), (GraphFilm{8, 4, ""}));
 }
 
+TEST(FilmFormat, HasACropInPixels) {
+    const auto text = [](const std::string& crop) {
+        return "sky = Ambient {}\nscene = Scene { 'box.pbrt' }\nimage = RayTracer { sky, scene = scene, film = { 8, 4, "
+               "crop = " +
+               crop + " } }";
+    };
+    EXPECT_EQ(film_of(check(parse(text("{ 2, 1, 8, 3 }")), fake_registry()), fake_registry()).crop,
+              (Window{2, 1, 6, 2}));
+    const auto errors = [&](const std::string& crop) { return problems_of(text(crop)); };
+    EXPECT_THAT(errors("{ 2, 1, 9, 3 }"),
+                HasSubstr("'crop' of 'film' goes from 2 to 9, but must lie within whole pixels 0 … 8"));
+    EXPECT_THAT(errors("{ 2, 3, 4, 3 }"), HasSubstr("goes from 3 to 3"));
+    EXPECT_THAT(errors("{ 0, 0, 0.5, 1 }"), HasSubstr("goes from 0 to 0.5"));
+    EXPECT_THAT(errors("{ 0, 0, 1 }"), HasSubstr("must be { x0, y0, x1, y1 } in pixels"));
+}
+
 TEST(SceneFile, LiesBesideTheGraph) {
     Graph graph = sound_graph("lighting = Ambient {}");
     graph.file = "some/where/graph.lua";

@@ -125,6 +125,25 @@ TEST_F(DaemonTest, ServesRunAfterRunAndIsSentFilesOnce) {
     EXPECT_EQ(counter(second.report, "file_bytes"), 0) << "the second run sends hashes only";
 }
 
+// A file goes over the wire in many pieces, and more of them than are under way at once.
+TEST_F(DaemonTest, WithNothingYetIsSentLargeFilesPieceByPiece) {
+    {
+        std::ofstream scene(folder / "large.pbrt");
+        scene << "Camera \"perspective\"\nWorldBegin\nLightSource \"infinite\"\nTranslate 0 0 4\n";
+        for (int i = 0; i < 120'000; ++i) scene << "# " << i << " is a remark that makes this file large\n";
+        scene << "Shape \"sphere\"\n";
+    }
+    const auto graph = folder / "large.lua";
+    std::ofstream(graph) << "scene = Scene { 'large.pbrt' }\ndirect = DirectLighting {}\n"
+                            "image = RayTracer { direct, scene = scene, film = { 16, 16 }, samples = 1 }\n";
+    const auto here = launch(graph, folder, {"--progress", "none"});
+    const auto there = launch(graph, folder, {"--progress", "none", "--hosts", hosts_file()});
+    ASSERT_EQ(here.code, 0) << here.said;
+    ASSERT_EQ(there.code, 0) << there.said;
+    EXPECT_TRUE(here.picture == there.picture);
+    EXPECT_GE(counter(there.report, "file_bytes"), double(std::filesystem::file_size(folder / "large.pbrt")));
+}
+
 TEST_F(DaemonTest, ServesOneRunAtATimeAndTellsTheOtherToWait) {
     auto words = launch_words(graph_file("cornell.lua"), folder / "long.exr",
                               {"--size", "128x128", "--samples", "64", "--progress", "json", "--hosts", hosts_file()});

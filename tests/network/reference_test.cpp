@@ -102,7 +102,9 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Reference{"veach_mis", "scenes/veach-mis/veach-mis.exr", "scenes/veach-mis/veach-mis.pbrt",
                                 "veach-mis-pbrt", 320, 240, 64, 0.016, 0.027},
                       Reference{"cornell_box", "scenes/cornell-box/cornell-box.exr",
-                                "scenes/cornell-box/cornell-box.pbrt", "cornell-box-pbrt", 320, 320, 64, 0.005, 0.008}),
+                                "scenes/cornell-box/cornell-box.pbrt", "cornell-box-pbrt", 320, 320, 64, 0.005, 0.008},
+                      Reference{"bmw_m6", "scenes/bmw-m6/bmw-m6.exr", "scenes/bmw-m6/bmw-m6.pbrt", "bmw-m6-pbrt", 320,
+                                228, 64, 0.028, 0.045}),
     [](const auto& reference) { return reference.param.name; });
 
 }  // namespace

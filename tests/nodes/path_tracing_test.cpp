@@ -72,6 +72,75 @@ TEST(WhiteSky, HidesAnythingThatLosesNothing) {
     EXPECT_LT(error, 5e-3);
 }
 
+// A block of coloured glass, without reflections, before a bright wall: what is left is exp(-absorption × way).
+class ColouredGlass : public testing::TestWithParam<float> {
+protected:
+    // Two metres thick; its surface has that roughness
+    Scene block() const {
+        SceneData data;
+        DielectricMaterial air;
+        air.eta = 1;
+        if (GetParam() > 0) {
+            air.eta = 1.0001f;
+            air.roughness.u = air.roughness.v = GetParam();
+        }
+        const auto glass = material(data, air);
+        data.materials[glass].absorption = {0.1f, 0.5f, 1};
+        add(data, quad({-50, -50, 1}, {100, 0, 0}, {0, 100, 0}), glass);
+        add(data, quad({-50, -50, -1}, {0, 100, 0}, {100, 0, 0}), glass);
+        add(data, quad({-50, -50, -4}, {100, 0, 0}, {0, 100, 0}), diffuse(data, 0)).emission =
+            AreaEmission{{1, 1, 1}, true};
+        data.camera = camera({0, 0, 5}, {0, 0, 0}, 1);
+        data.camera_given = true;
+        return Scene(std::move(data));
+    }
+    static void expect_beer(const Renderer& renderer) {
+        Rgb sum;
+        const auto pixels = picture(renderer, 16, 16, 64);
+        for (const Rgb& pixel : pixels) sum += pixel / float(pixels.size());
+        EXPECT_NEAR(sum.r, std::exp(-0.2f), 0.01f);
+        EXPECT_NEAR(sum.g, std::exp(-1.0f), 0.01f);
+        EXPECT_NEAR(sum.b, std::exp(-2.0f), 0.01f);
+    }
+};
+
+TEST_P(ColouredGlass, LeavesWhatBeersLawSays) {
+    const Scene scene = block();
+    Rig rig(scene);
+    expect_beer(*rig.path_tracer());
+}
+
+TEST_P(ColouredGlass, LeavesWhatBeersLawSaysWhenOneNodeFollowsAllPaths) {
+    const Scene scene = block();
+    Rig rig(scene);
+    rig.add("PathTracing", "paths", {}, {{"paths", Value{"all"}}});
+    expect_beer(*rig.renderer("paths"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Roughness, ColouredGlass, testing::Values(0.0f, 0.05f));
+
+// A small lamp inside of a large ball of coloured air, seen on a diffuse floor in it.
+TEST(ColouredGlass, WeakensLampsThatAreInside) {
+    const auto brightness = [](Rgb absorption) {
+        SceneData data;
+        DielectricMaterial air;
+        air.eta = 1;
+        const auto glass = material(data, air);
+        data.materials[glass].absorption = absorption;
+        add(data, ball({0, 0, 0}, 20), glass);
+        add(data, quad({-1, 3, -1}, {2, 0, 0}, {0, 0, 2}), diffuse(data, 0)).emission = AreaEmission{{9, 9, 9}, true};
+        data.camera = camera({0.3f, 40, 0.2f}, {0.3f, 3, 0.5f}, 0.1f);
+        data.camera_given = true;
+        const Scene scene(data);
+        Rig rig(scene);
+        rig.add("AmbientOcclusion", "nothing");
+        return picture(*rig.renderer("nothing"), 2, 2, 4)[0].g;
+    };
+    // the lamp is seen through what lies between the ball's top and itself
+    EXPECT_NEAR(brightness({0.1f, 0.1f, 0.1f}), 9 * std::exp(-0.1f * (std::sqrt(399.0f) - 3)), 0.02f);
+    EXPECT_NEAR(brightness({}), 9, 1e-3f);
+}
+
 std::unique_ptr<Renderer> all_paths(Rig& rig, double samples) {
     rig.add("PathTracing", "paths", {}, {{"paths", Value{"all"}}, {"samples", Value{samples}}});
     return rig.renderer("paths");

@@ -13,6 +13,7 @@
 #include <ImfOutputFile.h>
 #include <jpeglib.h>
 #include <png.h>
+#include <zlib.h>
 
 #include <cstdlib>
 #include <cstring>
@@ -218,6 +219,21 @@ TEST(Pictures, OfImpossibleSizesAreRefused) {
     EXPECT_THAT(error_of("#?RGBE\n\n-Y 100000 +X 100000\nabcd"), HasSubstr("too large"));
     EXPECT_THAT(error_of("#?RGBE\n\n-Y 0 +X 5\nabcd"), HasSubstr("no pixels"));
     EXPECT_THAT(error_of("#?RGBE\n\n-Y 8000 +X 8000\nabcd"), HasSubstr("too short"));
+}
+
+// Headers that promise far more than the file holds are refused before memory is taken.
+TEST(Pictures, OfHostileHeadersAreRefused) {
+    std::string png = small_png();
+    png.replace(16, 8, std::string("\0\x0f\0\0\0\x0f\0\0", 8));  // width and height: 983,040
+    const auto check = crc32(0, reinterpret_cast<const Bytef*>(png.data()) + 12, 17);
+    for (int i = 0; i < 4; ++i) png[29 + std::size_t(i)] = static_cast<char>(check >> (24 - 8 * i));
+    EXPECT_THAT(error_of(png), HasSubstr("too large"));
+    std::string wide = exr({"R", "G", "B"});
+    const std::string name("dataWindow\0box2i", 16);
+    const std::size_t at = wide.find(name);
+    ASSERT_NE(at, std::string::npos);
+    wide.replace(at + name.size() + 1 + 4 + 8, 8, std::string("\xff\xff\xff\x0f\xff\xff\xff\x0f", 8));
+    EXPECT_NE(error_of(wide), "no error");
 }
 
 class EveryPicture : public testing::TestWithParam<std::string> {};

@@ -90,7 +90,12 @@ TEST(PbrtMaterials, MayBeCoated) {
     const auto scene = with("Material \"coateddiffuse\" \"rgb reflectance\" [ .07 .09 .13 ] \"float roughness\" .01");
     EXPECT_EQ(model_of<CoatedDiffuseMaterial>(scene).roughness.u, 0.01f);
     EXPECT_EQ(model_of<CoatedDiffuseMaterial>(scene).eta, 1.5f);
+    EXPECT_EQ(model_of<CoatedDiffuseMaterial>(scene).layer.thickness, 0.01f);
+    EXPECT_EQ(model_of<CoatedDiffuseMaterial>(scene).layer.bounces, 5u);
     EXPECT_THAT(scene.warnings, IsEmpty());
+    const auto thick = with("Material \"coateddiffuse\" \"float thickness\" .5 \"integer maxdepth\" 7");
+    EXPECT_EQ(model_of<CoatedDiffuseMaterial>(thick).layer.thickness, 0.5f);
+    EXPECT_EQ(model_of<CoatedDiffuseMaterial>(thick).layer.bounces, 4u);
 }
 
 TEST(PbrtMaterials, MayBeCoatedMetals) {

@@ -44,6 +44,13 @@ TEST(Options, AreAbsentWhereNothingIsSaid) {
     EXPECT_EQ(options.progress, ProgressMode::automatic);
 }
 
+TEST(Options, TakeACrop) {
+    EXPECT_EQ(options_of({"run", "g.lua", "--crop", "1,2,30,40"}).crop, (PictureCrop{1, 2, 30, 40}));
+    for (const char* wrong : {"1,2,3", "1,2,3,4,5", "a,2,3,4", "1,2,3,-4", "1 2 3 4", ""})
+        EXPECT_THAT(usage_error({"run", "g.lua", "--crop", wrong}), HasSubstr("a crop is like 10,20,110,80")) << wrong;
+    EXPECT_EQ(options_of({"run", "g.lua", "--preview", "0.5"}).preview, 0.5);
+}
+
 TEST(Options, StandInAnyOrder) {
     for (const Words& words :
          {Words{"run", "g.lua", "--threads", "4", "-o", "x.exr", "--samples", "9", "--size", "64x48", "--seed", "7"},

@@ -79,6 +79,24 @@ TEST(Render, TakesTheOptionsOfRun) {
     EXPECT_EQ(lightnet.overrides().exposure, 2);
 }
 
+TEST(Render, DefinesVariablesOfTheSceneFileOnAllHosts) {
+    Bench lightnet;
+    const std::string scene =
+        lightnet.write("ball.xml",
+                       "<scene version='3.0.0'><default name='radius' value='1'/>"
+                       "<shape type='sphere'><float name='radius' value='$radius'/></shape></scene>");
+    EXPECT_EQ(lightnet({"render", scene, "-D", "radius=3"}), 7) << lightnet.err;
+    const RunRequest& run = lightnet.runs.at(0);
+    EXPECT_EQ(std::get<Sphere>(run.read->scene.shapes.at(0).geometry).radius, 3);
+    DiskFiles files;  // a host has the graph and the files, and nothing else
+    const SceneData there = load_scene(run.graph, lightnet.registry, files, scene);
+    EXPECT_EQ(std::get<Sphere>(there.shapes.at(0).geometry).radius, 3);
+    EXPECT_EQ(lightnet({"scene", "info", scene, "-D", "radius=3"}), 0) << lightnet.err;
+    EXPECT_THAT(lightnet.out, HasSubstr("(-3, -3, -3) to (3, 3, 3)"));
+    EXPECT_EQ(lightnet({"render", scene, "-D", "raduis=3"}), 2);
+    EXPECT_THAT(lightnet.err, HasSubstr("there is no variable 'raduis' to define (did you mean 'radius'?)"));
+}
+
 TEST(Render, LightsByAnyGraph) {
     Bench lightnet;
     const std::string graph = lightnet.write("two.lua",
@@ -94,6 +112,21 @@ TEST(Render, LightsByAnyGraph) {
     EXPECT_EQ(lightnet.overrides().exposure, 3);
 }
 
+TEST(Render, KeepsTheCropOfTheScene) {
+    Bench lightnet;
+    const std::string scene = lightnet.write("part.pbrt",
+                                             "Film \"rgb\" \"integer xresolution\" 30 \"integer yresolution\" 20 "
+                                             "\"float cropwindow\" [ 0.25 0.5 0 1 ]\n"
+                                             "Camera \"perspective\"\nWorldBegin\nShape \"sphere\"\n");
+    lightnet({"render", scene});
+    lightnet({"render", scene, "--size", "100x100"});
+    lightnet({"render", scene, "--crop", "1,2,3,4"});
+    const auto crop = [&](std::size_t run) { return film_of(lightnet.runs.at(run).graph, lightnet.registry).crop; };
+    EXPECT_EQ(crop(0), (Window{8, 0, 7, 20}));
+    EXPECT_EQ(crop(1), (Window{25, 0, 25, 100}));
+    EXPECT_EQ(crop(2), (Window{1, 2, 2, 2}));
+}
+
 TEST(Render, SaysWhatIsWrong) {
     Bench lightnet;
     EXPECT_EQ(lightnet({"render", lightnet.scene, "--lighting", "pth"}), 2);
@@ -102,7 +135,7 @@ TEST(Render, SaysWhatIsWrong) {
     EXPECT_EQ(lightnet({"render", lightnet.scene, "--env", "no.exr"}), 2);
     EXPECT_THAT(lightnet.err, HasSubstr("no.exr'"));
     EXPECT_EQ(lightnet({"render", lightnet.scene, "-D", "a=1"}), 2);
-    EXPECT_THAT(lightnet.err, HasSubstr("only a graph file has constants"));
+    EXPECT_THAT(lightnet.err, HasSubstr("only Mitsuba's scenes ('.xml') have variables: there is no 'a'"));
     EXPECT_EQ(lightnet({"render", "no.pbrt"}), 2);
     EXPECT_THAT(lightnet.err, HasSubstr("can't read the scene"));
     EXPECT_EQ(lightnet({"render", lightnet.scene, "--smaples", "3"}), 2);

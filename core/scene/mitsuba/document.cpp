@@ -45,12 +45,16 @@ std::string modern(std::string_view tag) {
 class Loader {
 public:
     Loader(Assets& assets, const std::map<std::string, std::string>& definitions)
-        : assets_(assets), variables_(definitions.begin(), definitions.end()), document_(new Document) {}
+        : assets_(assets), variables_(definitions.begin(), definitions.end()), document_(new Document) {
+        for (const auto& [name, value] : definitions) unused_.insert(name);
+    }
 
     std::unique_ptr<Document> load(const std::string& path) {
         document_->scene.tag = "scene";
         document_->scene.where = {path, 0};
         file(path, {path, 0}, document_->scene);
+        for (const auto& name : unused_)
+            error({path, 0}, fmt::format("there is no variable '{}' to define{}", name, did_you_mean(name, declared_)));
         return std::move(document_);
     }
 
@@ -134,7 +138,10 @@ private:
     }
 
     void define(const pugi::xml_node& xml, const SourceLine& where) {
-        variables_.emplace(xml.attribute("name").value(), filled(xml.attribute("value").value(), where));
+        const std::string name = xml.attribute("name").value();
+        variables_.emplace(name, filled(xml.attribute("value").value(), where));
+        declared_.push_back(name);
+        unused_.erase(name);
     }
 
     void alias(const pugi::xml_node& xml, const SourceLine& where) {
@@ -167,7 +174,9 @@ private:
             std::size_t used = end;  // the longest name that is known
             while (used > 0 && !variables_.contains(text.substr(0, used))) --used;
             if (used) {
-                result += variables_.find(text.substr(0, used))->second;
+                const auto& [name, value] = *variables_.find(text.substr(0, used));
+                result += value;
+                unused_.erase(name);
             } else {
                 unknown(text.substr(0, end), where);
                 used = end;
@@ -186,6 +195,8 @@ private:
 
     Assets& assets_;
     std::map<std::string, std::string, std::less<>> variables_;
+    std::set<std::string> unused_;       // definitions from outside that nothing has asked for
+    std::vector<std::string> declared_;  // variables that have defaults
     std::unique_ptr<Document> document_;
     std::set<std::string> open_;
     std::size_t elements_ = 0, includes_ = 0;

@@ -77,14 +77,19 @@ Metal metal_of(Parameters& parameters, const MaterialSources& sources, const std
     return metal;
 }
 
-/// Of pbrt's random walk through a coat.
-void walk_through_coat(Parameters& parameters) {
-    parameters.ignore({"maxdepth", "nsamples", "thickness", "g"});
+/// Of pbrt's random walk through a coat: its medium absorbs even where it doesn't scatter, and the walk ends after
+/// `maxdepth` layers, of which every other one is the base.
+CoatLayer walk_through_coat(Parameters& parameters) {
+    parameters.ignore({"nsamples", "g"});
+    CoatLayer layer;
+    layer.thickness = std::max(0.0f, parameters.number("thickness", 0.01f));
+    layer.bounces = std::uint32_t(std::clamp(parameters.integer("maxdepth", 10), 1, 1 << 20) + 1) / 2;
     if (const Parameter* albedo = parameters.find("albedo")) {
         const auto colour = albedo->type == Type::texture ? std::nullopt : std::optional(albedo->numbers);
         const bool black = colour && std::all_of(colour->begin(), colour->end(), [](float x) { return x == 0; });
         if (!black) parameters.warn("scattering inside the coat ('albedo') is left out");
     }
+    return layer;
 }
 
 Material diffuse(Parameters& parameters, const MaterialSources& sources) {
@@ -111,15 +116,17 @@ Material thin_dielectric(Parameters& parameters, const MaterialSources& sources)
 }
 
 Material coated_diffuse(Parameters& parameters, const MaterialSources& sources) {
-    walk_through_coat(parameters);
-    const Roughness rough = roughness(parameters, sources);
-    return model(CoatedDiffuseMaterial{sources.textures.colour(parameters, "reflectance", grey),
-                                       index(parameters, sources, "eta"), rough});
+    CoatedDiffuseMaterial coated;
+    coated.layer = walk_through_coat(parameters);
+    coated.roughness = roughness(parameters, sources);
+    coated.reflectance = sources.textures.colour(parameters, "reflectance", grey);
+    coated.eta = index(parameters, sources, "eta");
+    return model(coated);
 }
 
 Material coated_conductor(Parameters& parameters, const MaterialSources& sources) {
-    walk_through_coat(parameters);
     CoatedConductorMaterial coated;
+    coated.layer = walk_through_coat(parameters);
     coated.roughness = roughness(parameters, sources, "conductor.");
     coated.metal = metal_of(parameters, sources, "conductor.");
     coated.coat_eta = index(parameters, sources, "interface.eta");

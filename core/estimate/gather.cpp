@@ -1,0 +1,94 @@
+#include "core/estimate/gather.hpp"
+
+#include "core/math/samples.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace lightnet {
+namespace {
+
+constexpr std::uint32_t most_mirrors = 100;  // in a row
+constexpr Key chain_key = key_of("chain of mirrors");
+
+/// Questions about what looks meet, in order of look and depth.
+struct Met {
+    std::vector<Query> questions;
+    std::vector<std::size_t> looks;  // whose they are
+    std::vector<Rgb> weights;
+};
+
+Query question_about(const Look& look, const Hit& hit, Vec3 outgoing, int lobes, std::uint32_t mirrors) {
+    return {.stream = mirrors ? child(look.stream, chain_key, mirrors) : look.stream,
+            .instance = hit.instance,
+            .geometry = hit.geometry,
+            .primitive = hit.primitive,
+            .u = hit.u,
+            .v = hit.v,
+            .outgoing = outgoing,
+            .sample = look.sample,
+            .lobes = static_cast<std::uint8_t>(lobes),
+            .depth = static_cast<std::uint8_t>(std::min(look.depth + 1u + mirrors, 255u))};
+}
+
+Rgb left_after(const Rgb& absorption, float way) {
+    return {std::exp(-absorption.r * way), std::exp(-absorption.g * way), std::exp(-absorption.b * way)};
+}
+
+void follow(const Scene& scene, const Look& look, std::optional<Hit> hit, std::size_t index, Met& met) {
+    Rgb weight{1, 1, 1};
+    float squeezed = 1;  // by refraction, which is no loss: roulette must not see it
+    Ray ray = look.ray;
+    for (std::uint32_t mirrors = 0; hit; ++mirrors) {
+        const SurfacePoint point = scene.surface(*hit);
+        const Bsdf bsdf = scene.bsdf(point);
+        const Vec3 outgoing = -ray.direction;
+        const std::uint8_t lobes = bsdf.lobes();
+        if (lobes & lobe::rough) {
+            met.questions.push_back(question_about(look, *hit, outgoing, lobes & lobe::rough, mirrors));
+            met.looks.push_back(index);
+            met.weights.push_back(weight);
+        }
+        if (!(lobes & lobe::specular) || mirrors >= most_mirrors) return;
+        Samples samples(child(look.stream, chain_key, 256 + mirrors), look.sample);
+        const float choice = bsdf.chooses() ? samples.next() : samples.skip();
+        const auto step = bsdf.sample(outgoing, choice, samples.next_2d(), lobe::specular);
+        if (!step) return;
+        weight *= step->weight;
+        squeezed *= step->eta * step->eta;
+        const float chance = std::min(1.0f, max_component(weight) * squeezed * 4);
+        if (!(samples.next() < chance)) return;
+        weight *= 1 / chance;
+        ray = {point.origin_towards(step->incoming), step->incoming};
+        const Rgb* absorption = bsdf.absorption(step->incoming);
+        hit = scene.intersect(ray);
+        if (hit && absorption) weight *= left_after(*absorption, hit->distance);
+    }
+}
+
+}  // namespace
+
+void look_around(const Scene& scene, const Inputs& inputs, std::size_t index, std::span<const Look> looks,
+                 std::span<Seen> seen) {
+    std::vector<Ray> rays;
+    rays.reserve(looks.size());
+    for (const Look& look : looks) rays.push_back(look.ray);
+    std::vector<std::optional<Hit>> hits(rays.size());
+    scene.intersect(rays, hits);
+    Met met;
+    met.questions.reserve(looks.size());
+    met.looks.reserve(looks.size());
+    met.weights.reserve(looks.size());
+    for (std::size_t i = 0; i < looks.size(); ++i) {
+        seen[i] = {{}, hits[i] ? hits[i]->distance : std::numeric_limits<float>::infinity()};
+        follow(scene, looks[i], hits[i], i, met);
+    }
+    if (met.questions.empty()) return;
+    const Part part = ask(inputs, index, met.questions);
+    const std::size_t width = part.input->width();
+    for (std::size_t q = 0; q < met.questions.size(); ++q)
+        for (std::size_t k = 0; k < width; ++k)
+            seen[met.looks[q]].light += part.answers[q * width + k] * met.weights[q];
+}
+
+}  // namespace lightnet

@@ -1,0 +1,58 @@
+// All light that arrives at a point, and how it changes around it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/estimate/gather.hpp"
+#include "core/math/frame.hpp"
+#include "core/math/random.hpp"
+#include "core/math/rgb.hpp"
+#include "core/math/vec.hpp"
+
+namespace lightnet {
+
+/// What is known of the irradiance around a point. Travels and is kept as bytes.
+struct IrradianceRecord {
+    Vec3 position, normal;       // the side that the light falls on; unit
+    Rgb irradiance;              // W·m⁻²
+    float distance = 0;          // m: harmonic mean of the distances to what is seen
+    float nearest = 0;           // m: the least of them
+    std::array<Vec3, 3> moved;   // ∂irradiance per metre, per colour
+    std::array<Vec3, 3> turned;  // ∂irradiance per radian, about an axis, per colour
+
+    /// At a point nearby. Ward & Heckbert 1992, "Irradiance gradients", equation 1.
+    Rgb at(Vec3 point, Vec3 towards) const;
+};
+
+/// Looks into a cosine-weighted, stratified hemisphere: `rings` of equal projected area, each of `sectors`.
+class Hemisphere {
+public:
+    /// Of about `rays` looks, so that cells are about as wide as high.
+    explicit Hemisphere(std::size_t rays);
+
+    std::size_t size() const { return rings_ * sectors_; }
+    /// Appends the looks of one point, ring by ring. `origin`: off the surface.
+    void add_looks(Vec3 origin, Vec3 normal, Key stream, std::uint8_t depth, std::vector<Look>& looks) const;
+    /// What they saw, as a record. Gradients: Ward & Heckbert 1992, in the form of Krivanek et al. 2005, equation 14.
+    IrradianceRecord record(Vec3 position, Vec3 normal, std::span<const Seen> seen) const;
+
+private:
+    struct Ring {
+        float low, high;  // sines of its borders
+        float cosine;     // at the lower one
+        float tangent;    // on average
+    };
+    struct Sector {
+        Vec2 middle, across, start;  // directions in the plane: its middle's, turned by 90°; its start's turned by 90°
+    };
+
+    std::size_t rings_, sectors_;
+    std::vector<Ring> ring_;
+    std::vector<Sector> sector_;
+};
+
+}  // namespace lightnet

@@ -1,0 +1,139 @@
+#include "core/estimate/irradiance_octree.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace lightnet {
+namespace {
+
+constexpr float in_front = 0.02f;  // of its reach: how far a point may lie behind what a record sees
+constexpr int most_levels = 20;
+
+float change_of(const IrradianceRecord& record) {
+    const float r = length(record.moved[0]), g = length(record.moved[1]), b = length(record.moved[2]);
+    return std::max({r, g, b});
+}
+
+}  // namespace
+
+IrradianceOctree::IrradianceOctree(std::span<const IrradianceRecord> records, const Spacing& spacing,
+                                   const Scene::Box& bounds)
+    : low_(bounds.low), spacing_(spacing) {
+    const Vec3 extent = bounds.high - bounds.low;
+    size_ = std::max({extent.x, extent.y, extent.z}) * 1.001f;
+    records_.reserve(records.size());
+    for (const auto& record : records) {
+        const float brightest = max_component(record.irradiance), change = change_of(record);
+        float reach = record.distance;
+        if (change > 0) reach = std::min(reach, brightest / change);
+        reach = std::clamp(spacing.accuracy * reach, spacing.least, spacing.most);
+        records_.push_back({record, reach});
+    }
+    cells_.emplace_back();
+    clamp_to_neighbours();
+    cells_.assign(1, {});
+    for (std::uint32_t i = 0; i < records_.size(); ++i) insert(i);
+}
+
+// Of two records, the one sees within its own distance and that between them all that the other sees within its own.
+// Longest reach first, so that each limit is handed on.
+void IrradianceOctree::clamp_to_neighbours() {
+    std::vector<std::uint32_t> order(records_.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::sort(order.begin(), order.end(), [&](auto a, auto b) {
+        return records_[a].reach < records_[b].reach || (records_[a].reach == records_[b].reach && a < b);
+    });
+    for (const auto i : order) {
+        Entry& entry = records_[i];
+        for_all_near(entry.record.position, [&](const Entry& other) {
+            const float between = length(entry.record.position - other.record.position);
+            if (between < other.reach && dot(entry.record.normal, other.record.normal) > 0.5f)
+                entry.reach = std::min(entry.reach, other.reach + spacing_.accuracy * between);
+        });
+        entry.reach = std::max(entry.reach, spacing_.least);
+        insert(i);
+    }
+}
+
+void IrradianceOctree::insert(std::uint32_t entry) { insert(0, low_, size_, entry); }
+
+void IrradianceOctree::insert(std::uint32_t cell, Vec3 low, float size, std::uint32_t entry) {
+    const Entry& inserted = records_[entry];
+    const float reach = most_stretch * inserted.reach;
+    int level = 0;
+    for (float s = size_; s > size * 1.5f; s /= 2) ++level;
+    if (size < 2 * reach || level >= most_levels) {
+        cells_[cell].entries.push_back(entry);
+        return;
+    }
+    const float half = size / 2;
+    for (std::uint32_t octant = 0; octant < 8; ++octant) {
+        Vec3 corner = low;
+        bool meets = true;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            corner[axis] += (octant >> axis & 1) ? half : 0;
+            const float at = inserted.record.position[axis];
+            meets = meets && at + reach >= corner[axis] && at - reach <= corner[axis] + half;
+        }
+        if (!meets) continue;
+        if (!cells_[cell].children[octant]) {
+            cells_[cell].children[octant] = std::uint32_t(cells_.size());
+            cells_.emplace_back();
+        }
+        insert(cells_[cell].children[octant], corner, half, entry);
+    }
+}
+
+template <class Function>
+void IrradianceOctree::for_all_near(Vec3 position, Function function) const {
+    Vec3 low = low_;
+    float size = size_;
+    std::uint32_t cell = 0;
+    while (true) {
+        for (const auto entry : cells_[cell].entries) function(records_[entry]);
+        size /= 2;
+        std::uint32_t octant = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            if (position[axis] >= low[axis] + size) {
+                octant |= 1u << axis;
+                low[axis] += size;
+            }
+        cell = cells_[cell].children[octant];
+        if (cell == 0) return;
+    }
+}
+
+float IrradianceOctree::weight(const Entry& entry, Vec3 position, Vec3 normal, float stretch) const {
+    const Vec3 way = position - entry.record.position;
+    const float reach = entry.reach * stretch, distance2 = length_squared(way);
+    if (distance2 >= reach * reach) return 0;
+    const float cosine = dot(normal, entry.record.normal);
+    const float turn = std::sqrt(std::max(0.0f, 1 - cosine)) / (spacing_.accuracy * stretch);
+    const float error = std::sqrt(distance2) / reach + turn;
+    if (error >= 1) return 0;
+    // What lies behind the record's horizon, it did not see.
+    if (dot(way, normal + entry.record.normal) * 0.5f < -in_front * reach) return 0;
+    return 1 - error;
+}
+
+std::optional<Rgb> IrradianceOctree::irradiance(Vec3 position, Vec3 normal, float stretch) const {
+    Rgb sum;
+    float weights = 0;
+    for_all_near(position, [&](const Entry& entry) {
+        const float w = weight(entry, position, normal, stretch);
+        if (!(w > 0)) return;
+        sum += entry.record.at(position, normal) * w;
+        weights += w;
+    });
+    if (!(weights > 0)) return {};
+    return sum / weights;
+}
+
+bool IrradianceOctree::covers(Vec3 position, Vec3 normal) const {
+    bool covered = false;
+    for_all_near(position, [&](const Entry& entry) { covered = covered || weight(entry, position, normal, 1) > 0; });
+    return covered;
+}
+
+}  // namespace lightnet

@@ -1,0 +1,65 @@
+// Irradiance that is known somewhere, found where it is of use.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/estimate/hemisphere.hpp"
+#include "core/scene/scene.hpp"
+
+namespace lightnet {
+
+/// How far a record counts.
+struct Spacing {
+    float accuracy = 0.25f;  // of the estimated error, relative: a record counts within this × its distance
+    float least = 0;         // m, of that
+    float most = 0;          // m
+};
+
+/// Records, in the cells of an octree that they reach. Immutable; any thread may ask.
+class IrradianceOctree {
+public:
+    /// Limits how far each record counts: by its own gradient (an estimate never changes by more than itself), and by
+    /// its neighbours, as they see what it may have missed (Krivanek et al. 2006, "Making radiance and irradiance
+    /// caching practical", section 3.1).
+    IrradianceOctree(std::span<const IrradianceRecord> records, const Spacing& spacing, const Scene::Box& bounds);
+
+    std::size_t size() const { return records_.size(); }
+    /// Irradiance at a point, between all records that reach it when their reach is `stretch` times what it is; none:
+    /// there is none. The weight of a record falls to 0 where it ends, so that no border shows. Error: Ward et al.
+    /// 1988, equation 5; weight: Tabellion & Lamorlette 2004.
+    std::optional<Rgb> irradiance(Vec3 position, Vec3 normal, float stretch) const;
+    /// Does any record reach the point?
+    bool covers(Vec3 position, Vec3 normal) const;
+
+    /// Longest stretch that irradiance() may be asked for.
+    static constexpr float most_stretch = 1.5f;
+
+private:
+    struct Entry {
+        IrradianceRecord record;
+        float reach;  // m: error 1
+    };
+    struct Cell {
+        std::array<std::uint32_t, 8> children{};  // 0: none
+        std::vector<std::uint32_t> entries;
+    };
+    float weight(const Entry& entry, Vec3 position, Vec3 normal, float stretch) const;
+    void clamp_to_neighbours();
+    void insert(std::uint32_t entry);
+    void insert(std::uint32_t cell, Vec3 low, float size, std::uint32_t entry);
+    template <class Function>
+    void for_all_near(Vec3 position, Function function) const;
+
+    std::vector<Entry> records_;
+    std::vector<Cell> cells_;
+    Vec3 low_;
+    float size_ = 0;
+    Spacing spacing_;
+};
+
+}  // namespace lightnet

@@ -1,0 +1,56 @@
+// A packet of light where it met a surface.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <type_traits>
+
+#include "core/math/octahedral.hpp"
+#include "core/math/rgb.hpp"
+#include "core/math/vec.hpp"
+
+namespace lightnet {
+
+/// Made by PhotonShooter. Directions are rounded, to some 0.003° where light comes from and 0.5° for the surface.
+struct Photon {
+    Vec3 position;
+    Rgb flux;  // W
+    std::uint32_t incoming = 0;
+    std::uint32_t surface = 0;
+
+    Photon() = default;
+    Photon(Vec3 at, Rgb power, Vec3 towards_light, Vec3 normal)
+        : position(at), flux(power), incoming(packed_direction(towards_light)), surface(packed_normal(normal)) {}
+
+    /// Unit, away from the surface: where it came from.
+    Vec3 towards_light() const {
+        return from_octahedral({float(incoming & 0xffff) / half - 1, float(incoming >> 16) / half - 1});
+    }
+    /// Cosine between `normal` and the surface's.
+    float cosine_to(Vec3 normal) const {
+        const auto part = [&](unsigned shift) { return float(std::int8_t(std::uint8_t(surface >> shift))); };
+        return (part(0) * normal.x + part(8) * normal.y + part(16) * normal.z) * (1.0f / 127);
+    }
+
+private:
+    static constexpr float half = 32767.5f;
+
+    static std::uint32_t packed_direction(Vec3 direction) {
+        const Vec2 p = to_octahedral(direction);
+        const auto part = [](float x) {
+            return static_cast<std::uint32_t>(std::clamp(std::nearbyint((x + 1) * half), 0.0f, 2 * half));
+        };
+        return part(p.x) | part(p.y) << 16;
+    }
+    static std::uint32_t packed_normal(Vec3 n) {
+        const auto part = [](float x) -> std::uint32_t {
+            return std::uint8_t(std::int8_t(std::clamp(std::nearbyint(x * 127), -127.0f, 127.0f)));
+        };
+        return part(n.x) | part(n.y) << 8 | part(n.z) << 16;
+    }
+};
+
+static_assert(sizeof(Photon) == 32 && std::is_trivially_copyable_v<Photon>, "photons travel as bytes");
+
+}  // namespace lightnet

@@ -1,0 +1,188 @@
+#include "core/estimate/photon_shooter.hpp"
+
+#include "core/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace lightnet {
+namespace {
+
+constexpr std::size_t ways_at_once = 1024;     // whose rays are traced together
+constexpr std::size_t ways_per_shard = 16384;  // some 20 ms
+constexpr std::uint32_t most_surfaces = 512;   // light can go round inside glass without loss
+
+// Veach 1997, equation 5.19: where shading normals lean, light that is followed from its lamp isn't scattered as light
+// that is followed from the eye. 1 where they don't.
+float lean(const SurfacePoint& point, Vec3 arriving, Vec3 leaving) {
+    const float shaded = std::fabs(dot(arriving, point.shading.z) * dot(leaving, point.normal));
+    const float plain = std::fabs(dot(leaving, point.shading.z) * dot(arriving, point.normal));
+    return plain > 0 ? std::min(shaded / plain, 10.0f) : 0;
+}
+
+Rgb left_after(const Rgb& absorption, float way) {
+    return {std::exp(-absorption.r * way), std::exp(-absorption.g * way), std::exp(-absorption.b * way)};
+}
+
+}  // namespace
+
+PhotonPaths photon_paths(const std::string& name) {
+    if (name == "caustic") return PhotonPaths::caustic;
+    if (name == "diffuse") return PhotonPaths::diffuse;
+    if (name == "indirect") return PhotonPaths::indirect;
+    if (name == "all") return PhotonPaths::all;
+    throw Error("photons", "no light paths are called '" + name + "'");
+}
+
+std::string expression_of(PhotonPaths paths) {
+    switch (paths) {
+        case PhotonPaths::caustic:
+            return "LS+D";
+        case PhotonPaths::diffuse:
+            return "L(S|D)*DS*D";
+        case PhotonPaths::indirect:
+            return "L(S|D)+D";
+        case PhotonPaths::all:
+            break;
+    }
+    return "L(S|D)*D";
+}
+
+struct PhotonShooter::Walk {
+    Samples samples;
+    std::uint32_t way;  // counted from the first
+    Rgb flux;
+    const Rgb* absorption = nullptr;  // on the way to the next surface
+    bool met_mirror = false, met_rough = false;
+};
+
+struct PhotonShooter::Flock {
+    std::vector<Walk> walks, before;
+    std::vector<Ray> rays, rays_before;
+    std::vector<std::optional<Hit>> hits;
+};
+
+bool PhotonShooter::keeps(bool met_mirror, bool met_rough) const {
+    switch (paths_) {
+        case PhotonPaths::caustic:
+            return met_mirror && !met_rough;
+        case PhotonPaths::diffuse:
+            return met_rough;
+        case PhotonPaths::indirect:
+            return met_mirror || met_rough;
+        case PhotonPaths::all:
+            break;
+    }
+    return true;
+}
+
+template <class Keep>
+void PhotonShooter::visit(Walk walk, const Ray& ray, const Hit& hit, const Keep& keep, Flock& flock) const {
+    if (walk.absorption) walk.flux *= left_after(*walk.absorption, hit.distance);
+    const SurfacePoint point = scene_.surface(hit);
+    const Bsdf bsdf = scene_.bsdf(point);
+    const Vec3 arriving = -ray.direction;
+    if ((bsdf.lobes() & lobe::rough) && keeps(walk.met_mirror, walk.met_rough)) keep(walk, point, arriving);
+    const auto lobes = paths_ == PhotonPaths::caustic ? lobe::specular : lobe::all;
+    if (!(bsdf.lobes() & lobes)) return;
+    const float choice = bsdf.chooses() ? walk.samples.next() : walk.samples.skip();
+    const auto step = bsdf.sample(arriving, choice, walk.samples.next_2d(), lobes);
+    if (!step) return;
+    float gain = step->transmitted ? step->eta * step->eta : 1;  // flux isn't squeezed as radiance is
+    if (step->lobe != lobe::specular) gain *= lean(point, arriving, step->incoming);
+    const Rgb flux = walk.flux * step->weight * gain;
+    // Ways end by chance, so that what is left carries about as much as before. Jensen 2001, section 5.2.
+    const float before = max_component(walk.flux), after = max_component(flux);
+    const float chance = std::min(1.0f, after / before);
+    if (!(walk.samples.next() < chance)) return;
+    walk.flux = flux / chance;
+    walk.absorption = bsdf.absorption(step->incoming);
+    (step->lobe == lobe::specular ? walk.met_mirror : walk.met_rough) = true;
+    flock.walks.push_back(walk);
+    flock.rays.push_back({point.origin_towards(step->incoming), step->incoming});
+}
+
+template <class Keep>
+void PhotonShooter::follow(std::uint64_t first, std::size_t count, float share, const Aim& aim, const Keep& keep,
+                           std::vector<Trial>* trials) const {
+    Flock flock;
+    for (std::size_t i = 0; i < count; ++i) {
+        Samples samples(key_, static_cast<std::uint32_t>(first + i));
+        const auto [numbers, weight] = aim.choose(samples);
+        if (trials) trials->push_back({numbers, weight, 0});
+        const auto light = scene_.emit(numbers[0], {numbers[1], numbers[2]}, {numbers[3], numbers[4]});
+        if (!light || !(max_component(light->flux) > 0)) continue;
+        flock.walks.push_back({samples, static_cast<std::uint32_t>(i), light->flux * (weight * share)});
+        flock.rays.push_back({light->origin, light->direction});
+    }
+    for (std::uint32_t surface = 0; !flock.walks.empty() && surface < most_surfaces; ++surface) {
+        flock.hits.resize(flock.rays.size());
+        scene_.intersect(flock.rays, flock.hits);
+        flock.before.swap(flock.walks);
+        flock.rays_before.swap(flock.rays);
+        flock.walks.clear();
+        flock.rays.clear();
+        for (std::size_t i = 0; i < flock.before.size(); ++i)
+            if (flock.hits[i]) visit(flock.before[i], flock.rays_before[i], *flock.hits[i], keep, flock);
+    }
+}
+
+void PhotonShooter::shoot(std::uint64_t first, std::size_t count, double share, const Aim& aim,
+                          std::vector<Photon>& out) const {
+    const auto keep = [&](const Walk& walk, const SurfacePoint& point, Vec3 arriving) {
+        out.emplace_back(point.position, walk.flux, arriving, point.normal);
+    };
+    for (std::size_t done = 0; done < count; done += ways_at_once)
+        follow(first + done, std::min(ways_at_once, count - done), float(share), aim, keep, nullptr);
+}
+
+void PhotonShooter::attempt(std::uint64_t first, std::size_t count, const Aim& aim, std::vector<Trial>& out) const {
+    for (std::size_t done = 0; done < count; done += ways_at_once) {
+        const std::size_t start = out.size();
+        // What the choice itself added to the flux is none of the gain.
+        const auto keep = [&](const Walk& walk, const SurfacePoint&, Vec3) {
+            Trial& trial = out[start + walk.way];
+            trial.gain += luminance(walk.flux) / trial.weight;
+        };
+        follow(first + done, std::min(ways_at_once, count - done), 1, aim, keep, &out);
+    }
+}
+
+std::shared_ptr<const Aim> take_aim(Services& services, const Scene& scene, const Shooting& shooting) {
+    auto aim = services.once<Aim>([] { return Aim(); });
+    if (!shooting.aimed) return aim;
+    constexpr std::size_t per_round[] = {65536, 131072};
+    for (std::size_t round = 0; round < std::size(per_round); ++round) {
+        const PhotonShooter shooter(scene, shooting.paths, child(shooting.key, key_of("trials"), round));
+        const auto trials =
+            services.map<Trial>(per_round[round] / ways_per_shard, [&](std::size_t shard, std::vector<Trial>& out) {
+                shooter.attempt(shard * ways_per_shard, ways_per_shard, *aim, out);
+            });
+        aim = services.once<Aim>([&] { return Aim(trials.all()); });
+    }
+    return aim;
+}
+
+std::size_t shards_each(const Shooting& shooting) {
+    return std::size_t((shooting.ways + ways_per_shard - 1) / ways_per_shard);
+}
+
+Mapped<Photon> shoot(Services& services, const Scene& scene, const Shooting& shooting, const Aim& aim,
+                     std::size_t times) {
+    const std::size_t each = shards_each(shooting);
+    auto photons = services.map<Photon>(times * each, [&](std::size_t shard, std::vector<Photon>& out) {
+        const std::uint64_t first = shard % each * ways_per_shard;
+        const PhotonShooter shooter(scene, shooting.paths, child(shooting.key, key_of("ways"), shard / each));
+        shooter.shoot(first, std::min<std::uint64_t>(ways_per_shard, shooting.ways - first), 1 / double(shooting.ways),
+                      aim, out);
+    });
+    if (photons.size() * sizeof(Photon) > shooting.most_bytes)
+        throw Error(std::to_string(photons.size()) + " photons take " +
+                    std::to_string((photons.size() * sizeof(Photon) + 999999) / 1000000) +
+                    " MB, more than its 'memory' allows: raise it, or send fewer 'photons'");
+    return photons;
+}
+
+}  // namespace lightnet

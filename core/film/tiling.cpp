@@ -1,0 +1,82 @@
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+#include "core/film/film.hpp"
+
+namespace lightnet {
+namespace {
+
+struct Cell {
+    std::uint32_t x = 0, y = 0;
+};
+
+// The d-th cell of a Hilbert curve through a square of `side` (a power of two) cells.
+Cell hilbert(std::uint32_t side, std::uint64_t d) {
+    Cell cell;
+    for (std::uint32_t s = 1; s < side; s *= 2, d /= 4) {
+        const bool right = d & 2, up = (d ^ (d >> 1)) & 1;
+        if (!up) {
+            if (right) cell = {s - 1 - cell.x, s - 1 - cell.y};
+            std::swap(cell.x, cell.y);
+        }
+        cell.x += right ? s : 0;
+        cell.y += up ? s : 0;
+    }
+    return cell;
+}
+
+std::uint32_t up_to_whole(std::uint32_t number, std::uint32_t step) { return (number + step - 1) / step * step; }
+
+}  // namespace
+
+std::vector<Tile> tiles_of(std::uint32_t width, std::uint32_t height, std::uint32_t tile_size, std::uint32_t samples) {
+    return tiles_of(Window{0, 0, width, height}, tile_size, samples);
+}
+
+std::vector<Tile> tiles_of(const Window& window, std::uint32_t tile_size, std::uint32_t samples) {
+    const std::uint32_t width = window.width, height = window.height;
+    if (!width || !height || !tile_size) return {};
+    const std::uint32_t columns = (width - 1) / tile_size + 1, rows = (height - 1) / tile_size + 1;
+    const std::uint32_t side = std::bit_ceil(std::max(columns, rows));
+    std::vector<Tile> tiles;
+    tiles.reserve(std::size_t{columns} * rows * blocks_in(samples));
+    for (std::uint64_t d = 0; d < std::uint64_t{side} * side; ++d) {
+        const auto [column, row] = hilbert(side, d);
+        if (column >= columns || row >= rows) continue;
+        const std::uint32_t x = column * tile_size, y = row * tile_size;
+        tiles.push_back(
+            {window.x + x, window.y + y, std::min(tile_size, width - x), std::min(tile_size, height - y), 0, 0});
+    }
+    const std::size_t per_block = tiles.size();
+    if (blocks_in(samples) == 0) return {};
+    for (std::uint32_t block = 0; block < blocks_in(samples); ++block)
+        for (std::size_t i = 0; i < per_block; ++i) {
+            if (block > 0) tiles.push_back(tiles[i]);
+            Tile& tile = tiles[block * per_block + i];
+            tile.first_sample = block * samples_per_block;
+            tile.samples = samples_of(block, samples);
+        }
+    return tiles;
+}
+
+std::vector<Tile> tiles_of(const FilmFormat& format, std::uint32_t tile_size) {
+    if (format.adaptive()) tile_size = up_to_whole(tile_size, cell_size);
+    return tiles_of(format.work(), tile_size, format.least_samples());
+}
+
+std::uint32_t FilmFormat::least_samples() const {
+    if (!adaptive() || samples <= 2 * samples_per_block) return samples;
+    const std::uint32_t wanted = std::clamp(refinement.least, 2 * samples_per_block, samples);
+    return std::min(samples, up_to_whole(wanted, samples_per_block));
+}
+
+Window FilmFormat::work() const {
+    const Window wanted = crop.value_or(Window{0, 0, width, height});
+    if (!adaptive()) return wanted;
+    const std::uint32_t x = wanted.x / cell_size * cell_size, y = wanted.y / cell_size * cell_size;
+    return {x, y, std::min(width, up_to_whole(wanted.x + wanted.width, cell_size)) - x,
+            std::min(height, up_to_whole(wanted.y + wanted.height, cell_size)) - y};
+}
+
+}  // namespace lightnet

@@ -1,0 +1,118 @@
+// Light that was sent from the lamps beforehand, and kept where it met surfaces.
+#include <algorithm>
+#include <cassert>
+#include <memory>
+#include <vector>
+
+#include "core/estimate/photon_shooter.hpp"
+#include "core/estimate/photon_tree.hpp"
+#include "core/graph/kind.hpp"
+#include "core/light/light_op.hpp"
+#include "core/light/node_context.hpp"
+#include "core/light/services.hpp"
+
+namespace lightnet {
+namespace {
+
+/// Jensen 1996, "Global illumination using photon maps". The map is shot on all places before the first question, and
+/// frozen. Answers are as blurred as the `gather` nearest photons lie apart, and darker within that distance of a
+/// surface's edge: the bias of the method, which shrinks as `photons` grow. Where light is wanted that is smooth,
+/// IrradianceCache or FinalGather over a map of all paths hides it.
+class PhotonMap final : public LightOp {
+public:
+    explicit PhotonMap(const NodeContext& here)
+        : scene_(here.scene()),
+          gather_(static_cast<std::size_t>(here.integer("gather"))),
+          radius_(static_cast<float>(here.number("radius"))) {
+        shooting_.paths = photon_paths(here.text("paths"));
+        shooting_.ways = static_cast<std::uint64_t>(here.integer("photons"));
+        shooting_.aimed = here.flag("aim");
+        shooting_.key = child(mix(here.seed()), here.key());
+        shooting_.most_bytes = static_cast<std::size_t>(here.number("memory") * 1e6);
+        if (radius_ == 0) radius_ = 0.05f * scene_.radius();
+    }
+
+    void prepare(Services& services) override {
+        const auto aim = take_aim(services, scene_, shooting_);
+        const auto photons = shoot(services, scene_, shooting_, *aim);
+        tree_ = services.once<PhotonTree>([&] { return PhotonTree(photons.all()); });
+    }
+
+    void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
+        assert(tree_ && "nobody asks before it is prepared");
+        std::vector<PhotonTree::Near> scratch;
+        for (std::size_t i = 0; i < questions.size(); ++i) {
+            const Query& question = questions[i];
+            const SurfacePoint point = scene_.surface(question);
+            const Bsdf bsdf = scene_.bsdf(point);
+            answers[i] = tree_->radiance({point, bsdf, question.outgoing, question.lobes}, radius_, gather_, scratch);
+        }
+    }
+
+private:
+    const Scene& scene_;
+    Shooting shooting_;
+    std::size_t gather_;
+    float radius_;  // m
+    std::shared_ptr<const PhotonTree> tree_;
+};
+
+std::vector<Param> params() {
+    return {
+        {.name = "photons",
+         .type = ParamType::integer,
+         .help = "ways of light that leave the lamps",
+         .unit = "photons",
+         .initial = Value{200000.0},
+         .least = 1,
+         .most = 4e9},
+        {.name = "gather",
+         .type = ParamType::integer,
+         .help = "how many of the nearest photons an answer looks at; 0: all within the radius",
+         .unit = "photons",
+         .initial = Value{60.0},
+         .least = 0,
+         .most = 65536},
+        {.name = "radius",
+         .type = ParamType::number,
+         .help = "how far they may be away; 0: a twentieth of the scene's radius",
+         .unit = "m",
+         .initial = Value{0.0},
+         .least = 0},
+        {.name = "paths",
+         .type = ParamType::text,
+         .help = "which light: by way of mirrors and glass alone, by way of something rough, of either, or all of it",
+         .initial = Value{"caustic"},
+         .choices = {"caustic", "diffuse", "indirect", "all"}},
+        {.name = "aim",
+         .type = ParamType::flag,
+         .help = "send most photons where, as trials show, they are of use",
+         .initial = Value{true}},
+        {.name = "memory",
+         .type = ParamType::number,
+         .help = "that the photons may take; more is an error",
+         .unit = "MB",
+         .initial = Value{1024.0},
+         .least = 0,
+         .most = 1e6},
+    };
+}
+
+std::vector<std::string> paths_of(const Node& node) {
+    return {expression_of(photon_paths(std::get<std::string>(node.params.at("paths").data)))};
+}
+
+}  // namespace
+
+Kind photon_map_kind() {
+    return {
+        .name = "PhotonMap",
+        .help = "light that was sent from the lamps beforehand: caustics, or a rough picture of all light",
+        .prepares = true,
+        .paths = paths_of,
+        .params = params(),
+        .make_light = [](const NodeContext& here) { return std::make_unique<PhotonMap>(here); },
+    };
+}
+
+}  // namespace lightnet

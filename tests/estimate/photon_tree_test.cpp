@@ -1,0 +1,125 @@
+// Photons, found again.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/estimate/photon_tree.hpp"
+#include "core/math/samples.hpp"
+
+namespace lightnet {
+namespace {
+
+// On a floor of 1 m², each 1 / count W.
+std::vector<Photon> on_floor(std::uint32_t count, Key key, bool on_grid = false) {
+    std::vector<Photon> photons;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const Key own = child(key, i);
+        Vec2 at{float(own >> 40) / float(1 << 24), float(mix(own) >> 40) / float(1 << 24)};
+        if (on_grid) at = {std::floor(at.x * 16) / 16, std::floor(at.y * 16) / 16};
+        const float flux = 1 / float(count);
+        photons.push_back({{at.x, 0, at.y}, {flux, flux, flux}, normalize({0.3f, 1, 0.2f}), {0, 1, 0}});
+    }
+    return photons;
+}
+
+TEST(Photon, KeepsItsDirections) {
+    for (std::uint32_t i = 0; i < 1000; ++i) {
+        const auto part = [&](unsigned k) { return float(mix(7 + 3 * i + k) >> 40) / float(1 << 23) - 1; };
+        const Vec3 d = normalize({part(0), part(1), part(2)}), n = normalize({part(1), part(2), -part(0)});
+        const Photon photon({}, {}, d, n);
+        EXPECT_GT(dot(photon.towards_light(), d), 1 - 1e-6f);
+        EXPECT_NEAR(photon.cosine_to(n), 1, 0.02f);
+    }
+}
+
+TEST(PhotonTree, FindsTheNearestWithTiesByIndex) {
+    for (const bool on_grid : {false, true}) {
+        const PhotonTree tree(on_floor(3000, 1, on_grid));
+        for (std::uint32_t i = 0; i < 50; ++i) {
+            const Vec2 at{float(mix(99 + 2 * i) >> 40) / float(1 << 24),
+                          float(mix(100 + 2 * i) >> 40) / float(1 << 24)};
+            std::vector<PhotonTree::Near> found, all;
+            const PhotonTree::Wanted wanted{{at.x, 0, at.y}, {0, 1, 0}, 0.2f, 40};
+            tree.find(wanted, found);
+            for (std::uint32_t k = 0; k < tree.size(); ++k) {
+                const float d = length_squared(tree.photons()[k].position - wanted.position);
+                if (d <= wanted.radius * wanted.radius) all.push_back({d, k});
+            }
+            std::sort(all.begin(), all.end());
+            all.resize(std::min<std::size_t>(all.size(), wanted.most));
+            ASSERT_EQ(found.size(), all.size());
+            for (std::size_t k = 0; k < all.size(); ++k) {
+                EXPECT_EQ(found[k].index, all[k].index);
+                EXPECT_EQ(found[k].distance2, all[k].distance2);
+            }
+        }
+    }
+}
+
+TEST(PhotonTree, DoesNotDependOnTheOrderOfPhotons) {
+    auto photons = on_floor(5000, 2);
+    const PhotonTree one(photons);
+    std::reverse(photons.begin(), photons.end());
+    const PhotonTree other(photons);
+    for (std::size_t i = 0; i < one.size(); ++i) EXPECT_EQ(one.photons()[i].position, other.photons()[i].position);
+}
+
+TEST(PhotonTree, PassesOverPhotonsOfOtherSurfaces) {
+    auto photons = on_floor(100, 3);
+    for (auto& photon : photons) photon = Photon(photon.position, photon.flux, {1, 0, 0}, {1, 0, 0});
+    const PhotonTree tree(photons);
+    std::vector<PhotonTree::Near> found;
+    tree.find({{0.5f, 0, 0.5f}, {0, 1, 0}, 1, 0}, found);
+    EXPECT_TRUE(found.empty());
+}
+
+Rgb seen(const PhotonTree& tree, Vec3 at, float radius, std::size_t most) {
+    const Bsdf bsdf(Frame::around({0, 1, 0}), {0, 1, 0}, DiffuseBsdf{{0.8f, 0.8f, 0.8f}});
+    SurfacePoint point;
+    point.position = at;
+    point.normal = {0, 1, 0};
+    std::vector<PhotonTree::Near> scratch;
+    return tree.radiance({point, bsdf, {0, 1, 0}, lobe::rough}, radius, most, scratch);
+}
+
+// 1 W on 1 m² of albedo 0.8: 0.8/π everywhere. The estimates at points far from each other are independent, so the
+// bound is four standard deviations of their mean. An estimate from k photons varies by about √(4/3k).
+TEST(PhotonTree, SeesAnEvenlyLitPlaneAsBrightAsItIs) {
+    const double exact = 0.8 / 3.14159265358979;
+    for (const auto& [radius, most] : {std::pair(0.05f, std::size_t{0}), std::pair(1.0f, std::size_t{60})}) {
+        double sum = 0;
+        int points = 0;
+        for (Key key = 0; key < 20; ++key) {
+            const PhotonTree tree(on_floor(8000, 1000 * key));
+            for (const float x : {0.2f, 0.4f, 0.6f, 0.8f})
+                for (const float z : {0.2f, 0.4f, 0.6f, 0.8f}) {
+                    sum += seen(tree, {x, 0, z}, radius, most).g;
+                    ++points;
+                }
+        }
+        EXPECT_NEAR(sum / points, exact, 4 * exact * std::sqrt(4 / 3.0 / 60 / points)) << "of " << most;
+    }
+}
+
+// Beside a sharp edge the estimate is too bright or too dark by how far it looks; more photons let it look less far.
+TEST(PhotonTree, SeesEdgesSharperTheMorePhotonsThereAre) {
+    const auto error = [](std::uint32_t count) {
+        double sum = 0;
+        for (Key key = 0; key < 8; ++key) {
+            auto photons = on_floor(count, 77 * key);
+            std::erase_if(photons, [](const Photon& photon) { return photon.position.x > 0.5f; });
+            const PhotonTree tree(photons);
+            for (int i = 0; i < 20; ++i) {
+                const float x = 0.4f + 0.01f * float(i), z = 0.5f;
+                const double exact = x < 0.5f ? 0.8 / 3.14159265358979 : 0;
+                sum += std::fabs(seen(tree, {x, 0, z}, 0.3f, 50).g - exact);
+            }
+        }
+        return sum;
+    };
+    const double few = error(1000), many = error(64000);
+    EXPECT_LT(many, 0.4 * few);
+}
+
+}  // namespace
+}  // namespace lightnet

@@ -1,0 +1,88 @@
+// Irradiance that is interpolated, beside light that is known.
+#include <gtest/gtest.h>
+
+#include "tests/support/small_network.hpp"
+#include "tests/support/small_scenes.hpp"
+
+namespace lightnet {
+namespace {
+
+using namespace test;
+
+Value number(double value) { return Value{value}; }
+Value word(const char* text) { return Value{std::string(text)}; }
+
+// A room of albedo 0.6, open in front, with a lamp below the ceiling and a ball on the floor.
+SceneData room_with_ball(MaterialId (*material_of_ball)(SceneData&)) {
+    SceneData data;
+    add(data, room(), diffuse(data, 0.6f));
+    add(data, ball({0.6f, 0.25f, 0.6f}, 0.25f), material_of_ball(data));
+    add(data, quad({0.35f, 0.99f, 0.35f}, {0.3f, 0, 0}, {0, 0, 0.3f}), diffuse(data, 0)).emission =
+        AreaEmission{{10, 10, 10}, false};
+    data.camera = camera({0.1f, 0.6f, 0.1f}, {0.6f, 0.3f, 0.6f}, 80);
+    data.camera_given = true;
+    return data;
+}
+
+MaterialId matte(SceneData& data) { return diffuse(data, 0.6f); }
+MaterialId paper(SceneData& data) {
+    DiffuseMaterial sheet;
+    sheet.reflectance = colour(data, {0.3f, 0.3f, 0.3f});
+    sheet.transmittance = colour(data, {0.5f, 0.5f, 0.5f});
+    return material(data, sheet);
+}
+MaterialId lacquer(SceneData& data) {
+    CoatedDiffuseMaterial coated{colour(data, {0.6f, 0.6f, 0.6f})};
+    coated.roughness = {0.3f, 0.3f};
+    return material(data, coated);
+}
+
+double indirect(const SceneData& data, const char* kind, SmallNetwork::Params params, std::uint32_t samples) {
+    SmallNetwork network(data, 24, 24);
+    network.add("all", "PathTracing", {}, {{"paths", word("all")}}).add("soft", kind, {"all"}, std::move(params));
+    return mean_of(network.picture(samples));
+}
+
+class Cache : public testing::TestWithParam<MaterialId (*)(SceneData&)> {};
+
+// Both look at the same paths one surface further on; the cache may be wrong by what it interpolates.
+TEST_P(Cache, FindsAsMuchLightAsLookingAroundEachTime) {
+    const auto data = room_with_ball(GetParam());
+    const double exact = indirect(data, "FinalGather", {}, 160);
+    EXPECT_NEAR(indirect(data, "IrradianceCache", {{"rays", number(256)}}, 4), exact, 0.01 * exact);
+}
+
+INSTANTIATE_TEST_SUITE_P(Balls, Cache, testing::Values(matte, paper, lacquer));
+
+// Of albedo ρ and emission 1: by way of two walls or more ρ² / (1 - ρ), everywhere, so that interpolation adds no
+// error.
+TEST(IrradianceCache, SeesTheFurnaceAsBrightAsItIs) {
+    for (const float albedo : {0.5f, 0.8f}) {
+        const double exact = double{albedo} * albedo / (1 - albedo);
+        EXPECT_NEAR(indirect(furnace(albedo, 1), "IrradianceCache", {}, 1) - 1, exact, 0.01 * exact);
+    }
+}
+
+TEST(IrradianceCache, ComesNearerTheMoreAccurateItIs) {
+    const auto picture = [&](const char* kind, SmallNetwork::Params params, std::uint32_t samples) {
+        SmallNetwork network(room_with_ball(matte), 16, 16);
+        network.add("all", "PathTracing", {}, {{"paths", word("all")}}).add("soft", kind, {"all"}, std::move(params));
+        return network.picture(samples);
+    };
+    const auto exact = picture("FinalGather", {{"rays", number(4)}}, 64);
+    const auto error = [&](double accuracy) {
+        const auto soft = picture("IrradianceCache",
+                                  {{"accuracy", number(accuracy)},
+                                   {"rays", number(512)},
+                                   {"min_spacing", number(0.001)},
+                                   {"max_spacing", number(10)}},
+                                  4);
+        double sum = 0;
+        for (std::size_t i = 0; i < soft.size(); ++i) sum += std::fabs(soft[i].g - exact[i].g);
+        return sum;
+    };
+    EXPECT_LT(error(0.1), 0.8 * error(1));
+}
+
+}  // namespace
+}  // namespace lightnet

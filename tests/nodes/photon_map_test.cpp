@@ -1,0 +1,123 @@
+// Maps of photons, and what is gathered from them, beside light that is known.
+#include <gmock/gmock.h>
+
+#include "core/error.hpp"
+#include "tests/support/small_network.hpp"
+#include "tests/support/small_scenes.hpp"
+
+namespace lightnet {
+namespace {
+
+using namespace test;
+
+Value number(double value) { return Value{value}; }
+Value word(const char* text) { return Value{std::string(text)}; }
+
+// A floor under a light from far away: irradiance 2, albedo 0.5.
+SceneData lit_floor() {
+    SceneData data;
+    add(data, quad({-5, 0, -5}, {0, 0, 10}, {10, 0, 0}), diffuse(data, 0.5f));
+    data.lights.push_back(DirectionalLight{{0, -1, 0}, {2, 2, 2}});
+    data.camera = camera({0, 3, 3}, {0, 0, 0}, 30);
+    data.camera_given = true;
+    return data;
+}
+
+// A glass ball over a floor, under a small lamp.
+SceneData ball_and_floor() {
+    SceneData data;
+    add(data, quad({-5, 0, -5}, {0, 0, 10}, {10, 0, 0}), diffuse(data, 0.5f));
+    add(data, ball({0, 0.6f, 0}, 0.4f), material(data, DielectricMaterial{}));
+    add(data, quad({-0.3f, 3, -0.3f}, {0.6f, 0, 0}, {0, 0, 0.6f}), diffuse(data, 0)).emission =
+        AreaEmission{{20, 20, 20}, true};
+    data.camera = camera({0.8f, 1.2f, 1.6f}, {0, 0, 0}, 25);
+    data.camera_given = true;
+    return data;
+}
+
+TEST(PhotonMap, SeesAPlaneAsBrightAsTheSunMakesIt) {
+    SmallNetwork network(lit_floor(), 16, 16);
+    network.add("map", "PhotonMap", {}, {{"paths", word("all")}, {"photons", number(100000)}, {"gather", number(200)}});
+    const double exact = 0.5 * 2 / 3.14159265358979;
+    EXPECT_NEAR(mean_of(network.picture(1)), exact, 0.02 * exact);
+}
+
+TEST(PhotonMap, FindsTheCausticThatPathTracingFinds) {
+    SmallNetwork mapped(ball_and_floor(), 24, 24), traced(ball_and_floor(), 24, 24);
+    // The floor sees nothing but the lamp and the ball, so that all indirect light is the caustic and its echoes.
+    mapped.add("map", "PhotonMap", {}, {{"photons", number(100000)}, {"radius", number(0.1)}});
+    traced.add("paths", "PathTracing", {}, {{"max_depth", number(8)}, {"samples", number(16)}});
+    const double caustic = mean_of(mapped.picture(4)), all = mean_of(traced.picture(160));
+    EXPECT_NEAR(caustic, all, 0.04 * all);
+}
+
+TEST(PhotonMap, SaysThatItNeedsMoreMemoryThanItMayHave) {
+    SmallNetwork network(lit_floor(), 4, 4);
+    network.add("map", "PhotonMap", {}, {{"paths", word("all")}, {"photons", number(100000)}, {"memory", number(1)}});
+    try {
+        network.picture(1);
+        FAIL() << "3 MB fit into 1";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(),
+                    testing::MatchesRegex(
+                        "PhotonMap 'map', preparing: 6.... photons take 3 MB, more than its 'memory' allows.*"));
+    }
+}
+
+TEST(PhotonMap, HasSharperCausticsTheMorePhotonsItHas) {
+    const auto picture = [](double photons) {
+        SmallNetwork network(ball_and_floor(), 24, 24);
+        network.add("map", "PhotonMap", {}, {{"photons", number(photons)}, {"gather", number(50)}});
+        return network.picture(4);
+    };
+    const auto reference = picture(4e5);
+    const auto error = [&](double photons) {
+        const auto some = picture(photons);
+        double sum = 0;
+        for (std::size_t i = 0; i < some.size(); ++i) sum += std::fabs(some[i].g - reference[i].g);
+        return sum;
+    };
+    EXPECT_LT(error(40000), 0.6 * error(2000));
+}
+
+TEST(ProgressivePhotonMapping, FindsTheCausticThatPathTracingFinds) {
+    SmallNetwork mapped(ball_and_floor(), 24, 24), traced(ball_and_floor(), 24, 24);
+    mapped.add("map", "ProgressivePhotonMapping", {}, {{"photons", number(20000)}, {"radius", number(0.05)}});
+    traced.add("paths", "PathTracing", {}, {{"max_depth", number(8)}, {"samples", number(16)}});
+    const double caustic = mean_of(mapped.picture(16)), all = mean_of(traced.picture(160));
+    EXPECT_NEAR(caustic, all, 0.04 * all);
+}
+
+TEST(ProgressivePhotonMapping, ComesNearerWithEveryPass) {
+    const auto error = [&](double passes) {
+        SmallNetwork some(ball_and_floor(), 16, 16), exact(ball_and_floor(), 16, 16);
+        some.add("map", "ProgressivePhotonMapping", {},
+                 {{"photons", number(4000)}, {"radius", number(0.2)}, {"passes", number(passes)}});
+        exact.add("map", "PhotonMap", {}, {{"photons", number(300000)}, {"gather", number(40)}});
+        const auto a = some.picture(std::uint32_t(passes)), b = exact.picture(16);
+        double sum = 0;
+        for (std::size_t i = 0; i < a.size(); ++i) sum += std::fabs(a[i].g - b[i].g);
+        return sum;
+    };
+    EXPECT_LT(error(32), 0.8 * error(2));
+}
+
+// In a closed room of albedo ρ whose walls emit 1, light that met one wall or more is ρ / (1 - ρ) bright; by way of
+// one more wall ρ² / (1 - ρ) is left of what a map of all light says.
+TEST(FinalGather, SeesTheFurnaceThroughAMap) {
+    SmallNetwork network(furnace(0.5f, 1), 16, 16);
+    network
+        .add("map", "PhotonMap", {},
+             {{"paths", word("all")}, {"photons", number(200000)}, {"gather", number(40)}, {"radius", number(0.05)}})
+        .add("gathered", "FinalGather", {"map"}, {{"rays", number(16)}});
+    EXPECT_NEAR(mean_of(network.picture(4)) - 1, 0.5, 0.02);  // without what the renderer sees shine
+}
+
+TEST(FinalGather, IsOneStepOfPathTracing) {
+    SmallNetwork gathered(furnace(0.8f, 1), 16, 16);
+    gathered.add("all", "PathTracing", {}, {{"paths", word("all")}}).add("step", "FinalGather", {"all"});
+    EXPECT_NEAR(mean_of(gathered.picture(400)) - 1, 0.8 * 0.8 / 0.2, 0.02);
+}
+
+}  // namespace
+}  // namespace lightnet
