@@ -1,0 +1,77 @@
+// How a conductor leads rehearsals.
+#include <algorithm>
+#include <cstring>
+#include <span>
+
+#include "core/light/mapped.hpp"
+#include "core/light/rehearsal.hpp"
+#include "core/runtime/conductor.hpp"
+
+namespace lightnet {
+namespace {
+
+constexpr std::size_t tiles_per_place = 4;  // small ones
+
+}  // namespace
+
+// Begins a rehearsal when all places of the node wait for it, and gathers what they have noted when it is over.
+void Conductor::collect() {
+    if (done_ == order_.size()) return;
+    const auto places = holders(done_);
+    if (!rehearsing_) {
+        if (places.empty()) return;
+        for (const auto& place : places) {
+            const auto& follower = followers_[{place, done_}];
+            if (follower.state != Follower::State::waiting || follower.at.kind != Report::Kind::rehearse ||
+                follower.at.call != followers_[{places[0], done_}].at.call ||
+                calls_.reported(order_[done_], follower.at).result())
+                return;
+        }
+        return begin_rehearsal(followers_[{places[0], done_}].at.call);
+    }
+    if (!rehearsing_->rendered || rehearsing_->broken) return;
+    for (const auto& place : rehearsing_->places)
+        if (!rehearsing_->collecting.contains(place) &&
+            send(place, done_, {.kind = Step::Kind::collect, .call = rehearsing_->call}))
+            rehearsing_->collecting.insert(place);
+}
+
+void Conductor::begin_rehearsal(std::uint32_t call) {
+    MasterRenderer::Job job;
+    job.run = options_.run;
+    job.image = static_cast<std::uint32_t>(renderer_of(*options_.graph, *options_.registry));
+    job.width = options_.width;
+    job.tiles = rehearsal_tiles(*options_.graph, *options_.registry, calls_.of(order_[done_], call).what().count);
+    job.credit = {tiles_per_place, tiles_per_place};
+    job.double_tail = false;  // what is still under way at its end would note questions in the next rehearsal
+    ++epoch_;
+    rehearsing_.emplace();
+    rehearsing_->call = call;
+    for (const auto& place : holders(done_)) rehearsing_->places.insert(place);
+    rehearsing_->master =
+        std::make_unique<MasterRenderer>(std::move(job), *this, [](const Tile&, std::span<const Rgb>) {});
+    rehearsing_->master->use(in_force_);
+}
+
+void Conductor::noted(const Sent& sent, const Bytes& data) {
+    if (!rehearsing_ || rehearsing_->broken || sent.position != done_ || sent.step.call != rehearsing_->call) return;
+    auto& all = rehearsing_->noted;
+    const std::size_t before = all.size();
+    all.resize(before + (data ? data->size() / sizeof(Query) : 0));
+    if (all.size() > before) std::memcpy(&all[before], data->data(), (all.size() - before) * sizeof(Query));
+    if (++rehearsing_->collected < rehearsing_->places.size()) return;
+    sort_and_unite(rehearsing_->noted);
+    const auto bytes = std::as_bytes(std::span(rehearsing_->noted));
+    const std::vector<std::byte> shard(bytes.begin(), bytes.end());
+    end_rehearsal();
+    calls_.of(order_[sent.position], sent.step.call).complete(join_shards(std::span(&shard, 1)));
+    calls_.keep(order_[sent.position], sent.step.call);
+    advance();
+}
+
+void Conductor::end_rehearsal() {
+    rehearsing_.reset();
+    ++epoch_;
+}
+
+}  // namespace lightnet

@@ -1,0 +1,209 @@
+// A network that prepares, and the ways to render it: serially, in threads, on hosts of this process.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "core/film/film.hpp"
+#include "core/graph/check.hpp"
+#include "core/runtime/conductor.hpp"
+#include "core/runtime/fingerprint.hpp"
+#include "core/runtime/job.hpp"
+#include "core/runtime/serial.hpp"
+#include "nodes/standard_nodes.hpp"
+#include "tests/support/bad_line.hpp"
+#include "tests/support/learner.hpp"
+#include "tests/support/slowdown.hpp"
+#include "transport/cluster.hpp"
+#include "transport/host.hpp"
+#include "transport/threaded_run.hpp"
+
+namespace lightnet::test {
+
+using Pixels = std::vector<Rgb>;
+
+inline constexpr std::uint32_t width = 24, height = 16, samples = 4;
+
+inline Node node(std::string name, std::string kind, std::vector<Value> entries,
+                 std::map<std::string, Value> params = {}) {
+    return {std::move(name), std::move(kind), std::move(entries), std::move(params), {"test.lua", 1}};
+}
+
+// Operators spread over places, round about.
+inline Plan spread(std::size_t nodes, std::uint32_t places) {
+    Plan plan;
+    for (std::uint32_t i = 0; i < places; ++i) plan.places.push_back({"", i});
+    plan.places_of.resize(nodes);
+    for (std::size_t node = 1; node < nodes; ++node)
+        plan.places_of[node] = {static_cast<std::uint32_t>(node % places),
+                                static_cast<std::uint32_t>((node + 1) % places)};
+    if (places == 1)
+        for (auto& at : plan.places_of) at = {0};
+    return plan;
+}
+
+inline std::map<std::string, Value> seen() {
+    return {{"scene", Value{NodeRef{"scene"}}},
+            {"film", Value{Table{{Value{double(width)}, Value{double(height)}}, {}}}}};
+}
+
+// image ← both ← (first ← direct), (second ← first): one learner asks another.
+inline std::vector<Node> learning_nodes() {
+    const auto ref = [](const char* name) { return Value{NodeRef{name}}; };
+    return {node("scene", "Scene", {Value{std::string("none.pbrt")}}),
+            node("direct", "DirectLighting", {}),
+            node("first", "Learner", {ref("direct")}, {{"stride", Value{4.0}}}),
+            node("second", "Learner", {ref("first")}, {{"stride", Value{2.0}}}),
+            node("both", "Combine", {ref("first"), ref("second")}),
+            node("image", "RayTracer", {ref("both")}, seen())};
+}
+
+// A network, and the ways to render it.
+class Learning {
+public:
+    Learning() : Learning(with_learner(), learning_nodes()) {}
+    Learning(Registry kinds, std::vector<Node> nodes) : registry(std::move(kinds)) {
+        job.graph = check({"test.lua", std::move(nodes)}, registry);
+        job.scene = std::string(LIGHTNET_SOURCE_DIR) + "/graphs/cornell_box.pbrt";
+        job.isa = usual_isa();
+        job.width = width, job.height = height;
+        DiskFiles disk;
+        network = build_network(job, registry, disk);
+        for (const auto& [path, bytes] : disk.seen()) {
+            job.files.push_back({path, content_hash(*bytes), bytes->size()});
+            files[path] = bytes;
+        }
+        tiles = tiles_of(width, height, 8, samples);
+    }
+
+    std::vector<Pixels> serial() const {
+        SerialRun run(*network);
+        run.prepare("");
+        std::vector<Pixels> pixels;
+        for (const auto& tile : tiles) pixels.push_back(run.render(tile));
+        return pixels;
+    }
+
+    // On hosts, whose carrier this is. `meanwhile` is called often while they prepare.
+    std::vector<Pixels> networked(Cluster& cluster, const std::function<void()>& meanwhile = {}) const {
+        Conductor conductor(options(), cluster);
+        conductor.propose(cluster.plan());
+        const auto end = std::chrono::steady_clock::now() + slowdown * std::chrono::seconds(30);
+        while (!conductor.prepare(std::chrono::milliseconds(2))) {
+            if (meanwhile) meanwhile();
+            if (std::chrono::steady_clock::now() > end) {
+                ADD_FAILURE() << "preparing hangs: " << conductor.progress();
+                return {};
+            }
+        }
+        return render(conductor);
+    }
+
+    std::vector<Pixels> threaded(const Plan& plan, PlaceRules rules) const {
+        ThreadedRun run(network, 1, plan, rules);
+        Conductor conductor(options(), run.carrier());
+        conductor.propose(plan);
+        EXPECT_TRUE(conductor.prepare(slowdown * std::chrono::seconds(30)))
+            << "preparing hangs: " << conductor.progress();
+        EXPECT_EQ(conductor.in_force(), plan);
+        EXPECT_LE(said.size(), 2u) << "each line once, however many places say it";
+        auto pixels = render(conductor);
+        run.stop();
+        return pixels;
+    }
+
+    Conductor::Options options() const {
+        Conductor::Options options;
+        said.clear();
+        options.say = [this](const std::string& line) { said.push_back(line); };
+        options.run = 1;
+        options.graph = &network->graph;
+        options.registry = &registry;
+        options.width = static_cast<std::uint32_t>(network->layers.film.size());
+        return options;
+    }
+
+    std::vector<Pixels> render(Conductor& conductor) const {
+        std::vector<Pixels> pixels(tiles.size());
+        MasterRenderer::Job work;
+        work.run = 1;
+        work.image = static_cast<std::uint32_t>(renderer_of(network->graph, registry));
+        work.width = static_cast<std::uint32_t>(network->layers.film.size());
+        work.tiles = tiles;
+        MasterRenderer master(work, conductor, [&](const Tile& tile, std::span<const Rgb> colours) {
+            const auto index = std::find(tiles.begin(), tiles.end(), tile) - tiles.begin();
+            pixels[static_cast<std::size_t>(index)].assign(colours.begin(), colours.end());
+        });
+        master.use(conductor.in_force());
+        EXPECT_TRUE(master.work(slowdown * std::chrono::seconds(30))) << "rendering hangs";
+        return pixels;
+    }
+
+    Registry registry;
+    Job job;
+    std::map<std::string, Bytes> files;
+    std::shared_ptr<const Network> network;
+    std::vector<Tile> tiles;
+    mutable std::vector<std::string> said;  // by the nodes of the last run
+};
+
+// A daemon in a thread of this process: its nodes may be those of a test.
+class HostThread {
+public:
+    HostThread(const Registry& registry, const std::string& cache, std::uint32_t places)
+        : host_(options(cache, places), registry), thread_([this] { host_.serve(stop_); }) {}
+    ~HostThread() { stop_ = true; }
+    static Host::Options options(const std::string& cache, std::uint32_t places) {
+        Host::Options options;
+        options.cache = cache;
+        options.places = places;
+        return options;
+    }
+    void leave() { stop_ = true; }
+    std::string endpoint() const { return host_.endpoint(); }
+
+private:
+    std::atomic<bool> stop_{false};
+    Host host_;
+    std::jthread thread_;
+};
+
+inline Cluster::Options cluster_of(const Learning& learning, std::vector<std::string> endpoints) {
+    Cluster::Options options;
+    options.run = 1;
+    options.endpoints = std::move(endpoints);
+    options.job = learning.job;
+    options.files = learning.files;
+    options.plan = [&learning](const std::vector<HostOffer>& offers) {
+        std::uint32_t places = 0;
+        Plan all = plan(learning.network->graph, learning.registry, {}, offers);
+        places = static_cast<std::uint32_t>(all.places.size());
+        all.places_of = spread(all.places_of.size(), places).places_of;
+        return all;
+    };
+    return options;
+}
+
+// Cuts a line again and again, as long as it lives.
+class Scissors {
+public:
+    Scissors(BadLine& line, std::chrono::milliseconds pause)
+        : thread_([&line, pause](const std::stop_token& stop) {
+              for (; !stop.stop_requested(); std::this_thread::sleep_for(pause)) line.cut();
+          }) {}
+
+private:
+    std::jthread thread_;
+};
+
+}  // namespace lightnet::test
