@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <pwd.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -27,6 +26,7 @@
 #include "core/scene/read_scene.hpp"
 #include "tools/crew.hpp"
 #include "tools/exit_code.hpp"
+#include "tools/output_file.hpp"
 #include "tools/run_book.hpp"
 #include "tools/signals.hpp"
 #include "transport/cluster.hpp"
@@ -63,16 +63,6 @@ const char* name_of(Mode mode) {
         default:
             return "network";
     }
-}
-
-// Said before work starts, not after hours of it.
-void check_output(const std::string& output) {
-    const std::filesystem::path path(output);
-    const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-    if (path.extension() != ".exr")
-        throw UserError({output, 0}, "pictures are written as .exr (with a .png beside it)");
-    if (!std::filesystem::is_directory(folder)) throw UserError({output, 0}, "there is no folder " + folder.string());
-    if (::access(folder.c_str(), W_OK) != 0) throw UserError({output, 0}, "the folder can't be written to");
 }
 
 RunReport first_page(const RunRequest& request, const Registry& registry, const FilmFormat& film) {
