@@ -39,6 +39,7 @@ void Scheduler::happens(const Dropped&, Time) {
         queue->clear();
     }
     foreseen_ = 0;
+    rules_.double_tail = false;  // what is left is waited for, and not worth doing twice
 }
 
 void Scheduler::wait_again(Item& item) {
