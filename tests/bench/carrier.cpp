@@ -86,15 +86,17 @@ private:
 };
 
 Registry asking_kinds() {
-    return Registry({{.name = "Trivial",
-                      .help = "answers at once",
-                      .make_light = [](const NodeContext&) { return std::make_unique<Trivial>(); }},
-                     {.name = "Asker",
-                      .role = Role::image,
-                      .help = "asks",
-                      .least_inputs = 1,
-                      .most_inputs = 1,
-                      .make_renderer = [](const NodeContext& here) { return std::make_unique<Asker>(here); }}});
+    return Registry(
+        {{.name = "Trivial",
+          .help = "answers at once",
+          .make_light = [](const NodeContext&) { return std::make_unique<Trivial>(); }},
+         {.name = "Asker",
+          .role = Role::image,
+          .help = "asks",
+          .least_inputs = 1,
+          .most_inputs = 1,
+          .params = {{.name = "scene", .type = ParamType::scene, .help = "what hosts read, and nobody asks"}},
+          .make_renderer = [](const NodeContext& here) { return std::make_unique<Asker>(here); }}});
 }
 
 constexpr std::size_t trivial = 0, asker = 1;
@@ -105,7 +107,9 @@ Job asking_job(const Picture& picture) {
     job.files = picture.job.files;
     job.isa = picture.job.isa;
     job.graph.file = "carrier.lua";
-    job.graph.nodes = {{"trivial", "Trivial", {}, {}, {}}, {"asker", "Asker", {Value{NodeRef{"trivial"}}}, {}, {}}};
+    job.graph.nodes = {{"trivial", "Trivial", {}, {}, {}},
+                       {"asker", "Asker", {Value{NodeRef{"trivial"}}}, {{"scene", Value{NodeRef{"scene"}}}}, {}},
+                       {"scene", "Scene", {Value{job.scene}}, {}, {}}};
     job.rules.bundles.questions = bundle;
     job.rules.credit.bundles = in_flight;
     return job;
@@ -113,7 +117,7 @@ Job asking_job(const Picture& picture) {
 
 // The first place asks the second.
 Plan one_asks_the_other(const PlaceAt& first, const PlaceAt& second) {
-    Plan plan{{first, second}, std::vector<std::vector<std::uint32_t>>(2)};
+    Plan plan{{first, second}, std::vector<std::vector<std::uint32_t>>(3)};
     plan.places_of[asker] = {0};
     plan.places_of[trivial] = {1};
     return plan;
@@ -251,6 +255,7 @@ void measure_tcp(const Picture& picture) {
     Cluster cluster(std::move(options));
     const std::atomic<bool> never{false};
     cluster.gather(5s, never);
+    cluster.adopt(cluster.plan());
     measure("carrier.tcp", cluster, cluster.plan(), "tcp://127.0.0.1:*");
     cluster.finish();
 }

@@ -86,16 +86,18 @@ private:
 };
 
 Registry kinds() {
-    return Registry({{.name = "Echo",
-                      .help = "answers at once",
-                      .make_light = [](const NodeContext&) { return std::make_unique<Echo>(); }},
-                     wrap<Patient>("Patient", {.help = "asks one by one", .least_inputs = 1}),
-                     {.name = "Watch",
-                      .role = Role::image,
-                      .help = "asks, and takes the time",
-                      .least_inputs = 1,
-                      .most_inputs = 1,
-                      .make_renderer = [](const NodeContext& here) { return std::make_unique<Watch>(here); }}});
+    return Registry(
+        {{.name = "Echo",
+          .help = "answers at once",
+          .make_light = [](const NodeContext&) { return std::make_unique<Echo>(); }},
+         wrap<Patient>("Patient", {.help = "asks one by one", .least_inputs = 1}),
+         {.name = "Watch",
+          .role = Role::image,
+          .help = "asks, and takes the time",
+          .least_inputs = 1,
+          .most_inputs = 1,
+          .params = {{.name = "scene", .type = ParamType::scene, .help = "what hosts read, and nobody asks"}},
+          .make_renderer = [](const NodeContext& here) { return std::make_unique<Watch>(here); }}});
 }
 
 Job scalar_job(const Picture& picture) {
@@ -106,12 +108,13 @@ Job scalar_job(const Picture& picture) {
     job.graph.file = "scalar.lua";
     job.graph.nodes = {{"answerer", "Echo", {}, {}, {}},
                        {"patient", "Patient", {Value{NodeRef{"answerer"}}}, {}, {}},
-                       {"asker", "Watch", {Value{NodeRef{"patient"}}}, {}, {}}};
+                       {"asker", "Watch", {Value{NodeRef{"patient"}}}, {{"scene", Value{NodeRef{"scene"}}}}, {}},
+                       {"scene", "Scene", {Value{job.scene}}, {}, {}}};
     return job;
 }
 
 Plan asked_elsewhere(const PlaceAt& first, const PlaceAt& second) {
-    Plan plan{{first, second}, std::vector<std::vector<std::uint32_t>>(3)};
+    Plan plan{{first, second}, std::vector<std::vector<std::uint32_t>>(4)};
     plan.places_of[asker] = plan.places_of[patient] = {0};
     plan.places_of[answerer] = {1};
     return plan;
@@ -172,6 +175,7 @@ void measure_scalar_tcp(const Picture& picture) {
     Cluster cluster(std::move(options));
     const std::atomic<bool> never{false};
     cluster.gather(5s, never);
+    cluster.adopt(cluster.plan());
     std::vector<double> each;
     for (int i = 0; i < rounds; ++i) {
         const double before = process_seconds();
