@@ -71,13 +71,9 @@ void measure(const char* name, double (*ratio)(), double goal) {
 
 int main() {
     namespace bench = lightnet::bench;
-    try {
+    return lightnet::bench::run("balance", [&] {
         bench::measure("balance.tiles", bench::tiles, 1.1);
         bench::measure("balance.light", bench::light, 1.1);
         bench::measure("balance.slowed", bench::slowed, 1.3);
-        return 0;
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "balance: %s\n", error.what());
-        return 1;
-    }
+    });
 }

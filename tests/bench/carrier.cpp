@@ -22,10 +22,9 @@
 #include "core/runtime/master_renderer.hpp"
 #include "nodes/standard_nodes.hpp"
 #include "tests/bench/figure.hpp"
-#include "tests/bench/host_thread.hpp"
 #include "tests/bench/picture.hpp"
 #include "tests/bench/scalar.hpp"
-#include "transport/cluster.hpp"
+#include "tests/bench/two_hosts.hpp"
 #include "transport/threaded_run.hpp"
 
 namespace lightnet::bench {
@@ -243,21 +242,9 @@ void measure_inproc(const Picture& picture) {
 
 void measure_tcp(const Picture& picture) {
     const Registry kinds = asking_kinds();
-    const HostThread first(kinds), second(kinds);
-    Cluster::Options options;
-    options.run = run_id;
-    options.job = asking_job(picture);
-    options.files = picture.files;
-    options.endpoints = {first.endpoint(), second.endpoint()};
-    options.plan = [&](const std::vector<HostOffer>&) {
-        return one_asks_the_other({first.endpoint(), 0}, {second.endpoint(), 0});
-    };
-    Cluster cluster(std::move(options));
-    const std::atomic<bool> never{false};
-    cluster.gather(5s, never);
-    cluster.adopt(cluster.plan());
-    measure("carrier.tcp", cluster, cluster.plan(), "tcp://127.0.0.1:*");
-    cluster.finish();
+    TwoHosts hosts(kinds, picture, run_id, asking_job(picture), one_asks_the_other);
+    measure("carrier.tcp", hosts.cluster(), hosts.cluster().plan(), "tcp://127.0.0.1:*");
+    hosts.cluster().finish();
 }
 
 }  // namespace
@@ -265,16 +252,12 @@ void measure_tcp(const Picture& picture) {
 
 int main() {
     namespace bench = lightnet::bench;
-    try {
+    return lightnet::bench::run("carrier", [&] {
         const lightnet::Registry registry{lightnet::standard_nodes()};
         const bench::Picture picture(registry, 128, 16);
         bench::measure_inproc(picture);
         bench::measure_tcp(picture);
         bench::measure_scalar_inproc(picture);
         bench::measure_scalar_tcp(picture);
-        return 0;
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "carrier: %s\n", error.what());
-        return 1;
-    }
+    });
 }

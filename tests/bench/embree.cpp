@@ -131,16 +131,12 @@ void measure(const char* name, const std::string& scene, const Registry& registr
 }  // namespace lightnet::bench
 
 int main(int argc, char** argv) {
-    try {
+    return lightnet::bench::run("embree", [&] {
         const auto samples = static_cast<std::uint32_t>(argc > 1 ? std::max(1, std::atoi(argv[1])) : 4);
         const lightnet::Registry registry{lightnet::standard_nodes()};
         lightnet::bench::measure("embree.cornell", "", registry, samples);
         if (const char* shared = std::getenv("LIGHTNET_SHARED"))
             lightnet::bench::measure("embree.terrain", std::string(shared) + "/reference/terrain.pbrt", registry,
                                      samples);
-        return 0;
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "embree: %s\n", error.what());
-        return 1;
-    }
+    });
 }

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdio>
 #include <ctime>
+#include <exception>
 #include <functional>
 #include <string>
 #include <vector>
@@ -52,6 +53,17 @@ inline void quantity(const char* name, double value, const char* unit, double go
     const bool met = at_least ? value >= goal : value <= goal;
     std::printf("%s %.1f %s%g (%s) %s\n", name, value, at_least ? ">=" : "<=", goal, unit, met ? "ok" : "short");
     std::fflush(stdout);
+}
+
+/// What main() does and returns: what goes wrong is said, with the benchmark's name.
+inline int run(const char* name, const std::function<void()>& work) {
+    try {
+        work();
+        return 0;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "%s: %s\n", name, error.what());
+        return 1;
+    }
 }
 
 }  // namespace lightnet::bench

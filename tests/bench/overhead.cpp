@@ -2,6 +2,7 @@
 // of what was measured in turns, in one run; medians over the rounds.
 // Arguments: serial, threads, network; without any, all of them.
 #include "tests/bench/overhead.hpp"
+#include "tests/bench/figure.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -15,15 +16,11 @@ int main(int argc, char** argv) {
     const auto wanted = [&](std::string_view group) {
         return argc == 1 || std::any_of(argv + 1, argv + argc, [&](const char* word) { return group == word; });
     };
-    try {
+    return lightnet::bench::run("overhead", [&] {
         const lightnet::Registry registry{lightnet::standard_nodes()};
         const bench::Picture small(registry, 128, 16), large(registry, 256, 32);
         if (wanted("serial")) bench::measure_serial(small);
         if (wanted("threads")) bench::measure_threads(large, registry);
         if (wanted("network")) bench::measure_network(large, registry);
-        return 0;
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "overhead: %s\n", error.what());
-        return 1;
-    }
+    });
 }

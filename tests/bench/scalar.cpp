@@ -9,8 +9,7 @@
 #include "core/light/wrap.hpp"
 #include "core/runtime/master_renderer.hpp"
 #include "tests/bench/figure.hpp"
-#include "tests/bench/host_thread.hpp"
-#include "transport/cluster.hpp"
+#include "tests/bench/two_hosts.hpp"
 #include "transport/threaded_run.hpp"
 
 namespace lightnet {
@@ -163,19 +162,8 @@ void measure_scalar_inproc(const Picture& picture) {
 
 void measure_scalar_tcp(const Picture& picture) {
     const Registry registry = kinds();
-    const HostThread first(registry), second(registry);
-    Cluster::Options options;
-    options.run = run_id;
-    options.job = scalar_job(picture);
-    options.files = picture.files;
-    options.endpoints = {first.endpoint(), second.endpoint()};
-    options.plan = [&](const std::vector<HostOffer>&) {
-        return asked_elsewhere({first.endpoint(), 0}, {second.endpoint(), 0});
-    };
-    Cluster cluster(std::move(options));
-    const std::atomic<bool> never{false};
-    cluster.gather(5s, never);
-    cluster.adopt(cluster.plan());
+    TwoHosts hosts(registry, picture, run_id, scalar_job(picture), asked_elsewhere);
+    Cluster& cluster = hosts.cluster();
     std::vector<double> each;
     for (int i = 0; i < rounds; ++i) {
         const double before = process_seconds();

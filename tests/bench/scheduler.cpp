@@ -50,11 +50,5 @@ void measure() {
 }  // namespace lightnet::bench
 
 int main() {
-    try {
-        lightnet::bench::measure();
-        return 0;
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "scheduler: %s\n", error.what());
-        return 1;
-    }
+    return lightnet::bench::run("scheduler", [&] { lightnet::bench::measure(); });
 }

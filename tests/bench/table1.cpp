@@ -5,7 +5,6 @@
 #include <atomic>
 #include <chrono>
 #include <cstdio>
-#include <exception>
 #include <map>
 #include <stdexcept>
 
@@ -18,8 +17,8 @@
 #include "core/scene/read_scene.hpp"
 #include "nodes/standard_nodes.hpp"
 #include "tests/bench/figure.hpp"
-#include "tests/bench/host_thread.hpp"
 #include "tests/support/delaying_proxy.hpp"
+#include "tests/support/host_thread.hpp"
 #include "transport/cluster.hpp"
 
 namespace lightnet::bench {
@@ -86,7 +85,7 @@ public:
 
 private:
     Cost measure(const Job& job, const std::vector<Tile>& tiles, std::size_t tiles_under_way) {
-        const HostThread near(registry_), far(registry_);
+        const test::HostThread near(registry_), far(registry_);
         const test::DelayingProxy line(far.endpoint(), 1ms);
         Plan plan{{{near.endpoint(), 0}, {line.endpoint(), 0}},
                   std::vector<std::vector<std::uint32_t>>(job.graph.nodes.size())};
@@ -138,7 +137,7 @@ void show_cost(const char* name, const Cost& cost) {
     std::fflush(stdout);
 }
 
-void run() {
+void measure() {
     const Registry registry{standard_nodes()};
     Bench bench(registry);
     const Cost slow = bench.one_by_one();
@@ -160,11 +159,5 @@ void run() {
 }  // namespace lightnet::bench
 
 int main() {
-    try {
-        lightnet::bench::run();
-        return 0;
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "table1: %s\n", error.what());
-        return 1;
-    }
+    return lightnet::bench::run("table1", [&] { lightnet::bench::measure(); });
 }

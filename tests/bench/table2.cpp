@@ -63,18 +63,14 @@ void measure_set_up(const Picture& picture, const Registry& registry) {
 int main(int argc, char** argv) {
     namespace bench = lightnet::bench;
     const std::string only = argc > 1 ? argv[1] : "";
-    try {
+    return lightnet::bench::run("table2", [&] {
         if (only.empty() || only == "emulated")
             for (const std::uint32_t places : {8, 32, 128}) bench::measure_emulated(places);
-        if (only == "emulated") return 0;
+        if (only == "emulated") return;
         const lightnet::Registry registry{lightnet::standard_nodes()};
         const bench::Picture picture(registry, 256, 32);
         bench::measure_set_up(picture, registry);
         bench::measure_threads(picture, registry, "table2.threads");
         bench::measure_network(picture, registry, "table2.network");
-        return 0;
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "table2: %s\n", error.what());
-        return 1;
-    }
+    });
 }

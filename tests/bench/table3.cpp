@@ -6,16 +6,14 @@
 // Figure: the work of all nodes, divided by the places, over the time that it took.
 #include <atomic>
 #include <cstdio>
-#include <exception>
-#include <thread>
 
 #include "lua/load_graph.hpp"
 #include "nodes/standard_nodes.hpp"
 #include "tests/bench/emulated.hpp"
 #include "tests/bench/figure.hpp"
 #include "tests/bench/picture.hpp"
+#include "tests/support/host_thread.hpp"
 #include "transport/cluster.hpp"
-#include "transport/host.hpp"
 
 namespace lightnet::bench {
 namespace {
@@ -45,23 +43,11 @@ Job job_of(const Picture& picture) {
     return job;
 }
 
-class HostThread {
-public:
-    explicit HostThread(const Registry& kinds) : host_({}, kinds) {}
-    ~HostThread() { stop_ = true; }
-    std::string endpoint() const { return host_.endpoint(); }
-
-private:
-    Host host_;
-    std::atomic<bool> stop_{false};
-    std::jthread thread_{[this] { host_.serve(stop_); }};
-};
-
 void measure() {
     const Registry standard{standard_nodes()};
     const Picture picture(standard, 64, 16);
     const Registry kinds = emulated_kinds(std::make_shared<Slowness>(), "");
-    const HostThread one(kinds), two(kinds), three(kinds);
+    const test::HostThread one(kinds, 0), two(kinds, 0), three(kinds, 0);
     const Hosts hosts =
         parse_hosts("place '" + one.endpoint() + "' { image = 1, direct = 1, caustics = 1, places = 3 }\n" + "place '" +
                         two.endpoint() + "' { caustics = 1, bounce = 1, places = 2 }\n" + "place '" + three.endpoint() +
@@ -92,11 +78,5 @@ void measure() {
 }  // namespace lightnet::bench
 
 int main() {
-    try {
-        lightnet::bench::measure();
-        return 0;
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "table3: %s\n", error.what());
-        return 1;
-    }
+    return lightnet::bench::run("table3", [&] { lightnet::bench::measure(); });
 }

@@ -22,10 +22,10 @@
 #include "core/runtime/serial.hpp"
 #include "nodes/standard_nodes.hpp"
 #include "tests/support/bad_line.hpp"
+#include "tests/support/host_thread.hpp"
 #include "tests/support/learner.hpp"
 #include "tests/support/slowdown.hpp"
 #include "transport/cluster.hpp"
-#include "transport/host.hpp"
 #include "transport/threaded_run.hpp"
 
 namespace lightnet::test {
@@ -155,27 +155,6 @@ public:
     std::shared_ptr<const Network> network;
     std::vector<Tile> tiles;
     mutable std::vector<std::string> said;  // by the nodes of the last run
-};
-
-// A daemon in a thread of this process: its nodes may be those of a test.
-class HostThread {
-public:
-    HostThread(const Registry& registry, const std::string& cache, std::uint32_t places)
-        : host_(options(cache, places), registry), thread_([this] { host_.serve(stop_); }) {}
-    ~HostThread() { stop_ = true; }
-    static Host::Options options(const std::string& cache, std::uint32_t places) {
-        Host::Options options;
-        options.cache = cache;
-        options.places = places;
-        return options;
-    }
-    void leave() { stop_ = true; }
-    std::string endpoint() const { return host_.endpoint(); }
-
-private:
-    std::atomic<bool> stop_{false};
-    Host host_;
-    std::jthread thread_;
 };
 
 inline Cluster::Options cluster_of(const Learning& learning, std::vector<std::string> endpoints) {

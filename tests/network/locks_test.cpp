@@ -69,7 +69,7 @@ TEST(Locks, AreHeldByOneCallInTheWholeRun) {
     EXPECT_EQ(most_holders, 1);
 
     const test::Folder folder;
-    HostThread one(rare.registry, folder.file("one"), 2), two(rare.registry, folder.file("two"), 1);
+    HostThread one(rare.registry, 2, folder.file("one")), two(rare.registry, 1, folder.file("two"));
     const std::atomic<bool> never{false};
     Cluster cluster(cluster_of(rare, {one.endpoint(), two.endpoint()}));
     cluster.gather(test::slowdown * 5s, never);
@@ -82,7 +82,7 @@ TEST(Locks, AreGivenOnWhenALineIsCutAgainAndAgain) {
     const Learning rare(with_rare(), rare_nodes(false));
     const auto expected = rare.serial();
     const test::Folder folder;
-    HostThread one(rare.registry, folder.file("one"), 2), two(rare.registry, folder.file("two"), 2);
+    HostThread one(rare.registry, 2, folder.file("one")), two(rare.registry, 2, folder.file("two"));
     test::BadLine line(two.endpoint());
     const std::atomic<bool> never{false};
     Cluster cluster(cluster_of(rare, {one.endpoint(), line.endpoint()}));

@@ -46,7 +46,7 @@ TEST(Prepare, GetsByWithOneFiberPerNodeAndBundlesOfOne) {
 TEST(Prepare, GivesTheBytesOfASerialRunOnHosts) {
     const Learning learning;
     const test::Folder folder;
-    HostThread one(learning.registry, folder.file("one"), 2), two(learning.registry, folder.file("two"), 1);
+    HostThread one(learning.registry, 2, folder.file("one")), two(learning.registry, 1, folder.file("two"));
     const std::atomic<bool> never{false};
     Cluster cluster(cluster_of(learning, {one.endpoint(), two.endpoint()}));
     cluster.gather(test::slowdown * 5s, never);
@@ -59,7 +59,7 @@ TEST(Prepare, GoesOnWhenAHostLeavesInTheMiddle) {
     const auto expected = learning.serial();
     for (const int calls : {1, 5, 20}) {
         const test::Folder folder;
-        HostThread one(learning.registry, folder.file("one"), 1), two(learning.registry, folder.file("two"), 1);
+        HostThread one(learning.registry, 1, folder.file("one")), two(learning.registry, 1, folder.file("two"));
         const std::atomic<bool> never{false};
         Cluster cluster(cluster_of(learning, {one.endpoint(), two.endpoint()}));
         cluster.gather(test::slowdown * 5s, never);
@@ -95,7 +95,7 @@ TEST(Prepare, GetsOverTheLossOfAHostAtAnyMoment) {
     for (const int number : {SIGKILL, SIGSTOP})
         for (const int calls : {1, 2, 4, 8, 16}) {
             const test::Folder folder;
-            HostThread one(learning.registry, folder.file("one"), 1);
+            HostThread one(learning.registry, 1, folder.file("one"));
             LearningDaemon two(folder.file("two"));
             const std::atomic<bool> never{false};
             Cluster cluster(cluster_of(learning, {one.endpoint(), two.endpoint()}));
@@ -114,7 +114,7 @@ TEST(Prepare, LetsAHostJoinInTheMiddle) {
     const Learning learning;
     const auto expected = learning.serial();
     const test::Folder folder;
-    HostThread one(learning.registry, folder.file("one"), 1);
+    HostThread one(learning.registry, 1, folder.file("one"));
     std::optional<HostThread> two;
     const std::atomic<bool> never{false};
     Cluster cluster(cluster_of(learning, {one.endpoint()}));
@@ -122,7 +122,7 @@ TEST(Prepare, LetsAHostJoinInTheMiddle) {
     EXPECT_EQ(learning.networked(cluster,
                                  [&] {
                                      if (!two) {
-                                         two.emplace(learning.registry, folder.file("two"), 1);
+                                         two.emplace(learning.registry, 1, folder.file("two"));
                                          cluster.call(two->endpoint());
                                      }
                                  }),
@@ -134,7 +134,7 @@ TEST(Prepare, GoesOnWhenALineIsCutAgainAndAgain) {
     const Learning learning;
     const auto expected = learning.serial();
     const test::Folder folder;
-    HostThread one(learning.registry, folder.file("one"), 1), two(learning.registry, folder.file("two"), 1);
+    HostThread one(learning.registry, 1, folder.file("one")), two(learning.registry, 1, folder.file("two"));
     test::BadLine line(two.endpoint());
     const std::atomic<bool> never{false};
     Cluster cluster(cluster_of(learning, {one.endpoint(), line.endpoint()}));
