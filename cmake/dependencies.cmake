@@ -2,12 +2,12 @@
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
 find_package(embree 3 REQUIRED)                            # rays against triangles and spheres (core/scene)
-find_package(OpenEXR 3 CONFIG REQUIRED)                    # pictures out (core/film), textures in (core/scene)
+find_package(OpenEXR 3 CONFIG REQUIRED)                    # pictures out (core/film), textures in (core/readers)
 find_package(PNG REQUIRED)                                 # pictures out, textures in
 find_package(ZLIB REQUIRED)                                # packed scene files
 find_package(JPEG REQUIRED)                                # textures in
-find_package(pugixml REQUIRED)                             # scenes in XML (core/scene/mitsuba)
-find_package(Boost 1.74 REQUIRED COMPONENTS context)       # fibers (core/runtime)
+find_package(pugixml REQUIRED)                             # scenes in XML (core/readers/mitsuba)
+find_package(Boost 1.74 REQUIRED COMPONENTS context)       # fibers (core/fiber)
 find_package(fmt REQUIRED)                                 # text: g++ 12 has no std::format
 find_package(nlohmann_json REQUIRED)                       # canonical text of graphs and plans, run.json
 find_package(CLI11 REQUIRED)                               # command lines (tools)

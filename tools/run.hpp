@@ -11,7 +11,7 @@
 #include "core/graph/graph.hpp"
 #include "core/graph/hosts.hpp"
 #include "core/graph/kind.hpp"
-#include "core/scene/files.hpp"
+#include "core/readers/files.hpp"
 #include "core/scene/scene_data.hpp"
 
 namespace lightnet {

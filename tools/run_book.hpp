@@ -15,7 +15,7 @@
 #include "core/film/progress.hpp"
 #include "core/film/run_report.hpp"
 #include "core/graph/plan.hpp"
-#include "core/runtime/counters.hpp"
+#include "core/message/counters.hpp"
 #include "transport/cluster.hpp"
 
 namespace lightnet {

@@ -8,10 +8,10 @@
 #include <string_view>
 #include <utility>
 
+#include "core/readers/read_scene.hpp"
+#include "core/readers/statistics.hpp"
 #include "core/runtime/fingerprint.hpp"
-#include "core/scene/read_scene.hpp"
 #include "core/scene/scene.hpp"
-#include "core/scene/statistics.hpp"
 
 namespace lightnet {
 namespace {

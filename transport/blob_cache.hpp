@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/hash.hpp"
+#include "core/readers/files.hpp"
 #include "core/runtime/job.hpp"
-#include "core/scene/files.hpp"
 
 namespace lightnet {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/graph/plan.hpp"
-#include "core/runtime/carrier.hpp"
+#include "core/message/carrier.hpp"
 #include "core/runtime/job.hpp"
 #include "transport/machine.hpp"
 

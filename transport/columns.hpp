@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "core/runtime/message.hpp"
+#include "core/message/message.hpp"
 
 namespace lightnet::packet {
 

@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "core/hash.hpp"
-#include "core/runtime/counters.hpp"
-#include "core/runtime/message.hpp"
-#include "core/scene/files.hpp"
+#include "core/message/counters.hpp"
+#include "core/message/message.hpp"
+#include "core/readers/files.hpp"
 #include "transport/host_line.hpp"
 #include "transport/machine.hpp"
 #include "transport/packet.hpp"

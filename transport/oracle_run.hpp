@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/runtime/assembly.hpp"
+#include "core/prepare/assembly.hpp"
 #include "core/runtime/place.hpp"
 
 namespace lightnet {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/runtime/assembly.hpp"
+#include "core/prepare/assembly.hpp"
 #include "core/runtime/place.hpp"
 #include "transport/sockets.hpp"
 

@@ -22,7 +22,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/runtime/message.hpp"
+#include "core/message/message.hpp"
 #include "transport/columns.hpp"
 
 namespace lightnet::packet {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/runtime/assembly.hpp"
+#include "core/prepare/assembly.hpp"
 #include "core/runtime/place.hpp"
 
 namespace zmq {

@@ -5,7 +5,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/runtime/prepared.hpp"
+#include "core/prepare/prepared.hpp"
 #include "transport/blob_cache.hpp"
 
 namespace lightnet {

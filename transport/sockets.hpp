@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/runtime/message.hpp"
+#include "core/message/message.hpp"
 #include "transport/packet.hpp"
 
 namespace zmq {

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <memory>
 
-#include "core/runtime/assembly.hpp"
-#include "core/runtime/carrier.hpp"
+#include "core/message/carrier.hpp"
+#include "core/prepare/assembly.hpp"
 #include "core/runtime/place.hpp"
 
 namespace lightnet {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "core/runtime/carrier.hpp"
+#include "core/message/carrier.hpp"
 
 namespace zmq {
 class context_t;

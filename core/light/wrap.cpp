@@ -7,10 +7,10 @@
 #include <span>
 
 #include "core/error.hpp"
+#include "core/fiber/fiber.hpp"
 #include "core/light/light_op.hpp"
 #include "core/light/renderer.hpp"
 #include "core/math/samples.hpp"
-#include "core/runtime/fiber.hpp"
 
 namespace lightnet {
 namespace {

@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
+#include "core/fiber/fiber.hpp"
 #include "core/light/port.hpp"
-#include "core/runtime/channel.hpp"
-#include "core/runtime/fiber.hpp"
-#include "core/runtime/multiplexer.hpp"
+#include "core/message/channel.hpp"
+#include "core/schedule/multiplexer.hpp"
 
 namespace lightnet {
 

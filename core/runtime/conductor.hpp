@@ -13,11 +13,11 @@
 #include <utility>
 #include <vector>
 
-#include "core/runtime/calls.hpp"
-#include "core/runtime/carrier.hpp"
-#include "core/runtime/lock_desk.hpp"
+#include "core/message/carrier.hpp"
+#include "core/prepare/calls.hpp"
+#include "core/prepare/lock_desk.hpp"
+#include "core/prepare/prepared.hpp"
 #include "core/runtime/master_renderer.hpp"
-#include "core/runtime/prepared.hpp"
 
 namespace lightnet {
 

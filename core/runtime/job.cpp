@@ -5,7 +5,7 @@
 
 #include "core/build_info.hpp"
 #include "core/error.hpp"
-#include "core/runtime/load_scene.hpp"
+#include "core/prepare/load_scene.hpp"
 
 namespace lightnet {
 

@@ -10,9 +10,9 @@
 
 #include "core/graph/graph.hpp"
 #include "core/hash.hpp"
-#include "core/runtime/assembly.hpp"
+#include "core/prepare/assembly.hpp"
+#include "core/readers/files.hpp"
 #include "core/runtime/place.hpp"
-#include "core/scene/files.hpp"
 #include "core/scene/scene_data.hpp"
 
 namespace lightnet {

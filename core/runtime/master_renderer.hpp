@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "core/runtime/carrier.hpp"
-#include "core/runtime/multiplexer.hpp"
-#include "core/runtime/remote_channels.hpp"
+#include "core/message/carrier.hpp"
+#include "core/schedule/multiplexer.hpp"
+#include "core/schedule/remote_channels.hpp"
 
 namespace lightnet {
 

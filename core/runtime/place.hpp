@@ -12,16 +12,16 @@
 #include <utility>
 #include <vector>
 
-#include "core/runtime/assembly.hpp"
+#include "core/fiber/fiber.hpp"
+#include "core/fiber/rounds.hpp"
+#include "core/message/carrier.hpp"
+#include "core/prepare/assembly.hpp"
+#include "core/prepare/call_port.hpp"
+#include "core/prepare/lock_desk.hpp"
+#include "core/prepare/preparer.hpp"
 #include "core/runtime/bundle_port.hpp"
-#include "core/runtime/call_port.hpp"
-#include "core/runtime/carrier.hpp"
-#include "core/runtime/fiber.hpp"
-#include "core/runtime/lock_desk.hpp"
-#include "core/runtime/planned_port.hpp"
-#include "core/runtime/preparer.hpp"
-#include "core/runtime/remote_channels.hpp"
-#include "core/runtime/rounds.hpp"
+#include "core/schedule/planned_port.hpp"
+#include "core/schedule/remote_channels.hpp"
 
 namespace lightnet {
 

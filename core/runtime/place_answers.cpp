@@ -3,7 +3,7 @@
 #include <chrono>
 
 #include "core/error.hpp"
-#include "core/runtime/describe_question.hpp"
+#include "core/message/describe_question.hpp"
 #include "core/runtime/place.hpp"
 
 namespace lightnet {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "core/runtime/assembly.hpp"
-#include "core/runtime/call_port.hpp"
-#include "core/runtime/counters.hpp"
+#include "core/message/counters.hpp"
+#include "core/prepare/assembly.hpp"
+#include "core/prepare/call_port.hpp"
 
 namespace lightnet {
 

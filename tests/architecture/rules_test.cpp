@@ -48,7 +48,7 @@ TEST(Homes, KeepEachLibraryInOneRoom) {
     EXPECT_THAT(stray_includes({"nodes/ray_tracer.cpp", "#include <embree3/rtcore.h>"}), SizeIs(1));
     EXPECT_THAT(stray_includes({"core/scene/scene.cpp", "#include <embree3/rtcore.h>"}), IsEmpty());
     EXPECT_THAT(stray_includes({"core/scene/scene.cpp", "#include <ImfHeader.h>"}), SizeIs(1));
-    EXPECT_THAT(stray_includes({"core/scene/image_jpeg.cpp", "#include <ImfHeader.h>\n#include <jpeglib.h>"}),
+    EXPECT_THAT(stray_includes({"core/readers/image_jpeg.cpp", "#include <ImfHeader.h>\n#include <jpeglib.h>"}),
                 IsEmpty());
     EXPECT_THAT(stray_includes({"nodes/combine.cpp", "#include <boost/context/fiber.hpp>"}), SizeIs(1));
 }

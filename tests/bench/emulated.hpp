@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/graph/kind.hpp"
-#include "core/runtime/carrier.hpp"
+#include "core/message/carrier.hpp"
 #include "core/runtime/job.hpp"
 
 namespace lightnet::bench {

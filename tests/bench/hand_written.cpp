@@ -3,7 +3,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "core/runtime/assembly.hpp"
+#include "core/prepare/assembly.hpp"
 #include "core/runtime/serial.hpp"
 #include "tests/bench/figure.hpp"
 #include "tests/bench/overhead.hpp"

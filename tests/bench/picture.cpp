@@ -10,10 +10,10 @@
 #include "core/graph/check.hpp"
 #include "core/graph/graph_film.hpp"
 #include "core/hash.hpp"
+#include "core/readers/read_scene.hpp"
 #include "core/runtime/fingerprint.hpp"
 #include "core/runtime/master_renderer.hpp"
 #include "core/runtime/serial.hpp"
-#include "core/scene/read_scene.hpp"
 #include "lua/load_graph.hpp"
 #include "tests/bench/figure.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <thread>
 
-#include "core/scene/read_scene.hpp"
+#include "core/readers/read_scene.hpp"
 #include "nodes/standard_nodes.hpp"
 #include "tests/bench/emulated.hpp"
 #include "tests/bench/figure.hpp"

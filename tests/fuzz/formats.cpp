@@ -1,8 +1,8 @@
 #include <zlib.h>
 
 #include "core/error.hpp"
-#include "core/scene/mitsuba/serialized.hpp"
-#include "core/scene/read_scene.hpp"
+#include "core/readers/mitsuba/serialized.hpp"
+#include "core/readers/read_scene.hpp"
 #include "tests/fuzz/targets.hpp"
 #include "tests/support/scene_text.hpp"
 

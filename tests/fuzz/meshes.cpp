@@ -1,5 +1,5 @@
 #include "core/error.hpp"
-#include "core/scene/ply.hpp"
+#include "core/readers/ply.hpp"
 #include "tests/fuzz/targets.hpp"
 
 namespace lightnet::fuzz {

@@ -1,5 +1,5 @@
 #include "core/error.hpp"
-#include "core/scene/read_scene.hpp"
+#include "core/readers/read_scene.hpp"
 #include "tests/fuzz/targets.hpp"
 #include "tests/support/memory_files.hpp"
 

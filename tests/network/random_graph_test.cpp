@@ -7,10 +7,10 @@
 #include <fstream>
 #include <random>
 
+#include "core/fiber/fiber_stack.hpp"
 #include "core/light/light_op.hpp"
 #include "core/light/renderer.hpp"
 #include "core/light/wrap.hpp"
-#include "core/runtime/fiber_stack.hpp"
 #include "core/runtime/master_renderer.hpp"
 #include "core/runtime/serial.hpp"
 #include "tests/support/slowdown.hpp"

@@ -1,5 +1,5 @@
 // Packed files, sound ones and hostile ones.
-#include "core/scene/gzip.hpp"
+#include "core/readers/gzip.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "core/scene/image_file.hpp"
+#include "core/readers/image_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/scene/mitsuba/document.hpp"
+#include "core/readers/mitsuba/document.hpp"
 #include "tests/support/scene_text.hpp"
 
 namespace lightnet::test {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/scene/mitsuba/serialized.hpp"
+#include "core/readers/mitsuba/serialized.hpp"
 #include "tests/support/scene_text.hpp"
 
 namespace lightnet::test {

@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-#include "core/scene/spectra.hpp"
+#include "core/readers/spectra.hpp"
 #include "tests/support/pbrt_text.hpp"
 
 namespace lightnet::test {

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/scene/spectra.hpp"
+#include "core/readers/spectra.hpp"
 #include "core/scene/textures.hpp"
 #include "tests/support/pbrt_text.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/scene/ply.hpp"
+#include "core/readers/ply.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

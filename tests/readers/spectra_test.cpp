@@ -1,4 +1,4 @@
-#include "core/scene/spectra.hpp"
+#include "core/readers/spectra.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

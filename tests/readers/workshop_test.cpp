@@ -1,5 +1,5 @@
 // Work on the side.
-#include "core/scene/workshop.hpp"
+#include "core/readers/workshop.hpp"
 
 #include <gtest/gtest.h>
 

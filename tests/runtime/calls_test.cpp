@@ -1,4 +1,4 @@
-#include "core/runtime/calls.hpp"
+#include "core/prepare/calls.hpp"
 
 #include <gmock/gmock.h>
 

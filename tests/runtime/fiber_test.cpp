@@ -1,4 +1,4 @@
-#include "core/runtime/fiber.hpp"
+#include "core/fiber/fiber.hpp"
 
 #include <gtest/gtest.h>
 

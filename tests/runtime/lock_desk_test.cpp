@@ -1,4 +1,4 @@
-#include "core/runtime/lock_desk.hpp"
+#include "core/prepare/lock_desk.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "core/runtime/multiplexer.hpp"
+#include "core/schedule/multiplexer.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/runtime/call_port.hpp"
-#include "core/runtime/counters.hpp"
+#include "core/message/counters.hpp"
+#include "core/prepare/call_port.hpp"
 
 namespace lightnet {
 namespace {

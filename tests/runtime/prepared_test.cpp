@@ -1,4 +1,4 @@
-#include "core/runtime/prepared.hpp"
+#include "core/prepare/prepared.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "core/runtime/remote_channels.hpp"
+#include "core/schedule/remote_channels.hpp"
 
 #include <gtest/gtest.h>
 

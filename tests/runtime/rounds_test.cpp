@@ -1,4 +1,4 @@
-#include "core/runtime/rounds.hpp"
+#include "core/fiber/rounds.hpp"
 
 #include <gtest/gtest.h>
 

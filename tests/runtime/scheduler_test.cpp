@@ -1,4 +1,4 @@
-#include "core/runtime/scheduler.hpp"
+#include "core/schedule/scheduler.hpp"
 
 #include <gtest/gtest.h>
 

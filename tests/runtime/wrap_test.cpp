@@ -7,10 +7,10 @@
 #include <stdexcept>
 
 #include "core/error.hpp"
+#include "core/fiber/fiber.hpp"
+#include "core/fiber/rounds.hpp"
 #include "core/light/light_op.hpp"
 #include "core/light/renderer.hpp"
-#include "core/runtime/fiber.hpp"
-#include "core/runtime/rounds.hpp"
 #include "core/scene/scene.hpp"
 #include "tests/support/small_scenes.hpp"
 

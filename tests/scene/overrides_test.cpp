@@ -1,5 +1,5 @@
 // What a graph changes about a scene.
-#include "core/scene/overrides.hpp"
+#include "core/readers/overrides.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

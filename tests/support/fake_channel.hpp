@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/runtime/channel.hpp"
+#include "core/message/channel.hpp"
 
 namespace lightnet::test {
 

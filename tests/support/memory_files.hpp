@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/scene/files.hpp"
+#include "core/readers/files.hpp"
 
 namespace lightnet::test {
 

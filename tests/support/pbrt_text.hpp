@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/read_scene.hpp"
+#include "core/readers/read_scene.hpp"
 #include "tests/support/memory_files.hpp"
 
 namespace lightnet::test {

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "core/scene/read_scene.hpp"
+#include "core/readers/read_scene.hpp"
 #include "tests/support/pbrt_text.hpp"
 
 namespace lightnet::test {

@@ -8,7 +8,7 @@
 
 #include "core/graph/graph_film.hpp"
 #include "core/graph/plan.hpp"
-#include "core/runtime/load_scene.hpp"
+#include "core/prepare/load_scene.hpp"
 #include "nodes/standard_nodes.hpp"
 #include "tests/support/folder.hpp"
 #include "tools/launcher.hpp"

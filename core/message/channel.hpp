@@ -1,0 +1,55 @@
+// The way of a bundle to whoever answers it: one place, or one of several.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/message/credit.hpp"
+#include "core/message/message.hpp"
+
+namespace lightnet {
+
+template <class Question>
+class BundleOwner;
+
+/// Questions that travel together.
+template <class Question>
+struct Bundle {
+    Questions<Question> questions;
+    BundleOwner<Question>* owner = nullptr;  // who made it and gets the answers
+    std::uint64_t number = 0;                // the owner's own
+    std::uint32_t width = 1;                 // colours per question that are wanted
+};
+
+/// Makes bundles, and gets each back once: answered, failed, set aside, or returned unanswered.
+template <class Question>
+class BundleOwner {
+public:
+    virtual ~BundleOwner() = default;
+    virtual void answered(const Bundle<Question>& bundle, std::vector<Rgb> answers) = 0;
+    virtual void failed(const Bundle<Question>& bundle, const std::string& why) = 0;
+    virtual void returned(Bundle<Question> bundle) = 0;
+    /// It seems to kill hosts, and is asked no more.
+    virtual void set_aside(const Bundle<Question>& bundle, const std::string& why) { failed(bundle, why); }
+};
+
+/// Takes bundles and has them answered. A multiplexer is itself a channel, made of channels.
+template <class Question>
+class Channel {
+public:
+    virtual ~Channel() = default;
+    /// Sends a bundle. False: it could not be sent after all, and nothing has changed.
+    virtual bool send(const Bundle<Question>& bundle) = 0;
+    /// How much may be under way on it.
+    virtual Credit credit() const { return {}; }
+    /// How busy the answerer was when it last replied.
+    virtual Load load() const { return {}; }
+    /// The host of the answerer; places of one host are lost together. "": this process.
+    virtual std::string host() const { return {}; }
+    /// A short name for the answerer, the same whenever it comes back.
+    virtual std::uint64_t name() const { return 0; }
+};
+
+}  // namespace lightnet

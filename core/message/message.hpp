@@ -1,0 +1,95 @@
+// What places say to each other, before a carrier turns it into bytes or hands it over as it is.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/bytes.hpp"
+#include "core/film/tile.hpp"
+#include "core/graph/plan.hpp"
+#include "core/light/query.hpp"
+#include "core/math/rgb.hpp"
+#include "core/message/step.hpp"
+
+namespace lightnet {
+
+/// How busy an answerer is; rides on every reply.
+struct Load {
+    std::uint32_t fill = 0;        // questions that wait there
+    std::uint32_t service_ns = 0;  // measured time per question; 0: not known yet
+    friend bool operator==(const Load&, const Load&) = default;
+};
+
+/// The questions of one bundle. Shared and constant: the asker keeps them until the reply is there.
+template <class Question>
+using Questions = std::shared_ptr<const std::vector<Question>>;
+
+/// How a reply finds its way back; only carriers look inside.
+struct Route {
+    std::vector<std::string> hops;
+};
+
+struct Message {
+    enum class Type : std::uint8_t {
+        ask,      // questions for `node`
+        reply,    // answers to them
+        failure,  // there will be none: `text` says why
+        plan,     // who answers for which node from now on
+        stop,     // end the run: to a place
+    };
+
+    Type type = Type::ask;
+    std::uint64_t run = 0;      // messages of other runs are dropped
+    std::uint32_t channel = 0;  // the asker's; comes back with the reply
+    std::uint64_t bundle = 0;   // unique per channel
+    std::uint32_t node = 0;     // index in the graph
+    std::uint32_t width = 1;    // colours per question that are wanted; 0: nobody waits for the reply
+    std::uint64_t asker = 0;    // of an ask: name_of() the asking place; 0: the launcher
+    std::variant<std::monostate, Questions<Query>, Questions<Tile>, Questions<Step>> questions;
+    std::vector<Rgb> answers;
+    Bytes data;  // what a step is about, or its answer
+    Load load;
+    std::string text;
+    std::shared_ptr<const Plan> plan;
+    Route route;  // of an ask that has arrived
+};
+
+/// The beginnings of a reply: the same names, and the way back.
+inline Message reply_to(Message& ask) {
+    Message reply;
+    reply.type = Message::Type::reply;
+    reply.run = ask.run, reply.channel = ask.channel, reply.bundle = ask.bundle, reply.node = ask.node;
+    reply.width = ask.width;
+    reply.route = std::move(ask.route);
+    return reply;
+}
+
+/// How many questions a message asks.
+inline std::size_t questions_of(const Message& message) {
+    return std::visit(
+        [](const auto& questions) -> std::size_t {
+            if constexpr (std::is_same_v<std::decay_t<decltype(questions)>, std::monostate>)
+                return 0;
+            else
+                return questions->size();
+        },
+        message.questions);
+}
+
+/// How many colours answer one question when each has `width`.
+inline std::size_t answers_to(const Query&, std::size_t width) { return width; }
+inline std::size_t answers_to(const Tile& tile, std::size_t width) { return tile.pixels() * width; }
+
+template <class Question>
+std::size_t answers_to(const std::vector<Question>& questions, std::size_t width) {
+    std::size_t sum = 0;
+    for (const auto& question : questions) sum += answers_to(question, width);
+    return sum;
+}
+
+}  // namespace lightnet

@@ -1,0 +1,94 @@
+#include "core/prepare/assembly.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "core/light/node_context.hpp"
+
+namespace lightnet {
+namespace {
+
+using Terminals = std::vector<std::size_t>;
+
+// Which position of `whole` each of `part` has.
+std::vector<std::uint32_t> positions(const Terminals& part, const Terminals& whole, std::uint32_t first) {
+    std::vector<std::uint32_t> at;
+    for (const auto terminal : part) {
+        const auto found = std::find(whole.begin(), whole.end(), terminal);
+        at.push_back(first + static_cast<std::uint32_t>(found - whole.begin()));
+    }
+    return at;
+}
+
+// Sees to it that nobody asks with a lock in hand.
+class GuardedPort final : public Port {
+public:
+    GuardedPort(Port& port, const Locks& locks) : port_(port), locks_(locks) {}
+    Ticket begin(std::span<const Query> questions, std::span<Rgb> answers) override {
+        locks_.check_may_ask();
+        return port_.begin(questions, answers);
+    }
+    void finish(Ticket ticket) override { port_.finish(ticket); }
+    void abandon(Ticket ticket) noexcept override { port_.abandon(ticket); }
+
+private:
+    Port& port_;
+    const Locks& locks_;
+};
+
+template <class Make>
+auto made(const Network& network, std::size_t node, Inputs inputs, NodeContext::Own own, const Make& make) {
+    const auto& what = network.graph.nodes[node];
+    try {
+        return make(NodeContext(what, std::move(inputs), *network.scene, network.seed, own));
+    } catch (const std::exception& error) {
+        throw Error(what.kind + " '" + what.name + "'", error.what());
+    }
+}
+
+}  // namespace
+
+std::size_t Network::width_of(std::size_t node) const {
+    return kind_of(node).role == Role::image ? layers.film.size() : layers.of_node[node].size();
+}
+
+Inputs Assembly::inputs_of(std::size_t node) {
+    const auto& of_node = network_.layers.of_node;
+    const bool image = network_.kind_of(node).role == Role::image;
+    const bool additive = image ? !network_.kind_of(node).merges : of_node[node] != Terminals{node};
+    std::vector<Input> inputs;
+    for (const auto asked : network_.graph.inputs_of(node)) {
+        Input input;
+        input.name = network_.graph.nodes[asked].name;
+        if (additive) input.layers = positions(of_node[asked], of_node[node], image ? 1 : 0);  // 0 is emission
+        input.port = port_to_(asked, input.width());
+        if (network_.kind_of(node).locks)
+            input.port = guarded_.emplace_back(std::make_unique<GuardedPort>(*input.port, locks_)).get();
+        inputs.push_back(std::move(input));
+    }
+    return {std::move(inputs), network_.width_of(node)};
+}
+
+const LightOp& Assembly::light(std::size_t node) {
+    auto& light = lights_[node];
+    if (!light) light = made(network_, node, inputs_of(node), own_of(node), network_.kind_of(node).make_light);
+    return *light;
+}
+
+void Assembly::prepare(std::size_t node, Services& services) {
+    const auto& what = network_.graph.nodes[node];
+    light(node);
+    try {
+        lights_[node]->prepare(services);
+    } catch (const std::exception& error) {
+        throw Error(what.kind + " '" + what.name + "', preparing", error.what());
+    }
+}
+
+const Renderer& Assembly::renderer(std::size_t node) {
+    auto& renderer = renderers_[node];
+    if (!renderer) renderer = made(network_, node, inputs_of(node), own_of(node), network_.kind_of(node).make_renderer);
+    return *renderer;
+}
+
+}  // namespace lightnet

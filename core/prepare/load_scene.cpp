@@ -1,0 +1,85 @@
+#include "core/prepare/load_scene.hpp"
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "core/graph/graph_film.hpp"
+#include "core/readers/read_scene.hpp"
+
+namespace lightnet {
+namespace {
+
+using Values = std::map<std::string, Value>;
+
+std::optional<float> number(const Values& values, const std::string& name) {
+    const auto found = values.find(name);
+    return found == values.end() ? std::nullopt : std::optional(float(std::get<double>(found->second.data)));
+}
+
+Vec3 triple(const Value& value) {
+    const auto& list = std::get<Table>(value.data).list;
+    const auto at = [&](std::size_t i) { return float(std::get<double>(list.at(i).data)); };
+    return {at(0), at(1), at(2)};
+}
+
+std::optional<Vec3> point(const Values& values, const std::string& name) {
+    const auto found = values.find(name);
+    return found == values.end() ? std::nullopt : std::optional(triple(found->second));
+}
+
+CameraOverride camera_of(const Values& camera) {
+    return {point(camera, "from"), point(camera, "to"),    point(camera, "up"),
+            number(camera, "fov"), number(camera, "lens"), number(camera, "focus")};
+}
+
+}  // namespace
+
+SceneOverrides scene_overrides(const Graph& graph, const Registry& registry) {
+    const Values& params = scene_of(graph, registry).params;
+    SceneOverrides overrides;
+    if (const auto camera = params.find("camera"); camera != params.end())
+        overrides.camera = camera_of(std::get<Table>(camera->second.data).named);
+    if (const auto around = params.find("environment"); around != params.end()) {
+        if (const auto* file = std::get_if<std::string>(&around->second.data)) {
+            overrides.environment = beside_graph(graph, *file);
+        } else {
+            const Vec3 colour = triple(around->second);
+            overrides.environment = Rgb{colour.x, colour.y, colour.z};
+        }
+    }
+    overrides.environment_scale = number(params, "environment_scale").value_or(1);
+    overrides.exposure = number(params, "exposure").value_or(0);
+    overrides.clay = params.contains("material");
+    return overrides;
+}
+
+std::map<std::string, std::string> scene_constants(const Graph& graph, const Registry& registry) {
+    const Values& params = scene_of(graph, registry).params;
+    std::map<std::string, std::string> constants;
+    const auto given = params.find("constants");
+    if (given == params.end()) return constants;
+    for (const auto& [name, value] : std::get<Table>(given->second.data).named) {
+        const auto* text = std::get_if<std::string>(&value.data);
+        constants[name] = text ? *text : to_string(value);
+    }
+    return constants;
+}
+
+void override_scene(const Graph& graph, const Registry& registry, Files& files, SceneData& scene) {
+    apply(scene_overrides(graph, registry), scene, files, scene_of(graph, registry).where);
+    std::vector<Problem> problems;
+    for (const auto& node : graph.nodes)
+        if (const Kind* kind = registry.find(node.kind); kind && kind->mistakes)
+            for (const auto& what : kind->mistakes(node, &scene))
+                problems.push_back({node.where, node.kind + " '" + node.name + "': " + what});
+    if (!problems.empty()) throw UserError(std::move(problems));
+}
+
+SceneData load_scene(const Graph& graph, const Registry& registry, Files& files, const std::string& path) {
+    SceneData scene = read_scene(files, path, scene_constants(graph, registry));
+    override_scene(graph, registry, files, scene);
+    return scene;
+}
+
+}  // namespace lightnet

@@ -1,0 +1,27 @@
+// The scene of a graph: what its file says, and what the graph changes about it.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "core/graph/graph.hpp"
+#include "core/graph/kind.hpp"
+#include "core/readers/files.hpp"
+#include "core/readers/overrides.hpp"
+#include "core/scene/scene_data.hpp"
+
+namespace lightnet {
+
+/// What the Scene node of a checked graph's renderer overrides. Names of files are taken from the graph's folder.
+SceneOverrides scene_overrides(const Graph& graph, const Registry& registry);
+
+/// What it says of the variables of the scene's file: for read_scene().
+std::map<std::string, std::string> scene_constants(const Graph& graph, const Registry& registry);
+
+/// Changes a scene as read from its file. Throws UserError, also with what nodes of the graph find wrong with it.
+void override_scene(const Graph& graph, const Registry& registry, Files& files, SceneData& scene);
+
+/// Reads the scene in the file at `path` and applies what the graph changes. Throws UserError with all that is wrong.
+SceneData load_scene(const Graph& graph, const Registry& registry, Files& files, const std::string& path);
+
+}  // namespace lightnet

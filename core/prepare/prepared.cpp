@@ -1,0 +1,81 @@
+#include "core/prepare/prepared.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "core/graph/graph_film.hpp"
+#include "core/graph/plan.hpp"
+
+namespace lightnet {
+
+std::vector<std::size_t> preparing_nodes(const Graph& graph, const Registry& registry) {
+    const auto used = used_nodes(graph, renderer_of(graph, registry));
+    const auto ranks = ranks_of(graph);
+    std::vector<std::size_t> nodes;
+    for (std::size_t node = 0; node < graph.nodes.size(); ++node)
+        if (used[node] && registry.find(graph.nodes[node].kind)->prepares) nodes.push_back(node);
+    std::stable_sort(nodes.begin(), nodes.end(), [&](auto a, auto b) { return ranks[a] < ranks[b]; });
+    return nodes;
+}
+
+std::vector<Tile> rehearsal_tiles(const Graph& graph, const Registry& registry, std::uint32_t stride) {
+    if (stride == 0) throw Error("a rehearsal's stride must be at least 1");
+    const auto film = film_of(graph, registry);
+    constexpr std::uint32_t wanted_pixels = 16, longest = 256;
+    const std::uint32_t side = std::min(longest, wanted_pixels * std::min(stride, longest));
+    std::vector<Tile> tiles;
+    for (std::uint32_t y = 0; y < film.height; y += side)
+        for (std::uint32_t x = 0; x < film.width; x += side)
+            tiles.push_back({x, y, std::min(side, film.width - x), std::min(side, film.height - y), 0, 1, stride});
+    return tiles;
+}
+
+namespace {
+
+// Where something stands in its file changes nothing.
+std::string text_of(Graph graph) {
+    graph.file.clear();
+    for (auto& node : graph.nodes) node.where = {};
+    return to_json(graph);
+}
+
+}  // namespace
+
+Recipes::Recipes(const Graph& graph, std::string made_from)
+    : graph_(graph), made_from_(std::move(made_from)), whole_(text_of(graph)) {
+    for (std::size_t node = 0; node < graph.nodes.size(); ++node) {
+        const auto used = used_nodes(graph, node);
+        Graph part;
+        for (std::size_t i = 0; i < graph.nodes.size(); ++i)
+            if (used[i]) part.nodes.push_back(graph.nodes[i]);
+        subgraph_.push_back(text_of(std::move(part)));
+    }
+}
+
+Hash Recipes::of(std::size_t node, std::uint32_t call, bool rehearsed) const {
+    return content_hash(made_from_ + '\n' + graph_.nodes[node].name + '\n' + std::to_string(call) + '\n' +
+                        (rehearsed ? whole_ : subgraph_[node]));
+}
+
+SharedValues::Value SharedValues::get(std::size_t node, std::uint32_t index, const std::function<Value()>& make) {
+    std::promise<Value> promise;
+    std::shared_future<Value> value;
+    bool first = false;
+    {
+        const std::lock_guard lock(mutex_);
+        auto& known = values_[{node, index}];
+        first = !known.valid();
+        if (first) known = promise.get_future().share();
+        value = known;
+    }
+    if (first) {
+        try {
+            promise.set_value(make());
+        } catch (...) {
+            promise.set_exception(std::current_exception());
+        }
+    }
+    return value.get();
+}
+
+}  // namespace lightnet

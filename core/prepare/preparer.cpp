@@ -1,0 +1,187 @@
+#include "core/prepare/preparer.hpp"
+
+#include <cstring>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/light/rehearsal.hpp"
+#include "core/light/services.hpp"
+
+namespace lightnet {
+namespace {
+
+template <class T>
+Bytes bytes_of(std::span<const T> values) {
+    const auto bytes = std::as_bytes(values);
+    return std::make_shared<const std::vector<std::byte>>(bytes.begin(), bytes.end());
+}
+
+const Step& step_of(const Message& ask) { return std::get<Questions<Step>>(ask.questions)->front(); }
+
+}  // namespace
+
+/// One node's services at this place, and where its prepare() is.
+class Preparer::Node final : public Services {
+public:
+    Node(Preparer& preparer, std::size_t index) : preparer_(preparer), index_(index) {}
+
+    void prepare() {
+        fiber_ = preparer_.fibers_.current();
+        try {
+            preparer_.assembly_.prepare(index_, *this);
+        } catch (const Cancelled&) {
+            throw;
+        } catch (const std::exception& error) {
+            failure_ = error.what();
+        }
+        at_ = {Report::Kind::done, call_, 0};
+        waiting_ = true;
+        report();
+    }
+
+    // What is answered as soon as prepare() waits or has ended.
+    void ask(Message ask) {
+        asked_ = std::move(ask);
+        if (waiting_) report();
+    }
+
+    void go_on(Message ask) {
+        const Step step = step_of(ask);
+        if (!waiting_ || at_.call != step.call || at_.kind == Report::Kind::done) return this->ask(std::move(ask));
+        result_ = ask.data ? ask.data : preparer_.network_.results ? preparer_.network_.results(step.data) : nullptr;
+        if (!result_) return fail(ask, "the result of a preparing step is not here");
+        asked_ = std::move(ask);
+        waiting_ = false;
+        resume_if_free();
+    }
+
+    void collect(Message ask) {
+        const auto& noted = preparer_.assembly_.rehearsal(index_).noted();
+        constexpr std::size_t most = (std::size_t{60} << 20) / sizeof(Query);
+        if (noted.size() > most) return fail(ask, "a rehearsal noted too many questions");
+        auto reply = reply_to(ask);
+        reply.data = bytes_of<Query>(noted);
+        preparer_.place_.reply(std::move(reply));
+    }
+
+    Bytes shard(const Step& step) {
+        if (!waiting_ || at_.kind != Report::Kind::map || at_.call != step.call || step.shard >= at_.count)
+            throw Error("it does not wait for this shard");
+        // prepare() must stay where it is while its work is done: work looks at what lies on its stack.
+        struct Busy {
+            Node& node;
+            explicit Busy(Node& n) : node(n) { ++node.shards_; }
+            ~Busy() {
+                --node.shards_;
+                if (!node.waiting_) node.resume_if_free();
+            }
+        } busy(*this);
+        auto out = std::make_shared<std::vector<std::byte>>();
+        (*work_)(step.shard, *out);
+        return out;
+    }
+
+    std::vector<Query> rehearse(std::uint32_t stride) override {
+        auto& rehearsal = preparer_.assembly_.rehearsal(index_);
+        rehearsal.begin();
+        const Mapped<Query> noted(wait(Report::Kind::rehearse, stride));
+        rehearsal.end();
+        return {noted.begin(), noted.end()};
+    }
+    Whereabouts whereabouts() const override { return {preparer_.place_.name, preparer_.place_.places_of(index_)}; }
+    void say(const std::string& text) override { said_ += text + '\n'; }
+
+protected:
+    Bytes map_bytes(std::size_t count, const Shard& work) override {
+        work_ = &work;
+        return wait(Report::Kind::map, static_cast<std::uint32_t>(count));
+    }
+    std::shared_ptr<const void> once_any(const std::function<std::shared_ptr<const void>()>& make) override {
+        return preparer_.network_.shared->get(index_, values_++, make);
+    }
+
+private:
+    Bytes wait(Report::Kind kind, std::uint32_t count) {
+        at_ = {kind, call_++, count};
+        waiting_ = true;
+        report();
+        preparer_.fibers_.park();
+        return std::exchange(result_, nullptr);
+    }
+
+    void report() {
+        if (!asked_) return;
+        auto ask = *std::exchange(asked_, std::nullopt);
+        if (!failure_.empty()) return fail(ask, failure_);
+        auto reply = reply_to(ask);
+        auto data = std::make_shared<std::vector<std::byte>>(sizeof at_ + said_.size());
+        std::memcpy(data->data(), &at_, sizeof at_);
+        std::memcpy(data->data() + sizeof at_, said_.data(), said_.size());
+        said_.clear();
+        reply.data = std::move(data);
+        preparer_.place_.reply(std::move(reply));
+    }
+
+    void fail(Message& ask, const std::string& why) {
+        auto reply = reply_to(ask);
+        reply.type = Message::Type::failure;
+        reply.text = "on " + preparer_.place_.name + ": " + why;
+        preparer_.place_.reply(std::move(reply));
+    }
+
+    void resume_if_free() {
+        if (shards_ == 0) preparer_.place_.resume(fiber_);
+    }
+
+    Preparer& preparer_;
+    std::size_t index_;
+    Fibers::Fiber* fiber_ = nullptr;
+    std::optional<Message> asked_;  // the step that the next report answers
+    Report at_;
+    bool waiting_ = false;  // at at_, for a result, or for nothing more
+    std::string failure_, said_;
+    const Shard* work_ = nullptr;
+    std::size_t shards_ = 0;  // that are being done
+    Bytes result_;
+    std::uint32_t call_ = 0, values_ = 0;
+};
+
+Preparer::Preparer(const Network& network, Assembly& assembly, Fibers& fibers, Place place)
+    : network_(network), assembly_(assembly), fibers_(fibers), place_(std::move(place)) {}
+
+Preparer::~Preparer() = default;
+
+void Preparer::take(Message ask) {
+    const std::size_t index = ask.node;
+    auto& known = nodes_[index];
+    if (!known) {
+        known = std::make_unique<Node>(*this, index);
+        to_start_.push_back(index);
+    }
+    switch (step_of(ask).kind) {
+        case Step::Kind::go_on:
+            return known->go_on(std::move(ask));
+        case Step::Kind::collect:
+            return known->collect(std::move(ask));
+        default:
+            return known->ask(std::move(ask));
+    }
+}
+
+bool Preparer::start_next() {
+    if (to_start_.empty()) return false;
+    const auto index = to_start_.front();
+    to_start_.pop_front();
+    fibers_.start(network_.graph.nodes[index].name.c_str(), [this, index] { nodes_[index]->prepare(); });
+    return true;
+}
+
+Bytes Preparer::shard(std::size_t node, const Step& step) {
+    const auto found = nodes_.find(node);
+    if (found == nodes_.end()) throw Error("it has not begun to prepare");
+    return found->second->shard(step);
+}
+
+}  // namespace lightnet

@@ -1,0 +1,49 @@
+// The preparing nodes of one place, led by the launcher step by step.
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/fiber/fiber.hpp"
+#include "core/message/message.hpp"
+#include "core/prepare/assembly.hpp"
+
+namespace lightnet {
+
+/// Runs each node's prepare() in a fiber of its own, which waits wherever the node calls a service, until the launcher
+/// brings the result. Belongs to a place, and to its thread.
+class Preparer {
+public:
+    struct Place {
+        std::string name;
+        std::function<void(Fibers::Fiber*)> resume;  // as soon as the place gets to it
+        std::function<void(Message)> reply;
+        std::function<std::size_t(std::size_t node)> places_of;
+    };
+    Preparer(const Network& network, Assembly& assembly, Fibers& fibers, Place place);
+    ~Preparer();
+
+    /// A step of any kind but shard.
+    void take(Message ask);
+    /// Begins one prepare() that has been asked for. Outside fibers only. False: there is none.
+    bool start_next();
+    /// Does a shard, in a fiber of the node. Throws Error when the node does not wait for it.
+    Bytes shard(std::size_t node, const Step& step);
+
+private:
+    class Node;
+
+    const Network& network_;
+    Assembly& assembly_;
+    Fibers& fibers_;
+    Place place_;
+    std::map<std::size_t, std::unique_ptr<Node>> nodes_;
+    std::deque<std::size_t> to_start_;
+};
+
+}  // namespace lightnet

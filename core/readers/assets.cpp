@@ -1,0 +1,102 @@
+#include "core/readers/assets.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace lightnet {
+
+std::optional<Bytes> Assets::read(const std::string& path, const SourceLine& where) {
+    try {
+        return files_.read(path);
+    } catch (const Error& problem) {
+        report_.error(where, fmt::format("can't read a file: {}", problem.what()));
+        return std::nullopt;
+    }
+}
+
+bool Assets::exists(const std::string& path) {
+    try {
+        files_.read(path);
+        return true;
+    } catch (const Error&) {
+        return false;
+    }
+}
+
+std::shared_ptr<const Image> Assets::picture(const std::string& path, const Encoding& encoding,
+                                             const SourceLine& where) {
+    if (const auto known = pictures_.find({path, encoding.curve, encoding.gamma}); known != pictures_.end())
+        return known->second;
+    const auto bytes = read(path, where);
+    if (!bytes) return pictures_[{path, encoding.curve, encoding.gamma}] = nullptr;
+    return picture(path, **bytes, encoding, where);
+}
+
+std::shared_ptr<const Image> Assets::picture(const std::string& name, std::span<const std::byte> bytes,
+                                             const Encoding& encoding, const SourceLine& where) {
+    const auto [entry, fresh] = pictures_.try_emplace({name, encoding.curve, encoding.gamma});
+    if (!fresh) return entry->second;
+    try {
+        entry->second = std::make_shared<const Image>(read_image(bytes, encoding));
+    } catch (const Error& problem) {
+        report_.error(where, fmt::format("picture '{}': {}", name, problem.what()));
+    }
+    return entry->second;
+}
+
+TextureId Assets::add(Texture texture) {
+    scene_.textures.push_back(std::move(texture));
+    return static_cast<TextureId>(scene_.textures.size() - 1);
+}
+
+TextureId Assets::colour(Rgb value) {
+    const auto [entry, fresh] = colours_.try_emplace({value.r, value.g, value.b});
+    if (fresh) {
+        Texture constant;
+        constant.scale = value;
+        entry->second = add(std::move(constant));
+    }
+    return entry->second;
+}
+
+MaterialId Assets::add(Material material) {
+    scene_.materials.push_back(std::move(material));
+    return static_cast<MaterialId>(scene_.materials.size() - 1);
+}
+
+Rgb mean_colour(const SceneData& scene, TextureId id) {
+    const Texture& texture = scene.textures[id];
+    Rgb mean{1, 1, 1};
+    if (const auto* pattern = std::get_if<ImageTexture>(&texture.pattern); pattern && pattern->image) {
+        double r = 0, g = 0, b = 0;
+        const auto& image = *pattern->image;
+        for (std::uint32_t y = 0; y < image.height; ++y)
+            for (std::uint32_t x = 0; x < image.width; ++x) {
+                const Rgb pixel = image.colour(x, y);
+                r += double(pixel.r), g += double(pixel.g), b += double(pixel.b);
+            }
+        const double count = std::max(1.0, double(image.width) * image.height);
+        mean = {float(r / count), float(g / count), float(b / count)};
+    } else if (const auto* squares = std::get_if<CheckerTexture>(&texture.pattern)) {
+        mean = (mean_colour(scene, squares->even) + mean_colour(scene, squares->odd)) * 0.5f;
+    }
+    mean *= texture.scale;
+    return texture.invert ? Rgb{1, 1, 1} - mean : mean;
+}
+
+void light_the_dark(SceneData& scene, Report& report, const std::string& file) {
+    const bool lit = !scene.environments.empty() || !scene.lights.empty() ||
+                     std::any_of(scene.shapes.begin(), scene.shapes.end(),
+                                 [](const Shape& shape) { return shape.emission.has_value(); });
+    if (lit) return;
+    report.warn({file, 0},
+                "there is no light: a constant environment of radiance 1 is taken (choose one with '--env')");
+    scene.environments.emplace_back();
+}
+
+}  // namespace lightnet

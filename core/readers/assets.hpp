@@ -1,0 +1,57 @@
+// What the readers of scenes draw on while they fill a scene: its files, its pictures, each decoded once, its textures.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <tuple>
+
+#include "core/readers/files.hpp"
+#include "core/readers/image_file.hpp"
+#include "core/readers/report.hpp"
+#include "core/scene/scene_data.hpp"
+
+namespace lightnet {
+
+/// Of one read of one scene; what it is made from must outlive it. One thread.
+class Assets {
+public:
+    Assets(Files& files, Report& report, SceneData& scene) : files_(files), report_(report), scene_(scene) {}
+
+    /// The bytes of the file at `path`. None: reported.
+    std::optional<Bytes> read(const std::string& path, const SourceLine& where);
+    bool exists(const std::string& path);
+    /// The picture at `path`. Null: reported.
+    std::shared_ptr<const Image> picture(const std::string& path, const Encoding& encoding, const SourceLine& where);
+    /// A picture inside another file; `name` tells it from all others.
+    std::shared_ptr<const Image> picture(const std::string& name, std::span<const std::byte> bytes,
+                                         const Encoding& encoding, const SourceLine& where);
+
+    TextureId add(Texture texture);
+    TextureId colour(Rgb value);
+    TextureId grey(float value) { return colour({value, value, value}); }
+    MaterialId add(Material material);
+
+    Report& report() const { return report_; }
+    SceneData& scene() const { return scene_; }
+
+private:
+    using Key = std::tuple<std::string, Encoding::Curve, float>;
+
+    Files& files_;
+    Report& report_;
+    SceneData& scene_;
+    std::map<Key, std::shared_ptr<const Image>> pictures_;
+    std::map<std::tuple<float, float, float>, TextureId> colours_;
+};
+
+/// Mean colour of a texture's pattern times its scale, where that is easy to say; else its scale.
+Rgb mean_colour(const SceneData& scene, TextureId texture);
+
+/// Light for scenes that have none: a warning that names `--env`, and a constant environment of radiance 1.
+void light_the_dark(SceneData& scene, Report& report, const std::string& file);
+
+}  // namespace lightnet

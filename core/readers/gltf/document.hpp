@@ -1,0 +1,63 @@
+// A glTF file with its buffers: .gltf or .glb.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/readers/assets.hpp"
+#include "core/readers/gltf/json.hpp"
+
+namespace lightnet::gltf {
+
+/// A list of numbers of equal width, decoded.
+struct Values {
+    std::size_t width = 0;  // 3 of a VEC3
+    std::vector<float> numbers;
+    std::size_t count() const { return width ? numbers.size() / width : 0; }
+};
+
+/// Of one read. All that it hands out was checked against the bytes that are really there.
+class Document {
+public:
+    /// Throws UserError when the file is no glTF at all; smaller things are reported.
+    Document(Assets& assets, const std::string& path);
+    Document(const Document&) = delete;
+    Document& operator=(const Document&) = delete;
+
+    At root() const { return {json_, path_, assets_.report()}; }
+    const std::string& path() const { return path_; }
+
+    /// The values of an accessor; integers that are normalised lie in 0 … 1 or -1 … 1. None: reported.
+    std::optional<Values> values(const At& accessor_index);
+    /// The same of whole numbers without a sign. None: reported.
+    std::optional<std::vector<std::uint32_t>> indices(const At& accessor_index);
+    /// The bytes of a buffer view. None: reported.
+    std::optional<std::span<const std::byte>> view(const At& view_index);
+    /// The bytes behind a "uri": data in it, or a file. None: reported.
+    std::optional<Bytes> resource(const At& uri) const;
+
+private:
+    struct Layout;
+    std::optional<Layout> layout(const At& accessor);
+    template <class Value>
+    std::optional<std::vector<Value>> decoded(const At& accessor_index, std::size_t& width);
+    template <class Value>
+    bool overlay(const At& sparse, const Layout& layout, std::vector<Value>& values);
+    bool spend(const At& where, std::uint64_t elements);
+    Bytes buffer(std::size_t index);
+    std::span<const std::byte> json_chunk();
+
+    Assets& assets_;
+    std::string path_;
+    Bytes bytes_;
+    std::span<const std::byte> binary_;  // of a .glb
+    Json json_;
+    std::vector<std::optional<Bytes>> buffers_;  // none: not loaded yet; null: reported
+    std::uint64_t spent_ = 0, loaded_ = 0;       // elements, bytes
+};
+
+}  // namespace lightnet::gltf

@@ -1,0 +1,68 @@
+#include "core/readers/gltf/gltf.hpp"
+
+#include <fmt/format.h>
+
+#include <set>
+#include <string_view>
+
+#include "core/readers/assets.hpp"
+#include "core/readers/gltf/nodes.hpp"
+
+namespace lightnet::gltf {
+namespace {
+
+const std::set<std::string, std::less<>> known_extensions{"KHR_materials_transmission",
+                                                          "KHR_materials_volume",
+                                                          "KHR_materials_ior",
+                                                          "KHR_materials_clearcoat",
+                                                          "KHR_materials_sheen",
+                                                          "KHR_materials_specular",
+                                                          "KHR_materials_unlit",
+                                                          "KHR_lights_punctual",
+                                                          "KHR_texture_transform",
+                                                          "KHR_mesh_quantization",
+                                                          "EXT_mesh_gpu_instancing",
+                                                          "KHR_materials_emissive_strength",
+                                                          "KHR_materials_pbrSpecularGlossiness"};
+
+void check_extensions(const At& root) {
+    std::set<std::string> required;
+    const At list = root["extensionsRequired"], used = root["extensionsUsed"];
+    for (std::size_t i = 0; i < list.size(); ++i) required.insert(list[i].text(""));
+    for (const auto& name : required)
+        if (!known_extensions.contains(name))
+            root.report().error(
+                {root.file(), 0},
+                fmt::format("the file needs the extension '{}', which is not supported", name.substr(0, 64)));
+    for (std::size_t i = 0; i < used.size(); ++i)
+        if (const auto name = used[i].text(""); !known_extensions.contains(name) && !required.contains(name))
+            root.warn(fmt::format("extension '{}' is left out", name.substr(0, 64)));
+    if (root["animations"].size()) root.warn("animations are left out: everything stands as at first");
+}
+
+void check_occlusion(const At& root) {
+    const At materials = root["materials"];
+    for (std::size_t i = 0; i < materials.size(); ++i)
+        if (materials[i]["occlusionTexture"])
+            root.warn("occlusion maps are left out: light finds by itself where it is dark");
+}
+
+}  // namespace
+
+SceneData read(Files& files, const std::string& path) {
+    Report report;
+    SceneData scene;
+    Assets assets(files, report, scene);
+    Document document(assets, path);
+    check_extensions(document.root());
+    report.check();  // what is packed in unknown ways would only give more errors
+    check_occlusion(document.root());
+    add_nodes(document, assets);
+    if (scene.shapes.empty() && report.good()) report.error({path, 0}, "there are no triangles");
+    report.check();
+    light_the_dark(scene, report, path);
+    scene.warnings = report.warnings();
+    return scene;
+}
+
+}  // namespace lightnet::gltf

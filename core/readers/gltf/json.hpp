@@ -1,0 +1,74 @@
+// JSON as glTF uses it: values that know where in the file they stand.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/readers/report.hpp"
+
+namespace lightnet::gltf {
+
+/// A value.
+struct Json {
+    enum class Kind { null, boolean, number, text, list, object } kind = Kind::null;
+    double number = 0;  // of numbers and booleans
+    std::string text;
+    std::vector<Json> items;
+    std::map<std::string, Json, std::less<>> members;
+};
+
+/// Throws Error (without a file name) when the text is no JSON, is nested too deeply or has too many values.
+Json parse_json(std::string_view text);
+
+/// A place in a document, there or not. What has the wrong type is reported with its path ("nodes[3].mesh"), and the
+/// fallback taken. The document and the report must outlive it.
+class At {
+public:
+    At(const Json& root, std::string file, Report& report) : json_(&root), file_(std::move(file)), report_(&report) {}
+
+    explicit operator bool() const { return json_ != nullptr; }
+    At operator[](std::string_view member) const;
+    At operator[](std::size_t item) const;
+    /// Of a list; 0: it is none.
+    std::size_t size() const;
+    /// The names of an object's members.
+    std::vector<std::string> names() const;
+
+    double number(double fallback) const;
+    float real(float fallback) const { return static_cast<float>(number(double(fallback))); }
+    bool boolean(bool fallback) const;
+    std::string text(const std::string& fallback) const;
+    /// A whole number from 0 on.
+    std::optional<std::uint64_t> whole() const;
+    std::uint64_t whole(std::uint64_t fallback) const { return whole().value_or(fallback); }
+    /// An index into a list of that many. None: not there, or reported.
+    std::optional<std::size_t> index(std::size_t count) const;
+    template <std::size_t count>
+    std::array<double, count> numbers(const std::array<double, count>& fallback) const {
+        std::array<double, count> result = fallback;
+        read(result.data(), count);
+        return result;
+    }
+
+    void error(const std::string& what) const;
+    void warn(const std::string& what) const { report_->warn({file_, 0}, what); }
+    const std::string& path() const { return path_; }
+    const std::string& file() const { return file_; }
+    Report& report() const { return *report_; }
+
+private:
+    bool is(Json::Kind kind, const char* name) const;
+    void read(double* into, std::size_t count) const;
+
+    const Json* json_ = nullptr;
+    std::string path_, file_;
+    Report* report_ = nullptr;
+};
+
+}  // namespace lightnet::gltf

@@ -1,0 +1,215 @@
+#include "core/readers/gltf/materials.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lightnet::gltf {
+namespace {
+
+constexpr std::size_t no_material = ~std::size_t{0};
+using Channel = ImageTexture::Channel;
+
+Rgb rgb(const std::array<double, 3>& v) { return {float(v[0]), float(v[1]), float(v[2])}; }
+
+Rgb rgb(const At& at, Rgb fallback) {
+    return rgb(at.numbers<3>({double(fallback.r), double(fallback.g), double(fallback.b)}));
+}
+
+float share(const At& at, float fallback) { return std::clamp(at.real(fallback), 0.0f, 1.0f); }
+
+Wrap wrap_of(const At& at) {
+    const auto code = at.whole(10497);
+    return code == 33071 ? Wrap::clamp : code == 33648 ? Wrap::mirror : Wrap::repeat;
+}
+
+/// KHR_texture_transform, whose v goes down, for our v, which goes up.
+UvTransform transform_of(const At& at) {
+    const auto offset = at["offset"].numbers<2>({0, 0}), scale = at["scale"].numbers<2>({1, 1});
+    const double turn = at["rotation"].number(0), c = std::cos(turn), s = std::sin(turn);
+    UvTransform result;
+    result.scale = {float(scale[0]), float(scale[1])};
+    result.turn = float(turn);
+    result.offset = {float(offset[0] + scale[1] * s), float(1 - scale[1] * c - offset[1])};
+    return result;
+}
+
+Rgb inverse_of_attenuation(Rgb colour, float distance) {
+    const auto one = [&](float c) { return -std::log(std::clamp(c, 1e-6f, 1.0f)) / distance; };
+    return {one(colour.r), one(colour.g), one(colour.b)};
+}
+
+}  // namespace
+
+const Surface& Materials::of(const At& index, bool painted) {
+    const At list = document_.root()["materials"];
+    const auto which = index.index(list.size());
+    const std::pair key{which.value_or(no_material), painted};
+    if (const auto known = made_.find(key); known != made_.end()) return known->second;
+    uv_set_.reset();
+    Surface surface = make(list[which.value_or(no_material)], painted);
+    surface.uv_set = uv_set_.value_or(0);
+    return made_.emplace(key, surface).first->second;
+}
+
+std::shared_ptr<const Image> Materials::image(const At& index, Kind kind) {
+    const At list = document_.root()["images"];
+    const auto which = index.index(list.size());
+    if (!which) return nullptr;
+    const At at = list[*which];
+    const Encoding encoding = kind == Kind::colour ? Encoding{} : Encoding{Encoding::Curve::linear, 1};
+    const std::string name = fmt::format("{} images[{}]", document_.path(), *which);
+    const SourceLine where{document_.path(), 0};
+    if (at["bufferView"]) {
+        const auto bytes = document_.view(at["bufferView"]);
+        return bytes ? assets_.picture(name, *bytes, encoding, where) : nullptr;
+    }
+    const auto bytes = document_.resource(at["uri"]);
+    return bytes ? assets_.picture(name, **bytes, encoding, where) : nullptr;
+}
+
+std::optional<ImageTexture> Materials::picture(const At& info, Kind kind) {
+    if (!info) return std::nullopt;
+    const At list = document_.root()["textures"];
+    const auto index = info["index"].index(list.size());
+    if (!index) return std::nullopt;
+    const At at = list[*index];
+    if (!at["source"]) {
+        at.warn("a texture without a picture of a known kind is left out");
+        return std::nullopt;
+    }
+    ImageTexture pattern;
+    pattern.image = image(at["source"], kind);
+    if (!pattern.image) return std::nullopt;
+    const At samplers = document_.root()["samplers"];
+    if (const auto sampler = at["sampler"].index(samplers.size())) {
+        pattern.wrap_u = wrap_of(samplers[*sampler]["wrapS"]), pattern.wrap_v = wrap_of(samplers[*sampler]["wrapT"]);
+        pattern.nearest = samplers[*sampler]["magFilter"].whole(9729) == 9728;
+    }
+    const At moved = info["extensions"]["KHR_texture_transform"];
+    if (moved) pattern.uv = transform_of(moved);
+    const std::size_t set = (moved["texCoord"] ? moved["texCoord"] : info["texCoord"]).whole(0);
+    if (uv_set_.value_or(set) != set)
+        info.warn("pictures of one material on different texture coordinates are all laid on the first's");
+    uv_set_ = uv_set_.value_or(set);
+    return pattern;
+}
+
+std::optional<TextureId> Materials::texture(const At& info, Kind kind, Rgb scale, Channel channel) {
+    auto pattern = picture(info, kind);
+    if (!pattern) return std::nullopt;
+    pattern->channel = channel;
+    return assets_.add({scale, *pattern, false});
+}
+
+/// The colour of a surface: factor × picture × the colours of the mesh.
+TextureId Materials::base(const At& info, Rgb factor, bool painted) {
+    const auto map = texture(info, Kind::colour, factor);
+    if (!painted) return map ? *map : assets_.colour(factor);
+    const TextureId paint = assets_.add({map ? Rgb{1, 1, 1} : factor, VertexColour{}, false});
+    return map ? assets_.add({{1, 1, 1}, ProductTexture{*map, paint}, false}) : paint;
+}
+
+PrincipledMaterial Materials::model(const At& at, bool painted) {
+    const At rough = at["pbrMetallicRoughness"];
+    const auto factor = rough["baseColorFactor"].numbers<4>({1, 1, 1, 1});
+    PrincipledMaterial model;
+    model.base_colour = base(rough["baseColorTexture"], rgb({factor[0], factor[1], factor[2]}), painted);
+    model.metallic = share(rough["metallicFactor"], 1);
+    const float roughness = share(rough["roughnessFactor"], 1);
+    model.roughness = {roughness, roughness, {}, Roughness::Means::square};
+    const At map = rough["metallicRoughnessTexture"];
+    model.metallic_texture = texture(map, Kind::numbers, {1, 1, 1}, Channel::blue);
+    model.roughness.texture = texture(map, Kind::numbers, {1, 1, 1}, Channel::green);
+    return model;
+}
+
+/// KHR_materials_pbrSpecularGlossiness, which metallic-roughness has replaced.
+void Materials::older(const At& at, PrincipledMaterial& model, bool painted) {
+    at.warn("KHR_materials_pbrSpecularGlossiness is approximated by a dielectric with that colour of reflection");
+    const auto diffuse = at["diffuseFactor"].numbers<4>({1, 1, 1, 1});
+    model.base_colour = base(at["diffuseTexture"], rgb({diffuse[0], diffuse[1], diffuse[2]}), painted);
+    model.metallic = 0;
+    model.metallic_texture.reset(), model.roughness.texture.reset();
+    model.roughness.u = model.roughness.v = 1 - share(at["glossinessFactor"], 1);
+    model.specular_colour = rgb(at["specularFactor"], {1, 1, 1}) / 0.04f;  // over what an index of 1.5 reflects
+}
+
+void Materials::extensions(const At& at, PrincipledMaterial& model, Material& material) {
+    const At clear = at["KHR_materials_clearcoat"], sheen = at["KHR_materials_sheen"];
+    const At specular = at["KHR_materials_specular"], through = at["KHR_materials_transmission"];
+    const At volume = at["KHR_materials_volume"];
+    model.eta = at["KHR_materials_ior"]["ior"].real(1.5f);
+    if (model.eta < 1) model.eta = model.eta == 0 ? 1e3f : 1;  // 0: reflects all
+    model.clearcoat = share(clear["clearcoatFactor"], 0);
+    model.clearcoat_texture = texture(clear["clearcoatTexture"], Kind::numbers, {1, 1, 1}, Channel::red);
+    const float coat = share(clear["clearcoatRoughnessFactor"], 0);
+    model.clearcoat_roughness = {coat, coat, {}, Roughness::Means::square};
+    model.clearcoat_roughness.texture =
+        texture(clear["clearcoatRoughnessTexture"], Kind::numbers, {1, 1, 1}, Channel::green);
+    if (clear["clearcoatNormalTexture"]) at.warn("the normal map of a clear coat is left out");
+    if (sheen) {
+        model.sheen_colour = rgb(sheen["sheenColorFactor"], {0, 0, 0});
+        model.sheen = is_black(model.sheen_colour) ? 0 : 1;
+        model.sheen_roughness = share(sheen["sheenRoughnessFactor"], 0);
+        model.sheen_texture = texture(sheen["sheenColorTexture"], Kind::colour, {1, 1, 1});
+        model.sheen_roughness_texture =
+            texture(sheen["sheenRoughnessTexture"], Kind::numbers, {1, 1, 1}, Channel::alpha);
+    }
+    model.specular = share(specular["specularFactor"], 1);
+    model.specular_texture = texture(specular["specularTexture"], Kind::numbers, {1, 1, 1}, Channel::alpha);
+    model.specular_colour = rgb(specular["specularColorFactor"], {1, 1, 1});
+    model.specular_colour_texture = texture(specular["specularColorTexture"], Kind::colour, {1, 1, 1});
+    model.transmission = share(through["transmissionFactor"], 0);
+    model.transmission_texture = texture(through["transmissionTexture"], Kind::numbers, {1, 1, 1}, Channel::red);
+    model.thin = volume["thicknessFactor"].number(0) == 0;
+    const float distance = volume["attenuationDistance"].real(0);
+    if (!model.thin && distance > 0)
+        material.absorption = inverse_of_attenuation(rgb(volume["attenuationColor"], {1, 1, 1}), distance);
+}
+
+void Materials::opacity(const At& at, const At& base, float factor, Material& material) {
+    const std::string mode = at["alphaMode"].text("OPAQUE");
+    if (mode == "OPAQUE") return;
+    if (mode != "MASK" && mode != "BLEND") return at["alphaMode"].error("must be OPAQUE, MASK or BLEND");
+    const auto map = texture(base, Kind::colour, {factor, factor, factor}, Channel::alpha);
+    material.opacity = map ? *map : assets_.grey(factor);
+    if (mode == "MASK") material.opacity_cutoff = std::max(at["alphaCutoff"].real(0.5f), 1e-6f);
+}
+
+void Materials::emission(const At& at, Surface& surface) {
+    const bool two_sided = at["doubleSided"].boolean(false);
+    const float strength = at["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"].real(1);
+    const Rgb radiance = rgb(at["emissiveFactor"], {0, 0, 0}) * std::max(strength, 0.0f);
+    if (is_black(radiance)) return;
+    surface.emission = AreaEmission{radiance, two_sided, texture(at["emissiveTexture"], Kind::colour, {1, 1, 1})};
+}
+
+Surface Materials::make(const At& at, bool painted) {
+    Surface surface;
+    Material material;
+    material.name = at["name"].text("");
+    const At more = at["extensions"];
+    PrincipledMaterial model = this->model(at, painted);
+    const At gloss = more["KHR_materials_pbrSpecularGlossiness"];
+    const At rough = at["pbrMetallicRoughness"];
+    extensions(more, model, material);
+    if (gloss) older(gloss, model, painted);
+    opacity(at, gloss ? gloss["diffuseTexture"] : rough["baseColorTexture"],
+            float((gloss ? gloss["diffuseFactor"] : rough["baseColorFactor"]).numbers<4>({1, 1, 1, 1})[3]), material);
+    emission(at, surface);
+    if (more["KHR_materials_unlit"]) {
+        at.warn("KHR_materials_unlit is approximated by a surface that shines in its colour");
+        surface.emission = AreaEmission{{1, 1, 1}, true, model.base_colour};
+        material.model = DiffuseMaterial{assets_.grey(0)};
+    } else {
+        material.model = model;
+        material.normal_map = texture(at["normalTexture"], Kind::numbers, {1, 1, 1});
+        material.normal_scale = at["normalTexture"]["scale"].real(1);
+    }
+    surface.material = assets_.add(std::move(material));
+    return surface;
+}
+
+}  // namespace lightnet::gltf

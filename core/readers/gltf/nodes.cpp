@@ -1,0 +1,281 @@
+#include "core/readers/gltf/nodes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include "core/readers/gltf/meshes.hpp"
+#include "core/readers/mesh_tools.hpp"
+
+namespace lightnet::gltf {
+namespace {
+
+Matrix from_parts(const std::array<double, 3>& move, std::array<double, 4> q, const std::array<double, 3>& scale) {
+    const double size = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    if (!(size > 0)) q = {0, 0, 0, 1};
+    const double n = size > 0 ? 1 / size : 1, x = q[0] * n, y = q[1] * n, z = q[2] * n, w = q[3] * n;
+    const double r[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
+                            {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)},
+                            {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)}};
+    Matrix t;
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j) t.m[i][j] = r[i][j] * scale[j];
+        t.m[i][3] = move[i];
+    }
+    return t;
+}
+
+Matrix transform_of(const At& node) {
+    if (!node["matrix"])
+        return from_parts(node["translation"].numbers<3>({0, 0, 0}), node["rotation"].numbers<4>({0, 0, 0, 1}),
+                          node["scale"].numbers<3>({1, 1, 1}));
+    const auto columns = node["matrix"].numbers<16>({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
+    Matrix t;
+    for (std::size_t i = 0; i < 4; ++i)
+        for (std::size_t j = 0; j < 4; ++j) t.m[i][j] = columns[j * 4 + i];
+    return t;
+}
+
+/// Has an inverse, and no numbers beyond sense.
+bool invertible(const Matrix& t) {
+    const auto& m = t.m;
+    for (const auto& row : m)
+        for (const double value : row)
+            if (!(std::fabs(value) < 1e30)) return false;
+    return std::fabs(m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+                     m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+                     m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0])) > 1e-30;
+}
+
+Vec3 axis_of(const Matrix& t, Vec3 direction) {
+    const Vec3 d = transform_direction(t, direction);
+    return length(d) > 0 && finite(d) ? normalize(d) : direction;
+}
+
+struct Standing {
+    At node;
+    Matrix to_world;
+};
+
+class Builder {
+public:
+    Builder(Document& document, Assets& assets)
+        : document_(document), assets_(assets), materials_(document, assets), nodes_(document.root()["nodes"]) {}
+
+    void build() {
+        const auto standing = all_nodes();
+        const std::size_t meshes = document_.root()["meshes"].size();
+        std::map<std::size_t, std::vector<Matrix>> places;
+        for (const auto& [node, to_world] : standing) {
+            if (assets_.report().full()) return;
+            if (node["mesh"])
+                if (const auto mesh = node["mesh"].index(meshes)) put(node, to_world, places[*mesh]);
+            if (node["camera"]) camera(node["camera"], to_world);
+            if (const At light = node["extensions"]["KHR_lights_punctual"]["light"]) this->light(light, to_world);
+        }
+        for (const auto& [mesh, where] : places)
+            if (!assets_.report().full()) add(document_.root()["meshes"][mesh], where);
+    }
+
+private:
+    /// Every node of the scene, parents before children.
+    std::vector<Standing> all_nodes() {
+        std::vector<Standing> result;
+        std::vector<std::pair<At, Matrix>> waiting;
+        std::vector<bool> seen(nodes_.size());
+        const auto add = [&](const At& index, const Matrix& parent) {
+            const auto which = index.index(nodes_.size());
+            if (!which) return;
+            if (seen[*which]) return index.error(fmt::format("names node {}, which stands elsewhere already", *which));
+            seen[*which] = true;
+            waiting.emplace_back(nodes_[*which], parent);
+        };
+        roots(add);
+        while (!waiting.empty() && !assets_.report().full()) {
+            const auto [node, parent] = waiting.back();
+            waiting.pop_back();
+            const Matrix to_world = parent * transform_of(node);
+            result.push_back({node, to_world});
+            const At children = node["children"];
+            for (std::size_t i = children.size(); i-- > 0;) add(children[i], to_world);
+        }
+        return result;
+    }
+
+    template <class Add>
+    void roots(const Add& add) {
+        const At scenes = document_.root()["scenes"];
+        const At chosen = document_.root()["scene"];
+        if (scenes.size()) {
+            const At list = scenes[chosen ? chosen.index(scenes.size()).value_or(0) : 0]["nodes"];
+            for (std::size_t i = list.size(); i-- > 0;) add(list[i], Matrix{});
+            return;
+        }
+        std::vector<bool> child(nodes_.size());
+        for (std::size_t i = 0; i < nodes_.size(); ++i) {
+            const At children = nodes_[i]["children"];
+            for (std::size_t j = 0; j < children.size(); ++j)
+                if (const auto which = children[j].index(nodes_.size())) child[*which] = true;
+        }
+        // an index that the file does not hold itself
+        for (std::size_t i = nodes_.size(); i-- > 0;) {
+            if (child[i]) continue;
+            Json index;
+            index.kind = Json::Kind::number;
+            index.number = static_cast<double>(i);
+            add(At(index, document_.path(), assets_.report()), Matrix{});
+        }
+    }
+
+    /// Where a node's mesh stands: once, or as often as EXT_mesh_gpu_instancing says.
+    void put(const At& node, const Matrix& to_world, std::vector<Matrix>& places) {
+        const At many = node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"];
+        const auto place = [&](const Matrix& t) {
+            if (invertible(t))
+                places.push_back(t);
+            else
+                node.warn("meshes without a size are left out");
+        };
+        if (!many) return place(to_world);
+        const auto list = [&](const char* name) { return many[name] ? document_.values(many[name]) : std::nullopt; };
+        const auto moves = list("TRANSLATION"), turns = list("ROTATION"), scales = list("SCALE");
+        const std::size_t count = moves ? moves->count() : turns ? turns->count() : scales ? scales->count() : 0;
+        const auto fits = [&](const auto& values, std::size_t width) {
+            return !values || (values->width == width && values->count() == count);
+        };
+        if (!fits(moves, 3) || !fits(turns, 4) || !fits(scales, 3)) return many.error("have not all the same count");
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto at = [&](const auto& values, std::size_t j, double fallback) {
+                return values ? double(values->numbers[i * values->width + j]) : fallback;
+            };
+            place(to_world * from_parts({at(moves, 0, 0), at(moves, 1, 0), at(moves, 2, 0)},
+                                        {at(turns, 0, 0), at(turns, 1, 0), at(turns, 2, 0), at(turns, 3, 1)},
+                                        {at(scales, 0, 1), at(scales, 1, 1), at(scales, 2, 1)}));
+        }
+    }
+
+    /// A mesh at all its places: one object with instances, but lamps and what stands once in the world itself.
+    void add(const At& mesh, const std::vector<Matrix>& places) {
+        Object object;
+        object.name = mesh["name"].text("");
+        for (auto& piece : read_mesh(mesh, document_, materials_)) {
+            if (places.size() > 1 && !piece.emission) {
+                object.shapes.push_back(shape(std::move(piece)));
+                continue;
+            }
+            for (const Matrix& place : places) bake(piece, place, mesh);
+        }
+        if (object.shapes.empty()) return;
+        auto& scene = assets_.scene();
+        scene.objects.push_back(std::move(object));
+        for (const Matrix& place : places)
+            scene.instances.push_back({static_cast<std::uint32_t>(scene.objects.size() - 1), place});
+    }
+
+    std::uint32_t shape(Piece piece) {
+        auto& shapes = assets_.scene().shapes;
+        shapes.push_back({std::move(piece.mesh), piece.material, piece.emission, {document_.path(), 0}});
+        return static_cast<std::uint32_t>(shapes.size() - 1);
+    }
+
+    void bake(const Piece& piece, const Matrix& place, const At& mesh) {
+        constexpr std::uint64_t most_triangles = std::uint64_t{1} << 26;
+        baked_ += piece.mesh.triangles.size();
+        if (baked_ > most_triangles) return mesh.error("is a lamp too often: too many triangles");
+        Piece copy = piece;
+        if (swaps_handedness(place)) flip_order(copy.mesh);
+        if (!transform(copy.mesh, place)) return mesh.error("has a vertex that is not finite in the scene");
+        shape(std::move(copy));
+    }
+
+    /// So that a mirrored mesh keeps its outside, as glTF asks.
+    static void flip_order(Mesh& mesh) {
+        for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+    }
+
+    void camera(const At& index, const Matrix& to_world) {
+        const At list = document_.root()["cameras"];
+        const auto which = index.index(list.size());
+        if (!which) return;
+        auto& scene = assets_.scene();
+        if (scene.camera_given) return index.warn("further cameras are left out");
+        if (!invertible(to_world)) return index.error("stands where there is no space");
+        CameraData camera;
+        camera.to_world = to_world;
+        for (std::size_t j = 0; j < 3; ++j) {
+            const double size = std::hypot(to_world.m[0][j], to_world.m[1][j], to_world.m[2][j]);
+            for (std::size_t i = 0; i < 3; ++i)
+                camera.to_world.m[i][j] /= j == 2 ? -size : size;  // glTF looks along -z
+        }
+        if (!lens(list[*which], camera, scene.film)) return;
+        scene.camera = camera;
+        scene.camera_given = true;
+    }
+
+    bool lens(const At& at, CameraData& camera, FilmData& film) {
+        if (at["type"].text("perspective") == "orthographic") {
+            const float x = at["orthographic"]["xmag"].real(1), y = at["orthographic"]["ymag"].real(1);
+            camera.orthographic = camera.screen_given = true;
+            camera.screen = {-x, x, -y, y};
+            return resize(at, film, double(x) / double(y));
+        }
+        const double angle = at["perspective"]["yfov"].number(0.8), aspect = at["perspective"]["aspectRatio"].number(1);
+        if (!(angle > 0 && angle < std::numbers::pi)) {
+            at["perspective"]["yfov"].error("must lie between 0 and π");
+            return false;
+        }
+        const double shorter = std::tan(angle / 2) * std::min(aspect, 1.0);
+        camera.fov = static_cast<float>(2 * std::atan(shorter) * 180 / std::numbers::pi);
+        return resize(at, film, aspect);
+    }
+
+    /// glTF names no picture size: its shape is kept, its height is the usual one.
+    bool resize(const At& at, FilmData& film, double aspect) {
+        if (!(aspect > 0.01 && aspect < 100)) {
+            at.error("has a picture of an impossible shape");
+            return false;
+        }
+        film.width = static_cast<std::uint32_t>(std::max(1.0, std::round(film.height * aspect)));
+        return true;
+    }
+
+    void light(const At& index, const Matrix& to_world) {
+        const At list = document_.root()["extensions"]["KHR_lights_punctual"]["lights"];
+        const auto which = index.index(list.size());
+        if (!which) return;
+        const At at = list[*which];
+        const auto colour = at["color"].numbers<3>({1, 1, 1});
+        const Rgb strength = Rgb{float(colour[0]), float(colour[1]), float(colour[2])} * at["intensity"].real(1);
+        const Vec3 position = transform_point(to_world, {0, 0, 0}), ahead = axis_of(to_world, {0, 0, -1});
+        if (!finite(position)) return index.error("stands at no finite place");
+        const std::string type = at["type"].text("");
+        auto& lights = assets_.scene().lights;
+        if (type == "point") {
+            lights.push_back(PointLight{position, strength});
+        } else if (type == "directional") {
+            lights.push_back(DirectionalLight{ahead, strength});
+        } else if (type == "spot") {
+            const float outer = std::clamp(at["spot"]["outerConeAngle"].real(0.785398f), 1e-4f, 1.570796f);
+            const float inner = std::clamp(at["spot"]["innerConeAngle"].real(0), 0.0f, outer);
+            lights.push_back(SpotLight{position, ahead, strength, inner, outer, SpotLight::Falloff::squared_linear});
+        } else {
+            at["type"].error("must be point, spot or directional");
+        }
+    }
+
+    Document& document_;
+    Assets& assets_;
+    Materials materials_;
+    At nodes_;
+    std::uint64_t baked_ = 0;  // triangles
+};
+
+}  // namespace
+
+void add_nodes(Document& document, Assets& assets) { Builder(document, assets).build(); }
+
+}  // namespace lightnet::gltf

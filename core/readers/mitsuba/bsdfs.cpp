@@ -1,0 +1,331 @@
+#include "core/readers/mitsuba/bsdfs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/readers/mitsuba/colours.hpp"
+#include "core/suggestion.hpp"
+
+namespace lightnet::mitsuba {
+namespace {
+
+constexpr int deepest = 64;  // bsdfs inside of bsdfs
+
+/// Models that are black from behind unless they stand in a <twosided>.
+bool opaque(const Material& material) {
+    if (const auto* principled = std::get_if<PrincipledMaterial>(&material.model)) return principled->transmission == 0;
+    if (const auto* diffuse = std::get_if<DiffuseMaterial>(&material.model)) return !diffuse->transmittance;
+    return !std::holds_alternative<DielectricMaterial>(material.model) &&
+           !std::holds_alternative<MixtureMaterial>(material.model) &&
+           !std::holds_alternative<NoMaterial>(material.model);
+}
+
+}  // namespace
+
+const std::map<std::string, Bsdfs::Maker, std::less<>>& Bsdfs::makers() {
+    static const std::map<std::string, Maker, std::less<>> table{{"diffuse", &Bsdfs::diffuse},
+                                                                 {"lambertian", &Bsdfs::diffuse},
+                                                                 {"roughdiffuse", &Bsdfs::rough_diffuse},
+                                                                 {"difftrans", &Bsdfs::translucent},
+                                                                 {"dielectric", &Bsdfs::dielectric},
+                                                                 {"thindielectric", &Bsdfs::thin_dielectric},
+                                                                 {"roughdielectric", &Bsdfs::rough_dielectric},
+                                                                 {"conductor", &Bsdfs::conductor},
+                                                                 {"roughconductor", &Bsdfs::rough_conductor},
+                                                                 {"plastic", &Bsdfs::plastic},
+                                                                 {"roughplastic", &Bsdfs::rough_plastic},
+                                                                 {"phong", &Bsdfs::phong},
+                                                                 {"ward", &Bsdfs::ward},
+                                                                 {"principled", &Bsdfs::principled},
+                                                                 {"principledthin", &Bsdfs::thin_principled},
+                                                                 {"twosided", &Bsdfs::two_sided},
+                                                                 {"mask", &Bsdfs::mask},
+                                                                 {"blendbsdf", &Bsdfs::blend},
+                                                                 {"mixturebsdf", &Bsdfs::mixture},
+                                                                 {"bumpmap", &Bsdfs::bump_map},
+                                                                 {"bump", &Bsdfs::bump_map},
+                                                                 {"normalmap", &Bsdfs::normal_map},
+                                                                 {"coating", &Bsdfs::coating},
+                                                                 {"roughcoating", &Bsdfs::coating},
+                                                                 {"null", &Bsdfs::nothing}};
+    return table;
+}
+
+MaterialId Bsdfs::of(const Node& node) {
+    const auto [entry, fresh] = made_.try_emplace(&node);
+    if (!fresh && !entry->second) context_.error(node, fmt::format("bsdf '{}' refers to itself", node.id));
+    if (!fresh) return entry->second.value_or(plain(false));
+    Material material = make(node);
+    material.name = node.id;
+    const MaterialId made = context_.assets.add(std::move(material));
+    made_[&node] = made;
+    return made;
+}
+
+MaterialId Bsdfs::plain(bool lamp) {
+    auto& known = plain_[lamp ? 1 : 0];
+    if (!known) {
+        Material material{"", DiffuseMaterial{context_.assets.grey(lamp ? 0.0f : 0.5f)}};
+        material.one_sided = true;
+        known = context_.assets.add(std::move(material));
+    }
+    return *known;
+}
+
+Material Bsdfs::grey() { return {"", DiffuseMaterial{context_.assets.grey(0.5f)}}; }
+
+Material Bsdfs::copy_of(MaterialId id) const { return context_.assets.scene().materials[id]; }
+
+Material Bsdfs::make(const Node& node) {
+    Properties properties(node, context_);
+    const auto maker = makers().find(node.type);
+    if (maker == makers().end() || depth_ >= deepest) {
+        properties.ignore_all();
+        if (depth_ >= deepest) {
+            context_.error(node, "bsdfs are nested too deeply");
+            return grey();
+        }
+        std::vector<std::string> names;
+        for (const auto& [name, make] : makers()) names.push_back(name);
+        context_.warn(node, fmt::format("bsdf '{}' is not supported{}: grey is taken", node.type,
+                                        did_you_mean(node.type, names)));
+        return grey();
+    }
+    ++depth_;
+    Material material = (this->*maker->second)(properties);
+    --depth_;
+    return material;
+}
+
+/// The bsdfs inside of one; too few are reported, and the list is empty.
+std::vector<const Node*> Bsdfs::nested(Properties& properties, std::size_t count) {
+    auto found = properties.objects("bsdf");
+    if (found.size() >= count) return found;
+    context_.error(properties.node(), fmt::format("{} needs {} inside of it", properties.owner(),
+                                                  count == 1 ? "a bsdf" : fmt::format("{} bsdfs", count)));
+    return {};
+}
+
+/// α from alpha, or from alpha_u and alpha_v.
+Roughness Bsdfs::roughness(Properties& properties, float fallback) {
+    const std::string distribution = properties.text("distribution", "beckmann");
+    if (distribution != "ggx")
+        context_.warn(properties.node(),
+                      fmt::format("distribution '{}' is taken as 'ggx'", distribution.substr(0, 32)));
+    properties.ignore({"sample_visible"});
+    Roughness rough{fallback, fallback, {}, Roughness::Means::alpha};
+    const Node* alpha = properties.find("alpha");
+    if (alpha && !is_colour(*alpha)) {
+        rough = {1, 1, textures_.of(*alpha), Roughness::Means::alpha};
+    } else {
+        rough.u = rough.v = properties.number("alpha", fallback);
+        const auto one = [&](const char* name, float other) {
+            const Node* given = properties.find(name);
+            if (!given || is_colour(*given)) return given ? properties.number(name, other) : other;
+            context_.warn(*given, "a texture for one direction of roughness is taken as its mean");
+            return luminance(mean_colour(context_.assets.scene(), textures_.of(*given)));
+        };
+        rough.u = one("alpha_u", rough.u), rough.v = one("alpha_v", rough.v);
+    }
+    rough.u = std::clamp(rough.u, 0.0f, 1.0f), rough.v = std::clamp(rough.v, 0.0f, 1.0f);
+    return rough;
+}
+
+Material Bsdfs::diffuse(Properties& properties) {
+    Material material{"", DiffuseMaterial{textures_.get(properties, "reflectance", 0.5f)}};
+    material.one_sided = true;
+    return material;
+}
+
+Material Bsdfs::rough_diffuse(Properties& properties) {
+    properties.ignore({"use_fast_approx"});
+    Material material = diffuse(properties);
+    auto& model = std::get<DiffuseMaterial>(material.model);
+    // in Mitsuba 0.6 alpha is the root mean square slope of Beckmann's facets; Oren and Nayar's σ = α/√2
+    model.sigma = std::clamp(properties.number("alpha", 0.2f), 0.0f, 1.0f) / std::sqrt(2.0f);
+    return material;
+}
+
+Material Bsdfs::translucent(Properties& properties) {
+    DiffuseMaterial model{context_.assets.grey(0)};
+    model.transmittance = textures_.get(properties, "transmittance", 0.5f);
+    return {"", model};
+}
+
+DielectricMaterial Bsdfs::glass(Properties& properties, const char* inside) {
+    DielectricMaterial model;
+    model.eta = index_of(properties, "int_ior", inside) / index_of(properties, "ext_ior", "air");
+    model.reflected = textures_.maybe(properties, "specular_reflectance");
+    model.transmitted = textures_.maybe(properties, "specular_transmittance");
+    return model;
+}
+
+Material Bsdfs::dielectric(Properties& properties) { return {"", glass(properties, "bk7")}; }
+
+Material Bsdfs::thin_dielectric(Properties& properties) {
+    auto model = glass(properties, "bk7");
+    model.thin = true;
+    return {"", model};
+}
+
+Material Bsdfs::rough_dielectric(Properties& properties) {
+    auto model = glass(properties, "bk7");
+    model.roughness = roughness(properties, 0.1f);
+    return {"", model};
+}
+
+ConductorMaterial Bsdfs::metal(Properties& properties) {
+    ConductorMaterial model;
+    const std::string name = properties.text("material", "Cu");
+    const float outside = index_of(properties, "ext_eta", "vacuum");
+    model.tint = textures_.maybe(properties, "specular_reflectance");
+    if (name == "none") {
+        model.metal.reflectance = context_.assets.grey(1);
+        return model;
+    }
+    auto index = metal_named(name);
+    if (!index) {
+        context_.warn(properties.node(),
+                      fmt::format("the metal '{}' is not known: copper is taken", name.substr(0, 32)));
+        index = metal_named("Cu");
+    }
+    const auto part = [&](const char* key, Rgb fallback) {
+        const Node* given = properties.find(key);
+        if (given && !is_colour(*given)) return textures_.of(*given);
+        return context_.assets.colour((given ? colour_of(*given, context_).value_or(fallback) : fallback) / outside);
+    };
+    model.metal.eta = part("eta", index->eta);
+    model.metal.k = part("k", index->k);
+    return model;
+}
+
+Material Bsdfs::conductor(Properties& properties) {
+    Material material{"", metal(properties)};
+    material.one_sided = true;
+    return material;
+}
+
+Material Bsdfs::rough_conductor(Properties& properties) {
+    auto model = metal(properties);
+    model.roughness = roughness(properties, 0.1f);
+    Material material{"", model};
+    material.one_sided = true;
+    return material;
+}
+
+CoatedDiffuseMaterial Bsdfs::coat(Properties& properties) {
+    CoatedDiffuseMaterial model;
+    model.base_colours_repeat = properties.boolean("nonlinear", false);
+    model.tint = textures_.maybe(properties, "specular_reflectance");
+    model.reflectance = textures_.get(properties, "diffuse_reflectance", 0.5f);
+    model.eta = index_of(properties, "int_ior", "polypropylene") / index_of(properties, "ext_ior", "air");
+    return model;
+}
+
+Material Bsdfs::plastic(Properties& properties) {
+    Material material{"", coat(properties)};
+    material.one_sided = true;
+    return material;
+}
+
+Material Bsdfs::rough_plastic(Properties& properties) {
+    auto model = coat(properties);
+    model.roughness = roughness(properties, 0.1f);
+    Material material{"", model};
+    material.one_sided = true;
+    return material;
+}
+
+/// A diffuse surface under a highlight of a model that a scene has not.
+Material Bsdfs::highlight(Properties& properties, Roughness rough) {
+    context_.warn(properties.node(), fmt::format("{} is taken as a principled surface", properties.owner()));
+    PrincipledMaterial model;
+    model.base_colour = textures_.get(properties, "diffuse_reflectance", 0.5f);
+    const TextureId shine = textures_.get(properties, "specular_reflectance", 0.2f);
+    model.specular = std::clamp(luminance(mean_colour(context_.assets.scene(), shine)), 0.0f, 1.0f);
+    model.roughness = rough;
+    Material material{"", model};
+    material.one_sided = true;
+    return material;
+}
+
+Material Bsdfs::phong(Properties& properties) {
+    const float alpha = std::sqrt(2 / (std::max(properties.number("exponent", 30), 0.0f) + 2));
+    return highlight(properties, {alpha, alpha, {}, Roughness::Means::alpha});
+}
+
+Material Bsdfs::ward(Properties& properties) {
+    properties.ignore({"variant"});
+    const float u = properties.number("alpha_u", 0.1f), v = properties.number("alpha_v", 0.1f);
+    return highlight(properties, {std::clamp(u, 0.0f, 1.0f), std::clamp(v, 0.0f, 1.0f), {}, Roughness::Means::alpha});
+}
+
+PrincipledMaterial Bsdfs::burley(Properties& properties) {
+    PrincipledMaterial model;
+    model.base_colour = textures_.get(properties, "base_color", 0.5f);
+    const auto share = [&](const char* name, float fallback, float& number, std::optional<TextureId>* texture) {
+        const Node* given = properties.find(name);
+        if (given && !is_colour(*given)) {
+            const TextureId id = textures_.of(*given);
+            number = texture ? 1 : luminance(mean_colour(context_.assets.scene(), id));
+            if (texture) *texture = id;
+            if (!texture) context_.warn(*given, fmt::format("a texture for '{}' is taken as its mean", name));
+        } else {
+            number = properties.number(name, fallback);
+        }
+        number = std::clamp(number, 0.0f, 1.0f);
+    };
+    float rough = 0.5f, anisotropic = 0, gloss = 0, tint = 0, sheen_tint = 0;
+    share("metallic", 0, model.metallic, &model.metallic_texture);
+    share("spec_trans", 0, model.transmission, &model.transmission_texture);
+    share("roughness", 0.5f, rough, &model.roughness.texture);
+    share("anisotropic", 0, anisotropic, nullptr);
+    // Burley 2012: α = roughness², stretched by √(1 - 0.9 anisotropic)
+    const float aspect = std::sqrt(1 - 0.9f * anisotropic);
+    model.roughness.u = rough / std::sqrt(aspect), model.roughness.v = rough * std::sqrt(aspect);
+    share("sheen", 0, model.sheen, nullptr);
+    share("sheen_tint", 0, sheen_tint, nullptr);
+    share("spec_tint", 0, tint, nullptr);
+    const Rgb base = mean_colour(context_.assets.scene(), model.base_colour);
+    const float bright = luminance(base);
+    const Rgb hue = bright > 0 ? base / bright : Rgb{1, 1, 1};
+    model.sheen_colour = Rgb{1, 1, 1} * (1 - sheen_tint) + hue * sheen_tint;
+    model.specular_colour = Rgb{1, 1, 1} * (1 - tint) + hue * tint;
+    share("clearcoat", 0, model.clearcoat, nullptr);
+    share("clearcoat_gloss", 0, gloss, nullptr);
+    model.clearcoat *= 0.25f;  // as strong as Burley's, whose full coat has a quarter of the light
+    const float coat = 0.1f + (0.001f - 0.1f) * gloss;
+    model.clearcoat_roughness = {coat, coat, {}, Roughness::Means::alpha};
+    if (properties.has("eta")) {
+        model.eta = std::max(index_of(properties, "eta", "bk7"), 1.0f);
+        properties.ignore({"specular"});
+    } else {
+        float specular = 0.5f;
+        share("specular", 0.5f, specular, nullptr);
+        model.eta = 2 / (1 - std::sqrt(0.08f * specular)) - 1;
+    }
+    properties.ignore({"diffuse_reflectance_sampling_rate", "specular_reflectance_sampling_rate",
+                       "clearcoat_reflectance_sampling_rate", "main_specular_sampling_rate", "diff_refl_sampling_rate",
+                       "spec_refl_sampling_rate", "spec_trans_sampling_rate", "clearcoat_sampling_rate"});
+    for (const char* name : {"flatness", "diff_trans"})
+        if (properties.number(name, 0) > 0)
+            context_.warn(properties.node(), fmt::format("parameter '{}' of {} is left out", name, properties.owner()));
+    return model;
+}
+
+Material Bsdfs::principled(Properties& properties) {
+    PrincipledMaterial model = burley(properties);
+    model.thin = false;
+    Material material{"", model};
+    material.one_sided = opaque(material);
+    return material;
+}
+
+Material Bsdfs::thin_principled(Properties& properties) { return {"", burley(properties)}; }
+
+Material Bsdfs::nothing(Properties&) { return {"", NoMaterial{}}; }
+
+}  // namespace lightnet::mitsuba

@@ -1,0 +1,43 @@
+// The XML of a Mitsuba scene: elements with their lines, after defaults, variables, includes and aliases.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/readers/assets.hpp"
+
+namespace lightnet::mitsuba {
+
+/// One element. Spellings of all versions of Mitsuba are those of version 3 here: "toWorld" is "to_world".
+struct Node {
+    std::string tag;   // "shape", "float"
+    std::string type;  // of objects: "sphere"
+    std::string name;  // of properties, in snake_case
+    std::string id;
+    std::map<std::string, std::string, std::less<>> attributes;  // the others, variables filled in
+    std::vector<std::unique_ptr<Node>> children;
+    SourceLine where;
+
+    /// The value of an attribute; "": there is none.
+    std::string_view attribute(std::string_view key) const;
+    bool has(std::string_view key) const { return attributes.contains(key); }
+};
+
+struct Document {
+    Node scene;
+    std::map<std::string, const Node*, std::less<>> ids;
+    std::vector<std::string> folders;  // further ones in which files may be
+};
+
+/// "toWorld" → "to_world", "intIOR" → "int_ior".
+std::string snake_case(std::string_view name);
+
+/// Reads the file at `path` and all that it includes; `definitions` fill in variables. What is wrong is reported.
+std::unique_ptr<Document> read_document(Assets& assets, const std::string& path,
+                                        const std::map<std::string, std::string>& definitions);
+
+}  // namespace lightnet::mitsuba

@@ -1,0 +1,72 @@
+#include "core/readers/mitsuba/mitsuba.hpp"
+
+#include <fmt/format.h>
+
+#include <set>
+
+#include "core/readers/mitsuba/emitters.hpp"
+#include "core/readers/mitsuba/sensors.hpp"
+#include "core/readers/mitsuba/shapes.hpp"
+
+namespace lightnet::mitsuba {
+namespace {
+
+/// Goes through the scene's own elements; what is only referred to is made when it is asked for.
+class Builder {
+public:
+    explicit Builder(const Context& context)
+        : context_(context), textures_(context), bsdfs_(textures_), shapes_(bsdfs_, textures_) {}
+
+    void add(const Node& node) {
+        static const std::set<std::string, std::less<>> silent{"integrator", "sampler", "film", "rfilter",
+                                                               "bsdf",       "texture", "mode", "phase"};
+        if (node.tag == "shape") return shapes_.add(node);
+        if (node.tag == "emitter") return add_emitter(node, context_);
+        if (node.tag == "sensor") return sensor(node);
+        if (node.tag == "ref") return referred(node);
+        if (silent.contains(node.tag) || node.name == "scene_scale") return;
+        if (node.tag == "medium")
+            context_.warn(node, "<medium> is left out: light is not scattered inside of things");
+        else
+            context_.warn(node, fmt::format("unknown element <{}> is left out", node.tag));
+    }
+
+private:
+    void sensor(const Node& node) {
+        if (seen_sensor_) return context_.warn(node, "further sensors are left out");
+        seen_sensor_ = true;
+        set_sensor(node, context_);
+    }
+
+    void referred(const Node& node) {
+        const Node* target = context_.resolved(node);
+        if (target && target->tag != "ref" && target->tag != "shape") add(*target);
+    }
+
+    const Context& context_;
+    Textures textures_;
+    Bsdfs bsdfs_;
+    Shapes shapes_;
+    bool seen_sensor_ = false;
+};
+
+}  // namespace
+
+SceneData read(Files& files, const std::string& path, const std::map<std::string, std::string>& definitions) {
+    Report report;
+    SceneData scene;
+    Assets assets(files, report, scene);
+    const auto document = read_document(assets, path, definitions);
+    report.check();
+    const Context context{assets, *document};
+    Builder builder(context);
+    for (const auto& node : document->scene.children)
+        if (!report.full()) builder.add(*node);
+    if (scene.shapes.empty() && report.good()) report.error({path, 0}, "there are no shapes");
+    report.check();
+    light_the_dark(scene, report, path);
+    scene.warnings = report.warnings();
+    return scene;
+}
+
+}  // namespace lightnet::mitsuba

@@ -1,0 +1,159 @@
+#include "core/readers/mitsuba/properties.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "core/suggestion.hpp"
+
+namespace lightnet::mitsuba {
+namespace {
+
+constexpr std::string_view between = " \t\r\n,";
+
+std::string_view trimmed(std::string_view text) {
+    const auto first = text.find_first_not_of(between);
+    if (first == text.npos) return {};
+    return text.substr(first, text.find_last_not_of(between) - first + 1);
+}
+
+}  // namespace
+
+const Node* Context::resolved(const Node& node) const {
+    if (node.tag != "ref") return &node;
+    const auto known = document.ids.find(node.id);
+    if (known != document.ids.end()) return known->second;
+    std::vector<std::string> names;
+    for (const auto& [id, target] : document.ids) names.push_back(id);
+    error(node, fmt::format("there is no element with the id '{}'{}", node.id, did_you_mean(node.id, names)));
+    return nullptr;
+}
+
+std::string Context::path(const std::string& name, const Node& node) const {
+    const std::string near = beside(node.where.file, name);
+    if (assets.exists(near)) return near;
+    if (const auto main = beside(document.scene.where.file, name); assets.exists(main)) return main;
+    for (const auto& folder : document.folders)
+        if (const auto path = beside(folder + "/", name); assets.exists(path)) return path;
+    return near;
+}
+
+std::optional<double> number(std::string_view text, const Node& node, const Context& context) {
+    auto digits = trimmed(text);
+    if (digits.starts_with('+')) digits.remove_prefix(1);
+    double value = 0;
+    const auto [end, problem] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    const bool tiny = problem == std::errc::result_out_of_range && digits.find("e-") != digits.npos;
+    const bool sound = problem == std::errc{} && std::isfinite(value) && std::fabs(value) < 3e38;
+    if ((sound || tiny) && end == digits.data() + digits.size()) return tiny ? 0 : value;
+    context.error(node, fmt::format("a finite number expected, not '{}'", trimmed(text).substr(0, 32)));
+    return std::nullopt;
+}
+
+std::optional<std::vector<double>> numbers(std::string_view text, const Node& node, const Context& context) {
+    std::vector<double> values;
+    for (text = trimmed(text); !text.empty(); text = trimmed(text)) {
+        const auto end = std::min(text.find_first_of(between), text.size());
+        const auto value = number(text.substr(0, end), node, context);
+        if (!value) return std::nullopt;
+        values.push_back(*value);
+        text.remove_prefix(end);
+    }
+    return values;
+}
+
+std::optional<Vec3> triple(const Node& node, const Context& context, float missing) {
+    Vec3 result{missing, missing, missing};
+    if (node.has("value")) {
+        const auto values = numbers(node.attribute("value"), node, context);
+        if (!values) return std::nullopt;
+        if (values->size() == 1) return Vec3{float((*values)[0]), float((*values)[0]), float((*values)[0])};
+        if (values->size() == 3) return Vec3{float((*values)[0]), float((*values)[1]), float((*values)[2])};
+        context.error(node, fmt::format("one or three numbers expected, not {}", values->size()));
+        return std::nullopt;
+    }
+    constexpr std::string_view axes[] = {"x", "y", "z"};
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (!node.has(axes[i])) continue;
+        const auto value = number(node.attribute(axes[i]), node, context);
+        if (!value) return std::nullopt;
+        result[i] = static_cast<float>(*value);
+    }
+    return result;
+}
+
+Properties::~Properties() {
+    if (all_) return;
+    static const std::set<std::string, std::less<>> objects{"medium", "subsurface"};
+    for (const auto& child : node_.children) {
+        if (asked_.contains(child.get())) continue;
+        if (objects.contains(child->tag))
+            context_.warn(*child, fmt::format("<{}> is left out: light is not scattered inside of things", child->tag));
+        else if (child->tag == "ref" || child->tag == "bsdf" || child->tag == "texture" || child->name.empty())
+            context_.warn(*child,
+                          fmt::format("<{}{}> is left out of {}", child->tag,
+                                      child->name.empty() ? "" : fmt::format(" name=\"{}\"", child->name), owner()));
+        else
+            context_.warn(*child, fmt::format("parameter '{}' of {} is left out", child->name, owner()));
+    }
+}
+
+std::string Properties::owner() const { return fmt::format("{} '{}'", node_.tag, node_.type); }
+
+const Node* Properties::find(std::string_view name) {
+    for (const auto& child : node_.children)
+        if (child->name == name) return asked_.insert(child.get()), child.get();
+    return nullptr;
+}
+
+float Properties::number(std::string_view name, float fallback) {
+    const Node* given = find(name);
+    if (!given) return fallback;
+    return static_cast<float>(mitsuba::number(given->attribute("value"), *given, context_).value_or(double(fallback)));
+}
+
+int Properties::integer(std::string_view name, int fallback) {
+    const double value = double(number(name, static_cast<float>(fallback)));
+    return static_cast<int>(std::clamp(value, -2e9, 2e9));
+}
+
+bool Properties::boolean(std::string_view name, bool fallback) {
+    const Node* given = find(name);
+    if (!given) return fallback;
+    const auto word = trimmed(given->attribute("value"));
+    if (word == "true" || word == "True" || word == "1") return true;
+    if (word == "false" || word == "False" || word == "0") return false;
+    context_.error(*given, fmt::format("'true' or 'false' expected, not '{}'", word.substr(0, 32)));
+    return fallback;
+}
+
+std::string Properties::text(std::string_view name, const std::string& fallback) {
+    const Node* given = find(name);
+    return given ? std::string(given->attribute("value")) : fallback;
+}
+
+Vec3 Properties::point(std::string_view name, Vec3 fallback) {
+    const Node* given = find(name);
+    return given ? triple(*given, context_, 0).value_or(fallback) : fallback;
+}
+
+std::vector<const Node*> Properties::objects(std::string_view tag) {
+    std::vector<const Node*> found;
+    for (const auto& child : node_.children) {
+        if (child->tag != tag && child->tag != "ref") continue;
+        const Node* object = context_.resolved(*child);
+        if (!object) asked_.insert(child.get());  // said already
+        if (!object || object->tag != tag) continue;
+        asked_.insert(child.get());
+        found.push_back(object);
+    }
+    return found;
+}
+
+void Properties::ignore(std::initializer_list<std::string_view> names) {
+    for (const auto name : names) find(name);
+}
+
+}  // namespace lightnet::mitsuba

@@ -1,0 +1,132 @@
+#include "core/readers/mitsuba/sensors.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/readers/mitsuba/transforms.hpp"
+
+namespace lightnet::mitsuba {
+namespace {
+
+constexpr double degrees = std::numbers::pi / 180;
+
+FilmData film_of(Properties& sensor) {
+    FilmData film;
+    film.width = 768, film.height = 576;
+    const auto given = sensor.objects("film");
+    if (given.empty()) return film;
+    Properties properties(*given[0], sensor.context());
+    const auto size = [&](const char* name, std::uint32_t fallback) {
+        const int value = properties.integer(name, static_cast<int>(fallback));
+        if (value >= 1 && value <= 65536) return static_cast<std::uint32_t>(value);
+        sensor.context().error(*given[0], fmt::format("'{}' must be from 1 to 65536, not {}", name, value));
+        return fallback;
+    };
+    film.width = size("width", film.width), film.height = size("height", film.height);
+    const float w = float(film.width), h = float(film.height);
+    const float x = properties.number("crop_offset_x", 0) / w, y = properties.number("crop_offset_y", 0) / h;
+    const float wide = properties.number("crop_width", w) / w, high = properties.number("crop_height", h) / h;
+    if (x >= 0 && y >= 0 && wide > 0 && high > 0 && x + wide <= 1.0001f && y + high <= 1.0001f)
+        film.crop = {x, std::min(x + wide, 1.0f), y, std::min(y + high, 1.0f)};
+    else
+        sensor.context().error(*given[0], "the crop window is not inside of the film");
+    properties.ignore_all();  // how pictures are written is the graph's business
+    return film;
+}
+
+/// Half the picture's width and height at distance 1.
+struct Extent {
+    double x = 1, y = 1;
+};
+
+/// The larger of tan(fov / 2) over the axis that the file means.
+Extent extent_of(Properties& properties, const FilmData& film) {
+    const double w = film.width, h = film.height, diagonal = std::hypot(w, h);
+    std::string axis = properties.text("fov_axis", "x");
+    double tangent = 0;
+    if (properties.has("focal_length")) {
+        std::string length = properties.text("focal_length", "50mm");
+        if (length.ends_with("mm")) length.resize(length.size() - 2);
+        const double focal = number(length, properties.node(), properties.context()).value_or(50);
+        tangent = std::hypot(36.0, 24.0) / (2 * std::max(focal, 1e-3));  // of a 35 mm film
+        axis = "diagonal";
+        properties.ignore({"fov"});
+    } else {
+        if (!properties.has("fov"))
+            properties.context().warn(properties.node(),
+                                      "a sensor without 'fov' is taken to have 50mm of focal length");
+        const double fallback = 2 * std::atan(36.0 / 2 / 50) / degrees;
+        const double fov = double(properties.number("fov", static_cast<float>(fallback)));
+        if (!(fov > 0 && fov < 180))
+            properties.context().error(properties.node(), "'fov' must lie between 0 and 180 degrees");
+        tangent = std::tan(std::clamp(fov, 0.01, 179.9) * degrees / 2);
+    }
+    const bool by_width = axis == "x" || (axis == "smaller" && w <= h) || (axis == "larger" && w >= h);
+    if (axis == "diagonal") return {tangent * w / diagonal, tangent * h / diagonal};
+    if (by_width) return {tangent, tangent * h / w};
+    if (axis != "y" && axis != "smaller" && axis != "larger")
+        properties.context().error(properties.node(), fmt::format("unknown fov_axis '{}'", axis.substr(0, 32)));
+    return {tangent * w / h, tangent};
+}
+
+/// Takes the scale out of a transform and hands it back, per axis.
+Vec3 take_scale(Matrix& t) {
+    Vec3 scale;
+    for (std::size_t j = 0; j < 3; ++j) {
+        const double size = std::hypot(t.m[0][j], t.m[1][j], t.m[2][j]);
+        scale[j] = static_cast<float>(size);
+        for (std::size_t i = 0; i < 3; ++i)
+            if (size > 0) t.m[i][j] /= size;
+    }
+    return scale;
+}
+
+}  // namespace
+
+void set_sensor(const Node& node, const Context& context) {
+    Properties properties(node, context);
+    properties.ignore({"near_clip", "far_clip", "shutter_open", "shutter_close", "kc", "srf"});
+    properties.objects("sampler"), properties.objects("rfilter");
+    SceneData& scene = context.assets.scene();
+    scene.film = film_of(properties);
+    CameraData camera;
+    camera.to_world = transform_of(properties);
+    const Vec3 scale = take_scale(camera.to_world);
+    for (std::size_t i = 0; i < 3; ++i) camera.to_world.m[i][0] *= -1;  // Mitsuba's x is on the left
+    const double w = scene.film.width, h = scene.film.height;
+    const float shift_x = properties.number("principal_point_offset_x", 0),
+                shift_y = properties.number("principal_point_offset_y", 0);
+    if (node.type == "orthographic") {
+        camera.orthographic = true;
+        camera.screen_given = true;
+        camera.screen = {-scale.x, scale.x, -scale.y * float(h / w), scale.y * float(h / w)};
+    } else {
+        if (node.type != "perspective" && node.type != "thinlens")
+            context.warn(node, fmt::format("sensor '{}' is taken as 'perspective'", node.type));
+        const Extent extent = extent_of(properties, scene.film);
+        camera.fov = static_cast<float>(2 * std::atan(std::min(extent.x, extent.y)) / degrees);
+    }
+    if (shift_x != 0 || shift_y != 0) {
+        const float wide = camera.orthographic ? camera.screen[1] : float(std::max(1.0, w / h));
+        const float high = camera.orthographic ? camera.screen[3] : float(std::max(1.0, h / w));
+        const float x = 2 * shift_x * wide, y = 2 * shift_y * high;
+        camera.screen = {-wide - x, wide - x, -high + y, high + y};
+        camera.screen_given = true;
+    }
+    if (node.type == "thinlens") {
+        camera.lens_radius = std::max(properties.number("aperture_radius", 0), 0.0f);
+        camera.focus_distance = std::max(properties.number("focus_distance", 1e6f), 1e-6f);
+    } else {
+        properties.ignore({"focus_distance", "aperture_radius"});
+    }
+    for (const auto& row : camera.to_world.m)
+        for (const double value : row)
+            if (!std::isfinite(value)) return context.error(node, "the transform of the sensor is not finite");
+    scene.camera = camera;
+    scene.camera_given = true;
+}
+
+}  // namespace lightnet::mitsuba

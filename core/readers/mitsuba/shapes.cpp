@@ -1,0 +1,292 @@
+#include "core/readers/mitsuba/shapes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/readers/mesh_tools.hpp"
+#include "core/readers/mitsuba/colours.hpp"
+#include "core/readers/mitsuba/primitives.hpp"
+#include "core/readers/mitsuba/serialized.hpp"
+#include "core/readers/mitsuba/transforms.hpp"
+#include "core/readers/obj/model.hpp"
+#include "core/readers/ply.hpp"
+#include "core/suggestion.hpp"
+
+namespace lightnet::mitsuba {
+namespace {
+
+constexpr std::uint64_t most_triangles = std::uint64_t{1} << 30;
+
+const std::vector<std::string> known_shapes{"obj",  "ply",    "serialized", "rectangle", "cube",
+                                            "disk", "sphere", "cylinder",   "instance",  "shapegroup"};
+
+void turn_uvs(Mesh& mesh) {
+    for (auto& uv : mesh.uvs) uv.y = 1 - uv.y;
+}
+
+/// The factor by which all lengths grow; none: it is not the same in all directions.
+std::optional<float> uniform_scale(const Matrix& t) {
+    double length[3];
+    for (std::size_t j = 0; j < 3; ++j) length[j] = std::hypot(t.m[0][j], t.m[1][j], t.m[2][j]);
+    for (std::size_t a = 0; a < 3; ++a) {
+        const std::size_t b = (a + 1) % 3;
+        const double product = t.m[0][a] * t.m[0][b] + t.m[1][a] * t.m[1][b] + t.m[2][a] * t.m[2][b];
+        if (std::fabs(length[a] - length[b]) > 1e-4 * length[0] || std::fabs(product) > 1e-4 * length[a] * length[b])
+            return std::nullopt;
+    }
+    return static_cast<float>(length[0]);
+}
+
+}  // namespace
+
+void Shapes::add(const Node& node) {
+    if (node.type == "shapegroup") return;  // made when an instance asks for it
+    if (node.type == "instance") {
+        Properties properties(node, context_);
+        return instance(properties);
+    }
+    shape(node, false);
+}
+
+std::optional<std::uint32_t> Shapes::shape(const Node& node, bool in_group) {
+    Properties properties(node, context_);
+    auto geometry = this->geometry(properties);
+    auto emission = this->emission(properties);
+    MaterialId material = this->material(properties, emission.has_value());
+    absorb(properties, material);
+    if (emission && in_group) {
+        context_.warn(node, "lamps inside of a shapegroup are left out");
+        emission.reset();
+    }
+    if (!geometry) return std::nullopt;
+    if (const auto* mesh = std::get_if<Mesh>(&*geometry)) size_ += mesh->triangles.size();
+    if (size_ > most_triangles) {
+        context_.error(node, "the scene has too many triangles");
+        return std::nullopt;
+    }
+    auto& scene = context_.assets.scene();
+    scene.shapes.push_back({std::move(*geometry), material, emission, node.where});
+    return static_cast<std::uint32_t>(scene.shapes.size() - 1);
+}
+
+std::optional<std::variant<Mesh, Sphere>> Shapes::geometry(Properties& properties) {
+    const auto& type = properties.node().type;
+    std::optional<Mesh> mesh;
+    if (type == "sphere") return round(properties);
+    if (type == "obj" || type == "ply" || type == "serialized") {
+        mesh = file(properties);
+    } else if (type == "rectangle") {
+        mesh = placed(properties, rectangle(), false);
+    } else if (type == "cube") {
+        mesh = placed(properties, cube(), false);
+    } else if (type == "disk") {
+        mesh = placed(properties, disk(), false);
+    } else if (type == "cylinder") {
+        mesh = placed(properties, cylinder(properties), true);
+    } else {
+        properties.ignore_all();
+        context_.warn(properties.node(), fmt::format("shape '{}' is not supported{} and left out", type,
+                                                     did_you_mean(type, known_shapes)));
+    }
+    if (mesh) return *std::move(mesh);
+    return std::nullopt;
+}
+
+/// Moves a mesh that has normals into the world; they decide on its sides.
+std::optional<Mesh> Shapes::placed(Properties& properties, Mesh mesh, bool keeps_normals) {
+    const bool turned = properties.boolean("flip_normals", false);
+    if (!transform(mesh, transform_of(properties))) {
+        context_.error(properties.node(), "a vertex is not finite after the transforms");
+        return std::nullopt;
+    }
+    order_by_normals(mesh);
+    if (turned) flip(mesh);
+    if (!keeps_normals) mesh.normals.clear();  // it is flat
+    return mesh;
+}
+
+Mesh Shapes::cylinder(Properties& properties) {
+    const Vec3 from = properties.point("p0", {0, 0, 0}), to = properties.point("p1", {0, 0, 1});
+    const float radius = properties.number("radius", 1);
+    Mesh mesh = mitsuba::cylinder();
+    const Vec3 axis = to - from;
+    if (!(length(axis) > 0)) {
+        context_.error(properties.node(), "a cylinder needs a length");
+        return mesh;
+    }
+    const Vec3 z = normalize(axis), other = std::fabs(z.x) < 0.5f ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+    const Vec3 x = normalize(cross(other, z)), y = cross(z, x);
+    Matrix frame;
+    for (std::size_t i = 0; i < 3; ++i) {
+        frame.m[i][0] = x[i] * radius, frame.m[i][1] = y[i] * radius;
+        frame.m[i][2] = axis[i], frame.m[i][3] = from[i];
+    }
+    transform(mesh, frame);
+    return mesh;
+}
+
+std::optional<std::variant<Mesh, Sphere>> Shapes::round(Properties& properties) {
+    Sphere sphere;
+    const Vec3 center = properties.point("center", {0, 0, 0});
+    const float radius = properties.number("radius", 1);
+    const Matrix to_world = transform_of(properties);
+    const auto scale = uniform_scale(to_world);
+    if (!(radius > 0) || (scale && !(*scale > 0))) {
+        context_.error(properties.node(), "a sphere needs a radius above 0");
+        return std::nullopt;
+    }
+    Matrix local;
+    for (std::size_t i = 0; i < 3; ++i) local.m[i][i] = radius, local.m[i][3] = center[i];
+    if (!scale) {
+        context_.warn(properties.node(), "an ellipsoid is cut into triangles");
+        Mesh mesh = ball();
+        transform(mesh, local);
+        auto result = placed(properties, std::move(mesh), true);
+        return result ? std::optional<std::variant<Mesh, Sphere>>(*std::move(result)) : std::nullopt;
+    }
+    sphere.center = transform_point(to_world, center);
+    sphere.radius = radius * *scale;
+    sphere.flip_normals = properties.boolean("flip_normals", false);
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) sphere.to_world.m[i][j] = to_world.m[i][j] / double(*scale);
+    if (finite(sphere.center) && std::isfinite(sphere.radius)) return sphere;
+    context_.error(properties.node(), "a sphere is not finite after the transforms");
+    return std::nullopt;
+}
+
+std::optional<Mesh> Shapes::decoded(Properties& properties, const Node& name, bool& face_normals) {
+    const std::string path = context_.path(std::string(name.attribute("value")), name);
+    const auto& type = properties.node().type;
+    const int index = std::max(properties.integer("shape_index", 0), 0);
+    const bool turned = properties.boolean("flip_tex_coords", type == "obj");
+    const auto bytes = context_.assets.read(path, name.where);
+    if (!bytes) return std::nullopt;
+    try {
+        Mesh mesh;
+        if (type == "obj") {
+            auto model = obj::read_model(**bytes, path, obj::Cut::nowhere, context_.report());
+            if (!model.parts.empty()) mesh = std::move(model.parts[0].mesh);
+        } else if (type == "ply") {
+            mesh = read_ply(**bytes);
+        } else {
+            bool flat = false;
+            mesh = read_serialized(**bytes, static_cast<std::size_t>(index), flat);
+            face_normals = face_normals || flat;
+        }
+        if (!turned) turn_uvs(mesh);  // Mitsuba's v goes down
+        return mesh;
+    } catch (const Error& problem) {
+        context_.report().error({path, 0}, problem.what());
+        return std::nullopt;
+    }
+}
+
+std::optional<Mesh> Shapes::file(Properties& properties) {
+    const Node* name = properties.find("filename");
+    bool face_normals = properties.boolean("face_normals", false);
+    const bool turned = properties.boolean("flip_normals", false);
+    properties.ignore({"max_smooth_angle", "collapse", "recompute_vertex_normals", "srgb", "merge"});
+    if (!name) {
+        context_.error(properties.node(), fmt::format("{} needs a 'filename'", properties.owner()));
+        return std::nullopt;
+    }
+    auto mesh = decoded(properties, *name, face_normals);
+    const Matrix to_world = transform_of(properties);
+    if (!mesh) return std::nullopt;
+    if (face_normals) mesh->normals.clear();
+    if (!transform(*mesh, to_world)) {
+        context_.error(properties.node(), "a vertex is not finite after the transforms");
+        return std::nullopt;
+    }
+    if (!face_normals) mesh->normals.empty() ? smooth_normals(*mesh) : order_by_normals(*mesh);
+    if (turned) flip(*mesh);
+    return mesh;
+}
+
+MaterialId Shapes::material(Properties& properties, bool lamp) {
+    const auto given = properties.objects("bsdf");
+    if (given.empty()) return bsdfs_.plain(lamp);
+    if (given.size() > 1) context_.warn(properties.node(), "further bsdfs of a shape are left out");
+    return bsdfs_.of(*given[0]);
+}
+
+std::optional<AreaEmission> Shapes::emission(Properties& properties) {
+    const auto given = properties.objects("emitter");
+    if (given.empty()) return std::nullopt;
+    Properties lamp(*given[0], context_);
+    lamp.ignore({"sampling_weight"});
+    if (given[0]->type != "area") {
+        lamp.ignore_all();
+        context_.warn(*given[0], fmt::format("emitter '{}' inside of a shape is left out", given[0]->type));
+        return std::nullopt;
+    }
+    AreaEmission emission{{1, 1, 1}, false, {}};
+    const Node* radiance = lamp.find("radiance");
+    if (radiance && !is_colour(*radiance))
+        emission.texture = textures_.of(*radiance);
+    else
+        emission.radiance = radiance ? colour_of(*radiance, context_).value_or(Rgb{}) : Rgb{1, 1, 1};
+    return emission;
+}
+
+/// A medium that only absorbs colours the light inside of its glass; others are left out.
+void Shapes::absorb(Properties& properties, MaterialId& id) {
+    for (const auto& child : properties.node().children) {
+        const Node* medium = child->tag == "medium" || child->tag == "ref" ? context_.resolved(*child) : nullptr;
+        if (!medium || medium->tag != "medium" || child->name != "interior" || medium->type != "homogeneous") continue;
+        Properties inside(*medium, context_);
+        inside.ignore_all();
+        for (const char* name : {"sigma_t", "albedo", "sigma_a", "sigma_s", "scale"})
+            if (const Node* given = inside.find(name); given && !is_colour(*given)) return;
+        const bool by_parts = inside.has("sigma_a");
+        const Rgb scattered =
+            colour_of(inside, by_parts ? "sigma_s" : "albedo", by_parts ? Rgb{1, 1, 1} : Rgb{0.75f, 0.75f, 0.75f});
+        if (!is_black(scattered)) return;
+        const Rgb absorbed = colour_of(inside, by_parts ? "sigma_a" : "sigma_t", {1, 1, 1}) * inside.number("scale", 1);
+        Material copy = context_.assets.scene().materials[id];
+        if (!std::holds_alternative<DielectricMaterial>(copy.model)) return;
+        properties.find("interior");
+        copy.absorption = absorbed;
+        id = context_.assets.add(std::move(copy));
+        return;
+    }
+}
+
+void Shapes::instance(Properties& properties) {
+    const auto groups = properties.objects("shape");
+    const Matrix to_world = transform_of(properties);
+    if (groups.size() != 1 || groups[0]->type != "shapegroup")
+        return context_.error(properties.node(), "an instance needs a reference to one shapegroup");
+    const auto object = group(*groups[0]);
+    if (!object) return;
+    double largest = 0;
+    for (const auto& row : to_world.m)
+        for (const double value : row) largest = std::max(largest, std::fabs(value));
+    const auto& m = to_world.m;
+    const double volume = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+                          m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+                          m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+    if (!(std::fabs(volume) > 0) || !(largest < 1e30))
+        return context_.error(properties.node(), "the transform of an instance has no inverse");
+    context_.assets.scene().instances.push_back({*object, to_world});
+}
+
+std::optional<std::uint32_t> Shapes::group(const Node& node) {
+    if (const auto known = groups_.find(&node); known != groups_.end()) return known->second;
+    Properties properties(node, context_);
+    Object object;
+    object.name = node.id;
+    for (const Node* part : properties.objects("shape")) {
+        if (part->type == "instance" || part->type == "shapegroup")
+            context_.error(*part, "there can be no instances inside of a shapegroup");
+        else if (const auto made = shape(*part, true))
+            object.shapes.push_back(*made);
+    }
+    auto& objects = context_.assets.scene().objects;
+    objects.push_back(std::move(object));
+    return groups_[&node] = static_cast<std::uint32_t>(objects.size() - 1);
+}
+
+}  // namespace lightnet::mitsuba

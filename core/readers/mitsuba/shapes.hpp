@@ -1,0 +1,45 @@
+// Mitsuba's shapes.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/readers/mitsuba/bsdfs.hpp"
+
+namespace lightnet::mitsuba {
+
+/// Adds the shapes of one scene to it.
+class Shapes {
+public:
+    Shapes(Bsdfs& bsdfs, Textures& textures) : bsdfs_(bsdfs), textures_(textures), context_(textures.context()) {}
+
+    /// A <shape> that stands in the scene: with its bsdf and its lamp, or an instance.
+    void add(const Node& node);
+
+private:
+    /// What the shape is, in the world.
+    std::optional<std::variant<Mesh, Sphere>> geometry(Properties& properties);
+    std::optional<std::variant<Mesh, Sphere>> round(Properties& properties);
+    std::optional<Mesh> file(Properties& properties);
+    std::optional<Mesh> decoded(Properties& properties, const Node& name, bool& face_normals);
+    Mesh cylinder(Properties& properties);
+    std::optional<Mesh> placed(Properties& properties, Mesh mesh, bool keeps_normals);
+
+    std::optional<std::uint32_t> shape(const Node& node, bool in_group);
+    MaterialId material(Properties& properties, bool lamp);
+    std::optional<AreaEmission> emission(Properties& properties);
+    void absorb(Properties& properties, MaterialId& id);
+    void instance(Properties& properties);
+    std::optional<std::uint32_t> group(const Node& node);
+
+    Bsdfs& bsdfs_;
+    Textures& textures_;
+    const Context& context_;
+    std::map<const Node*, std::uint32_t> groups_;  // → objects of the scene
+    std::uint64_t size_ = 0;                       // so far, in triangles
+};
+
+}  // namespace lightnet::mitsuba

@@ -1,0 +1,137 @@
+#include "core/readers/mitsuba/textures.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/readers/mitsuba/colours.hpp"
+#include "core/readers/mitsuba/transforms.hpp"
+
+namespace lightnet::mitsuba {
+namespace {
+
+Wrap wrap_of(Properties& properties, const std::string& name, Wrap fallback) {
+    const std::string word = properties.text(name, "");
+    if (word.empty()) return fallback;
+    if (word == "repeat") return Wrap::repeat;
+    if (word == "mirror") return Wrap::mirror;
+    if (word == "clamp") return Wrap::clamp;
+    if (word == "zero") return Wrap::black;
+    if (word == "one") {
+        properties.context().warn(properties.node(), "wrap mode 'one' is taken as 'clamp'");
+        return Wrap::clamp;
+    }
+    properties.context().error(properties.node(), fmt::format("unknown wrap mode '{}'", word.substr(0, 32)));
+    return fallback;
+}
+
+Encoding encoding_of(Properties& properties) {
+    if (properties.boolean("raw", false)) return {Encoding::Curve::linear, 1};
+    const float gamma = properties.number("gamma", -1);
+    if (gamma == 1) return {Encoding::Curve::linear, 1};
+    return gamma > 0 ? Encoding{Encoding::Curve::gamma, gamma} : Encoding{};
+}
+
+ImageTexture::Channel channel_of(Properties& properties) {
+    const std::string word = properties.text("channel", "");
+    if (word == "r" || word == "x") return ImageTexture::Channel::red;
+    if (word == "g" || word == "y") return ImageTexture::Channel::green;
+    if (word == "b" || word == "z") return ImageTexture::Channel::blue;
+    if (word == "a" || word == "w") return ImageTexture::Channel::alpha;
+    return ImageTexture::Channel::colour;
+}
+
+}  // namespace
+
+std::optional<TextureId> Textures::maybe(Properties& properties, std::string_view name) {
+    const Node* given = properties.find(name);
+    return given ? std::optional(of(*given)) : std::nullopt;
+}
+
+TextureId Textures::get(Properties& properties, std::string_view name, Rgb fallback) {
+    const auto given = maybe(properties, name);
+    return given ? *given : context_.assets.colour(fallback);
+}
+
+TextureId Textures::of(const Node& node) {
+    const Node* target = context_.resolved(node);
+    if (!target) return context_.assets.grey(0.5f);
+    if (is_colour(*target)) {
+        const auto colour = colour_of(*target, context_);
+        return context_.assets.colour(colour.value_or(Rgb{0.5f, 0.5f, 0.5f}));
+    }
+    const auto [entry, fresh] = made_.try_emplace(target);
+    if (!fresh && !entry->second) context_.error(node, fmt::format("texture '{}' refers to itself", target->id));
+    if (!fresh) return entry->second.value_or(context_.assets.grey(0.5f));
+    const TextureId made = make(*target);
+    made_[target] = made;
+    return made;
+}
+
+TextureId Textures::make(const Node& node) {
+    Properties properties(node, context_);
+    if (node.tag != "texture") {
+        properties.ignore_all();
+        context_.error(node, fmt::format("a colour or a texture expected, not <{}>", node.tag));
+        return context_.assets.grey(0.5f);
+    }
+    if (node.type == "bitmap") return bitmap(properties);
+    if (node.type == "checkerboard") return checkerboard(properties);
+    if (node.type == "scale") return scaled(properties);
+    if (node.type == "vertexcolors") return context_.assets.add({{1, 1, 1}, VertexColour{}, false});
+    if (node.type == "mesh_attribute") {
+        const float scale = properties.number("scale", 1);
+        if (properties.text("name", "") == "vertex_color")
+            return context_.assets.add({{scale, scale, scale}, VertexColour{}, false});
+    }
+    properties.ignore_all();
+    context_.warn(node, fmt::format("texture '{}' is not supported: grey is taken", node.type));
+    return context_.assets.grey(0.5f);
+}
+
+TextureId Textures::bitmap(Properties& properties) {
+    properties.ignore({"max_anisotropy", "cache", "accel", "format"});
+    ImageTexture pattern;
+    const Node* file = properties.find("filename");
+    const Encoding encoding = encoding_of(properties);
+    const std::string filter = properties.text("filter_type", "bilinear");
+    pattern.nearest = filter == "nearest";
+    pattern.wrap_u = pattern.wrap_v = wrap_of(properties, "wrap_mode", Wrap::repeat);
+    pattern.wrap_u = wrap_of(properties, "wrap_mode_u", pattern.wrap_u);
+    pattern.wrap_v = wrap_of(properties, "wrap_mode_v", pattern.wrap_v);
+    pattern.channel = channel_of(properties);
+    pattern.uv = uv_transform(properties, false);
+    if (!file) {
+        context_.error(properties.node(), "a bitmap needs a 'filename'");
+        return context_.assets.grey(0.5f);
+    }
+    pattern.image =
+        context_.assets.picture(context_.path(std::string(file->attribute("value")), *file), encoding, file->where);
+    if (!pattern.image) return context_.assets.grey(0.5f);
+    return context_.assets.add({{1, 1, 1}, pattern, false});
+}
+
+TextureId Textures::checkerboard(Properties& properties) {
+    CheckerTexture squares;
+    squares.even = get(properties, "color0", 0.4f);
+    squares.odd = get(properties, "color1", 0.2f);
+    squares.uv = uv_transform(properties, true);
+    // Mitsuba's squares have a side of one half
+    squares.uv.scale = squares.uv.scale * 2;
+    squares.uv.offset = squares.uv.offset * 2;
+    return context_.assets.add({{1, 1, 1}, squares, false});
+}
+
+TextureId Textures::scaled(Properties& properties) {
+    const Rgb scale = colour_of(properties, "scale", {1, 1, 1});
+    const auto nested = properties.objects("texture");
+    if (nested.empty()) {
+        const Rgb value = colour_of(properties, "value", {1, 1, 1});
+        return context_.assets.colour(value * scale);
+    }
+    Texture copy = context_.assets.scene().textures[of(*nested[0])];
+    copy.scale *= scale;
+    return context_.assets.add(copy);
+}
+
+}  // namespace lightnet::mitsuba

@@ -1,0 +1,38 @@
+// Mitsuba's textures.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string_view>
+
+#include "core/readers/mitsuba/properties.hpp"
+
+namespace lightnet::mitsuba {
+
+/// Makes the textures of one scene; what several materials refer to is made once.
+class Textures {
+public:
+    explicit Textures(const Context& context) : context_(context) {}
+
+    /// The colour or texture that is the property `name`; none: not given.
+    std::optional<TextureId> maybe(Properties& properties, std::string_view name);
+    TextureId get(Properties& properties, std::string_view name, Rgb fallback);
+    TextureId get(Properties& properties, std::string_view name, float fallback) {
+        return get(properties, name, Rgb{fallback, fallback, fallback});
+    }
+    /// A colour, a texture, or a reference to one. What is wrong is reported and grey.
+    TextureId of(const Node& node);
+
+    const Context& context() const { return context_; }
+
+private:
+    TextureId make(const Node& node);
+    TextureId bitmap(Properties& properties);
+    TextureId checkerboard(Properties& properties);
+    TextureId scaled(Properties& properties);
+
+    const Context& context_;
+    std::map<const Node*, std::optional<TextureId>> made_;  // none: being made
+};
+
+}  // namespace lightnet::mitsuba

@@ -1,0 +1,304 @@
+#include "core/readers/obj/materials.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <string_view>
+
+#include "core/readers/obj/lines.hpp"
+
+namespace lightnet::obj {
+namespace {
+
+/// A picture as an MTL statement names it, with its options.
+struct Map {
+    std::string file;
+    SourceLine where;
+    Vec2 scale{1, 1}, offset{0, 0};
+    bool clamp = false;
+    float bump = 1;
+};
+
+/// All that the statements say of one material.
+struct Statements {
+    std::string name;
+    SourceLine where;
+    std::map<std::string, Rgb, std::less<>> colours;
+    std::map<std::string, float, std::less<>> numbers;
+    std::map<std::string, Map, std::less<>> maps;
+
+    Rgb colour(std::string_view key, Rgb fallback) const {
+        const auto found = colours.find(key);
+        return found == colours.end() ? fallback : found->second;
+    }
+    float number(std::string_view key, float fallback) const {
+        const auto found = numbers.find(key);
+        return found == numbers.end() ? fallback : found->second;
+    }
+    bool has(std::string_view key) const { return numbers.contains(key) || maps.contains(key); }
+};
+
+class Reader {
+public:
+    Reader(const std::string& path, std::span<const std::byte> bytes, Report& report)
+        : lines_(bytes, path), report_(report) {}
+
+    std::vector<Statements> read() {
+        while (!report_.full() && lines_.next()) {
+            const std::string word(lines_.word());
+            if (word == "newmtl")
+                materials_.push_back({std::string(lines_.rest()), lines_.where(), {}, {}, {}});
+            else if (materials_.empty())
+                report_.error(lines_.where(), fmt::format("'{}' stands before the first 'newmtl'", word.substr(0, 32)));
+            else
+                statement(word, materials_.back());
+        }
+        return std::move(materials_);
+    }
+
+private:
+    void statement(const std::string& word, Statements& material) {
+        static const std::set<std::string, std::less<>> colours{"Ka", "Kd", "Ks", "Ke", "Tf"};
+        static const std::set<std::string, std::less<>> numbers{"Ns", "Ni", "d",   "Tr",    "illum",  "Pr",       "Pm",
+                                                                "Ps", "Pc", "Pcr", "aniso", "anisor", "sharpness"};
+        static const std::map<std::string, std::string, std::less<>> maps{
+            {"map_Kd", "Kd"},     {"map_Ks", "Ks"}, {"map_Ke", "Ke"},  {"map_d", "d"},
+            {"map_Pr", "Pr"},     {"map_Pm", "Pm"}, {"norm", "norm"},  {"map_bump", "bump"},
+            {"map_Bump", "bump"}, {"bump", "bump"}, {"map_Kn", "norm"}};
+        static const std::set<std::string, std::less<>> ignored{"map_Ka", "map_Ns", "disp",   "refl",   "map_refl",
+                                                                "decal",  "map_Ps", "map_Pc", "map_Pcr"};
+        if (colours.contains(word)) {
+            if (const auto value = colour()) material.colours[word] = *value;
+        } else if (numbers.contains(word)) {
+            if (const auto value = number(word)) material.numbers[word] = *value;
+        } else if (const auto known = maps.find(word); known != maps.end()) {
+            if (auto read = map(word)) material.maps[known->second] = *read;
+        } else {
+            report_.warn(lines_.where(),
+                         fmt::format("{} '{}' is left out", ignored.contains(word) ? "statement" : "unknown statement",
+                                     word.substr(0, 32)));
+        }
+    }
+
+    std::optional<float> number(const std::string& word) {
+        if (word == "d") {
+            auto ahead = lines_;  // "d -halo 0.5"
+            if (ahead.word() == "-halo") lines_ = ahead;
+        }
+        const auto value = lines_.number(report_);
+        if (!value) report_.error(lines_.where(), fmt::format("'{}' needs a number", word));
+        return value;
+    }
+
+    std::optional<Rgb> colour() {
+        auto ahead = lines_;
+        const auto first = ahead.word();
+        if (first == "spectral" || first == "xyz") {
+            report_.warn(lines_.where(), fmt::format("colours by '{}' are left out", first));
+            return std::nullopt;
+        }
+        const auto r = lines_.number(report_), g = r ? lines_.number(report_) : r, b = g ? lines_.number(report_) : g;
+        if (!r || (g && !b)) {
+            report_.error(lines_.where(), "a colour needs three numbers");
+            return std::nullopt;
+        }
+        return Rgb{*r, g.value_or(*r), b.value_or(*r)};
+    }
+
+    std::optional<Map> map(const std::string& word) {
+        Map map;
+        map.where = lines_.where();
+        for (;;) {
+            auto ahead = lines_;
+            const std::string option(ahead.word());
+            if (!option.starts_with('-')) break;
+            lines_ = ahead;
+            map_option(option, map);
+        }
+        map.file = lines_.rest();
+        std::replace(map.file.begin(), map.file.end(), '\\', '/');
+        if (!map.file.empty()) return map;
+        report_.error(map.where, fmt::format("'{}' names no file", word));
+        return std::nullopt;
+    }
+
+    void map_option(const std::string& option, Map& map) {
+        if (option == "-clamp") {
+            map.clamp = lines_.word() == "on";
+        } else if (option == "-bm") {
+            map.bump = lines_.number(report_).value_or(1);
+        } else if (option == "-s" || option == "-o") {
+            Vec2& pair = option == "-s" ? map.scale : map.offset;
+            const auto values = numbers_ahead(3);
+            if (!values.empty()) pair.x = values[0];
+            if (values.size() > 1) pair.y = values[1];
+        } else if (option == "-t" || option == "-mm") {
+            report_.warn(map.where, fmt::format("option '{}' of a map is left out", option));
+            numbers_ahead(option == "-t" ? 3 : 2);
+        } else if (option == "-blendu" || option == "-blendv" || option == "-cc" || option == "-imfchan" ||
+                   option == "-type" || option == "-texres" || option == "-boost" || option == "-colorspace") {
+            lines_.word();
+        } else {
+            report_.warn(map.where, fmt::format("unknown option '{}' of a map is left out", option.substr(0, 32)));
+        }
+    }
+
+    /// Up to so many numbers; stops before a word that is none.
+    std::vector<float> numbers_ahead(std::size_t most) {
+        std::vector<float> values;
+        while (values.size() < most) {
+            auto ahead = lines_;
+            const auto word = ahead.word();
+            if (word.empty() || word.find_first_not_of("+-.0123456789eE") != word.npos) break;
+            const auto value = lines_.number(report_);
+            if (!value) break;
+            values.push_back(*value);
+        }
+        return values;
+    }
+
+    Lines lines_;
+    Report& report_;
+    std::vector<Statements> materials_;
+};
+
+/// Makes materials of statements.
+class Maker {
+public:
+    Maker(Assets& assets, const std::string& path) : assets_(assets), path_(path) {}
+
+    Surface make(const Statements& said) {
+        Material material = model(said);
+        material.name = said.name;
+        opacity(said, material);
+        if (const auto map = picture(said, "norm", {Encoding::Curve::linear, 1}))
+            material.normal_map = assets_.add(*map);
+        if (auto map = picture(said, "bump", {Encoding::Curve::linear, 1})) {
+            const float strength = said.maps.find("bump")->second.bump;
+            map->scale = {strength, strength, strength};
+            material.bump_map = assets_.add(*map);
+        }
+        return {assets_.add(std::move(material)), emission(said)};
+    }
+
+private:
+    std::optional<Texture> picture(const Statements& said, std::string_view key, const Encoding& encoding = {}) {
+        const auto map = said.maps.find(key);
+        if (map == said.maps.end()) return std::nullopt;
+        const auto& [file, where, scale, offset, clamp, bump] = map->second;
+        ImageTexture pattern;
+        pattern.image = assets_.picture(beside(path_, file), encoding, where);
+        if (!pattern.image) return std::nullopt;
+        pattern.wrap_u = pattern.wrap_v = clamp ? Wrap::clamp : Wrap::repeat;
+        pattern.uv = {scale, offset, 0};
+        return Texture{{1, 1, 1}, pattern, false};
+    }
+
+    TextureId coloured(const Statements& said, std::string_view key, Rgb fallback) {
+        auto texture = picture(said, key);
+        if (!texture) return assets_.colour(said.colour(key, fallback));
+        // exporters write 0 beside a map; the map is meant
+        const Rgb factor = said.colour(key, {1, 1, 1});
+        texture->scale = is_black(factor) ? Rgb{1, 1, 1} : factor;
+        return assets_.add(*texture);
+    }
+
+    std::optional<TextureId> factor(const Statements& said, std::string_view key) {
+        const auto texture = picture(said, key, {Encoding::Curve::linear, 1});
+        return texture ? std::optional(assets_.add(*texture)) : std::nullopt;
+    }
+
+    /// α of GGX whose lobe is as wide as Blinn and Phong's with that exponent.
+    static Roughness from_exponent(float exponent) {
+        const float alpha = std::sqrt(2 / (std::max(exponent, 0.0f) + 2));
+        return {alpha < 0.02f ? 0 : alpha, alpha < 0.02f ? 0 : alpha, {}, Roughness::Means::alpha};
+    }
+
+    Material model(const Statements& said) {
+        const int illum = static_cast<int>(said.number("illum", 2));
+        const Rgb specular = said.colour("Ks", {});
+        const float eta = std::clamp(said.number("Ni", 1.5f), 1.0f, 4.0f);
+        if (said.has("Pr") || said.has("Pm") || said.has("Pc") || said.has("Ps")) return principled(said, eta);
+        if (illum == 4 || illum == 6 || illum == 7 || illum == 9) {
+            DielectricMaterial glass;
+            glass.eta = said.numbers.contains("Ni") ? eta : 1.5f;
+            if (said.colours.contains("Tf")) glass.transmitted = assets_.colour(said.colour("Tf", {1, 1, 1}));
+            return {said.name, glass};
+        }
+        if ((illum == 3 || illum == 5 || illum == 8) && is_black(said.colour("Kd", {})) && !is_black(specular)) {
+            ConductorMaterial mirror;
+            mirror.metal.reflectance = assets_.colour(specular);
+            if (said.has("Ns")) mirror.roughness = from_exponent(said.number("Ns", 1e6f));
+            return {said.name, mirror};
+        }
+        if (is_black(specular) || illum < 2)
+            return {said.name, DiffuseMaterial{coloured(said, "Kd", {0.8f, 0.8f, 0.8f})}};
+        PrincipledMaterial shiny;
+        shiny.base_colour = coloured(said, "Kd", {0.8f, 0.8f, 0.8f});
+        shiny.specular = std::clamp(luminance(specular), 0.0f, 1.0f);
+        shiny.eta = eta > 1 ? eta : 1.5f;
+        shiny.roughness = from_exponent(said.number("Ns", 10));
+        return {said.name, shiny};
+    }
+
+    Material principled(const Statements& said, float eta) {
+        PrincipledMaterial model;
+        model.base_colour = coloured(said, "Kd", {0.8f, 0.8f, 0.8f});
+        model.metallic_texture = factor(said, "Pm");
+        model.metallic = said.number("Pm", model.metallic_texture ? 1.0f : 0.0f);
+        model.roughness.texture = factor(said, "Pr");
+        const float rough = said.number("Pr", model.roughness.texture ? 1.0f : 0.5f);
+        const float aspect = std::sqrt(1 - 0.9f * std::clamp(said.number("aniso", 0), 0.0f, 1.0f));
+        model.roughness.u = std::clamp(rough / std::sqrt(aspect), 0.0f, 1.0f);
+        model.roughness.v = std::clamp(rough * std::sqrt(aspect), 0.0f, 1.0f);
+        model.sheen = std::clamp(said.number("Ps", 0), 0.0f, 1.0f);
+        model.clearcoat = std::clamp(said.number("Pc", 0), 0.0f, 1.0f);
+        model.clearcoat_roughness.u = model.clearcoat_roughness.v = std::clamp(said.number("Pcr", 0), 0.0f, 1.0f);
+        model.eta = eta > 1 ? eta : 1.5f;
+        const int illum = static_cast<int>(said.number("illum", 2));
+        if (illum == 4 || illum == 6 || illum == 7 || illum == 9) model.transmission = 1, model.thin = false;
+        return {said.name, model};
+    }
+
+    void opacity(const Statements& said, Material& material) {
+        const bool glass = std::holds_alternative<DielectricMaterial>(material.model);
+        const float opaque = said.numbers.contains("d") ? said.number("d", 1) : 1 - said.number("Tr", 0);
+        auto map = picture(said, "d", {Encoding::Curve::linear, 1});
+        if (map) {
+            auto& pattern = std::get<ImageTexture>(map->pattern);
+            pattern.channel = pattern.image->has_alpha() ? ImageTexture::Channel::alpha : ImageTexture::Channel::red;
+            if (opaque > 0) map->scale = {opaque, opaque, opaque};
+            material.opacity = assets_.add(*map);
+        } else if (opaque < 1 && !glass) {
+            material.opacity = assets_.grey(std::max(opaque, 0.0f));
+        }
+    }
+
+    std::optional<AreaEmission> emission(const Statements& said) {
+        const auto map = picture(said, "Ke");
+        const Rgb radiance = said.colour("Ke", {});
+        if (is_black(radiance) && !map) return std::nullopt;
+        AreaEmission emission{is_black(radiance) ? Rgb{1, 1, 1} : radiance, true, {}};
+        if (map) emission.texture = assets_.add(*map);
+        return emission;
+    }
+
+    Assets& assets_;
+    const std::string& path_;
+};
+
+}  // namespace
+
+void read_materials(const std::string& path, const SourceLine& where, Assets& assets,
+                    std::map<std::string, Surface>& materials) {
+    const auto bytes = assets.read(path, where);
+    if (!bytes) return;
+    Maker maker(assets, path);
+    for (const auto& said : Reader(path, **bytes, assets.report()).read())
+        if (!materials.contains(said.name)) materials.emplace(said.name, maker.make(said));
+}
+
+}  // namespace lightnet::obj

@@ -1,0 +1,207 @@
+#include "core/readers/obj/model.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
+#include "core/readers/mesh_tools.hpp"
+#include "core/readers/obj/lines.hpp"
+
+namespace lightnet::obj {
+namespace {
+
+constexpr std::uint32_t none = ~std::uint32_t{0};
+
+/// A corner of a face: indices into the file's lists.
+struct Corner {
+    std::uint32_t position = none, uv = none, normal = none;
+    friend bool operator==(const Corner&, const Corner&) = default;
+};
+
+struct Mix {
+    std::size_t operator()(const Corner& c) const {
+        std::uint64_t h = c.position * 0x9E3779B97F4A7C15ull;
+        h = (h ^ (h >> 29) ^ c.uv) * 0xBF58476D1CE4E5B9ull;
+        h = (h ^ (h >> 32) ^ c.normal) * 0x94D049BB133111EBull;
+        return h ^ (h >> 31);
+    }
+};
+
+class Reader {
+public:
+    Reader(std::span<const std::byte> bytes, const std::string& file, Cut cut, Report& report)
+        : lines_(bytes, file), cut_(cut), report_(report) {}
+
+    Model read() {
+        while (!report_.full() && lines_.next()) statement(lines_.word());
+        Model model;
+        for (auto& part : parts_)
+            if (!part.part.mesh.triangles.empty()) model.parts.push_back(finished(std::move(part)));
+        model.libraries = std::move(libraries_);
+        return model;
+    }
+
+private:
+    struct Open {
+        Part part;
+        std::unordered_map<Corner, std::uint32_t, Mix> vertices;
+        bool normals = false, uvs = false;
+    };
+
+    void statement(std::string_view word) {
+        if (word == "v") return vertex();
+        if (word == "vn") return normal();
+        if (word == "vt") return uv();
+        if (word == "f" || word == "fo") return face();
+        if (word == "usemtl") return use_material();
+        if (word == "mtllib") return libraries_.push_back({std::string(lines_.rest()), lines_.where()});
+        if (word == "s") return smooth();
+        if (word == "g" || word == "o" || word == "vp") return;
+        if (word == "l" || word == "p")
+            report_.warn(lines_.where(), "lines and points have no surface and are left out");
+        else
+            report_.warn(lines_.where(), fmt::format("unknown statement '{}' is left out", word.substr(0, 32)));
+    }
+
+    /// Three numbers. None: reported.
+    std::optional<Vec3> triple(const char* what) {
+        const auto x = lines_.number(report_), y = x ? lines_.number(report_) : x, z = y ? lines_.number(report_) : y;
+        if (z) return Vec3{*x, *y, *z};
+        report_.error(lines_.where(), fmt::format("{} needs three numbers", what));
+        return std::nullopt;
+    }
+
+    void vertex() {
+        positions_.push_back(triple("a vertex").value_or(Vec3{}));
+        std::vector<float> more;
+        while (const auto value = lines_.number(report_)) more.push_back(*value);
+        // "x y z r g b"; one more number would be w, of curves
+        if (more.size() == 3 && colours_.size() + 1 == positions_.size())
+            colours_.push_back({more[0], more[1], more[2]});
+    }
+
+    void normal() { normals_.push_back(triple("a normal").value_or(Vec3{})); }
+
+    void uv() {
+        const auto u = lines_.number(report_), v = u ? lines_.number(report_) : u;
+        if (!u) report_.error(lines_.where(), "a texture coordinate needs a number");
+        uvs_.push_back({u.value_or(0), v.value_or(0)});
+    }
+
+    void smooth() {
+        const auto group = lines_.word();
+        smooth_ = group != "off" && group != "0";
+        open_ = nullptr;
+    }
+
+    void use_material() {
+        material_ = lines_.rest();
+        open_ = nullptr;
+    }
+
+    /// "7", or "-1" from the end. None: reported, or not there.
+    std::optional<std::uint32_t> index(std::string_view digits, std::size_t count, const char* of) {
+        std::int64_t value = 0;
+        const auto [end, problem] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+        const auto size = static_cast<std::int64_t>(count);
+        if (problem != std::errc{} || end != digits.data() + digits.size())
+            report_.error(lines_.where(), fmt::format("an index expected, not '{}'", digits.substr(0, 32)));
+        else if (value == 0 || value > size || value < -size)
+            report_.error(lines_.where(),
+                          fmt::format("index {} is out of range: so far there are {} {}", value, count, of));
+        else
+            return static_cast<std::uint32_t>(value > 0 ? value - 1 : size + value);
+        return std::nullopt;
+    }
+
+    /// "v", "v/vt", "v//vn" or "v/vt/vn".
+    std::optional<Corner> corner(std::string_view text) {
+        const auto part = [&] {
+            const auto end = std::min(text.find('/'), text.size());
+            const auto digits = text.substr(0, end);
+            text.remove_prefix(std::min(end + 1, text.size()));
+            return digits;
+        };
+        Corner corner;
+        const auto position = index(part(), positions_.size(), "vertices");
+        if (!position) return std::nullopt;
+        corner.position = *position;
+        if (const auto digits = part(); !digits.empty())
+            corner.uv = index(digits, uvs_.size(), "texture coordinates").value_or(none);
+        if (const auto digits = part(); !digits.empty())
+            corner.normal = index(digits, normals_.size(), "normals").value_or(none);
+        return corner;
+    }
+
+    void face() {
+        corners_.clear();
+        Open& open = this->open();
+        for (auto word = lines_.word(); !word.empty() && word.front() != '#'; word = lines_.word()) {
+            const auto read = corner(word);
+            if (!read) return;
+            corners_.push_back(vertex_of(open, *read));
+        }
+        if (corners_.size() < 3)
+            return report_.error(lines_.where(), fmt::format("a face has {} corners", corners_.size()));
+        auto& mesh = open.part.mesh;
+        triangulate(mesh.positions, corners_, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+            mesh.triangles.push_back({a, b, c});
+        });
+    }
+
+    Open& open() {
+        if (open_) return *open_;
+        const auto key = cut_ == Cut::nowhere ? std::pair<std::string, bool>() : std::pair(material_, smooth_);
+        const auto [entry, fresh] = index_.try_emplace(key, parts_.size());
+        if (fresh) parts_.push_back({{{}, key.first, smooth_, lines_.where()}, {}, false, false});
+        return *(open_ = &parts_[entry->second]);
+    }
+
+    std::uint32_t vertex_of(Open& open, const Corner& corner) {
+        Mesh& mesh = open.part.mesh;
+        const auto [entry, fresh] = open.vertices.try_emplace(corner, std::uint32_t(mesh.positions.size()));
+        if (!fresh) return entry->second;
+        mesh.positions.push_back(positions_[corner.position]);
+        mesh.uvs.push_back(corner.uv == none ? Vec2{} : uvs_[corner.uv]);
+        mesh.normals.push_back(corner.normal == none ? Vec3{} : normals_[corner.normal]);
+        if (corner.position < colours_.size()) mesh.colours.push_back(colours_[corner.position]);
+        open.uvs = open.uvs || corner.uv != none;
+        open.normals = open.normals || corner.normal != none;
+        return entry->second;
+    }
+
+    Part finished(Open open) {
+        Mesh& mesh = open.part.mesh;
+        if (!open.uvs) mesh.uvs = {};
+        if (!open.normals) mesh.normals = {};
+        if (mesh.colours.size() != mesh.positions.size()) mesh.colours = {};
+        return std::move(open.part);
+    }
+
+    Lines lines_;
+    Cut cut_;
+    Report& report_;
+    std::vector<Vec3> positions_, normals_;
+    std::vector<Vec2> uvs_;
+    std::vector<Rgb> colours_;
+    std::vector<Library> libraries_;
+    std::string material_;
+    bool smooth_ = false;
+    std::vector<Open> parts_;
+    std::map<std::pair<std::string, bool>, std::size_t> index_;
+    Open* open_ = nullptr;  // one of parts_; null: to be looked up
+    std::vector<std::uint32_t> corners_;
+};
+
+}  // namespace
+
+Model read_model(std::span<const std::byte> bytes, const std::string& file, Cut cut, Report& report) {
+    return Reader(bytes, file, cut, report).read();
+}
+
+}  // namespace lightnet::obj

@@ -1,0 +1,111 @@
+#include "core/readers/overrides.hpp"
+
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "core/readers/image_file.hpp"
+
+namespace lightnet {
+namespace {
+
+Vec3 column(const Matrix& m, int j) { return {float(m.m[0][j]), float(m.m[1][j]), float(m.m[2][j])}; }
+
+void set_column(Matrix& m, int j, Vec3 v) { m.m[0][j] = v.x, m.m[1][j] = v.y, m.m[2][j] = v.z; }
+
+/// Looks from one point to another. Where x is, in the picture, is a matter of the world's handedness: as it was.
+void look(CameraData& camera, const CameraOverride& change, bool given, const SourceLine& where) {
+    if (!given && !(change.from && change.to))
+        throw UserError(where, "'camera': the scene has none of its own, so both 'from' and 'to' must be given");
+    const Matrix old = camera.to_world;
+    const Vec3 from = change.from.value_or(column(old, 3)), to = change.to.value_or(from + column(old, 2));
+    const Vec3 up = change.up.value_or(given ? column(old, 1) : Vec3{0, 1, 0});
+    const Vec3 ahead = to - from;
+    const bool mirrored = given ? swaps_handedness(old) : true;
+    const Vec3 right = mirrored ? cross(ahead, up) : cross(up, ahead);
+    if (!(length(right) > 1e-6f * length(ahead) * length(up)) || !finite(right))
+        throw UserError(where, "'camera': 'from', 'to' and 'up' must span a view");
+    const Vec3 z = normalize(ahead), x = normalize(right), y = mirrored ? cross(x, z) : cross(z, x);
+    set_column(camera.to_world, 0, x);
+    set_column(camera.to_world, 1, y);
+    set_column(camera.to_world, 2, z);
+    set_column(camera.to_world, 3, from);
+}
+
+void change_camera(SceneData& scene, const CameraOverride& change, const SourceLine& where) {
+    CameraData& camera = scene.camera;
+    if (change.from || change.to || change.up) {
+        look(camera, change, scene.camera_given, where);
+        scene.camera_given = true;
+    }
+    if (change.fov) camera.fov = *change.fov, camera.orthographic = false;
+    if (change.lens) camera.lens_radius = *change.lens;
+    if (change.focus) camera.focus_distance = *change.focus;
+}
+
+/// The axis of the world that is up for the camera: scenes stand on z or on y.
+Vec3 upwards(const SceneData& scene) {
+    const Vec3 up = scene.camera_given ? column(scene.camera.to_world, 1) : Vec3{0, 1, 0};
+    const Vec3 size{std::fabs(up.x), std::fabs(up.y), std::fabs(up.z)};
+    if (size.y >= size.x && size.y >= size.z) return {0, up.y < 0 ? -1.0f : 1.0f, 0};
+    if (size.z >= size.x) return {0, 0, up.z < 0 ? -1.0f : 1.0f};
+    return {up.x < 0 ? -1.0f : 1.0f, 0, 0};
+}
+
+/// Turns axis `pole` of a picture's own space to `up`; the other two follow in order.
+Matrix stand_up(int pole, Vec3 up) {
+    // one of the others stays where it is; only where `up` lies along it, the pole goes there
+    const auto unit = [](int axis) { return Vec3{float(axis == 0), float(axis == 1), float(axis == 2)}; };
+    Vec3 next = unit((pole + 2) % 3);
+    if (dot(next, up) != 0) next = unit(pole);
+    Matrix turn;
+    set_column(turn, pole, up);
+    set_column(turn, (pole + 2) % 3, next);
+    set_column(turn, (pole + 1) % 3, cross(next, up));
+    return turn;
+}
+
+EnvironmentData picture_around(const std::string& path, const SceneData& scene, Files& files, const SourceLine& where) {
+    EnvironmentData environment;
+    try {
+        environment.image = std::make_shared<const Image>(read_image(*files.read(path)));
+    } catch (const Error& problem) {
+        throw UserError(where, "'environment': can't read '" + path + "': " + problem.what());
+    }
+    const bool square = environment.image->width == environment.image->height;
+    environment.layout = square ? EnvironmentData::Layout::equal_area : EnvironmentData::Layout::latitude_longitude;
+    environment.to_world = stand_up(square ? 2 : 1, upwards(scene));
+    return environment;
+}
+
+/// What is cut out stays cut out, and what isn't there stays away.
+void make_clay(SceneData& scene) {
+    scene.textures.push_back({{0.5f, 0.5f, 0.5f}, {}, false});
+    const auto grey = static_cast<TextureId>(scene.textures.size() - 1);
+    for (auto& material : scene.materials) {
+        if (std::holds_alternative<NoMaterial>(material.model)) continue;
+        Material clay;
+        clay.name = std::move(material.name);
+        clay.model = DiffuseMaterial{grey, 0, std::nullopt};
+        clay.opacity = material.opacity;
+        clay.opacity_cutoff = material.opacity_cutoff;
+        material = std::move(clay);
+    }
+}
+
+}  // namespace
+
+void apply(const SceneOverrides& overrides, SceneData& scene, Files& files, const SourceLine& where) {
+    if (overrides.camera) change_camera(scene, *overrides.camera, where);
+    if (const auto* colour = std::get_if<Rgb>(&overrides.environment)) {
+        scene.environments.clear();
+        if (!is_black(*colour)) scene.environments.emplace_back().radiance = *colour;
+    } else if (const auto* path = std::get_if<std::string>(&overrides.environment)) {
+        scene.environments = {picture_around(*path, scene, files, where)};
+    }
+    for (auto& environment : scene.environments) environment.radiance *= overrides.environment_scale;
+    scene.film.scale *= std::exp2(overrides.exposure);
+    if (overrides.clay) make_clay(scene);
+}
+
+}  // namespace lightnet

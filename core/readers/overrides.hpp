@@ -1,0 +1,34 @@
+// What a graph may change about a scene after it has been read.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "core/error.hpp"
+#include "core/math/rgb.hpp"
+#include "core/math/vec.hpp"
+#include "core/readers/files.hpp"
+#include "core/scene/scene_data.hpp"
+
+namespace lightnet {
+
+/// Of the camera; what is absent stays as the scene has it.
+struct CameraOverride {
+    std::optional<Vec3> from, to, up;  // world space
+    std::optional<float> fov;          // degrees, across the shorter side of the picture
+    std::optional<float> lens, focus;  // radius, and distance of what is sharp: metres
+};
+
+struct SceneOverrides {
+    std::optional<CameraOverride> camera;
+    std::variant<std::monostate, Rgb, std::string> environment;  // a colour, or the path of a picture: instead of all
+    float environment_scale = 1;                                 // of whatever is around the scene then
+    float exposure = 0;                                          // stops: doublings of the picture's brightness
+    bool clay = false;                                           // all surfaces grey and diffuse
+};
+
+/// Changes the scene, the same on every host. Opens files only through `files`. Throws UserError, which names `where`.
+void apply(const SceneOverrides& overrides, SceneData& scene, Files& files, const SourceLine& where);
+
+}  // namespace lightnet

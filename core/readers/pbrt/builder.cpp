@@ -1,0 +1,282 @@
+#include "core/readers/pbrt/builder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "core/readers/pbrt/transforms.hpp"
+#include "core/suggestion.hpp"
+
+namespace lightnet::pbrt {
+namespace {
+
+enum class Part { anywhere, before_world, in_world };
+
+Part part_of(const std::string& directive) {
+    static const std::map<std::string, Part> parts{
+        {"Accelerator", Part::before_world}, {"Camera", Part::before_world},      {"Film", Part::before_world},
+        {"Integrator", Part::before_world},  {"PixelFilter", Part::before_world}, {"Sampler", Part::before_world},
+        {"WorldBegin", Part::before_world},  {"AreaLightSource", Part::in_world}, {"AttributeBegin", Part::in_world},
+        {"AttributeEnd", Part::in_world},    {"LightSource", Part::in_world},     {"MakeNamedMaterial", Part::in_world},
+        {"Material", Part::in_world},        {"NamedMaterial", Part::in_world},   {"ObjectBegin", Part::in_world},
+        {"ObjectEnd", Part::in_world},       {"ObjectInstance", Part::in_world},  {"Shape", Part::in_world},
+        {"Texture", Part::in_world}};
+    const auto found = parts.find(directive);
+    return found == parts.end() ? Part::anywhere : found->second;
+}
+
+}  // namespace
+
+Builder::Builder(const Sources& sources)
+    : sources_(sources),
+      pictures_(sources_, workshop_),
+      textures_(sources_, scene_, pictures_),
+      shapes_(sources_, workshop_) {
+    scene_.film.width = 1280, scene_.film.height = 720;  // pbrt's defaults
+    Material grey;
+    grey.model = DiffuseMaterial{textures_.constant({0.5f, 0.5f, 0.5f}), 0, std::nullopt};
+    scene_.materials.push_back(std::move(grey));
+    uses_.push_back({0, "", {}});
+}
+
+const std::map<std::string, Builder::Handler>& Builder::handlers() {
+    static const std::map<std::string, Handler> table{{"Accelerator", &Builder::ignored},
+                                                      {"ActiveTransform", &Builder::active_transform},
+                                                      {"AreaLightSource", &Builder::area_light},
+                                                      {"Attribute", &Builder::attribute},
+                                                      {"AttributeBegin", &Builder::attribute_begin},
+                                                      {"AttributeEnd", &Builder::attribute_end},
+                                                      {"Camera", &Builder::camera},
+                                                      {"ColorSpace", &Builder::color_space},
+                                                      {"ConcatTransform", &Builder::concat_transform},
+                                                      {"CoordSysTransform", &Builder::coord_sys_transform},
+                                                      {"CoordinateSystem", &Builder::coordinate_system},
+                                                      {"Film", &Builder::film},
+                                                      {"Identity", &Builder::identity},
+                                                      {"Integrator", &Builder::ignored},
+                                                      {"LightSource", &Builder::light},
+                                                      {"LookAt", &Builder::look_at},
+                                                      {"MakeNamedMaterial", &Builder::make_named_material},
+                                                      {"MakeNamedMedium", &Builder::medium},
+                                                      {"Material", &Builder::material},
+                                                      {"MediumInterface", &Builder::medium},
+                                                      {"NamedMaterial", &Builder::named_material},
+                                                      {"ObjectBegin", &Builder::object_begin},
+                                                      {"ObjectEnd", &Builder::object_end},
+                                                      {"ObjectInstance", &Builder::object_instance},
+                                                      {"Option", &Builder::ignored},
+                                                      {"PixelFilter", &Builder::ignored},
+                                                      {"ReverseOrientation", &Builder::reverse_orientation},
+                                                      {"Rotate", &Builder::rotate},
+                                                      {"Sampler", &Builder::ignored},
+                                                      {"Scale", &Builder::scale},
+                                                      {"Shape", &Builder::shape},
+                                                      {"Texture", &Builder::texture},
+                                                      {"Transform", &Builder::transform},
+                                                      {"TransformBegin", &Builder::transform_begin},
+                                                      {"TransformEnd", &Builder::transform_end},
+                                                      {"TransformTimes", &Builder::ignored},
+                                                      {"Translate", &Builder::translate},
+                                                      {"WorldBegin", &Builder::world_begin}};
+    return table;
+}
+
+void Builder::execute(Statement& statement) {
+    const Part part = part_of(statement.directive);
+    if (state_.space != ColourSpace::srgb) statement.parameters.set_colour_space(state_.space);
+    if (part == Part::before_world && in_world_)
+        sources_.report.error(statement.where, statement.directive + " must stand before WorldBegin");
+    else if (part == Part::in_world && !in_world_)
+        sources_.report.error(statement.where, statement.directive + " must stand behind WorldBegin");
+    else
+        (this->*handlers().at(statement.directive))(statement);
+}
+
+void Builder::enter() { push(Block::import, {}); }
+
+void Builder::leave() {
+    while (!stack_.empty() && stack_.back().block != Block::import) {
+        sources_.report.error(stack_.back().where, "this block is not closed in its file");
+        if (stack_.back().block == Block::object) open_object_ = std::nullopt;
+        state_ = std::move(stack_.back().state);
+        stack_.pop_back();
+    }
+    pop(Block::import, "import", {});
+}
+
+void Builder::finish() {
+    for (const auto& open : stack_) sources_.report.error(open.where, "this block is never closed");
+    check_uses();
+    if (!in_world_) sources_.report.error({sources_.main, 0}, "there is no WorldBegin, and so no scene");
+    textures_.finish();  // waits for the meshes as well
+    finish_shapes();
+    finish_film();
+    scene_.warnings = sources_.report.warnings();
+}
+
+void Builder::apply(const Matrix& matrix) {
+    if (state_.active) state_.to_world = state_.to_world * matrix;
+}
+
+void Builder::look_at(Statement& s) {
+    if (const auto matrix = pbrt::look_at(std::span<const double, 9>(s.numbers)))
+        apply(*matrix);
+    else
+        sources_.report.error(s.where, "LookAt: eye, target and up must span a view");
+}
+
+void Builder::translate(Statement& s) { apply(translation(s.numbers[0], s.numbers[1], s.numbers[2])); }
+
+void Builder::scale(Statement& s) {
+    if (s.numbers[0] == 0 || s.numbers[1] == 0 || s.numbers[2] == 0)
+        sources_.report.error(s.where, "Scale by 0 leaves nothing");
+    else
+        apply(scaling(s.numbers[0], s.numbers[1], s.numbers[2]));
+}
+
+void Builder::rotate(Statement& s) {
+    if (const auto matrix = rotation(s.numbers[0], s.numbers[1], s.numbers[2], s.numbers[3]))
+        apply(*matrix);
+    else
+        sources_.report.error(s.where, "Rotate needs an axis that is not 0");
+}
+
+void Builder::transform(Statement& s) {
+    const Matrix matrix = by_columns(std::span<const double, 16>(s.numbers));
+    if (!inverse(matrix))
+        sources_.report.error(s.where, "the matrix is singular");
+    else if (state_.active)
+        state_.to_world = matrix;
+}
+
+void Builder::concat_transform(Statement& s) {
+    const Matrix matrix = by_columns(std::span<const double, 16>(s.numbers));
+    if (inverse(matrix))
+        apply(matrix);
+    else
+        sources_.report.error(s.where, "the matrix is singular");
+}
+
+void Builder::identity(Statement&) {
+    if (state_.active) state_.to_world = {};
+}
+
+void Builder::coordinate_system(Statement& s) { systems_[s.names[0]] = state_.to_world; }
+
+void Builder::coord_sys_transform(Statement& s) {
+    if (const auto found = systems_.find(s.names[0]); found != systems_.end()) {
+        if (state_.active) state_.to_world = found->second;
+        return;
+    }
+    std::vector<std::string> known;
+    for (const auto& [name, matrix] : systems_) known.push_back(name);
+    sources_.report.error(
+        s.where, fmt::format("there is no coordinate system '{}'{}", s.names[0], did_you_mean(s.names[0], known)));
+}
+
+void Builder::active_transform(Statement& s) {
+    const std::string& which = s.names[0];
+    if (which != "All" && which != "StartTime" && which != "EndTime") {
+        sources_.report.error(s.where, fmt::format("ActiveTransform is All, StartTime or EndTime, not '{}'", which));
+        return;
+    }
+    state_.active = which != "EndTime";
+    if (which != "All") sources_.report.warn(s.where, "motion is left out: all stands as at its start");
+}
+
+void Builder::push(Block block, const SourceLine& where) {
+    constexpr std::size_t deepest = 10000;
+    if (stack_.size() == deepest) sources_.report.error(where, "blocks are nested too deeply");
+    if (stack_.size() < deepest) stack_.push_back({block, state_, where});
+}
+
+std::optional<Builder::Saved> Builder::pop(Block block, const char* what, const SourceLine& where) {
+    if (stack_.empty() || stack_.back().block != block) {
+        std::string problem = fmt::format("there is no {} to end here", what);
+        if (!stack_.empty() && stack_.back().block != Block::import)
+            problem += fmt::format(" (the latest open block begins in line {})", stack_.back().where.line);
+        sources_.report.error(where, problem);
+        return std::nullopt;
+    }
+    Saved saved = std::move(stack_.back());
+    stack_.pop_back();
+    state_ = std::move(saved.state);
+    return saved;
+}
+
+void Builder::attribute_begin(Statement& s) { push(Block::attribute, s.where); }
+void Builder::attribute_end(Statement& s) { pop(Block::attribute, "AttributeBegin", s.where); }
+void Builder::transform_begin(Statement& s) { push(Block::transform, s.where); }
+
+void Builder::transform_end(Statement& s) {
+    State current = state_;
+    if (!pop(Block::transform, "TransformBegin", s.where)) return;
+    current.to_world = state_.to_world;  // only the transform comes back
+    state_ = std::move(current);
+}
+
+void Builder::attribute(Statement& s) {
+    static const std::vector<std::string> known{"light", "material", "medium", "shape", "texture"};
+    const std::string& target = s.names[0];
+    if (std::find(known.begin(), known.end(), target) == known.end()) {
+        sources_.report.error(
+            s.where, fmt::format("Attribute is of light, material, medium, shape or texture, not '{}'{}", target,
+                                 did_you_mean(target, known)));
+        return;
+    }
+    auto& defaults = state_.defaults[target];
+    for (const auto& parameter : s.parameters.all()) {
+        std::erase_if(defaults, [&](const auto& p) { return p->name == parameter->name; });
+        defaults.push_back(parameter);
+    }
+}
+
+void Builder::reverse_orientation(Statement&) { state_.reversed = !state_.reversed; }
+
+void Builder::world_begin(Statement&) {
+    in_world_ = true;
+    state_.to_world = {};
+    state_.active = true;
+    systems_["world"] = {};
+}
+
+// how pictures are sampled is the graph's business
+void Builder::ignored(Statement&) {}
+
+void Builder::medium(Statement& s) {
+    s.parameters.ignore_all();
+    sources_.report.warn(s.where, "participating media are not supported: the space is taken as empty");
+}
+
+void Builder::color_space(Statement& s) {
+    if (const auto space = colour_space_named(s.names[0]))
+        state_.space = *space;
+    else
+        sources_.report.error(s.where, fmt::format("unknown color space '{}'{}", s.names[0],
+                                                   did_you_mean(s.names[0], colour_space_names())));
+}
+
+void Builder::camera(Statement& s) {
+    const auto to_world = inverse(state_.to_world);
+    if (!to_world) {
+        sources_.report.error(s.where, "the camera's transform is singular");
+        return;
+    }
+    const Shot shot = make_camera(s.names[0], s.parameters, *to_world);
+    s.parameters.warn_unused();
+    scene_.camera = shot.camera;
+    scene_.camera_given = true;
+    exposure_ = shot.exposure;
+    systems_["camera"] = *to_world;
+}
+
+void Builder::film(Statement& s) {
+    const FilmShot shot = make_film(s.names[0], s.parameters);
+    scene_.film = shot.film;
+    white_ = shot.white;
+    s.parameters.warn_unused();
+}
+
+}  // namespace lightnet::pbrt

@@ -1,0 +1,151 @@
+// What the statements of a pbrt file mean: executes them one by one, and ends with a scene.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/readers/pbrt/camera.hpp"
+#include "core/readers/pbrt/colour_space.hpp"
+#include "core/readers/pbrt/lights.hpp"
+#include "core/readers/pbrt/pictures.hpp"
+#include "core/readers/pbrt/shapes.hpp"
+#include "core/readers/pbrt/sources.hpp"
+#include "core/readers/pbrt/syntax.hpp"
+#include "core/readers/pbrt/textures.hpp"
+#include "core/readers/workshop.hpp"
+#include "core/scene/scene_data.hpp"
+
+namespace lightnet::pbrt {
+
+/// Holds pbrt's graphics state and the scene so far. Include and Import are not its business.
+class Builder {
+public:
+    explicit Builder(const Sources& sources);
+    ~Builder() { workshop_.finish(); }  // what is under way looks at other members
+    Builder(const Builder&) = delete;
+    Builder& operator=(const Builder&) = delete;
+
+    void execute(Statement& statement);
+    /// Import: what it changes in the graphics state ends with its file.
+    void enter();
+    void leave();
+    /// To be called at the end: what was promised, but did not come, is reported.
+    void finish();
+    SceneData take() { return std::move(scene_); }
+
+private:
+    using Handler = void (Builder::*)(Statement&);
+    static const std::map<std::string, Handler>& handlers();
+
+    /// pbrt's graphics state.
+    struct State {
+        Matrix to_world;
+        bool reversed = false;
+        bool active = true;  // ActiveTransform: false when only the end of the time is meant
+        ColourSpace space = ColourSpace::srgb;
+        std::size_t material = 0;  // index into uses_
+        std::optional<AreaLight> lamp;
+        std::map<std::string, std::vector<std::shared_ptr<const Parameter>>>
+            defaults;  // of Attribute, by what they are for
+    };
+    enum class Block { attribute, transform, object, import };
+    struct Saved {
+        Block block;
+        State state;
+        SourceLine where;
+    };
+    /// A material that shapes may have; one with a name is perhaps made later.
+    struct MaterialUse {
+        std::optional<MaterialId> made;
+        std::string name;
+        SourceLine first_use;
+    };
+    /// A shape that was asked for, with all that was said of it.
+    struct WaitingShape {
+        std::shared_ptr<MadeShape> made;
+        std::size_t material = 0;
+        std::optional<TextureId> alpha;
+        std::optional<AreaLight> lamp;
+        bool lamp_per_triangle = false;  // for pbrt every triangle of a mesh is a lamp of its own
+        std::optional<std::uint32_t> object;
+        std::string owner;  // for messages
+        SourceLine where;
+    };
+
+    void look_at(Statement&);
+    void translate(Statement&);
+    void scale(Statement&);
+    void rotate(Statement&);
+    void transform(Statement&);
+    void concat_transform(Statement&);
+    void identity(Statement&);
+    void coordinate_system(Statement&);
+    void coord_sys_transform(Statement&);
+    void active_transform(Statement&);
+    void apply(const Matrix& matrix);
+
+    void attribute_begin(Statement&);
+    void attribute_end(Statement&);
+    void transform_begin(Statement&);
+    void transform_end(Statement&);
+    void attribute(Statement&);
+    void reverse_orientation(Statement&);
+    void world_begin(Statement&);
+    void ignored(Statement&);
+    void medium(Statement&);
+    void color_space(Statement&);
+    void push(Block block, const SourceLine& where);
+    std::optional<Saved> pop(Block block, const char* what, const SourceLine& where);
+
+    void camera(Statement&);
+    void film(Statement&);
+
+    void material(Statement&);
+    void make_named_material(Statement&);
+    void named_material(Statement&);
+    void texture(Statement&);
+    Material material_of(const std::string& type, Parameters& parameters);
+    std::size_t use_of(const std::string& name, const SourceLine& where);
+
+    void area_light(Statement&);
+    void light(Statement&);
+    void shape(Statement&);
+    void object_begin(Statement&);
+    void object_end(Statement&);
+    void object_instance(Statement&);
+    std::optional<TextureId> alpha_of(Parameters& parameters);
+
+    void check_uses();
+    void finish_shapes();
+    void finish_shape(WaitingShape& waiting);
+    MaterialId with_alpha(MaterialId material, TextureId alpha);
+    void emit(Shape shape, const AreaLight& lamp, bool each_triangle);
+    void add_shape(Shape shape, const std::optional<std::uint32_t>& object);
+    void finish_film();
+
+    Sources sources_;
+    SceneData scene_;
+    Workshop workshop_;
+    Pictures pictures_;
+    Textures textures_;
+    Shapes shapes_;
+    State state_;
+    std::vector<Saved> stack_;
+    bool in_world_ = false;
+    float exposure_ = 1;
+    Rgb white_{1, 1, 1};
+    std::map<std::string, Matrix> systems_;
+    std::vector<MaterialUse> uses_;
+    std::map<std::string, std::size_t> named_;  // index into uses_
+    std::map<std::pair<MaterialId, TextureId>, MaterialId> with_alpha_;
+    std::map<std::string, std::uint32_t> objects_;
+    std::optional<std::uint32_t> open_object_;
+    std::vector<WaitingShape> waiting_;
+};
+
+}  // namespace lightnet::pbrt

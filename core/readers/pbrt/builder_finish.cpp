@@ -1,0 +1,128 @@
+// The end of the Builder's work: what was promised comes together as a scene.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/readers/pbrt/builder.hpp"
+#include "core/suggestion.hpp"
+
+namespace lightnet::pbrt {
+namespace {
+
+/// One triangle of a mesh, alone.
+Mesh single(const Mesh& mesh, std::size_t triangle) {
+    Mesh result;
+    result.flip_normals = mesh.flip_normals;
+    for (const auto i : mesh.triangles[triangle]) {
+        result.positions.push_back(mesh.positions[i]);
+        if (!mesh.normals.empty()) result.normals.push_back(mesh.normals[i]);
+        if (!mesh.uvs.empty()) result.uvs.push_back(mesh.uvs[i]);
+    }
+    result.triangles.push_back({0, 1, 2});
+    return result;
+}
+
+}  // namespace
+
+void Builder::check_uses() {
+    std::vector<std::string> known;
+    for (const auto& [name, use] : named_)
+        if (uses_[use].made) known.push_back(name);
+    for (auto& use : uses_) {
+        if (use.made || sources_.report.full()) continue;
+        sources_.report.error(use.first_use,
+                              fmt::format("there is no material '{}'{}", use.name, did_you_mean(use.name, known)));
+    }
+}
+
+void Builder::finish_shapes() {
+    if (shapes_.budget().exceeded())
+        sources_.report.error({sources_.main, 0}, "the scene has more than 2^27 vertices and triangles");
+    for (auto& waiting : waiting_) {
+        if (sources_.report.full()) return;
+        finish_shape(waiting);
+        waiting.made.reset();
+    }
+    waiting_.clear();
+}
+
+void Builder::finish_shape(WaitingShape& waiting) {
+    MadeShape& made = *waiting.made;
+    if (!made.problem.empty()) sources_.report.error(waiting.where, waiting.owner + ": " + made.problem);
+    if (!made.geometry || !uses_[waiting.material].made) return;
+    const auto* mesh = std::get_if<Mesh>(&*made.geometry);
+    if (mesh && mesh->triangles.empty())
+        return sources_.report.warn(waiting.where, "a shape without any triangle is left out");
+    const MaterialId material = *uses_[waiting.material].made;
+    if (std::holds_alternative<NoMaterial>(scene_.materials[material].model)) {
+        if (waiting.lamp)
+            sources_.report.warn(waiting.where, "a lamp with the material 'interface' doesn't shine (as in pbrt)");
+        return sources_.report.warn(waiting.where,
+                                    "a shape of the material 'interface' only bounds media, and is left out");
+    }
+    Shape shape;
+    shape.geometry = std::move(*made.geometry);
+    shape.material = waiting.alpha ? with_alpha(material, *waiting.alpha) : material;
+    shape.where = waiting.where;
+    if (waiting.lamp)
+        emit(std::move(shape), *waiting.lamp, waiting.lamp_per_triangle);
+    else
+        add_shape(std::move(shape), waiting.object);
+}
+
+/// A copy of the material that is only there as far as `alpha` says.
+MaterialId Builder::with_alpha(MaterialId material, TextureId alpha) {
+    const auto [place, fresh] = with_alpha_.try_emplace({material, alpha});
+    if (fresh) {
+        place->second = static_cast<MaterialId>(scene_.materials.size());
+        Material copy = scene_.materials[material];
+        copy.opacity = alpha;
+        scene_.materials.push_back(std::move(copy));
+    }
+    return place->second;
+}
+
+/// `each_triangle`: for pbrt every triangle of a mesh is a lamp of its own, with the power that was asked for.
+void Builder::emit(Shape shape, const AreaLight& lamp, bool each_triangle) {
+    constexpr std::size_t most_lamps = 1 << 16;
+    const auto* mesh = std::get_if<Mesh>(&shape.geometry);
+    const double area = area_of(shape.geometry);
+    if (!lamp.power || !each_triangle || !mesh) {
+        shape.emission = lamp.on(area);
+        return add_shape(std::move(shape), std::nullopt);
+    }
+    if (mesh->triangles.size() > most_lamps) {
+        sources_.report.warn(shape.where, "the power of so many triangles is spread evenly over all of them");
+        shape.emission = lamp.on(area / double(mesh->triangles.size()));
+        return add_shape(std::move(shape), std::nullopt);
+    }
+    for (std::size_t i = 0; i < mesh->triangles.size(); ++i) {
+        Shape one{single(*mesh, i), shape.material, std::nullopt, shape.where};
+        one.emission = lamp.on(area_of(one.geometry));
+        add_shape(std::move(one), std::nullopt);
+    }
+}
+
+void Builder::add_shape(Shape shape, const std::optional<std::uint32_t>& object) {
+    if (object) scene_.objects[*object].shapes.push_back(static_cast<std::uint32_t>(scene_.shapes.size()));
+    scene_.shapes.push_back(std::move(shape));
+}
+
+void Builder::finish_film() {
+    scene_.film.scale *= exposure_;
+    take_scale_out(scene_.camera);
+    if (white_ == Rgb{1, 1, 1}) return;
+    // light is linear, so a white balance per channel may as well be done where the light comes from
+    const Rgb gain{1 / std::max(white_.r, 1e-3f), 1 / std::max(white_.g, 1e-3f), 1 / std::max(white_.b, 1e-3f)};
+    for (auto& shape : scene_.shapes)
+        if (shape.emission) shape.emission->radiance *= gain;
+    for (auto& environment : scene_.environments) environment.radiance *= gain;
+    for (auto& light : scene_.lights) {
+        if (auto* point = std::get_if<PointLight>(&light)) point->intensity *= gain;
+        if (auto* spot = std::get_if<SpotLight>(&light)) spot->intensity *= gain;
+        if (auto* sun = std::get_if<DirectionalLight>(&light)) sun->irradiance *= gain;
+    }
+}
+
+}  // namespace lightnet::pbrt

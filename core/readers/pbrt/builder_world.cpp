@@ -1,0 +1,138 @@
+// The Builder's statements behind WorldBegin: materials, lights, shapes, instances.
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "core/readers/pbrt/builder.hpp"
+#include "core/readers/pbrt/materials.hpp"
+#include "core/readers/pbrt/transforms.hpp"
+#include "core/suggestion.hpp"
+
+namespace lightnet::pbrt {
+
+Material Builder::material_of(const std::string& type, Parameters& parameters) {
+    parameters.inherit(state_.defaults["material"]);
+    const auto find = [&](const std::string& name) -> std::optional<MaterialId> {
+        const auto found = named_.find(name);
+        return found == named_.end() ? std::nullopt : uses_[found->second].made;
+    };
+    Material material = make_material(type, parameters, {textures_, find});
+    parameters.warn_unused();
+    return material;
+}
+
+void Builder::material(Statement& s) {
+    scene_.materials.push_back(material_of(s.names[0], s.parameters));
+    state_.material = uses_.size();
+    uses_.push_back({static_cast<MaterialId>(scene_.materials.size() - 1), "", s.where});
+}
+
+std::size_t Builder::use_of(const std::string& name, const SourceLine& where) {
+    const auto [place, fresh] = named_.try_emplace(name, uses_.size());
+    if (fresh) uses_.push_back({std::nullopt, name, where});
+    return place->second;
+}
+
+void Builder::make_named_material(Statement& s) {
+    const std::string& name = s.names[0];
+    const std::string type = s.parameters.text("type", "");
+    const std::size_t use = use_of(name, s.where);
+    if (!s.parameters.find("type")) {
+        s.parameters.error("parameter 'type' is missing");
+        uses_[use].made = 0;
+        return;
+    }
+    Material material = material_of(type, s.parameters);
+    if (uses_[use].made) s.parameters.error("a material of that name is there already");
+    material.name = name;
+    scene_.materials.push_back(std::move(material));
+    uses_[use].made = static_cast<MaterialId>(scene_.materials.size() - 1);
+}
+
+// pbrt looks names up at the end, so a material may be named before it is made
+void Builder::named_material(Statement& s) { state_.material = use_of(s.names[0], s.where); }
+
+void Builder::texture(Statement& s) {
+    s.parameters.inherit(state_.defaults["texture"]);
+    textures_.define(s.names[0], s.names[1], s.names[2], s.parameters);
+    s.parameters.warn_unused();
+}
+
+void Builder::area_light(Statement& s) {
+    s.parameters.inherit(state_.defaults["light"]);
+    state_.lamp = make_area_light(s.names[0], s.parameters, textures_, sources_);
+    s.parameters.warn_unused();
+}
+
+void Builder::light(Statement& s) {
+    s.parameters.inherit(state_.defaults["light"]);
+    add_light(s.names[0], s.parameters, textures_, sources_, state_.to_world, scene_);
+    s.parameters.warn_unused();
+}
+
+void Builder::shape(Statement& s) {
+    s.parameters.inherit(state_.defaults["shape"]);
+    const auto from_world = inverse(state_.to_world);
+    if (!from_world) {
+        s.parameters.error("the transform is singular");
+        return;
+    }
+    WaitingShape shape;
+    shape.alpha = alpha_of(s.parameters);
+    shape.made = shapes_.make(s.names[0], s.parameters, {state_.to_world, *from_world, state_.reversed});
+    s.parameters.warn_unused();
+    if (!shape.made) return;
+    if (state_.lamp && open_object_)
+        s.parameters.warn("lamps inside of an object don't shine (as in pbrt)");
+    else
+        shape.lamp = state_.lamp;
+    shape.lamp_per_triangle = s.names[0] == "trianglemesh" || s.names[0] == "plymesh";
+    shape.material = state_.material;
+    shape.object = open_object_;
+    shape.owner = s.parameters.owner();
+    shape.where = s.where;
+    waiting_.push_back(std::move(shape));
+}
+
+/// None: opaque.
+std::optional<TextureId> Builder::alpha_of(Parameters& parameters) {
+    const auto alpha = textures_.maybe_number(parameters, "alpha");
+    const auto everywhere = alpha ? textures_.constant_value(*alpha) : std::nullopt;
+    return everywhere && everywhere->r >= 1 ? std::nullopt : alpha;
+}
+
+void Builder::object_begin(Statement& s) {
+    if (open_object_) {
+        sources_.report.error(s.where, "ObjectBegin inside of another object");
+        return;
+    }
+    push(Block::object, s.where);
+    const auto [place, fresh] = objects_.try_emplace(s.names[0], static_cast<std::uint32_t>(scene_.objects.size()));
+    if (fresh)
+        scene_.objects.push_back({s.names[0], {}});
+    else
+        sources_.report.error(s.where, fmt::format("there is an object '{}' already", s.names[0]));
+    open_object_ = place->second;
+}
+
+void Builder::object_end(Statement& s) {
+    if (pop(Block::object, "ObjectBegin", s.where)) open_object_ = std::nullopt;
+}
+
+void Builder::object_instance(Statement& s) {
+    constexpr std::uint64_t size = 16;  // in memory, beside a vertex's
+    const auto found = objects_.find(s.names[0]);
+    if (found != objects_.end() && !open_object_ && inverse(state_.to_world)) {
+        shapes_.budget().take(size);
+        if (!shapes_.budget().exceeded()) scene_.instances.push_back({found->second, state_.to_world});
+        return;
+    }
+    std::vector<std::string> known;
+    for (const auto& [name, object] : objects_) known.push_back(name);
+    sources_.report.error(s.where, open_object_              ? "ObjectInstance inside of an object"
+                                   : found == objects_.end() ? fmt::format("there is no object '{}'{}", s.names[0],
+                                                                           did_you_mean(s.names[0], known))
+                                                             : "the transform is singular");
+}
+
+}  // namespace lightnet::pbrt

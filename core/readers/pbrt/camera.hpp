@@ -1,0 +1,34 @@
+// pbrt's camera and film.
+#pragma once
+
+#include <string>
+
+#include "core/math/transform.hpp"
+#include "core/readers/pbrt/parameters.hpp"
+#include "core/scene/scene_data.hpp"
+
+namespace lightnet::pbrt {
+
+/// A camera, and how long its shutter is open.
+struct Shot {
+    CameraData camera;
+    float exposure = 1;  // seconds
+};
+
+/// `to_world` is the inverse of the transform at the Camera statement.
+Shot make_camera(const std::string& type, Parameters& parameters, const Matrix& to_world);
+
+/// Makes the axes of a camera's transform unit vectors, and its lens and screen as large as they were.
+void take_scale_out(CameraData& camera);
+
+/// A film, and the light that it shows as white.
+struct FilmShot {
+    FilmData film;
+    Rgb white{1, 1, 1};  // luminance 1
+};
+
+/// The film, its scale without the exposure time: with a sensor of ISO 100 and one second a light of `rgb L` [l l l],
+/// seen directly, has the value l.
+FilmShot make_film(const std::string& type, Parameters& parameters);
+
+}  // namespace lightnet::pbrt

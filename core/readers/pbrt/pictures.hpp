@@ -1,0 +1,49 @@
+// The picture files of one pbrt scene, decoded while the reader goes on.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "core/readers/image_file.hpp"
+#include "core/readers/pbrt/sources.hpp"
+#include "core/readers/workshop.hpp"
+#include "core/scene/scene_data.hpp"
+
+namespace lightnet::pbrt {
+
+/// Each file and encoding is decoded once. Called from one thread.
+class Pictures {
+public:
+    Pictures(const Sources& sources, Workshop& workshop) : sources_(sources), workshop_(workshop) {}
+
+    /// A picture that is empty until finish(). None: the file can't be read, which is reported.
+    std::shared_ptr<const Image> get(const std::string& name, const Encoding& encoding, const SourceLine& where);
+    /// Waits until all pictures are there. Broken ones stay empty and are reported, in the order in which they came.
+    void finish();
+
+private:
+    struct Order {
+        std::string name;
+        SourceLine where;
+        std::shared_ptr<Image> image;
+        std::string problem;  // "": none
+    };
+    using Key = std::tuple<std::string, Encoding::Curve, float>;
+
+    void decode(Order& order, const Bytes& bytes, const Encoding& encoding);
+
+    const Sources& sources_;
+    Workshop& workshop_;
+    std::map<Key, std::shared_ptr<const Image>> known_;
+    std::vector<std::unique_ptr<Order>> orders_;  // those before `reported_` are finished
+    std::size_t reported_ = 0;
+    std::atomic<std::uint64_t> pixels_ = 0;  // of all pictures
+    bool too_many_ = false;                  // and said so
+};
+
+}  // namespace lightnet::pbrt

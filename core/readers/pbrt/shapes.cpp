@@ -1,0 +1,171 @@
+#include "core/readers/pbrt/shapes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include "core/readers/gzip.hpp"
+#include "core/readers/pbrt/meshes.hpp"
+#include "core/readers/pbrt/quadrics.hpp"
+#include "core/readers/pbrt/transforms.hpp"
+#include "core/readers/ply.hpp"
+#include "core/suggestion.hpp"
+
+namespace lightnet::pbrt {
+namespace {
+
+constexpr float full_turn = 2 * std::numbers::pi_v<float>;
+
+std::optional<Geometry> placed(std::optional<Mesh> mesh, Parameters& parameters, const Placement& placement,
+                               bool turn) {
+    if (!mesh) return std::nullopt;
+    if (const std::string problem = place(*mesh, placement, turn); !problem.empty()) {
+        parameters.error(problem);
+        return std::nullopt;
+    }
+    return std::move(*mesh);
+}
+
+std::optional<Geometry> triangles(Parameters& parameters, const Placement& placement) {
+    return placed(triangle_mesh(parameters), parameters, placement, placement.reversed);
+}
+
+std::optional<Geometry> bilinear(Parameters& parameters, const Placement& placement) {
+    return placed(bilinear_mesh(parameters), parameters, placement, placement.reversed);
+}
+
+std::optional<Geometry> subdivision(Parameters& parameters, const Placement& placement) {
+    return placed(subdivision_mesh(parameters), parameters, placement, placement.reversed);
+}
+
+/// The axes of a transform that scales all directions alike: its rotation (and mirroring) alone.
+Matrix axes_of(const Matrix& matrix, double scale) {
+    Matrix axes;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) axes.m[i][j] = matrix.m[i][j] / scale;
+    return axes;
+}
+
+std::optional<Geometry> sphere(Parameters& parameters, const Placement& placement) {
+    const float radius = parameters.number("radius", 1);
+    if (!(radius > 0)) {
+        parameters.error("the radius must be above 0");
+        return std::nullopt;
+    }
+    SpherePart part{radius, parameters.number("zmin", -radius), parameters.number("zmax", radius),
+                    parameters.number("phimax", 360) / 360 * full_turn};
+    if (part.z_min > part.z_max) std::swap(part.z_min, part.z_max);
+    part.phi_max = std::clamp(part.phi_max, 0.0f, full_turn);
+    const auto scale = uniform_scale(placement.to_world);
+    const bool whole = part.z_min <= -radius && part.z_max >= radius && part.phi_max >= full_turn;
+    if (whole && scale) {
+        const Vec3 center = transform_point(placement.to_world, {});
+        const float size = float(radius * *scale);
+        if (finite(center) && std::isfinite(size) && size > 0)
+            return Sphere{center, size, placement.flips(), axes_of(placement.to_world, *scale)};
+        parameters.error("centre or radius is not finite after the transforms");
+        return std::nullopt;
+    }
+    parameters.warn(whole ? "a sphere that is scaled unevenly is cut into triangles"
+                          : "a part of a sphere is cut into triangles");
+    return placed(sphere_mesh(part), parameters, placement, placement.flips());
+}
+
+std::optional<Geometry> disk(Parameters& parameters, const Placement& placement) {
+    parameters.warn("a disk is cut into triangles");
+    return placed(disk_mesh(parameters), parameters, placement, placement.flips());
+}
+
+std::optional<Geometry> cylinder(Parameters& parameters, const Placement& placement) {
+    parameters.warn("a cylinder is cut into triangles");
+    return placed(cylinder_mesh(parameters), parameters, placement, placement.flips());
+}
+
+using Maker = std::optional<Geometry> (*)(Parameters&, const Placement&);
+
+const std::map<std::string, Maker>& makers() {
+    static const std::map<std::string, Maker> table{{"trianglemesh", triangles}, {"sphere", sphere},
+                                                    {"bilinearmesh", bilinear},  {"disk", disk},
+                                                    {"cylinder", cylinder},      {"loopsubdiv", subdivision}};
+    return table;
+}
+
+Geometry read_mesh(const Bytes& bytes, const Placement& placement) {
+    Mesh mesh = is_gzip(*bytes) ? read_ply(gunzip(*bytes)) : read_ply(*bytes);
+    if (const std::string problem = place(mesh, placement, placement.reversed); !problem.empty()) throw Error(problem);
+    return mesh;
+}
+
+}  // namespace
+
+void Budget::take(const Geometry& geometry) {
+    constexpr std::uint64_t least = 16;
+    const auto* mesh = std::get_if<Mesh>(&geometry);
+    take(least + (mesh ? mesh->triangles.size() + mesh->positions.size() : 0));
+}
+
+std::shared_ptr<MadeShape> Shapes::make(const std::string& type, Parameters& parameters, const Placement& placement) {
+    if (budget_.exceeded()) {
+        parameters.ignore_all();
+        return nullptr;  // said in the end
+    }
+    if (type == "curve") {
+        parameters.ignore_all();
+        sources_.report.warn(parameters.where(), "shapes of type 'curve' are not supported and left out");
+        return nullptr;
+    }
+    if (type == "plymesh") return ply_mesh(parameters, placement);
+    const auto maker = makers().find(type);
+    if (maker == makers().end()) {
+        std::vector<std::string> known{"plymesh"};
+        for (const auto& entry : makers()) known.push_back(entry.first);
+        parameters.error("unknown shape" + did_you_mean(type, known));
+        parameters.ignore_all();
+        return nullptr;
+    }
+    auto geometry = maker->second(parameters, placement);
+    if (!geometry) return nullptr;
+    budget_.take(*geometry);
+    return std::make_shared<MadeShape>(MadeShape{std::move(geometry), {}});
+}
+
+std::shared_ptr<MadeShape> Shapes::ply_mesh(Parameters& parameters, const Placement& placement) {
+    const std::string file = parameters.text("filename", "");
+    if (parameters.find("displacement")) parameters.warn("displacement is left out");
+    parameters.ignore({"edgelength"});
+    if (file.empty()) {
+        parameters.error("parameter 'filename' is missing");
+        return nullptr;
+    }
+    const auto bytes = sources_.read(file, parameters.where());
+    if (!bytes) return nullptr;
+    auto made = std::make_shared<MadeShape>();
+    workshop_.add([this, made, file, placement, bytes = *bytes] {
+        if (budget_.exceeded()) return;
+        try {
+            made->geometry = read_mesh(bytes, placement);
+            budget_.take(*made->geometry);
+        } catch (const std::exception& problem) {
+            made->problem = fmt::format("'{}': {}", file, problem.what());
+        }
+    });
+    return made;
+}
+
+double area_of(const Geometry& geometry) {
+    if (const auto* ball = std::get_if<Sphere>(&geometry))
+        return 4 * std::numbers::pi * double(ball->radius) * double(ball->radius);
+    double area = 0;
+    const auto& mesh = std::get<Mesh>(geometry);
+    for (const auto& t : mesh.triangles)
+        area += 0.5 * double(length(cross(mesh.positions[t[1]] - mesh.positions[t[0]],
+                                          mesh.positions[t[2]] - mesh.positions[t[0]])));
+    return area;
+}
+
+}  // namespace lightnet::pbrt

@@ -1,0 +1,68 @@
+// pbrt's shapes, made into meshes and spheres.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "core/math/transform.hpp"
+#include "core/readers/pbrt/parameters.hpp"
+#include "core/readers/pbrt/sources.hpp"
+#include "core/readers/workshop.hpp"
+#include "core/scene/scene_data.hpp"
+
+namespace lightnet::pbrt {
+
+using Geometry = std::variant<Mesh, Sphere>;
+
+/// Where a shape stands.
+struct Placement {
+    Matrix to_world;
+    Matrix from_world;
+    bool reversed = false;  // ReverseOrientation
+
+    /// Is the normal against the one that the shape has by itself? pbrt's rule: a mirroring turns it as well.
+    bool flips() const { return reversed != swaps_handedness(to_world); }
+};
+
+/// What a scene takes of memory, counted in vertices and triangles.
+class Budget {
+public:
+    static constexpr std::uint64_t most = std::uint64_t{1} << 27;  // about 4 GB, and as much again in Embree
+    void take(const Geometry& geometry);
+    void take(std::uint64_t size) { taken_ += size; }
+    bool exceeded() const { return taken_ > most; }
+
+private:
+    std::atomic<std::uint64_t> taken_ = 0;
+};
+
+/// A shape that was asked for. Meshes in files come later: wait for the workshop before looking.
+struct MadeShape {
+    std::optional<Geometry> geometry;
+    std::string problem;  // why there is none, as far as it isn't reported yet
+};
+
+/// Makes the shapes of one scene.
+class Shapes {
+public:
+    Shapes(const Sources& sources, Workshop& workshop) : sources_(sources), workshop_(workshop) {}
+
+    /// The shape of that type, where it stands. None: reported.
+    std::shared_ptr<MadeShape> make(const std::string& type, Parameters& parameters, const Placement& placement);
+    Budget& budget() { return budget_; }
+
+private:
+    std::shared_ptr<MadeShape> ply_mesh(Parameters& parameters, const Placement& placement);
+
+    const Sources& sources_;
+    Workshop& workshop_;
+    Budget budget_;
+};
+
+double area_of(const Geometry& geometry);
+
+}  // namespace lightnet::pbrt

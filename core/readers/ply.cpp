@@ -1,0 +1,211 @@
+#include "core/readers/ply.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+#include "core/readers/ply_header.hpp"
+
+namespace lightnet {
+namespace {
+
+using ply::Element;
+using ply::fail;
+using ply::Format;
+using ply::Input;
+using ply::Property;
+using ply::Scalar;
+
+/// Throws unless the file has room for all that the header promises of the element, before anything is allocated.
+void check_room(const Input& input, Format format, const Element& element) {
+    std::size_t least = 0;
+    for (const auto& property : element.properties)
+        least += format == Format::ascii ? 2 : ply::size_of(property.list ? property.count_type : property.type);
+    if (element.count && !least) fail(fmt::format("element '{}' has no properties", element.name.substr(0, 32)));
+    // the last number of an ASCII file needs no space behind it
+    if (element.count && element.count > (input.left() + 1) / least)
+        fail(fmt::format("the header promises {} of '{}', but the file is too short for them", element.count,
+                         element.name.substr(0, 32)));
+    if (element.count > std::numeric_limits<std::uint32_t>::max()) fail("too many elements");
+}
+
+std::size_t list_length(Input& input, Format format, const Property& list) {
+    const double length = input.number(format, list.count_type);
+    const std::size_t least = format == Format::ascii ? 2 : ply::size_of(list.type);
+    if (!(length >= 0) || length != std::floor(length) || length > static_cast<double>((input.left() + 1) / least))
+        fail(fmt::format("list '{}' has an impossible length", list.name.substr(0, 32)));
+    return static_cast<std::size_t>(length);
+}
+
+void skip(Input& input, Format format, const Property& property) {
+    const std::size_t length = property.list ? list_length(input, format, property) : 1;
+    for (std::size_t i = 0; i < length; ++i) input.number(format, property.type);
+}
+
+constexpr int red = 8, slots = 11;
+
+/// Which of the values of a vertex a property is: x y z nx ny nz u v red green blue; none: -1.
+int slot_of(std::string_view name) {
+    constexpr std::array<std::pair<std::string_view, int>, 23> names{{{"x", 0},
+                                                                      {"y", 1},
+                                                                      {"z", 2},
+                                                                      {"nx", 3},
+                                                                      {"ny", 4},
+                                                                      {"nz", 5},
+                                                                      {"u", 6},
+                                                                      {"v", 7},
+                                                                      {"s", 6},
+                                                                      {"t", 7},
+                                                                      {"texture_u", 6},
+                                                                      {"texture_v", 7},
+                                                                      {"texture_s", 6},
+                                                                      {"texture_t", 7},
+                                                                      {"red", red},
+                                                                      {"green", red + 1},
+                                                                      {"blue", red + 2},
+                                                                      {"r", red},
+                                                                      {"g", red + 1},
+                                                                      {"b", red + 2},
+                                                                      {"diffuse_red", red},
+                                                                      {"diffuse_green", red + 1},
+                                                                      {"diffuse_blue", red + 2}}};
+    for (const auto& [word, slot] : names)
+        if (word == name) return slot;
+    return -1;
+}
+
+/// Colours in whole numbers are encoded as sRGB, those in floats are linear.
+float colour_value(double value, Scalar type) {
+    if (type == Scalar::f32 || type == Scalar::f64) return static_cast<float>(value);
+    const double encoded = value / (type == Scalar::u16 || type == Scalar::i16 ? 65535 : 255);
+    return static_cast<float>(encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4));
+}
+
+void read_vertices(Input& input, Format format, const Element& element, Mesh& mesh) {
+    std::array<bool, slots> has{};
+    std::vector<int> slot_by_property;
+    for (const auto& property : element.properties) {
+        slot_by_property.push_back(property.list ? -1 : slot_of(property.name));
+        if (slot_by_property.back() >= 0) has[slot_by_property.back()] = true;
+    }
+    if (!has[0] || !has[1] || !has[2]) fail("the vertices have no x, y and z");
+    const bool normals = has[3] && has[4] && has[5], uvs = has[6] && has[7];
+    const bool colours = has[red] && has[red + 1] && has[red + 2];
+    mesh.positions.reserve(element.count);
+    if (normals) mesh.normals.reserve(element.count);
+    if (uvs) mesh.uvs.reserve(element.count);
+    if (colours) mesh.colours.reserve(element.count);
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+        std::array<float, slots> v{};
+        for (std::size_t j = 0; j < element.properties.size(); ++j) {
+            const auto& property = element.properties[j];
+            const int slot = slot_by_property[j];
+            if (slot < 0) {
+                skip(input, format, property);
+                continue;
+            }
+            const double value = input.number(format, property.type);
+            v[slot] = slot < red ? static_cast<float>(value) : colour_value(value, property.type);
+        }
+        if (!finite(Vec3{v[0], v[1], v[2]})) fail(fmt::format("the position of vertex {} is not finite", i));
+        mesh.positions.push_back({v[0], v[1], v[2]});
+        if (normals) mesh.normals.push_back({v[3], v[4], v[5]});
+        if (uvs) mesh.uvs.push_back({v[6], v[7]});
+        if (colours) mesh.colours.push_back({v[red], v[red + 1], v[red + 2]});
+    }
+}
+
+void read_face(Input& input, Format format, const Property& list, Mesh& mesh) {
+    const std::size_t corners = list_length(input, format, list);
+    std::array<std::uint32_t, 3> fan{};
+    for (std::size_t i = 0; i < corners; ++i) {
+        const double index = input.number(format, list.type);
+        if (!(index >= 0) || index != std::floor(index) || index > std::numeric_limits<std::uint32_t>::max())
+            fail("a face has an impossible vertex index");
+        fan[std::min<std::size_t>(i, 2)] = static_cast<std::uint32_t>(index);
+        if (i < 2) continue;
+        mesh.triangles.push_back(fan);
+        fan[1] = fan[2];
+    }
+    if (corners < 3) fail(fmt::format("a face has {} corners", corners));
+}
+
+/// Strips one behind the other, with -1 between them.
+void read_strip(Input& input, Format format, const Property& list, Mesh& mesh) {
+    const std::size_t length = list_length(input, format, list);
+    std::array<std::uint32_t, 2> last{};
+    std::size_t seen = 0;
+    for (std::size_t i = 0; i < length; ++i) {
+        const double index = input.number(format, list.type);
+        if (index < 0) {
+            seen = 0;
+            continue;
+        }
+        if (!(index <= std::numeric_limits<std::uint32_t>::max()) || index != std::floor(index))
+            fail("a triangle strip has an impossible vertex index");
+        const auto corner = static_cast<std::uint32_t>(index);
+        if (seen >= 2 && seen % 2 == 0) mesh.triangles.push_back({last[0], last[1], corner});
+        if (seen >= 2 && seen % 2 == 1) mesh.triangles.push_back({last[1], last[0], corner});
+        last = {last[1], corner};
+        ++seen;
+    }
+}
+
+/// Reads the elements whose list of corners `read` understands.
+template <class Read>
+void read_lists(Input& input, Format format, const Element& element, Mesh& mesh, const Read& read) {
+    const auto corners = [](const Property& p) {
+        return p.list && (p.name == "vertex_indices" || p.name == "vertex_index");
+    };
+    if (std::none_of(element.properties.begin(), element.properties.end(), corners))
+        fail(fmt::format("'{}' has no list 'vertex_indices'", element.name.substr(0, 32)));
+    mesh.triangles.reserve(mesh.triangles.size() + element.count);
+    for (std::uint64_t i = 0; i < element.count; ++i)
+        for (const auto& property : element.properties) {
+            if (corners(property))
+                read(input, format, property, mesh);
+            else
+                skip(input, format, property);
+        }
+}
+
+void check_indices(const Mesh& mesh) {
+    for (const auto& triangle : mesh.triangles)
+        for (const auto index : triangle)
+            if (index >= mesh.positions.size())
+                fail(fmt::format("a face has the vertex index {}, but there are {} vertices", index,
+                                 mesh.positions.size()));
+}
+
+}  // namespace
+
+Mesh read_ply(std::span<const std::byte> bytes) {
+    Input input({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    const ply::Header header = ply::read_header(input);
+    Mesh mesh;
+    bool vertices = false, faces = false;
+    for (const auto& element : header.elements) {
+        check_room(input, header.format, element);
+        if (element.name == "vertex" && !std::exchange(vertices, true)) {
+            read_vertices(input, header.format, element, mesh);
+        } else if (element.name == "face" && !std::exchange(faces, true)) {
+            read_lists(input, header.format, element, mesh, read_face);
+        } else if (element.name == "tristrips" && !std::exchange(faces, true)) {
+            read_lists(input, header.format, element, mesh, read_strip);
+        } else {
+            for (std::uint64_t i = 0; i < element.count; ++i)
+                for (const auto& property : element.properties) skip(input, header.format, property);
+        }
+    }
+    if (!vertices || !faces) fail("there are no vertices or no faces");
+    check_indices(mesh);
+    return mesh;
+}
+
+}  // namespace lightnet

@@ -1,0 +1,28 @@
+#include "core/readers/read_scene.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+#include "core/readers/gltf/gltf.hpp"
+#include "core/readers/mitsuba/mitsuba.hpp"
+#include "core/readers/obj/obj.hpp"
+#include "core/readers/pbrt/pbrt.hpp"
+#include "core/readers/ply.hpp"
+
+namespace lightnet {
+
+SceneData read_scene(Files& files, const std::string& path, const std::map<std::string, std::string>& constants) {
+    std::string ending = path.substr(std::min(path.rfind('.'), path.size()));
+    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    if (ending == ".xml") return mitsuba::read(files, path, constants);
+    if (!constants.empty())
+        throw UserError({path, 0}, "only Mitsuba's scenes ('.xml') have variables: there is no '" +
+                                       constants.begin()->first + "' to define");
+    if (ending == ".pbrt") return pbrt::read(files, path);
+    if (ending == ".gltf" || ending == ".glb") return gltf::read(files, path);
+    if (ending == ".obj") return obj::read(files, path);
+    if (ending == ".ply") return read_ply_scene(files, path);
+    throw UserError({path, 0}, "a scene must be a '.pbrt', '.xml' (Mitsuba), '.gltf', '.glb', '.obj' or '.ply' file");
+}
+
+}  // namespace lightnet

@@ -1,0 +1,148 @@
+// One channel made of several equal ones: the questions go where they will be answered first.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <map>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/hash.hpp"
+#include "core/message/channel.hpp"
+#include "core/message/counters.hpp"
+#include "core/message/describe_question.hpp"
+#include "core/message/region.hpp"
+#include "core/schedule/scheduler.hpp"
+
+namespace lightnet {
+
+/// The seconds of the steady clock.
+inline double steady_seconds() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// How a multiplexer works.
+struct MultiplexerRules {
+    Scheduler::Rules scheduling;
+    std::size_t least_piece = 64;   // questions; bundles are cut into no smaller pieces
+    double worth_cutting = 500e-6;  // seconds; what takes less stays whole
+    /// Answers that come twice are compared bit for bit, and this is told when they differ; empty: they are not.
+    std::function<void(const std::string& what)> differs;
+    std::function<double()> clock = steady_seconds;
+};
+
+/// Does what its Scheduler decides. Serves light and rendering, threads and hosts alike, and may be made of
+/// multiplexers. Bundles that are large for what they cost are cut up, so that idle replicas share them; with affinity,
+/// every replica gets the questions of its regions. Bundles come back to their owner answered, failed or set aside,
+/// never returned: what a lost replica had is asked again here. Does not own its channels; used by one thread.
+template <class Question>
+class Multiplexer final : public Channel<Question>, private BundleOwner<Question> {
+public:
+    using Time = std::chrono::steady_clock::time_point;
+
+    Multiplexer() = default;
+    explicit Multiplexer(std::vector<Channel<Question>*> channels, MultiplexerRules rules = {}) {
+        follow(std::move(rules));
+        use(std::move(channels));
+    }
+
+    /// Before it has channels. Counts in `counters`, if given, which must outlive it.
+    void follow(MultiplexerRules rules, Counters* counters = nullptr) {
+        rules_ = std::move(rules);
+        scheduler_ = Scheduler(rules_.scheduling);
+        counters_ = counters;
+    }
+
+    /// From now on, these. Those of them that are `draining` answer what they have, and are asked no more; they may be
+    /// so, or not, again and again. Those that are missing were lost, unless they were draining.
+    void use(std::vector<Channel<Question>*> channels, const std::vector<Channel<Question>*>& draining = {});
+    /// So many more questions will come: until then it is not the end of a phase.
+    void foresee(std::size_t questions) { tell(Scheduler::Foreseen{questions}); }
+    /// Nobody wants any more what is not under way.
+    void drop_waiting() { tell(Scheduler::Dropped{}); }
+
+    std::size_t size() const { return scheduler_.replicas(); }
+    /// May a bundle be sent that would leave at once?
+    bool has_credit() const { return scheduler_.has_room(); }
+    /// Is anything waiting for credit, or to be tried again?
+    bool has_waiting() const { return scheduler_.has_waiting(); }
+    std::size_t outstanding() const { return scheduler_.questions_out(); }
+    std::size_t bundles_outstanding() const { return scheduler_.copies_out(); }
+    const Scheduler& scheduler() const { return scheduler_; }
+
+    /// Takes a bundle, and sends it when a replica is free. Always true.
+    bool send(const Bundle<Question>& bundle) override;
+    /// Sends what has become due. Call it several times a second. True if anything was sent.
+    bool tick();
+    /// How long until a tick is due though nothing arrives.
+    std::chrono::nanoseconds until_due() const;
+
+    Credit credit() const override;
+    Load load() const override;
+
+private:
+    struct Slot {
+        Channel<Question>* channel = nullptr;
+        bool draining = false;
+        std::string host;
+    };
+    // A bundle that was cut up.
+    struct Whole {
+        Bundle<Question> bundle;
+        std::vector<Rgb> answers;
+        std::size_t missing = 0;  // pieces
+        bool given_up = false;
+    };
+    struct Entry {
+        Bundle<Question> bundle;
+        std::shared_ptr<Whole> whole;      // null: the bundle is its own
+        std::vector<std::uint32_t> where;  // index in the whole, of each question
+        std::vector<Scheduler::CopyId> copies;
+    };
+
+    void answered(const Bundle<Question>& bundle, std::vector<Rgb> answers) override { replied(bundle, &answers, {}); }
+    void failed(const Bundle<Question>& bundle, const std::string& why) override { replied(bundle, nullptr, why); }
+    void returned(Bundle<Question> bundle) override { tell(Scheduler::Refused{bundle.number}); }
+
+    void tell(const Scheduler::Event& event);
+    struct Performed {
+        bool sent = false, refused = false;
+    };
+    Performed perform(const std::vector<Scheduler::Action>& actions);
+    void add_replica(Channel<Question>* channel);
+    void replied(const Bundle<Question>& bundle, std::vector<Rgb>* answers, const std::string& why);
+    void deliver(Entry entry, std::vector<Rgb> answers);
+    void give_up(const Entry& entry, const std::string& why, bool set_aside);
+    void set_aside_work(const Scheduler::SetAside& verdict);
+    void compare_later(const Entry& entry, Scheduler::CopyId first, const std::vector<Rgb>& answers);
+    void compare(Scheduler::CopyId copy, const std::vector<Rgb>* answers);
+    std::vector<std::vector<std::uint32_t>> cut(const std::vector<Question>& questions) const;
+    std::vector<std::vector<std::uint32_t>> by_home(const std::vector<Question>& questions) const;
+    void add(Entry entry);
+    void count();
+
+    MultiplexerRules rules_;
+    Scheduler scheduler_{rules_.scheduling};
+    Counters* counters_ = nullptr;
+    Scheduler::Counts counted_;
+    std::vector<Slot> slots_;  // by replica
+    std::vector<Scheduler::Replica> free_slots_;
+    std::map<std::string, Scheduler::Host> hosts_;
+    std::vector<std::string> host_names_;
+    std::unordered_map<Scheduler::WorkId, Entry> entries_;
+    std::unordered_map<Scheduler::CopyId, Hash> expected_;  // of copies whose work is done, when checking
+    Scheduler::WorkId next_work_ = 1;
+};
+
+}  // namespace lightnet
+
+#include "core/schedule/multiplexer_parts.hpp"

@@ -1,0 +1,81 @@
+// The channel to one node at one other place.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "core/message/carrier.hpp"
+#include "core/message/channel.hpp"
+#include "core/message/place_name.hpp"
+
+namespace lightnet {
+
+/// Turns bundles into messages, and replies into answers for their owner. Keeps nothing of what is under way: that is
+/// its owner's business.
+template <class Question>
+class RemoteChannel final : public Channel<Question> {
+public:
+    struct Ends {
+        std::uint64_t run = 0;
+        std::uint32_t channel = 0;  // number among the channels of this place
+        std::uint32_t node = 0;     // who is asked
+        PlaceAt place;              // where
+        std::uint64_t asker = 0;    // name_of() the place that asks; 0: the launcher
+    };
+    RemoteChannel(Carrier& carrier, Ends ends, Credit credit, Counters& counters)
+        : carrier_(carrier), ends_(std::move(ends)), credit_(credit), counters_(counters) {}
+
+    bool send(const Bundle<Question>& bundle) override {
+        Message message;
+        message.type = Message::Type::ask;
+        message.run = ends_.run;
+        message.channel = ends_.channel;
+        message.bundle = bundle.number;
+        message.node = ends_.node;
+        message.width = bundle.width;
+        message.asker = ends_.asker;
+        message.questions = bundle.questions;
+        if (!carrier_.ask(ends_.place, message)) return false;
+        owner_ = bundle.owner;
+        counters_.bundles += 1;
+        counters_.questions += bundle.questions->size();
+        return true;
+    }
+
+    Credit credit() const override { return credit_; }
+    Load load() const override { return load_; }
+    std::string host() const override { return ends_.place.host; }
+    std::uint64_t name() const override { return name_of(ends_.place); }
+
+    /// A reply or a failure that names this channel.
+    void arrived(Message& message) {
+        if (closed_ || !owner_) {
+            ++counters_.late_replies;
+            return;
+        }
+        const Bundle<Question> bundle{nullptr, owner_, message.bundle, message.width};
+        if (message.type == Message::Type::failure) return owner_->failed(bundle, message.text);
+        load_ = message.load;
+        owner_->answered(bundle, std::move(message.answers));
+    }
+
+    /// The place is gone: nothing more is sent, and what still comes from it is dropped.
+    void close() {
+        closed_ = true;
+        carrier_.give_up(ends_.channel);
+        carrier_.forget(ends_.place);
+    }
+
+private:
+    Carrier& carrier_;
+    Ends ends_;
+    Credit credit_;
+    Counters& counters_;
+    Load load_;
+    BundleOwner<Question>* owner_ = nullptr;  // of all that is under way
+    bool closed_ = false;
+};
+
+}  // namespace lightnet

@@ -1,0 +1,257 @@
+// Who is to answer what, and what to do when answers stay away: all decisions of one asker, and nothing else.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <set>
+#include <unordered_map>
+#include <variant>
+#include <vector>
+
+#include "core/graph/strategy.hpp"
+#include "core/message/credit.hpp"
+#include "core/schedule/lowest.hpp"
+
+namespace lightnet {
+
+/// A pure state machine: it is told what happens and when, and says what is to be done. It has no clock, socket, thread
+/// or random number, so the same events always give the same actions. Every decision takes O(log replicas).
+///
+/// Work is a bundle or a tile, handed out in copies: one, as a rule. A second copy goes to another replica when the
+/// first is overdue (its place may hang, or the network has lost it), or when a phase ends and a replica is idle. The
+/// first answer counts. Copies on a host that dies make their work suspect: it is asked again alone, with nothing else
+/// on its host, and set aside after its third death alone.
+class Scheduler {
+public:
+    using Time = double;  // seconds, on any clock that does not go back
+    using WorkId = std::uint64_t;
+    using CopyId = std::uint64_t;
+    using Replica = std::uint32_t;  // a number that the caller gives; small, and used again
+    using Host = std::uint32_t;     // likewise; the replicas of a host die together
+
+    struct Rules {
+        Strategy strategy = Strategy::fastest;
+        std::size_t usual = 1;          // questions of usual work: replicas are compared by when they would finish it
+        bool double_tail = false;       // idle replicas do what is left once more
+        double tail_part = 0.05;        // of all work may be done twice so
+        double patience = 2;            // seconds that any work may take ...
+        double late_factor = 8;         // ... or so many times as long as expected, before it counts as overdue
+        double patience_at_first = 30;  // as long as nothing is known of a replica's speed
+        int deaths_alone = 3;           // that convict
+    };
+
+    // ---- what happens ----
+    struct Added {  // work that is wanted
+        WorkId work;
+        std::size_t questions = 1;
+        std::size_t bytes = 0;     // of the questions and of the room for the answers
+        std::uint64_t region = 0;  // equal for work that shares what replicas may have cached
+    };
+    struct Foreseen {  // so many questions will be added later
+        std::size_t questions;
+    };
+    struct Joined {  // a replica that may be asked from now on
+        Replica replica;
+        Host host;
+        std::uint64_t name;  // of the place: the same whenever it comes back
+        Credit credit;
+    };
+    struct Draining {  // it answers what it has, and is asked no more, until it is not draining any more
+        Replica replica;
+        bool draining = true;
+    };
+    struct Gone {  // at the same time
+        std::vector<Replica> replicas;
+        bool died = true;  // false: they left in good order, and no work is to blame
+    };
+    struct Replied {
+        CopyId copy;
+        std::size_t fill = 0;  // questions that wait at the answerer
+        double service = 0;    // seconds per question, as measured there; 0: not known
+    };
+    struct Refused {  // it could not be sent after all
+        CopyId copy;
+    };
+    struct Dropped {};  // nobody wants any more what is not under way
+    struct Tick {       // time to decide. `again`: at once after the last one, as something was refused
+        bool again = false;
+    };
+    using Event = std::variant<Added, Foreseen, Joined, Draining, Gone, Replied, Refused, Dropped, Tick>;
+
+    // ---- what is to be done ----
+    struct Send {
+        CopyId copy;
+        WorkId work;
+        Replica replica;
+        friend bool operator==(const Send&, const Send&) = default;
+    };
+    struct Accept {  // this answer counts; the work is done
+        CopyId copy;
+        WorkId work;
+        friend bool operator==(const Accept&, const Accept&) = default;
+    };
+    struct Drop {  // this answer came late
+        CopyId copy;
+        friend bool operator==(const Drop&, const Drop&) = default;
+    };
+    struct SetAside {  // this work is given up: it seems to kill hosts
+        WorkId work;
+        std::vector<Host> died;  // with nothing else under way
+        friend bool operator==(const SetAside&, const SetAside&) = default;
+    };
+    using Action = std::variant<Send, Accept, Drop, SetAside>;
+
+    /// What it did, for those who count.
+    struct Counts {
+        std::uint64_t asked_again = 0;  // copies that went under with their replica
+        std::uint64_t doubled = 0;      // copies sent to idle replicas at the end of a phase
+        std::uint64_t written_off = 0;  // copies that were overdue
+        std::uint64_t spilled = 0;      // affinity: work that did not go to its home, which had too much
+        friend bool operator==(const Counts&, const Counts&) = default;
+    };
+
+    explicit Scheduler(Rules rules) : rules_(rules) {}
+
+    /// Appends to `actions`. Only a Tick sends.
+    void on(const Event& event, Time now, std::vector<Action>& actions);
+
+    /// Could more work be sent at once?
+    bool has_room() const { return waiting_.empty() && open_.any(); }
+    /// Is anything waiting to be sent, or again?
+    bool has_waiting() const { return !waiting_.empty() || !suspects_.empty() || !refused_.empty(); }
+    /// Something was refused, and is to be tried again soon.
+    bool refused() const { return !refused_.empty(); }
+    /// When a Tick is due though nothing else happens. Lowest::none: never.
+    Time next_tick() const { return overdue_.least(); }
+    /// Replicas that have not gone.
+    std::size_t replicas() const { return present_; }
+    /// Of them, those that are open and have nothing to do.
+    std::size_t idle() const { return idle_; }
+    /// Seconds per question that is answered by all together; 0: not known.
+    double service() const { return rate_ > 0 ? 1 / rate_ : 0; }
+    /// When `replica` would have answered `questions` more, in seconds from now, as far as is known.
+    double completion_time(Replica replica, std::size_t questions) const;
+    /// The replica to which a region belongs; only when there is one.
+    Replica home(std::uint64_t region) const;
+    std::size_t questions_out() const { return questions_out_; }
+    std::size_t copies_out() const { return copies_out_; }
+    /// Where a copy is that is not forgotten.
+    std::optional<Replica> replica_of(CopyId copy) const;
+    /// Is this work wanted, and not done?
+    bool knows(WorkId work) const { return items_.contains(work); }
+    /// Work that is not done.
+    std::size_t unfinished() const { return items_.size(); }
+    const Counts& counts() const { return counts_; }
+
+private:
+    struct Item;
+    struct Copy {
+        CopyId id;
+        Item* item;  // null: its work is done, and its credit is still out
+        std::size_t questions, bytes;
+        Time sent, expected, overdue;
+    };
+    struct Item {
+        Added work;
+        std::vector<CopyId> copies;       // under way
+        std::vector<CopyId> written_off;  // an answer would still be welcome
+        std::vector<Host> died_alone;
+        bool suspect = false;
+        bool waiting = false;
+    };
+    struct Place {
+        bool present = false, draining = false, refused = false;
+        bool silent = false;  // something is overdue, and no reply has come since it was sent
+        Host host = 0;
+        std::uint64_t name = 0;
+        Credit credit;
+        std::vector<Copy> copies;
+        std::vector<CopyId> strays;            // written off, and not answered so far
+        std::size_t questions = 0, bytes = 0;  // of the copies
+        std::size_t others = 0;                // questions that others have waiting there
+        double seconds = 0, answered = 0;      // recent time at work, and questions answered in it
+        double reported = 0;                   // seconds per question, by its own account
+        double patience = 0;
+        Time last_reply = 0;
+        std::uint64_t turn = 0;
+        double counted_rate = 0;  // its part in rate_
+        bool counted_idle = false;
+    };
+    struct Site {  // a host
+        std::set<Replica> replicas;
+        std::size_t copies = 0, strays = 0;
+    };
+    struct Out {  // where a copy is
+        Replica replica;
+        WorkId work;
+        bool written_off = false;
+    };
+
+    void happens(const Added& event, Time now);
+    void happens(const Foreseen& event, Time) { foreseen_ = event.questions; }
+    void happens(const Joined& event, Time now);
+    void happens(const Draining& event, Time now);
+    void happens(const Gone& event, Time now);
+    void happens(const Replied& event, Time now);
+    void happens(const Refused& event, Time now);
+    void happens(const Dropped& event, Time now);
+    void happens(const Tick& event, Time now);
+
+    void send(Item& item, Replica replica, Time now);
+    void finish(Item& item);
+    void wait_again(Item& item);
+    void go(Replica replica, bool died, bool alone);
+    void ask_again(Item& item);
+    void blame(Item& item, Host host, bool alone);
+    Copy take_copy(Replica replica, CopyId copy);
+    Item* take_stray(const Out& out, CopyId copy);
+    void measure(Place& place, const Copy& copy, const Replied& reply, Time now);
+    void write_off_overdue(Time now);
+    void hand_out(Time now);
+    void test_suspects(Time now);
+    void quarantine(Host host);
+    void release_hosts();
+    void double_tail(Time now);
+    bool may_be_doubled(const Copy& copy) const;
+    const Copy* worth_doubling(Replica idle, Time now) const;
+    void give_home(Replica replica);
+    void take_home(Replica replica);
+
+    bool open(const Place& place) const;
+    double service_of(const Place& place) const;
+    double order(const Place& place) const;
+    std::optional<Replica> choose(const Item& item);
+    Replica best_for(const Item& item);
+    bool better_held_back(const Item& item, Replica replica) const;
+    void refresh(Replica replica);
+    void refresh_tail(Place& place, Replica replica);
+
+    Rules rules_;
+    std::vector<Action>* actions_ = nullptr;
+    std::unordered_map<WorkId, Item> items_;
+    std::unordered_map<CopyId, Out> out_;
+    std::deque<WorkId> waiting_, suspects_;
+    std::vector<Place> places_;  // by replica
+    std::map<Host, Site> sites_;
+    std::set<Host> quarantined_;
+    std::vector<Replica> refused_;
+    std::map<std::uint64_t, Replica> ring_;  // affinity: points of a circle → their replica
+
+    Lowest open_;      // that take more work, by the order of the strategy
+    Lowest all_;       // with known speed, open or not, by completion of usual work
+    Lowest overdue_;   // by when the first copy is overdue
+    Lowest early_;     // by when the first copy with no second is expected
+    Lowest late_;      // by when the last one is expected, backwards
+    double rate_ = 0;  // questions per second of all replicas with known speed
+    std::size_t measured_ = 0;
+    std::size_t present_ = 0, idle_ = 0;
+    std::size_t questions_out_ = 0, copies_out_ = 0, questions_waiting_ = 0, foreseen_ = 0;
+    std::uint64_t added_ = 0, turn_ = 0;
+    CopyId next_copy_ = 1;
+    Counts counts_;
+};
+
+}  // namespace lightnet
