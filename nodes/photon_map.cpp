@@ -31,7 +31,8 @@ public:
     void prepare(Services& services) override {
         const auto aim = take_aim(services, scene_, shooting_);
         const auto photons = shoot(services, scene_, shooting_, *aim);
-        tree_ = services.once<PhotonTree>([&] { return PhotonTree(photons.all()); });
+        const std::size_t places = services.whereabouts().places;
+        tree_ = services.once<PhotonTree>([&] { return PhotonTree(photons.all(), places); });
     }
 
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
