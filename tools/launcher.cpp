@@ -42,7 +42,7 @@ RunRequest request_of(const Options& options, const Registry& registry, Loaded l
     request.progress = options.progress;
     request.listen = options.listen;
     request.tuning = options.tuning;
-    request.check_wrapped = options.check_wrapped;
+    request.check_answers = options.check_answers;
     request.threads = options.threads.value_or(0);
     request.local_workers = options.local_workers.value_or(0);
     request.slurm = {options.slurm.value_or(0), options.partition, words_of(options.slurm_arguments)};

@@ -159,7 +159,7 @@ Job Run::make_job(DiskFiles& files) const {
     job.rules.bundles.questions = request_.tuning.bundle;
     job.rules.credit.bundles = request_.tuning.credit;
     job.rules.side_fibers = request_.tuning.side_fibers;
-    job.checking = request_.check_wrapped;
+    job.checking = job.rules.check = request_.check_answers;
     job.rules.spare_fibers = request_.tuning.spare_fibers;
     return job;
 }
@@ -329,6 +329,7 @@ void Run::hand_out(Carrier& carrier, const Plan& plan, const LookAround& look_ar
     job.tiles = tiles_;
     const auto tiles = tiles_per_place(plan);
     job.credit = {tiles, tiles};
+    job.check = request_.check_answers;
     MasterRenderer* more = nullptr;
     MasterRenderer master(std::move(job), conductor, [this, &more](const Tile& tile, std::span<const Rgb> pixels) {
         more->append(book_.take(tile, pixels));

@@ -60,7 +60,7 @@ struct RunRequest {
     std::string output;               // "x.exr", as seen from here
     std::uint64_t seed = 0;
     double preview = 0;          // seconds between two pictures of what is there; 0: none
-    bool check_wrapped = false;  // ask wrapped classes twice, to find those with a memory
+    bool check_answers = false;  // ask wrapped classes twice, and compare what is answered twice
     ProgressMode progress = ProgressMode::automatic;
 };
 

@@ -138,7 +138,7 @@ void Place::serve(const std::atomic<bool>& stop, std::atomic<std::uint64_t>& pro
             continue;
         }
         // Looking at the sockets costs calls of the system: what has come together is worked off together.
-        while (Clock::now() - last_look_ < std::chrono::microseconds(50) && step()) {
+        while (!fibers_.stint_over() && step()) {
         }
     }
     stopping_ = true;
@@ -177,6 +177,7 @@ bool Place::start_next(bool images) {
 void Place::take_in() {
     while (auto message = carrier_.receive()) take(std::move(*message));
     last_look_ = Clock::now();
+    fibers_.begin_stint(std::chrono::microseconds(50));
 }
 
 void Place::take(Message message) {

@@ -52,10 +52,10 @@ private:
 TEST(Launcher, HasWrappedClassesCheckedWhenAsked) {
     Bench lightnet;
     lightnet({"run", lightnet.graph});
-    lightnet({"run", lightnet.graph, "--check-wrapped", "--side-fibers", "0"});
+    lightnet({"run", lightnet.graph, "--check-answers", "--side-fibers", "0"});
     ASSERT_EQ(lightnet.runs.size(), 2u);
-    EXPECT_FALSE(lightnet.runs[0].check_wrapped);
-    EXPECT_TRUE(lightnet.runs[1].check_wrapped);
+    EXPECT_FALSE(lightnet.runs[0].check_answers);
+    EXPECT_TRUE(lightnet.runs[1].check_answers);
     EXPECT_EQ(lightnet.runs[1].tuning.side_fibers, 0u);
 }
 
