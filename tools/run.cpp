@@ -154,8 +154,7 @@ Job Run::make_job(DiskFiles& files) const {
     for (const auto& [path, hash] : files.hashes()) job.files.push_back({path, hash, files.seen().at(path)->size()});
     job.seed = request_.seed;
     job.isa = usual_isa();
-    job.width = format_.width;
-    job.height = format_.height;
+    job.width = format_.width, job.height = format_.height;
     job.rules.bundles.questions = request_.tuning.bundle;
     job.rules.credit.bundles = request_.tuning.credit;
     job.rules.side_fibers = request_.tuning.side_fibers;
