@@ -45,7 +45,7 @@ struct SlurmRequest {
 
 /// A run, ready to go.
 struct RunRequest {
-    Graph graph;  // checked; --samples and --size are in it
+    Graph graph;  // checked; --samples and --size are in it, and the sectors of sharded nodes
     Hosts hosts;  // mode network: those to be called, or that join by name
     Mode mode = Mode::serial;
     std::uint32_t threads = 0;        // places in this process

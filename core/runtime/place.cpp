@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/graph/layout.hpp"
 #include "core/scene/scene.hpp"
 
 namespace lightnet {
@@ -52,6 +53,20 @@ std::string Place::my_name() const {
 }
 
 Port* Place::port_to(std::size_t node, std::size_t width) {
+    return sectors_of(network_.graph, node).empty() ? port_to_one(node, width) : port_to_sectors(node, width);
+}
+
+Port* Place::port_to_sectors(std::size_t node, std::size_t width) {
+    std::vector<Port*> ports;
+    for (const auto sector : sectors_of(network_.graph, node)) ports.push_back(port_to_one(sector, width));
+    const auto sector_of = [this, node, cut = std::shared_ptr<const Sectors>()](const Query& question) mutable {
+        if (!cut) cut = network_.sectors(node);  // when it is first needed, as it takes a moment
+        return cut->at(network_.scene->surface(question).position);
+    };
+    return sector_ports_.emplace_back(std::make_unique<SectorPort>(std::move(ports), width, sector_of)).get();
+}
+
+Port* Place::port_to_one(std::size_t node, std::size_t width) {
     auto& port = ports_[{node, width}];
     if (!port) {
         port = std::make_unique<PlannedPort>([=, this] { return call_port_to(node, width); },
@@ -229,6 +244,7 @@ Counters Place::counters() const {
     Counters counters = counters_;
     counters += carrier_.counters();
     counters.not_finite = assembly_.not_finite();
+    counters.prepared_bytes = preparer_.result_bytes();
     counters.rays = Scene::rays_of_this_thread() - rays_before_;
     return counters;
 }

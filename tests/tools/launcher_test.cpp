@@ -159,6 +159,21 @@ TEST(Launcher, DrawsGraphsAndPlans) {
     EXPECT_THAT(lightnet.out, HasSubstr("label=\"tcp://onyx1:7777\""));
 }
 
+TEST(Launcher, ShowsAndRunsWhatIsSharded) {
+    Bench lightnet;
+    const std::string hosts = lightnet.write(
+        "h.lua", "layout = 'sharded'\nplace 'tcp://127.0.0.1:7777' {}\nplace 'tcp://127.0.0.1:7778' {}");
+    EXPECT_EQ(lightnet({"check", lightnet.graph, "--hosts", hosts}), 0);
+    EXPECT_THAT(lightnet.out, HasSubstr(", lighting in 2 sectors\n"));
+    EXPECT_EQ(lightnet({"dot", lightnet.graph, "--hosts", hosts}), 0);
+    EXPECT_THAT(lightnet.out, HasSubstr("lighting by place\\n2 sectors"));
+    EXPECT_THAT(lightnet.out, HasSubstr("lighting#2"));
+    lightnet({"run", lightnet.graph, "--hosts", hosts});
+    EXPECT_EQ(lightnet.runs.at(0).graph.sectors.size(), 2u);
+    lightnet({"run", lightnet.graph});
+    EXPECT_TRUE(lightnet.runs.at(1).graph.sectors.empty());
+}
+
 TEST(Launcher, DescribesKinds) {
     Bench lightnet;
     EXPECT_EQ(lightnet({"describe"}), 0);
