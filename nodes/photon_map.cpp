@@ -14,6 +14,16 @@
 namespace lightnet {
 namespace {
 
+// Lets each lot go as soon as it is copied.
+std::vector<Photon> taken_out_of(std::vector<Mapped<Photon>>& lots) {
+    std::vector<Photon> all;
+    std::size_t count = 0;
+    for (const auto& lot : lots) count += lot.size();
+    all.reserve(count);
+    for (; !lots.empty(); lots.pop_back()) all.insert(all.end(), lots.back().begin(), lots.back().end());
+    return all;
+}
+
 /// Jensen 1996, "Global illumination using photon maps". The map is shot on all places before the first question, and
 /// frozen. Answers are as blurred as the `gather` nearest photons lie apart, and darker within that distance of a
 /// surface's edge: the bias of the method, which shrinks as `photons` grow. Where light is wanted that is smooth,
@@ -30,9 +40,9 @@ public:
 
     void prepare(Services& services) override {
         const auto aim = take_aim(services, scene_, shooting_);
-        const auto photons = shoot(services, scene_, shooting_, *aim);
+        auto lots = shoot_near(services, scene_, shooting_, *aim, radius_);
         const std::size_t places = services.whereabouts().places;
-        tree_ = services.once<PhotonTree>([&] { return PhotonTree(photons.all(), places); });
+        tree_ = services.once<PhotonTree>([&] { return PhotonTree(taken_out_of(lots), places); });
     }
 
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
@@ -80,6 +90,7 @@ Kind photon_map_kind() {
         .help = "light that was sent from the lamps beforehand: caustics, or a rough picture of all light",
         .prepares = true,
         .paths = paths_of_photons,
+        .landmarks = [](const NodeContext& here) { return landmarks_of(here.scene(), Shooting::of(here)); },
         .params = params(),
         .make_light = [](const NodeContext& here) { return std::make_unique<PhotonMap>(here); },
     };
