@@ -49,6 +49,8 @@ public:
         }
     }
 
+    Frozen frozen() const override { return Frozen(tree_); }
+
 private:
     const Scene& scene_;
     Shooting shooting_;
@@ -109,6 +111,7 @@ Kind photon_map_kind() {
         .name = "PhotonMap",
         .help = "light that was sent from the lamps beforehand: caustics, or a rough picture of all light",
         .prepares = true,
+        .freezes = "photons",
         .paths = paths_of,
         .params = params(),
         .make_light = [](const NodeContext& here) { return std::make_unique<PhotonMap>(here); },
