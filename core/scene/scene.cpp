@@ -134,9 +134,7 @@ SurfacePoint Scene::surface(const Query& query) const {
     return built_->point(query.instance, query.geometry, query.primitive, query.u, query.v);
 }
 
-const std::string& Scene::material_of(const SurfacePoint& point) const {
-    return built_->data.materials[built_->data.shapes[point.geometry].material].name;
-}
+const SceneData& Scene::data() const { return built_->data; }
 
 Bsdf Scene::bsdf(const SurfacePoint& point) const { return built_->shading.bsdf(point); }
 

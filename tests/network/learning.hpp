@@ -133,7 +133,7 @@ public:
         options.run = 1;
         options.graph = &network->graph;
         options.registry = &registry;
-        options.width = static_cast<std::uint32_t>(network->layers.film.size());
+        options.width = static_cast<std::uint32_t>(colours_of(network->layers));
         return options;
     }
 
@@ -142,7 +142,7 @@ public:
         MasterRenderer::Job work;
         work.run = 1;
         work.image = static_cast<std::uint32_t>(renderer_of(network->graph, registry));
-        work.width = static_cast<std::uint32_t>(network->layers.film.size());
+        work.width = static_cast<std::uint32_t>(colours_of(network->layers));
         work.tiles = tiles;
         MasterRenderer master(work, conductor, [&](const Tile& tile, std::span<const Rgb> colours) {
             const auto index = std::find(tiles.begin(), tiles.end(), tile) - tiles.begin();
