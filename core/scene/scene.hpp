@@ -56,6 +56,8 @@ public:
 
     SurfacePoint surface(const Hit& hit) const;
     SurfacePoint surface(const Query& query) const;
+    /// Of many hits.
+    void surfaces(std::span<const Hit> hits, std::span<SurfacePoint> points) const;
     /// The name that the scene's file gives to the material of the shape; may be empty.
     const std::string& material_of(const SurfacePoint& point) const;
     /// How the surface scatters there.
