@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/graph/value.hpp"
+#include "core/math/vec.hpp"
 
 namespace lightnet {
 
@@ -76,6 +77,10 @@ struct Kind {
     /// What is wrong with a node whose parameters fit the schema, one sentence each. `scene`: what it will be made
     /// with; null as long as that has not been read.
     std::function<std::vector<std::string>(const Node&, const SceneData* scene)> mistakes = {};
+    /// Points of the scene that lie about as densely as what a node prepares, the same wherever they are made. Nodes of
+    /// a kind that has this can be sharded: what they prepare comes from Services::map_near(), and an answer depends on
+    /// nothing that lies farther from its question than was said there. Asks no inputs.
+    std::function<std::vector<Vec3>(const NodeContext&)> landmarks = {};
     bool partial = false;  // passes on a part of its inputs' light, on purpose
     std::vector<Param> params = {};
     std::function<std::unique_ptr<LightOp>(const NodeContext&)> make_light = {};
