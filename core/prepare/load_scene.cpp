@@ -51,6 +51,8 @@ SceneOverrides scene_overrides(const Graph& graph, const Registry& registry) {
     overrides.environment_scale = number(params, "environment_scale").value_or(1);
     overrides.exposure = number(params, "exposure").value_or(0);
     overrides.clay = params.contains("material");
+    const auto two_sided = params.find("two_sided");
+    overrides.two_sided = two_sided != params.end() && std::get<bool>(two_sided->second.data);
     return overrides;
 }
 
