@@ -79,6 +79,9 @@ struct Kind {
     /// What is wrong with a node whose parameters fit the schema, one sentence each. `scene`: what it will be made
     /// with; null as long as that has not been read.
     std::function<std::vector<std::string>(const Node&, const SceneData* scene)> mistakes = {};
+    bool keeps = false;     // the result of its last call while preparing goes to the file that its parameter `keep`
+                            // names; `extend` names such a file, whose content is in SceneData::kept
+    bool converts = false;  // gives the light of the node whose frozen state it takes, in another representation
     bool partial = false;   // passes on a part of its inputs' light, on purpose
     std::vector<Param> params = {};
     std::function<std::unique_ptr<LightOp>(const NodeContext&)> make_light = {};

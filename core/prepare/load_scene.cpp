@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/graph/graph_film.hpp"
+#include "core/prepare/kept.hpp"
 #include "core/readers/read_scene.hpp"
 
 namespace lightnet {
@@ -71,6 +72,7 @@ std::map<std::string, std::string> scene_constants(const Graph& graph, const Reg
 void override_scene(const Graph& graph, const Registry& registry, Files& files, SceneData& scene) {
     apply(scene_overrides(graph, registry), scene, files, scene_of(graph, registry).where);
     std::vector<Problem> problems;
+    take_up_kept(graph, registry, files, scene, problems);
     for (const auto& node : graph.nodes)
         if (const Kind* kind = registry.find(node.kind); kind && kind->mistakes)
             for (const auto& what : kind->mistakes(node, &scene))
