@@ -20,24 +20,26 @@ HostsScript::HostsScript(Sandbox& sandbox, std::map<std::string, std::string> co
     : Globals(sandbox, std::move(constants)), hosts_{sandbox.file(), {}} {
     offer("place", &HostsScript::place);
     offer("strategy", &HostsScript::strategy);
+    offer("layout", &HostsScript::layout);
 }
 
 int HostsScript::call(lua_State*, Unknown& callee) {
     callee.taken = true;
-    throw Error("a hosts file knows only place \"tcp://host:port\" { node = replicas } and strategy, not " +
+    throw Error("a hosts file knows only place \"tcp://host:port\" { node = replicas }, strategy and layout, not " +
                 quoted(callee.name));
 }
 
 // strategy = "name": for all nodes. The name stays what it was, so that strategy { … } may follow.
 void HostsScript::assigned(lua_State* L, const std::string& name) {
-    if (name != "strategy") return;
+    const bool strategies = name == "strategy";
+    if (!strategies && name != "layout") return;
     const auto where = sandbox_.caller();
     if (lua_type(L, -1) == LUA_TSTRING && is_utf8(lua_tostring(L, -1)))
-        hosts_.strategies.push_back({"", lua_tostring(L, -1), where});
+        (strategies ? hosts_.strategies : hosts_.layouts).push_back({"", lua_tostring(L, -1), where});
     else
-        complain(where, "strategy is called by name: strategy = \"fastest\"");
+        complain(where, name + " is called by name: " + name + " = " + (strategies ? "\"fastest\"" : "\"sharded\""));
     lua_pushlightuserdata(L, this);
-    lua_pushcclosure(L, &HostsScript::strategy, 1);
+    lua_pushcclosure(L, strategies ? &HostsScript::strategy : &HostsScript::layout, 1);
     lua_replace(L, -2);
 }
 
@@ -45,24 +47,35 @@ void HostsScript::assigned(lua_State* L, const std::string& name) {
 int HostsScript::strategy(lua_State* L) {
     return guarded(L, [&] {
         auto& script = *static_cast<HostsScript*>(lua_touserdata(L, lua_upvalueindex(1)));
-        if (lua_gettop(L) != 1 || !lua_istable(L, 1))
-            throw Error("strategy takes a table, strategy { node = \"name\" }, or is one for all: strategy = \"name\"");
-        script.take_strategies(L);
+        script.take_choices(L, "strategy", "nodes and strategies", "fastest", script.hosts_.strategies);
         return 0;
     });
 }
 
-void HostsScript::take_strategies(lua_State* L) {
+// layout { node = "name" }
+int HostsScript::layout(lua_State* L) {
+    return guarded(L, [&] {
+        auto& script = *static_cast<HostsScript*>(lua_touserdata(L, lua_upvalueindex(1)));
+        script.take_choices(L, "layout", "nodes and layouts", "sharded", script.hosts_.layouts);
+        return 0;
+    });
+}
+
+void HostsScript::take_choices(lua_State* L, const std::string& word, const std::string& what,
+                               const std::string& example, std::vector<ChoiceEntry>& choices) {
+    if (lua_gettop(L) != 1 || !lua_istable(L, 1))
+        throw Error(word + " takes a table, " + word + " { node = \"name\" }, or is one for all: " + word +
+                    " = \"name\"");
     const auto where = sandbox_.caller();
     std::map<std::string, std::string> named;  // in an order that does not change
     for (lua_pushnil(L); lua_next(L, 1); lua_settop(L, 2)) {
         if (lua_type(L, 2) != LUA_TSTRING || lua_type(L, 3) != LUA_TSTRING || !is_utf8(lua_tostring(L, 2)) ||
             !is_utf8(lua_tostring(L, 3)))
-            complain(where, "strategy: nodes and strategies go by name: strategy { node = \"fastest\" }");
+            complain(where, word + ": " + what + " go by name: " + word + " { node = \"" + example + "\" }");
         else
             named.emplace(lua_tostring(L, 2), lua_tostring(L, 3));
     }
-    for (auto& [node, name] : named) hosts_.strategies.push_back({node, std::move(name), where});
+    for (auto& [node, name] : named) choices.push_back({node, std::move(name), where});
 }
 
 // place "endpoint" gives the function that takes the table.
@@ -112,7 +125,7 @@ void HostsScript::take_replicas(lua_State* L, HostEntry& entry) {
 }
 
 Hosts HostsScript::finish() {
-    Globals::finish({"place", "strategy"});
+    Globals::finish({"place", "strategy", "layout"});
     return std::move(hosts_);
 }
 

@@ -2,14 +2,17 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
 
 #include "core/graph/hosts.hpp"
 #include "lua/globals.hpp"
 
 namespace lightnet::lua {
 
-/// Makes an entry of every `place "tcp://host:port" { … }`, of `strategy = "name"` and of each in
-/// `strategy { node = "name" }`.
+/// Makes an entry of every `place "tcp://host:port" { … }`, of `strategy = "name"`, of each in
+/// `strategy { node = "name" }`, and likewise of `layout`.
 class HostsScript final : public Globals {
 public:
     HostsScript(Sandbox& sandbox, std::map<std::string, std::string> constants);
@@ -24,8 +27,10 @@ private:
     static int place(lua_State* L);
     static int fill(lua_State* L);
     static int strategy(lua_State* L);
+    static int layout(lua_State* L);
     void take_replicas(lua_State* L, HostEntry& entry);
-    void take_strategies(lua_State* L);
+    void take_choices(lua_State* L, const std::string& word, const std::string& what, const std::string& example,
+                      std::vector<ChoiceEntry>& choices);
 
     Hosts hosts_;
 };

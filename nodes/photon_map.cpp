@@ -14,6 +14,26 @@
 namespace lightnet {
 namespace {
 
+Shooting shooting_of(const NodeContext& here) {
+    Shooting shooting;
+    shooting.paths = photon_paths(here.text("paths"));
+    shooting.ways = static_cast<std::uint64_t>(here.integer("photons"));
+    shooting.aimed = here.flag("aim");
+    shooting.key = child(mix(here.seed()), here.key());
+    shooting.most_bytes = static_cast<std::size_t>(here.number("memory") * 1e6);
+    return shooting;
+}
+
+// Lets each lot go as soon as it is copied.
+std::vector<Photon> taken_out_of(std::vector<Mapped<Photon>>& lots) {
+    std::vector<Photon> all;
+    std::size_t count = 0;
+    for (const auto& lot : lots) count += lot.size();
+    all.reserve(count);
+    for (; !lots.empty(); lots.pop_back()) all.insert(all.end(), lots.back().begin(), lots.back().end());
+    return all;
+}
+
 /// Jensen 1996, "Global illumination using photon maps". The map is shot on all places before the first question, and
 /// frozen. Answers are as blurred as the `gather` nearest photons lie apart, and darker within that distance of a
 /// surface's edge: the bias of the method, which shrinks as `photons` grow. Where light is wanted that is smooth,
@@ -22,20 +42,16 @@ class PhotonMap final : public LightOp {
 public:
     explicit PhotonMap(const NodeContext& here)
         : scene_(here.scene()),
+          shooting_(shooting_of(here)),
           gather_(static_cast<std::size_t>(here.integer("gather"))),
           radius_(static_cast<float>(here.number("radius"))) {
-        shooting_.paths = photon_paths(here.text("paths"));
-        shooting_.ways = static_cast<std::uint64_t>(here.integer("photons"));
-        shooting_.aimed = here.flag("aim");
-        shooting_.key = child(mix(here.seed()), here.key());
-        shooting_.most_bytes = static_cast<std::size_t>(here.number("memory") * 1e6);
         if (radius_ == 0) radius_ = 0.05f * scene_.radius();
     }
 
     void prepare(Services& services) override {
         const auto aim = take_aim(services, scene_, shooting_);
-        const auto photons = shoot(services, scene_, shooting_, *aim);
-        tree_ = services.once<PhotonTree>([&] { return PhotonTree(photons.all()); });
+        auto lots = shoot_near(services, scene_, shooting_, *aim, radius_);
+        tree_ = services.once<PhotonTree>([&] { return PhotonTree(taken_out_of(lots)); });
     }
 
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
@@ -113,6 +129,7 @@ Kind photon_map_kind() {
         .prepares = true,
         .freezes = "photons",
         .paths = paths_of,
+        .landmarks = [](const NodeContext& here) { return landmarks_of(here.scene(), shooting_of(here)); },
         .params = params(),
         .make_light = [](const NodeContext& here) { return std::make_unique<PhotonMap>(here); },
     };

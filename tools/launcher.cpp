@@ -11,6 +11,7 @@
 #include "core/graph/describe.hpp"
 #include "core/graph/dot.hpp"
 #include "core/graph/graph_film.hpp"
+#include "core/graph/layout.hpp"
 #include "core/graph/plan.hpp"
 #include "core/prepare/load_scene.hpp"
 #include "core/readers/read_scene.hpp"
@@ -42,7 +43,7 @@ RunRequest request_of(const Options& options, const Registry& registry, Loaded l
     request.progress = options.progress;
     request.listen = options.listen;
     request.tuning = options.tuning;
-    request.check_wrapped = options.check_wrapped;
+    request.check_answers = options.check_answers;
     request.threads = options.threads.value_or(0);
     request.local_workers = options.local_workers.value_or(0);
     request.slurm = {options.slurm.value_or(0), options.partition, words_of(options.slurm_arguments)};
@@ -52,6 +53,10 @@ RunRequest request_of(const Options& options, const Registry& registry, Loaded l
         request.mode = Mode::network;
     else if (options.threads)
         request.mode = Mode::threads;
+    if (request.mode == Mode::network) {
+        const auto shards = shards_of(request.graph, registry, request.hosts);
+        request.graph = sharded(std::move(request.graph), shards);
+    }
     return request;
 }
 
@@ -142,6 +147,8 @@ int Launcher::perform_check(const Options& options) const {
     if (const auto& crop = format.crop) out << " (" << crop->width << "x" << crop->height << " of it)";
     out << ", layers";
     for (const auto& layer : layers_of(loaded.graph, registry).film) out << ' ' << layer;
+    for (const auto& [node, count] : shards_of(loaded.graph, registry, loaded.hosts))
+        out << ", " << node << " in " << count << " sectors";
     out << '\n';
     return exit_code::done;
 }
@@ -155,8 +162,9 @@ int Launcher::perform_dot(const Options& options) const {
     if (offers.empty()) {
         out << to_dot(loaded.graph, registry, nullptr, {}, pictures);
     } else {
-        const Plan where = plan(loaded.graph, registry, loaded.hosts, offers);
-        out << to_dot(loaded.graph, registry, &where, {}, pictures);
+        const Graph graph = sharded(loaded.graph, shards_of(loaded.graph, registry, loaded.hosts));
+        const Plan where = plan(graph, registry, loaded.hosts, offers);
+        out << to_dot(graph, registry, &where, {}, pictures);
     }
     return exit_code::done;
 }

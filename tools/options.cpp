@@ -226,8 +226,8 @@ private:
             ->type_name("SECONDS")
             ->check(CLI::PositiveNumber);
         verb.add_flag("--resume", options_.resume, "go on from the checkpoint beside the picture, if there is one");
-        verb.add_flag("--check-wrapped", options_.check_wrapped,
-                      "ask wrapped classes some questions twice, to find those whose history changes answers");
+        verb.add_flag("--check-answers", options_.check_answers,
+                      "ask wrapped classes some questions twice, and compare all that is answered twice, bit by bit");
         add_tuning(verb);
     }
 

@@ -54,7 +54,7 @@ struct Options {
     std::string partition, slurm_arguments;
     bool resume = false;  // from a checkpoint
     Tuning tuning;
-    bool check_wrapped = false;
+    bool check_answers = false;
     std::string kind;               // for describe; "": all
     std::string pictures;           // for dot: the EXR that shows what each node gives; "": none
     std::vector<std::string> whom;  // for hosts: endpoints and hosts files

@@ -16,6 +16,7 @@
 #include "core/error.hpp"
 #include "core/graph/check.hpp"
 #include "core/graph/graph_film.hpp"
+#include "core/graph/layout.hpp"
 #include "core/hash.hpp"
 #include "core/prepare/load_scene.hpp"
 #include "core/readers/read_scene.hpp"
@@ -146,12 +147,11 @@ Job Run::make_job(DiskFiles& files) const {
     for (const auto& [path, hash] : files.hashes()) job.files.push_back({path, hash, files.seen().at(path)->size()});
     job.seed = request_.seed;
     job.isa = usual_isa();
-    job.width = format_.width;
-    job.height = format_.height;
+    job.width = format_.width, job.height = format_.height;
     job.rules.bundles.questions = request_.tuning.bundle;
     job.rules.credit.bundles = request_.tuning.credit;
     job.rules.side_fibers = request_.tuning.side_fibers;
-    job.checking = request_.check_wrapped;
+    job.checking = job.rules.check = request_.check_answers;
     job.rules.spare_fibers = request_.tuning.spare_fibers;
     return job;
 }
@@ -160,7 +160,7 @@ Job Run::make_job(DiskFiles& files) const {
 std::map<std::string, std::string> Run::recipe() const {
     std::string files = job_.scene;
     for (const auto& file : job_.files) files += "\n" + file.path + " " + to_hex(file.hash);
-    return {{"graph", to_hex(content_hash(to_json(job_.graph)))},
+    return {{"graph", to_hex(content_hash(to_json(written(job_.graph))))},
             {"scene", to_hex(content_hash(files))},
             {"seed", std::to_string(job_.seed)},
             {"size", fmt::format("{}x{}", format_.width, format_.height)},
@@ -324,6 +324,7 @@ void Run::hand_out(Carrier& carrier, const Plan& plan, const LookAround& look_ar
     job.tiles = tiles_;
     const auto tiles = tiles_per_place(plan);
     job.credit = {tiles, tiles};
+    job.check = request_.check_answers;
     MasterRenderer* more = nullptr;
     MasterRenderer master(std::move(job), conductor, [this, &more](const Tile& tile, std::span<const Rgb> pixels) {
         more->append(book_.take(tile, pixels));

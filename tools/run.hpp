@@ -45,7 +45,7 @@ struct SlurmRequest {
 
 /// A run, ready to go.
 struct RunRequest {
-    Graph graph;  // checked; --samples and --size are in it
+    Graph graph;  // checked; --samples and --size are in it, and the sectors of sharded nodes
     Hosts hosts;  // mode network: those to be called, or that join by name
     Mode mode = Mode::serial;
     std::uint32_t threads = 0;        // places in this process
@@ -60,7 +60,7 @@ struct RunRequest {
     std::string output;               // "x.exr", as seen from here
     std::uint64_t seed = 0;
     double preview = 0;          // seconds between two pictures of what is there; 0: none
-    bool check_wrapped = false;  // ask wrapped classes twice, to find those with a memory
+    bool check_answers = false;  // ask wrapped classes twice, and compare what is answered twice
     ProgressMode progress = ProgressMode::automatic;
 };
 

@@ -12,6 +12,7 @@
 #include "core/film/checkpoint.hpp"
 #include "core/film/exr.hpp"
 #include "core/film/png.hpp"
+#include "core/graph/layout.hpp"
 #include "core/prepare/kept.hpp"
 
 namespace lightnet {
@@ -183,6 +184,8 @@ void RunBook::name_not_finite(const Graph& graph) {
 
 void RunBook::use(const Plan& plan, const Graph& graph) {
     report_.places.clear();
+    for (const auto& [node, count] : shards_in(graph))
+        report_.settings["layout." + node] = fmt::format("sharded, {} sectors", count);
     for (std::uint32_t place = 0; place < plan.places.size(); ++place) {
         PlaceReport entry{plan.places[place].host, plan.places[place].index, {}};
         for (std::size_t node = 0; node < plan.places_of.size(); ++node)

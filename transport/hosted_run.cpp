@@ -30,10 +30,7 @@ std::uint64_t HostedRun::size_of(const Hash& hash) const {
 }
 
 void HostedRun::expect(const Hash& hash, std::uint64_t size) {
-    {
-        const std::lock_guard lock(results_->mutex);
-        if (results_->bytes.contains(hash)) return found_.push_back({hash, true});
-    }
+    if (results_->in_memory(hash)) return found_.push_back({hash, true});
     expected_[hash].size = size;
     if (!looked_for_.contains(hash))
         looked_for_[hash] = std::async(std::launch::async, [this, hash] { return cache_.read(hash); });
@@ -48,8 +45,7 @@ std::vector<std::pair<Hash, bool>> HostedRun::found() {
         auto bytes = look->second.get();
         found_.push_back({look->first, bytes != nullptr});
         if (bytes) {
-            const std::lock_guard lock(results_->mutex);
-            results_->bytes[look->first] = std::move(bytes);
+            results_->take(look->first, std::move(bytes));
             expected_.erase(look->first);
         }
         look = looked_for_.erase(look);
@@ -69,10 +65,7 @@ void HostedRun::take_result(const Hash& hash, IncomingResult& result, std::uint6
     result.file->add(piece);
     if (result.file->size() < result.size) return;
     result.file->finish();
-    {
-        const std::lock_guard lock(results_->mutex);
-        results_->bytes[hash] = std::move(result.bytes);
-    }
+    results_->take(hash, std::move(result.bytes));
     expected_.erase(hash);
     found_.push_back({hash, true});
 }
@@ -107,11 +100,8 @@ bool HostedRun::advance() {
     } else if (state_ == State::fetching && missing_.empty()) {
         building_ = std::async(std::launch::async, [this] {
             BlobFiles files(cache_, given_.job.files);
-            return build_network(given_.job, registry_, files, [results = results_](const Hash& hash) -> Bytes {
-                const std::lock_guard lock(results->mutex);
-                const auto found = results->bytes.find(hash);
-                return found == results->bytes.end() ? nullptr : found->second;
-            });
+            return build_network(given_.job, registry_, files,
+                                 [results = results_](const Hash& hash) { return results->find(hash); });
         });
         state_ = State::building;
     } else if (state_ == State::building && building_.wait_for(now) == std::future_status::ready) {

@@ -5,7 +5,6 @@
 #include <future>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <set>
 #include <span>
@@ -16,6 +15,7 @@
 #include "transport/blob_cache.hpp"
 #include "transport/packet.hpp"
 #include "transport/place_threads.hpp"
+#include "transport/results.hpp"
 
 namespace lightnet {
 
@@ -60,11 +60,6 @@ public:
     std::string nodes() const;
 
 private:
-    // Results of preparing, by name. Places read them.
-    struct Results {
-        std::mutex mutex;
-        std::map<Hash, Bytes> bytes;
-    };
     // One on its way in, kept in memory as well as on disk.
     struct IncomingResult {
         std::uint64_t size = 0;
@@ -84,7 +79,7 @@ private:
     std::set<Hash> missing_;
     std::map<Hash, BlobCache::Incoming> incoming_;
     std::future<std::shared_ptr<const Network>> building_;
-    std::shared_ptr<Results> results_ = std::make_shared<Results>();
+    std::shared_ptr<Results> results_ = std::make_shared<Results>(cache_);  // of preparing; places read them
     std::map<Hash, std::future<Bytes>> looked_for_;
     std::map<Hash, IncomingResult> expected_;
     std::vector<std::pair<Hash, bool>> found_;

@@ -169,6 +169,17 @@ std::size_t shards_each(const Shooting& shooting) {
     return std::size_t((shooting.ways + ways_per_shard - 1) / ways_per_shard);
 }
 
+namespace {
+
+void check_memory(std::size_t photons, const Shooting& shooting) {
+    if (photons * sizeof(Photon) <= shooting.most_bytes) return;
+    throw Error(std::to_string(photons) + " photons take " +
+                std::to_string((photons * sizeof(Photon) + 999999) / 1000000) +
+                " MB, more than its 'memory' allows: raise it, or send fewer 'photons'");
+}
+
+}  // namespace
+
 Mapped<Photon> shoot(Services& services, const Scene& scene, const Shooting& shooting, const Aim& aim,
                      std::size_t times) {
     const std::size_t each = shards_each(shooting);
@@ -178,11 +189,38 @@ Mapped<Photon> shoot(Services& services, const Scene& scene, const Shooting& sho
         shooter.shoot(first, std::min<std::uint64_t>(ways_per_shard, shooting.ways - first), 1 / double(shooting.ways),
                       aim, out);
     });
-    if (photons.size() * sizeof(Photon) > shooting.most_bytes)
-        throw Error(std::to_string(photons.size()) + " photons take " +
-                    std::to_string((photons.size() * sizeof(Photon) + 999999) / 1000000) +
-                    " MB, more than its 'memory' allows: raise it, or send fewer 'photons'");
+    check_memory(photons.size(), shooting);
     return photons;
+}
+
+std::vector<Mapped<Photon>> shoot_near(Services& services, const Scene& scene, const Shooting& shooting, const Aim& aim,
+                                       float reach) {
+    const PhotonShooter shooter(scene, shooting.paths, child(shooting.key, key_of("ways"), 0));
+    const auto ways = [&](std::size_t shard, std::vector<Photon>& out) {
+        const std::uint64_t first = shard * ways_per_shard;
+        shooter.shoot(first, std::min<std::uint64_t>(ways_per_shard, shooting.ways - first), 1 / double(shooting.ways),
+                      aim, out);
+    };
+    auto photons = services.map_near<Photon>(shards_each(shooting), reach, ways,
+                                             [](const Photon& photon) { return photon.position; });
+    std::size_t count = 0;
+    for (const auto& some : photons) count += some.size();
+    check_memory(count, shooting);
+    return photons;
+}
+
+std::vector<Vec3> landmarks_of(const Scene& scene, const Shooting& shooting) {
+    constexpr std::size_t trials = 65536, ways = 32768;
+    std::vector<Trial> tried;
+    if (shooting.aimed)
+        PhotonShooter(scene, shooting.paths, child(shooting.key, key_of("landmark trials"), 0))
+            .attempt(0, trials, Aim(), tried);
+    std::vector<Photon> photons;
+    PhotonShooter(scene, shooting.paths, child(shooting.key, key_of("landmarks"), 0))
+        .shoot(0, ways, 1, Aim(tried), photons);
+    std::vector<Vec3> landmarks;
+    for (const auto& photon : photons) landmarks.push_back(photon.position);
+    return landmarks;
 }
 
 }  // namespace lightnet

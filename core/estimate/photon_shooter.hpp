@@ -70,4 +70,11 @@ Mapped<Photon> shoot(Services& services, const Scene& scene, const Shooting& sho
                      std::size_t times = 1);
 std::size_t shards_each(const Shooting& shooting);
 
+/// Shoots once; photons in the order of their ways, but in several memories: where the node is sharded, only those that
+/// lie within `reach` (m) of where it may be asked. `most_bytes` bounds what this copy of the node gets.
+std::vector<Mapped<Photon>> shoot_near(Services& services, const Scene& scene, const Shooting& shooting, const Aim& aim,
+                                       float reach);
+/// Points where photons come to lie, about as densely: for Kind::landmarks.
+std::vector<Vec3> landmarks_of(const Scene& scene, const Shooting& shooting);
+
 }  // namespace lightnet

@@ -25,9 +25,14 @@ bool comes_before(const Photon& a, const Photon& b, std::size_t axis) {
 
 }  // namespace
 
-PhotonTree::PhotonTree(std::span<const Photon> photons)
-    : photons_(photons.begin(), photons.end()), axes_(photons.size()) {
+PhotonTree::PhotonTree(std::vector<Photon> photons) : photons_(std::move(photons)), axes_(photons_.size()) {
     build(0, photons_.size());
+}
+
+// Indices would differ between the trees of all photons and of some.
+bool PhotonTree::comes_first(const Near& a, const Near& b) const {
+    if (a.distance2 != b.distance2) return a.distance2 < b.distance2;
+    return comes_before(photons_[a.index], photons_[b.index], 0);
 }
 
 // A subtree is a range, its root in the middle.
@@ -90,18 +95,24 @@ private:
             return;
         }
         if (found_.size() == wanted_.most) {
-            if (!(near < found_.front())) return;
-            std::pop_heap(found_.begin(), found_.end());
+            if (!tree_.comes_first(near, found_.front())) return;
+            std::pop_heap(found_.begin(), found_.end(), order_);
             found_.back() = near;
-            std::push_heap(found_.begin(), found_.end());
+            std::push_heap(found_.begin(), found_.end(), order_);
         } else {
             found_.push_back(near);
-            std::push_heap(found_.begin(), found_.end());
+            std::push_heap(found_.begin(), found_.end(), order_);
         }
         if (found_.size() == wanted_.most) limit_ = found_.front().distance2;
     }
 
+    struct Order {
+        const PhotonTree& tree;
+        bool operator()(const Near& a, const Near& b) const { return tree.comes_first(a, b); }
+    };
+
     const PhotonTree& tree_;
+    Order order_{tree_};
     const Wanted& wanted_;
     std::vector<Near>& found_;  // a heap while there is a `most`
     float limit_;
@@ -110,7 +121,7 @@ private:
 void PhotonTree::find(const Wanted& wanted, std::vector<Near>& found) const {
     found.clear();
     Search(*this, wanted, found).look(0, photons_.size());
-    std::sort(found.begin(), found.end());
+    std::sort(found.begin(), found.end(), [this](const Near& a, const Near& b) { return comes_first(a, b); });
 }
 
 Rgb PhotonTree::radiance(const Lookup& at, float radius, std::size_t most, std::vector<Near>& scratch) const {

@@ -16,7 +16,9 @@ namespace lightnet {
 /// A balanced kd-tree. Immutable; any thread may ask. Its order depends on the photons alone.
 class PhotonTree {
 public:
-    explicit PhotonTree(std::span<const Photon> photons);
+    explicit PhotonTree(std::vector<Photon> photons);
+    explicit PhotonTree(std::span<const Photon> photons)
+        : PhotonTree(std::vector<Photon>(photons.begin(), photons.end())) {}
 
     std::size_t size() const { return photons_.size(); }
     std::size_t memory() const { return photons_.size() * (sizeof(Photon) + sizeof(std::uint8_t)); }
@@ -26,9 +28,6 @@ public:
     struct Near {
         float distance2;  // m²; heights above the surface count four times
         std::uint32_t index;
-        friend bool operator<(const Near& a, const Near& b) {
-            return a.distance2 < b.distance2 || (a.distance2 == b.distance2 && a.index < b.index);
-        }
     };
     /// Which photons are looked for: the nearest `most` within `radius` that lie on a surface turned like this one.
     struct Wanted {
@@ -36,7 +35,8 @@ public:
         float radius;          // m
         std::size_t most = 0;  // 0: all of them
     };
-    /// Writes them by distance, those of equal distance by index.
+    /// Writes them by distance, those of equal distance by what they are: what is found, and in which order, does not
+    /// depend on photons farther away.
     void find(const Wanted& wanted, std::vector<Near>& found) const;
 
     /// Where, and for whom.
@@ -53,6 +53,7 @@ public:
 
 private:
     class Search;
+    bool comes_first(const Near& a, const Near& b) const;
     void build(std::size_t low, std::size_t high);
 
     std::vector<Photon> photons_;

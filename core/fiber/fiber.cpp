@@ -105,6 +105,7 @@ struct Fibers::Shared {
     std::size_t outside_size = 0;
     const Clock::time_point began = Clock::now();
     const Ticks began_ticks = ticks_now();
+    Ticks stint = 0, stint_ran = 0;
     [[maybe_unused]] void* tsan = nullptr;
 };
 
@@ -165,7 +166,7 @@ void Fibers::switch_to(Fiber* fiber) {
     current_ = fiber;
     fiber->parked = false;
     shared_->running = {fiber->stack, fiber->owner};
-    fiber->entered = ticks_now();
+    const Ticks began = fiber->entered = ticks_now();
     shared_->exceptions = std::exchange(ExceptionState::here(), fiber->exceptions);
     shared_->view.leave(fiber->stack.lowest, fiber->stack.size);
 #if defined(__SANITIZE_THREAD__)
@@ -175,7 +176,9 @@ void Fibers::switch_to(Fiber* fiber) {
     fiber->inside = std::move(fiber->inside).resume();
     shared_->view.entered();
     fiber->exceptions = std::exchange(ExceptionState::here(), shared_->exceptions);
-    fiber->ran += ticks_since(fiber->entered);
+    const Ticks ended = std::max(ticks_now(), fiber->entered);  // the counters of two processors may differ by a little
+    fiber->ran += ended - fiber->entered;
+    shared_->stint_ran += ended - std::min(began, ended);
     shared_->running = {};
     current_ = nullptr;
 }
@@ -231,12 +234,23 @@ Fibers::Ticks Fibers::ticks_of(const Fiber* fiber) const {
     return fiber == current_ ? fiber->ran + ticks_since(fiber->entered) : fiber->ran;
 }
 
-std::chrono::nanoseconds Fibers::running_time(const Fiber* fiber) const {
+double Fibers::ticks_per_nanosecond() const {
     const auto elapsed = std::chrono::duration<double, std::nano>(Clock::now() - shared_->began);
-    const auto elapsed_ticks = static_cast<double>(ticks_since(shared_->began_ticks));
-    const double share = elapsed_ticks > 0 ? static_cast<double>(ticks_of(fiber)) / elapsed_ticks : 0;
-    return std::chrono::duration_cast<std::chrono::nanoseconds>(elapsed * share);
+    return static_cast<double>(ticks_since(shared_->began_ticks)) / std::max(elapsed.count(), 1.0);
 }
+
+std::chrono::nanoseconds Fibers::running_time(const Fiber* fiber) const {
+    const double rate = ticks_per_nanosecond();
+    return std::chrono::nanoseconds(rate > 0 ? static_cast<std::int64_t>(static_cast<double>(ticks_of(fiber)) / rate)
+                                             : 0);
+}
+
+void Fibers::begin_stint(std::chrono::nanoseconds length) {
+    shared_->stint = static_cast<Ticks>(static_cast<double>(length.count()) * ticks_per_nanosecond());
+    shared_->stint_ran = 0;
+}
+
+bool Fibers::stint_over() const { return shared_->stint_ran >= shared_->stint; }
 
 void Fibers::give_time_to(Fiber* other) {
     other->ran += ticks_of(current_);

@@ -49,6 +49,10 @@ public:
     std::chrono::nanoseconds running_time(const Fiber* fiber) const;
     /// Counts the running time of the current fiber as that of `other`: it worked for it.
     void give_time_to(Fiber* other);
+    /// Begins to count what fibers run, for stint_over().
+    void begin_stint(std::chrono::nanoseconds length);
+    /// Have fibers run for as long as the stint lasts? Known without a look at the clock.
+    bool stint_over() const;
     /// Names the current fiber anew, should its stack run out. Returns the name that it had.
     const char* rename(const char* owner);
     /// Is there room for one more fiber, as far as the process is concerned?
@@ -59,6 +63,7 @@ private:
     void switch_to(Fiber* fiber);
     void leave();
     Ticks ticks_of(const Fiber* fiber) const;
+    double ticks_per_nanosecond() const;
 
     struct Shared;
     std::size_t stack_size_;

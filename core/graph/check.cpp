@@ -8,6 +8,7 @@
 
 #include "core/graph/check_hosts.hpp"
 #include "core/graph/check_params.hpp"
+#include "core/graph/layout.hpp"
 #include "core/graph/light_paths.hpp"
 
 namespace lightnet {
@@ -240,6 +241,11 @@ void sort_by_line(std::vector<Problem>& problems, const std::string& first_file)
 }
 
 Examined examine(const Graph& graph, const Registry& registry, const Hosts& hosts) {
+    if (!graph.sectors.empty()) {
+        Examined found = examine(written(graph), registry, hosts);
+        if (found.problems.empty()) found.graph = sharded(std::move(found.graph), shards_in(graph));
+        return found;
+    }
     Examined found = Examination(graph, registry).run();
     check_hosts(hosts, graph, registry, found.problems);
     sort_by_line(found.problems, graph.file);

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <charconv>
+#include <numeric>
 #include <set>
 
 #include "core/graph/check_params.hpp"
+#include "core/graph/layout.hpp"
 #include "core/graph/strategy.hpp"
 
 namespace lightnet {
@@ -37,20 +39,67 @@ private:
     std::vector<Problem>& problems_;
 };
 
-void check_strategy(const StrategyEntry& entry, const Graph& graph, const Registry& registry,
-                    const std::vector<std::string>& names, std::vector<Problem>& problems) {
-    const auto complain = [&](const std::string& what) {
-        problems.push_back({entry.where, "strategy" + (entry.node.empty() ? "" : " of " + quoted(entry.node)) + what});
-    };
-    if (!entry.node.empty()) {
-        const auto node = graph.find(entry.node);
-        const Kind* kind = node ? registry.find(graph.nodes[*node].kind) : nullptr;
-        if (!node) complain(": there is no node of that name" + suggest(entry.node, names));
-        if (kind && kind->role == Role::scene) complain(": it is a scene, which nobody asks");
+/// The entries of `strategy` or `layout`, and what is said of them.
+class ChoiceCheck {
+public:
+    ChoiceCheck(std::string word, std::vector<std::string> known, const Graph& graph, const Registry& registry,
+                std::vector<Problem>& problems)
+        : word_(std::move(word)), known_(std::move(known)), graph_(graph), registry_(registry), problems_(problems) {}
+
+    void complain(const ChoiceEntry& entry, const std::string& what) const {
+        problems_.push_back({entry.where, word_ + (entry.node.empty() ? "" : " of " + quoted(entry.node)) + what});
     }
-    const std::vector<std::string> known(strategy_names.begin(), strategy_names.end());
-    if (!strategy_called(entry.name))
-        complain(": there is none called " + quoted(entry.name) + suggest(entry.name, known));
+
+    /// The kind of the node that is named; null when the entry is for all, or makes no sense.
+    const Kind* check(const ChoiceEntry& entry, const std::vector<std::string>& names) const {
+        if (std::find(known_.begin(), known_.end(), entry.name) == known_.end())
+            complain(entry, ": there is none called " + quoted(entry.name) + suggest(entry.name, known_));
+        if (entry.node.empty()) return nullptr;
+        const auto node = graph_.find(entry.node);
+        const Kind* kind = node ? registry_.find(graph_.nodes[*node].kind) : nullptr;
+        if (!node) complain(entry, ": there is no node of that name" + suggest(entry.node, names));
+        if (kind && kind->role == Role::scene) complain(entry, ": it is a scene, which nobody asks");
+        return kind && kind->role != Role::scene ? kind : nullptr;
+    }
+
+private:
+    std::string word_;
+    std::vector<std::string> known_;
+    const Graph& graph_;
+    const Registry& registry_;
+    std::vector<Problem>& problems_;
+};
+
+std::string kinds_with_sectors(const Registry& registry) {
+    std::string kinds;
+    for (const auto& kind : registry.kinds())
+        if (kind.landmarks) kinds += (kinds.empty() ? "" : ", ") + kind.name;
+    return kinds.empty() ? "" : " (these can: " + kinds + ")";
+}
+
+void check_layouts(const Hosts& hosts, const Graph& graph, const Registry& registry,
+                   const std::vector<std::string>& names, std::vector<Problem>& problems) {
+    const ChoiceCheck check("layout", {layout_names.begin(), layout_names.end()}, graph, registry, problems);
+    for (const auto& entry : hosts.layouts) {
+        const Kind* kind = check.check(entry, names);
+        if (!kind || layout_called(entry.name) != Layout::sharded) continue;
+        const auto counts = sectors_by_host(hosts, entry.node);
+        const auto sectors = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
+        const auto taker = std::find_if(graph.nodes.begin(), graph.nodes.end(), [&](const Node& node) {
+            const auto taken = graph.taken_by(*graph.find(node.name));
+            return std::any_of(taken.begin(), taken.end(), [&](auto i) { return graph.nodes[i].name == entry.node; });
+        });
+        if (taker != graph.nodes.end())
+            check.complain(entry, ": it can't be sharded, as '" + taker->name + "' takes all that it keeps");
+        else if (!kind->landmarks)
+            check.complain(entry, ": a " + kind->name + " can't be sharded" + kinds_with_sectors(registry));
+        else if (sectors < 2)
+            check.complain(entry,
+                           ": it takes two replicas or more to share it, but this file has " + std::to_string(sectors));
+        else if (sectors > most_sectors)
+            check.complain(
+                entry, ": it can have " + std::to_string(most_sectors) + " sectors, not " + std::to_string(sectors));
+    }
 }
 
 }  // namespace
@@ -99,7 +148,9 @@ void check_hosts(const Hosts& hosts, const Graph& graph, const Registry& registr
                 check.replica(name, count);
         }
     }
-    for (const auto& entry : hosts.strategies) check_strategy(entry, graph, registry, names, problems);
+    const ChoiceCheck strategies("strategy", {strategy_names.begin(), strategy_names.end()}, graph, registry, problems);
+    for (const auto& entry : hosts.strategies) strategies.check(entry, names);
+    check_layouts(hosts, graph, registry, names, problems);
 }
 
 }  // namespace lightnet

@@ -14,7 +14,7 @@
 namespace lightnet {
 
 /// Adds to `problems`: endpoints that are none or stand there twice, nodes that the graph doesn't have or that no
-/// host can hold, counts out of range, strategies that are none.
+/// host can hold, counts out of range, strategies and layouts that are none, nodes that can't be sharded.
 void check_hosts(const Hosts& hosts, const Graph& graph, const Registry& registry, std::vector<Problem>& problems);
 
 /// Host and port of "tcp://host:port"; empty where it isn't one.

@@ -89,6 +89,7 @@ std::string describe(const Kind& kind) {
     text += "inputs: " + inputs_text(kind) + "\n";
     if (kind.linear) text += "linear: the layers of its inputs pass through\n";
     if (const auto paths = default_paths(kind); !paths.empty()) text += "light paths: " + paths + "\n";
+    if (kind.landmarks) text += "layouts: replicated, sharded\n";
     if (kind.params.empty()) return text + "parameters: none\n";
     text += "parameters:\n";
     std::size_t width = 0;

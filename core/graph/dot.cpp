@@ -1,5 +1,6 @@
 #include "core/graph/dot.hpp"
 
+#include "core/graph/layout.hpp"
 #include "core/graph/light_paths.hpp"
 
 #include <algorithm>
@@ -164,10 +165,19 @@ public:
 
 private:
     std::string id(std::size_t node, std::uint32_t place) const {
-        return "node_" + graph_.nodes[node].name + "_" + std::to_string(place);
+        return "node_" + plain_name(node) + "_" + std::to_string(place);
     }
     std::string multiplexer_id(std::size_t node, std::uint32_t place) const {
-        return "choose_" + graph_.nodes[node].name + "_" + std::to_string(place);
+        return "choose_" + plain_name(node) + "_" + std::to_string(place);
+    }
+    std::string router_id(std::size_t node, std::uint32_t place) const {
+        return "route_" + plain_name(node) + "_" + std::to_string(place);
+    }
+    // "photons_of_3" for the sector called "photons#3".
+    std::string plain_name(std::size_t node) const {
+        const auto* sector = sector_at(graph_, node);
+        if (!sector) return graph_.nodes[node].name;
+        return graph_.nodes[sector->node].name + "_of_" + std::to_string(sector->index + 1);
     }
 
     bool holds(std::uint32_t place, std::size_t node) const {
@@ -177,12 +187,18 @@ private:
 
     // Whether a node of the place asks `node`, and has several replicas to choose from, none beside it.
     bool chooses(std::uint32_t place, std::size_t node) const {
-        if (holds(place, node) || plan_.places_of[node].size() < 2) return false;
-        for (std::size_t asker = 0; asker < graph_.nodes.size(); ++asker) {
-            const auto inputs = asked_by(asker);
-            if (holds(place, asker) && std::find(inputs.begin(), inputs.end(), node) != inputs.end()) return true;
-        }
+        return !holds(place, node) && plan_.places_of[node].size() >= 2 && asked_at(place, node);
+    }
+
+    // Whether a node of the place asks `node`, or the one whose sector it stands for.
+    bool asked_at(std::uint32_t place, std::size_t node) const {
+        for (std::size_t asker = 0; asker < graph_.nodes.size(); ++asker)
+            if (holds(place, asker) && asks(asker, node)) return true;
         return false;
+    }
+    bool asks(std::size_t asker, std::size_t node) const {
+        const auto inputs = asked_by(asker);
+        return std::find(inputs.begin(), inputs.end(), whole_of(graph_, node)) != inputs.end();
     }
 
     const char* way(std::uint32_t from, std::uint32_t to) const {
@@ -215,6 +231,7 @@ private:
         for (std::size_t node = 0; node < graph_.nodes.size(); ++node) {
             if (holds(place, node)) draw_node(3, id(node, place), node);
             if (chooses(place, node)) draw_multiplexer(3, multiplexer_id(node, place), node);
+            if (!sectors_of(graph_, node).empty() && asked_at(place, node)) draw_router(3, place, node);
         }
         line(2, "}");
     }
@@ -222,6 +239,13 @@ private:
     void draw_multiplexer(int depth, const std::string& id, std::size_t node) {
         const std::string label = graph_.nodes[node].name + " × " + std::to_string(plan_.places_of[node].size());
         line(depth, id + " [shape=trapezium, style=solid, label=" + escaped(label) + "];");
+    }
+
+    // Questions to a sharded node go by where they lie.
+    void draw_router(int depth, std::uint32_t place, std::size_t node) {
+        const auto sectors = std::to_string(sectors_of(graph_, node).size());
+        line(depth, router_id(node, place) + " [shape=invtrapezium, style=solid, label=" +
+                        escaped(graph_.nodes[node].name + " by place\n" + sectors + " sectors") + "];");
     }
 
     void draw_tiles() {
@@ -239,27 +263,42 @@ private:
 
     void draw_asks(std::uint32_t place, std::size_t node) {
         for (const std::size_t input : asked_by(node)) {
-            const auto& replicas = plan_.places_of[input];
-            if (holds(place, input))
-                edge(id(node, place), id(input, place), light(input) + "\ncall");
-            else if (replicas.size() == 1)
-                edge(id(node, place), id(input, replicas[0]), light(input) + "\n" + way(place, replicas[0]));
+            if (sectors_of(graph_, input).empty())
+                draw_way(place, id(node, place), input);
             else
-                edge(id(node, place), multiplexer_id(input, place), light(input) + "\ncall");
+                edge(id(node, place), router_id(input, place), light(input) + "\ncall");
         }
         for (const std::size_t taken : graph_.taken_by(node)) draw_taken(id(node, place), id(taken, place), taken);
         // the node stands for all that the place asks of its own multiplexers
-        for (const std::size_t input : asked_by(node))
-            if (chooses(place, input) && first_asker(place, input) == node)
-                for (const auto replica : plan_.places_of[input])
-                    edge(multiplexer_id(input, place), id(input, replica), light(input) + "\n" + way(place, replica));
+        for (const std::size_t input : asked_by(node)) {
+            if (first_asker(place, input) != node) continue;
+            for (const auto sector : sectors_of(graph_, input)) {
+                draw_way(place, router_id(input, place), sector);
+                draw_choices(place, sector);
+            }
+            draw_choices(place, input);
+        }
+    }
+
+    void draw_way(std::uint32_t place, const std::string& from, std::size_t input) {
+        const auto& replicas = plan_.places_of[input];
+        if (holds(place, input))
+            edge(from, id(input, place), light(input) + "\ncall");
+        else if (replicas.size() == 1)
+            edge(from, id(input, replicas[0]), light(input) + "\n" + way(place, replicas[0]));
+        else
+            edge(from, multiplexer_id(input, place), light(input) + "\ncall");
+    }
+
+    void draw_choices(std::uint32_t place, std::size_t input) {
+        if (!chooses(place, input)) return;
+        for (const auto replica : plan_.places_of[input])
+            edge(multiplexer_id(input, place), id(input, replica), light(input) + "\n" + way(place, replica));
     }
 
     std::size_t first_asker(std::uint32_t place, std::size_t input) const {
-        for (std::size_t asker = 0;; ++asker) {
-            const auto inputs = asked_by(asker);
-            if (holds(place, asker) && std::find(inputs.begin(), inputs.end(), input) != inputs.end()) return asker;
-        }
+        for (std::size_t asker = 0;; ++asker)
+            if (holds(place, asker) && asks(asker, input)) return asker;
     }
 
     const Plan& plan_;

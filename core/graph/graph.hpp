@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -23,10 +24,19 @@ struct Node {
     friend bool operator==(const Node&, const Node&) = default;
 };
 
+/// What one of a sharded node's parts is: see sharded().
+struct Sector {
+    std::uint32_t node = 0;   // index of the node as the user wrote it
+    std::uint32_t index = 0;  // among its sectors
+    std::uint32_t count = 1;  // of its sectors
+    friend bool operator==(const Sector&, const Sector&) = default;
+};
+
 /// A graph, in the order of its file. Plain data: copyable, comparable, sendable.
 struct Graph {
-    std::string file;         // the graph file, as named by the user
-    std::vector<Node> nodes;  // in the order in which the file names them
+    std::string file;               // the graph file, as named by the user
+    std::vector<Node> nodes;        // in the order in which the file names them, and one for each sector behind them
+    std::vector<Sector> sectors{};  // of sharded nodes
     friend bool operator==(const Graph&, const Graph&) = default;
 
     /// Index of the node called `name`.

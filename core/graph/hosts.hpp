@@ -19,19 +19,20 @@ struct HostEntry {
     friend bool operator==(const HostEntry&, const HostEntry&) = default;
 };
 
-/// `strategy = "affinity"`, or one entry of `strategy { bounce = "affinity" }`
-struct StrategyEntry {
+/// `strategy = "affinity"`, or one entry of `strategy { bounce = "affinity" }`; the same for layouts.
+struct ChoiceEntry {
     std::string node;  // "": all that have none of their own
-    std::string name;  // of a Strategy, as it stands there
+    std::string name;  // of a Strategy or a Layout, as it stands there
     SourceLine where;
-    friend bool operator==(const StrategyEntry&, const StrategyEntry&) = default;
+    friend bool operator==(const ChoiceEntry&, const ChoiceEntry&) = default;
 };
 
 /// All hosts of a run, in the order of the file.
 struct Hosts {
     std::string file;
     std::vector<HostEntry> hosts;
-    std::vector<StrategyEntry> strategies{};  // in the order of the file; later ones win
+    std::vector<ChoiceEntry> strategies{};  // in the order of the file; later ones win
+    std::vector<ChoiceEntry> layouts{};     // likewise
     friend bool operator==(const Hosts&, const Hosts&) = default;
 };
 

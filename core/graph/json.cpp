@@ -8,6 +8,7 @@
 
 #include "core/graph/graph.hpp"
 #include "core/graph/hosts.hpp"
+#include "core/graph/layout.hpp"
 #include "core/graph/plan.hpp"
 
 // Everything is written by hand and read by exact shape: what has more or fewer keys than it should is not ours.
@@ -185,7 +186,14 @@ void take_strategies(const Json& json, Plan& plan) {
     }
 }
 
-StrategyEntry strategy_entry_of(const Json& json) {
+Json json_of(const std::vector<ChoiceEntry>& choices) {
+    Json json = Json::array();
+    for (const auto& entry : choices)
+        json.push_back({{"node", entry.node}, {"name", entry.name}, {"where", json_of(entry.where)}});
+    return json;
+}
+
+ChoiceEntry choice_of(const Json& json) {
     object_of(json, 3);
     return {text_of(member(json, "node")), text_of(member(json, "name")), where_of(member(json, "where"))};
 }
@@ -194,16 +202,24 @@ StrategyEntry strategy_entry_of(const Json& json) {
 
 std::string to_json(const Graph& graph) {
     Json nodes = Json::array();
-    for (const auto& node : graph.nodes) nodes.push_back(json_of(node));
-    return dump({{"file", graph.file}, {"nodes", std::move(nodes)}});
+    for (std::size_t i = 0; i < written_nodes(graph); ++i) nodes.push_back(json_of(graph.nodes[i]));
+    Json json{{"file", graph.file}, {"nodes", std::move(nodes)}};
+    if (!graph.sectors.empty()) json["shards"] = shards_in(graph);
+    return dump(json);
 }
 
 Graph graph_from_json(std::string_view text) {
     const Json json = parse(text);
-    object_of(json, 2);
+    const bool has_shards = json.is_object() && json.contains("shards");
+    object_of(json, has_shards ? 3 : 2);
     Graph graph{text_of(member(json, "file")), {}};
     for (const auto& node : array_of(member(json, "nodes"))) graph.nodes.push_back(node_of(node));
-    return graph;
+    if (!has_shards) return graph;
+    std::map<std::string, std::uint32_t> shards;
+    const auto& counts = member(json, "shards");
+    if (!counts.is_object()) malformed("an object was expected");
+    for (const auto& [name, count] : counts.items()) shards.emplace(name, integer_of<std::uint32_t>(count));
+    return sharded(std::move(graph), shards);
 }
 
 std::string to_json(const Hosts& hosts) {
@@ -213,18 +229,19 @@ std::string to_json(const Hosts& hosts) {
                         {"replicas", host.replicas},
                         {"places", host.places},
                         {"where", json_of(host.where)}});
-    Json strategies = Json::array();
-    for (const auto& entry : hosts.strategies)
-        strategies.push_back({{"node", entry.node}, {"name", entry.name}, {"where", json_of(entry.where)}});
-    return dump({{"file", hosts.file}, {"hosts", std::move(list)}, {"strategies", std::move(strategies)}});
+    return dump({{"file", hosts.file},
+                 {"hosts", std::move(list)},
+                 {"strategies", json_of(hosts.strategies)},
+                 {"layouts", json_of(hosts.layouts)}});
 }
 
 Hosts hosts_from_json(std::string_view text) {
     const Json json = parse(text);
-    object_of(json, 3);
+    object_of(json, 4);
     Hosts hosts{text_of(member(json, "file")), {}};
     for (const auto& host : array_of(member(json, "hosts"))) hosts.hosts.push_back(host_of(host));
-    for (const auto& entry : array_of(member(json, "strategies"))) hosts.strategies.push_back(strategy_entry_of(entry));
+    for (const auto& entry : array_of(member(json, "strategies"))) hosts.strategies.push_back(choice_of(entry));
+    for (const auto& entry : array_of(member(json, "layouts"))) hosts.layouts.push_back(choice_of(entry));
     return hosts;
 }
 

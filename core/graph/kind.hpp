@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/graph/value.hpp"
+#include "core/math/vec.hpp"
 
 namespace lightnet {
 
@@ -82,7 +83,11 @@ struct Kind {
     bool keeps = false;     // the result of its last call while preparing goes to the file that its parameter `keep`
                             // names; `extend` names such a file, whose content is in SceneData::kept
     bool converts = false;  // gives the light of the node whose frozen state it takes, in another representation
-    bool partial = false;   // passes on a part of its inputs' light, on purpose
+    /// Points of the scene that lie about as densely as what a node prepares, the same wherever they are made. Nodes of
+    /// a kind that has this can be sharded: what they prepare comes from Services::map_near(), and an answer depends on
+    /// nothing that lies farther from its question than was said there. Asks no inputs.
+    std::function<std::vector<Vec3>(const NodeContext&)> landmarks = {};
+    bool partial = false;  // passes on a part of its inputs' light, on purpose
     std::vector<Param> params = {};
     std::function<std::unique_ptr<LightOp>(const NodeContext&)> make_light = {};
     std::function<std::unique_ptr<Renderer>(const NodeContext&)> make_renderer = {};

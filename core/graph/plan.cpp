@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
+
+#include "core/graph/layout.hpp"
 
 namespace lightnet {
 namespace {
@@ -9,19 +12,22 @@ namespace {
 /// Fills a plan host by host.
 class Planner {
 public:
-    Planner(const Graph& graph, const Registry& registry) : graph_(graph), placed_(graph.nodes.size(), false) {
+    Planner(const Graph& graph, const Registry& registry, const Hosts& hosts)
+        : graph_(graph), placed_(graph.nodes.size(), false) {
         plan_.places_of.resize(graph.nodes.size());
         const auto used = used_nodes(graph, renderer_of(graph, registry));
         for (std::size_t node = 0; node < graph.nodes.size(); ++node)
-            placed_[node] = used[node] && registry.find(graph.nodes[node].kind)->role != Role::scene;
+            placed_[node] = used[whole_of(graph, node)] && sectors_of(graph, node).empty() &&
+                            registry.find(graph.nodes[node].kind)->role != Role::scene;
+        give_sectors(hosts);
     }
 
-    /// Every place of the host holds every node.
+    /// Every place of the host holds every node, but of sharded nodes only the sectors that are the host's.
     void whole_network(const std::string& host, std::uint32_t places) {
         for (std::uint32_t index = 0; index < places; ++index) {
             const auto place = add_place(host, index);
             for (std::size_t node = 0; node < placed_.size(); ++node)
-                if (placed_[node]) hold(node, place);
+                if (placed_[node] && (!sector_at(graph_, node) || sectors_[host].contains(node))) hold(node, place);
         }
     }
 
@@ -30,10 +36,12 @@ public:
     void named_nodes(const HostEntry& entry, std::uint32_t places) {
         const std::size_t first = plan_.places.size();
         for (std::size_t node = 0; node < placed_.size(); ++node) {
-            const auto wanted = entry.replicas.find(graph_.nodes[node].name);
+            const auto wanted = entry.replicas.find(graph_.nodes[whole_of(graph_, node)].name);
             if (wanted == entry.replicas.end() || !placed_[node]) continue;
             places = std::max(places, static_cast<std::uint32_t>(wanted->second));
-            for (int replica = 0; replica < wanted->second; ++replica)
+            const bool sector = sector_at(graph_, node);
+            const int replicas = sector ? sectors_[entry.endpoint].contains(node) : wanted->second;
+            for (int replica = 0; replica < replicas; ++replica)
                 hold(node, least_busy(entry.endpoint, first, places, node));
         }
     }
@@ -69,7 +77,7 @@ public:
             if (strategy && entry.node.empty())
                 plan_.strategy = *strategy;
             else if (strategy && node)
-                plan_.strategies[static_cast<std::uint32_t>(*node)] = *strategy;
+                choose(*node, *strategy);
         }
     }
 
@@ -81,6 +89,25 @@ public:
     }
 
 private:
+    void choose(std::size_t node, Strategy strategy) {
+        plan_.strategies[static_cast<std::uint32_t>(node)] = strategy;
+        for (const auto sector : sectors_of(graph_, node))
+            plan_.strategies[static_cast<std::uint32_t>(sector)] = strategy;
+    }
+
+    // Whose a sector is follows from the file alone, so that it stays where it is when other hosts come and go.
+    void give_sectors(const Hosts& hosts) {
+        for (std::size_t node = 0; node < written_nodes(graph_); ++node) {
+            const auto sectors = sectors_of(graph_, node);
+            if (sectors.empty()) continue;
+            const auto counts = sectors_by_host(hosts, graph_.nodes[node].name);
+            auto next = sectors.begin();
+            for (std::size_t host = 0; host < counts.size(); ++host)
+                for (std::uint32_t i = 0; i < counts[host] && next != sectors.end(); ++i)
+                    sectors_[hosts.hosts[host].endpoint].insert(*next++);
+        }
+    }
+
     std::uint32_t add_place(const std::string& host, std::uint32_t index) {
         plan_.places.push_back({host, index});
         held_.push_back(0);
@@ -107,14 +134,15 @@ private:
 
     const Graph& graph_;
     Plan plan_;
-    std::vector<bool> placed_;       // per node: the picture needs it, and a place must hold it
-    std::vector<std::size_t> held_;  // per place: how many nodes it holds
+    std::map<std::string, std::set<std::size_t>> sectors_;  // by host: those that the hosts file gives it
+    std::vector<bool> placed_;                              // per node: the picture needs it, and a place must hold it
+    std::vector<std::size_t> held_;                         // per place: how many nodes it holds
 };
 
 }  // namespace
 
 Plan plan(const Graph& graph, const Registry& registry, const Hosts& hosts, const std::vector<HostOffer>& offers) {
-    Planner planner(graph, registry);
+    Planner planner(graph, registry, hosts);
     for (const auto& offer : offers) {
         const auto entry = std::find_if(hosts.hosts.begin(), hosts.hosts.end(),
                                         [&](const HostEntry& host) { return host.endpoint == offer.endpoint; });

@@ -43,9 +43,10 @@ struct PlaceAt {
 /// what it has, and is asked no more; one that is gone has left its work undone.
 struct Plan {
     std::vector<PlaceAt> places;
-    std::vector<std::vector<std::uint32_t>> places_of;  // node index → places (indices) that hold it; scenes: none
-    Strategy strategy = Strategy::fastest;              // by which askers choose among the places of a node ...
-    std::map<std::uint32_t, Strategy> strategies{};     // ... but of these nodes
+    std::vector<std::vector<std::uint32_t>> places_of;  // node index → places (indices) that hold it; scenes, and nodes
+                                                        // that have sectors: none
+    Strategy strategy = Strategy::fastest;           // by which askers choose among the places of a node ...
+    std::map<std::uint32_t, Strategy> strategies{};  // ... but of these nodes
 
     Strategy strategy_of(std::size_t node) const {
         const auto own = strategies.find(static_cast<std::uint32_t>(node));
@@ -61,8 +62,10 @@ struct HostOffer {
 };
 
 /// Spreads the graph over the hosts that are there. Without a hosts file (or where an entry names no nodes) each place
-/// holds the whole network. A node whose hosts are all absent is put on the place that holds the fewest nodes. Who
-/// takes a node's frozen state has that node beside it on all its places.
+/// holds the whole network. A node whose hosts are all absent is put on the place that holds the fewest nodes. Sectors
+/// of sharded nodes go to the hosts of the file in its order; hosts that it doesn't name hold only those that have lost
+/// theirs, and nobody holds the sharded node itself. Who takes a node's frozen state has that node beside it on all its
+/// places.
 Plan plan(const Graph& graph, const Registry& registry, const Hosts& hosts, const std::vector<HostOffer>& offers);
 
 /// Every node of the graph has a row, and every place that is named is there. Plans that arrive are checked.

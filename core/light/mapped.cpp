@@ -14,6 +14,11 @@ std::size_t head_of(std::uint64_t shards) { return ((shards + 1) * word + 15) / 
 }  // namespace
 
 Bytes join_shards(std::span<const std::vector<std::byte>> shards) {
+    const std::vector<std::span<const std::byte>> spans(shards.begin(), shards.end());
+    return join_shards(std::span(spans));
+}
+
+Bytes join_shards(std::span<const std::span<const std::byte>> shards) {
     const std::uint64_t count = shards.size();
     std::size_t size = head_of(count);
     for (const auto& shard : shards) size += shard.size();

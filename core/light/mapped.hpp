@@ -13,6 +13,7 @@ namespace lightnet {
 
 /// Puts the results of shards 0, 1, … behind each other. Layout: the number of shards and the size of each in bytes
 /// (64 bits each), then, from a multiple of 16 on, the results.
+Bytes join_shards(std::span<const std::span<const std::byte>> shards);
 Bytes join_shards(std::span<const std::vector<std::byte>> shards);
 
 /// Where the results are. Throws Error when `joined` was not made by join_shards().

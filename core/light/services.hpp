@@ -1,6 +1,7 @@
 // What a node may use to prepare itself before the first question.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -12,6 +13,7 @@
 
 #include "core/light/mapped.hpp"
 #include "core/light/query.hpp"
+#include "core/light/sectors.hpp"
 
 namespace lightnet {
 
@@ -43,6 +45,32 @@ public:
         }));
     }
 
+    /// Like map(), for results that lie somewhere in the scene: `where(result)` says where. Where the node is sharded
+    /// (see Kind::landmarks), it gives this copy of it only those that lie within `reach` of a question that it may be
+    /// asked; else all of them. In the order of i, but in several memories, each of which is free when it is let go of.
+    /// The node can't know which; what it answers must not depend on what lies farther away than `reach`.
+    template <class T, class Work, class Where>
+    std::vector<Mapped<T>> map_near(std::size_t count, float reach, const Work& work, const Where& where) {
+        const Sectors* cut = sectors();
+        std::vector<Mapped<T>> near;
+        if (!cut) near.push_back(map<T>(count, work));
+        for (std::size_t first = 0; cut && first < count; first += shards_at_once) {
+            const auto shard_of_sectors = [&](std::size_t shard, std::vector<std::byte>& out) {
+                std::vector<T> results;
+                work(first + shard, results);
+                std::vector<std::vector<std::byte>> parts(cut->count());
+                for (const T& result : results)
+                    cut->near(where(result), reach, [&](std::uint32_t sector) {
+                        const auto* bytes = reinterpret_cast<const std::byte*>(&result);
+                        parts[sector].insert(parts[sector].end(), bytes, bytes + sizeof(T));
+                    });
+                out = *join_shards(parts);
+            };
+            near.emplace_back(map_sectors(std::min(shards_at_once, count - first), shard_of_sectors));
+        }
+        return near;
+    }
+
     /// Makes a value from what is prepared so far, once per process; its places share it. `make` asks nobody.
     template <class T, class Make>
     std::shared_ptr<const T> once(const Make& make) {
@@ -64,6 +92,14 @@ public:
 protected:
     using Shard = std::function<void(std::size_t shard, std::vector<std::byte>& out)>;
     virtual Bytes map_bytes(std::size_t count, const Shard& work) = 0;
+    /// How the scene is cut up for the copies of the node; null: each copy has all.
+    virtual const Sectors* sectors() { return nullptr; }
+    /// The same as map_bytes() for work whose results are one list per sector, by join_shards(): gives those of the
+    /// copy's own. Only where there are sectors.
+    virtual Bytes map_sectors(std::size_t count, const Shard& work) { return map_bytes(count, work); }
+
+    /// What is on its way to the copies at one time is the results of so many shards.
+    static constexpr std::size_t shards_at_once = 64;
     virtual std::shared_ptr<const void> once_any(const std::function<std::shared_ptr<const void>()>& make) = 0;
 };
 

@@ -18,6 +18,7 @@ struct Counters {
     std::uint64_t bytes = 0;            // sent and received over sockets between hosts
     std::uint64_t relayed_bytes = 0;    // passed on by the launcher between hosts that can't call each other
     std::uint64_t file_bytes = 0;       // of scene files, sent to hosts that did not have them
+    std::uint64_t prepared_bytes = 0;   // results of preparing that copies of nodes were given
     std::uint64_t tiles = 0;            // rendered
     std::uint64_t merged = 0;           // bundles that were answered together with one before them
     std::uint64_t cut_bundles = 0;      // cut up, so that several places share them
@@ -29,7 +30,7 @@ struct Counters {
     std::uint64_t set_aside = 0;       // bundles and tiles that seem to kill hosts
     std::uint64_t cancelled = 0;       // asks of lost places, dropped before they were answered
     std::uint64_t late_replies = 0;    // of bundles that were answered already; dropped
-    std::uint64_t refused_sends = 0;   // at a full or broken socket; tried again
+    std::uint64_t refused_sends = 0;   // at a full or broken line; tried again. 0 where none broke: credit leaves room
     std::uint64_t broken_packets = 0;  // dropped
     std::map<std::string, std::uint64_t> not_finite;  // answers that were infinite or no numbers, by node
 
@@ -58,11 +59,11 @@ struct Counters {
     static inline const std::string not_finite_of = "not_finite.";
 
     /// Every other count and its name, as in run.json and on the wire.
-    static const std::array<std::pair<const char*, std::uint64_t Counters::*>, 20> all;
+    static const std::array<std::pair<const char*, std::uint64_t Counters::*>, 21> all;
     friend bool operator==(const Counters&, const Counters&) = default;
 };
 
-inline constexpr std::array<std::pair<const char*, std::uint64_t Counters::*>, 20> Counters::all{{
+inline constexpr std::array<std::pair<const char*, std::uint64_t Counters::*>, 21> Counters::all{{
     {"rays", &Counters::rays},
     {"local_questions", &Counters::local_questions},
     {"questions", &Counters::questions},
@@ -70,6 +71,7 @@ inline constexpr std::array<std::pair<const char*, std::uint64_t Counters::*>, 2
     {"bytes", &Counters::bytes},
     {"relayed_bytes", &Counters::relayed_bytes},
     {"file_bytes", &Counters::file_bytes},
+    {"prepared_bytes", &Counters::prepared_bytes},
     {"tiles", &Counters::tiles},
     {"merged", &Counters::merged},
     {"cut_bundles", &Counters::cut_bundles},

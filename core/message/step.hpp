@@ -31,6 +31,7 @@ struct Step {
 struct Report {
     enum class Kind : std::uint32_t {
         map,       // waits for the result of `count` shards
+        sectors,   // the same for what lies in its sector alone: every shard gives a list for each sector
         rehearse,  // waits for the end of a rehearsal with stride `count`
         done,
         last = done,

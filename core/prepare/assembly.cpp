@@ -38,7 +38,7 @@ private:
 
 template <class Make>
 auto made(const Network& network, std::size_t node, Inputs inputs, NodeContext::Own own, const Make& make) {
-    const auto& what = network.graph.nodes[node];
+    const auto& what = network.graph.nodes[whole_of(network.graph, node)];  // nobody knows that it has a sector
     try {
         return make(NodeContext(what, std::move(inputs), *network.scene, network.seed, own));
     } catch (const std::exception& error) {
@@ -50,6 +50,17 @@ auto made(const Network& network, std::size_t node, Inputs inputs, NodeContext::
 
 std::size_t Network::width_of(std::size_t node) const {
     return kind_of(node).role == Role::image ? colours_of(layers) : layers.of_node[node].size();
+}
+
+std::shared_ptr<const Sectors> Network::sectors(std::size_t node) const {
+    const std::size_t whole = whole_of(graph, node);
+    const auto& what = graph.nodes[whole];
+    if (!kind_of(whole).landmarks) throw Error(what.kind + " '" + what.name + "'", "can't be sharded");
+    // As nobody prepares the sharded node itself, none of the shared values is its own.
+    return std::static_pointer_cast<const Sectors>(shared->get(whole, 0, [&]() -> SharedValues::Value {
+        const auto count = static_cast<std::uint32_t>(sectors_of(graph, whole).size());
+        return std::make_shared<const Sectors>(kind_of(whole).landmarks(NodeContext(what, {}, *scene, seed)), count);
+    }));
 }
 
 Inputs Assembly::inputs_of(std::size_t node) {

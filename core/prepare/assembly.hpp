@@ -9,6 +9,7 @@
 
 #include "core/graph/graph.hpp"
 #include "core/graph/kind.hpp"
+#include "core/graph/layout.hpp"
 #include "core/graph/plan.hpp"
 #include "core/light/inputs.hpp"
 #include "core/light/light_op.hpp"
@@ -16,6 +17,7 @@
 #include "core/light/node_context.hpp"
 #include "core/light/rehearsal.hpp"
 #include "core/light/renderer.hpp"
+#include "core/light/sectors.hpp"
 #include "core/prepare/call_port.hpp"
 #include "core/prepare/prepared.hpp"
 #include "core/scene/scene.hpp"
@@ -37,6 +39,9 @@ struct Network {
     const Kind& kind_of(std::size_t node) const { return *registry.find(graph.nodes[node].kind); }
     /// Colours per answer when nothing is added up.
     std::size_t width_of(std::size_t node) const;
+    /// How the scene is cut up for a sharded node, or for one of those that stand for its sectors. Made when it is
+    /// first asked for, alike in all processes. Throws Error when the node's kind can't be sharded.
+    std::shared_ptr<const Sectors> sectors(std::size_t node) const;
 };
 
 /// The nodes of one place, made when first needed.
@@ -63,7 +68,7 @@ public:
     std::map<std::string, std::uint64_t> not_finite() const {
         std::map<std::string, std::uint64_t> counts;
         for (const auto& [node, count] : not_finite_)
-            if (count) counts[network_.graph.nodes[node].name] = count;
+            if (count) counts[network_.graph.nodes[whole_of(network_.graph, node)].name] += count;
         return counts;
     }
     const Renderer& renderer(std::size_t node);

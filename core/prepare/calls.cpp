@@ -11,17 +11,22 @@ constexpr std::uint8_t most_copies = 2;
 
 }  // namespace
 
-Call::Call(const Report& what, bool rehearsed) : what_(what), rehearsed_(rehearsed) {
-    if (what.kind != Report::Kind::map) return;
-    shards_.resize(what.count);
-    copies_.resize(what.count);
-    answered_.resize(what.count);
-    missing_ = what.count;
-    for (std::uint32_t shard = 0; shard < what.count; ++shard) to_do_.push_back(shard);
-    if (what.count == 0) complete_from_shards();
+Call::Call(const Report& what, bool rehearsed, std::uint32_t parts)
+    : what_(what), rehearsed_(rehearsed), kept_(parts), lent_(parts) {
+    begin_again();
 }
 
-Bytes Call::join(const std::vector<std::vector<std::byte>>& shards) { return join_shards(shards); }
+void Call::begin_again() {
+    names_.clear();
+    if (!shared_out()) return;
+    to_do_.clear();
+    shards_.assign(what_.count, nullptr);
+    copies_.assign(what_.count, 0);
+    answered_.assign(what_.count, false);
+    missing_ = what_.count;
+    for (std::uint32_t shard = 0; shard < what_.count; ++shard) to_do_.push_back(shard);
+    if (what_.count == 0) complete_from_shards();
+}
 
 std::optional<std::uint32_t> Call::hand_out(std::size_t under_way) {
     if (under_way >= most_per_place || missing_ == 0) return std::nullopt;
@@ -42,47 +47,114 @@ std::optional<std::uint32_t> Call::hand_out(std::size_t under_way) {
 }
 
 void Call::take_back(std::uint32_t shard) {
-    if (result_ || answered_[shard]) return;
+    if (done() || answered_[shard] || copies_[shard] == 0) return;
     if (--copies_[shard] == 0) to_do_.push_front(shard);
 }
 
 bool Call::answer(std::uint32_t shard, const Bytes& results) {
-    if (result_ || answered_[shard]) return false;
+    if (done() || answered_[shard]) return false;
+    if (what_.kind == Report::Kind::sectors && split_shards(results).size() != parts())
+        throw Error("results of preparing", "they are not for as many sectors as there are");
     answered_[shard] = true;
-    if (results) shards_[shard] = *results;
+    shards_[shard] = results;
     return --missing_ == 0;
 }
 
-void Call::complete(Bytes result) {
-    result_ = std::move(result);
-    name_ = content_hash(*result_);
+void Call::complete(std::vector<Bytes> parts) {
+    kept_ = std::move(parts);
+    lent_.assign(kept_.begin(), kept_.end());
+    for (const auto& part : kept_) names_.push_back(content_hash(*part));
     shards_ = {};
     missing_ = 0;
 }
 
+// In the order of shards, each part by itself.
+void Call::complete_from_shards() {
+    std::vector<std::vector<std::span<const std::byte>>> lists(parts());
+    for (const auto& shard : shards_) {
+        if (what_.kind == Report::Kind::sectors) {
+            const auto of_sectors = split_shards(shard);
+            for (std::size_t part = 0; part < lists.size(); ++part) lists[part].push_back(of_sectors[part]);
+        } else {
+            lists.front().push_back(shard ? std::span<const std::byte>(*shard) : std::span<const std::byte>());
+        }
+    }
+    std::vector<Bytes> parts;
+    for (const auto& list : lists) parts.push_back(join_shards(std::span(list)));
+    complete(std::move(parts));
+}
+
+void Call::let_go() { kept_.assign(kept_.size(), nullptr); }
+
+bool Call::restore(std::uint32_t part, const Bytes& result) {
+    if (content_hash(*result) != names_[part]) return false;
+    kept_[part] = result;
+    lent_[part] = result;
+    return true;
+}
+
 Call& Calls::reported(std::size_t node, const Report& at) {
-    if (const auto known = calls_.find({node, at.call}); known != calls_.end()) {
+    const std::size_t whole = whole_of(graph_, node);
+    if (const auto known = calls_.find({whole, at.call}); known != calls_.end()) {
         if (known->second.what() != at)
-            throw Error("'" + graph_.nodes[node].name + "' does not prepare alike on all places: its call " +
+            throw Error("'" + graph_.nodes[whole].name + "' does not prepare alike on all places: its call " +
                         std::to_string(at.call) + " differs");
         return known->second;
     }
-    const bool rehearsed = at.kind == Report::Kind::rehearse || (at.call > 0 && of(node, at.call - 1).rehearsed());
-    auto& call = calls_[{node, at.call}] = Call(at, rehearsed);
-    if (cache_ && !call.result())
-        if (auto known = cache_->find(recipes_.of(node, at.call, rehearsed))) call.complete(std::move(known));
+    const auto* sector = sector_at(graph_, node);
+    if (at.kind == Report::Kind::sectors && !sector)
+        throw Error("'" + graph_.nodes[whole].name + "' prepares for sectors, but has none");
+    const bool rehearsed = at.kind == Report::Kind::rehearse || (at.call > 0 && of(whole, at.call - 1).rehearsed());
+    auto& call = calls_[{whole, at.call}] = Call(at, rehearsed, at.kind == Report::Kind::sectors ? sector->count : 1);
+    if (!cache_ || call.done()) return call;
+    std::vector<Bytes> parts;
+    for (std::uint32_t part = 0; part < call.parts(); ++part) {
+        parts.push_back(cache_->find(recipe_of(whole, at.call, call, part)));
+        if (!parts.back()) return call;
+    }
+    call.complete(std::move(parts));
     return call;
+}
+
+Hash Calls::recipe_of(std::size_t whole, std::uint32_t number, const Call& call, std::uint32_t part) const {
+    const std::string which = call.what().kind == Report::Kind::sectors
+                                  ? "\nsector " + std::to_string(part + 1) + " of " + std::to_string(call.parts())
+                                  : std::string();
+    return recipes_.of(whole, number, call.rehearsed(), which);
+}
+
+std::uint32_t Calls::part_of(std::size_t node, const Call& call) const {
+    const auto* sector = sector_at(graph_, node);
+    return sector && call.what().kind == Report::Kind::sectors ? sector->index : 0;
+}
+
+Bytes Calls::result(std::size_t node, std::uint32_t number) {
+    auto& call = of(node, number);
+    if (!call.done()) return nullptr;
+    const auto part = part_of(node, call);
+    if (auto known = call.result(part)) return known;
+    const auto kept = cache_ ? cache_->find(recipe_of(whole_of(graph_, node), number, call, part)) : nullptr;
+    if (kept && call.restore(part, kept)) return kept;
+    call.begin_again();
+    return nullptr;
 }
 
 void Calls::keep(std::size_t node, std::uint32_t number) {
     const auto& call = of(node, number);
-    if (cache_) cache_->keep(recipes_.of(node, number, call.rehearsed()), call.result());
+    for (std::uint32_t part = 0; cache_ && part < call.parts(); ++part)
+        cache_->keep(recipe_of(whole_of(graph_, node), number, call, part), call.result(part));
+}
+
+void Calls::all_have(std::size_t node, std::uint32_t number) {
+    auto& call = of(node, number);
+    if (cache_ && call.done() && call.what().kind == Report::Kind::sectors) call.let_go();
 }
 
 std::map<std::string, Hash> Calls::hashes() const {
     std::map<std::string, std::string> texts;
     for (const auto& [key, call] : calls_)
-        if (call.result()) texts[graph_.nodes[key.first].name] += to_hex(call.name());
+        for (std::uint32_t part = 0; call.done() && part < call.parts(); ++part)
+            texts[graph_.nodes[key.first].name] += to_hex(call.name(part));
     std::map<std::string, Hash> hashes;
     for (const auto& [name, text] : texts) hashes[name] = content_hash(text);
     return hashes;
@@ -97,7 +169,7 @@ Bytes Calls::last_result(std::size_t node) const {
 
 const Call* Calls::unfinished(std::size_t node) const {
     for (const auto& [key, call] : calls_)
-        if (key.first == node && !call.result()) return &call;
+        if (key.first == node && !call.done()) return &call;
     return nullptr;
 }
 

@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/graph/layout.hpp"
 #include "core/message/step.hpp"
 #include "core/prepare/prepared.hpp"
 
@@ -19,41 +21,55 @@ namespace lightnet {
 class Call {
 public:
     Call() = default;
-    Call(const Report& what, bool rehearsed);
+    /// `parts`: how many results it has; more than one where each sector of a node gets its own.
+    Call(const Report& what, bool rehearsed, std::uint32_t parts = 1);
 
     const Report& what() const { return what_; }
     /// It is a rehearsal, or comes after one.
     bool rehearsed() const { return rehearsed_; }
-    /// Null until it is there.
-    const Bytes& result() const { return result_; }
-    const Hash& name() const { return name_; }
+    std::uint32_t parts() const { return static_cast<std::uint32_t>(kept_.size()); }
+    bool done() const { return !names_.empty(); }
+    /// Null until it is there, and when it was let go of and nobody else has it.
+    Bytes result(std::uint32_t part = 0) const { return kept_[part] ? kept_[part] : lent_[part].lock(); }
+    const Hash& name(std::uint32_t part = 0) const { return names_[part]; }
     std::size_t missing() const { return missing_; }
+    /// Does it take shards?
+    bool shared_out() const { return what_.kind == Report::Kind::map || what_.kind == Report::Kind::sectors; }
 
     /// A shard for a place that has `under_way` of them: one that nobody does, or, for a place that has nothing else to
     /// do, one that another place is still at. It counts as handed out.
     std::optional<std::uint32_t> hand_out(std::size_t under_way);
     /// It was not handed out after all, or its place is lost.
     void take_back(std::uint32_t shard);
-    /// The results of a shard. True when it was the last one.
+    /// The results of a shard. True when it was the last one. Throws Error when they have not as many parts as they
+    /// should.
     bool answer(std::uint32_t shard, const Bytes& results);
-    void complete(Bytes result);
-    void complete_from_shards() { complete(join(shards_)); }
+    void complete(Bytes result) { complete(std::vector<Bytes>(1, std::move(result))); }
+    void complete(std::vector<Bytes> parts);
+    void complete_from_shards();
+    /// Lets the results go, which somebody else keeps.
+    void let_go();
+    /// One that was let go of is there again. False: it is another one.
+    bool restore(std::uint32_t part, const Bytes& result);
+    /// All shards are to be done once more.
+    void begin_again();
 
 private:
-    static Bytes join(const std::vector<std::vector<std::byte>>& shards);
-
     Report what_;
     bool rehearsed_ = false;
-    Bytes result_;
-    Hash name_;
-    std::vector<std::vector<std::byte>> shards_;
+    std::vector<Bytes> kept_ = std::vector<Bytes>(1);  // results, by part
+    std::vector<std::weak_ptr<const std::vector<std::byte>>> lent_ =
+        std::vector<std::weak_ptr<const std::vector<std::byte>>>(1);
+    std::vector<Hash> names_;  // of all parts, or none
+    std::vector<Bytes> shards_;
     std::vector<std::uint8_t> copies_;  // under way, by shard
     std::vector<bool> answered_;
     std::deque<std::uint32_t> to_do_;
     std::size_t missing_ = 0;
 };
 
-/// All calls of a run, by node and number.
+/// All calls of a run, by node and number. The nodes that stand for the sectors of one node make the same calls, which
+/// are that node's.
 class Calls {
 public:
     /// `cache` may be null.
@@ -64,9 +80,16 @@ public:
     /// when another place has reported something else.
     Call& reported(std::size_t node, const Report& at);
     /// One that has been reported.
-    Call& of(std::size_t node, std::uint32_t number) { return calls_.at({node, number}); }
+    Call& of(std::size_t node, std::uint32_t number) { return calls_.at({whole_of(graph_, node), number}); }
+    /// The result for a node that has a sector or is whole. Null when there is none, so far or any more: then its
+    /// shards are to be done.
+    Bytes result(std::size_t node, std::uint32_t number);
+    /// Which part of a call's result a node gets.
+    std::uint32_t part_of(std::size_t node, const Call& call) const;
     /// Keeps its result for later runs.
     void keep(std::size_t node, std::uint32_t number);
+    /// Every copy of the node has its part: what is large and on disk need not be in memory as well.
+    void all_have(std::size_t node, std::uint32_t number);
     /// Node → hash over all its results.
     std::map<std::string, Hash> hashes() const;
     /// Of the node's last call; null: it has none.
@@ -75,6 +98,8 @@ public:
     const Call* unfinished(std::size_t node) const;
 
 private:
+    Hash recipe_of(std::size_t whole, std::uint32_t number, const Call& call, std::uint32_t part) const;
+
     const Graph& graph_;
     Recipes recipes_;
     ResultCache* cache_;

@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "core/graph/graph_film.hpp"
+#include "core/graph/layout.hpp"
 #include "core/graph/plan.hpp"
 
 namespace lightnet {
@@ -42,19 +43,19 @@ std::string text_of(Graph graph) {
 }  // namespace
 
 Recipes::Recipes(const Graph& graph, std::string made_from)
-    : graph_(graph), made_from_(std::move(made_from)), whole_(text_of(graph)) {
-    for (std::size_t node = 0; node < graph.nodes.size(); ++node) {
+    : graph_(graph), made_from_(std::move(made_from)), whole_(text_of(written(graph))) {
+    for (std::size_t node = 0; node < written_nodes(graph); ++node) {
         const auto used = used_nodes(graph, node);
         Graph part;
-        for (std::size_t i = 0; i < graph.nodes.size(); ++i)
+        for (std::size_t i = 0; i < written_nodes(graph); ++i)
             if (used[i]) part.nodes.push_back(graph.nodes[i]);
         subgraph_.push_back(text_of(std::move(part)));
     }
 }
 
-Hash Recipes::of(std::size_t node, std::uint32_t call, bool rehearsed) const {
+Hash Recipes::of(std::size_t node, std::uint32_t call, bool rehearsed, const std::string& part) const {
     return content_hash(made_from_ + '\n' + graph_.nodes[node].name + '\n' + std::to_string(call) + '\n' +
-                        (rehearsed ? whole_ : subgraph_[node]));
+                        (rehearsed ? whole_ : subgraph_[node]) + part);
 }
 
 SharedValues::Value SharedValues::get(std::size_t node, std::uint32_t index, const std::function<Value()>& make) {

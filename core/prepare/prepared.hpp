@@ -34,8 +34,8 @@ public:
     Recipes(const Graph& graph, std::string made_from);
 
     /// The `call`-th call of the node's prepare(). What a node learns in rehearsals depends on the whole graph; before
-    /// the first of them, on the node and on what it asks.
-    Hash of(std::size_t node, std::uint32_t call, bool rehearsed) const;
+    /// the first of them, on the node and on what it asks. `part` says which part of the result is meant; "": all.
+    Hash of(std::size_t node, std::uint32_t call, bool rehearsed, const std::string& part = {}) const;
 
 private:
     const Graph& graph_;

@@ -52,6 +52,7 @@ public:
         if (!waiting_ || at_.call != step.call || at_.kind == Report::Kind::done) return this->ask(std::move(ask));
         result_ = ask.data ? ask.data : preparer_.network_.results ? preparer_.network_.results(step.data) : nullptr;
         if (!result_) return fail(ask, "the result of a preparing step is not here");
+        preparer_.result_bytes_ += result_->size();
         asked_ = std::move(ask);
         waiting_ = false;
         resume_if_free();
@@ -67,7 +68,8 @@ public:
     }
 
     Bytes shard(const Step& step) {
-        if (!waiting_ || at_.kind != Report::Kind::map || at_.call != step.call || step.shard >= at_.count)
+        if (!waiting_ || (at_.kind != Report::Kind::map && at_.kind != Report::Kind::sectors) ||
+            at_.call != step.call || step.shard >= at_.count)
             throw Error("it does not wait for this shard");
         // prepare() must stay where it is while its work is done: work looks at what lies on its stack.
         struct Busy {
@@ -97,6 +99,14 @@ protected:
     Bytes map_bytes(std::size_t count, const Shard& work) override {
         work_ = &work;
         return wait(Report::Kind::map, static_cast<std::uint32_t>(count));
+    }
+    const Sectors* sectors() override {
+        if (!sectors_ && sector_at(preparer_.network_.graph, index_)) sectors_ = preparer_.network_.sectors(index_);
+        return sectors_.get();
+    }
+    Bytes map_sectors(std::size_t count, const Shard& work) override {
+        work_ = &work;
+        return wait(Report::Kind::sectors, static_cast<std::uint32_t>(count));
     }
     std::shared_ptr<const void> once_any(const std::function<std::shared_ptr<const void>()>& make) override {
         return preparer_.network_.shared->get(index_, values_++, make);
@@ -146,6 +156,7 @@ private:
     std::size_t shards_ = 0;  // that are being done
     Bytes result_;
     std::uint32_t call_ = 0, values_ = 0;
+    std::shared_ptr<const Sectors> sectors_;
 };
 
 Preparer::Preparer(const Network& network, Assembly& assembly, Fibers& fibers, Place place)

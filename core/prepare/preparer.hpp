@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <map>
@@ -34,6 +35,8 @@ public:
     bool start_next();
     /// Does a shard, in a fiber of the node. Throws Error when the node does not wait for it.
     Bytes shard(std::size_t node, const Step& step);
+    /// What all its nodes have been given so far.
+    std::uint64_t result_bytes() const { return result_bytes_; }
 
 private:
     class Node;
@@ -44,6 +47,7 @@ private:
     Place place_;
     std::map<std::size_t, std::unique_ptr<Node>> nodes_;
     std::deque<std::size_t> to_start_;
+    std::uint64_t result_bytes_ = 0;
 };
 
 }  // namespace lightnet

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "core/error.hpp"
+#include "core/graph/layout.hpp"
 
 namespace lightnet {
 namespace {
@@ -45,10 +46,8 @@ void Conductor::propose(const Plan& plan) {
     proposal_ = plan;
     lose(gone);
     if (rehearsing_) {  // nobody will ask a place that holds the node no more what it has noted
-        const auto places = holders(done_);
-        rehearsing_->broken |= std::any_of(rehearsing_->places.begin(), rehearsing_->places.end(), [&](const auto& at) {
-            return std::find(places.begin(), places.end(), at) == places.end();
-        });
+        rehearsing_->broken |= !std::all_of(rehearsing_->copies.begin(), rehearsing_->copies.end(),
+                                            [&](const auto& copy) { return is_there(copy, done_); });
     }
     advance();
 }
@@ -57,15 +56,15 @@ void Conductor::propose(const Plan& plan) {
 void Conductor::lose(const std::set<PlaceKey>& gone) {
     if (gone.empty()) return;
     for (auto sent = sent_.begin(); sent != sent_.end();) {
-        if (!gone.contains(sent->second.place)) {
+        if (!gone.contains(sent->second.to.place)) {
             ++sent;
             continue;
         }
-        const auto& [place, position, step] = sent->second;
+        const auto& [to, position, step] = sent->second;
         if (step.kind == Step::Kind::shard) calls_.of(order_[position], step.call).take_back(step.shard);
         sent = sent_.erase(sent);
     }
-    std::erase_if(followers_, [&](const auto& follower) { return gone.contains(follower.first.first); });
+    std::erase_if(followers_, [&](const auto& follower) { return gone.contains(follower.first.place); });
     for (const auto& place : gone) {
         known_prepared_.erase(place);
         attended_.erase(place);
@@ -76,37 +75,46 @@ void Conductor::lose(const std::set<PlaceKey>& gone) {
     if (rehearsing_) rehearsing_->broken = true;
 }
 
-std::vector<Conductor::PlaceKey> Conductor::holders(std::size_t position) const {
-    std::vector<PlaceKey> places;
-    for (const auto place : proposal_.places_of[order_[position]])
-        places.emplace_back(proposal_.places[place].host, proposal_.places[place].index);
-    return places;
+// The node itself, or those that stand for its sectors.
+std::vector<std::size_t> Conductor::nodes_at(std::size_t position) const {
+    auto nodes = sectors_of(*options_.graph, order_[position]);
+    if (nodes.empty()) nodes.push_back(order_[position]);
+    return nodes;
 }
 
-bool Conductor::is_done(const PlaceKey& place, std::size_t position) const {
-    const auto found = followers_.find({place, position});
+std::vector<Conductor::Copy> Conductor::copies(std::size_t position) const {
+    std::vector<Copy> copies;
+    for (const auto node : nodes_at(position))
+        for (const auto place : proposal_.places_of[node]) copies.push_back({key_of(place), node});
+    return copies;
+}
+
+bool Conductor::is_there(const Copy& copy, std::size_t position) const {
+    const auto all = copies(position);
+    return std::find(all.begin(), all.end(), copy) != all.end();
+}
+
+bool Conductor::is_done(const Copy& copy) const {
+    const auto found = followers_.find(copy);
     return found != followers_.end() && found->second.state == Follower::State::done;
 }
 
 Plan Conductor::restricted() {
-    std::vector<bool> asked(proposal_.places.size(), true);
+    std::set<PlaceKey> behind;
     for (std::size_t position = 0; position < done_; ++position)
-        for (const auto place : proposal_.places_of[order_[position]]) {
-            const PlaceKey key{proposal_.places[place].host, proposal_.places[place].index};
-            if (!known_prepared_.contains(key) && !is_done(key, position)) asked[place] = false;
-        }
+        for (const auto& copy : copies(position))
+            if (!known_prepared_.contains(copy.place) && !is_done(copy)) behind.insert(copy.place);
     if (rehearsing_)  // who came in its middle would not note what it is asked
-        for (const auto place : proposal_.places_of[order_[done_]])
-            if (!rehearsing_->places.contains({proposal_.places[place].host, proposal_.places[place].index}))
-                asked[place] = false;
-    for (std::size_t place = 0; place < asked.size(); ++place)
-        if (asked[place]) known_prepared_.insert({proposal_.places[place].host, proposal_.places[place].index});
+        for (const auto& copy : copies(done_))
+            if (!rehearsing_->copies.contains(copy)) behind.insert(copy.place);
+    for (std::uint32_t place = 0; place < proposal_.places.size(); ++place)
+        if (!behind.contains(key_of(place))) known_prepared_.insert(key_of(place));
     Plan plan = proposal_;
-    for (auto& places : plan.places_of) std::erase_if(places, [&](auto place) { return !asked[place]; });
+    for (auto& places : plan.places_of)
+        std::erase_if(places, [&](auto place) { return behind.contains(key_of(place)); });
     for (std::size_t position = 0; position < done_; ++position)
-        std::erase_if(plan.places_of[order_[position]], [&](auto place) {
-            return !is_done({proposal_.places[place].host, proposal_.places[place].index}, position);
-        });
+        for (const auto node : nodes_at(position))
+            std::erase_if(plan.places_of[node], [&](auto place) { return !is_done({key_of(place), node}); });
     return plan;
 }
 
@@ -128,12 +136,11 @@ void Conductor::advance() {
     bool more = true;
     while (more) {
         for (std::size_t position = 0; position <= done_ && position < order_.size(); ++position)
-            for (const auto& place : holders(position)) lead(place, position);
+            for (const auto& copy : copies(position)) lead(copy, position);
         more = false;
         if (done_ < order_.size()) {
-            const auto places = holders(done_);
-            more = !places.empty() &&
-                   std::all_of(places.begin(), places.end(), [&](const auto& place) { return is_done(place, done_); });
+            const auto all = copies(done_);
+            more = !all.empty() && std::all_of(all.begin(), all.end(), [&](const auto& copy) { return is_done(copy); });
             if (more) ++done_;
         }
     }
@@ -149,65 +156,66 @@ void Conductor::attend() {
         const PlaceKey key{place.host, place.index};
         if (attended_.contains(key)) continue;
         const bool anew = !heard_of_.contains(key);
-        if (!send(key, 0, {.kind = Step::Kind::attend, .call = anew})) continue;
+        if (!send({key, 0}, 0, {.kind = Step::Kind::attend, .call = anew})) continue;
         attended_.insert(key);
         heard_of_.insert(key);
     }
     for (auto& grant : desk_.granted()) grants_.push_back(std::move(grant));
     std::erase_if(grants_, [&](const auto& grant) {
-        return send(grant.first, 0, {.kind = Step::Kind::grant, .data = grant.second});
+        return send({grant.first, 0}, 0, {.kind = Step::Kind::grant, .data = grant.second});
     });
 }
 
 void Conductor::heard(const Sent& sent, const Bytes& data) {
     if (sent.step.kind == Step::Kind::grant) return;
-    attended_.erase(sent.place);
+    attended_.erase(sent.to.place);
     for (const auto& word : values_of<LockWord>(data))
-        if (word.kind <= LockWord::Kind::last) desk_.hear(sent.place, word);
+        if (word.kind <= LockWord::Kind::last) desk_.hear(sent.to.place, word);
     attend();
 }
 
-void Conductor::lead(const PlaceKey& place, std::size_t position) {
-    auto& follower = followers_[{place, position}];
+void Conductor::lead(const Copy& copy, std::size_t position) {
+    auto& follower = followers_[copy];
     if (follower.state == Follower::State::idle) {
         // Inputs are prepared before those who ask them: at every place, in the order of all.
-        for (std::size_t before = 0; before < position; ++before) {
-            const auto places = holders(before);
-            const bool holds = std::find(places.begin(), places.end(), place) != places.end();
-            if (holds && !is_done(place, before)) return;
-        }
-        if (send(place, position, {.kind = Step::Kind::prepare})) follower.state = Follower::State::asked;
+        for (std::size_t before = 0; before < position; ++before)
+            for (const auto& earlier : copies(before))
+                if (earlier.place == copy.place && !is_done(earlier)) return;
+        if (send(copy, position, {.kind = Step::Kind::prepare})) follower.state = Follower::State::asked;
     } else if (follower.state == Follower::State::waiting) {
-        auto& call = calls_.reported(order_[position], follower.at);
-        if (!call.result()) {
-            if (follower.at.kind == Report::Kind::map) hand_out(place, position, call);
-        } else if (carrier_.bring({place.first, place.second}, call.name(), call.result()) &&
-                   send(place, position, {.kind = Step::Kind::go_on, .call = follower.at.call, .data = call.name()})) {
-            follower.state = Follower::State::asked;
+        auto& call = calls_.reported(copy.node, follower.at);
+        const auto result = calls_.result(copy.node, follower.at.call);
+        if (!result) {
+            if (call.shared_out()) hand_out(copy, position, call);
+            return;
         }
+        const Hash& name = call.name(calls_.part_of(copy.node, call));
+        if (carrier_.bring({copy.place.first, copy.place.second}, name, result) &&
+            send(copy, position, {.kind = Step::Kind::go_on, .call = follower.at.call, .data = name}, result))
+            follower.state = Follower::State::asked;
     }
 }
 
-void Conductor::hand_out(const PlaceKey& place, std::size_t position, Call& call) {
-    auto& follower = followers_[{place, position}];
+void Conductor::hand_out(const Copy& copy, std::size_t position, Call& call) {
+    auto& follower = followers_[copy];
     while (const auto shard = call.hand_out(follower.shards)) {
         const Step step{.kind = Step::Kind::shard, .call = follower.at.call, .shard = *shard};
-        if (!send(place, position, step)) return call.take_back(*shard);
+        if (!send(copy, position, step)) return call.take_back(*shard);
         ++follower.shards;
     }
 }
 
-bool Conductor::send(const PlaceKey& place, std::size_t position, Step step) {
+bool Conductor::send(const Copy& to, std::size_t position, Step step, const Bytes& data) {
     Message message;
     message.run = options_.run;
     message.channel = own_channel;
     message.bundle = next_;
     message.width = step.kind == Step::Kind::attend ? 0 : 1;
-    message.node = step.kind < Step::Kind::attend ? static_cast<std::uint32_t>(order_[position]) : 0;
+    message.node = static_cast<std::uint32_t>(to.node);
     message.questions = std::make_shared<const std::vector<Step>>(1, step);
-    if (step.kind == Step::Kind::go_on) message.data = calls_.of(order_[position], step.call).result();
-    if (!carrier_.ask({place.first, place.second}, message)) return false;
-    sent_[next_++] = {place, position, step};
+    message.data = data;
+    if (!carrier_.ask({to.place.first, to.place.second}, message)) return false;
+    sent_[next_++] = {to, position, step};
     return true;
 }
 
@@ -220,8 +228,8 @@ void Conductor::take(Message message) {
     sent_.erase(found);
     const bool shard = sent.step.kind == Step::Kind::shard;
     if (shard) {
-        --followers_[{sent.place, sent.position}].shards;
-        if (calls_.of(order_[sent.position], sent.step.call).result()) return;  // another place was first
+        --followers_[sent.to].shards;
+        if (calls_.of(order_[sent.position], sent.step.call).done()) return;  // another place was first
     }
     if (message.type == Message::Type::failure) throw Error(message.text);
     if (sent.step.kind >= Step::Kind::attend) {
@@ -240,18 +248,31 @@ void Conductor::reported(const Sent& sent, const Bytes& data) {
     if (data && data->size() >= sizeof report) std::memcpy(&report, data->data(), sizeof report);
     if (!data || data->size() < sizeof report || report.kind > Report::Kind::last)
         throw Error("'" + name_of(sent.position) + "': a report of preparing is damaged");
-    say(sent.position, {reinterpret_cast<const char*>(data->data()) + sizeof report, data->size() - sizeof report});
-    auto& follower = followers_[{sent.place, sent.position}];
+    say(sent.to.node, {reinterpret_cast<const char*>(data->data()) + sizeof report, data->size() - sizeof report});
+    auto& follower = followers_[sent.to];
     follower.at = report;
     follower.state = follower.at.kind == Report::Kind::done ? Follower::State::done : Follower::State::waiting;
+    let_go_of_taken(sent.position, report.call);
     advance();
 }
 
+// A copy has got past the calls before this one; others may be behind.
+void Conductor::let_go_of_taken(std::size_t position, std::uint32_t before) {
+    if (before == 0) return;
+    const auto all = copies(position);
+    const bool taken = std::all_of(all.begin(), all.end(), [&](const Copy& copy) {
+        const auto& follower = followers_[copy];
+        return follower.state == Follower::State::done ||
+               (follower.state != Follower::State::idle && follower.at.call >= before);
+    });
+    if (taken) calls_.all_have(order_[position], before - 1);
+}
+
 // Each line once, however many places say it.
-void Conductor::say(std::size_t position, std::string_view lines) {
+void Conductor::say(std::size_t node, std::string_view lines) {
     while (!lines.empty()) {
         const auto end = std::min(lines.find('\n'), lines.size());
-        const std::string line = name_of(position) + ": " + std::string(lines.substr(0, end));
+        const std::string line = options_.graph->nodes[node].name + ": " + std::string(lines.substr(0, end));
         if (said_.insert(line).second) options_.say(line);
         lines.remove_prefix(std::min(end + 1, lines.size()));
     }
@@ -260,9 +281,8 @@ void Conductor::say(std::size_t position, std::string_view lines) {
 void Conductor::shard_done(const Sent& sent, const Bytes& data) {
     auto& call = calls_.of(order_[sent.position], sent.step.call);
     if (!call.answer(sent.step.shard, data)) {
-        const auto places = holders(sent.position);  // a host that was told to stop gets no more
-        if (std::find(places.begin(), places.end(), sent.place) != places.end())
-            hand_out(sent.place, sent.position, call);
+        if (is_there(sent.to, sent.position))
+            hand_out(sent.to, sent.position, call);  // who was told to stop gets no more
         return;
     }
     call.complete_from_shards();

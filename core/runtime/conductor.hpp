@@ -1,6 +1,7 @@
 // Leads all places of a run through preparing, and lets nobody ask a place that is not prepared.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -23,6 +24,7 @@ namespace lightnet {
 
 /// Stands between the run's carrier and the master renderer. Nodes prepare one after the other, inputs first, each on
 /// all places that hold it: shards go to whoever is free, results are put together here, in order, and brought to all.
+/// The sectors of a sharded node prepare together, each in its own copies, which get their parts of the results alone.
 /// A place that comes later is given the results, and is made known to the others when it has caught up. Belongs to
 /// the launcher's thread.
 ///
@@ -70,7 +72,13 @@ public:
 private:
     using PlaceKey = std::pair<std::string, std::uint32_t>;  // host, index
 
-    /// A node's prepare() at one place.
+    /// A node at one place; a place may hold several of those that stand for the sectors of one.
+    struct Copy {
+        PlaceKey place;
+        std::size_t node;
+        friend auto operator<=>(const Copy&, const Copy&) = default;
+    };
+    /// A copy's prepare().
     struct Follower {
         enum class State { idle, asked, waiting, done };
         State state = State::idle;
@@ -79,7 +87,7 @@ private:
     };
     /// A step that was sent and not answered.
     struct Sent {
-        PlaceKey place;
+        Copy to;
         std::size_t position;
         Step step;
     };
@@ -88,26 +96,30 @@ private:
         std::uint32_t call = 0;
         std::unique_ptr<MasterRenderer> master;
         bool rendered = false;
-        std::set<PlaceKey> places;      // that hold the node and take part; who comes later does not
-        bool broken = false;            // a place was lost, and with it what it had noted
-        std::set<PlaceKey> collecting;  // have been asked what they noted
-        std::size_t collected = 0;      // have said so
+        std::set<Copy> copies;      // that take part; who comes later does not
+        bool broken = false;        // a place was lost, and with it what it had noted
+        std::set<Copy> collecting;  // have been asked what they noted
+        std::size_t collected = 0;  // have said so
         std::vector<Query> noted;
     };
 
-    std::vector<PlaceKey> holders(std::size_t position) const;
-    bool is_done(const PlaceKey& place, std::size_t position) const;
+    PlaceKey key_of(std::uint32_t place) const { return {proposal_.places[place].host, proposal_.places[place].index}; }
+    std::vector<std::size_t> nodes_at(std::size_t position) const;
+    std::vector<Copy> copies(std::size_t position) const;
+    bool is_there(const Copy& copy, std::size_t position) const;
+    bool is_done(const Copy& copy) const;
     const std::string& name_of(std::size_t position) const;
     void advance();
-    void lead(const PlaceKey& place, std::size_t position);
-    void hand_out(const PlaceKey& place, std::size_t position, Call& call);
+    void lead(const Copy& copy, std::size_t position);
+    void hand_out(const Copy& copy, std::size_t position, Call& call);
     void collect();
     void begin_rehearsal(std::uint32_t call);
     void end_rehearsal();
-    bool send(const PlaceKey& place, std::size_t position, Step step);
+    bool send(const Copy& to, std::size_t position, Step step, const Bytes& data = nullptr);
     void take(Message message);
     void reported(const Sent& sent, const Bytes& data);
-    void say(std::size_t position, std::string_view lines);
+    void let_go_of_taken(std::size_t position, std::uint32_t before);
+    void say(std::size_t node, std::string_view lines);
     void shard_done(const Sent& sent, const Bytes& data);
     void noted(const Sent& sent, const Bytes& data);
     void lose(const std::set<PlaceKey>& gone);
@@ -119,7 +131,7 @@ private:
     Options options_;
     Carrier& carrier_;
     Calls calls_;
-    std::vector<std::size_t> order_;  // nodes that prepare
+    std::vector<std::size_t> order_;  // nodes that prepare; what stands for their sectors is found by nodes_at()
     bool locks_;                      // somebody in the graph does
     LockDesk desk_;
     std::set<PlaceKey> attended_;                    // have a step `attend` now
@@ -127,7 +139,7 @@ private:
     std::vector<std::pair<PlaceKey, Hash>> grants_;  // to be passed on
     Plan proposal_, in_force_;
     std::deque<Message> arrived_;
-    std::map<std::pair<PlaceKey, std::size_t>, Follower> followers_;
+    std::map<Copy, Follower> followers_;
     std::map<std::uint64_t, Sent> sent_;
     std::uint64_t next_ = 1;
     std::size_t done_ = 0;               // positions of order_ that are prepared everywhere

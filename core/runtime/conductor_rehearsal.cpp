@@ -14,26 +14,26 @@ constexpr std::size_t tiles_per_place = 4;  // small ones
 
 }  // namespace
 
-// Begins a rehearsal when all places of the node wait for it, and gathers what they have noted when it is over.
+// Begins a rehearsal when all copies of the node wait for it, and gathers what they have noted when it is over.
 void Conductor::collect() {
     if (done_ == order_.size()) return;
-    const auto places = holders(done_);
     if (!rehearsing_) {
-        if (places.empty()) return;
-        for (const auto& place : places) {
-            const auto& follower = followers_[{place, done_}];
+        const auto all = copies(done_);
+        if (all.empty()) return;
+        const auto call = followers_[all[0]].at.call;
+        for (const auto& copy : all) {
+            const auto& follower = followers_[copy];
             if (follower.state != Follower::State::waiting || follower.at.kind != Report::Kind::rehearse ||
-                follower.at.call != followers_[{places[0], done_}].at.call ||
-                calls_.reported(order_[done_], follower.at).result())
+                follower.at.call != call || calls_.reported(copy.node, follower.at).done())
                 return;
         }
-        return begin_rehearsal(followers_[{places[0], done_}].at.call);
+        return begin_rehearsal(call);
     }
     if (!rehearsing_->rendered || rehearsing_->broken) return;
-    for (const auto& place : rehearsing_->places)
-        if (!rehearsing_->collecting.contains(place) &&
-            send(place, done_, {.kind = Step::Kind::collect, .call = rehearsing_->call}))
-            rehearsing_->collecting.insert(place);
+    for (const auto& copy : rehearsing_->copies)
+        if (!rehearsing_->collecting.contains(copy) &&
+            send(copy, done_, {.kind = Step::Kind::collect, .call = rehearsing_->call}))
+            rehearsing_->collecting.insert(copy);
 }
 
 void Conductor::begin_rehearsal(std::uint32_t call) {
@@ -47,7 +47,7 @@ void Conductor::begin_rehearsal(std::uint32_t call) {
     ++epoch_;
     rehearsing_.emplace();
     rehearsing_->call = call;
-    for (const auto& place : holders(done_)) rehearsing_->places.insert(place);
+    for (const auto& copy : copies(done_)) rehearsing_->copies.insert(copy);
     rehearsing_->master =
         std::make_unique<MasterRenderer>(std::move(job), *this, [](const Tile&, std::span<const Rgb>) {});
     rehearsing_->master->use(in_force_);
@@ -59,7 +59,7 @@ void Conductor::noted(const Sent& sent, const Bytes& data) {
     const std::size_t before = all.size();
     all.resize(before + (data ? data->size() / sizeof(Query) : 0));
     if (all.size() > before) std::memcpy(&all[before], data->data(), (all.size() - before) * sizeof(Query));
-    if (++rehearsing_->collected < rehearsing_->places.size()) return;
+    if (++rehearsing_->collected < rehearsing_->copies.size()) return;
     sort_and_unite(rehearsing_->noted);
     const auto bytes = std::as_bytes(std::span(rehearsing_->noted));
     const std::vector<std::byte> shard(bytes.begin(), bytes.end());

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/graph/layout.hpp"
 #include "core/scene/scene.hpp"
 
 namespace lightnet {
@@ -52,6 +53,20 @@ std::string Place::my_name() const {
 }
 
 Port* Place::port_to(std::size_t node, std::size_t width) {
+    return sectors_of(network_.graph, node).empty() ? port_to_one(node, width) : port_to_sectors(node, width);
+}
+
+Port* Place::port_to_sectors(std::size_t node, std::size_t width) {
+    std::vector<Port*> ports;
+    for (const auto sector : sectors_of(network_.graph, node)) ports.push_back(port_to_one(sector, width));
+    const auto sector_of = [this, node, cut = std::shared_ptr<const Sectors>()](const Query& question) mutable {
+        if (!cut) cut = network_.sectors(node);  // when it is first needed, as it takes a moment
+        return cut->at(network_.scene->surface(question).position);
+    };
+    return sector_ports_.emplace_back(std::make_unique<SectorPort>(std::move(ports), width, sector_of)).get();
+}
+
+Port* Place::port_to_one(std::size_t node, std::size_t width) {
     auto& port = ports_[{node, width}];
     if (!port) {
         port = std::make_unique<PlannedPort>([=, this] { return call_port_to(node, width); },
@@ -123,7 +138,7 @@ void Place::serve(const std::atomic<bool>& stop, std::atomic<std::uint64_t>& pro
             continue;
         }
         // Looking at the sockets costs calls of the system: what has come together is worked off together.
-        while (Clock::now() - last_look_ < std::chrono::microseconds(50) && step()) {
+        while (!fibers_.stint_over() && step()) {
         }
     }
     stopping_ = true;
@@ -162,6 +177,7 @@ bool Place::start_next(bool images) {
 void Place::take_in() {
     while (auto message = carrier_.receive()) take(std::move(*message));
     last_look_ = Clock::now();
+    fibers_.begin_stint(std::chrono::microseconds(50));
 }
 
 void Place::take(Message message) {
@@ -228,6 +244,7 @@ Counters Place::counters() const {
     Counters counters = counters_;
     counters += carrier_.counters();
     counters.not_finite = assembly_.not_finite();
+    counters.prepared_bytes = preparer_.result_bytes();
     counters.rays = Scene::rays_of_this_thread() - rays_before_;
     return counters;
 }

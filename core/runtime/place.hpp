@@ -22,6 +22,7 @@
 #include "core/runtime/bundle_port.hpp"
 #include "core/schedule/planned_port.hpp"
 #include "core/schedule/remote_channels.hpp"
+#include "core/schedule/sector_port.hpp"
 
 namespace lightnet {
 
@@ -73,6 +74,8 @@ private:
 
     void assemble(std::size_t node);
     Port* port_to(std::size_t node, std::size_t width);
+    Port* port_to_one(std::size_t node, std::size_t width);
+    Port* port_to_sectors(std::size_t node, std::size_t width);
     bool called_here(std::size_t node) const;
     Port* call_port_to(std::size_t node, std::size_t width);
     Port* bundle_port_to(std::size_t node, std::size_t width);
@@ -120,6 +123,7 @@ private:
     std::vector<std::size_t> by_rank_;                                                   // nodes, lowest rank first
     std::map<std::pair<std::size_t, std::size_t>, std::unique_ptr<PlannedPort>> ports_;  // by node and width
     std::vector<std::unique_ptr<CallPort>> call_ports_;
+    std::vector<std::unique_ptr<SectorPort>> sector_ports_;
     std::map<std::pair<std::size_t, std::size_t>, Remote> remotes_;  // by node and width
     RemoteChannels<Query> channels_;
     PlaceLocks locks_;

@@ -55,6 +55,10 @@ void Scheduler::test_suspects(Time now) {
     };
     while (!suspects_.empty() && stale(suspects_.front())) suspects_.pop_front();
     if (suspects_.empty()) return release_hosts();
+    std::erase_if(quarantined_, [&](Host host) {  // none that drain will ever be asked: suspects must not wait for them
+        const auto& replicas = sites_.at(host).replicas;
+        return std::all_of(replicas.begin(), replicas.end(), [&](auto replica) { return places_[replica].draining; });
+    });
     const auto wanted = std::min(suspects_.size(), std::max(std::size_t{1}, sites_.size() / 2));
     while (quarantined_.size() < wanted && open_.any()) quarantine(places_[open_.first()].host);
     for (const auto host : quarantined_) {

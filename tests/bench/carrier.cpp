@@ -250,14 +250,15 @@ void measure_tcp(const Picture& picture) {
 }  // namespace
 }  // namespace lightnet::bench
 
-int main() {
+int main(int argc, char** argv) {
     namespace bench = lightnet::bench;
+    const std::string only = argc > 1 ? argv[1] : "";
     return lightnet::bench::run("carrier", [&] {
         const lightnet::Registry registry{lightnet::standard_nodes()};
         const bench::Picture picture(registry, 128, 16);
-        bench::measure_inproc(picture);
-        bench::measure_tcp(picture);
-        bench::measure_scalar_inproc(picture);
-        bench::measure_scalar_tcp(picture);
+        if (only.empty() || only == "inproc") bench::measure_inproc(picture);
+        if (only.empty() || only == "tcp") bench::measure_tcp(picture);
+        if (only.empty() || only == "scalar_inproc") bench::measure_scalar_inproc(picture);
+        if (only.empty() || only == "scalar_tcp") bench::measure_scalar_tcp(picture);
     });
 }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "core/estimate/photon_tree.hpp"
 #include "core/math/samples.hpp"
@@ -22,6 +23,15 @@ std::vector<Photon> on_floor(std::uint32_t count, Key key, bool on_grid = false)
     return photons;
 }
 
+Rgb seen(const PhotonTree& tree, Vec3 at, float radius, std::size_t most) {
+    const Bsdf bsdf(Frame::around({0, 1, 0}), {0, 1, 0}, DiffuseBsdf{{0.8f, 0.8f, 0.8f}});
+    SurfacePoint point;
+    point.position = at;
+    point.normal = {0, 1, 0};
+    std::vector<PhotonTree::Near> scratch;
+    return tree.radiance({point, bsdf, {0, 1, 0}, lobe::rough}, radius, most, scratch);
+}
+
 TEST(Photon, KeepsItsDirections) {
     for (std::uint32_t i = 0; i < 1000; ++i) {
         const auto part = [&](unsigned k) { return float(mix(7 + 3 * i + k) >> 40) / float(1 << 23) - 1; };
@@ -32,7 +42,7 @@ TEST(Photon, KeepsItsDirections) {
     }
 }
 
-TEST(PhotonTree, FindsTheNearestWithTiesByIndex) {
+TEST(PhotonTree, FindsTheNearestWithTiesByWhatTheyAre) {
     for (const bool on_grid : {false, true}) {
         const PhotonTree tree(on_floor(3000, 1, on_grid));
         for (std::uint32_t i = 0; i < 50; ++i) {
@@ -45,11 +55,17 @@ TEST(PhotonTree, FindsTheNearestWithTiesByIndex) {
                 const float d = length_squared(tree.photons()[k].position - wanted.position);
                 if (d <= wanted.radius * wanted.radius) all.push_back({d, k});
             }
-            std::sort(all.begin(), all.end());
+            std::sort(all.begin(), all.end(), [&](const auto& a, const auto& b) {
+                const auto rank = [&](const PhotonTree::Near& near) {
+                    const Vec3 where = tree.photons()[near.index].position;
+                    return std::tuple(near.distance2, where.x, where.y, where.z);
+                };
+                return rank(a) < rank(b);
+            });
             all.resize(std::min<std::size_t>(all.size(), wanted.most));
             ASSERT_EQ(found.size(), all.size());
             for (std::size_t k = 0; k < all.size(); ++k) {
-                EXPECT_EQ(found[k].index, all[k].index);
+                EXPECT_EQ(tree.photons()[found[k].index].position, tree.photons()[all[k].index].position);
                 EXPECT_EQ(found[k].distance2, all[k].distance2);
             }
         }
@@ -64,6 +80,20 @@ TEST(PhotonTree, DoesNotDependOnTheOrderOfPhotons) {
     for (std::size_t i = 0; i < one.size(); ++i) EXPECT_EQ(one.photons()[i].position, other.photons()[i].position);
 }
 
+// The bytes of a sharded map are those of a whole one.
+TEST(PhotonTree, FindsTheSameAmongSomePhotonsAsAmongAllWhenNoneIsMissingThatIsNear) {
+    const auto all = on_floor(3000, 5, true);
+    auto some = all;
+    std::erase_if(some, [](const Photon& photon) { return photon.position.x > 0.7f; });
+    const PhotonTree whole(all), part(some);
+    for (const std::size_t most : {0, 7, 40})
+        for (std::uint32_t i = 0; i < 200; ++i) {
+            const Vec3 at{0.45f * float(mix(2 * i) >> 40) / float(1 << 24), 0,
+                          float(mix(2 * i + 1) >> 40) / float(1 << 24)};
+            EXPECT_EQ(seen(whole, at, 0.25f, most), seen(part, at, 0.25f, most)) << i << " of " << most;
+        }
+}
+
 TEST(PhotonTree, PassesOverPhotonsOfOtherSurfaces) {
     auto photons = on_floor(100, 3);
     for (auto& photon : photons) photon = Photon(photon.position, photon.flux, {1, 0, 0}, {1, 0, 0});
@@ -71,15 +101,6 @@ TEST(PhotonTree, PassesOverPhotonsOfOtherSurfaces) {
     std::vector<PhotonTree::Near> found;
     tree.find({{0.5f, 0, 0.5f}, {0, 1, 0}, 1, 0}, found);
     EXPECT_TRUE(found.empty());
-}
-
-Rgb seen(const PhotonTree& tree, Vec3 at, float radius, std::size_t most) {
-    const Bsdf bsdf(Frame::around({0, 1, 0}), {0, 1, 0}, DiffuseBsdf{{0.8f, 0.8f, 0.8f}});
-    SurfacePoint point;
-    point.position = at;
-    point.normal = {0, 1, 0};
-    std::vector<PhotonTree::Near> scratch;
-    return tree.radiance({point, bsdf, {0, 1, 0}, lobe::rough}, radius, most, scratch);
 }
 
 // 1 W on 1 m² of albedo 0.8: 0.8/π everywhere. The estimates at points far from each other are independent, so the

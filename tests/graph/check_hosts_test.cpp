@@ -63,6 +63,26 @@ TEST(CheckHosts, WantsStrategiesAndNodesThatThereAre) {
     EXPECT_THAT(problems_with_hosts("strategy { box = 'fastest' }"), HasSubstr("it is a scene, which nobody asks"));
 }
 
+TEST(CheckHosts, WantsLayoutsThatThereAreOfNodesThatHaveThem) {
+    const std::string two = "\nplace 'tcp://a:7' { sky = 1, image = 1 }\nplace 'tcp://b:7' { sky = 1 }";
+    EXPECT_EQ(problems_with_hosts("layout = 'sharded'" + two), "");
+    EXPECT_EQ(problems_with_hosts("layout { sky = 'sharded' }" + two), "");
+    EXPECT_THAT(problems_with_hosts("layout { sky = 'shared' }" + two),
+                HasSubstr("hosts.lua:1: layout of 'sky': there is none called 'shared' (did you mean 'sharded'?)"));
+    EXPECT_THAT(problems_with_hosts("layout { sly = 'sharded' }" + two),
+                HasSubstr("layout of 'sly': there is no node of that name (did you mean 'sky'?)"));
+    EXPECT_THAT(problems_with_hosts("layout { box = 'sharded' }" + two), HasSubstr("it is a scene, which nobody asks"));
+    EXPECT_THAT(problems_with_hosts("layout { image = 'sharded' }" + two),
+                HasSubstr("layout of 'image': a RayTracer can't be sharded (these can: Ambient)"));
+}
+
+TEST(CheckHosts, WantsTwoReplicasOrMoreOfWhatIsSharded) {
+    EXPECT_THAT(problems_with_hosts("layout { sky = 'sharded' }\nplace 'tcp://a:7' { sky = 1, image = 1 }"),
+                HasSubstr("it takes two replicas or more to share it, but this file has 1"));
+    EXPECT_EQ(problems_with_hosts("layout { sky = 'sharded' }\nplace 'tcp://a:7'\nplace 'tcp://b:7'"), "")
+        << "hosts with the whole network have one sector each";
+}
+
 TEST(Address, IsTakenApart) {
     const auto address = address_of("tcp://onyx1.lab:7777");
     ASSERT_TRUE(address);

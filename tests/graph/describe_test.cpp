@@ -22,6 +22,7 @@ TEST(Describe, TellsAllOfAParam) {
               "Ambient: light from everywhere\n"
               "gives: light\n"
               "inputs: none\n"
+              "layouts: replicated, sharded\n"
               "parameters:\n"
               "  rays   integer, in samples, default 4, 1 … 64\n"
               "         how many\n"

@@ -40,12 +40,24 @@ TEST(LoadHosts, WantsWholeNumbersOfReplicas) {
 TEST(LoadHosts, TakesAStrategyForAllAndForSomeNodes) {
     const Hosts hosts = parse_hosts(
         "strategy = 'affinity'\nstrategy { sky = 'round_robin', bounce = 'fastest' }\nplace 'tcp://a:7'", "hosts.lua");
-    EXPECT_EQ(hosts.strategies, (std::vector<StrategyEntry>{{"", "affinity", {"hosts.lua", 1}},
-                                                            {"bounce", "fastest", {"hosts.lua", 2}},
-                                                            {"sky", "round_robin", {"hosts.lua", 2}}}));
+    EXPECT_EQ(hosts.strategies, (std::vector<ChoiceEntry>{{"", "affinity", {"hosts.lua", 1}},
+                                                          {"bounce", "fastest", {"hosts.lua", 2}},
+                                                          {"sky", "round_robin", {"hosts.lua", 2}}}));
     EXPECT_THAT(error_in("strategy = 3"), HasSubstr("hosts.lua:1: strategy is called by name"));
     EXPECT_THAT(error_in("strategy { 'fastest' }"), HasSubstr("nodes and strategies go by name"));
     EXPECT_THAT(error_in("strategy(1)"), HasSubstr("strategy takes a table"));
+}
+
+TEST(LoadHosts, TakesALayoutForAllAndForSomeNodes) {
+    const Hosts hosts =
+        parse_hosts("layout = 'sharded'\nlayout { sky = 'replicated' }\nplace 'tcp://a:7'", "hosts.lua");
+    EXPECT_EQ(hosts.layouts,
+              (std::vector<ChoiceEntry>{{"", "sharded", {"hosts.lua", 1}}, {"sky", "replicated", {"hosts.lua", 2}}}));
+    EXPECT_TRUE(hosts.strategies.empty());
+    EXPECT_EQ(hosts_from_json(to_json(hosts)), hosts);
+    EXPECT_THAT(error_in("layout = 3"), HasSubstr("hosts.lua:1: layout is called by name: layout = \"sharded\""));
+    EXPECT_THAT(error_in("layout { 'sharded' }"), HasSubstr("nodes and layouts go by name"));
+    EXPECT_THAT(error_in("layout(1)"), HasSubstr("layout takes a table"));
 }
 
 TEST(LoadHosts, KnowsNothingButPlaces) {

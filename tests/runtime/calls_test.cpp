@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <map>
+#include <optional>
+
 #include "core/error.hpp"
 #include "core/light/mapped.hpp"
 
@@ -57,6 +60,98 @@ TEST(Calls, NamesANodeThatDoesNotPrepareAlikeEverywhere) {
     } catch (const Error& error) {
         EXPECT_THAT(error.what(), testing::HasSubstr("'photons' does not prepare alike"));
     }
+}
+
+// One list for each of two sectors.
+Bytes two_lists(int first, int second) {
+    const std::vector<std::byte> lists[] = {*one_byte(first), *one_byte(second)};
+    return join_shards(std::span<const std::vector<std::byte>>(lists));
+}
+
+std::vector<int> values(const Bytes& result) {
+    std::vector<int> values;
+    for (const auto value : Mapped<std::uint8_t>(result)) values.push_back(value);
+    return values;
+}
+
+TEST(Call, GivesEachSectorItsOwnPartInTheOrderOfShards) {
+    Call call({Report::Kind::sectors, 0, 2}, false, 2);
+    call.hand_out(0), call.hand_out(1);
+    EXPECT_THROW(call.answer(0, join_shards(std::span<const std::vector<std::byte>>())), Error) << "of no sector";
+    EXPECT_FALSE(call.answer(1, two_lists(3, 4)));
+    EXPECT_TRUE(call.answer(0, two_lists(1, 2)));
+    call.complete_from_shards();
+    EXPECT_EQ(values(call.result(0)), (std::vector{1, 3}));
+    EXPECT_EQ(values(call.result(1)), (std::vector{2, 4}));
+    EXPECT_NE(call.name(0), call.name(1));
+}
+
+class KeepingCache final : public ResultCache {
+public:
+    Bytes find(const Hash& recipe) const override {
+        const auto found = kept.find(recipe);
+        return found == kept.end() ? nullptr : std::make_shared<const std::vector<std::byte>>(found->second);
+    }
+    void keep(const Hash& recipe, const Bytes& result) override { kept[recipe] = *result; }
+    std::map<Hash, std::vector<std::byte>> kept;
+};
+
+// "photons" with two sectors, nodes 1 and 2, of which all pieces are done.
+class SectorCalls : public ::testing::Test {
+protected:
+    SectorCalls() {
+        Graph whole;
+        whole.nodes.push_back({"photons", "PhotonMap", {}, {}, {}});
+        graph = sharded(whole, {{"photons", 2}});
+        calls.emplace(graph, "", &cache);
+        do_all();
+    }
+    void do_all() {
+        auto& call = calls->reported(1, at);
+        EXPECT_EQ(&call, &calls->reported(2, at)) << "their calls are the same";
+        while (const auto shard = call.hand_out(0)) {
+            const int value = static_cast<int>(*shard);
+            if (call.answer(*shard, two_lists(value, 10 + value))) {
+                call.complete_from_shards();
+                calls->keep(0, 0);
+                return;
+            }
+        }
+    }
+    const Report at{Report::Kind::sectors, 0, 3};
+    Graph graph;
+    KeepingCache cache;
+    std::optional<Calls> calls;
+};
+
+TEST_F(SectorCalls, LetGoOfWhatIsOnDiskAndTakeItFromThere) {
+    EXPECT_EQ(values(calls->result(2, 0)), (std::vector{10, 11, 12}));
+    calls->all_have(0, 0);
+    EXPECT_EQ(calls->of(0, 0).result(1), nullptr) << "not in memory any more";
+    EXPECT_EQ(values(calls->result(1, 0)), (std::vector{0, 1, 2}));
+    EXPECT_EQ(values(calls->result(2, 0)), (std::vector{10, 11, 12}));
+}
+
+TEST_F(SectorCalls, ComputeAgainWhatTheDiskHasLostOrSpoiled) {
+    for (const bool spoiled : {false, true}) {
+        calls->all_have(0, 0);
+        for (auto& [recipe, bytes] : cache.kept) bytes.back() ^= std::byte{1};
+        if (!spoiled) cache.kept.clear();
+        EXPECT_EQ(calls->result(1, 0), nullptr);
+        EXPECT_FALSE(calls->of(0, 0).done());
+        do_all();
+        EXPECT_EQ(values(calls->result(1, 0)), (std::vector{0, 1, 2}));
+    }
+}
+
+TEST_F(SectorCalls, StayInMemoryWhereNothingElseKeepsThem) {
+    Calls alone(graph, "", nullptr);
+    auto& call = alone.reported(1, at);
+    for (std::uint32_t shard = 0; shard < 3; ++shard) call.answer(shard, two_lists(1, 2));
+    call.complete_from_shards();
+    alone.all_have(0, 0);
+    EXPECT_NE(alone.result(2, 0), nullptr);
+    EXPECT_THROW(alone.reported(0, {Report::Kind::sectors, 1, 3}), Error) << "the written node has no sector";
 }
 
 }  // namespace

@@ -115,6 +115,24 @@ TEST(Fibers, MeasureTimeThatTheyRunAndNotTimeThatTheyWait) {
     EXPECT_LT(after - before, std::chrono::milliseconds(15));
 }
 
+TEST(Fibers, EndAStintByWhatTheyRunAndNotByWhatPassesMeanwhile) {
+    Fibers fibers;
+    const auto pass = [](std::chrono::milliseconds time) {
+        const auto begun = std::chrono::steady_clock::now();
+        while (std::chrono::steady_clock::now() - begun < time) {
+        }
+    };
+    pass(std::chrono::milliseconds(2));
+    fibers.begin_stint(std::chrono::milliseconds(10));
+    fibers.start("node", [] {});
+    pass(std::chrono::milliseconds(20));
+    EXPECT_FALSE(fibers.stint_over());
+    fibers.start("node", [&] { pass(std::chrono::milliseconds(20)); });
+    EXPECT_TRUE(fibers.stint_over());
+    fibers.begin_stint(std::chrono::milliseconds(10));
+    EXPECT_FALSE(fibers.stint_over());
+}
+
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 // Recurses without end, in a way that no compiler can turn into a loop.
 int recurse(const int* before) {

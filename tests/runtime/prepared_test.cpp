@@ -60,7 +60,7 @@ TEST(Mapped, GivesShardsAndAllOfThemInOrder) {
     EXPECT_THAT(mapped.shard(0), ElementsAre(1));
     EXPECT_THAT(mapped.shard(1), ElementsAre());
     EXPECT_THAT(mapped.all(), ElementsAre(1, 2, 3));
-    EXPECT_EQ(Mapped<std::uint32_t>(join_shards({})).size(), 0u);
+    EXPECT_EQ(Mapped<std::uint32_t>(join_shards(std::span<const std::vector<std::byte>>())).size(), 0u);
 }
 
 TEST(Mapped, RefusesBytesThatWereCut) {

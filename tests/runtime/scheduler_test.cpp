@@ -209,6 +209,22 @@ TEST_F(SchedulerTest, FreesASuspectThatIsAnswered) {
     EXPECT_EQ(tick(), (Replicas{1}));
 }
 
+TEST_F(SchedulerTest, WaitsForNoHostThatDrainsBeforeItTestsASuspect) {
+    join(0), join(1, {2, 1000, 1000});
+    add(1), add(2);
+    EXPECT_EQ(tick(), (Replicas{0, 1}));
+    tell(Scheduler::Gone{{0}, true});
+    EXPECT_EQ(tick(), Replicas{}) << "the other host is to be empty first";
+    join(2);
+    tell(Scheduler::Draining{1, true});
+    EXPECT_EQ(tick(), (Replicas{2}));
+    EXPECT_EQ(copies.count({1, 2}), 1u);
+    reply(2, 1);
+    EXPECT_EQ(tick(), Replicas{});
+    reply(1, 2);
+    EXPECT_EQ(scheduler.unfinished(), 0u);
+}
+
 TEST_F(SchedulerTest, TakesTurnsWhenToldSo) {
     Scheduler::Rules rules;
     rules.strategy = Strategy::round_robin;

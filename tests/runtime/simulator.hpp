@@ -25,13 +25,15 @@ struct World {
     std::uint32_t hosts = 4;
     std::uint32_t places_per_host = 2;
     std::size_t tiles = 60;
-    double seconds_per_tile = 1;          // of the fastest; others take up to eight times as long
-    double delay = 0.005;                 // of each message, at most
-    double loss = 0;                      // part of all messages
-    double twice = 0;                     // part of all replies
-    double deaths = 0;                    // per host and simulated second; a host comes back after some seconds
-    double drains = 0;                    // likewise, in good order
-    double hangs = 0;                     // likewise: answers nothing for some time, and is never missed
+    double seconds_per_tile = 1;  // of the fastest; others take up to eight times as long
+    double delay = 0.005;         // of each message, at most
+    double loss = 0;              // part of all messages
+    double twice = 0;             // part of all replies
+    double deaths = 0;            // per host and simulated second; a host comes back after some seconds
+    double drains = 0;            // likewise, in good order
+    double calm_after = 1e9;      // seconds; then nobody dies any more
+    double hangs = 0;             // likewise: answers nothing for some time, and is never missed
+    bool stand_ins = false;       // only the first host is lost, and asked while it is there; the others stand in
     std::set<std::uint32_t> poisonous{};  // tiles (by x) that kill the host that renders them
     Strategy strategy = Strategy::fastest;
     Credit credit{3, 3};
@@ -48,6 +50,7 @@ public:
             hosts_.push_back({});
             hosts_.back().seconds_per_tile = world_.seconds_per_tile * (1 + 7 * part());
             hosts_.back().busy_until.assign(world_.places_per_host, 0);
+            if (world_.stand_ins && host > 0) continue;  // nothing happens to those
             for (const auto& [kind, rate] : rates()) plan_next(kind, host, rate);
         }
         plan_changed(0);
@@ -61,8 +64,10 @@ public:
         plan.strategy = world_.strategy;
         for (std::uint32_t host = 0; host < hosts_.size(); ++host) {
             const auto state = hosts_[host].state;
+            const bool asked = state == State::there && !(world_.stand_ins && !plan.places_of[0].empty() &&
+                                                          plan.places[plan.places_of[0][0]].host != name(host));
             for (std::uint32_t place = 0; state != State::gone && place < world_.places_per_host; ++place) {
-                if (state == State::there) plan.places_of[0].push_back(static_cast<std::uint32_t>(plan.places.size()));
+                if (asked) plan.places_of[0].push_back(static_cast<std::uint32_t>(plan.places.size()));
                 plan.places.push_back({name(host), place});
             }
         }
@@ -179,7 +184,7 @@ private:
                 break;
             }
             case Event::Kind::death:
-                if (host.state != State::gone && world_.deaths > 0) die(event.host);
+                if (host.state != State::gone && world_.deaths > 0 && now_ < world_.calm_after) die(event.host);
                 plan_next(Event::Kind::death, event.host, world_.deaths);
                 break;
             case Event::Kind::drain:

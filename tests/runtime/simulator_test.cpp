@@ -59,6 +59,15 @@ TEST(SimulatedRun, EndsThoughHostsDieAndComeBack) {
     });
 }
 
+TEST(SimulatedRun, EndsThoughHostsStandInForEachOtherAgainAndAgain) {
+    for_every_seed([](std::uint64_t seed) {
+        World world{.seed = seed, .hosts = 2, .places_per_host = 1, .deaths = 0.3};
+        world.stand_ins = true;
+        world.calm_after = 20;
+        expect_sound(world);
+    });
+}
+
 TEST(SimulatedRun, LosesNothingToHostsThatLeaveInGoodOrder) {
     for_every_seed([](std::uint64_t seed) {
         const auto told = expect_sound({.seed = seed, .drains = 0.03});

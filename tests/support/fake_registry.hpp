@@ -28,6 +28,7 @@ inline Kind ambient() {
                     .initial = Value{std::string("all")},
                     .choices = {"all", "caustic"}},
                    {.name = "soft", .type = ParamType::flag, .help = "without edges", .initial = Value{false}}};
+    kind.landmarks = [](const NodeContext&) { return std::vector<Vec3>{}; };
     return kind;
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "core/graph/check.hpp"
+#include "core/graph/layout.hpp"
 #include "core/graph/plan.hpp"
 #include "lua/load_graph.hpp"
 #include "nodes/standard_nodes.hpp"
@@ -14,6 +15,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
+using testing::Pair;
 
 const std::filesystem::path graphs = std::filesystem::path(LIGHTNET_SOURCE_DIR) / "graphs";
 
@@ -47,6 +49,10 @@ TEST(Graphs, RunOnTheHostsThatComeWithThem) {
     for (const char* hosts : {"hosts/two.lua", "hosts/spread.lua", "hosts/affinity.lua"})
         EXPECT_THAT(examine(graph_called("cornell.lua"), registry, load_hosts((graphs / hosts).string())).problems,
                     IsEmpty());
+    const Hosts sharded = load_hosts((graphs / "hosts/sharded.lua").string());
+    const Examined found = examine(graph_called("figure5.lua"), registry, sharded);
+    EXPECT_THAT(found.problems, IsEmpty());
+    EXPECT_THAT(shards_of(found.graph, registry, sharded), ElementsAre(Pair("caustics", 2), Pair("global", 2)));
 }
 
 TEST(Graphs, HaveTheLayersThatTheySay) {

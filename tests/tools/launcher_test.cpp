@@ -75,10 +75,10 @@ TEST(Launcher, DrawsAGraphWithAPictureOfEachNode) {
 TEST(Launcher, HasWrappedClassesCheckedWhenAsked) {
     Bench lightnet;
     lightnet({"run", lightnet.graph});
-    lightnet({"run", lightnet.graph, "--check-wrapped", "--side-fibers", "0"});
+    lightnet({"run", lightnet.graph, "--check-answers", "--side-fibers", "0"});
     ASSERT_EQ(lightnet.runs.size(), 2u);
-    EXPECT_FALSE(lightnet.runs[0].check_wrapped);
-    EXPECT_TRUE(lightnet.runs[1].check_wrapped);
+    EXPECT_FALSE(lightnet.runs[0].check_answers);
+    EXPECT_TRUE(lightnet.runs[1].check_answers);
     EXPECT_EQ(lightnet.runs[1].tuning.side_fibers, 0u);
 }
 
@@ -180,6 +180,21 @@ TEST(Launcher, DrawsGraphsAndPlans) {
                         lightnet.write("h.lua", "place 'tcp://onyx1:7777' { places = 2 }")}),
               0);
     EXPECT_THAT(lightnet.out, HasSubstr("label=\"tcp://onyx1:7777\""));
+}
+
+TEST(Launcher, ShowsAndRunsWhatIsSharded) {
+    Bench lightnet;
+    const std::string hosts = lightnet.write(
+        "h.lua", "layout = 'sharded'\nplace 'tcp://127.0.0.1:7777' {}\nplace 'tcp://127.0.0.1:7778' {}");
+    EXPECT_EQ(lightnet({"check", lightnet.graph, "--hosts", hosts}), 0);
+    EXPECT_THAT(lightnet.out, HasSubstr(", lighting in 2 sectors\n"));
+    EXPECT_EQ(lightnet({"dot", lightnet.graph, "--hosts", hosts}), 0);
+    EXPECT_THAT(lightnet.out, HasSubstr("lighting by place\\n2 sectors"));
+    EXPECT_THAT(lightnet.out, HasSubstr("lighting#2"));
+    lightnet({"run", lightnet.graph, "--hosts", hosts});
+    EXPECT_EQ(lightnet.runs.at(0).graph.sectors.size(), 2u);
+    lightnet({"run", lightnet.graph});
+    EXPECT_TRUE(lightnet.runs.at(1).graph.sectors.empty());
 }
 
 TEST(Launcher, DescribesKinds) {

@@ -1,0 +1,99 @@
+#include "core/graph/layout.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/error.hpp"
+#include "core/graph/plan.hpp"
+
+namespace lightnet {
+namespace {
+
+// Later entries win, and those of a node over those of all.
+std::optional<Layout> layout_of(const Hosts& hosts, const std::string& node) {
+    std::optional<Layout> layout;
+    for (const std::string& wanted : {std::string(), node})
+        for (const auto& entry : hosts.layouts)
+            if (entry.node == wanted)
+                if (const auto named = layout_called(entry.name)) layout = named;
+    return layout;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> sectors_by_host(const Hosts& hosts, const std::string& node) {
+    std::vector<std::uint32_t> counts;
+    for (const auto& host : hosts.hosts) {
+        const auto named = host.replicas.find(node);
+        const int replicas = named == host.replicas.end() ? 0 : std::max(named->second, 0);
+        counts.push_back(host.replicas.empty() ? 1 : static_cast<std::uint32_t>(replicas));
+    }
+    return counts;
+}
+
+std::map<std::string, std::uint32_t> shards_of(const Graph& graph, const Registry& registry, const Hosts& hosts) {
+    std::map<std::string, std::uint32_t> shards;
+    const auto used = used_nodes(graph, renderer_of(graph, registry));
+    std::vector<bool> taken(graph.nodes.size());
+    for (std::size_t node = 0; node < graph.nodes.size(); ++node)
+        for (const std::size_t other : graph.taken_by(node)) taken[other] = true;
+    for (std::size_t node = 0; node < graph.nodes.size(); ++node) {
+        const auto& [name, kind, entries, params, where] = graph.nodes[node];
+        if (!used[node] || !registry.find(kind)->landmarks || layout_of(hosts, name) != Layout::sharded) continue;
+        if (taken[node]) continue;  // whoever takes its frozen state needs all of it
+        const auto counts = sectors_by_host(hosts, name);
+        const auto count = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
+        if (count > 1) shards[name] = static_cast<std::uint32_t>(std::min<std::uint64_t>(count, most_sectors));
+    }
+    return shards;
+}
+
+Graph sharded(Graph graph, const std::map<std::string, std::uint32_t>& shards) {
+    if (!graph.sectors.empty()) throw Error(graph.file, "a graph is sharded once");
+    for (const auto& [name, count] : shards) {
+        const auto whole = graph.find(name);
+        if (!whole) throw Error(graph.file, "'" + name + "' is to be sharded, but there is no such node");
+        if (count < 2 || count > most_sectors || graph.sectors.size() + count > 16 * most_sectors)
+            throw Error(graph.file, "'" + name + "' can't have " + std::to_string(count) + " sectors");
+        for (std::uint32_t index = 0; index < count; ++index) {
+            Node node = graph.nodes[*whole];
+            node.name += "#" + std::to_string(index + 1);
+            graph.nodes.push_back(std::move(node));
+            graph.sectors.push_back({static_cast<std::uint32_t>(*whole), index, count});
+        }
+    }
+    return graph;
+}
+
+std::map<std::string, std::uint32_t> shards_in(const Graph& graph) {
+    std::map<std::string, std::uint32_t> shards;
+    for (const auto& sector : graph.sectors) shards[graph.nodes[sector.node].name] = sector.count;
+    return shards;
+}
+
+std::size_t written_nodes(const Graph& graph) { return graph.nodes.size() - graph.sectors.size(); }
+
+Graph written(Graph graph) {
+    graph.nodes.resize(written_nodes(graph));
+    graph.sectors.clear();
+    return graph;
+}
+
+std::vector<std::size_t> sectors_of(const Graph& graph, std::size_t node) {
+    std::vector<std::size_t> sectors;
+    for (std::size_t i = 0; i < graph.sectors.size(); ++i)
+        if (graph.sectors[i].node == node) sectors.push_back(written_nodes(graph) + i);
+    return sectors;
+}
+
+const Sector* sector_at(const Graph& graph, std::size_t node) {
+    const std::size_t written = written_nodes(graph);
+    return node < written ? nullptr : &graph.sectors[node - written];
+}
+
+std::size_t whole_of(const Graph& graph, std::size_t node) {
+    const auto* sector = sector_at(graph, node);
+    return sector ? sector->node : node;
+}
+
+}  // namespace lightnet
