@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -48,6 +49,7 @@ public:
         std::vector<IrradianceRecord> records;
         for (std::uint32_t stride = coarsest; stride >= finest_; stride /= 2)
             learn(services, services.rehearse(stride), records);
+        services.say(std::to_string(records.size()) + " records");
     }
 
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
@@ -236,7 +238,7 @@ std::vector<Param> params() {
          .type = ParamType::integer,
          .help = "directions in which each record looks",
          .unit = "rays",
-         .initial = Value{512.0},
+         .initial = Value{1024.0},
          .least = 8,
          .most = 1 << 20},
         {.name = "accuracy",

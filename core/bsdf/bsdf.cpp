@@ -1,6 +1,7 @@
 #include "core/bsdf/bsdf.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <type_traits>
 
 namespace lightnet {
@@ -60,6 +61,16 @@ std::optional<BsdfSample> Bsdf::sample_of_any(Vec3 outgoing, float choice, Vec2 
     result->incoming = normalize(frame.to_world(result->incoming));
     if (above != (dot(result->incoming, normal_) > 0)) return {};
     return result;
+}
+
+std::optional<float> Bsdf::reflection_chance(Vec3 outgoing) const {
+    if (parts_ || one_sided_) return {};
+    const float height = frame_for(outgoing).to_local(outgoing).z;
+    const auto* glass = std::get_if<DielectricBsdf>(&model_);
+    if (glass && glass->smooth()) return glass->reflection_chance({0, 0, height});
+    if (const auto* pane = std::get_if<ThinDielectricBsdf>(&model_))
+        return pane->reflection_chance({0, 0, std::fabs(height)});
+    return {};
 }
 
 // With which weight a part is sampled: 0 where it can't be seen, or has none of the lobes.

@@ -48,6 +48,8 @@ public:
     std::uint8_t lobes() const { return diffuse() ? lobe::diffuse : lobes_of_any(); }
     /// Does sample() look at its `choice`?
     bool chooses() const { return model_.index() > 2 || parts_; }
+    /// Of smooth glass: below which `choice` sample() reflects; what is not reflected is transmitted. None: of others.
+    std::optional<float> reflection_chance(Vec3 outgoing) const;
     /// f × |cos incoming| for the non-specular lobes among `lobes`, sr⁻¹; and the density with which sample() with the
     /// same `lobes` finds `incoming`, per steradian. Both exactly 0 for specular lobes.
     BsdfValue value_and_pdf(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const {
