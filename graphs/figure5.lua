@@ -2,7 +2,7 @@
 -- all light of other surfaces. A lamp, a glass ball and a mirror in the Cornell box.
 -- lightnet run graphs/figure5.lua -D file=/somewhere/scene.pbrt -D width=640 -D height=360
 file = "glass_ball.pbrt"
-width, height, samples, photons, rays = 256, 256, 16, 100000, 256
+width, height, samples, photons, rays = 256, 256, 16, 200000, 256
 
 scene    = Scene           { file }
 direct   = DirectLighting  { samples = 1 }

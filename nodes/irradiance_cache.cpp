@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -258,7 +259,7 @@ std::vector<Param> params() {
          .type = ParamType::integer,
          .help = "directions in which each record looks",
          .unit = "rays",
-         .initial = Value{512.0},
+         .initial = Value{1024.0},
          .least = 8,
          .most = 1 << 20},
         {.name = "accuracy",

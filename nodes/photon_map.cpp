@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "core/estimate/photon_shooter.hpp"
 #include "core/estimate/photon_tree.hpp"
+#include "core/estimate/shooting.hpp"
 #include "core/graph/kind.hpp"
 #include "core/light/light_op.hpp"
 #include "core/light/node_context.hpp"
@@ -13,16 +13,6 @@
 
 namespace lightnet {
 namespace {
-
-Shooting shooting_of(const NodeContext& here) {
-    Shooting shooting;
-    shooting.paths = photon_paths(here.text("paths"));
-    shooting.ways = static_cast<std::uint64_t>(here.integer("photons"));
-    shooting.aimed = here.flag("aim");
-    shooting.key = child(mix(here.seed()), here.key());
-    shooting.most_bytes = static_cast<std::size_t>(here.number("memory") * 1e6);
-    return shooting;
-}
 
 // Lets each lot go as soon as it is copied.
 std::vector<Photon> taken_out_of(std::vector<Mapped<Photon>>& lots) {
@@ -42,7 +32,7 @@ class PhotonMap final : public LightOp {
 public:
     explicit PhotonMap(const NodeContext& here)
         : scene_(here.scene()),
-          shooting_(shooting_of(here)),
+          shooting_(Shooting::of(here)),
           gather_(static_cast<std::size_t>(here.integer("gather"))),
           radius_(static_cast<float>(here.number("radius"))) {
         if (radius_ == 0) radius_ = 0.05f * scene_.radius();
@@ -51,7 +41,8 @@ public:
     void prepare(Services& services) override {
         const auto aim = take_aim(services, scene_, shooting_);
         auto lots = shoot_near(services, scene_, shooting_, *aim, radius_);
-        tree_ = services.once<PhotonTree>([&] { return PhotonTree(taken_out_of(lots)); });
+        const std::size_t places = services.whereabouts().places;
+        tree_ = services.once<PhotonTree>([&] { return PhotonTree(taken_out_of(lots), places); });
     }
 
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
@@ -76,48 +67,21 @@ private:
 };
 
 std::vector<Param> params() {
-    return {
-        {.name = "photons",
-         .type = ParamType::integer,
-         .help = "ways of light that leave the lamps",
-         .unit = "photons",
-         .initial = Value{200000.0},
-         .least = 1,
-         .most = 4e9},
-        {.name = "gather",
-         .type = ParamType::integer,
-         .help = "how many of the nearest photons an answer looks at; 0: all within the radius",
-         .unit = "photons",
-         .initial = Value{60.0},
-         .least = 0,
-         .most = 65536},
-        {.name = "radius",
-         .type = ParamType::number,
-         .help = "how far they may be away; 0: a twentieth of the scene's radius",
-         .unit = "m",
-         .initial = Value{0.0},
-         .least = 0},
-        {.name = "paths",
-         .type = ParamType::text,
-         .help = "which light: by way of mirrors and glass alone, by way of something rough, of either, or all of it",
-         .initial = Value{"caustic"},
-         .choices = {"caustic", "diffuse", "indirect", "all"}},
-        {.name = "aim",
-         .type = ParamType::flag,
-         .help = "send most photons where, as trials show, they are of use",
-         .initial = Value{true}},
-        {.name = "memory",
-         .type = ParamType::number,
-         .help = "that the photons may take; more is an error",
-         .unit = "MB",
-         .initial = Value{1024.0},
-         .least = 0,
-         .most = 1e6},
-    };
-}
-
-std::vector<std::string> paths_of(const Node& node) {
-    return {expression_of(photon_paths(std::get<std::string>(node.params.at("paths").data)))};
+    auto params = shooting_params(200000, "ways of light that leave the lamps");
+    params.push_back({.name = "gather",
+                      .type = ParamType::integer,
+                      .help = "how many of the nearest photons an answer looks at; 0: all within the radius",
+                      .unit = "photons",
+                      .initial = Value{60.0},
+                      .least = 0,
+                      .most = 65536});
+    params.push_back({.name = "radius",
+                      .type = ParamType::number,
+                      .help = "how far they may be away; 0: a twentieth of the scene's radius",
+                      .unit = "m",
+                      .initial = Value{0.0},
+                      .least = 0});
+    return params;
 }
 
 }  // namespace
@@ -128,8 +92,8 @@ Kind photon_map_kind() {
         .help = "light that was sent from the lamps beforehand: caustics, or a rough picture of all light",
         .prepares = true,
         .freezes = "photons",
-        .paths = paths_of,
-        .landmarks = [](const NodeContext& here) { return landmarks_of(here.scene(), shooting_of(here)); },
+        .paths = paths_of_photons,
+        .landmarks = [](const NodeContext& here) { return landmarks_of(here.scene(), Shooting::of(here)); },
         .params = params(),
         .make_light = [](const NodeContext& here) { return std::make_unique<PhotonMap>(here); },
     };

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "core/estimate/photon_shooter.hpp"
 #include "core/estimate/photon_tree.hpp"
+#include "core/estimate/shooting.hpp"
 #include "core/graph/kind.hpp"
 #include "core/light/light_op.hpp"
 #include "core/light/node_context.hpp"
@@ -19,14 +19,9 @@ namespace {
 /// of as many samples is the mean of all passes. Noise and bias both vanish as passes and samples grow.
 class ProgressivePhotonMapping final : public LightOp {
 public:
-    explicit ProgressivePhotonMapping(const NodeContext& here) : scene_(here.scene()) {
-        shooting_.paths = photon_paths(here.text("paths"));
-        shooting_.ways = static_cast<std::uint64_t>(here.integer("photons"));
-        shooting_.aimed = here.flag("aim");
-        shooting_.key = child(mix(here.seed()), here.key());
-        shooting_.most_bytes = static_cast<std::size_t>(here.number("memory") * 1e6);
+    explicit ProgressivePhotonMapping(const NodeContext& here) : scene_(here.scene()), shooting_(Shooting::of(here)) {
         const double first = here.number("radius"), alpha = here.number("alpha");
-        double squared = std::pow(first > 0 ? first : 0.01 * scene_.radius(), 2);
+        double squared = std::pow(first > 0 ? first : 0.013 * scene_.radius(), 2);
         const auto passes = static_cast<std::size_t>(here.integer("passes"));
         for (std::size_t pass = 1; pass <= passes; ++pass) {
             radii_.push_back(float(std::sqrt(squared)));
@@ -37,13 +32,13 @@ public:
     void prepare(Services& services) override {
         const auto aim = take_aim(services, scene_, shooting_);
         const auto photons = shoot(services, scene_, shooting_, *aim, radii_.size());
-        const std::size_t each = shards_each(shooting_);
+        const std::size_t each = shards_each(shooting_), places = services.whereabouts().places;
         for (std::size_t pass = 0; pass < radii_.size(); ++pass)
             passes_.push_back(services.once<PhotonTree>([&] {
                 std::vector<Photon> own;
                 for (std::size_t i = pass * each; i < (pass + 1) * each; ++i)
                     own.insert(own.end(), photons.shard(i).begin(), photons.shard(i).end());
-                return PhotonTree(own);
+                return PhotonTree(own, places);
             }));
     }
 
@@ -68,54 +63,27 @@ private:
 };
 
 std::vector<Param> params() {
-    return {
-        {.name = "photons",
-         .type = ParamType::integer,
-         .help = "ways of light that leave the lamps in each pass",
-         .unit = "photons",
-         .initial = Value{100000.0},
-         .least = 1,
-         .most = 4e9},
-        {.name = "passes",
-         .type = ParamType::integer,
-         .help = "maps, each for one sample of a pixel in turn: as many as samples, or a part of them",
-         .unit = "passes",
-         .initial = Value{16.0},
-         .least = 1,
-         .most = 65536},
-        {.name = "alpha",
-         .type = ParamType::number,
-         .help = "how slowly the radius shrinks: 1 keeps it",
-         .initial = Value{0.6666666666666666},
-         .least = 0.01,
-         .most = 1},
-        {.name = "radius",
-         .type = ParamType::number,
-         .help = "within which photons of the first pass count; 0: a hundredth of the scene's radius",
-         .unit = "m",
-         .initial = Value{0.0},
-         .least = 0},
-        {.name = "paths",
-         .type = ParamType::text,
-         .help = "which light: by way of mirrors and glass alone, by way of something rough, of either, or all of it",
-         .initial = Value{"caustic"},
-         .choices = {"caustic", "diffuse", "indirect", "all"}},
-        {.name = "aim",
-         .type = ParamType::flag,
-         .help = "send most photons where, as trials show, they are of use",
-         .initial = Value{true}},
-        {.name = "memory",
-         .type = ParamType::number,
-         .help = "that the photons may take; more is an error",
-         .unit = "MB",
-         .initial = Value{1024.0},
-         .least = 0,
-         .most = 1e6},
-    };
-}
-
-std::vector<std::string> paths_of(const Node& node) {
-    return {expression_of(photon_paths(std::get<std::string>(node.params.at("paths").data)))};
+    auto params = shooting_params(100000, "ways of light that leave the lamps in each pass");
+    params.push_back({.name = "passes",
+                      .type = ParamType::integer,
+                      .help = "maps, each for one sample of a pixel in turn: as many as samples, or a part of them",
+                      .unit = "passes",
+                      .initial = Value{64.0},
+                      .least = 1,
+                      .most = 65536});
+    params.push_back({.name = "alpha",
+                      .type = ParamType::number,
+                      .help = "how slowly the radius shrinks: 1 keeps it",
+                      .initial = Value{0.6666666666666666},
+                      .least = 0.01,
+                      .most = 1});
+    params.push_back({.name = "radius",
+                      .type = ParamType::number,
+                      .help = "within which photons of the first pass count; 0: 0.013 of the scene's radius",
+                      .unit = "m",
+                      .initial = Value{0.0},
+                      .least = 0});
+    return params;
 }
 
 }  // namespace
@@ -125,7 +93,7 @@ Kind progressive_photon_mapping_kind() {
         .name = "ProgressivePhotonMapping",
         .help = "light that was sent from the lamps in many passes, each sharper: caustics without bias in the end",
         .prepares = true,
-        .paths = paths_of,
+        .paths = paths_of_photons,
         .params = params(),
         .make_light = [](const NodeContext& here) { return std::make_unique<ProgressivePhotonMapping>(here); },
     };

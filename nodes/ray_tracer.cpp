@@ -2,13 +2,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "core/estimate/mirror_way.hpp"
 #include "core/graph/kind.hpp"
 #include "core/light/node_context.hpp"
 #include "core/light/renderer.hpp"
 #include "core/math/samples.hpp"
-#include "core/scene/direct_light.hpp"
 #include "core/scene/scene.hpp"
 
 namespace lightnet {
@@ -78,11 +80,18 @@ public:
     }
 
 private:
+    /// What a look has still to follow.
+    struct Way {
+        MirrorWay mirrored;
+        std::optional<Hit> hit;
+        std::uint32_t depth;  // mirrors and glass before
+    };
     /// Questions about what some pixels see, in order of pixel, sample and depth.
     struct Seen {
         std::vector<Query> questions;
         std::vector<std::size_t> pixels;  // whose the answers are
         std::vector<Rgb> weights;         // what reaches the eye of them
+        std::vector<Way> ways;            // scratch
     };
     /// One sample of a pixel.
     struct Look {
@@ -122,51 +131,53 @@ private:
         if (!seen.questions.empty()) add_answers(seen, pixels);
     }
 
-    /// Follows one ray until no mirror or glass carries it on. Returns what shines by itself on the way.
-    Rgb follow(const Look& look, Ray ray, std::optional<Hit> hit, Seen& seen) const {
-        Rgb emitted, weight{1, 1, 1};
-        const Rgb* inside = nullptr;  // what the ray leads through
-        float squeezed = 1;           // by refraction, which is no loss: roulette must not see it
-        for (std::uint32_t depth = 0;; ++depth) {
-            if (!hit) return emitted + weight * scene_.environment(ray.direction);
-            if (inside) weight *= left_after(inside, hit->distance);
-            const SurfacePoint point = scene_.surface(*hit);
-            const Bsdf bsdf = scene_.bsdf(point);
-            const Vec3 outgoing = -ray.direction;
-            const std::uint8_t lobes = bsdf.lobes();
-            emitted += weight * scene_.emission(point, outgoing);
-            if (lobes & lobe::rough) {
-                seen.questions.push_back(question(look, *hit, outgoing, lobes & lobe::rough, depth));
-                seen.pixels.push_back(look.pixel);
-                seen.weights.push_back(weight);
-            }
-            if (!(lobes & lobe::specular) || depth >= max_depth_) return emitted;
-
-            Samples samples(child(look.key, chain_key, depth), look.sample);
-            const float choice = bsdf.chooses() ? samples.next() : samples.skip();
-            const auto sample = bsdf.sample(outgoing, choice, samples.next_2d(), lobe::specular);
-            if (!sample) return emitted;
-            weight *= sample->weight;
-            squeezed *= sample->eta * sample->eta;
-            // Faint reflections are followed seldom, and count more for it.
-            const float chance = std::min(1.0f, max_component(weight) * squeezed * 10);
-            if (!(samples.next() < chance)) return emitted;
-            weight *= 1 / chance;
-            inside = filling(bsdf, point, outgoing, sample->incoming, inside);
-            ray = {point.origin_towards(sample->incoming), sample->incoming};
-            hit = scene_.intersect(ray);
+    /// Follows one ray until no mirror or glass carries it on. Returns what shines by itself on the way. At glass both
+    /// of its ways are followed as long as they carry much: a lamp that is seen in it by chance is noise for long.
+    Rgb follow(const Look& look, const Ray& ray, const std::optional<Hit>& hit, Seen& seen) const {
+        Rgb emitted;
+        seen.ways.assign(1, {MirrorWay(ray), hit, 0});
+        for (std::uint32_t met = 0; !seen.ways.empty(); ++met) {
+            const Way way = seen.ways.back();
+            seen.ways.pop_back();
+            emitted += visit(look, way, met, seen);
         }
+        return emitted;
     }
 
-    Query question(const Look& look, const Hit& hit, Vec3 outgoing, int lobes, std::uint32_t depth) const {
-        return {.stream = child(look.key, key_, depth),
-                .instance = hit.instance,
+    /// The surface number `met` of a look. Returns what shines by itself there.
+    Rgb visit(const Look& look, Way way, std::uint32_t met, Seen& seen) const {
+        if (!way.hit) return way.mirrored.weight() * scene_.environment(way.mirrored.ray().direction);
+        way.mirrored.arrive(way.hit->distance);
+        const SurfacePoint point = scene_.surface(*way.hit);
+        const Bsdf bsdf = scene_.bsdf(point);
+        const Vec3 outgoing = -way.mirrored.ray().direction;
+        const std::uint8_t lobes = bsdf.lobes();
+        const Rgb emitted = way.mirrored.weight() * scene_.emission(point, outgoing);
+        if (lobes & lobe::rough) {
+            Query question = question_about(*way.hit, outgoing, lobes & lobe::rough, way.depth);
+            question.stream = child(look.key, key_, met);
+            question.sample = look.sample;
+            seen.questions.push_back(question);
+            seen.pixels.push_back(look.pixel);
+            seen.weights.push_back(way.mirrored.weight());
+        }
+        if (!(lobes & lobe::specular) || way.depth >= max_depth_) return emitted;
+        if (const auto reflected = way.mirrored.split(point, bsdf, both_carry)) {
+            seen.ways.push_back({*reflected, scene_.intersect(reflected->ray()), way.depth + 1});
+        } else if (!way.mirrored.go_on(point, bsdf, Samples(child(look.key, chain_key, met), look.sample), keep)) {
+            return emitted;
+        }
+        seen.ways.push_back({way.mirrored, scene_.intersect(way.mirrored.ray()), way.depth + 1});
+        return emitted;
+    }
+
+    static Query question_about(const Hit& hit, Vec3 outgoing, int lobes, std::uint32_t depth) {
+        return {.instance = hit.instance,
                 .geometry = hit.geometry,
                 .primitive = hit.primitive,
                 .u = hit.u,
                 .v = hit.v,
                 .outgoing = outgoing,
-                .sample = look.sample,
                 .lobes = static_cast<std::uint8_t>(lobes),
                 .depth = static_cast<std::uint8_t>(std::min(depth, 255u))};
     }
@@ -183,6 +194,8 @@ private:
     }
 
     static constexpr std::size_t samples_at_once = 4096;
+    static constexpr float both_carry = 0.01f;  // at least, where both ways of glass are followed
+    static constexpr float keep = 25;           // what is fainter than its inverse is followed seldom
     static constexpr Key chain_key = key_of("chain of mirrors");
 
     const Scene& scene_;

@@ -131,7 +131,8 @@ struct ZmqCarrier::Sockets {
             for (auto& [host, way] : peers) {
                 if (now - std::max(way.asked, way.answered) > way.patience && has_pending(host)) {
                     way.patience *= 2;
-                    say_again([&](const Pending& packet) { return packet.host == host; });
+                    // clang 14 captures no binding by itself
+                    say_again([&host = host](const Pending& packet) { return packet.host == host; });
                 }
                 const auto source = asking.find(host);
                 if (way.relayed || source == asking.end()) continue;

@@ -5,38 +5,55 @@
 
 #include "core/bsdf/fresnel.hpp"
 #include "core/bsdf/scattering.hpp"
+#include "core/math/samples.hpp"
 
 namespace lightnet {
 namespace {
 
 constexpr std::size_t roughnesses = 12;
 
-/// Directional albedo of rough reflection, by a fixed grid over the visible normals.
-float rough_reflectance(const Ggx& facets, float eta, float cosine, int grid) {
-    const Vec3 w{std::sqrt(std::max(0.0f, 1 - cosine * cosine)), 0, cosine};
-    double sum = 0;
-    for (int i = 0; i < grid; ++i)
-        for (int j = 0; j < grid; ++j) {
-            const Vec2 u{(float(i) + 0.5f) / float(grid), (float(j) + 0.5f) / float(grid)};
-            const Vec3 m = facets.sample_visible(w, u), out = reflect(w, m);
-            if (out.z <= 0) continue;
-            sum += fresnel_dielectric(dot(w, m), eta) * facets.visible(w, out) / facets.visible(w);
-        }
-    return float(sum / (grid * grid));
+/// Calls add(w, facet, weight) for facets that directions `w` of that cosine see, as often as they do. Where the
+/// surface isn't alike all around its normal, neither are the directions. The weights sum up to 1.
+template <class Add>
+void over_visible(const Ggx& facets, float cosine, std::uint32_t count, Key key, Add add) {
+    const float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
+    const bool grooved = facets.alpha_u != facets.alpha_v;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        Samples samples(key, i);
+        const Vec2 u = samples.next_2d();
+        const float turn = grooved ? 2 * pi * samples.next() : 0;
+        const Vec3 w{sine * std::cos(turn), sine * std::sin(turn), cosine};
+        add(w, facets.sample_visible(w, u), 1 / float(count));
+    }
 }
 
-/// What absorption leaves of diffuse light on its way from the base to a smooth coat, where it is reflected, and back.
-/// That of rough coats differs little.
-float left_of_reflected(float eta, float thickness) {
-    constexpr int strips = 1024;
-    double all = 0, left = 0;
-    for (int i = 0; i < strips; ++i) {
-        const float cosine = (float(i) + 0.5f) / strips;
-        const double share = cosine * fresnel_dielectric(-cosine, eta);
-        all += share;
-        left += share * std::exp(-2 * thickness / cosine);
-    }
-    return float(left / all);
+float left_of(float thickness, float cosine) { return thickness > 0 ? std::exp(-thickness / cosine) : 1; }
+
+/// What single scattering by the facets makes of light from outside: reflected, and let in as far as the base.
+struct Outer {
+    float reflected, passed;
+};
+Outer outer_of(const Ggx& facets, float eta, float thickness, float cosine, Key key) {
+    double reflected = 0, passed = 0;
+    over_visible(facets, cosine, 1024, key, [&](Vec3 w, Vec3 m, float weight) {
+        const float fresnel = fresnel_dielectric(dot(w, m), eta), seen = facets.visible(w);
+        const Vec3 up = reflect(w, m), down = refract(w, m, eta).direction;
+        if (up.z > 0) reflected += weight * fresnel * facets.visible(w, up) / seen;
+        if (down.z < 0) passed += weight * (1 - fresnel) * facets.visible(w, down) / seen * left_of(thickness, -down.z);
+    });
+    return {float(reflected), float(passed)};
+}
+
+/// What the facets send back of light from within, from the base and to the base again.
+float inner_of(const Ggx& facets, float eta, float thickness, float cosine, Key key) {
+    double back = 0;
+    over_visible(facets, cosine, 512, key, [&](Vec3 w, Vec3 m, float weight) {
+        const Vec3 out = reflect(w, m);
+        if (out.z > 0)
+            back += weight * fresnel_dielectric(-dot(w, m), eta) * facets.visible(w, out) / facets.visible(w) *
+                    left_of(thickness, out.z);
+    });
+    return float(back) * left_of(thickness, cosine);
 }
 
 }  // namespace
@@ -55,20 +72,25 @@ Coat::Row Coat::row_of(const Ggx& facets) const {
     Row row;
     for (std::size_t i = 0; i <= steps; ++i) {
         const float cosine = std::max(1e-3f, float(i) / steps);
-        row.by_cosine[i] = smooth ? fresnel_dielectric(cosine, eta_) : rough_reflectance(facets, eta_, cosine, 48);
+        const float mirrored = fresnel_dielectric(cosine, eta_);
+        const auto [reflected, passed] = smooth ? Outer{mirrored, (1 - mirrored) * left_within(cosine)}
+                                                : outer_of(facets, eta_, layer_.thickness, cosine, i);
+        row.reflected[i] = reflected;
+        row.passed[i] = passed;
     }
-    constexpr int strips = 1024;
-    double outer = 0;  // share of diffuse light from outside that is reflected
+    const int strips = smooth ? 1024 : 48;
+    double inner = 0;
     for (int i = 0; i < strips; ++i) {
-        const float cosine = (float(i) + 0.5f) / strips;
-        outer += 2 * cosine * (smooth ? fresnel_dielectric(cosine, eta_) : row.at(cosine)) / strips;
+        const float cosine = (float(i) + 0.5f) / float(strips);
+        inner += 2 * cosine / float(strips) *
+                 (smooth ? fresnel_dielectric(-cosine, eta_) * left_of(2 * layer_.thickness, cosine)
+                         : inner_of(facets, eta_, layer_.thickness, cosine, Key(i)));
     }
-    row.inner = float(1 - (1 - outer) / (double{eta_} * eta_));  // radiance squeezed into a smaller cone below
-    if (layer_.thickness > 0) row.inner *= left_of_reflected(eta_, layer_.thickness);
+    row.inner = float(inner);
     return row;
 }
 
-float Coat::Row::at(float cosine) const {
+float Coat::at(const std::array<float, steps + 1>& by_cosine, float cosine) {
     const float at = std::clamp(cosine, 0.0f, 1.0f) * steps;
     const auto low = std::min(static_cast<std::size_t>(at), steps - 1);
     const float share = at - float(low);
@@ -83,11 +105,21 @@ Coat::Between Coat::between(const Ggx& facets) const {
     return {low, at - float(low)};
 }
 
+float Coat::of_rows(const Ggx& facets, float cosine, std::array<float, steps + 1> Row::*values) const {
+    const auto [low, share] = between(facets);
+    const float first = at(rows_[low].*values, cosine);
+    return share == 0 ? first : first * (1 - share) + at(rows_[low + 1].*values, cosine) * share;
+}
+
 float Coat::reflectance(const Ggx& facets, float cosine) const {
     if (is_specular(facets.alpha_u, facets.alpha_v)) return fresnel_dielectric(cosine, eta_);
-    const auto [low, share] = between(facets);
-    const float first = rows_[low].at(cosine);
-    return share == 0 ? first : first * (1 - share) + rows_[low + 1].at(cosine) * share;
+    return of_rows(facets, cosine, &Row::reflected);
+}
+
+float Coat::transmittance(const Ggx& facets, float cosine) const {
+    if (is_specular(facets.alpha_u, facets.alpha_v))
+        return (1 - fresnel_dielectric(cosine, eta_)) * left_within(cosine);
+    return of_rows(facets, cosine, &Row::passed);
 }
 
 float Coat::left_within(float cosine) const {

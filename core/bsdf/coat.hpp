@@ -10,7 +10,9 @@
 
 namespace lightnet {
 
-/// How much light coats of one index reflect, by roughness and angle. Made once per material; any thread may ask.
+/// How much light coats of one index reflect and let pass, by roughness and angle, over all directions to which they
+/// do. Rough ones scatter once, as in pbrt: what would meet their facets a second time is lost. Made once per material;
+/// any thread may ask.
 class Coat {
 public:
     /// What becomes of light within: exp(-thickness) of what goes straight through is left, and of ways that meet the
@@ -27,11 +29,15 @@ public:
     explicit Coat(float eta) : Coat(eta, Layer{}) {}
 
     float eta() const { return eta_; }
+    const Layer& layer() const { return layer_; }
     /// Share of light from direction `cosine` that the coat itself reflects.
     float reflectance(const Ggx& facets, float cosine) const;
-    /// Share of diffuse light from the base that the coat sends back down to it.
+    /// Share of light from direction `cosine` that reaches the base; also of diffuse light from the base that leaves
+    /// into that direction, where radiance shrinks by η².
+    float transmittance(const Ggx& facets, float cosine) const;
+    /// Share of diffuse light from the base that the coat sends back, and that reaches the base again.
     float inner_reflectance(const Ggx& facets) const;
-    /// Share of light that is left on the way from the coat's surface to the base; `cosine` above the coat.
+    /// Share of light that is left on the way from a smooth coat's surface to the base; `cosine` above the coat.
     float left_within(float cosine) const;
     /// All ways off a base of that reflectance, of which the coat sends `back` that share each time.
     float series(float reflectance, float back) const;
@@ -39,10 +45,11 @@ public:
 private:
     static constexpr std::size_t steps = 64;
     struct Row {
-        std::array<float, steps + 1> by_cosine{};
+        std::array<float, steps + 1> reflected{}, passed{};  // by cosine
         float inner = 0;
-        float at(float cosine) const;
     };
+    static float at(const std::array<float, steps + 1>& by_cosine, float cosine);
+    float of_rows(const Ggx& facets, float cosine, std::array<float, steps + 1> Row::*values) const;
     Row row_of(const Ggx& facets) const;
     /// Where among the rows a roughness lies: index of the lower one, and the share of the next.
     struct Between {

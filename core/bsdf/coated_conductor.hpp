@@ -2,22 +2,23 @@
 #pragma once
 
 #include "core/bsdf/coat.hpp"
+#include "core/bsdf/coated_metal.hpp"
 #include "core/bsdf/conductor.hpp"
 #include "core/bsdf/scattering.hpp"
 
 namespace lightnet {
 
-/// An approximation of what pbrt finds by random walks between the layers. Light is reflected by the coat, or bent into
-/// it, reflected by the metal, partly sent back down any number of times (a geometric series), and bent out again.
-/// Smooth layers are exact. A rough coat blurs what passes through it: it makes the metal's facets rougher.
+/// What pbrt finds by random walks between the layers. Light is reflected by the coat, or bent into it, reflected by
+/// the metal, partly sent back down any number of times, and bent out again. Smooth layers are exact. Of rough ones the
+/// share of light that returns is that of walks; its directions are an approximation: those of the metal's facets, made
+/// rougher by a rough coat that blurs what passes through it, however often the light met the metal.
 struct CoatedConductorBsdf {
     static constexpr bool two_sided = true;
-    ConductorBsdf metal;         // its index relative to the coat
-    const Coat* coat = nullptr;  // lives as long as the scene
-    Ggx facets{};                // of the coat
-
-    /// The metal's facets, as they look through those of a coat.
-    static Ggx seen_through(const Ggx& metal, const Ggx& coat, float eta);
+    ConductorBsdf metal;                   // its index relative to the coat, its facets as they look through it
+    const Coat* coat = nullptr;            // lives as long as the scene
+    Ggx facets{};                          // of the coat
+    const CoatedMetal* between = nullptr;  // as long; not needed if all is smooth
+    Ggx below{};                           // the metal's own facets
 
     bool smooth() const { return is_specular(facets.alpha_u, facets.alpha_v); }
     std::uint8_t lobes() const {
@@ -28,10 +29,9 @@ struct CoatedConductorBsdf {
 
 private:
     float coat_chance(Vec3 outgoing, std::uint8_t lobes) const;
-    Rgb through(float cosine, float reflected_o, float reflected_i, float left) const;
+    Rgb below_smooth(Vec3 outgoing) const;
+    Rgb below_rough(Vec3 outgoing) const;
     BsdfValue metal_value(Vec3 outgoing, Vec3 incoming) const;
-    Vec3 inwards(Vec3 w) const;
-    std::optional<Vec3> outwards(Vec3 w) const;
 };
 
 }  // namespace lightnet

@@ -13,12 +13,12 @@ float CoatedDiffuseBsdf::coat_chance(float reflectance, std::uint8_t lobes) cons
     return top > 0 ? top / (top + base) : 0;
 }
 
-Rgb CoatedDiffuseBsdf::base_value(float reflectance, Vec3 outgoing, Vec3 incoming) const {
+Rgb CoatedDiffuseBsdf::base_value(Vec3 outgoing, Vec3 incoming) const {
     const float inner = coat->inner_reflectance(facets);
-    const float enters = (1 - reflectance) * (1 - coat->reflectance(facets, incoming.z)) / (coat->eta() * coat->eta());
-    const float left = coat->left_within(outgoing.z) * coat->left_within(incoming.z);
+    const float passes =
+        coat->transmittance(facets, outgoing.z) * coat->transmittance(facets, incoming.z) / (coat->eta() * coat->eta());
     const auto series = [&](float rho) { return coat->series(rho, (base_colours_repeat ? rho : 1) * inner); };
-    return Rgb{series(albedo.r), series(albedo.g), series(albedo.b)} * (enters * left * incoming.z * inverse_pi);
+    return Rgb{series(albedo.r), series(albedo.g), series(albedo.b)} * (passes * incoming.z * inverse_pi);
 }
 
 BsdfValue CoatedDiffuseBsdf::evaluate(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const {
@@ -27,7 +27,7 @@ BsdfValue CoatedDiffuseBsdf::evaluate(Vec3 outgoing, Vec3 incoming, std::uint8_t
     const float chance = coat_chance(reflectance, lobes);
     BsdfValue sum;
     if (lobes & lobe::diffuse) {
-        sum.value += base_value(reflectance, outgoing, incoming);
+        sum.value += base_value(outgoing, incoming);
         sum.pdf += (1 - chance) * incoming.z * inverse_pi;
     }
     if ((lobes & lobe::glossy) && !smooth()) {

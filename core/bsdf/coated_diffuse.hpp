@@ -6,10 +6,10 @@
 
 namespace lightnet {
 
-/// An approximation of what pbrt finds by random walks between the layers: light is reflected by the coat, or enters
-/// it, is scattered by the base, partly sent back down by the coat any number of times (a geometric series), and
-/// leaves. A white base under any coat that absorbs nothing reflects everything. With a smooth coat the
-/// sum is exact.
+/// What pbrt finds by random walks between the layers: light is reflected by the coat, or enters it, is scattered by
+/// the base, partly sent back down by the coat any number of times (a geometric series), and leaves. Since the base
+/// forgets where light came from the sum is exact for smooth and for rough coats. A white base under a smooth coat that
+/// absorbs nothing reflects everything; rough coats lose what single scattering loses.
 struct CoatedDiffuseBsdf {
     static constexpr bool two_sided = true;
     Rgb albedo;                  // of the base
@@ -26,7 +26,7 @@ struct CoatedDiffuseBsdf {
 
 private:
     float coat_chance(float reflectance, std::uint8_t lobes) const;
-    Rgb base_value(float reflectance, Vec3 outgoing, Vec3 incoming) const;
+    Rgb base_value(Vec3 outgoing, Vec3 incoming) const;
 };
 
 }  // namespace lightnet

@@ -40,6 +40,10 @@ std::optional<BsdfSample> DielectricBsdf::sample(Vec3 outgoing, float choice, Ve
     return result;
 }
 
+float DielectricBsdf::reflection_chance(Vec3 outgoing) const {
+    return tints.reflection_chance(fresnel_dielectric(outgoing.z, eta));
+}
+
 std::optional<BsdfSample> DielectricBsdf::sample_smooth(Vec3 outgoing, float choice) const {
     const float reflectance = fresnel_dielectric(outgoing.z, eta), chance = tints.reflection_chance(reflectance);
     if (choice < chance)
@@ -51,11 +55,15 @@ std::optional<BsdfSample> DielectricBsdf::sample_smooth(Vec3 outgoing, float cho
     return BsdfSample{normalize(refracted.direction), weight, 0, lobe::specular, true, refracted.eta};
 }
 
+// Light that goes back and forth inside the pane: a geometric series.
+float ThinDielectricBsdf::reflectance(Vec3 outgoing) const {
+    const float once = fresnel_dielectric(outgoing.z, eta);
+    return once < 1 ? 2 * once / (1 + once) : once;
+}
+
 std::optional<BsdfSample> ThinDielectricBsdf::sample(Vec3 outgoing, float choice, Vec2, std::uint8_t lobes) const {
     if (!(lobes & lobe::specular)) return {};
-    float reflectance = fresnel_dielectric(outgoing.z, eta);
-    // Light that goes back and forth inside the pane: a geometric series.
-    if (reflectance < 1) reflectance = 2 * reflectance / (1 + reflectance);
+    const float reflectance = this->reflectance(outgoing);
     const float chance = tints.reflection_chance(reflectance);
     if (choice < chance)
         return BsdfSample{

@@ -28,6 +28,7 @@ struct DielectricBsdf {
     std::uint8_t lobes() const { return smooth() ? lobe::specular : lobe::glossy; }
     BsdfValue evaluate(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const;
     std::optional<BsdfSample> sample(Vec3 outgoing, float choice, Vec2 u, std::uint8_t lobes) const;
+    float reflection_chance(Vec3 outgoing) const;  // of smooth glass
 
 private:
     std::optional<BsdfSample> sample_smooth(Vec3 outgoing, float choice) const;
@@ -42,6 +43,10 @@ struct ThinDielectricBsdf {
     std::uint8_t lobes() const { return lobe::specular; }
     BsdfValue evaluate(Vec3, Vec3, std::uint8_t) const { return {}; }
     std::optional<BsdfSample> sample(Vec3 outgoing, float choice, Vec2 u, std::uint8_t lobes) const;
+    float reflection_chance(Vec3 outgoing) const { return tints.reflection_chance(reflectance(outgoing)); }
+
+private:
+    float reflectance(Vec3 outgoing) const;
 };
 
 }  // namespace lightnet

@@ -1,5 +1,6 @@
 #include "core/estimate/gather.hpp"
 
+#include "core/estimate/mirror_way.hpp"
 #include "core/math/samples.hpp"
 
 #include <algorithm>
@@ -9,6 +10,7 @@ namespace lightnet {
 namespace {
 
 constexpr std::uint32_t most_mirrors = 100;  // in a row
+constexpr float keep = 4;                    // what is fainter than its inverse is followed seldom
 constexpr Key chain_key = key_of("chain of mirrors");
 
 /// Questions about what looks meet, in order of look and depth.
@@ -31,38 +33,21 @@ Query question_about(const Look& look, const Hit& hit, Vec3 outgoing, int lobes,
             .depth = static_cast<std::uint8_t>(std::min(look.depth + 1u + mirrors, 255u))};
 }
 
-Rgb left_after(const Rgb& absorption, float way) {
-    return {std::exp(-absorption.r * way), std::exp(-absorption.g * way), std::exp(-absorption.b * way)};
-}
-
 void follow(const Scene& scene, const Look& look, std::optional<Hit> hit, std::size_t index, Met& met) {
-    Rgb weight{1, 1, 1};
-    float squeezed = 1;  // by refraction, which is no loss: roulette must not see it
-    Ray ray = look.ray;
+    MirrorWay way(look.ray);
     for (std::uint32_t mirrors = 0; hit; ++mirrors) {
+        way.arrive(hit->distance);
         const SurfacePoint point = scene.surface(*hit);
         const Bsdf bsdf = scene.bsdf(point);
-        const Vec3 outgoing = -ray.direction;
         const std::uint8_t lobes = bsdf.lobes();
         if (lobes & lobe::rough) {
-            met.questions.push_back(question_about(look, *hit, outgoing, lobes & lobe::rough, mirrors));
+            met.questions.push_back(question_about(look, *hit, -way.ray().direction, lobes & lobe::rough, mirrors));
             met.looks.push_back(index);
-            met.weights.push_back(weight);
+            met.weights.push_back(way.weight());
         }
         if (!(lobes & lobe::specular) || mirrors >= most_mirrors) return;
-        Samples samples(child(look.stream, chain_key, 256 + mirrors), look.sample);
-        const float choice = bsdf.chooses() ? samples.next() : samples.skip();
-        const auto step = bsdf.sample(outgoing, choice, samples.next_2d(), lobe::specular);
-        if (!step) return;
-        weight *= step->weight;
-        squeezed *= step->eta * step->eta;
-        const float chance = std::min(1.0f, max_component(weight) * squeezed * 4);
-        if (!(samples.next() < chance)) return;
-        weight *= 1 / chance;
-        ray = {point.origin_towards(step->incoming), step->incoming};
-        const Rgb* absorption = bsdf.absorption(step->incoming);
-        hit = scene.intersect(ray);
-        if (hit && absorption) weight *= left_after(*absorption, hit->distance);
+        if (!way.go_on(point, bsdf, Samples(child(look.stream, chain_key, 256 + mirrors), look.sample), keep)) return;
+        hit = scene.intersect(way.ray());
     }
 }
 

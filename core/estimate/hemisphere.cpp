@@ -49,14 +49,14 @@ void Hemisphere::add_looks(Vec3 origin, Vec3 normal, Key stream, std::uint8_t de
     const Frame frame = Frame::around(normal);
     for (std::size_t j = 0; j < rings_; ++j)
         for (std::size_t k = 0; k < sectors_; ++k) {
-            const Key own = child(stream, j, k);
-            Samples samples(own, 0);
-            const Vec2 u = samples.next_2d();
+            // one stream, so that what the looks draw further on is spread over all of them as well
+            const auto index = static_cast<std::uint32_t>(j * sectors_ + k);
+            const Vec2 u = Samples(child(stream, j, k), 0).next_2d();
             const float squared = std::min((float(j) + u.x) / float(rings_), 0x1.fffffep-1f);  // sin²
             const float angle = 2 * pi * (float(k) + u.y) / float(sectors_);
             const float sine = std::sqrt(squared);
             const Vec3 local{sine * std::cos(angle), sine * std::sin(angle), std::sqrt(1 - squared)};
-            looks.push_back({{origin, normalize(frame.to_world(local))}, own, 0, depth});
+            looks.push_back({{origin, normalize(frame.to_world(local))}, stream, index, depth});
         }
 }
 

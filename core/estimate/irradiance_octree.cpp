@@ -17,19 +17,26 @@ float change_of(const IrradianceRecord& record) {
 
 }  // namespace
 
+// Where a record has to reach farther than its gradient lets it, the gradient is made less: next to an edge it is
+// mostly noise.
+IrradianceOctree::Entry IrradianceOctree::entry_of(IrradianceRecord record, const Spacing& spacing) {
+    const float brightest = max_component(record.irradiance), change = change_of(record);
+    float reach = record.distance;
+    if (change > 0) reach = std::min(reach, brightest / change);
+    reach = std::clamp(spacing.accuracy * reach, spacing.least, spacing.most);
+    const float most = spacing.accuracy * brightest / reach;
+    if (change > most)
+        for (Vec3& moved : record.moved) moved = moved * (most / change);
+    return {record, reach};
+}
+
 IrradianceOctree::IrradianceOctree(std::span<const IrradianceRecord> records, const Spacing& spacing,
                                    const Scene::Box& bounds)
     : low_(bounds.low), spacing_(spacing) {
     const Vec3 extent = bounds.high - bounds.low;
     size_ = std::max({extent.x, extent.y, extent.z}) * 1.001f;
     records_.reserve(records.size());
-    for (const auto& record : records) {
-        const float brightest = max_component(record.irradiance), change = change_of(record);
-        float reach = record.distance;
-        if (change > 0) reach = std::min(reach, brightest / change);
-        reach = std::clamp(spacing.accuracy * reach, spacing.least, spacing.most);
-        records_.push_back({record, reach});
-    }
+    for (const auto& record : records) records_.push_back(entry_of(record, spacing));
     cells_.emplace_back();
     clamp_to_neighbours();
     cells_.assign(1, {});
@@ -46,9 +53,9 @@ void IrradianceOctree::clamp_to_neighbours() {
     });
     for (const auto i : order) {
         Entry& entry = records_[i];
-        for_all_near(entry.record.position, [&](const Entry& other) {
-            const float between = length(entry.record.position - other.record.position);
-            if (between < other.reach && dot(entry.record.normal, other.record.normal) > 0.5f)
+        for_all_near(entry.record.position, [&](const Reach& other) {
+            const float between = length(entry.record.position - other.position);
+            if (between < other.reach && dot(entry.record.normal, other.normal) > 0.5f)
                 entry.reach = std::min(entry.reach, other.reach + spacing_.accuracy * between);
         });
         entry.reach = std::max(entry.reach, spacing_.least);
@@ -64,7 +71,8 @@ void IrradianceOctree::insert(std::uint32_t cell, Vec3 low, float size, std::uin
     int level = 0;
     for (float s = size_; s > size * 1.5f; s /= 2) ++level;
     if (size < 2 * reach || level >= most_levels) {
-        cells_[cell].entries.push_back(entry);
+        const IrradianceRecord& record = inserted.record;
+        cells_[cell].entries.push_back({record.position, record.normal, inserted.reach, entry});
         return;
     }
     const float half = size / 2;
@@ -91,7 +99,7 @@ void IrradianceOctree::for_all_near(Vec3 position, Function function) const {
     float size = size_;
     std::uint32_t cell = 0;
     while (true) {
-        for (const auto entry : cells_[cell].entries) function(records_[entry]);
+        for (const Reach& entry : cells_[cell].entries) function(entry);
         size /= 2;
         std::uint32_t octant = 0;
         for (std::size_t axis = 0; axis < 3; ++axis)
@@ -104,26 +112,26 @@ void IrradianceOctree::for_all_near(Vec3 position, Function function) const {
     }
 }
 
-float IrradianceOctree::weight(const Entry& entry, Vec3 position, Vec3 normal, float stretch) const {
-    const Vec3 way = position - entry.record.position;
+float IrradianceOctree::weight(const Reach& entry, Vec3 position, Vec3 normal, float stretch) const {
+    const Vec3 way = position - entry.position;
     const float reach = entry.reach * stretch, distance2 = length_squared(way);
     if (distance2 >= reach * reach) return 0;
-    const float cosine = dot(normal, entry.record.normal);
+    const float cosine = dot(normal, entry.normal);
     const float turn = std::sqrt(std::max(0.0f, 1 - cosine)) / (spacing_.accuracy * stretch);
     const float error = std::sqrt(distance2) / reach + turn;
     if (error >= 1) return 0;
     // What lies behind the record's horizon, it did not see.
-    if (dot(way, normal + entry.record.normal) * 0.5f < -in_front * reach) return 0;
+    if (dot(way, normal + entry.normal) * 0.5f < -in_front * reach) return 0;
     return 1 - error;
 }
 
 std::optional<Rgb> IrradianceOctree::irradiance(Vec3 position, Vec3 normal, float stretch) const {
     Rgb sum;
     float weights = 0;
-    for_all_near(position, [&](const Entry& entry) {
+    for_all_near(position, [&](const Reach& entry) {
         const float w = weight(entry, position, normal, stretch);
         if (!(w > 0)) return;
-        sum += entry.record.at(position, normal) * w;
+        sum += records_[entry.entry].record.at(position, normal) * w;
         weights += w;
     });
     if (!(weights > 0)) return {};
@@ -131,21 +139,21 @@ std::optional<Rgb> IrradianceOctree::irradiance(Vec3 position, Vec3 normal, floa
 }
 
 const IrradianceRecord* IrradianceOctree::nearest(Vec3 position, Vec3 normal, float within) const {
-    const Entry* best = nullptr;
+    const Reach* best = nullptr;
     float least = within * within;
-    for_all_near(position, [&](const Entry& entry) {
-        const float distance2 = length_squared(position - entry.record.position);
-        const bool nearer = distance2 < least || (best && distance2 == least && &entry < best);
-        if (!nearer || std::fabs(dot(normal, entry.record.normal)) < 0.7f) return;
+    for_all_near(position, [&](const Reach& entry) {
+        const float distance2 = length_squared(position - entry.position);
+        const bool nearer = distance2 < least || (best && distance2 == least && entry.entry < best->entry);
+        if (!nearer || std::fabs(dot(normal, entry.normal)) < 0.7f) return;
         best = &entry;
         least = distance2;
     });
-    return best ? &best->record : nullptr;
+    return best ? &records_[best->entry].record : nullptr;
 }
 
 bool IrradianceOctree::covers(Vec3 position, Vec3 normal) const {
     bool covered = false;
-    for_all_near(position, [&](const Entry& entry) { covered = covered || weight(entry, position, normal, 1) > 0; });
+    for_all_near(position, [&](const Reach& entry) { covered = covered || weight(entry, position, normal, 1) > 0; });
     return covered;
 }
 

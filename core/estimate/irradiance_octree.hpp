@@ -48,11 +48,18 @@ private:
         IrradianceRecord record;
         float reach;  // m: error 1
     };
+    /// What decides whether an entry counts, by itself: a lookup sees many, and uses few.
+    struct Reach {
+        Vec3 position, normal;
+        float reach;
+        std::uint32_t entry;
+    };
     struct Cell {
         std::array<std::uint32_t, 8> children{};  // 0: none
-        std::vector<std::uint32_t> entries;
+        std::vector<Reach> entries;
     };
-    float weight(const Entry& entry, Vec3 position, Vec3 normal, float stretch) const;
+    static Entry entry_of(IrradianceRecord record, const Spacing& spacing);
+    float weight(const Reach& entry, Vec3 position, Vec3 normal, float stretch) const;
     void clamp_to_neighbours();
     void insert(std::uint32_t entry);
     void insert(std::uint32_t cell, Vec3 low, float size, std::uint32_t entry);

@@ -1,6 +1,7 @@
 #include "core/estimate/photon_shooter.hpp"
 
 #include "core/error.hpp"
+#include "core/scene/direct_light.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,9 +11,8 @@
 namespace lightnet {
 namespace {
 
-constexpr std::size_t ways_at_once = 1024;     // whose rays are traced together
-constexpr std::size_t ways_per_shard = 16384;  // some 20 ms
-constexpr std::uint32_t most_surfaces = 512;   // light can go round inside glass without loss
+constexpr std::size_t ways_at_once = 1024;    // whose rays are traced together
+constexpr std::uint32_t most_surfaces = 512;  // light can go round inside glass without loss
 
 // Veach 1997, equation 5.19: where shading normals lean, light that is followed from its lamp isn't scattered as light
 // that is followed from the eye. 1 where they don't.
@@ -20,10 +20,6 @@ float lean(const SurfacePoint& point, Vec3 arriving, Vec3 leaving) {
     const float shaded = std::fabs(dot(arriving, point.shading.z) * dot(leaving, point.normal));
     const float plain = std::fabs(dot(leaving, point.shading.z) * dot(arriving, point.normal));
     return plain > 0 ? std::min(shaded / plain, 10.0f) : 0;
-}
-
-Rgb left_after(const Rgb& absorption, float way) {
-    return {std::exp(-absorption.r * way), std::exp(-absorption.g * way), std::exp(-absorption.b * way)};
 }
 
 }  // namespace
@@ -54,7 +50,7 @@ struct PhotonShooter::Walk {
     Samples samples;
     std::uint32_t way;  // counted from the first
     Rgb flux;
-    const Rgb* absorption = nullptr;  // on the way to the next surface
+    const Rgb* inside = nullptr;  // what it leads through
     bool met_mirror = false, met_rough = false;
 };
 
@@ -80,7 +76,7 @@ bool PhotonShooter::keeps(bool met_mirror, bool met_rough) const {
 
 template <class Keep>
 void PhotonShooter::visit(Walk walk, const Ray& ray, const Hit& hit, const Keep& keep, Flock& flock) const {
-    if (walk.absorption) walk.flux *= left_after(*walk.absorption, hit.distance);
+    if (walk.inside) walk.flux *= left_after(walk.inside, hit.distance);
     const SurfacePoint point = scene_.surface(hit);
     const Bsdf bsdf = scene_.bsdf(point);
     const Vec3 arriving = -ray.direction;
@@ -98,7 +94,7 @@ void PhotonShooter::visit(Walk walk, const Ray& ray, const Hit& hit, const Keep&
     const float chance = std::min(1.0f, after / before);
     if (!(walk.samples.next() < chance)) return;
     walk.flux = flux / chance;
-    walk.absorption = bsdf.absorption(step->incoming);
+    walk.inside = filling(bsdf, point, arriving, step->incoming, walk.inside);
     (step->lobe == lobe::specular ? walk.met_mirror : walk.met_rough) = true;
     flock.walks.push_back(walk);
     flock.rays.push_back({point.origin_towards(step->incoming), step->incoming});
@@ -148,79 +144,6 @@ void PhotonShooter::attempt(std::uint64_t first, std::size_t count, const Aim& a
         };
         follow(first + done, std::min(ways_at_once, count - done), 1, aim, keep, &out);
     }
-}
-
-std::shared_ptr<const Aim> take_aim(Services& services, const Scene& scene, const Shooting& shooting) {
-    auto aim = services.once<Aim>([] { return Aim(); });
-    if (!shooting.aimed) return aim;
-    constexpr std::size_t per_round[] = {65536, 131072};
-    for (std::size_t round = 0; round < std::size(per_round); ++round) {
-        const PhotonShooter shooter(scene, shooting.paths, child(shooting.key, key_of("trials"), round));
-        const auto trials =
-            services.map<Trial>(per_round[round] / ways_per_shard, [&](std::size_t shard, std::vector<Trial>& out) {
-                shooter.attempt(shard * ways_per_shard, ways_per_shard, *aim, out);
-            });
-        aim = services.once<Aim>([&] { return Aim(trials.all()); });
-    }
-    return aim;
-}
-
-std::size_t shards_each(const Shooting& shooting) {
-    return std::size_t((shooting.ways + ways_per_shard - 1) / ways_per_shard);
-}
-
-namespace {
-
-void check_memory(std::size_t photons, const Shooting& shooting) {
-    if (photons * sizeof(Photon) <= shooting.most_bytes) return;
-    throw Error(std::to_string(photons) + " photons take " +
-                std::to_string((photons * sizeof(Photon) + 999999) / 1000000) +
-                " MB, more than its 'memory' allows: raise it, or send fewer 'photons'");
-}
-
-}  // namespace
-
-Mapped<Photon> shoot(Services& services, const Scene& scene, const Shooting& shooting, const Aim& aim,
-                     std::size_t times) {
-    const std::size_t each = shards_each(shooting);
-    auto photons = services.map<Photon>(times * each, [&](std::size_t shard, std::vector<Photon>& out) {
-        const std::uint64_t first = shard % each * ways_per_shard;
-        const PhotonShooter shooter(scene, shooting.paths, child(shooting.key, key_of("ways"), shard / each));
-        shooter.shoot(first, std::min<std::uint64_t>(ways_per_shard, shooting.ways - first), 1 / double(shooting.ways),
-                      aim, out);
-    });
-    check_memory(photons.size(), shooting);
-    return photons;
-}
-
-std::vector<Mapped<Photon>> shoot_near(Services& services, const Scene& scene, const Shooting& shooting, const Aim& aim,
-                                       float reach) {
-    const PhotonShooter shooter(scene, shooting.paths, child(shooting.key, key_of("ways"), 0));
-    const auto ways = [&](std::size_t shard, std::vector<Photon>& out) {
-        const std::uint64_t first = shard * ways_per_shard;
-        shooter.shoot(first, std::min<std::uint64_t>(ways_per_shard, shooting.ways - first), 1 / double(shooting.ways),
-                      aim, out);
-    };
-    auto photons = services.map_near<Photon>(shards_each(shooting), reach, ways,
-                                             [](const Photon& photon) { return photon.position; });
-    std::size_t count = 0;
-    for (const auto& some : photons) count += some.size();
-    check_memory(count, shooting);
-    return photons;
-}
-
-std::vector<Vec3> landmarks_of(const Scene& scene, const Shooting& shooting) {
-    constexpr std::size_t trials = 65536, ways = 32768;
-    std::vector<Trial> tried;
-    if (shooting.aimed)
-        PhotonShooter(scene, shooting.paths, child(shooting.key, key_of("landmark trials"), 0))
-            .attempt(0, trials, Aim(), tried);
-    std::vector<Photon> photons;
-    PhotonShooter(scene, shooting.paths, child(shooting.key, key_of("landmarks"), 0))
-        .shoot(0, ways, 1, Aim(tried), photons);
-    std::vector<Vec3> landmarks;
-    for (const auto& photon : photons) landmarks.push_back(photon.position);
-    return landmarks;
 }
 
 }  // namespace lightnet

@@ -8,8 +8,6 @@
 
 #include "core/estimate/aim.hpp"
 #include "core/estimate/photon.hpp"
-#include "core/light/mapped.hpp"
-#include "core/light/services.hpp"
 #include "core/scene/scene.hpp"
 
 namespace lightnet {
@@ -52,29 +50,5 @@ private:
     PhotonPaths paths_;
     Key key_;
 };
-
-/// How a map of photons is made: the parameters that nodes share.
-struct Shooting {
-    PhotonPaths paths = PhotonPaths::caustic;
-    std::uint64_t ways = 0;  // of light that leave the lamps
-    bool aimed = false;      // rather where they are of use than evenly
-    Key key = 0;
-    std::size_t most_bytes = 0;  // that may be kept; more is an error
-};
-
-/// Learns where to aim, from trials: two rounds on all places. Even, unless it is asked for.
-std::shared_ptr<const Aim> take_aim(Services& services, const Scene& scene, const Shooting& shooting);
-/// Shoots on all places, so many times anew; photons come in the order of their ways. Shards (see Mapped) of each time
-/// stand together: shards_each() of them. Throws Error when that takes more memory than it may.
-Mapped<Photon> shoot(Services& services, const Scene& scene, const Shooting& shooting, const Aim& aim,
-                     std::size_t times = 1);
-std::size_t shards_each(const Shooting& shooting);
-
-/// Shoots once; photons in the order of their ways, but in several memories: where the node is sharded, only those that
-/// lie within `reach` (m) of where it may be asked. `most_bytes` bounds what this copy of the node gets.
-std::vector<Mapped<Photon>> shoot_near(Services& services, const Scene& scene, const Shooting& shooting, const Aim& aim,
-                                       float reach);
-/// Points where photons come to lie, about as densely: for Kind::landmarks.
-std::vector<Vec3> landmarks_of(const Scene& scene, const Shooting& shooting);
 
 }  // namespace lightnet

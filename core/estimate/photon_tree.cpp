@@ -3,15 +3,17 @@
 #include "core/math/sampling.hpp"
 
 #include <algorithm>
+#include <thread>
 #include <tuple>
 
 namespace lightnet {
 namespace {
 
-constexpr std::size_t leaf = 8;       // photons that are looked at one by one
-constexpr float height_counts = 15;   // of a height squared, beside its part of the distance: a flat ellipsoid
-constexpr float least_cosine = 0.7f;  // between normals of a surface that is taken for the same one
-constexpr float grazing = 0.02f;      // cosine below which light is taken to arrive at this one
+constexpr std::size_t leaf = 8;                // photons that are looked at one by one
+constexpr std::size_t least_shared = 1 << 15;  // photons that are worth a thread
+constexpr float height_counts = 15;            // of a height squared, beside its part of the distance: a flat ellipsoid
+constexpr float least_cosine = 0.7f;           // between normals of a surface that is taken for the same one
+constexpr float grazing = 0.02f;               // cosine below which light is taken to arrive at this one
 
 // By all that a photon is, so that the order can't depend on how the library sorts.
 bool comes_before(const Photon& a, const Photon& b, std::size_t axis) {
@@ -25,8 +27,9 @@ bool comes_before(const Photon& a, const Photon& b, std::size_t axis) {
 
 }  // namespace
 
-PhotonTree::PhotonTree(std::vector<Photon> photons) : photons_(std::move(photons)), axes_(photons_.size()) {
-    build(0, photons_.size());
+PhotonTree::PhotonTree(std::vector<Photon> photons, std::size_t threads)
+    : photons_(std::move(photons)), axes_(photons_.size()) {
+    build(0, photons_.size(), std::clamp<std::size_t>(threads, 1, std::max(1u, std::thread::hardware_concurrency())));
 }
 
 // Indices would differ between the trees of all photons and of some.
@@ -35,8 +38,8 @@ bool PhotonTree::comes_first(const Near& a, const Near& b) const {
     return comes_before(photons_[a.index], photons_[b.index], 0);
 }
 
-// A subtree is a range, its root in the middle.
-void PhotonTree::build(std::size_t low, std::size_t high) {
+// A subtree is a range, its root in the middle; what others do with other ranges changes nothing in it.
+void PhotonTree::build(std::size_t low, std::size_t high, std::size_t threads) {
     const auto at = [&](std::size_t i) { return photons_.begin() + std::ptrdiff_t(i); };
     if (high - low <= leaf) {
         std::sort(at(low), at(high), [](const Photon& a, const Photon& b) { return comes_before(a, b, 0); });
@@ -54,8 +57,13 @@ void PhotonTree::build(std::size_t low, std::size_t high) {
     std::nth_element(at(low), at(middle), at(high),
                      [axis](const Photon& a, const Photon& b) { return comes_before(a, b, axis); });
     axes_[middle] = std::uint8_t(axis);
-    build(low, middle);
-    build(middle + 1, high);
+    if (threads < 2 || high - low < least_shared) {
+        build(low, middle, 1);
+        build(middle + 1, high, 1);
+    } else {
+        const std::jthread other([=, this] { build(low, middle, threads / 2); });
+        build(middle + 1, high, threads - threads / 2);
+    }
 }
 
 class PhotonTree::Search {

@@ -16,9 +16,10 @@ namespace lightnet {
 /// A balanced kd-tree. Immutable; any thread may ask. Its order depends on the photons alone.
 class PhotonTree {
 public:
-    explicit PhotonTree(std::vector<Photon> photons);
-    explicit PhotonTree(std::span<const Photon> photons)
-        : PhotonTree(std::vector<Photon>(photons.begin(), photons.end())) {}
+    /// `threads` of the caller's machine build it together.
+    explicit PhotonTree(std::vector<Photon> photons, std::size_t threads = 1);
+    explicit PhotonTree(std::span<const Photon> photons, std::size_t threads = 1)
+        : PhotonTree(std::vector<Photon>(photons.begin(), photons.end()), threads) {}
 
     std::size_t size() const { return photons_.size(); }
     std::size_t memory() const { return photons_.size() * (sizeof(Photon) + sizeof(std::uint8_t)); }
@@ -54,7 +55,7 @@ public:
 private:
     class Search;
     bool comes_first(const Near& a, const Near& b) const;
-    void build(std::size_t low, std::size_t high);
+    void build(std::size_t low, std::size_t high, std::size_t threads);
 
     std::vector<Photon> photons_;
     std::vector<std::uint8_t> axes_;

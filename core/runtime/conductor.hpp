@@ -93,6 +93,7 @@ private:
     };
     /// The rehearsal that goes on.
     struct Rehearsing {
+        Rehearsing() {}  // clang 14 can't make one inside an optional without
         std::uint32_t call = 0;
         std::unique_ptr<MasterRenderer> master;
         bool rendered = false;

@@ -134,13 +134,18 @@ Ggx facets_of(const Roughness& roughness, float factor) {
     return {std::max(alpha_u, specular_alpha), std::max(alpha_v, specular_alpha)};
 }
 
+/// None: they change over the surface.
+std::optional<Ggx> only_facets_of(const Roughness& roughness) {
+    return roughness.texture ? std::nullopt : std::optional(facets_of(roughness, 1));
+}
+
 Rgb limited(Rgb c) { return {std::min(1.0f, c.r), std::min(1.0f, c.g), std::min(1.0f, c.b)}; }
 
 /// The numbers of one material at one place.
 class Mixer {
 public:
-    Mixer(const SceneData& data, const TexturePlace& place, const Coat* coat)
-        : data_(data), place_(place), coat_(coat) {}
+    Mixer(const SceneData& data, const TexturePlace& place, const Coat* coat, const CoatedMetal* coated_metal)
+        : data_(data), place_(place), coat_(coat), coated_metal_(coated_metal) {}
 
     Bsdf::Model operator()(const DiffuseMaterial& m) const {
         const Rgb reflected = albedo(m.reflectance);
@@ -171,12 +176,11 @@ public:
         return plastic;
     }
     Bsdf::Model operator()(const CoatedConductorMaterial& m) const {
-        const Ggx coat = facets(m.coat);
-        ConductorBsdf metal =
-            metal_of(m.metal, CoatedConductorBsdf::seen_through(facets(m.roughness), coat, m.coat_eta));
+        const Ggx coat = facets(m.coat), below = facets(m.roughness);
+        ConductorBsdf metal = metal_of(m.metal, seen_through(below, coat, m.coat_eta));
         metal.eta = metal.eta / m.coat_eta;
         metal.k = metal.k / m.coat_eta;
-        return CoatedConductorBsdf{metal, coat_, coat};
+        return CoatedConductorBsdf{metal, coat_, coat, coated_metal_, below};
     }
     Bsdf::Model operator()(const PrincipledMaterial& m) const;
     // Blends are made of whole Bsdfs; nothing is what a pane of air is.
@@ -203,6 +207,7 @@ private:
     const SceneData& data_;
     const TexturePlace& place_;
     const Coat* coat_;
+    const CoatedMetal* coated_metal_;
 };
 
 Bsdf::Model Mixer::operator()(const PrincipledMaterial& m) const {
@@ -259,19 +264,17 @@ MaterialNeeds Materials::needs_of(MaterialId id) const {
     return needs;
 }
 
-Materials::Made Materials::made_of(MaterialId id) const {
+Materials::Made Materials::made_of(MaterialId id) {
     const Material& material = data_.materials[id];
     Made made;
     made.needs = needs_of(id);
-    const auto coat = [](float eta, const Roughness& roughness, const CoatLayer& within) {
-        const Coat::Layer layer{within.thickness, within.bounces};
-        return roughness.texture ? std::make_unique<const Coat>(eta, layer)
-                                 : std::make_unique<const Coat>(eta, facets_of(roughness, 1), layer);
-    };
     if (const auto* m = std::get_if<CoatedDiffuseMaterial>(&material.model))
-        made.coat = coat(m->eta, m->roughness, m->layer);
-    if (const auto* m = std::get_if<CoatedConductorMaterial>(&material.model))
-        made.coat = coat(m->coat_eta, m->coat, m->layer);
+        made.coat = &coats_.coat(m->eta, only_facets_of(m->roughness), {m->layer.thickness, m->layer.bounces});
+    if (const auto* m = std::get_if<CoatedConductorMaterial>(&material.model)) {
+        const auto above = only_facets_of(m->coat), below = only_facets_of(m->roughness);
+        made.coat = &coats_.coat(m->coat_eta, above, {m->layer.thickness, m->layer.bounces});
+        made.coated_metal = coats_.over_metal(*made.coat, above, below);
+    }
     made.bumpy = material.normal_map || material.bump_map;
     if (material.bump_map) made.step = step_of(data_, *material.bump_map);
     made.filled = is_solid(material) && !is_black(material.absorption);
@@ -308,7 +311,8 @@ Bsdf Materials::blend(MaterialId id, const SurfacePoint& point) const {
 }
 
 Bsdf::Model Materials::model_at(MaterialId id, const TexturePlace& place) const {
-    return std::visit(Mixer(data_, place, made_[id].coat.get()), data_.materials[id].model);
+    const Made& made = made_[id];
+    return std::visit(Mixer(data_, place, made.coat, made.coated_metal), data_.materials[id].model);
 }
 
 float Materials::opacity(MaterialId id, const TexturePlace& place) const {

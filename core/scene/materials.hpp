@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/bsdf/bsdf.hpp"
+#include "core/bsdf/coats.hpp"
 #include "core/scene/scene_data.hpp"
 #include "core/scene/surface.hpp"
 #include "core/scene/textures.hpp"
@@ -38,18 +39,20 @@ private:
     struct Made {
         MaterialNeeds needs;
         std::optional<Bsdf::Model> plain;  // the same everywhere
-        std::unique_ptr<const Coat> coat;  // of coated models
-        bool simple = false;               // `plain` is all there is to it
-        bool bumpy = false;                // normal or bump map
-        float step = 0;                    // of texture coordinates, over which a bump map is taken to be straight
-        bool filled = false;               // with what absorbs
+        const Coat* coat = nullptr;        // of coated models
+        const CoatedMetal* coated_metal = nullptr;
+        bool simple = false;  // `plain` is all there is to it
+        bool bumpy = false;   // normal or bump map
+        float step = 0;       // of texture coordinates, over which a bump map is taken to be straight
+        bool filled = false;  // with what absorbs
     };
     MaterialNeeds needs_of(MaterialId material) const;
-    Made made_of(MaterialId material) const;
+    Made made_of(MaterialId material);
     Bsdf blend(MaterialId material, const SurfacePoint& point) const;
     Bsdf::Model model_at(MaterialId material, const TexturePlace& place) const;
 
     const SceneData& data_;
+    Coats coats_;
     std::vector<Made> made_;
 };
 

@@ -58,6 +58,8 @@ public:
     SurfacePoint surface(const Query& query) const;
     /// What the scene was built from: names of shapes, materials and objects. Its meshes may be gone.
     const SceneData& data() const;
+    /// Of many hits.
+    void surfaces(std::span<const Hit> hits, std::span<SurfacePoint> points) const;
     /// How the surface scatters there.
     Bsdf bsdf(const SurfacePoint& point) const;
 

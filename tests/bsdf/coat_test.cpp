@@ -4,12 +4,13 @@
 #include <cmath>
 
 #include "core/bsdf/bsdf.hpp"
+#include "core/bsdf/coats.hpp"
 #include "core/math/samples.hpp"
 
 namespace lightnet {
 namespace {
 
-constexpr std::uint32_t tries = 1 << 14;
+constexpr std::uint32_t tries = 1 << 15;
 
 Vec3 from_above(float cosine) { return {std::sqrt(1 - cosine * cosine), 0, cosine}; }
 
@@ -59,45 +60,64 @@ double albedo(const Bsdf::Model& model, Vec3 outgoing) {
 
 struct Layers {
     float alpha, reflectance;
-    Coat::Layer layer;
-    float tolerance;  // of the albedo on a diffuse base, as a share
+    Coat::Layer layer{};
+    float of_diffuse = 0.01f, of_metal = 0.015f;  // tolerances of the albedo, as shares
 };
 class OfACoat : public testing::TestWithParam<Layers> {};
 
 TEST_P(OfACoat, OnADiffuseBaseTheAlbedoIsThatOfAWalkBetweenTheLayers) {
-    const auto [alpha, reflectance, layer, tolerance] = GetParam();
+    const auto [alpha, reflectance, layer, tolerance, of_metal] = GetParam();
     const Ggx facets{alpha, alpha};
-    const Coat coat(1.5f, facets, layer);
+    const Coat coat(1.5f, facets, layer), any(1.5f, layer);
     const DiffuseBsdf base{{reflectance, reflectance, reflectance}};
-    for (const float cosine : {0.95f, 0.6f, 0.25f}) {
+    for (const float cosine : {0.95f, 0.6f, 0.25f, 0.1f}) {
         const double expected = walked_albedo({1.5f, facets}, base, layer, from_above(cosine));
-        EXPECT_NEAR(albedo(CoatedDiffuseBsdf{base.albedo, &coat, facets}, from_above(cosine)), expected,
-                    tolerance * expected)
-            << "roughness " << alpha << ", cosine " << cosine;
+        for (const Coat* one : {&coat, &any})
+            EXPECT_NEAR(albedo(CoatedDiffuseBsdf{base.albedo, one, facets}, from_above(cosine)), expected,
+                        (one == &any ? tolerance + 0.01f : tolerance) * expected)
+                << "roughness " << alpha << ", cosine " << cosine;
     }
 }
 
 TEST_P(OfACoat, OnMetalTheAlbedoIsThatOfAWalkBetweenTheLayers) {
-    const auto [alpha, reflectance, layer, tolerance] = GetParam();
-    const Ggx facets{alpha, alpha}, below{0.1f, 0.1f};
-    const Coat coat(1.5f, facets, layer);
+    const auto [alpha, reflectance, layer, of_diffuse, tolerance] = GetParam();
+    const Ggx above{alpha, alpha};
+    const Coat coat(1.5f, above, layer);
     const Rgb k = absorption_for({reflectance, reflectance, reflectance});
-    const ConductorBsdf seen{{1, 1, 1}, k, CoatedConductorBsdf::seen_through(below, facets, 1.5f)};
-    for (const float cosine : {0.95f, 0.6f, 0.25f}) {
-        const double expected =
-            walked_albedo({1.5f, facets}, ConductorBsdf{{1, 1, 1}, k, below}, layer, from_above(cosine));
-        EXPECT_NEAR(albedo(CoatedConductorBsdf{seen, &coat, facets}, from_above(cosine)), expected,
-                    (0.11 + tolerance) * expected)
-            << "roughness " << alpha << ", cosine " << cosine;
+    for (const Ggx below : {Ggx{0.1f, 0.1f}, Ggx{0.3f, 0.3f}, Ggx{}}) {
+        const ConductorBsdf metal{{1, 1, 1}, k, below}, seen{{1, 1, 1}, k, seen_through(below, above, 1.5f)};
+        const CoatedMetal both(coat, above, below);
+        for (const float cosine : {0.95f, 0.6f, 0.25f, 0.1f}) {
+            const double expected = walked_albedo({1.5f, above}, metal, layer, from_above(cosine));
+            EXPECT_NEAR(albedo(CoatedConductorBsdf{seen, &coat, above, &both, below}, from_above(cosine)), expected,
+                        tolerance * expected)
+                << "roughness " << alpha << " over " << below.alpha_u << ", cosine " << cosine;
+        }
     }
 }
 
-// Smooth coats on diffuse bases are exact. Rough ones keep the light that single scattering loses; on metal that is a
-// little rough the series takes the directions of both ends for all that lie between.
+// Of metal, the model takes Fresnel's term where single facets would mirror the light through the coat; very rough
+// coats turn it far away from there.
 INSTANTIATE_TEST_SUITE_P(Layers, OfACoat,
-                         testing::Values(Layers{0, 0.7f, {}, 0.008f}, Layers{0, 0.7f, {0.01f, 5}, 0.008f},
-                                         Layers{0, 0.95f, {0.01f, 2}, 0.008f}, Layers{0, 0.8f, {0.3f, 0}, 0.008f},
-                                         Layers{0.1f, 0.7f, {0.01f, 5}, 0.06f}));
+                         testing::Values(Layers{0, 0.7f}, Layers{0, 0.7f, {0.01f, 5}}, Layers{0, 0.95f, {0.01f, 2}},
+                                         Layers{0, 0.8f, {0.3f, 0}}, Layers{0.05f, 0.7f, {}, 0.01f, 0.025f},
+                                         Layers{0.1f, 0.7f, {0.01f, 5}}, Layers{0.1f, 0.95f, {0.01f, 2}},
+                                         Layers{0.5f, 1}, Layers{0.3f, 0.8f, {0.01f, 5}, 0.01f, 0.04f},
+                                         Layers{0.3f, 0.7f, {0.3f, 0}, 0.01f, 0.035f},
+                                         Layers{0.6f, 0.5f, {0.01f, 5}, 0.01f, 0.1f}));
+
+TEST(Coats, AreMadeOncePerKind) {
+    Coats coats;
+    const Ggx rough{0.2f, 0.2f};
+    const Coat& first = coats.coat(1.5f, rough, {0.01f, 5});
+    EXPECT_EQ(&first, &coats.coat(1.5f, rough, {0.01f, 5}));
+    EXPECT_NE(&first, &coats.coat(1.5f, rough, {0.01f, 4}));
+    EXPECT_NE(&first, &coats.coat(1.5f, std::nullopt, {0.01f, 5}));
+    const CoatedMetal* over = coats.over_metal(first, rough, rough);
+    EXPECT_EQ(over, coats.over_metal(first, rough, rough));
+    EXPECT_NE(over, coats.over_metal(first, rough, Ggx{}));
+    EXPECT_EQ(coats.over_metal(coats.coat(1.5f, Ggx{}, {}), Ggx{}, Ggx{}), nullptr);
+}
 
 }  // namespace
 }  // namespace lightnet

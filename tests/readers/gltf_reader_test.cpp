@@ -150,6 +150,7 @@ TEST(GltfMaterial, MayShineAndBeCutOut) {
     ASSERT_TRUE(scene.shapes[0].emission);
     EXPECT_EQ(scene.shapes[0].emission->radiance, (Rgb{4, 2, 0}));
     EXPECT_TRUE(scene.shapes[0].emission->two_sided);
+    EXPECT_THAT(warnings_of(scene), HasSubstr("only its own glowing surfaces light the scene"));
     EXPECT_EQ(colour_of(scene, material_of(scene).opacity.value()).r, 0.5f);
     EXPECT_EQ(material_of(scene).opacity_cutoff, 0.25f);
     const auto unlit = with_material(R"("extensions":{"KHR_materials_unlit":{}})");

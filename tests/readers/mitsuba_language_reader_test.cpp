@@ -112,6 +112,9 @@ TEST(MitsubaFiles, MustBeSoundXml) {
     EXPECT_THAT(errors_as("scene.xml", ""), HasSubstr("not sound XML"));
     EXPECT_THAT(errors_as("scene.xml", "<html/>"), HasSubstr("begins with <scene>, not with <html>"));
     EXPECT_THAT(errors_as("scene.xml", "<scene/>"), HasSubstr("there are no shapes"));
+    EXPECT_THAT(
+        errors_as("scene.xml", "<scene><Group id='0'><TriangleMesh/></Group></scene>"),
+        HasSubstr("<Group> is none of Mitsuba's elements (other formats in XML, such as Embree's, aren't read)"));
     std::string deep = "<scene>";
     for (int i = 0; i < 100000; ++i) deep += "<bsdf type='twosided'>";
     for (int i = 0; i < 100000; ++i) deep += "</bsdf>";

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <string>
+
+#include "core/bsdf/fresnel.hpp"
 #include "core/error.hpp"
 
 namespace lightnet {
@@ -50,6 +53,24 @@ TEST(NamedSpectra, KnowMetalsGlassesAndDaylight) {
     EXPECT_EQ(named_light("stdillum-D65"), (Rgb{1, 1, 1}));
     EXPECT_FALSE(named_index("metal-Unobtainium-eta"));
     EXPECT_FALSE(named_light("metal-Ag-eta"));
+}
+
+// Head-on, as tables for artists have them in linear sRGB (Lagarde 2012, "Feeding a physically based shading model";
+// gold's red lies outside of the colours that sRGB can show, and they clip it).
+TEST(NamedIndices, OfMetalsReflectWhatTablesSay) {
+    struct Case {
+        std::string name;
+        Rgb reflectance;
+    };
+    for (const auto& [name, expected] : {Case{"Ag", {0.972f, 0.960f, 0.915f}}, Case{"Al", {0.913f, 0.922f, 0.924f}},
+                                         Case{"Au", {1.000f, 0.766f, 0.336f}}, Case{"Cu", {0.955f, 0.638f, 0.538f}},
+                                         Case{"CuZn", {0.887f, 0.789f, 0.434f}}}) {
+        const Rgb got =
+            fresnel_conductor(1, *named_index("metal-" + name + "-eta"), *named_index("metal-" + name + "-k"));
+        EXPECT_NEAR(got.r, expected.r, 0.04f) << name;
+        EXPECT_NEAR(got.g, expected.g, 0.04f) << name;
+        EXPECT_NEAR(got.b, expected.b, 0.04f) << name;
+    }
 }
 
 // The same as their catalogue says of the yellow line between our red and green: SF11 has n_d = 1.78472.

@@ -61,6 +61,10 @@ SceneData read(Files& files, const std::string& path) {
     if (scene.shapes.empty() && report.good()) report.error({path, 0}, "there are no triangles");
     report.check();
     light_the_dark(scene, report, path);
+    if (scene.environments.empty() && scene.lights.empty())
+        report.warn({path, 0},
+                    "only its own glowing surfaces light the scene, where viewers show a sky, too (choose one with "
+                    "'--env')");
     scene.warnings = report.warnings();
     return scene;
 }

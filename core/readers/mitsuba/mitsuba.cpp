@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <set>
+#include <string>
 
 #include "core/readers/mitsuba/emitters.hpp"
 #include "core/readers/mitsuba/sensors.hpp"
@@ -28,7 +29,16 @@ public:
         if (node.tag == "medium")
             context_.warn(node, "<medium> is left out: light is not scattered inside of things");
         else
-            context_.warn(node, fmt::format("unknown element <{}> is left out", node.tag));
+            unknown(node);
+    }
+
+    /// What is wrong with a scene that has no shapes.
+    std::string why_empty() const {
+        if (first_unknown_.empty()) return "there are no shapes";
+        return fmt::format(
+            "there are no shapes, and <{}> is none of Mitsuba's elements (other formats in XML, such as "
+            "Embree's, aren't read)",
+            first_unknown_.substr(0, 32));
     }
 
 private:
@@ -43,11 +53,17 @@ private:
         if (target && target->tag != "ref" && target->tag != "shape") add(*target);
     }
 
+    void unknown(const Node& node) {
+        if (first_unknown_.empty()) first_unknown_ = node.tag;
+        context_.warn(node, fmt::format("unknown element <{}> is left out", node.tag));
+    }
+
     const Context& context_;
     Textures textures_;
     Bsdfs bsdfs_;
     Shapes shapes_;
     bool seen_sensor_ = false;
+    std::string first_unknown_;
 };
 
 }  // namespace
@@ -62,7 +78,7 @@ SceneData read(Files& files, const std::string& path, const std::map<std::string
     Builder builder(context);
     for (const auto& node : document->scene.children)
         if (!report.full()) builder.add(*node);
-    if (scene.shapes.empty() && report.good()) report.error({path, 0}, "there are no shapes");
+    if (scene.shapes.empty() && report.good()) report.error({path, 0}, builder.why_empty());
     report.check();
     light_the_dark(scene, report, path);
     scene.warnings = report.warnings();

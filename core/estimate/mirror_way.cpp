@@ -1,0 +1,47 @@
+#include "core/estimate/mirror_way.hpp"
+
+#include "core/scene/direct_light.hpp"
+
+#include <algorithm>
+
+namespace lightnet {
+
+void MirrorWay::arrive(float distance) {
+    if (inside_) weight_ *= left_after(inside_, distance);
+}
+
+bool MirrorWay::go_on(const SurfacePoint& point, const Bsdf& bsdf, Samples samples, float keep) {
+    const Vec3 outgoing = -ray_.direction;
+    const float choice = bsdf.chooses() ? samples.next() : samples.skip();
+    const auto sample = bsdf.sample(outgoing, choice, samples.next_2d(), lobe::specular);
+    if (!sample) return false;
+    take(point, bsdf, *sample);
+    const float chance = std::min(1.0f, max_component(weight_) * squeezed_ * keep);
+    if (!(samples.next() < chance)) return false;
+    weight_ *= 1 / chance;
+    return true;
+}
+
+std::optional<MirrorWay> MirrorWay::split(const SurfacePoint& point, const Bsdf& bsdf, float least) {
+    const auto chance = bsdf.reflection_chance(-ray_.direction);
+    const float carried = max_component(weight_) * squeezed_;
+    if (!chance || carried * std::min(*chance, 1 - *chance) < least) return {};
+    const auto reflection = bsdf.sample(-ray_.direction, *chance / 2, {}, lobe::specular);
+    const auto transmission = bsdf.sample(-ray_.direction, (1 + *chance) / 2, {}, lobe::specular);
+    if (!reflection || !transmission) return {};
+    MirrorWay reflected = *this;
+    reflected.take(point, bsdf, *reflection);
+    reflected.weight_ *= *chance;
+    take(point, bsdf, *transmission);
+    weight_ *= 1 - *chance;
+    return reflected;
+}
+
+void MirrorWay::take(const SurfacePoint& point, const Bsdf& bsdf, const BsdfSample& sample) {
+    inside_ = filling(bsdf, point, -ray_.direction, sample.incoming, inside_);
+    weight_ *= sample.weight;
+    squeezed_ *= sample.eta * sample.eta;
+    ray_ = {point.origin_towards(sample.incoming), sample.incoming};
+}
+
+}  // namespace lightnet

@@ -1,0 +1,50 @@
+// How nodes have photons sent: their parameters, and the work on all places.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/estimate/photon_shooter.hpp"
+#include "core/graph/kind.hpp"
+#include "core/light/mapped.hpp"
+#include "core/light/node_context.hpp"
+#include "core/light/services.hpp"
+
+namespace lightnet {
+
+/// How a map of photons is made: the parameters that nodes share.
+struct Shooting {
+    PhotonPaths paths = PhotonPaths::caustic;
+    std::uint64_t ways = 0;  // of light that leave the lamps
+    bool aimed = false;      // rather where they are of use than evenly
+    Key key = 0;
+    std::size_t most_bytes = 0;  // that may be kept; more is an error
+
+    /// As the node's parameters say: shooting_params().
+    static Shooting of(const NodeContext& here);
+};
+
+/// Parameters `photons`, `paths`, `aim` and `memory` for the schema of a kind.
+std::vector<Param> shooting_params(double photons, const std::string& help_of_photons);
+/// Light paths that such a node counts: for Kind::paths.
+std::vector<std::string> paths_of_photons(const Node& node);
+
+/// Learns where to aim, from trials: two rounds on all places. Even, unless it is asked for.
+std::shared_ptr<const Aim> take_aim(Services& services, const Scene& scene, const Shooting& shooting);
+/// Shoots on all places, so many times anew; photons come in the order of their ways. Shards (see Mapped) of each time
+/// stand together: shards_each() of them. Throws Error when that takes more memory than it may.
+Mapped<Photon> shoot(Services& services, const Scene& scene, const Shooting& shooting, const Aim& aim,
+                     std::size_t times = 1);
+std::size_t shards_each(const Shooting& shooting);
+
+/// Shoots once; photons in the order of their ways, but in several memories: where the node is sharded, only those that
+/// lie within `reach` (m) of where it may be asked. `most_bytes` bounds what this copy of the node gets.
+std::vector<Mapped<Photon>> shoot_near(Services& services, const Scene& scene, const Shooting& shooting, const Aim& aim,
+                                       float reach);
+/// Points where photons come to lie, about as densely: for Kind::landmarks.
+std::vector<Vec3> landmarks_of(const Scene& scene, const Shooting& shooting);
+
+}  // namespace lightnet

@@ -1,0 +1,11 @@
+-- Any scene whose soft light is interpolated: direct light as it is, and an irradiance cache that looks at all other
+-- light by path tracing. lightnet run graphs/irradiance_cache.lua -D file=/somewhere/scene.pbrt -D width=640 -D height=360
+file = "cornell_box.pbrt"
+width, height, samples, rays = 256, 256, 16, 1024
+
+scene    = Scene           { file }
+direct   = DirectLighting  { samples = 1 }
+paths    = PathTracing     { paths = "all", samples = 1 }
+soft     = IrradianceCache { paths, rays = rays }
+lighting = Combine         { direct, soft }
+image    = RayTracer { lighting, scene = scene, samples = samples, film = { width, height, file = "irradiance_cache.exr" } }

@@ -1,0 +1,64 @@
+// A graph of graphs/ that is prepared and rendered over and over: on places in threads, or on hosts.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/film/film.hpp"
+#include "core/graph/graph_film.hpp"
+#include "core/graph/kind.hpp"
+#include "core/message/carrier.hpp"
+#include "core/prepare/prepared.hpp"
+#include "core/runtime/job.hpp"
+#include "transport/cluster.hpp"
+
+namespace lightnet::bench {
+
+/// One rendering: its picture, and what it took.
+struct Rendered {
+    Picture picture;
+    double preparing = 0, seconds = 0;  // the latter includes the former
+    double cpu_seconds = 0;             // of this process
+    double rays = 0;
+    std::vector<std::string> said;
+};
+
+/// Its kinds outlive it.
+class Stage {
+public:
+    Stage(const Registry& registry, const Graph& graph);
+    /// One of graphs/, with constants.
+    Stage(const Registry& registry, const std::string& graph, const std::map<std::string, std::string>& constants);
+
+    double building() const { return building_; }
+    double samples() const { return double(job_.width) * job_.height * format_.samples; }
+    std::uint32_t samples_per_pixel() const { return format_.samples; }
+
+    /// Everything that a run does when the scene is built: begins places, prepares, renders, ends.
+    Rendered in_threads(std::uint32_t places);
+    /// The same on hosts that have the scene: gather() has returned. Without its end.
+    Rendered on(Cluster& cluster, std::uint64_t run);
+    Cluster::Options options(std::vector<std::string> endpoints, std::uint64_t run) const;
+    /// Where what is prepared is kept, from now on. It outlives this.
+    void use(ResultCache& cache) { cache_ = &cache; }
+
+private:
+    void lead(Carrier& carrier, const Plan& plan, std::uint64_t run, const std::function<void()>& check,
+              Rendered& made);
+
+    const Registry& registry_;
+    Job job_;
+    std::map<std::string, Bytes> files_;
+    FilmFormat format_;
+    ResultCache* cache_ = nullptr;
+    std::size_t image_ = 0;
+    float scale_ = 1;
+    double building_ = 0;
+};
+
+}  // namespace lightnet::bench

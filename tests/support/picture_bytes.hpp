@@ -1,0 +1,21 @@
+// Small pictures as files, one function per format.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace lightnet::test {
+
+/// Two pixels beside each other; `format` is one of libpng's PNG_FORMAT_....
+std::string png(std::uint32_t format, const void* samples);
+/// Two pixels of 8-bit colour.
+std::string small_png();
+/// 16 x 8 pixels of one value; of 1 or 3 channels.
+std::string jpeg(std::uint8_t value, int channels);
+/// 3 x 2 pixels of floats in channels of those names.
+std::string exr(const std::vector<std::string>& channels);
+/// Eight pixels of {1, 0.5, 0.25} with run lengths.
+std::string hdr();
+
+}  // namespace lightnet::test
