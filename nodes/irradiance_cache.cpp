@@ -71,6 +71,8 @@ public:
         add_glossy(questions, answers);
     }
 
+    Frozen frozen() const override { return Frozen(records_); }
+
 private:
     /// One side of a surface, as a question sees it.
     struct Side {
@@ -281,6 +283,7 @@ Kind irradiance_cache_kind() {
         .least_inputs = 1,
         .most_inputs = 1,
         .prepares = true,
+        .freezes = "irradiance records",
         .onward = "S*D",
         .params = params(),
         .make_light = [](const NodeContext& here) { return std::make_unique<IrradianceCache>(here); },

@@ -48,132 +48,265 @@ public:
 private:
     /// A path on its way from one surface to the next.
     struct Walk {
-        Samples samples;
         std::uint32_t path;  // index into Paths::sums
+        float squeezed;      // by refraction, which is no loss: roulette must not see it
+        Rgb weight;
+        const Rgb* inside;  // what it leads through; may be null
         Vec3 from;
         BsdfSample step;
-        const Rgb* inside;  // what it leads through; may be null
-        Rgb weight;
-        float squeezed;  // by refraction, which is no loss: roulette must not see it
+    };
+    /// Random numbers of each walk at the surface that it has come to, dimension by dimension.
+    struct Numbers {
+        std::vector<Key> keys;
+        std::vector<std::uint32_t> indices;
+        std::vector<float> choices, survivals;
+        std::vector<Vec2> places, ways;
+    };
+    /// Surfaces that walks have come to, and who has come there.
+    struct Stops {
+        std::vector<SurfacePoint> points;
+        std::vector<Bsdf> bsdfs;
+        std::vector<Vec3> outgoing;
+        std::vector<std::uint8_t> lobes;
+        struct Visitor {
+            std::uint32_t walk, stop;
+        };
+        std::vector<Visitor> visitors;
+        std::vector<Hit> hits;
+
+        void clear() {
+            bsdfs.clear();
+            outgoing.clear();
+            lobes.clear();
+            visitors.clear();
+            hits.clear();
+        }
+    };
+    /// Light from lamps, if nothing is in the way.
+    struct FromLamps {
+        std::vector<Ray> rays;
+        std::vector<Rgb> light;
+        std::vector<std::uint32_t> paths;  // whom it is for
+        std::vector<std::uint8_t> hidden;
     };
     /// Some paths, and scratch space for them.
     struct Paths {
-        std::vector<Walk> walks, before;
+        std::vector<Rgb> sums;  // of each path
+        std::vector<Walk> walks;
         std::vector<Ray> rays;  // of each walk
         std::vector<std::optional<Hit>> hits;
-        std::vector<Rgb> sums;           // of each path
-        std::vector<Ray> to_lamps;       // on which nothing may be
-        std::vector<Rgb> from_lamps;     // what they bring
-        std::vector<std::uint32_t> lit;  // whom they bring it
-        std::vector<std::uint8_t> hidden;
+        Numbers numbers;
+        Stops stops;
+        FromLamps from_lamps;
+        std::size_t kept = 0;  // walks and rays of the next leg
     };
+    /// Each surface on a way has these dimensions of its own, used or not.
+    enum Dimension : std::uint32_t {
+        choice_of_lamp,
+        place_on_lamp,
+        choice_of_look,
+        look,
+        choice_of_way,
+        way,
+        survival
+    };
+    static constexpr std::uint32_t dimensions = 7;
 
     void start(Paths& going, std::span<const Query> questions, std::size_t first, std::size_t last) const {
         going.sums.assign(last - first, Rgb{});
-        for (std::size_t path = first; path < last;) {
+        going.walks.clear();
+        going.numbers.keys.clear();
+        going.numbers.indices.clear();
+        for (std::size_t path = first; path < last; ++path) {
+            const Query& question = questions[path / samples_];
+            going.numbers.keys.push_back(child(question.stream, key_));
+            going.numbers.indices.push_back(question.sample * samples_ + static_cast<std::uint32_t>(path % samples_));
+            going.walks.push_back({static_cast<std::uint32_t>(path - first), 1, {1, 1, 1}, nullptr, {}, {}});
+        }
+        going.rays.resize(going.walks.size());
+        draw(going.numbers, 0);
+        going.kept = 0;
+        for (std::size_t path = first; path < last;) path = begin_at(going, questions, first, path, last);
+        close(going);
+    }
+
+    /// Some of the paths from `path` on, at the surfaces that are asked about. Returns where the next ones begin.
+    std::size_t begin_at(Paths& going, std::span<const Query> questions, std::size_t first, std::size_t path,
+                         std::size_t last) const {
+        Stops& stops = going.stops;
+        stops.clear();
+        stops.points.clear();
+        while (path < last && stops.visitors.size() < stops_at_once) {
             const std::size_t q = path / samples_, end = std::min(last, (q + 1) * samples_);
-            const Query& question = questions[q];
-            const SurfacePoint point = scene_.surface(question);
-            const Bsdf bsdf = scene_.bsdf(point);
-            const Gathering at{point, bsdf, question.outgoing, question.lobes};
-            const Key stream = child(question.stream, key_);
-            for (; path < end; ++path) {
-                const auto index = question.sample * samples_ + static_cast<std::uint32_t>(path % samples_);
-                Walk walk{Samples(stream, index), static_cast<std::uint32_t>(path - first), {}, {}, {}, {1, 1, 1}, 1};
-                if (all_) look_around(walk, at, 0, going);
-                scatter(walk, at, 1, going);
-            }
+            stops.points.push_back(scene_.surface(questions[q]));
+            stops.outgoing.push_back(questions[q].outgoing);
+            stops.lobes.push_back(questions[q].lobes);
+            for (; path < end; ++path)
+                stops.visitors.push_back(
+                    {static_cast<std::uint32_t>(path - first), static_cast<std::uint32_t>(stops.points.size() - 1)});
         }
-        take_in(going);
-    }
-
-    /// What a path finds at a surface by looking for light, rather than by going on.
-    void look_around(Walk& walk, const Gathering& at, std::uint32_t depth, Paths& going) const {
-        const auto add = [&](const Ray& ray, Rgb light) {
-            going.to_lamps.push_back(ray);
-            going.from_lamps.push_back(walk.weight * light);
-            going.lit.push_back(walk.path);
-        };
-        if (const auto lamp = ray_to_lamp(scene_, at, walk.samples, heuristic)) add(lamp->ray, lamp->light);
-        if (!two_looks(depth)) return;
-        const float choice = at.bsdf.chooses() ? walk.samples.next() : walk.samples.skip();
-        if (const auto look = at.bsdf.sample(at.outgoing, choice, walk.samples.next_2d(), at.lobes)) {
-            const Rgb sky = look->weight * light_by_bsdf(scene_, at.point.position, *look, nullptr, heuristic);
-            if (!is_black(sky)) add({at.point.origin_towards(look->incoming), look->incoming}, 0.5f * sky);
-        }
-    }
-
-    /// Is the environment seen from the surface number `depth` looked at by two directions?
-    bool two_looks(std::uint32_t depth) const { return looks_twice_ && depth == (all_ ? 0 : 1); }
-
-    /// Adds what was found on lamps, where nothing is in the way.
-    void take_in(Paths& going) const {
-        going.hidden.resize(going.to_lamps.size());
-        scene_.occluded(going.to_lamps, going.hidden);
-        for (std::size_t i = 0; i < going.lit.size(); ++i)
-            if (!going.hidden[i]) going.sums[going.lit[i]] += going.from_lamps[i];
-        going.to_lamps.clear();
-        going.from_lamps.clear();
-        going.lit.clear();
+        for (const SurfacePoint& point : stops.points) stops.bsdfs.push_back(scene_.bsdf(point));
+        if (all_)
+            for (const auto visitor : stops.visitors) look_around(going, visitor, 0);
+        for (const auto visitor : stops.visitors) scatter(going, visitor, 0);
+        return path;
     }
 
     /// Takes all paths over the next surface: number `depth` on their way.
     void go_on(Paths& going, std::uint32_t depth) const {
         going.hits.resize(going.rays.size());
         scene_.intersect(going.rays, going.hits);
-        going.before.swap(going.walks);
-        going.walks.clear();
-        going.rays.clear();
-        for (std::size_t i = 0; i < going.before.size(); ++i) visit(going.before[i], going.hits[i], depth, going);
-        take_in(going);
+        draw(going.numbers, depth);
+        going.kept = 0;
+        for (std::size_t first = 0; first < going.walks.size(); first += stops_at_once)
+            visit(going, first, std::min(going.walks.size(), first + stops_at_once), depth);
+        close(going);
     }
 
-    void visit(Walk& walk, const std::optional<Hit>& hit, std::uint32_t depth, Paths& going) const {
-        if (walk.inside && hit) walk.weight *= left_after(walk.inside, hit->distance);
-        const SurfacePoint point = hit ? scene_.surface(*hit) : SurfacePoint{};
-        if (all_ || depth > 1) {
-            const float part = !hit && two_looks(depth - 1) ? 0.5f : 1.0f;
-            going.sums[walk.path] +=
-                part * walk.weight * light_by_bsdf(scene_, walk.from, walk.step, hit ? &point : nullptr, heuristic);
+    /// Ends a leg: who was kept goes on, and who found light on lamps is given it, where nothing is in the way.
+    void close(Paths& going) const {
+        going.walks.resize(going.kept);
+        going.rays.resize(going.kept);
+        going.numbers.keys.resize(going.kept);
+        going.numbers.indices.resize(going.kept);
+        FromLamps& found = going.from_lamps;
+        found.hidden.resize(found.rays.size());
+        scene_.occluded(found.rays, found.hidden);
+        for (std::size_t i = 0; i < found.paths.size(); ++i)
+            if (!found.hidden[i]) going.sums[found.paths[i]] += found.light[i];
+        found.rays.clear();
+        found.light.clear();
+        found.paths.clear();
+    }
+
+    void draw(Numbers& numbers, std::uint32_t depth) const {
+        const std::size_t count = numbers.keys.size();
+        const std::uint32_t first = depth * dimensions;
+        const auto draw_2d = [&](Dimension dimension, std::vector<Vec2>& points) {
+            points.resize(count);
+            Samples::many_2d(numbers.keys, numbers.indices, first + dimension, points);
+        };
+        const auto draw_1d = [&](Dimension dimension, std::vector<float>& values) {
+            values.resize(count);
+            Samples::many(numbers.keys, numbers.indices, first + dimension, values);
+        };
+        if (scene_.has_lamps() && (all_ || depth > 0)) draw_2d(place_on_lamp, numbers.places);
+        if (scene_.has_many_lamps()) draw_1d(choice_of_lamp, numbers.choices);
+        draw_2d(way, numbers.ways);
+        if (depth >= roulette_depth_) draw_1d(survival, numbers.survivals);
+    }
+    /// Those that few need.
+    static float draw_one(const Paths& going, std::size_t walk, std::uint32_t depth, Dimension dimension) {
+        return Samples(going.numbers.keys[walk], going.numbers.indices[walk], depth * dimensions + dimension).next();
+    }
+
+    void visit(Paths& going, std::size_t first, std::size_t last, std::uint32_t depth) const {
+        Stops& stops = going.stops;
+        stops.clear();
+        for (std::size_t i = first; i < last; ++i) {
+            Walk& walk = going.walks[i];
+            if (!going.hits[i]) {
+                leave(walk, depth, going);
+                continue;
+            }
+            if (walk.inside) walk.weight *= left_after(walk.inside, going.hits[i]->distance);
+            stops.visitors.push_back(
+                {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(stops.visitors.size())});
+            stops.hits.push_back(*going.hits[i]);
+            stops.outgoing.push_back(-walk.step.incoming);
+            stops.lobes.push_back(lobe::all);
         }
-        if (!hit || (max_depth_ && depth > max_depth_)) return;
-        const Bsdf bsdf = scene_.bsdf(point);
-        const Gathering at{point, bsdf, -walk.step.incoming, lobe::all, walk.inside};
-        Walk next = walk;
-        look_around(next, at, depth, going);
-        scatter(next, at, depth + 1, going);
+        stops.points.resize(stops.hits.size());
+        scene_.surfaces(stops.hits, stops.points);
+        if (all_ || depth > 1)
+            for (const auto [walk, stop] : stops.visitors) meet_lamp(going.walks[walk], stops.points[stop], going);
+        if (max_depth_ && depth > max_depth_) return;
+        for (const SurfacePoint& point : stops.points) stops.bsdfs.push_back(scene_.bsdf(point));
+        for (const auto visitor : stops.visitors) look_around(going, visitor, depth);
+        for (const auto visitor : stops.visitors) scatter(going, visitor, depth);
     }
 
-    /// Sends a path on from a surface, if it isn't absorbed, as the `depth`-th leg of its way.
-    void scatter(Walk walk, const Gathering& at, std::uint32_t depth, Paths& going) const {
-        const float choice = at.bsdf.chooses() ? walk.samples.next() : walk.samples.skip();
-        const auto step = at.bsdf.sample(at.outgoing, choice, walk.samples.next_2d(), at.lobes);
+    /// What a path finds that meets nothing any more.
+    void leave(const Walk& walk, std::uint32_t depth, Paths& going) const {
+        if (!all_ && depth == 1) return;
+        const float part = two_looks(depth - 1) ? 0.5f : 1.0f;
+        going.sums[walk.path] += part * walk.weight * light_by_bsdf(scene_, walk.from, walk.step, nullptr, heuristic);
+    }
+
+    /// What a path finds that may have come to a lamp.
+    void meet_lamp(const Walk& walk, const SurfacePoint& point, Paths& going) const {
+        const Rgb light = light_by_bsdf(scene_, walk.from, walk.step, &point, heuristic);
+        if (!is_black(light)) going.sums[walk.path] += walk.weight * light;
+    }
+
+    static Gathering gathering(const Paths& going, const Stops::Visitor& visitor) {
+        const Stops& stops = going.stops;
+        return {stops.points[visitor.stop], stops.bsdfs[visitor.stop], stops.outgoing[visitor.stop],
+                stops.lobes[visitor.stop], going.walks[visitor.walk].inside};
+    }
+
+    /// What a path finds at a surface by looking for light, rather than by going on.
+    void look_around(Paths& going, const Stops::Visitor& visitor, std::uint32_t depth) const {
+        const Walk& walk = going.walks[visitor.walk];
+        const Gathering at = gathering(going, visitor);
+        const auto add = [&](const Ray& ray, Rgb light) {
+            going.from_lamps.rays.push_back(ray);
+            going.from_lamps.light.push_back(walk.weight * light);
+            going.from_lamps.paths.push_back(walk.path);
+        };
+        if (scene_.has_lamps()) {
+            const LampNumbers numbers{scene_.has_many_lamps() ? going.numbers.choices[visitor.walk] : 0,
+                                      going.numbers.places[visitor.walk]};
+            if (const auto lamp = ray_to_lamp(scene_, at, numbers, heuristic)) add(lamp->ray, lamp->light);
+        }
+        if (!two_looks(depth)) return;
+        Samples samples(going.numbers.keys[visitor.walk], going.numbers.indices[visitor.walk],
+                        depth * dimensions + choice_of_look);
+        const float choice = at.bsdf.chooses() ? samples.next() : samples.skip();
+        if (const auto found = at.bsdf.sample(at.outgoing, choice, samples.next_2d(), at.lobes)) {
+            const Rgb sky = found->weight * light_by_bsdf(scene_, at.point.position, *found, nullptr, heuristic);
+            if (!is_black(sky)) add({at.point.origin_towards(found->incoming), found->incoming}, 0.5f * sky);
+        }
+    }
+
+    /// Is the environment seen from the surface number `depth` looked at by two directions?
+    bool two_looks(std::uint32_t depth) const { return looks_twice_ && depth == (all_ ? 0 : 1); }
+
+    /// Sends a path on from the surface number `depth`, if it isn't absorbed.
+    void scatter(Paths& going, const Stops::Visitor& visitor, std::uint32_t depth) const {
+        const std::size_t i = visitor.walk;
+        const Gathering at = gathering(going, visitor);
+        const float choice = at.bsdf.chooses() ? draw_one(going, i, depth, choice_of_way) : 0;
+        const auto step = at.bsdf.sample(at.outgoing, choice, going.numbers.ways[i], at.lobes);
         if (!step) return;
-        const float before = max_component(walk.weight) * walk.squeezed;
-        walk.weight *= step->weight;
-        walk.squeezed *= step->eta * step->eta;
-        if (!survives(depth, max_component(walk.weight) * walk.squeezed / before, walk)) return;
-        walk.from = at.point.position;
-        walk.step = *step;
-        walk.inside = filling(at.bsdf, at.point, at.outgoing, step->incoming, at.inside);
-        going.walks.push_back(walk);
-        going.rays.push_back({at.point.origin_towards(step->incoming), step->incoming});
+        const Walk& walk = going.walks[i];
+        Rgb weight = walk.weight * step->weight;
+        const float squeezed = walk.squeezed * step->eta * step->eta;
+        const float kept = max_component(weight) * squeezed / (max_component(walk.weight) * walk.squeezed);
+        if (!(kept > 0)) return;
+        if (depth >= roulette_depth_) {
+            const float chance = chance_to_survive(kept);
+            if (going.numbers.survivals[i] >= chance) return;
+            weight *= 1 / chance;
+        }
+        // in the place of one that has been here before, or of itself
+        const std::size_t to = going.kept++;
+        going.numbers.keys[to] = going.numbers.keys[i];
+        going.numbers.indices[to] = going.numbers.indices[i];
+        going.rays[to] = {at.point.origin_towards(step->incoming), step->incoming};
+        going.walks[to] = {
+            walk.path,         squeezed, weight, filling(at.bsdf, at.point, at.outgoing, step->incoming, at.inside),
+            at.point.position, *step};
     }
 
-    /// Ends paths by chance, and makes the others carry more. `kept` is the share of light that the last surface
-    /// leaves: by it alone, not by all that was lost before, paths end gradually from `roulette_depth` on. Measured on
-    /// rooms, variance × rays is a quarter to a half less than with a chance by the whole weight.
-    bool survives(std::uint32_t depth, float kept, Walk& walk) const {
-        if (!(kept > 0)) return false;
-        if (depth <= roulette_depth_) return true;
-        const float chance = std::min(kept, 0.95f);
-        if (walk.samples.next() >= chance) return false;
-        walk.weight *= 1 / chance;
-        return true;
-    }
+    /// Paths end by chance, and the others carry more. `kept` is the share of light that the last surface leaves: by it
+    /// alone, not by all that was lost before, paths end gradually from `roulette_depth` on. Measured on rooms,
+    /// variance × rays is a quarter to a half less than with a chance by the whole weight.
+    static float chance_to_survive(float kept) { return std::min(kept, 0.95f); }
 
     static constexpr Heuristic heuristic = Heuristic::power;
     static constexpr std::size_t paths_at_once = 256;
+    static constexpr std::size_t stops_at_once = 32;  // so many stay in the nearest cache
 
     const Scene& scene_;
     Key key_;

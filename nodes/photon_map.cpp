@@ -65,6 +65,8 @@ public:
         }
     }
 
+    Frozen frozen() const override { return Frozen(tree_); }
+
 private:
     const Scene& scene_;
     Shooting shooting_;
@@ -125,6 +127,7 @@ Kind photon_map_kind() {
         .name = "PhotonMap",
         .help = "light that was sent from the lamps beforehand: caustics, or a rough picture of all light",
         .prepares = true,
+        .freezes = "photons",
         .paths = paths_of,
         .landmarks = [](const NodeContext& here) { return landmarks_of(here.scene(), shooting_of(here)); },
         .params = params(),

@@ -172,12 +172,14 @@ private:
     }
 
     void add_answers(const Seen& seen, std::span<Rgb> pixels) const {
-        const Part part = ask(inputs_, 0, seen.questions);
-        const std::size_t width = part.input->width();
-        for (std::size_t q = 0; q < seen.questions.size(); ++q)
-            for (std::size_t k = 0; k < width; ++k)
-                pixels[seen.pixels[q] * inputs_.layers() + part.input->layers[k]] +=
-                    part.answers[q * width + k] * seen.weights[q];
+        // The first input makes the picture; those that are shown beside it are asked the same.
+        for (const Part& part : ask_all(inputs_, seen.questions)) {
+            const std::size_t width = part.input->width();
+            for (std::size_t q = 0; q < seen.questions.size(); ++q)
+                for (std::size_t k = 0; k < width; ++k)
+                    pixels[seen.pixels[q] * inputs_.layers() + part.input->layers[k]] +=
+                        part.answers[q * width + k] * seen.weights[q];
+        }
     }
 
     static constexpr std::size_t samples_at_once = 4096;
@@ -233,6 +235,10 @@ Kind ray_tracer_kind() {
                  .initial = Value{100.0},
                  .least = 0,
                  .most = 255},
+                {.name = "show",
+                 .type = ParamType::nodes,
+                 .help = "operators whose own light is kept beside the picture, as layers that are not added up",
+                 .initial = Value{Table{}}},
                 {.name = "filter",
                  .type = ParamType::text,
                  .help = "what a pixel sees of its surroundings",

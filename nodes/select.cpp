@@ -1,4 +1,6 @@
 // Light on some surfaces only.
+#include <fnmatch.h>
+
 #include <algorithm>
 #include <array>
 #include <set>
@@ -16,18 +18,31 @@
 namespace lightnet {
 namespace {
 
-/// Asks its input where a surface has the material and lies in the box that are named, and answers black elsewhere; or
-/// the other way round. What isn't selected costs the input nothing.
+/// Is the name the one that was asked for, or of its form ("chair*")?
+bool fits(const std::string& name, const std::string& wanted) {
+    return name == wanted || (!name.empty() && fnmatch(wanted.c_str(), name.c_str(), FNM_NOESCAPE) == 0);
+}
+
+/// Asks its input where a surface has the material, belongs to the object and lies in the box that are named, and
+/// answers black elsewhere; or the other way round. What isn't selected costs the input nothing.
 class Select final : public LightOp {
 public:
     explicit Select(const NodeContext& here)
         : scene_(here.scene()),
           inputs_(here.inputs()),
-          material_(here.text("material")),
           except_(here.flag("except")),
           boxed_(!here.numbers("box").empty()) {
         const auto box = here.numbers("box");
         for (std::size_t i = 0; i < std::min(box.size(), box_.size()); ++i) box_[i] = static_cast<float>(box[i]);
+        const SceneData& data = scene_.data();
+        const auto& material = here.text("material");
+        const auto& object = here.text("object");
+        for (const auto& shape : data.shapes) {
+            made_of_.push_back(material.empty() || fits(data.materials[shape.material].name, material));
+            called_.push_back(object.empty() || fits(shape.name, object));
+        }
+        for (const auto& instance : data.instances)
+            of_object_.push_back(fits(data.objects[instance.object].name, object));
     }
 
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
@@ -48,9 +63,11 @@ public:
 
 private:
     bool selects(const Query& question) const {
-        const SurfacePoint point = scene_.surface(question);
-        if (!material_.empty() && scene_.material_of(point) != material_) return false;
+        if (!made_of_[question.geometry]) return false;
+        const bool instance = question.instance != Query::no_instance;
+        if (!called_[question.geometry] && !(instance && of_object_[question.instance])) return false;
         if (!boxed_) return true;
+        const SurfacePoint point = scene_.surface(question);
         for (std::size_t axis = 0; axis < 3; ++axis)
             if (point.position[axis] < box_[axis] || point.position[axis] > box_[axis + 3]) return false;
         return true;
@@ -58,31 +75,58 @@ private:
 
     const Scene& scene_;
     Inputs inputs_;
-    std::string material_;
+    std::vector<bool> made_of_, called_;  // by shape: it has the material, the name
+    std::vector<bool> of_object_;         // by instance
     bool except_, boxed_;
     std::array<float, 6> box_{};
 };
 
-std::vector<std::string> names_of(const SceneData& scene) {
-    std::set<std::string> names;
+using Names = std::set<std::string>;
+
+Names materials_of(const SceneData& scene) {
+    Names names;
     for (const auto& shape : scene.shapes)
         if (shape.material < scene.materials.size()) names.insert(scene.materials[shape.material].name);
+    return names;
+}
+
+Names objects_of(const SceneData& scene) {
+    Names names;
+    for (const auto& shape : scene.shapes) names.insert(shape.name);
+    for (const auto& instance : scene.instances)
+        if (instance.object < scene.objects.size()) names.insert(scene.objects[instance.object].name);
+    return names;
+}
+
+// Complains where nothing goes by that name.
+void look_for(const std::string& wanted, const char* what, Names names, std::vector<std::string>& wrong) {
     names.erase("");
-    return {names.begin(), names.end()};
+    if (wanted.empty() || std::any_of(names.begin(), names.end(), [&](const auto& name) { return fits(name, wanted); }))
+        return;
+    constexpr std::size_t most = 40;
+    std::vector<std::string> known(names.begin(), names.end());
+    auto text = suggest(wanted, known);
+    if (known.size() > most && !text.starts_with(" (did")) {
+        known.resize(most);
+        text = suggest(wanted, known);
+        text.insert(text.size() - 1, ", …");
+    }
+    wrong.push_back(what + (" called '" + wanted + "'") + (known.empty() ? ": the scene's file names none" : text));
 }
 
 std::vector<std::string> mistakes(const Node& node, const SceneData* scene) {
     const auto& material = std::get<std::string>(node.params.at("material").data);
+    const auto& object = std::get<std::string>(node.params.at("object").data);
     const auto& box = std::get<Table>(node.params.at("box").data).list;
-    if (material.empty() && box.empty()) return {"selects nothing: give it a 'material' or a 'box'"};
+    if (material.empty() && object.empty() && box.empty())
+        return {"selects nothing: give it a 'material', an 'object' or a 'box'"};
     std::vector<std::string> wrong;
     for (std::size_t axis = 0; axis < 3 && !box.empty(); ++axis)
         if (std::get<double>(box[axis].data) > std::get<double>(box[axis + 3].data))
             wrong.push_back(std::string("'box' ends before it begins along ") + "xyz"[axis]);
-    if (!scene || material.empty()) return wrong;
-    const auto names = names_of(*scene);
-    if (std::find(names.begin(), names.end(), material) == names.end())
-        wrong.push_back("no shape has a material called '" + material + "'" + suggest(material, names));
+    if (!scene) return wrong;
+    look_for(material, "no shape has a material", materials_of(*scene), wrong);
+    look_for(object, "there is no object or shape", objects_of(*scene), wrong);
     return wrong;
 }
 
@@ -91,7 +135,7 @@ std::vector<std::string> mistakes(const Node& node, const SceneData* scene) {
 Kind select_kind() {
     return {
         .name = "Select",
-        .help = "its input on surfaces of one material, or in a box; black elsewhere",
+        .help = "its input on surfaces of one material, of one object, or in a box; black elsewhere",
         .least_inputs = 1,
         .most_inputs = 1,
         .linear = true,
@@ -99,7 +143,11 @@ Kind select_kind() {
         .partial = true,
         .params = {{.name = "material",
                     .type = ParamType::text,
-                    .help = "name that the scene gives to the material; empty: any",
+                    .help = "name that the scene's file gives to the material, * for any part of it; empty: any",
+                    .initial = Value{""}},
+                   {.name = "object",
+                    .type = ParamType::text,
+                    .help = "name of the object or shape in the scene's file, * for any part of it; empty: any",
                     .initial = Value{""}},
                    {.name = "box",
                     .type = ParamType::numbers,

@@ -19,6 +19,7 @@
 #include "tools/exit_code.hpp"
 #include "tools/host_table.hpp"
 #include "tools/loading.hpp"
+#include "tools/node_pictures.hpp"
 #include "tools/overrides.hpp"
 #include "tools/render.hpp"
 #include "tools/scene_info.hpp"
@@ -156,12 +157,14 @@ int Launcher::perform_dot(const Options& options) const {
     const Loaded loaded = load(options, registry, false);
     warn(loaded.warnings, err);
     const auto offers = likely_offers(options, loaded.hosts);
+    std::map<std::string, std::string> pictures;
+    if (!options.pictures.empty()) pictures = write_node_pictures(loaded.graph, registry, options.pictures);
     if (offers.empty()) {
-        out << to_dot(loaded.graph, registry);
+        out << to_dot(loaded.graph, registry, nullptr, {}, pictures);
     } else {
         const Graph graph = sharded(loaded.graph, shards_of(loaded.graph, registry, loaded.hosts));
         const Plan where = plan(graph, registry, loaded.hosts, offers);
-        out << to_dot(graph, registry, &where);
+        out << to_dot(graph, registry, &where, {}, pictures);
     }
     return exit_code::done;
 }

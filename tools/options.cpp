@@ -278,6 +278,8 @@ private:
         add_graph(verb);
         auto* const hosts = add_hosts(verb);
         add_threads(verb)->excludes(hosts);
+        verb.add_option("--pictures", options_.pictures, "a picture of this graph: each node shows what it gave to it")
+            ->type_name("PICTURE.exr");
     }
 
     void add_describe() {

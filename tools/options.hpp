@@ -55,6 +55,7 @@ struct Options {
     Tuning tuning;
     bool check_answers = false;
     std::string kind;               // for describe; "": all
+    std::string pictures;           // for dot: the EXR that shows what each node gives; "": none
     std::vector<std::string> whom;  // for hosts: endpoints and hosts files
 };
 

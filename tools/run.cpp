@@ -139,12 +139,12 @@ FilmFormat Run::format() const {
         const auto param = params.find(name);
         return param == params.end() ? 0 : std::get<double>(param->second.data);
     };
-    return {film.width,
-            film.height,
-            layers_of(request_.graph, registry_).film,
-            static_cast<std::uint32_t>(number("samples")),
-            film.crop,
-            {static_cast<float>(number("error")), static_cast<std::uint32_t>(number("least_samples"))}};
+    const auto count = [&](const char* name) { return static_cast<std::uint32_t>(number(name)); };
+    const auto layers = layers_of(request_.graph, registry_);
+    FilmFormat format{film.width, film.height, layers.film, count("samples"), film.crop};
+    format.refinement = {static_cast<float>(number("error")), count("least_samples")};
+    format.shown = shown_names(layers, request_.graph);
+    return format;
 }
 
 Job Run::make_job(DiskFiles& files) const {
@@ -313,7 +313,7 @@ void Run::hand_out(Carrier& carrier, const Plan& plan, const LookAround& look_ar
     options.run = id_;
     options.graph = &job_.graph;
     options.registry = &registry_;
-    options.width = static_cast<std::uint32_t>(format_.layers.size());
+    options.width = static_cast<std::uint32_t>(format_.colours());
     options.made_from = made_from(job_);
     options.cache = cache();
     options.say = [this](const std::string& text) { book_.say(text); };
@@ -324,7 +324,7 @@ void Run::hand_out(Carrier& carrier, const Plan& plan, const LookAround& look_ar
     MasterRenderer::Job job;
     job.run = id_;
     job.image = static_cast<std::uint32_t>(image_);
-    job.width = static_cast<std::uint32_t>(format_.layers.size());
+    job.width = static_cast<std::uint32_t>(format_.colours());
     job.tiles = tiles_;
     const auto tiles = tiles_per_place(plan);
     job.credit = {tiles, tiles};

@@ -197,7 +197,7 @@ void RunBook::write_picture(const std::string& exr) {
     for (std::size_t layer = 0; layer < film_.lost().size(); ++layer)
         if (const auto lost = film_.lost()[layer])
             warn(fmt::format("{} colours of layer '{}' were not finite and count as black", lost,
-                             film_.format().layers[layer]));
+                             film_.format().name_of(layer)));
     write_files(exr);
     previewed_ = false;
     if (film_.format().adaptive()) report_.settings["mean_samples"] = fmt::format("{:.2f}", film_.mean_samples());

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <random>
 #include <utility>
 
 #include "core/error.hpp"
@@ -55,7 +56,8 @@ BlobCache::Incoming BlobCache::receive(const Hash& hash) const { return {path_of
 
 BlobCache::Incoming::Incoming(std::string path, const Hash& hash)
     : path_(std::move(path)),
-      partial_(path_ + ".part-" + std::to_string(getpid())),
+      // one of its own: a blob may come from its beginning again before the first attempt is given up
+      partial_(path_ + ".part-" + std::to_string(getpid()) + "-" + std::to_string(std::random_device()())),
       hash_(hash),
       file_(partial_, std::ios::binary | std::ios::trunc) {}
 

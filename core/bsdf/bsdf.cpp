@@ -27,46 +27,34 @@ inline std::optional<BsdfSample> sample_of(const Model& model, Vec3 o, float cho
     return found;
 }
 
-// Apart, so that what most surfaces are stays in short functions. Measured: 1 % of a picture.
-[[gnu::noinline]] BsdfValue value_of_any(const Bsdf::Model& model, Vec3 o, Vec3 i, std::uint8_t lobes) {
-    return std::visit([&](const auto& m) { return value_of(m, o, i, lobes); }, model);
-}
-
-[[gnu::noinline]] std::optional<BsdfSample> sample_of_any(const Bsdf::Model& model, Vec3 o, float choice, Vec2 u,
-                                                          std::uint8_t lobes) {
-    return std::visit([&](const auto& m) { return sample_of(m, o, choice, u, lobes); }, model);
-}
-
 }  // namespace
 
 Bsdf::Bsdf(Vec3 normal, std::vector<Part> parts)
     : normal_(normal), parts_(std::make_shared<const std::vector<Part>>(std::move(parts))) {}
 
-std::uint8_t Bsdf::lobes() const {
+std::uint8_t Bsdf::lobes_of_any() const {
     if (!parts_) return std::visit([](const auto& m) { return m.lobes(); }, model_);
     std::uint8_t all = 0;
     for (const Part& part : *parts_) all |= part.bsdf.lobes();
     return all;
 }
 
-BsdfValue Bsdf::value_and_pdf(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const {
+BsdfValue Bsdf::value_of_any(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const {
     if (parts_) return blended_value(outgoing, incoming, lobes);
     if (one_sided_ && dot(outgoing, normal_) <= 0) return {};
     const Frame frame = frame_for(outgoing);
     const Vec3 o = frame.to_local(outgoing), i = frame.to_local(incoming);
     if (o.z == 0 || (i.z > 0) != (dot(incoming, normal_) > 0)) return {};
-    if (const auto* diffuse = std::get_if<DiffuseBsdf>(&model_)) return value_of(*diffuse, o, i, lobes);
-    return value_of_any(model_, o, i, lobes);
+    return std::visit([&](const auto& m) { return value_of(m, o, i, lobes); }, model_);
 }
 
-std::optional<BsdfSample> Bsdf::sample(Vec3 outgoing, float choice, Vec2 u, std::uint8_t lobes) const {
+std::optional<BsdfSample> Bsdf::sample_of_any(Vec3 outgoing, float choice, Vec2 u, std::uint8_t lobes) const {
     if (parts_) return blended_sample(outgoing, choice, u, lobes);
     if (one_sided_ && dot(outgoing, normal_) <= 0) return {};
     const Frame frame = frame_for(outgoing);
     const Vec3 o = frame.to_local(outgoing);
     if (o.z == 0) return {};
-    const auto* diffuse = std::get_if<DiffuseBsdf>(&model_);
-    auto result = diffuse ? sample_of(*diffuse, o, choice, u, lobes) : sample_of_any(model_, o, choice, u, lobes);
+    auto result = std::visit([&](const auto& m) { return sample_of(m, o, choice, u, lobes); }, model_);
     if (!result) return {};
     const bool above = result->incoming.z > 0;
     result->incoming = normalize(frame.to_world(result->incoming));

@@ -45,12 +45,15 @@ public:
     void fill_with(const Rgb* absorption) { absorption_ = absorption; }
 
     /// Which lobes the surface has.
-    std::uint8_t lobes() const;
+    std::uint8_t lobes() const { return diffuse() ? lobe::diffuse : lobes_of_any(); }
     /// Does sample() look at its `choice`?
     bool chooses() const { return model_.index() > 2 || parts_; }
     /// f × |cos incoming| for the non-specular lobes among `lobes`, sr⁻¹; and the density with which sample() with the
     /// same `lobes` finds `incoming`, per steradian. Both exactly 0 for specular lobes.
-    BsdfValue value_and_pdf(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const;
+    BsdfValue value_and_pdf(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const {
+        const DiffuseBsdf* plain = diffuse();
+        return plain ? diffuse_value(*plain, outgoing, incoming, lobes) : value_of_any(outgoing, incoming, lobes);
+    }
     Rgb evaluate(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const {
         return value_and_pdf(outgoing, incoming, lobes).value;
     }
@@ -58,7 +61,10 @@ public:
         return value_and_pdf(outgoing, incoming, lobes).pdf;
     }
     /// One direction of light, by importance. None: absorbed.
-    std::optional<BsdfSample> sample(Vec3 outgoing, float choice, Vec2 u, std::uint8_t lobes) const;
+    std::optional<BsdfSample> sample(Vec3 outgoing, float choice, Vec2 u, std::uint8_t lobes) const {
+        const DiffuseBsdf* plain = diffuse();
+        return plain ? diffuse_sample(*plain, outgoing, u, lobes) : sample_of_any(outgoing, choice, u, lobes);
+    }
     /// What a way into `direction` leads through absorbs, per metre: of light on a way of that length exp(-it × length)
     /// is left. Null: nothing.
     const Rgb* absorption(Vec3 direction) const {
@@ -72,6 +78,13 @@ private:
         const bool agree = (dot(outgoing, normal_) > 0) == (dot(outgoing, shading_.z) > 0);
         return agree ? shading_ : Frame::around(normal_);
     }
+    /// What most surfaces are: null if this one is anything else.
+    const DiffuseBsdf* diffuse() const { return parts_ ? nullptr : std::get_if<DiffuseBsdf>(&model_); }
+    BsdfValue diffuse_value(const DiffuseBsdf& plain, Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const;
+    std::optional<BsdfSample> diffuse_sample(const DiffuseBsdf& plain, Vec3 outgoing, Vec2 u, std::uint8_t lobes) const;
+    std::uint8_t lobes_of_any() const;
+    BsdfValue value_of_any(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const;
+    std::optional<BsdfSample> sample_of_any(Vec3 outgoing, float choice, Vec2 u, std::uint8_t lobes) const;
     float chance_of(const Part& part, Vec3 outgoing, std::uint8_t lobes) const;
     BsdfValue blended_value(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const;
     std::optional<BsdfSample> blended_sample(Vec3 outgoing, float choice, Vec2 u, std::uint8_t lobes) const;
@@ -83,6 +96,33 @@ private:
     const Rgb* absorption_ = nullptr;
     std::shared_ptr<const std::vector<Part>> parts_;  // null but for blends
 };
+
+// The same as of any other model, without what only those need: of the outgoing direction no more than its side counts.
+inline BsdfValue Bsdf::diffuse_value(const DiffuseBsdf& plain, Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const {
+    const float seen = dot(outgoing, normal_), lit = dot(incoming, normal_);
+    if (one_sided_ && seen <= 0) return {};
+    float from = dot(outgoing, shading_.z), to = dot(incoming, shading_.z);
+    if ((seen > 0) != (from > 0)) [[unlikely]] {
+        from = seen;
+        to = lit;
+    }
+    if (from == 0 || (to > 0) != (lit > 0)) return {};
+    return plain.evaluate({}, {0, 0, from < 0 ? -to : to}, lobes);
+}
+
+inline std::optional<BsdfSample> Bsdf::diffuse_sample(const DiffuseBsdf& plain, Vec3 outgoing, Vec2 u,
+                                                      std::uint8_t lobes) const {
+    const float seen = dot(outgoing, normal_);
+    const bool agree = (seen > 0) == (dot(outgoing, shading_.z) > 0);
+    const float from = agree ? dot(outgoing, shading_.z) : seen;
+    Vec3 local = cosine_hemisphere(u);
+    if (!(lobes & lobe::diffuse) || local.z <= 0 || from == 0 || (one_sided_ && seen <= 0)) return {};
+    const float pdf = local.z * inverse_pi;
+    if (from < 0) local.z = -local.z;
+    const Vec3 incoming = normalize(agree ? shading_.to_world(local) : Frame::around(normal_).to_world(local));
+    if ((local.z > 0) != (dot(incoming, normal_) > 0)) return {};
+    return BsdfSample{incoming, plain.albedo, pdf, lobe::diffuse};
+}
 
 struct Bsdf::Part {
     Bsdf bsdf;

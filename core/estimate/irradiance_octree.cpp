@@ -130,6 +130,19 @@ std::optional<Rgb> IrradianceOctree::irradiance(Vec3 position, Vec3 normal, floa
     return sum / weights;
 }
 
+const IrradianceRecord* IrradianceOctree::nearest(Vec3 position, Vec3 normal, float within) const {
+    const Entry* best = nullptr;
+    float least = within * within;
+    for_all_near(position, [&](const Entry& entry) {
+        const float distance2 = length_squared(position - entry.record.position);
+        const bool nearer = distance2 < least || (best && distance2 == least && &entry < best);
+        if (!nearer || std::fabs(dot(normal, entry.record.normal)) < 0.7f) return;
+        best = &entry;
+        least = distance2;
+    });
+    return best ? &best->record : nullptr;
+}
+
 bool IrradianceOctree::covers(Vec3 position, Vec3 normal) const {
     bool covered = false;
     for_all_near(position, [&](const Entry& entry) { covered = covered || weight(entry, position, normal, 1) > 0; });

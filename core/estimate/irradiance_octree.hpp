@@ -36,6 +36,10 @@ public:
     /// Does any record reach the point?
     bool covers(Vec3 position, Vec3 normal) const;
 
+    /// The record nearest to a point, on a surface turned like this one, either side; null: none that reaches the point
+    /// is within that distance. Of records at one distance, the one that was computed first.
+    const IrradianceRecord* nearest(Vec3 position, Vec3 normal, float within) const;
+
     /// Longest stretch that irradiance() may be asked for.
     static constexpr float most_stretch = 1.5f;
 

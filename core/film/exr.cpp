@@ -21,6 +21,7 @@ namespace lightnet {
 namespace {
 
 constexpr const char* layers_attribute = "layers";
+constexpr const char* shown_attribute = "shown";
 constexpr const char* done_attribute = "done";
 constexpr const char* samples_channel = "samples";
 
@@ -68,9 +69,13 @@ Imf::Header header_of(const Picture& picture) {
     Imf::Header header(picture.whole_width ? box(0, 0, picture.whole_width, picture.whole_height) : data, data);
     header.compression() = Imf::ZIP_COMPRESSION;
     header.lineOrder() = Imf::INCREASING_Y;
-    Imf::StringVector names;
-    for (const auto& layer : picture.layers) names.push_back(layer.name);
-    if (!names.empty()) header.insert(layers_attribute, Imf::StringVectorAttribute(names));
+    const auto insert_names = [&](const char* attribute, const std::vector<PictureLayer>& layers) {
+        Imf::StringVector names;
+        for (const auto& layer : layers) names.push_back(layer.name);
+        if (!names.empty()) header.insert(attribute, Imf::StringVectorAttribute(names));
+    };
+    insert_names(layers_attribute, picture.layers);
+    insert_names(shown_attribute, picture.shown);
     if (picture.done < 1) header.insert(done_attribute, Imf::FloatAttribute(picture.done));
     return header;
 }
@@ -128,6 +133,7 @@ std::string exr_of(const Picture& picture) {
     };
     for_channels("", picture.beauty, add_channel);
     for (const auto& layer : picture.layers) for_channels(layer.name, layer.pixels, add_channel);
+    for (const auto& layer : picture.shown) for_channels(layer.name, layer.pixels, add_channel);
     if (!picture.samples.empty()) {
         header.channels().insert(samples_channel, Imf::Channel(Imf::FLOAT));
         buffer.insert(samples_channel, slice(picture.samples.data(), header.dataWindow(), sizeof(float)));
@@ -151,8 +157,9 @@ Picture read_exr(const std::filesystem::path& path) try {
                     static_cast<std::uint32_t>(window.max.y - window.min.y + 1),
                     read_layer(file, ""),
                     {}};
-    if (const auto* names = file.header().findTypedAttribute<Imf::StringVectorAttribute>(layers_attribute))
-        for (const auto& name : names->value()) picture.layers.push_back({name, read_layer(file, name)});
+    for (auto [attribute, layers] : {std::pair(layers_attribute, &picture.layers), {shown_attribute, &picture.shown}})
+        if (const auto* names = file.header().findTypedAttribute<Imf::StringVectorAttribute>(attribute))
+            for (const auto& name : names->value()) layers->push_back({name, read_layer(file, name)});
     picture.samples = read_samples(file);
     read_place(file.header(), picture);
     if (const auto* done = file.header().findTypedAttribute<Imf::FloatAttribute>(done_attribute))

@@ -17,8 +17,9 @@ Film::Film(FilmFormat format)
     if (!format_.width || !format_.height) throw Error("film", "a picture needs at least one pixel");
     if (!format_.samples) throw Error("film", "a picture needs at least one sample per pixel");
     if (layers.empty()) throw Error("film", "a picture needs at least one layer");
-    if (std::set<std::string>(layers.begin(), layers.end()).size() != layers.size())
-        throw Error("film", "two layers have the same name");
+    std::set<std::string> names(layers.begin(), layers.end());
+    names.insert(format_.shown.begin(), format_.shown.end());
+    if (names.size() != format_.colours()) throw Error("film", "two layers have the same name");
     const auto lies_within = [](std::uint32_t from, std::uint32_t size, std::uint32_t side) {
         return size > 0 && from < side && size <= side - from;
     };
@@ -28,10 +29,10 @@ Film::Film(FilmFormat format)
     const std::size_t pixels = window_.pixels();
     all_ = std::uint64_t{blocks_} * pixels;
     if (format_.adaptive()) spreads_.resize(pixels);
-    sums_.resize(pixels * layers.size());
+    sums_.resize(pixels * format_.colours());
     block_of_.resize(pixels);
     taken_.resize(pixels);
-    lost_.resize(layers.size());
+    lost_.resize(format_.colours());
 }
 
 bool Film::add(const Tile& tile, std::span<const Rgb> pixels) {
@@ -39,7 +40,7 @@ bool Film::add(const Tile& tile, std::span<const Rgb> pixels) {
     if (!format_.adaptive()) return add_area(tile, pixels);
     bool added = false;
     std::vector<Rgb> piece;
-    const std::size_t layers = format_.layers.size();
+    const std::size_t layers = format_.colours();
     for (const Tile& cell : cells_of(tile)) {
         piece.clear();
         for (std::uint32_t row = cell.y - tile.y; row < cell.y - tile.y + cell.height; ++row) {
@@ -179,7 +180,7 @@ void Film::restore(FilmState state) {
         throw Error("film", "what is taken up is of another size");
     for (auto& part : state.parts) {
         Tile tile{part.x, part.y, part.width, part.height, 0, samples_of(0, format_.samples)};
-        expect_valid(tile, tile.pixels() * format_.layers.size());
+        expect_valid(tile, tile.pixels() * format_.colours());
         if (part.next_block > blocks_) throw Error("film", "what is taken up has more samples");
         auto& rectangle = rectangle_of(tile);
         rectangle.next_block = part.next_block;
@@ -220,9 +221,9 @@ void Film::expect_valid(const Tile& tile, std::size_t colours) const {
     if (!inside || !one_block)
         throw Error("film", fmt::format("no tile of this picture: {}x{} pixels at {},{}, {} samples from {}",
                                         tile.width, tile.height, tile.x, tile.y, tile.samples, tile.first_sample));
-    if (colours != tile.pixels() * format_.layers.size())
+    if (colours != tile.pixels() * format_.colours())
         throw Error("film", fmt::format("a tile of {} pixels and {} layers came with {} colours", tile.pixels(),
-                                        format_.layers.size(), colours));
+                                        format_.colours(), colours));
 }
 
 Film::Rectangle& Film::rectangle_of(const Tile& tile) {
@@ -240,7 +241,7 @@ Film::Rectangle& Film::rectangle_of(const Tile& tile) {
 }
 
 void Film::fold(const Tile& tile, std::span<const Rgb> pixels) {
-    const std::size_t layers = format_.layers.size();
+    const std::size_t layers = format_.colours();
     const Rgb* next = pixels.data();
     std::vector<Rgb> sound(layers);
     for (std::uint32_t y = tile.y; y < tile.y + tile.height; ++y)
@@ -253,7 +254,9 @@ void Film::fold(const Tile& tile, std::span<const Rgb> pixels) {
                 else
                     ++lost_[k];
             }
-            if (format_.adaptive()) note(pixel, sound, samples_of(block_of_[pixel], format_.samples));
+            if (format_.adaptive())
+                note(pixel, std::span(sound).first(format_.layers.size()),
+                     samples_of(block_of_[pixel], format_.samples));
             ++block_of_[pixel];
         }
     folded_ += tile.pixels();
@@ -291,7 +294,7 @@ double Film::mean_samples() const {
 
 Picture Film::picture(float scale) const {
     const Window wanted = format_.crop.value_or(window_);
-    const std::size_t pixels = wanted.pixels(), layers = format_.layers.size();
+    const std::size_t pixels = wanted.pixels(), layers = format_.colours();
     Picture picture{wanted.width, wanted.height, {}, {}};
     if (format_.crop) {
         picture.x = wanted.x, picture.y = wanted.y;
@@ -308,7 +311,8 @@ Picture Film::picture(float scale) const {
     if (format_.adaptive())
         for (std::size_t i = 0; i < pixels; ++i) picture.samples.push_back(float(samples_of_pixel(i)));
     for (std::size_t k = 0; k < layers; ++k) {
-        auto& layer = picture.layers.emplace_back(PictureLayer{format_.layers[k], std::vector<Rgb>(pixels)});
+        auto& among = k < format_.layers.size() ? picture.layers : picture.shown;
+        auto& layer = among.emplace_back(PictureLayer{format_.name_of(k), std::vector<Rgb>(pixels)});
         for (std::size_t i = 0; i < pixels; ++i) {
             const std::uint32_t samples = samples_of_pixel(i);
             if (samples) layer.pixels[i] = sums_[from[i] * layers + k] / static_cast<float>(samples) * scale;

@@ -49,7 +49,14 @@ struct FilmFormat {
     std::uint32_t samples = 0;            // per pixel, at most
     std::optional<Window> crop{};         // what is wanted of the picture; none: all of it
     Refinement refinement{};
+    std::vector<std::string> shown{};  // pictures beside the sum: their colours come behind those of the layers
 
+    /// Of one pixel.
+    std::size_t colours() const { return layers.size() + shown.size(); }
+    /// Of a layer, or of a picture beside them.
+    const std::string& name_of(std::size_t colour) const {
+        return colour < layers.size() ? layers[colour] : shown[colour - layers.size()];
+    }
     /// Samples differ from cell to cell.
     bool adaptive() const { return refinement.error > 0; }
     /// Samples that every pixel gets.

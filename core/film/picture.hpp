@@ -24,6 +24,7 @@ struct Picture {
     std::uint32_t x = 0, y = 0;                       // of its upper left pixel, in the whole picture
     std::uint32_t whole_width = 0, whole_height = 0;  // 0: this is the whole picture
     std::vector<float> samples{};                     // per pixel; empty: the same number everywhere
+    std::vector<PictureLayer> shown{};                // beside the sum: what operators answer that others ask
     float done = 1;                                   // how much of the work is in it; below 1: a preview
     friend bool operator==(const Picture&, const Picture&) = default;
 };

@@ -69,6 +69,41 @@ private:
         else
             check_inputs(node, kind);
         if (kind) check_params(node, *kind, given_, say);
+        if (kind) check_named_nodes(node, *kind);
+    }
+
+    // Nodes that parameters name: those whose frozen state is taken, and lists of those that are asked.
+    void check_named_nodes(const Node& node, const Kind& kind) {
+        for (const auto& param : kind.params) {
+            const auto given = node.params.find(param.name);
+            if (given == node.params.end()) continue;
+            if (const auto* ref = std::get_if<NodeRef>(&given->second.data); ref && param.type == ParamType::node)
+                check_taken(node, param, ref->name);
+            const auto* list = std::get_if<Table>(&given->second.data);
+            if (!list || param.type != ParamType::nodes) continue;
+            for (const auto& entry : list->list)
+                if (const auto* ref = std::get_if<NodeRef>(&entry.data)) check_shown(node, param, ref->name);
+        }
+    }
+
+    void check_taken(const Node& node, const Param& param, const std::string& name) {
+        const auto other = given_.find(name);
+        const Kind* gives = other ? registry_.find(given_.nodes[*other].kind) : nullptr;
+        if (!gives || gives->freezes == param.choices.at(0)) return;
+        std::string kinds;
+        for (const auto& known : registry_.kinds())
+            if (known.freezes == param.choices.at(0)) kinds += (kinds.empty() ? "" : " or ") + known.name;
+        complain(node, quoted(param.name) + " must be a node that keeps " + param.choices.at(0) + " (" + kinds +
+                           "), but " + quoted(name) + " is of kind " + gives->name);
+    }
+
+    void check_shown(const Node& node, const Param& param, const std::string& name) {
+        const auto other = given_.find(name);
+        if (!other)
+            return complain(node, quoted(param.name) + ": no node called " + quoted(name) + suggest(name, names_));
+        const Kind* gives = registry_.find(given_.nodes[*other].kind);
+        if (gives && gives->role != Role::light)
+            complain(node, quoted(param.name) + " has " + quoted(name) + ", which gives no light");
     }
 
     void check_scene(const Node& node) {
@@ -115,7 +150,7 @@ private:
         std::vector<std::pair<std::size_t, std::vector<std::size_t>>> path;
         const auto enter = [&](std::size_t node) {
             state_[node] = State::open;
-            path.emplace_back(node, given_.inputs_of(node));
+            path.emplace_back(node, given_.needed_by(node));
             std::reverse(path.back().second.begin(), path.back().second.end());
         };
         enter(start);

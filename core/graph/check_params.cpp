@@ -40,6 +40,10 @@ std::string_view wanted(ParamType type) {
             return "a table like { width, height, file = \"picture.exr\" }";
         case ParamType::scene:
             return "a Scene";
+        case ParamType::node:
+            return "a node";
+        case ParamType::nodes:
+            return "a list of nodes";
     }
     return "";
 }
@@ -87,6 +91,12 @@ public:
                 break;
             case ParamType::scene:
                 scene(value);
+                break;
+            case ParamType::node:
+                as<NodeRef>(value);
+                break;
+            case ParamType::nodes:
+                nodes(value);
                 break;
         }
     }
@@ -161,6 +171,15 @@ private:
                 ParamCheck(param_.fields[static_cast<std::size_t>(field - names.begin())], node_, graph_,
                            inside)(entry);
         }
+    }
+
+    void nodes(const Value& value) const {
+        const auto* list = as<Table>(value);
+        if (!list) return;
+        const bool sound = list->named.empty() && std::all_of(list->list.begin(), list->list.end(), [](const auto& e) {
+                               return std::holds_alternative<NodeRef>(e.data);
+                           });
+        if (!sound) complain_(quoted(param_.name) + " must be " + std::string(wanted(param_.type)));
     }
 
     void surrounding(const Value& value) const {

@@ -25,6 +25,7 @@ std::string inputs_text(const Kind& kind) {
 }
 
 std::string range_text(const Param& param) {
+    if (param.type == ParamType::node) return "one that keeps " + param.choices.at(0);
     if (!param.choices.empty()) {
         std::string text;
         for (const auto& choice : param.choices) text += (text.empty() ? "" : " | ") + to_string(Value{choice});

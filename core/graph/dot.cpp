@@ -22,12 +22,23 @@ std::string escaped(std::string_view text) {
     return out + '"';
 }
 
+// Of texts that look like HTML.
+std::string in_html(std::string_view text) {
+    std::string out;
+    for (const char c : text)
+        out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '"' ? "&quot;" : std::string(1, c);
+    return out;
+}
+
+using Texts = std::map<std::string, std::string>;
+
 /// What the two kinds of drawing share: the text, and what is known of the graph.
 class Drawing {
 protected:
-    Drawing(const Graph& graph, const Registry& registry)
+    Drawing(const Graph& graph, const Registry& registry, const Texts& pictures)
         : graph_(graph),
           registry_(registry),
+          pictures_(pictures),
           layers_(layers_of(graph, registry)),
           renderer_(renderer_of(graph, registry)) {
         text_ =
@@ -51,8 +62,18 @@ protected:
             return line(depth, id + " [shape=note, label=" + escaped(name + "\n" + scene_name(node)) + "];");
         const bool image = role(node) == Role::image;
         const auto paths = paths_text(graph_.nodes[node], *registry_.find(kind));
-        line(depth, id + " [label=" + escaped(name + "\n" + kind + (paths.empty() ? "" : "\n" + paths)) +
+        const std::string text = name + "\n" + kind + (paths.empty() ? "" : "\n" + paths);
+        const auto picture = pictures_.find(name);
+        line(depth, id + " [label=" + (picture == pictures_.end() ? escaped(text) : shown(picture->second, text)) +
                         (image ? ", penwidth=2" : "") + "];");
+    }
+
+    // A picture, and below it a text.
+    static std::string shown(const std::string& file, const std::string& text) {
+        std::string below = in_html(text);
+        for (std::size_t at = 0; (at = below.find('\n', at)) != std::string::npos;) below.replace(at, 1, "<BR/>");
+        return "<<TABLE BORDER=\"0\"><TR><TD><IMG SRC=\"" + in_html(file) + "\"/></TD></TR><TR><TD>" + below +
+               "</TD></TR></TABLE>>";
     }
 
     void edge(const std::string& from, const std::string& to, const std::string& label, const char* more = "") {
@@ -76,12 +97,26 @@ protected:
         std::vector<std::size_t> scenes;
         for (const auto& [key, value] : graph_.nodes[node].params)
             if (const auto* ref = std::get_if<NodeRef>(&value.data))
-                if (const auto scene = graph_.find(ref->name)) scenes.push_back(*scene);
+                if (const auto scene = graph_.find(ref->name); scene && role(*scene) == Role::scene)
+                    scenes.push_back(*scene);
         return scenes;
+    }
+
+    // Whom a node asks, for its answers and for what is shown beside them.
+    std::vector<std::size_t> asked_by(std::size_t node) const {
+        auto asked = graph_.inputs_of(node);
+        if (node == renderer_) asked.insert(asked.end(), layers_.shown.begin(), layers_.shown.end());
+        return asked;
+    }
+
+    // What a node takes of others at its place.
+    void draw_taken(const std::string& from, const std::string& to, std::size_t taken) {
+        edge(from, to, registry_.find(graph_.nodes[taken].kind)->freezes, ", style=dashed");
     }
 
     const Graph& graph_;
     const Registry& registry_;
+    const Texts& pictures_;
     const Layers layers_;
     const std::size_t renderer_;
 
@@ -92,15 +127,16 @@ private:
 /// The graph as its file says it: one box per node.
 class GraphDrawing : Drawing {
 public:
-    using Drawing::Drawing;
-    GraphDrawing(const Graph& graph, const Registry& registry) : Drawing(graph, registry) {}
+    GraphDrawing(const Graph& graph, const Registry& registry, const Texts& pictures)
+        : Drawing(graph, registry, pictures) {}
 
     std::string draw() {
         line(1, "launcher [shape=cds, label=\"launcher\"];");
         for (std::size_t node = 0; node < graph_.nodes.size(); ++node) draw_node(1, id(node), node);
         edge("launcher", id(renderer_), std::string(tiles) + "\ncall");
         for (std::size_t node = 0; node < graph_.nodes.size(); ++node) {
-            for (const std::size_t input : graph_.inputs_of(node)) edge(id(node), id(input), light(input) + "\ncall");
+            for (const std::size_t input : asked_by(node)) edge(id(node), id(input), light(input) + "\ncall");
+            for (const std::size_t taken : graph_.taken_by(node)) draw_taken(id(node), id(taken), taken);
             for (const std::size_t scene : scenes_of(node)) edge(id(node), id(scene), "scene", ", style=dashed");
         }
         return take();
@@ -113,9 +149,9 @@ private:
 /// The graph as it runs: one box per replica, and a multiplexer wherever an asker has a choice.
 class PlanDrawing : Drawing {
 public:
-    PlanDrawing(const Graph& graph, const Registry& registry, const Plan& plan,
-                const std::map<std::string, std::string>& host_labels)
-        : Drawing(graph, registry), plan_(plan), host_labels_(host_labels) {}
+    PlanDrawing(const Graph& graph, const Registry& registry, const Plan& plan, const Texts& host_labels,
+                const Texts& pictures)
+        : Drawing(graph, registry, pictures), plan_(plan), host_labels_(host_labels) {}
 
     std::string draw() {
         line(1, "launcher [shape=cds, label=\"launcher\"];");
@@ -161,7 +197,7 @@ private:
         return false;
     }
     bool asks(std::size_t asker, std::size_t node) const {
-        const auto inputs = graph_.inputs_of(asker);
+        const auto inputs = asked_by(asker);
         return std::find(inputs.begin(), inputs.end(), whole_of(graph_, node)) != inputs.end();
     }
 
@@ -226,14 +262,15 @@ private:
     }
 
     void draw_asks(std::uint32_t place, std::size_t node) {
-        for (const std::size_t input : graph_.inputs_of(node)) {
+        for (const std::size_t input : asked_by(node)) {
             if (sectors_of(graph_, input).empty())
                 draw_way(place, id(node, place), input);
             else
                 edge(id(node, place), router_id(input, place), light(input) + "\ncall");
         }
+        for (const std::size_t taken : graph_.taken_by(node)) draw_taken(id(node, place), id(taken, place), taken);
         // the node stands for all that the place asks of its own multiplexers
-        for (const std::size_t input : graph_.inputs_of(node)) {
+        for (const std::size_t input : asked_by(node)) {
             if (first_asker(place, input) != node) continue;
             for (const auto sector : sectors_of(graph_, input)) {
                 draw_way(place, router_id(input, place), sector);
@@ -265,15 +302,16 @@ private:
     }
 
     const Plan& plan_;
-    const std::map<std::string, std::string>& host_labels_;
+    const Texts& host_labels_;
     int hosts_drawn_ = 0;
 };
 
 }  // namespace
 
-std::string to_dot(const Graph& graph, const Registry& registry, const Plan* plan,
-                   const std::map<std::string, std::string>& host_labels) {
-    return plan ? PlanDrawing(graph, registry, *plan, host_labels).draw() : GraphDrawing(graph, registry).draw();
+std::string to_dot(const Graph& graph, const Registry& registry, const Plan* plan, const Texts& host_labels,
+                   const Texts& pictures) {
+    return plan ? PlanDrawing(graph, registry, *plan, host_labels, pictures).draw()
+                : GraphDrawing(graph, registry, pictures).draw();
 }
 
 }  // namespace lightnet

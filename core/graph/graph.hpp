@@ -43,6 +43,12 @@ struct Graph {
     std::optional<std::size_t> find(std::string_view name) const;
     /// Indices of the nodes that `node` asks, in the order of its entries. Parameters (a scene) are no inputs.
     std::vector<std::size_t> inputs_of(std::size_t node) const;
+    /// Indices of the nodes that lists in its parameters name (a renderer's `show`): asked beside its inputs.
+    std::vector<std::size_t> shown_by(std::size_t node) const;
+    /// Indices of the nodes that its parameters name, scenes aside: whose frozen state it takes.
+    std::vector<std::size_t> taken_by(std::size_t node) const;
+    /// All of these: what has to be ready before the node can be.
+    std::vector<std::size_t> needed_by(std::size_t node) const;
 };
 
 /// Per node, how far it is above the leaves: 0 without inputs, else one more than its highest input. Throws Error on

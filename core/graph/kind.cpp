@@ -110,6 +110,10 @@ std::string_view to_string(ParamType type) {
             return "film";
         case ParamType::scene:
             return "scene";
+        case ParamType::node:
+            return "node";
+        case ParamType::nodes:
+            return "list of nodes";
     }
     return "";
 }

@@ -33,7 +33,9 @@ enum class ParamType {
     table,        // entries with names, each a parameter
     surrounding,  // the name of a file, or a colour { r, g, b }
     film,
-    scene
+    scene,
+    node,  // a node whose frozen state is taken: `choices` says of what
+    nodes  // a list of nodes that give light
 };
 
 std::string_view to_string(Role role);
@@ -62,10 +64,11 @@ struct Kind {
     std::string help;              // what it does, one line
     std::size_t least_inputs = 0;  // light inputs, from the array part
     std::size_t most_inputs = 0;
-    bool prepares = false;  // learns something before the first question: LightOp::prepare()
-    bool locks = false;     // holds named locks: NodeContext::locks()
-    bool linear = false;    // answers with a weighted sum of its inputs: layers pass through
-    bool merges = false;    // of a renderer: what comes from its inputs can't be told apart, its picture is one layer
+    bool prepares = false;     // learns something before the first question: LightOp::prepare()
+    std::string freezes = {};  // what it keeps for good when it has prepared, for nodes that take it: "photons"
+    bool locks = false;        // holds named locks: NodeContext::locks()
+    bool linear = false;       // answers with a weighted sum of its inputs: layers pass through
+    bool merges = false;  // of a renderer: what comes from its inputs can't be told apart, its picture is one layer
     bool side_by_side = false;  // wants all questions of a call at once, to have them wait at the same time
     bool reproducible = true;   // false: draws random numbers that nobody seeds
     /// Which light paths a node (defaults filled in) counts by itself, as sets for PathSet::parse(): from the light to

@@ -47,14 +47,27 @@ private:
 
 }  // namespace
 
+std::vector<std::string> shown_names(const Layers& layers, const Graph& graph) {
+    std::vector<std::string> names;
+    for (const std::size_t node : layers.shown) names.push_back(graph.nodes[node].name);
+    return names;
+}
+
 Layers layers_of(const Graph& graph, const Registry& registry) {
     const std::size_t renderer = renderer_of(graph, registry);
     Terminals terminals(graph, registry);
-    Layers layers{{"emission"}, {}};
+    Layers layers{{"emission"}, {}, {}};
     if (registry.find(graph.nodes[renderer].kind)->merges)
         layers.film = {graph.nodes[renderer].name};
     else
         for (const std::size_t terminal : terminals.below(renderer)) layers.film.push_back(graph.nodes[terminal].name);
+    for (const std::size_t shown : graph.shown_by(renderer)) {
+        const auto is_there = [&](const auto& all, const auto& one) {
+            return std::find(all.begin(), all.end(), one) != all.end();
+        };
+        if (!is_there(layers.film, graph.nodes[shown].name) && !is_there(layers.shown, shown))
+            layers.shown.push_back(shown);
+    }
     layers.of_node = terminals.take();
     // whoever is on no additive path answers with one colour of its own
     for (std::size_t node = 0; node < graph.nodes.size(); ++node) {

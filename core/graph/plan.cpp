@@ -1,6 +1,7 @@
 #include "core/graph/plan.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 
 #include "core/graph/layout.hpp"
@@ -52,6 +53,20 @@ public:
                 const auto fewest = std::min_element(held_.begin(), held_.end());
                 hold(node, static_cast<std::uint32_t>(fewest - held_.begin()));
             }
+    }
+
+    /// What a node takes the frozen state of is beside it wherever it is.
+    void keep_together() {
+        const auto ranks = ranks_of(graph_);
+        std::vector<std::size_t> takers(graph_.nodes.size());
+        std::iota(takers.begin(), takers.end(), std::size_t{0});
+        std::stable_sort(takers.begin(), takers.end(), [&](auto a, auto b) { return ranks[a] > ranks[b]; });
+        for (const auto taker : takers)
+            for (const auto taken : graph_.taken_by(taker))
+                for (const auto place : plan_.places_of[taker]) {
+                    const auto& holders = plan_.places_of[taken];
+                    if (std::find(holders.begin(), holders.end(), place) == holders.end()) hold(taken, place);
+                }
     }
 
     /// Names that are no strategy, or no node, have been complained of by check_hosts().
@@ -140,6 +155,7 @@ Plan plan(const Graph& graph, const Registry& registry, const Hosts& hosts, cons
     }
     if (planner.empty()) throw Error("no host offers a place");
     planner.rescue_homeless();
+    planner.keep_together();
     planner.choose_strategies(hosts);
     return planner.take();
 }

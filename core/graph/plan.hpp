@@ -17,10 +17,16 @@ namespace lightnet {
 
 /// What the picture's layers are, and which of them pass through each node. Depends on the graph alone.
 struct Layers {
-    std::vector<std::string> film;  // "emission", then the terminals of the additive paths, graph order
+    std::vector<std::string> film;   // "emission", then the terminals of the additive paths, graph order
+    std::vector<std::size_t> shown;  // nodes whose pictures stand beside the sum, behind the layers of the film
     std::vector<std::vector<std::size_t>>
         of_node;  // per node: the terminals (node indices) that its answers keep apart
 };
+
+/// How many colours a pixel has: one per layer, and one per picture beside the sum.
+inline std::size_t colours_of(const Layers& layers) { return layers.film.size() + layers.shown.size(); }
+/// The names of the pictures beside the sum.
+std::vector<std::string> shown_names(const Layers& layers, const Graph& graph);
 
 /// Layers of a checked graph. A linear node on an additive path from the renderer keeps its terminals apart; every
 /// other node answers with one colour.
@@ -58,7 +64,8 @@ struct HostOffer {
 /// Spreads the graph over the hosts that are there. Without a hosts file (or where an entry names no nodes) each place
 /// holds the whole network. A node whose hosts are all absent is put on the place that holds the fewest nodes. Sectors
 /// of sharded nodes go to the hosts of the file in its order; hosts that it doesn't name hold only those that have lost
-/// theirs, and nobody holds the sharded node itself.
+/// theirs, and nobody holds the sharded node itself. Who
+/// takes a node's frozen state has that node beside it on all its places.
 Plan plan(const Graph& graph, const Registry& registry, const Hosts& hosts, const std::vector<HostOffer>& offers);
 
 /// Every node of the graph has a row, and every place that is named is there. Plans that arrive are checked.

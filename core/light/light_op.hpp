@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "core/light/frozen.hpp"
 #include "core/light/query.hpp"
 #include "core/math/rgb.hpp"
 
@@ -21,6 +22,10 @@ public:
     /// What the operator learns before the first question: see Services. Called once, when all inputs are prepared, and
     /// only if its kind says that it prepares. Questions may come while it waits in here, but only those of rehearsals.
     virtual void prepare(Services&) {}
+
+    /// What it has learnt, constant from the end of prepare() on, for nodes of this place that take it. Its kind says
+    /// what it is.
+    virtual Frozen frozen() const { return {}; }
 
     /// Writes, for each question, the radiance (W·sr⁻¹·m⁻²) leaving the point in its direction. `answers` comes
     /// zeroed and holds one colour per question; an operator that adds up its inputs has one colour per layer and

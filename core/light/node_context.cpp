@@ -40,6 +40,12 @@ const Value& NodeContext::value(const std::string& param) const {
     return found->second;
 }
 
+const LightOp& NodeContext::taken(const std::string& param) const {
+    const auto& ref = as<NodeRef>(node_, param, value(param), "a node");
+    if (!own_.taken) throw Error(node_.kind + " '" + node_.name + "'", "has no node '" + ref.name + "' beside it");
+    return own_.taken(ref.name);
+}
+
 double NodeContext::number(const std::string& param) const {
     return as<double>(node_, param, value(param), "a number");
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 
 namespace lightnet {
 
+class LightOp;
 class Locks;
 class Rehearsal;
 class Scene;
@@ -28,6 +30,7 @@ public:
         Locks* locks = nullptr;
         SideBySide* side_by_side = nullptr;
         bool checking = false;  // is this a run that looks for wrapped classes with a memory?
+        std::function<const LightOp&(const std::string& node)> taken = {};  // a node of the same place
     };
     NodeContext(const Node& node, Inputs inputs, const Scene& scene, std::uint64_t seed)
         : NodeContext(node, std::move(inputs), scene, seed, Own{}) {}
@@ -43,6 +46,10 @@ public:
     Rehearsal& rehearsal() const { return *own_.rehearsal; }
     /// For nodes whose kind says that it locks. Lives as long as the node.
     Locks& locks() const { return *own_.locks; }
+
+    /// The node that a parameter of type node names, at the same place. It has prepared when this one prepares:
+    /// frozen() gives what it has learnt.
+    const LightOp& taken(const std::string& param) const;
 
     bool checking() const { return own_.checking; }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "core/math/random.hpp"
 #include "core/math/sobol.hpp"
@@ -12,20 +13,35 @@ namespace lightnet {
 /// key, each dimension (and each pair) is well stratified. A value: copy it to branch, keep it on the stack.
 class Samples {
 public:
-    Samples(Key key, std::uint32_t index) : key_(key), index_(index) {}
+    /// `dimension`: how many have been used.
+    Samples(Key key, std::uint32_t index, std::uint32_t dimension = 0)
+        : key_(key), index_(index), dimension_(dimension) {}
 
-    Vec2 next_2d() { return sobol_point(mix(key_ + 0xd1342543de82ef95ull * ++dimension_), index_); }
-    float next() { return sobol_coordinate(mix(key_ + 0xd1342543de82ef95ull * ++dimension_), index_); }
+    Vec2 next_2d() { return sobol_point(mix(key_ + offset_of(dimension_++)), index_); }
+    float next() { return sobol_coordinate(mix(key_ + offset_of(dimension_++)), index_); }
     /// Passes over a dimension that isn't needed here, so that later ones keep their places.
     float skip() {
         ++dimension_;
         return 0;
     }
 
+    /// What next_2d() gives for many keys and indices when `dimension` numbers have been used, for a third of the work.
+    static void many_2d(std::span<const Key> keys, std::span<const std::uint32_t> indices, std::uint32_t dimension,
+                        std::span<Vec2> points) {
+        sobol_points(keys, offset_of(dimension), indices, points);
+    }
+    /// The same of next().
+    static void many(std::span<const Key> keys, std::span<const std::uint32_t> indices, std::uint32_t dimension,
+                     std::span<float> values) {
+        sobol_coordinates(keys, offset_of(dimension), indices, values);
+    }
+
 private:
+    static constexpr Key offset_of(std::uint32_t dimension) { return 0xd1342543de82ef95ull * (dimension + 1); }
+
     Key key_;
     std::uint32_t index_;
-    std::uint32_t dimension_ = 0;
+    std::uint32_t dimension_;
 };
 
 }  // namespace lightnet

@@ -23,16 +23,15 @@ inline SineCosine sine_cosine_near_zero(float x) {
             1 + q * (-0.5f + q * (1.0f / 24 + q * (-1.0f / 720 + q * (1.0f / 40320))))};
 }
 
-/// Uniform in the unit disk. Shirley & Chiu 1997, "A Low Distortion Map Between Disk and Square".
+/// Uniform in the unit disk. Shirley & Chiu 1997, "A Low Distortion Map Between Disk and Square". Without a branch:
+/// which of two cases it is can't be foretold.
 inline Vec2 disk(Vec2 u) {
     const float a = 2 * u.x - 1, b = 2 * u.y - 1;
-    if (a == 0 && b == 0) return {0, 0};
-    if (std::fabs(a) > std::fabs(b)) {
-        const auto [sine, cosine] = sine_cosine_near_zero(pi / 4 * (b / a));
-        return {a * cosine, a * sine};
-    }
-    const auto [sine, cosine] = sine_cosine_near_zero(pi / 4 * (a / b));
-    return {b * sine, b * cosine};
+    const bool flat = std::fabs(a) > std::fabs(b);
+    const float radius = flat ? a : b, other = flat ? b : a;
+    const auto [sine, cosine] = sine_cosine_near_zero(pi / 4 * (other / (radius == 0 ? 1 : radius)));
+    const float along = radius * cosine, aside = radius * sine;
+    return {flat ? along : aside, flat ? aside : along};
 }
 
 /// Around +z, density cos θ / π per steradian.
@@ -56,7 +55,8 @@ inline Vec3 sphere(Vec2 u) { return cone(u, 2); }
 /// Barycentric weights of the second and third corner, uniform over a triangle.
 /// Heitz 2019, "A Low-Distortion Map Between Triangle and Square".
 inline Vec2 triangle(Vec2 u) {
-    return u.y > u.x ? Vec2{u.x * 0.5f, u.y - u.x * 0.5f} : Vec2{u.x - u.y * 0.5f, u.y * 0.5f};
+    const float half = 0.5f * std::min(u.x, u.y);
+    return {u.x - half, u.y - half};
 }
 
 }  // namespace lightnet

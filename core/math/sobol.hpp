@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "core/math/random.hpp"
 #include "core/math/vec.hpp"
@@ -15,5 +16,12 @@ Vec2 sobol_point(Key key, std::uint32_t index);
 
 /// Its first coordinate alone, for less.
 float sobol_coordinate(Key key, std::uint32_t index);
+
+/// Many at once, for a fraction of the work: sobol_point(mix(keys[i] + offset), indices[i]), to the bit.
+void sobol_points(std::span<const Key> keys, Key offset, std::span<const std::uint32_t> indices,
+                  std::span<Vec2> points);
+/// The same of sobol_coordinate().
+void sobol_coordinates(std::span<const Key> keys, Key offset, std::span<const std::uint32_t> indices,
+                       std::span<float> values);
 
 }  // namespace lightnet

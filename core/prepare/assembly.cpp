@@ -49,7 +49,7 @@ auto made(const Network& network, std::size_t node, Inputs inputs, NodeContext::
 }  // namespace
 
 std::size_t Network::width_of(std::size_t node) const {
-    return kind_of(node).role == Role::image ? layers.film.size() : layers.of_node[node].size();
+    return kind_of(node).role == Role::image ? colours_of(layers) : layers.of_node[node].size();
 }
 
 std::shared_ptr<const Sectors> Network::sectors(std::size_t node) const {
@@ -77,7 +77,20 @@ Inputs Assembly::inputs_of(std::size_t node) {
             input.port = guarded_.emplace_back(std::make_unique<GuardedPort>(*input.port, locks_)).get();
         inputs.push_back(std::move(input));
     }
+    if (image)
+        for (std::size_t i = 0; i < network_.layers.shown.size(); ++i) {
+            const auto shown = network_.layers.shown[i];
+            const auto layer = static_cast<std::uint32_t>(network_.layers.film.size() + i);
+            inputs.push_back({network_.graph.nodes[shown].name, port_to_(shown, 1), {layer}});
+        }
     return {std::move(inputs), network_.width_of(node)};
+}
+
+NodeContext::Own Assembly::own_of(std::size_t node) {
+    const auto taken = [this](const std::string& name) -> const LightOp& {
+        return light(network_.graph.find(name).value());
+    };
+    return {&rehearsals_[node], &locks_, side_by_side_, network_.checking, taken};
 }
 
 const LightOp& Assembly::light(std::size_t node) {

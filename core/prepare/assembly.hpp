@@ -75,9 +75,7 @@ public:
 
 private:
     Inputs inputs_of(std::size_t node);
-    NodeContext::Own own_of(std::size_t node) {
-        return {&rehearsals_[node], &locks_, side_by_side_, network_.checking};
-    }
+    NodeContext::Own own_of(std::size_t node);
 
     const Network& network_;
     PortTo port_to_;

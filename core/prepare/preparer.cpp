@@ -36,6 +36,7 @@ public:
         } catch (const std::exception& error) {
             failure_ = error.what();
         }
+        if (failure_.empty() && sectors_) say_what_it_has();
         at_ = {Report::Kind::done, call_, 0};
         waiting_ = true;
         report();
@@ -106,13 +107,22 @@ protected:
     }
     Bytes map_sectors(std::size_t count, const Shard& work) override {
         work_ = &work;
-        return wait(Report::Kind::sectors, static_cast<std::uint32_t>(count));
+        auto near = wait(Report::Kind::sectors, static_cast<std::uint32_t>(count));
+        near_bytes_ += near->size();
+        return near;
     }
     std::shared_ptr<const void> once_any(const std::function<std::shared_ptr<const void>()>& make) override {
         return preparer_.network_.shared->get(index_, values_++, make);
     }
 
 private:
+    // What a sector costs in memory is why nodes are sharded.
+    void say_what_it_has() {
+        const auto* sector = sector_at(preparer_.network_.graph, index_);
+        say("took in " + std::to_string((near_bytes_ + 999999) / 1000000) + " MB for sector " +
+            std::to_string(sector->index + 1) + " of " + std::to_string(sector->count));
+    }
+
     Bytes wait(Report::Kind kind, std::uint32_t count) {
         at_ = {kind, call_++, count};
         waiting_ = true;
@@ -157,6 +167,7 @@ private:
     Bytes result_;
     std::uint32_t call_ = 0, values_ = 0;
     std::shared_ptr<const Sectors> sectors_;
+    std::size_t near_bytes_ = 0;  // of results of its sector
 };
 
 Preparer::Preparer(const Network& network, Assembly& assembly, Fibers& fibers, Place place)

@@ -57,4 +57,6 @@ std::string beside(const std::string& from, const std::string& path) {
     return (std::filesystem::path(from).parent_path() / written).lexically_normal().string();
 }
 
+std::string stem_of(const std::string& path) { return std::filesystem::path(path).stem().string(); }
+
 }  // namespace lightnet

@@ -39,5 +39,7 @@ private:
 
 /// `path` as written inside the file `from`: relative to the folder of `from`, unless absolute. Without "." and "..".
 std::string beside(const std::string& from, const std::string& path);
+/// The name of a file without its folder and its ending: what a shape goes by that has a file of its own.
+std::string stem_of(const std::string& path);
 
 }  // namespace lightnet

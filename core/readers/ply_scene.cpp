@@ -1,4 +1,5 @@
 #include "core/readers/assets.hpp"
+#include "core/readers/files.hpp"
 #include "core/readers/mesh_tools.hpp"
 #include "core/readers/ply.hpp"
 
@@ -20,7 +21,7 @@ SceneData read_ply_scene(Files& files, const std::string& path) {
     if (!mesh.normals.empty()) order_by_normals(mesh);
     const TextureId colour = mesh.colours.empty() ? assets.grey(0.5f) : assets.add({{1, 1, 1}, VertexColour{}, false});
     const MaterialId matt = assets.add(Material{"", DiffuseMaterial{colour}});
-    scene.shapes.push_back({std::move(mesh), matt, {}, {path, 0}});
+    scene.shapes.push_back({std::move(mesh), matt, {}, {path, 0}, stem_of(path)});
     light_the_dark(scene, report, path);
     scene.warnings = report.warnings();
     return scene;

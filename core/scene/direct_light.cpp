@@ -10,21 +10,24 @@ Rgb left_after(const Rgb* absorption, float distance) {
             std::exp(-absorption->b * distance)};
 }
 
+namespace {
+
+bool finds_lamps(const Scene& scene, const Gathering& at) {
+    return scene.has_lamps() && (at.lobes & at.bsdf.lobes() & lobe::rough);
+}
+
+}  // namespace
+
 const Rgb* filling(const Bsdf& bsdf, const SurfacePoint& point, Vec3 outgoing, Vec3 direction, const Rgb* arriving) {
     if (const Rgb* own = bsdf.absorption(direction)) return own;
     const bool same_side = (dot(outgoing, point.normal) > 0) == (dot(direction, point.normal) > 0);
     return same_side ? arriving : nullptr;
 }
 
-std::optional<LampRay> ray_to_lamp(const Scene& scene, const Gathering& at, Samples& samples, Heuristic heuristic) {
-    const bool useless = !(at.lobes & at.bsdf.lobes() & lobe::rough) || !scene.has_lamps();
-    const float choice = useless || !scene.has_many_lamps() ? samples.skip() : samples.next();
-    if (useless) {
-        samples.skip();
-        return {};
-    }
-    const Vec2 u = samples.next_2d();
-    const auto lamp = scene.sample_light(at.point.position, choice, u);
+std::optional<LampRay> ray_to_lamp(const Scene& scene, const Gathering& at, const LampNumbers& numbers,
+                                   Heuristic heuristic) {
+    if (!finds_lamps(scene, at)) return {};
+    const auto lamp = scene.sample_light(at.point.position, numbers.choice, numbers.place);
     if (!lamp) return {};
     const auto [value, pdf] = at.bsdf.value_and_pdf(at.outgoing, lamp->direction, at.lobes);
     if (is_black(value)) return {};
@@ -34,6 +37,14 @@ std::optional<LampRay> ray_to_lamp(const Scene& scene, const Gathering& at, Samp
     if (const Rgb* inside = filling(at.bsdf, at.point, at.outgoing, ray.direction, at.inside))
         light *= left_after(inside, ray.far);
     return LampRay{ray, light};
+}
+
+std::optional<LampRay> ray_to_lamp(const Scene& scene, const Gathering& at, Samples& samples, Heuristic heuristic) {
+    const bool useless = !finds_lamps(scene, at);
+    LampNumbers numbers;
+    numbers.choice = useless || !scene.has_many_lamps() ? samples.skip() : samples.next();
+    numbers.place = useless ? Vec2{samples.skip(), 0} : samples.next_2d();
+    return ray_to_lamp(scene, at, numbers, heuristic);
 }
 
 Rgb light_by_lamp(const Scene& scene, const Gathering& at, Samples& samples, Heuristic heuristic) {

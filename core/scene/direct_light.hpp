@@ -43,7 +43,16 @@ struct LampRay {
     Rgb light;
 };
 
+/// The numbers that choose a light and a way to it.
+struct LampNumbers {
+    float choice = 0;  // of no use unless there are many lamps
+    Vec2 place;
+};
+
 /// light_by_lamp() before it is known what is in the way. None: no light by this sample, whatever is in between.
+std::optional<LampRay> ray_to_lamp(const Scene& scene, const Gathering& at, const LampNumbers& numbers,
+                                   Heuristic heuristic);
+/// The same with the next two dimensions of `samples`, needed or not.
 std::optional<LampRay> ray_to_lamp(const Scene& scene, const Gathering& at, Samples& samples, Heuristic heuristic);
 
 /// Radiance that one sampled light sends to `at` and on into its direction: a point of a lamp, a bare light or a part

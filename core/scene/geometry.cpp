@@ -139,39 +139,61 @@ void set(RTCRay& to, const Ray& ray) {
           0};
 }
 
-constexpr std::size_t lanes = 16;
+/// Embree's packets, in the width that an instruction set has: others are cut up and copied inside.
+struct Eight {
+    static constexpr std::size_t lanes = 8;
+    using Rays = RTCRay8;
+    using RayHits = RTCRayHit8;
+    static constexpr auto intersect = rtcIntersect8;
+    static constexpr auto occluded = rtcOccluded8;
+};
+struct Four {
+    static constexpr std::size_t lanes = 4;
+    using Rays = RTCRay4;
+    using RayHits = RTCRayHit4;
+    static constexpr auto intersect = rtcIntersect4;
+    static constexpr auto occluded = rtcOccluded4;
+};
 
 // Fills lanes that have nothing to do. `valid` alone does not keep Embree from them: where its packets are narrower
 // than ours it goes by the rays, and traces each that does not end before it begins.
 constexpr Ray no_ray{{0, 0, 0}, {0, 0, 1}, -std::numeric_limits<float>::infinity()};
 
+template <std::size_t lanes>
+using Valid = std::array<int, lanes>;
+
 // Fills a packet's rays, and says which lanes there are.
-void fill(RTCRay16& packet, std::array<int, lanes>& valid, std::span<const Ray> rays) {
+template <std::size_t lanes, class Packet>
+void fill(Packet& packet, Valid<lanes>& valid, std::span<const Ray> rays) {
     for (std::size_t i = 0; i < lanes; ++i) {
         const Ray& ray = i < rays.size() ? rays[i] : no_ray;
-        valid[i] = i < rays.size() ? -1 : 0;
         packet.org_x[i] = ray.origin.x;
         packet.org_y[i] = ray.origin.y;
         packet.org_z[i] = ray.origin.z;
-        packet.tnear[i] = 0;
         packet.dir_x[i] = ray.direction.x;
         packet.dir_y[i] = ray.direction.y;
         packet.dir_z[i] = ray.direction.z;
-        packet.time[i] = 0;
         packet.tfar[i] = ray.far;
+    }
+    for (std::size_t i = 0; i < lanes; ++i) {
+        valid[i] = i < rays.size() ? -1 : 0;
+        packet.tnear[i] = packet.time[i] = 0;
         packet.mask[i] = ~0u;
-        packet.id[i] = 0;
-        packet.flags[i] = 0;
+        packet.id[i] = packet.flags[i] = 0;
     }
 }
 
+template <class Wide>
 void look_through(RTCScene scene, std::span<const Ray> rays, std::span<std::uint8_t> hidden) {
-    alignas(64) std::array<int, lanes> valid;
-    alignas(64) RTCRay16 packet;
-    fill(packet, valid, rays);
     auto context = any_rays();
-    rtcOccluded16(valid.data(), scene, &context, &packet);
-    for (std::size_t i = 0; i < rays.size(); ++i) hidden[i] = packet.tfar[i] < 0;
+    for (std::size_t first = 0; first < rays.size(); first += Wide::lanes) {
+        alignas(64) Valid<Wide::lanes> valid;
+        alignas(64) typename Wide::Rays packet;
+        const std::size_t count = std::min(Wide::lanes, rays.size() - first);
+        fill<Wide::lanes>(packet, valid, rays.subspan(first, count));
+        Wide::occluded(valid.data(), scene, &context, &packet);
+        for (std::size_t i = 0; i < count; ++i) hidden[first + i] = packet.tfar[i] < 0;
+    }
 }
 
 // Embree takes names that it doesn't know, or whose processor isn't here, for something else, and says nothing.
@@ -195,7 +217,10 @@ RTCDevice device_for(const Geometry::Options& options) {
 
 struct Geometry::Tracer {
     Tracer(const SceneData& shapes_of, const Options& options)
-        : data(shapes_of), device(device_for(options)), scene(rtcNewScene(device)) {
+        : data(shapes_of),
+          device(device_for(options)),
+          scene(rtcNewScene(device)),
+          eight(rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) != 0) {
         rtcSetDeviceMemoryMonitorFunction(device, count_bytes, &bytes);
     }
     ~Tracer() {
@@ -250,7 +275,8 @@ struct Geometry::Tracer {
         const Object& object = data.objects[data.instances[instance].object];
         return {instance, object.shapes[geometry], primitive, at.x, at.y, distance};
     }
-    void packet(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const;
+    template <class Wide>
+    void meet(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const;
 
     const SceneData& data;
     std::atomic<std::ptrdiff_t> bytes = 0;  // before the device, which counts on it to its end
@@ -259,24 +285,28 @@ struct Geometry::Tracer {
     RTCScene scene;
     std::vector<RTCGeometry> geometries;  // by shape; null: never to be met
     std::vector<RTCScene> objects;        // the same
+    bool eight;                           // rays are traced at once; else four
 };
 
-void Geometry::Tracer::packet(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const {
-    alignas(64) std::array<int, lanes> valid;
-    alignas(64) RTCRayHit16 together;
-    fill(together.ray, valid, rays);
-    for (std::size_t i = 0; i < lanes; ++i) {
-        together.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-        together.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-    }
+template <class Wide>
+void Geometry::Tracer::meet(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const {
     auto context = any_rays();
-    rtcIntersect16(valid.data(), scene, &context, &together);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        if (together.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID)
-            hits[i].reset();
-        else
-            hits[i] = hit(together.hit.instID[0][i], together.hit.geomID[i], together.hit.primID[i],
-                          {together.hit.u[i], together.hit.v[i]}, together.ray.tfar[i]);
+    for (std::size_t first = 0; first < rays.size(); first += Wide::lanes) {
+        alignas(64) Valid<Wide::lanes> valid;
+        alignas(64) typename Wide::RayHits together;
+        const std::size_t count = std::min(Wide::lanes, rays.size() - first);
+        fill<Wide::lanes>(together.ray, valid, rays.subspan(first, count));
+        for (std::size_t i = 0; i < Wide::lanes; ++i)
+            together.hit.geomID[i] = together.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+        Wide::intersect(valid.data(), scene, &context, &together);
+        const auto& found = together.hit;
+        for (std::size_t i = 0; i < count; ++i) {
+            if (found.geomID[i] == RTC_INVALID_GEOMETRY_ID)
+                hits[first + i].reset();
+            else
+                hits[first + i] = hit(found.instID[0][i], found.geomID[i], found.primID[i], {found.u[i], found.v[i]},
+                                      together.ray.tfar[i]);
+        }
     }
 }
 
@@ -329,10 +359,7 @@ std::optional<Hit> Geometry::intersect(const Ray& ray) const {
 void Geometry::intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const {
     assert(rays.size() == hits.size() && "each ray has its hit");
     rays_traced += rays.size();
-    for (std::size_t first = 0; first < rays.size(); first += lanes) {
-        const std::size_t count = std::min(lanes, rays.size() - first);
-        tracer_->packet(rays.subspan(first, count), hits.subspan(first, count));
-    }
+    tracer_->eight ? tracer_->meet<Eight>(rays, hits) : tracer_->meet<Four>(rays, hits);
 }
 
 bool Geometry::occluded(const Ray& ray) const {
@@ -347,10 +374,8 @@ bool Geometry::occluded(const Ray& ray) const {
 void Geometry::occluded(std::span<const Ray> rays, std::span<std::uint8_t> hidden) const {
     assert(rays.size() == hidden.size() && "each ray has its answer");
     rays_traced += rays.size();
-    for (std::size_t first = 0; first < rays.size(); first += lanes) {
-        const std::size_t count = std::min(lanes, rays.size() - first);
-        look_through(tracer_->scene, rays.subspan(first, count), hidden.subspan(first, count));
-    }
+    tracer_->eight ? look_through<Eight>(tracer_->scene, rays, hidden)
+                   : look_through<Four>(tracer_->scene, rays, hidden);
 }
 
 Geometry::Box Geometry::bounds() const {

@@ -83,11 +83,15 @@ struct Scene::Built {
                  film.height) {}
 
     /// What a question or a hit names.
-    SurfacePoint point(std::uint32_t instance, std::uint32_t shape, std::uint32_t primitive, float u, float v) const {
-        SurfacePoint point = shading.point(shape, primitive, u, v);
-        point.u = u;
-        point.v = v;
-        if (instance != Query::no_instance) point = placements[instance].place(point);
+    template <class Name>
+    void find(const Name& name, SurfacePoint& point) const {
+        shading.find(name.geometry, name.primitive, name.u, name.v, point);
+        if (name.instance != Query::no_instance) point = placements[name.instance].place(point);
+    }
+    template <class Name>
+    SurfacePoint point(const Name& name) const {
+        SurfacePoint point;
+        find(name, point);
         return point;
     }
 
@@ -118,8 +122,10 @@ void Scene::occluded(std::span<const Ray> rays, std::span<std::uint8_t> hidden) 
     built_->geometry.occluded(rays, hidden);
 }
 
-SurfacePoint Scene::surface(const Hit& hit) const {
-    return built_->point(hit.instance, hit.geometry, hit.primitive, hit.u, hit.v);
+SurfacePoint Scene::surface(const Hit& hit) const { return built_->point(hit); }
+
+void Scene::surfaces(std::span<const Hit> hits, std::span<SurfacePoint> points) const {
+    for (std::size_t i = 0; i < hits.size(); ++i) built_->find(hits[i], points[i]);
 }
 
 SurfacePoint Scene::surface(const Query& query) const {
@@ -131,12 +137,10 @@ SurfacePoint Scene::surface(const Query& query) const {
     if (query.geometry >= shapes.size() || query.primitive >= primitives(shapes[query.geometry]) ||
         (query.instance != Query::no_instance && query.instance >= built_->placements.size()))
         throw Error("scene", "a question names a surface that isn't there");  // it may come from another host
-    return built_->point(query.instance, query.geometry, query.primitive, query.u, query.v);
+    return built_->point(query);
 }
 
-const std::string& Scene::material_of(const SurfacePoint& point) const {
-    return built_->data.materials[built_->data.shapes[point.geometry].material].name;
-}
+const SceneData& Scene::data() const { return built_->data; }
 
 Bsdf Scene::bsdf(const SurfacePoint& point) const { return built_->shading.bsdf(point); }
 

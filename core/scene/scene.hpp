@@ -56,8 +56,10 @@ public:
 
     SurfacePoint surface(const Hit& hit) const;
     SurfacePoint surface(const Query& query) const;
-    /// The name that the scene's file gives to the material of the shape; may be empty.
-    const std::string& material_of(const SurfacePoint& point) const;
+    /// What the scene was built from: names of shapes, materials and objects. Its meshes may be gone.
+    const SceneData& data() const;
+    /// Of many hits.
+    void surfaces(std::span<const Hit> hits, std::span<SurfacePoint> points) const;
     /// How the surface scatters there.
     Bsdf bsdf(const SurfacePoint& point) const;
 

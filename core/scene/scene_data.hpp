@@ -3,12 +3,14 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "core/bytes.hpp"
 #include "core/error.hpp"
 #include "core/math/rgb.hpp"
 #include "core/math/transform.hpp"
@@ -190,6 +192,7 @@ struct Shape {
     MaterialId material = 0;
     std::optional<AreaEmission> emission{};
     SourceLine where;
+    std::string name{};  // as in the file, or that of its own file; may be empty
 };
 
 /// Shapes that stand in the scene only through instances of them.
@@ -258,7 +261,8 @@ struct SceneData {
     CameraData camera;
     bool camera_given = false;  // else Scene looks at everything from where all of it is seen
     FilmData film;
-    std::vector<Problem> warnings;  // what was read, but not taken literally
+    std::vector<Problem> warnings;        // what was read, but not taken literally
+    std::map<std::string, Bytes> kept{};  // by node of the graph: what earlier runs have kept, which it goes on from
 };
 
 }  // namespace lightnet

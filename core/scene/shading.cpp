@@ -76,60 +76,61 @@ Shading::Shading(const SceneData& data) : data_(data), materials_(data) {
     }
 }
 
-SurfacePoint Shading::point(std::uint32_t geometry, std::uint32_t primitive, float u, float v) const {
-    const Shape& shape = data_.shapes[geometry];
-    const auto* mesh = std::get_if<Mesh>(&shape.geometry);
-    SurfacePoint point = mesh ? on_mesh(*mesh, needs_[geometry], primitive, u, v)
-                              : on_sphere(std::get<Sphere>(shape.geometry), needs_[geometry], u, v);
+void Shading::find(std::uint32_t geometry, std::uint32_t primitive, float u, float v, SurfacePoint& point) const {
     point.geometry = geometry;
     point.primitive = primitive;
-    return point;
+    point.u = u;
+    point.v = v;
+    const Shape& shape = data_.shapes[geometry];
+    if (const auto* mesh = std::get_if<Mesh>(&shape.geometry))
+        on_mesh(*mesh, needs_[geometry], point);
+    else
+        on_sphere(std::get<Sphere>(shape.geometry), needs_[geometry], point);
 }
 
-SurfacePoint Shading::on_mesh(const Mesh& mesh, const Needs& needs, std::uint32_t primitive, float u, float v) const {
-    const auto [i, j, k] = mesh.triangles[primitive];
-    const Corners at = corners(mesh, primitive);
-    const float w = 1 - u - v;
-    SurfacePoint point;
-    point.position = at.a * w + at.b * u + at.c * v;
-    point.normal = geometric_normal(mesh, primitive, at);
-    point.offset = std::max(0x1p-16f * largest(point.position), needs.offset);
-
-    Vec3 shading = point.normal;
+void Shading::on_mesh(const Mesh& mesh, const Needs& needs, SurfacePoint& point) const {
+    const auto [i, j, k] = mesh.triangles[point.primitive];
+    const Corners at{mesh.positions[i], mesh.positions[j], mesh.positions[k]};
+    const float u = point.u, v = point.v, w = 1 - u - v;
+    const Vec3 position = at.a * w + at.b * u + at.c * v;
+    const Vec3 normal = geometric_normal(mesh, point.primitive, at);
+    Vec3 shading = normal;
     if (!mesh.normals.empty()) {
         const Vec3 n = mesh.normals[i] * w + mesh.normals[j] * u + mesh.normals[k] * v;
         const float size = length(n);
-        if (size > 0) shading = dot(n, point.normal) < 0 ? -n / size : n / size;
+        if (size > 0) shading = dot(n, normal) < 0 ? -n / size : n / size;
     }
+    point.position = position;
+    point.normal = normal;
+    point.offset = std::max(0x1p-16f * largest(position), needs.offset);
     point.shading = Frame::around(shading);
     const auto& [texture, tangent, holes] = needs.material;
-    if (!texture && !tangent) return point;
-    const auto [a, b, c] = uvs_of(mesh, primitive);
+    if (!texture && !tangent) return;
+    const auto [a, b, c] = uvs_of(mesh, point.primitive);
     point.uv = a * w + b * u + c * v;
-    if (!mesh.colours.empty()) point.vertex_colour = mesh.colours[i] * w + mesh.colours[j] * u + mesh.colours[k] * v;
-    if (!tangent) return point;
+    point.vertex_colour =
+        mesh.colours.empty() ? Rgb{1, 1, 1} : mesh.colours[i] * w + mesh.colours[j] * u + mesh.colours[k] * v;
+    if (!tangent) return;
     const auto along = along_triangle(at, a, b, c);
     point.along_u = along.u;
     point.along_v = along.v;
     point.shading = frame_along(shading, along.u);
-    return point;
 }
 
-SurfacePoint Shading::on_sphere(const Sphere& sphere, const Needs& needs, float u, float v) const {
-    const Vec3 outwards = from_octahedral({u, v});
-    SurfacePoint point;
+void Shading::on_sphere(const Sphere& sphere, const Needs& needs, SurfacePoint& point) const {
+    const Vec3 outwards = from_octahedral({point.u, point.v});
     point.position = sphere.center + outwards * sphere.radius;
     point.normal = sphere.flip_normals ? -outwards : outwards;
     point.offset = needs.offset;
     point.shading = Frame::around(point.normal);
-    if (!needs.material.texture && !needs.material.tangent) return point;
+    if (!needs.material.texture && !needs.material.tangent) return;
     const auto [uv, along] = laid_on(sphere, outwards);
     point.uv = uv;
-    if (!needs.material.tangent) return point;
+    point.vertex_colour = {1, 1, 1};
+    if (!needs.material.tangent) return;
     point.along_u = along.u;
     point.along_v = along.v;
     point.shading = frame_along(point.normal, along.u);
-    return point;
 }
 
 TexturePlace Shading::place(std::uint32_t geometry, std::uint32_t primitive, float u, float v) const {

@@ -19,7 +19,13 @@ public:
     explicit Shading(const SceneData& data);
 
     /// The point with these coordinates (see Query) on a primitive of a shape.
-    SurfacePoint point(std::uint32_t geometry, std::uint32_t primitive, float u, float v) const;
+    SurfacePoint point(std::uint32_t geometry, std::uint32_t primitive, float u, float v) const {
+        SurfacePoint point;
+        find(geometry, primitive, u, v, point);
+        return point;
+    }
+    /// The same, put where it is wanted: copies of what has just been written wait for it.
+    void find(std::uint32_t geometry, std::uint32_t primitive, float u, float v, SurfacePoint& point) const;
     Bsdf bsdf(const SurfacePoint& point) const;
 
     /// What textures may depend on there, by the same coordinates.
@@ -37,8 +43,8 @@ private:
         MaterialNeeds material;
         float offset = 0;  // least distance by which rays must leave the shape, m
     };
-    SurfacePoint on_mesh(const Mesh& mesh, const Needs& needs, std::uint32_t primitive, float u, float v) const;
-    SurfacePoint on_sphere(const Sphere& sphere, const Needs& needs, float u, float v) const;
+    void on_mesh(const Mesh& mesh, const Needs& needs, SurfacePoint& point) const;
+    void on_sphere(const Sphere& sphere, const Needs& needs, SurfacePoint& point) const;
 
     const SceneData& data_;
     Materials materials_;

@@ -28,10 +28,14 @@ inline float share_of(std::span<const float> ends, std::size_t i) { return ends[
 
 /// Which part `u` falls into; `u` becomes the place within it, so that good numbers stay good.
 inline std::size_t pick(std::span<const float> ends, float& u) {
-    const auto at = std::upper_bound(ends.begin(), ends.end() - 1, u);
-    const float start = at == ends.begin() ? 0 : *(at - 1);
-    u = std::clamp((u - start) / (*at - start), 0.0f, 0x1.fffffep-1f);
-    return std::size_t(at - ends.begin());
+    std::size_t at = 0;
+    if (constexpr std::size_t few = 8; ends.size() <= few)
+        for (std::size_t i = 0; i + 1 < ends.size(); ++i) at += ends[i] <= u;  // none of these steps can be foretold
+    else
+        at = std::size_t(std::upper_bound(ends.begin(), ends.end() - 1, u) - ends.begin());
+    const float start = at == 0 ? 0 : ends[at - 1];
+    u = std::clamp((u - start) / (ends[at] - start), 0.0f, 0x1.fffffep-1f);
+    return at;
 }
 
 }  // namespace lightnet

@@ -25,8 +25,8 @@ namespace {
 
 struct Recorded {
     RTCScene scene;
-    std::variant<RTCRayHit, RTCRay, RTCRayHit16, RTCRay16> rays;
-    std::array<int, 16> valid{};
+    std::variant<RTCRayHit, RTCRay, RTCRayHit8, RTCRay8> rays;
+    std::array<int, 8> valid{};
 };
 
 std::vector<Recorded>* recording = nullptr;
@@ -36,8 +36,8 @@ std::vector<Recorded>* recording = nullptr;
 extern "C" {
 void __real_rtcIntersect1(RTCScene, RTCIntersectContext*, RTCRayHit*);
 void __real_rtcOccluded1(RTCScene, RTCIntersectContext*, RTCRay*);
-void __real_rtcIntersect16(const int*, RTCScene, RTCIntersectContext*, RTCRayHit16*);
-void __real_rtcOccluded16(const int*, RTCScene, RTCIntersectContext*, RTCRay16*);
+void __real_rtcIntersect8(const int*, RTCScene, RTCIntersectContext*, RTCRayHit8*);
+void __real_rtcOccluded8(const int*, RTCScene, RTCIntersectContext*, RTCRay8*);
 
 void __wrap_rtcIntersect1(RTCScene scene, RTCIntersectContext* context, RTCRayHit* rays) {
     if (recording) recording->push_back({scene, *rays, {}});
@@ -47,19 +47,19 @@ void __wrap_rtcOccluded1(RTCScene scene, RTCIntersectContext* context, RTCRay* r
     if (recording) recording->push_back({scene, *rays, {}});
     __real_rtcOccluded1(scene, context, rays);
 }
-void __wrap_rtcIntersect16(const int* valid, RTCScene scene, RTCIntersectContext* context, RTCRayHit16* rays) {
+void __wrap_rtcIntersect8(const int* valid, RTCScene scene, RTCIntersectContext* context, RTCRayHit8* rays) {
     if (recording) {
         recording->push_back({scene, *rays, {}});
-        std::copy(valid, valid + 16, recording->back().valid.begin());
+        std::copy(valid, valid + 8, recording->back().valid.begin());
     }
-    __real_rtcIntersect16(valid, scene, context, rays);
+    __real_rtcIntersect8(valid, scene, context, rays);
 }
-void __wrap_rtcOccluded16(const int* valid, RTCScene scene, RTCIntersectContext* context, RTCRay16* rays) {
+void __wrap_rtcOccluded8(const int* valid, RTCScene scene, RTCIntersectContext* context, RTCRay8* rays) {
     if (recording) {
         recording->push_back({scene, *rays, {}});
-        std::copy(valid, valid + 16, recording->back().valid.begin());
+        std::copy(valid, valid + 8, recording->back().valid.begin());
     }
-    __real_rtcOccluded16(valid, scene, context, rays);
+    __real_rtcOccluded8(valid, scene, context, rays);
 }
 }
 
@@ -87,13 +87,12 @@ void replay(const std::vector<Recorded>& recorded) {
         RTCIntersectContext context;
         rtcInitIntersectContext(&context);
         context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-        alignas(64) std::array<int, 16> valid = each.valid;
+        alignas(64) std::array<int, 8> valid = each.valid;
         alignas(64) auto rays = each.rays;
         if (auto* one = std::get_if<RTCRayHit>(&rays)) __real_rtcIntersect1(each.scene, &context, one);
         if (auto* one = std::get_if<RTCRay>(&rays)) __real_rtcOccluded1(each.scene, &context, one);
-        if (auto* many = std::get_if<RTCRayHit16>(&rays))
-            __real_rtcIntersect16(valid.data(), each.scene, &context, many);
-        if (auto* many = std::get_if<RTCRay16>(&rays)) __real_rtcOccluded16(valid.data(), each.scene, &context, many);
+        if (auto* many = std::get_if<RTCRayHit8>(&rays)) __real_rtcIntersect8(valid.data(), each.scene, &context, many);
+        if (auto* many = std::get_if<RTCRay8>(&rays)) __real_rtcOccluded8(valid.data(), each.scene, &context, many);
     }
 }
 

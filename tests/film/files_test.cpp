@@ -44,6 +44,17 @@ TEST(Exr, ReadsBackWhatItWrote) {
     EXPECT_TRUE(read_exr(folder / "x.exr") == picture);
 }
 
+TEST(Exr, HoldsWhatIsShownBesideTheSum) {
+    const Folder folder;
+    Picture picture;
+    picture.width = 2, picture.height = 1;
+    picture.layers = {{"emission", {{1, 0, 0}, {0, 1, 0}}}};
+    picture.shown = {{"photons", {{5, 5, 5}, {0, 0, 7}}}};
+    picture.beauty = sum_of(picture.layers);
+    write_exr(folder / "x.exr", picture);
+    EXPECT_TRUE(read_exr(folder / "x.exr") == picture);
+}
+
 TEST(Exr, HoldsABeautyThatIsExactlyTheSumOfItsLayers) {
     const Folder folder;
     write_exr(folder / "x.exr", noisy_picture(64, 64));

@@ -113,6 +113,19 @@ TEST(Film, CountsWhatIsNotFiniteAsBlack) {
     EXPECT_EQ(film.picture().beauty, (std::vector<Rgb>{{1, 0, 0}, {2, 0, 0}}));
 }
 
+TEST(Film, KeepsWhatIsShownOutOfTheSum) {
+    FilmFormat one{1, 1, {"a", "b"}, 1};
+    one.shown = {"seen"};
+    Film film(one);
+    film.add({0, 0, 1, 1, 0, 1}, std::vector<Rgb>{{1, 0, 0}, {0, 2, 0}, {0, 0, 9}});
+    const Picture picture = film.picture(2);
+    EXPECT_EQ(picture.beauty, (std::vector<Rgb>{{2, 4, 0}}));
+    ASSERT_EQ(picture.shown.size(), 1u);
+    EXPECT_EQ(picture.shown[0].pixels, (std::vector<Rgb>{{0, 0, 18}}));
+    one.shown = {"a"};
+    EXPECT_THROW(Film{one}, Error) << "a name stands for one picture";
+}
+
 TEST(Film, ShowsWhatIsThereWhileItGrows) {
     Film film({2, 1, {"emission"}, 20});
     const std::vector<Rgb> sixteen{{16, 16, 16}};

@@ -35,7 +35,7 @@ TEST(Check, SuggestsTheKindYouMeant) {
 
 TEST(Check, NamesTheKindsWhenNothingIsClose) {
     EXPECT_THAT(problems_of("sky = Volcano {}\n" + rest),
-                HasSubstr("Volcano 'sky': unknown kind (there is: Ambient, Cache, Combine, RayTracer, Scene)"));
+                HasSubstr("Volcano 'sky': unknown kind (there is: Ambient, Cache, Combine, RayTracer, Reuse, Scene)"));
 }
 
 TEST(Check, SuggestsTheParamYouMeant) {

@@ -13,6 +13,7 @@ TEST(Describe, ListsAllKinds) {
               "Cache      light  remembers light\n"
               "Combine    light  sums its inputs\n"
               "RayTracer  image  makes the picture\n"
+              "Reuse      light  takes what was remembered\n"
               "Scene      scene  what is seen: Scene { \"file.pbrt\" }, the file named from the graph's folder\n");
 }
 
@@ -31,6 +32,10 @@ TEST(Describe, TellsAllOfAParam) {
               "         which light\n"
               "  soft   flag, default false\n"
               "         without edges\n");
+}
+
+TEST(Describe, TellsOfNodesThatAreTaken) {
+    EXPECT_NE(describe(test::reuse()).find("of  node, must be given, one that keeps records\n"), std::string::npos);
 }
 
 TEST(Describe, TellsOfInputs) {

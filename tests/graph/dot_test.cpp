@@ -118,5 +118,25 @@ TEST(Dot, IsReadByGraphviz) {
     EXPECT_EQ(status_of_dot(dot_of_two_hosts()), 0);
 }
 
+TEST(Dot, ShowsPicturesInTheirBoxes) {
+    const std::string text = to_dot(two_lights(), fake_registry(), nullptr, {}, {{"a", "x.a.png"}});
+    EXPECT_THAT(text, HasSubstr("node_a [label=<<TABLE BORDER=\"0\"><TR><TD><IMG SRC=\"x.a.png\"/></TD></TR>"
+                                "<TR><TD>a<BR/>Ambient</TD></TR></TABLE>>];"));
+    EXPECT_THAT(text, HasSubstr("node_b [label=\"b\\nAmbient\"];"));
+}
+
+TEST(Dot, DrawsWhatIsTakenAndWhatIsShown) {
+    const Graph graph = check(test::parse("a = Ambient {} lighting = Cache { a } again = Reuse { of = lighting }\n"
+                                          "scene = Scene { 'box.pbrt' }\n"
+                                          "image = RayTracer { lighting, show = { again }, scene = scene, "
+                                          "film = { 8, 4 } }"),
+                              fake_registry());
+    const std::string text = to_dot(graph, fake_registry());
+    EXPECT_THAT(text, HasSubstr("node_again -> node_lighting [label=\"records\", style=dashed];"));
+    EXPECT_THAT(text, HasSubstr("node_image -> node_again [label=\"Query → Rgb\\ncall\"];"));
+    const Plan where = plan(graph, fake_registry(), {}, {{"", 1}});
+    EXPECT_EQ(status_of_dot(to_dot(graph, fake_registry(), &where)), 0);
+}
+
 }  // namespace
 }  // namespace lightnet

@@ -35,5 +35,18 @@ TEST(Layers, LeaveOutWhatANodeKeepsToItself) {
     EXPECT_THAT(layers.of_node[1], ElementsAre(1)) << "inside, a sum is one colour";
 }
 
+TEST(Layers, HaveWhatIsShownBesideTheSum) {
+    const Graph graph =
+        check(test::parse("a = Ambient {} b = Ambient {} sum = Combine { a, b } lighting = Cache { sum }\n"
+                          "scene = Scene { 'box.pbrt' }\n"
+                          "image = RayTracer { lighting, show = { sum, a, sum, lighting }, "
+                          "scene = scene, film = { 8, 4 } }"),
+              fake_registry());
+    const Layers layers = layers_of(graph, fake_registry());
+    EXPECT_THAT(layers.film, ElementsAre("emission", "lighting"));
+    EXPECT_THAT(shown_names(layers, graph), ElementsAre("sum", "a")) << "each once, and no layer of the sum";
+    EXPECT_EQ(colours_of(layers), 4u);
+}
+
 }  // namespace
 }  // namespace lightnet

@@ -47,6 +47,18 @@ TEST(Plan, SpreadsNodesOverHosts) {
                 ElementsAre(ElementsAre(0, 1), ElementsAre(2), ElementsAre(0), IsEmpty(), ElementsAre(1)));
 }
 
+TEST(Plan, HasANodeBesideWhoeverTakesItsFrozenState) {
+    const Graph taking = sound_graph("a = Ambient {} b = Cache { a } c = Reuse { of = b } lighting = Combine { b, c }");
+    const Plan where = plan(taking, fake_registry(),
+                            parse_hosts("place 'tcp://x:1' { a = 1, b = 1, image = 1 }\n"
+                                        "place 'tcp://y:1' { lighting = 1 } place 'tcp://z:1' { c = 2 }",
+                                        "hosts.lua"),
+                            {{"tcp://x:1", 1}, {"tcp://y:1", 1}, {"tcp://z:1", 1}});
+    EXPECT_THAT(where.places_of[2], ElementsAre(2, 3)) << "as the file says";
+    EXPECT_THAT(where.places_of[1], ElementsAre(0, 2, 3)) << "and where it is taken from";
+    EXPECT_THAT(where.places_of[0], ElementsAre(0)) << "whom it asks may be elsewhere";
+}
+
 TEST(Plan, MakesNoPlaceWithoutANode) {
     EXPECT_THAT(plan_for("place 'tcp://x:1' { a = 1, b = 1, lighting = 1, image = 1 }", {{"tcp://x:1", 16}}).places,
                 SizeIs(4));

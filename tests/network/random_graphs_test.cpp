@@ -95,7 +95,7 @@ protected:
         MasterRenderer::Job job;
         job.run = 1;
         job.image = static_cast<std::uint32_t>(renderer_of(network_->graph, registry_));
-        job.width = static_cast<std::uint32_t>(network_->layers.film.size());
+        job.width = static_cast<std::uint32_t>(colours_of(network_->layers));
         job.tiles = tiles_;
         MasterRenderer master(job, run.carrier(), [&](const Tile& tile, std::span<const Rgb> colours) {
             pixels[index_of(tile)].assign(colours.begin(), colours.end());

@@ -50,7 +50,9 @@ std::vector<std::string> nodes_of(const std::string& graph) {
 
 // Graphs that learn much ask far more than their pixels do.
 std::vector<std::string> words_for(const std::string& graph) {
-    return graph == "figure5.lua" ? with(small_pictures, {"-D", "photons=20000", "-D", "rays=32"}) : small_pictures;
+    return graph == "figure5.lua" || graph == "figure8.lua"
+               ? with(small_pictures, {"-D", "photons=20000", "-D", "rays=32"})
+               : small_pictures;
 }
 
 class SameImage : public ::testing::TestWithParam<std::string> {

@@ -150,11 +150,12 @@ TEST(Sharded, SendsResultsInSeveralLotsAndEachPlaceItsOwnAlone) {
     EXPECT_LT(cut.counted.prepared_bytes, all / 2);
 }
 
-TEST(Sharded, SaysForEachSectorWhatItsNodeSays) {
+TEST(Sharded, SaysForEachSectorWhatItsNodeSaysAndHowMuchItTookIn) {
     const Learning cut(with_fireflies(), firefly_nodes(), {{"flies", 2}});
     cut.threaded(share(cut.network->graph, 2), {});
-    EXPECT_THAT(cut.said, testing::UnorderedElementsAre(testing::MatchesRegex("flies#1: .* flies"),
-                                                        testing::MatchesRegex("flies#2: .* flies")));
+    EXPECT_THAT(cut.said, testing::UnorderedElementsAre(
+                              testing::MatchesRegex("flies#1: .* flies"), testing::MatchesRegex("flies#2: .* flies"),
+                              "flies#1: took in 1 MB for sector 1 of 2", "flies#2: took in 1 MB for sector 2 of 2"));
 }
 
 // A result cache in memory, and how often it was asked for what it has.

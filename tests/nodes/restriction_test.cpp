@@ -21,8 +21,10 @@ SceneData floor_and_ball() {
     SceneData data;
     add(data, quad({-5, 0, -5}, {0, 0, 10}, {10, 0, 0}), diffuse(data, 0.5f));
     data.materials.back().name = "floor";
+    data.shapes.back().name = "ground";
     add(data, ball({0, 2, 0}, 0.5f), diffuse(data, 0.5f)).emission = AreaEmission{{3, 3, 3}, false};
     data.materials.back().name = "ball";
+    data.shapes.back().name = "bulb.01";
     data.environments.push_back({{2, 2, 2}});
     return data;
 }
@@ -84,6 +86,34 @@ TEST_F(Restrictions, SelectAsksOnSurfacesOfOneMaterial) {
     EXPECT_EQ(rest, (std::vector<Rgb>{{}, plain[1], {}}));
 }
 
+TEST_F(Restrictions, SelectAsksOnShapesAndObjectsOfOneName) {
+    const auto plain = openness(places_);
+    EXPECT_EQ(ask(over_openness("Select", {{"object", Value{"bulb.*"}}}), places_),
+              (std::vector<Rgb>{{}, plain[1], {}}));
+    const auto both = ask(
+        rig_.add("Select", "both", {"openness"}, {{"object", Value{"ground"}}, {"material", Value{"ball"}}}), places_);
+    EXPECT_EQ(both, std::vector<Rgb>(3)) << "what it names must all be so";
+}
+
+// Two instances of one object, and one of another, of the same shape.
+TEST(Select, KnowsInstancesByTheirObjects) {
+    SceneData data;
+    add(data, ball({0, 0, 0}, 0.5f), diffuse(data, 0.5f));
+    data.objects = {{"lamp", {0}}, {"vase", {0}}};
+    Matrix far;
+    far.m[0][3] = 3;
+    data.instances = {{0, {}}, {1, far}, {0, far * far}};
+    const Scene scene(std::move(data));
+    Rig rig(scene);
+    rig.add("AmbientOcclusion", "openness");
+    const auto& vases = rig.add("Select", "it", {"openness"}, {{"object", Value{"vase"}}});
+    std::vector<Query> questions(3, Query{.geometry = 0, .outgoing = {0, 0, 1}});
+    for (std::uint32_t i = 0; i < 3; ++i) questions[i].instance = i;
+    std::vector<Rgb> answers(3);
+    vases.light(questions, answers);
+    EXPECT_EQ(answers, (std::vector<Rgb>{{}, {1, 1, 1}, {}}));
+}
+
 TEST_F(Restrictions, SelectAsksInsideABox) {
     const auto plain = openness(places_);
     EXPECT_EQ(ask(over_openness("Select", {{"box", table({-1, 1, -1, 1, 3, 1})}}), places_),
@@ -95,6 +125,9 @@ TEST_F(Restrictions, SelectSaysWhatIsWrongWithItsChoice) {
     EXPECT_THAT(mistakes_of("Select", {}, scene), ElementsAre(HasSubstr("selects nothing")));
     EXPECT_THAT(mistakes_of("Select", {{"material", Value{"flor"}}}, scene),
                 ElementsAre("no shape has a material called 'flor' (did you mean 'floor'?)"));
+    EXPECT_THAT(mistakes_of("Select", {{"object", Value{"table"}}}, scene),
+                ElementsAre("there is no object or shape called 'table' (there is: bulb.01, ground)"));
+    EXPECT_THAT(mistakes_of("Select", {{"object", Value{"gr*"}}}, scene), IsEmpty());
     EXPECT_THAT(mistakes_of("Select", {{"box", table({1, 2})}}, scene), ElementsAre(HasSubstr("must have 6")));
     EXPECT_THAT(mistakes_of("Select", {{"box", table({0, 0, 1, 1, 1, 0})}}, scene),
                 ElementsAre("'box' ends before it begins along z"));

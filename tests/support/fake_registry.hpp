@@ -46,10 +46,20 @@ inline Kind combine() {
     return kind;
 }
 
-/// Does something to its input that isn't linear.
+/// Does something to its input that isn't linear, and keeps what it learns.
 inline Kind cache() {
     Kind kind{.name = "Cache", .help = "remembers light"};
     kind.least_inputs = kind.most_inputs = 1;
+    kind.prepares = true;
+    kind.freezes = "records";
+    return kind;
+}
+
+/// Takes what a Cache keeps.
+inline Kind reuse() {
+    Kind kind{.name = "Reuse", .help = "takes what was remembered"};
+    kind.prepares = true;
+    kind.params = {{.name = "of", .type = ParamType::node, .help = "whose", .choices = {"records"}}};
     return kind;
 }
 
@@ -58,10 +68,11 @@ inline Kind ray_tracer() {
     kind.least_inputs = kind.most_inputs = 1;
     kind.params = {{.name = "scene", .type = ParamType::scene, .help = "what is seen"},
                    {.name = "film", .type = ParamType::film, .help = "size and file of the picture"},
+                   {.name = "show", .type = ParamType::nodes, .help = "pictures beside it", .initial = Value{Table{}}},
                    count_param("samples", 16)};
     return kind;
 }
 
-inline Registry fake_registry() { return Registry({ray_tracer(), ambient(), combine(), cache()}); }
+inline Registry fake_registry() { return Registry({ray_tracer(), ambient(), combine(), cache(), reuse()}); }
 
 }  // namespace lightnet::test

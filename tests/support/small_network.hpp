@@ -37,31 +37,67 @@ public:
         return *this;
     }
 
+    /// The picture is that of this node instead of the last.
+    SmallNetwork& lit_by(const std::string& name) {
+        lit_by_ = name;
+        return *this;
+    }
+
+    /// Nodes whose own light is kept beside the picture.
+    SmallNetwork& show(const std::vector<std::string>& names) {
+        for (const auto& name : names) shown_.list.push_back(Value{NodeRef{name}});
+        return *this;
+    }
+
     /// Mean radiance per pixel, all layers added.
     std::vector<Rgb> picture(std::uint32_t samples, std::uint64_t seed = 1) const {
-        auto nodes = nodes_;
-        const Value film{Table{{Value{double(width_)}, Value{double(height_)}}, {}}};
-        nodes.push_back({"image",
-                         "RayTracer",
-                         {Value{NodeRef{nodes_.back().name}}},
-                         {{"scene", Value{NodeRef{"scene"}}}, {"film", film}},
-                         {"test.lua", 1}});
-        const Network network{check({"test.lua", std::move(nodes)}, registry_), registry_, scene_, seed};
-        SerialRun run(network);
-        run.prepare("");
-        const std::size_t layers = network.layers.film.size();
         std::vector<Rgb> sum(std::size_t{width_} * height_);
-        for (std::uint32_t first = 0; first < samples; first += samples_per_block) {
-            const auto block =
-                run.render({0, 0, width_, height_, first, std::min(samples_per_block, samples - first), 1});
-            for (std::size_t i = 0; i < block.size(); ++i) sum[i / layers] += block[i] / float(samples);
-        }
+        const Network network = assembled(seed);
+        const std::size_t colours = colours_of(network.layers);
+        render(network, samples, [&](std::size_t i, Rgb part) {
+            if (i % colours < network.layers.film.size()) sum[i / colours] += part;
+        });
         return sum;
+    }
+
+    /// The same of each layer, and of what is shown beside them, by name.
+    std::map<std::string, std::vector<Rgb>> pictures(std::uint32_t samples, std::uint64_t seed = 1) const {
+        const Network network = assembled(seed);
+        auto names = network.layers.film;
+        for (auto& name : shown_names(network.layers, network.graph)) names.push_back(std::move(name));
+        std::map<std::string, std::vector<Rgb>> all;
+        for (const auto& name : names) all[name].resize(std::size_t{width_} * height_);
+        render(network, samples,
+               [&](std::size_t i, Rgb part) { all[names[i % names.size()]][i / names.size()] += part; });
+        return all;
     }
 
     const Scene& scene() const { return *scene_; }
 
 private:
+    Network assembled(std::uint64_t seed) const {
+        auto nodes = nodes_;
+        const Value film{Table{{Value{double(width_)}, Value{double(height_)}}, {}}};
+        nodes.push_back({"image",
+                         "RayTracer",
+                         {Value{NodeRef{lit_by_.empty() ? nodes_.back().name : lit_by_}}},
+                         {{"scene", Value{NodeRef{"scene"}}}, {"film", film}, {"show", Value{shown_}}},
+                         {"test.lua", 1}});
+        return {check({"test.lua", std::move(nodes)}, registry_), registry_, scene_, seed};
+    }
+
+    // Calls add(index of the colour, part of its mean) for all blocks.
+    template <class Add>
+    void render(const Network& network, std::uint32_t samples, const Add& add) const {
+        SerialRun run(network);
+        run.prepare("");
+        for (std::uint32_t first = 0; first < samples; first += samples_per_block) {
+            const auto block =
+                run.render({0, 0, width_, height_, first, std::min(samples_per_block, samples - first), 1});
+            for (std::size_t i = 0; i < block.size(); ++i) add(i, block[i] / float(samples));
+        }
+    }
+
     SceneOptions options() const {
         SceneOptions options;
         options.width = width_;
@@ -73,6 +109,8 @@ private:
     Registry registry_{standard_nodes()};
     std::shared_ptr<const Scene> scene_;
     std::vector<Node> nodes_;
+    std::string lit_by_;
+    Table shown_;
 };
 
 inline double mean_of(const std::vector<Rgb>& pixels) {

@@ -36,7 +36,8 @@ TEST(Graphs, AreSound) {
 
 TEST(Graphs, LeaveOutOnlyTheLightThatTheyMeanTo) {
     const Registry registry(standard_nodes());
-    for (const char* whole : {"cornell.lua", "path.lua", "path_all.lua", "weights.lua", "ambient.lua", "figure5.lua"})
+    for (const char* whole :
+         {"cornell.lua", "path.lua", "path_all.lua", "weights.lua", "ambient.lua", "figure5.lua", "figure8.lua"})
         EXPECT_THAT(examine(graph_called(whole), registry).notes, IsEmpty()) << whole;
     const auto notes = examine(graph_called("direct.lua"), registry).notes;
     ASSERT_EQ(notes.size(), 1u);

@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <sstream>
 
+#include "core/film/exr.hpp"
 #include "core/graph/graph_film.hpp"
 #include "tests/support/fake_registry.hpp"
 #include "tests/support/folder.hpp"
@@ -48,6 +50,27 @@ private:
     const Registry registry_ = test::fake_registry();
     const test::Folder folder_;
 };
+
+TEST(Launcher, DrawsAGraphWithAPictureOfEachNode) {
+    Bench lightnet;
+    Picture picture;
+    picture.width = picture.height = 2;
+    picture.layers = {{"emission", std::vector<Rgb>(4)}, {"lighting", std::vector<Rgb>(4, {1, 0, 0})}};
+    picture.shown = {{"first", std::vector<Rgb>(4, {0, 1, 0})}};
+    picture.beauty = sum_of(picture.layers);
+    const auto exr = lightnet.write("x.exr", "");
+    write_exr(exr, picture);
+    const auto file = [&](const std::string& node) { return exr.substr(0, exr.size() - 3) + node + ".png"; };
+
+    EXPECT_EQ(lightnet({"dot", lightnet.graph, "--pictures", exr}), 0);
+    for (const char* node : {"lighting", "image"}) {
+        EXPECT_THAT(lightnet.out, HasSubstr("<IMG SRC=\"" + file(node) + "\"/>"));
+        EXPECT_TRUE(std::filesystem::exists(file(node)));
+    }
+    EXPECT_FALSE(std::filesystem::exists(file("first"))) << "it is no node of this graph";
+    EXPECT_EQ(lightnet({"dot", lightnet.graph, "--pictures", "none.exr"}), 1);
+    EXPECT_THAT(lightnet.err, HasSubstr("none.exr"));
+}
 
 TEST(Launcher, HasWrappedClassesCheckedWhenAsked) {
     Bench lightnet;

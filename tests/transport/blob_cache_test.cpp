@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <optional>
 
 #include "core/error.hpp"
 #include "tests/support/folder.hpp"
@@ -48,6 +49,19 @@ TEST_F(BlobCacheTest, KeepsBytesByTheirHash) {
     EXPECT_FALSE(cache.has(hash));
     keep(cache, blob);
     EXPECT_EQ(*BlobCache(folder).read(hash), blob) << "another process finds it";
+}
+
+// As when a line is cut in the middle of it.
+TEST_F(BlobCacheTest, TakesABlobFromItsBeginningAgainBeforeTheFirstAttemptIsGivenUp) {
+    const BlobCache cache(folder);
+    const auto blob = bytes("a large result");
+    std::optional<BlobCache::Incoming> incoming(cache.receive(content_hash(blob)));
+    incoming->add(bytes("a lar"));
+    incoming.emplace(cache.receive(content_hash(blob)));
+    incoming->add(blob);
+    incoming->finish();
+    incoming.reset();
+    EXPECT_EQ(*cache.read(content_hash(blob)), blob);
 }
 
 TEST_F(BlobCacheTest, GivesNoDamagedBytesAndRemovesThem) {

@@ -70,15 +70,19 @@ public:
         const auto standing = all_nodes();
         const std::size_t meshes = document_.root()["meshes"].size();
         std::map<std::size_t, std::vector<Matrix>> places;
+        std::map<std::size_t, std::string> names;  // of the first node that has the mesh
         for (const auto& [node, to_world] : standing) {
             if (assets_.report().full()) return;
             if (node["mesh"])
-                if (const auto mesh = node["mesh"].index(meshes)) put(node, to_world, places[*mesh]);
+                if (const auto mesh = node["mesh"].index(meshes)) {
+                    put(node, to_world, places[*mesh]);
+                    names.try_emplace(*mesh, node["name"].text(""));
+                }
             if (node["camera"]) camera(node["camera"], to_world);
             if (const At light = node["extensions"]["KHR_lights_punctual"]["light"]) this->light(light, to_world);
         }
         for (const auto& [mesh, where] : places)
-            if (!assets_.report().full()) add(document_.root()["meshes"][mesh], where);
+            if (!assets_.report().full()) add(document_.root()["meshes"][mesh], where, names[mesh]);
     }
 
 private:
@@ -158,16 +162,17 @@ private:
         }
     }
 
-    /// A mesh at all its places: one object with instances, but lamps and what stands once in the world itself.
-    void add(const At& mesh, const std::vector<Matrix>& places) {
+    /// A mesh at all its places: one object with instances, but lamps and what stands once in the world itself. It
+    /// goes by its own name, or by that of its first node.
+    void add(const At& mesh, const std::vector<Matrix>& places, const std::string& node) {
         Object object;
-        object.name = mesh["name"].text("");
+        object.name = mesh["name"].text(node);
         for (auto& piece : read_mesh(mesh, document_, materials_)) {
             if (places.size() > 1 && !piece.emission) {
-                object.shapes.push_back(shape(std::move(piece)));
+                object.shapes.push_back(shape(std::move(piece), object.name));
                 continue;
             }
-            for (const Matrix& place : places) bake(piece, place, mesh);
+            for (const Matrix& place : places) bake(piece, place, mesh, object.name);
         }
         if (object.shapes.empty()) return;
         auto& scene = assets_.scene();
@@ -176,20 +181,20 @@ private:
             scene.instances.push_back({static_cast<std::uint32_t>(scene.objects.size() - 1), place});
     }
 
-    std::uint32_t shape(Piece piece) {
+    std::uint32_t shape(Piece piece, const std::string& name) {
         auto& shapes = assets_.scene().shapes;
-        shapes.push_back({std::move(piece.mesh), piece.material, piece.emission, {document_.path(), 0}});
+        shapes.push_back({std::move(piece.mesh), piece.material, piece.emission, {document_.path(), 0}, name});
         return static_cast<std::uint32_t>(shapes.size() - 1);
     }
 
-    void bake(const Piece& piece, const Matrix& place, const At& mesh) {
+    void bake(const Piece& piece, const Matrix& place, const At& mesh, const std::string& name) {
         constexpr std::uint64_t most_triangles = std::uint64_t{1} << 26;
         baked_ += piece.mesh.triangles.size();
         if (baked_ > most_triangles) return mesh.error("is a lamp too often: too many triangles");
         Piece copy = piece;
         if (swaps_handedness(place)) flip_order(copy.mesh);
         if (!transform(copy.mesh, place)) return mesh.error("has a vertex that is not finite in the scene");
-        shape(std::move(copy));
+        shape(std::move(copy), name);
     }
 
     /// So that a mirrored mesh keeps its outside, as glTF asks.

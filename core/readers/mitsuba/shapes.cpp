@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/readers/files.hpp"
 #include "core/readers/mesh_tools.hpp"
 #include "core/readers/mitsuba/colours.hpp"
 #include "core/readers/mitsuba/primitives.hpp"
@@ -67,7 +68,8 @@ std::optional<std::uint32_t> Shapes::shape(const Node& node, bool in_group) {
         return std::nullopt;
     }
     auto& scene = context_.assets.scene();
-    scene.shapes.push_back({std::move(*geometry), material, emission, node.where});
+    scene.shapes.push_back({std::move(*geometry), material, emission, node.where,
+                            node.id.empty() ? stem_of(properties.text("filename", "")) : node.id});
     return static_cast<std::uint32_t>(scene.shapes.size() - 1);
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 
@@ -47,6 +48,7 @@ public:
     }
 
 private:
+    using Key = std::tuple<std::string, std::string, bool>;  // object, material, smooth
     struct Open {
         Part part;
         std::unordered_map<Corner, std::uint32_t, Mix> vertices;
@@ -61,7 +63,8 @@ private:
         if (word == "usemtl") return use_material();
         if (word == "mtllib") return libraries_.push_back({std::string(lines_.rest()), lines_.where()});
         if (word == "s") return smooth();
-        if (word == "g" || word == "o" || word == "vp") return;
+        if (word == "o") return object();
+        if (word == "g" || word == "vp") return;
         if (word == "l" || word == "p")
             report_.warn(lines_.where(), "lines and points have no surface and are left out");
         else
@@ -101,6 +104,11 @@ private:
 
     void use_material() {
         material_ = lines_.rest();
+        open_ = nullptr;
+    }
+
+    void object() {
+        object_ = lines_.rest();
         open_ = nullptr;
     }
 
@@ -156,9 +164,10 @@ private:
 
     Open& open() {
         if (open_) return *open_;
-        const auto key = cut_ == Cut::nowhere ? std::pair<std::string, bool>() : std::pair(material_, smooth_);
+        const auto key = cut_ == Cut::nowhere ? Key() : Key(object_, material_, smooth_);
         const auto [entry, fresh] = index_.try_emplace(key, parts_.size());
-        if (fresh) parts_.push_back({{{}, key.first, smooth_, lines_.where()}, {}, false, false});
+        if (fresh)
+            parts_.push_back({{{}, std::get<1>(key), smooth_, lines_.where(), std::get<0>(key)}, {}, false, false});
         return *(open_ = &parts_[entry->second]);
     }
 
@@ -190,10 +199,10 @@ private:
     std::vector<Vec2> uvs_;
     std::vector<Rgb> colours_;
     std::vector<Library> libraries_;
-    std::string material_;
+    std::string object_, material_;
     bool smooth_ = false;
     std::vector<Open> parts_;
-    std::map<std::pair<std::string, bool>, std::size_t> index_;
+    std::map<Key, std::size_t> index_;
     Open* open_ = nullptr;  // one of parts_; null: to be looked up
     std::vector<std::uint32_t> corners_;
 };

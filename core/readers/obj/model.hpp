@@ -10,12 +10,13 @@
 
 namespace lightnet::obj {
 
-/// Faces of one material. Shading normals are as in the file, or empty.
+/// Faces of one material and one object. Shading normals are as in the file, or empty.
 struct Part {
     Mesh mesh;
     std::string material;  // "": the file names none
     bool smooth = false;   // a smoothing group is on
     SourceLine where;
+    std::string object{};  // "": the file names none
 };
 
 struct Library {

@@ -66,7 +66,7 @@ SceneData read(Files& files, const std::string& path) {
             smooth_normals(part.mesh);
         else if (!part.mesh.normals.empty())
             order_by_normals(part.mesh);
-        scene.shapes.push_back({std::move(part.mesh), surface.material, surface.emission, part.where});
+        scene.shapes.push_back({std::move(part.mesh), surface.material, surface.emission, part.where, part.object});
     }
     if (scene.shapes.empty() && report.good()) report.error({path, 0}, "there are no faces");
     report.check();

@@ -74,6 +74,7 @@ private:
         bool lamp_per_triangle = false;  // for pbrt every triangle of a mesh is a lamp of its own
         std::optional<std::uint32_t> object;
         std::string owner;  // for messages
+        std::string name;   // of its file, or of its object
         SourceLine where;
     };
 

@@ -65,6 +65,7 @@ void Builder::finish_shape(WaitingShape& waiting) {
     shape.geometry = std::move(*made.geometry);
     shape.material = waiting.alpha ? with_alpha(material, *waiting.alpha) : material;
     shape.where = waiting.where;
+    shape.name = std::move(waiting.name);
     if (waiting.lamp)
         emit(std::move(shape), *waiting.lamp, waiting.lamp_per_triangle);
     else
@@ -98,7 +99,7 @@ void Builder::emit(Shape shape, const AreaLight& lamp, bool each_triangle) {
         return add_shape(std::move(shape), std::nullopt);
     }
     for (std::size_t i = 0; i < mesh->triangles.size(); ++i) {
-        Shape one{single(*mesh, i), shape.material, std::nullopt, shape.where};
+        Shape one{single(*mesh, i), shape.material, std::nullopt, shape.where, shape.name};
         one.emission = lamp.on(area_of(one.geometry));
         add_shape(std::move(one), std::nullopt);
     }

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "core/readers/files.hpp"
 #include "core/readers/pbrt/builder.hpp"
 #include "core/readers/pbrt/materials.hpp"
 #include "core/readers/pbrt/transforms.hpp"
@@ -90,6 +91,7 @@ void Builder::shape(Statement& s) {
     shape.material = state_.material;
     shape.object = open_object_;
     shape.owner = s.parameters.owner();
+    shape.name = stem_of(s.names[0] == "plymesh" ? s.parameters.text("filename", "") : "");
     shape.where = s.where;
     waiting_.push_back(std::move(shape));
 }

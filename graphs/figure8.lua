@@ -1,0 +1,19 @@
+-- The network of figure5.lua, and beside the picture what its operators give each other: the light that the cache looks
+-- at, where photons and records lie, and how densely. To see each in its place in the graph:
+-- lightnet run graphs/figure8.lua -o figure8.exr
+-- lightnet dot graphs/figure8.lua --pictures figure8.exr | dot -Tpng > figure8.png
+file = "glass_ball.pbrt"
+width, height, samples, photons, rays = 256, 256, 16, 100000, 256
+
+scene    = Scene           { file }
+direct   = DirectLighting  { samples = 1 }
+caustics = PhotonMap       { paths = "caustic", photons = photons, gather = 50 }
+global   = PhotonMap       { paths = "diffuse", photons = photons, gather = 50 }
+first    = Combine         { direct, caustics, global }
+soft     = IrradianceCache { first, rays = rays }
+lighting = Combine         { direct, caustics, soft }
+
+dots     = PhotonPositions { of = caustics }
+density  = PhotonDensity   { of = global }
+records  = RecordPositions { of = soft }
+image    = RayTracer       { lighting, show = { global, first, dots, density, records }, scene = scene, samples = samples, film = { width, height, file = "figure8.exr" } }

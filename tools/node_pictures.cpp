@@ -1,0 +1,63 @@
+#include "tools/node_pictures.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+#include <vector>
+
+#include "core/film/exr.hpp"
+#include "core/film/png.hpp"
+#include "core/graph/plan.hpp"
+
+namespace lightnet {
+namespace {
+
+constexpr double white_share = 0.99;  // of the pixels of what is no light
+
+// All but what the renderer sees itself.
+std::vector<Rgb> all_light(const Picture& picture) {
+    auto layers = picture.layers;
+    std::erase_if(layers, [](const PictureLayer& layer) { return layer.name == "emission"; });
+    return sum_of(layers);
+}
+
+bool is_light(const Node& node, const Kind& kind) { return !kind.paths || !kind.paths(node).empty() || kind.onward; }
+
+void scale_to_white(std::vector<Rgb>& pixels) {
+    std::vector<float> values;
+    for (const Rgb& pixel : pixels)
+        if (max_component(pixel) > 0) values.push_back(max_component(pixel));
+    if (values.empty()) return;
+    const auto white = values.begin() + std::ptrdiff_t(white_share * double(values.size() - 1));
+    std::nth_element(values.begin(), white, values.end());
+    for (Rgb& pixel : pixels) pixel *= 1 / *white;
+}
+
+}  // namespace
+
+std::map<std::string, std::string> write_node_pictures(const Graph& graph, const Registry& registry,
+                                                       const std::string& exr) {
+    const Picture picture = read_exr(exr);
+    const std::size_t renderer = renderer_of(graph, registry);
+    std::map<std::string, std::vector<Rgb>> pixels;
+    for (const std::size_t input : graph.inputs_of(renderer)) pixels[graph.nodes[input].name] = all_light(picture);
+    for (const auto* layers : {&picture.layers, &picture.shown})
+        for (const auto& layer : *layers) pixels[layer.name] = layer.pixels;
+    pixels[graph.nodes[renderer].name] = picture.beauty;
+
+    std::map<std::string, std::string> files;
+    for (const Node& node : graph.nodes) {
+        const auto found = pixels.find(node.name);
+        if (found == pixels.end() || found->second.empty()) continue;
+        if (!is_light(node, *registry.find(node.kind))) scale_to_white(found->second);
+        Picture own;
+        own.width = picture.width, own.height = picture.height;
+        own.beauty = std::move(found->second);
+        const auto file = std::filesystem::path(exr).replace_extension("." + node.name + ".png");
+        write_png(file, own);
+        files[node.name] = file.string();
+    }
+    return files;
+}
+
+}  // namespace lightnet
