@@ -146,6 +146,10 @@ const std::string& Scene::material_of(const SurfacePoint& point) const {
 
 Bsdf Scene::bsdf(const SurfacePoint& point) const { return built_->shading.bsdf(point); }
 
+void Scene::bsdfs(std::span<const SurfacePoint> points, std::vector<Bsdf>& to) const {
+    for (const SurfacePoint& point : points) built_->shading.add_bsdf(point, to);
+}
+
 Rgb Scene::emission(const SurfacePoint& point, Vec3 direction) const {
     return built_->lights.emission(point, direction);
 }
