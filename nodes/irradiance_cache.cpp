@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/estimate/even_scattering.hpp"
 #include "core/estimate/gather.hpp"
 #include "core/estimate/hemisphere.hpp"
 #include "core/estimate/irradiance_octree.hpp"
@@ -23,7 +24,8 @@ namespace {
 
 /// Ward, Rubinstein & Clear 1988, "A ray tracing solution for diffuse interreflection", with gradients (Ward & Heckbert
 /// 1992). Rehearsals find the points, from coarse to fine; all places compute the irradiance there; then the records
-/// are frozen. Where none reaches, the irradiance is computed for the question alone and not kept. Only what a surface
+/// are frozen. Where none reaches, the irradiance is computed for the question alone, with a sixteenth of the rays (the
+/// samples of a pixel add up), and not kept. Only what a surface
 /// scatters evenly is interpolated; for the glossy rest the point looks around anew each time. The bias is that of the
 /// interpolation: `accuracy` bounds it.
 class IrradianceCache final : public LightOp {
@@ -34,8 +36,11 @@ public:
           rehearsal_(here.rehearsal()),
           key_(here.key()),
           hemisphere_(static_cast<std::size_t>(here.integer("rays"))),
+          lone_(std::max<std::size_t>(least_lone_rays, static_cast<std::size_t>(here.integer("rays")) / 16)),
           glossy_rays_(static_cast<std::uint32_t>(here.integer("glossy_rays"))),
-          finest_(static_cast<std::uint32_t>(here.integer("stride"))) {
+          finest_(static_cast<std::uint32_t>(here.integer("stride"))),
+          name_(here.name()),
+          keeps_(!here.text("keep").empty()) {
         const auto spacing = [&](const char* name, float usual) {
             const auto given = static_cast<float>(here.number(name));
             return given > 0 ? given : usual * scene_.radius();
@@ -46,10 +51,16 @@ public:
     }
 
     void prepare(Services& services) override {
-        std::vector<IrradianceRecord> records;
+        std::vector<IrradianceRecord> records = older();
+        const std::size_t known = records.size();
+        if (!records.empty())
+            records_ =
+                services.once<IrradianceOctree>([&] { return IrradianceOctree(records, spacing_, scene_.bounds()); });
         for (std::uint32_t stride = coarsest; stride >= finest_; stride /= 2)
             learn(services, services.rehearse(stride), records);
-        services.say(std::to_string(records.size()) + " records");
+        services.say(std::to_string(records.size()) + " records" +
+                     (known > 0 ? ", " + std::to_string(known) + " of them from an earlier run" : ""));
+        if (keeps_) keep(services, records);
     }
 
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
@@ -107,18 +118,21 @@ private:
         return sides;
     }
 
-    /// Of light that arrives evenly from the side of `normal`: exact for surfaces that scatter evenly.
-    static Rgb evenly_scattered(const Bsdf& bsdf, Vec3 outgoing, Vec3 normal, std::uint8_t lobes) {
-        static constexpr std::array<Vec3, 4> around{
-            Vec3{0.5f, 0, 0.8660254f}, {-0.5f, 0, 0.8660254f}, {0, 0.8660254f, 0.5f}, {0, -0.8660254f, 0.5f}};
-        const Frame frame = Frame::around(normal);
-        Rgb sum;
-        for (const Vec3& direction : around) {
-            const Rgb value = bsdf.evaluate(outgoing, frame.to_world(direction), lobes);
-            if (is_black(value) && is_black(sum)) return {};  // opaque: most surfaces, seen from behind
-            sum += value * (0.25f / direction.z);
-        }
-        return sum;
+    // What an earlier run has kept of the same scene.
+    std::vector<IrradianceRecord> older() const {
+        const auto kept = scene_.data().kept.find(name_);
+        if (kept == scene_.data().kept.end()) return {};
+        const Mapped<IrradianceRecord> records(kept->second);
+        return {records.begin(), records.end()};
+    }
+
+    // The result of the last call is what is kept.
+    static void keep(Services& services, std::span<const IrradianceRecord> records) {
+        services.map<IrradianceRecord>(
+            (records.size() + records_per_shard - 1) / records_per_shard, [&](std::size_t shard, auto& out) {
+                const auto some = records.subspan(shard * records_per_shard);
+                out.assign(some.begin(), some.begin() + std::ptrdiff_t(std::min(some.size(), records_per_shard)));
+            });
     }
 
     bool covered(const Side& side) const { return records_ && records_->covers(side.position, side.normal); }
@@ -155,32 +169,35 @@ private:
         for (std::size_t i = 0; i < questions.size(); ++i)
             for (const Side& side : sides_of(questions[i]))
                 if (!is_black(side.scattered) && !covered(side)) wanted.push_back({i, side});
-        return compute(questions, wanted);
+        return compute(questions, wanted, hemisphere_);
     }
 
-    std::vector<IrradianceRecord> compute(std::span<const Query> questions, std::span<const Wanted> wanted) const {
+    static constexpr std::size_t least_lone_rays = 16;
+
+    std::vector<IrradianceRecord> compute(std::span<const Query> questions, std::span<const Wanted> wanted,
+                                          const Hemisphere& hemisphere) const {
         std::vector<Look> looks;
-        looks.reserve(wanted.size() * hemisphere_.size());
+        looks.reserve(wanted.size() * hemisphere.size());
         for (std::size_t i = 0; i < wanted.size(); ++i) {
             const Query& question = questions[wanted[i].question];
             const bool second = i > 0 && wanted[i - 1].question == wanted[i].question;
             const Key stream = child(child(question.stream, key_, second), question.sample);
-            hemisphere_.add_looks(wanted[i].side.origin, wanted[i].side.normal, stream, question.depth, looks);
+            hemisphere.add_looks(wanted[i].side.origin, wanted[i].side.normal, stream, question.depth, looks);
         }
         std::vector<Seen> seen(looks.size());
         look_around(scene_, inputs_, 0, looks, seen);
         std::vector<IrradianceRecord> records;
         for (std::size_t i = 0; i < wanted.size(); ++i)
-            records.push_back(hemisphere_.record(wanted[i].side.position, wanted[i].side.normal,
-                                                 std::span(seen).subspan(i * hemisphere_.size(), hemisphere_.size())));
+            records.push_back(hemisphere.record(wanted[i].side.position, wanted[i].side.normal,
+                                                std::span(seen).subspan(i * hemisphere.size(), hemisphere.size())));
         return records;
     }
 
     void add_computed(std::span<const Query> questions, std::span<const Wanted> wanted, std::span<Rgb> answers) const {
-        const std::size_t at_once = std::max<std::size_t>(1, looks_at_once / hemisphere_.size());
+        const std::size_t at_once = std::max<std::size_t>(1, looks_at_once / lone_.size());
         for (std::size_t first = 0; first < wanted.size(); first += at_once) {
             const auto some = wanted.subspan(first, std::min(at_once, wanted.size() - first));
-            const auto records = compute(questions, some);
+            const auto records = compute(questions, some, lone_);
             for (std::size_t i = 0; i < some.size(); ++i)
                 answers[some[i].question] += some[i].side.scattered * records[i].irradiance;
         }
@@ -220,15 +237,19 @@ private:
     static constexpr std::size_t least_batch = 256;     // points that are computed before the next are chosen
     static constexpr std::size_t points_per_shard = 8;  // some ms, over path tracing
     static constexpr std::size_t looks_at_once = 4096;
+    static constexpr std::size_t records_per_shard = 65536;
 
     const Scene& scene_;
     Inputs inputs_;
     Rehearsal& rehearsal_;
     Key key_;
     Hemisphere hemisphere_;
+    Hemisphere lone_;  // of points that no record reaches: each sample of a pixel has one of its own
     std::uint32_t glossy_rays_;
     std::uint32_t finest_;
     Spacing spacing_;
+    std::string name_;
+    bool keeps_;
     std::shared_ptr<const IrradianceOctree> records_;
 };
 
@@ -266,6 +287,14 @@ std::vector<Param> params() {
          .initial = Value{2.0},
          .least = 1,
          .most = 16},
+        {.name = "extend",
+         .type = ParamType::text,
+         .help = "file of records that a run has kept of this scene, to go on from; empty: none",
+         .initial = Value{""}},
+        {.name = "keep",
+         .type = ParamType::text,
+         .help = "file in which all records are kept for later runs, from the graph's folder; empty: none",
+         .initial = Value{""}},
         {.name = "glossy_rays",
          .type = ParamType::integer,
          .help = "directions in which glossy surfaces look, per question",
@@ -287,6 +316,7 @@ Kind irradiance_cache_kind() {
         .prepares = true,
         .freezes = "irradiance records",
         .onward = "S*D",
+        .keeps = true,
         .params = params(),
         .make_light = [](const NodeContext& here) { return std::make_unique<IrradianceCache>(here); },
     };

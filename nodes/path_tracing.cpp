@@ -1,5 +1,6 @@
 // Indirect light, or all light: what reaches a point by way of other surfaces.
 #include <algorithm>
+#include <bit>
 #include <optional>
 #include <vector>
 
@@ -145,7 +146,7 @@ private:
                 stops.visitors.push_back(
                     {static_cast<std::uint32_t>(path - first), static_cast<std::uint32_t>(stops.points.size() - 1)});
         }
-        for (const SurfacePoint& point : stops.points) stops.bsdfs.push_back(scene_.bsdf(point));
+        scene_.bsdfs(stops.points, stops.bsdfs);
         if (all_)
             for (const auto visitor : stops.visitors) look_around(going, visitor, 0);
         for (const auto visitor : stops.visitors) scatter(going, visitor, 0);
@@ -173,10 +174,17 @@ private:
         found.hidden.resize(found.rays.size());
         scene_.occluded(found.rays, found.hidden);
         for (std::size_t i = 0; i < found.paths.size(); ++i)
-            if (!found.hidden[i]) going.sums[found.paths[i]] += found.light[i];
+            going.sums[found.paths[i]] += nothing_if(found.hidden[i], found.light[i]);
         found.rays.clear();
         found.light.clear();
         found.paths.clear();
+    }
+
+    /// Without a branch, as what is in the way can't be foretold.
+    static Rgb nothing_if(bool hidden, Rgb light) {
+        const std::uint32_t mask = std::uint32_t{hidden} - 1;
+        const auto masked = [&](float x) { return std::bit_cast<float>(std::bit_cast<std::uint32_t>(x) & mask); };
+        return {masked(light.r), masked(light.g), masked(light.b)};
     }
 
     void draw(Numbers& numbers, std::uint32_t depth) const {
@@ -221,7 +229,7 @@ private:
         if (all_ || depth > 1)
             for (const auto [walk, stop] : stops.visitors) meet_lamp(going.walks[walk], stops.points[stop], going);
         if (max_depth_ && depth > max_depth_) return;
-        for (const SurfacePoint& point : stops.points) stops.bsdfs.push_back(scene_.bsdf(point));
+        scene_.bsdfs(stops.points, stops.bsdfs);
         for (const auto visitor : stops.visitors) look_around(going, visitor, depth);
         for (const auto visitor : stops.visitors) scatter(going, visitor, depth);
     }

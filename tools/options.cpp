@@ -193,6 +193,7 @@ private:
             ->type_name("FILE|COLOUR");
         verb.add_option("--exposure", options_.exposure, "how many times the picture becomes twice as bright")
             ->type_name("STOPS");
+        verb.add_flag("--two-sided", options_.two_sided, "no surface is black from behind, as Mitsuba's may be");
         add_constants_option(verb, "define a variable of the scene file, or a constant of GRAPH.lua (may be repeated)");
         add_running(verb);
         verb.add_option("-o,--output", options_.output, "the picture, instead of the scene's name with .exr here")

@@ -35,6 +35,7 @@ struct Options {
     std::string lighting = "path";               // for render: path, direct, ao or a graph file
     std::string environment;                     // for render: a picture's file or a colour; "": as the scene says
     std::optional<double> exposure;              // for render: stops
+    bool two_sided = false;                      // for render: no surface is black from behind
     std::string hosts;                           // file; "": none
     std::optional<std::uint32_t> threads;        // places in this process
     std::optional<std::uint32_t> local_workers;  // daemons to start here

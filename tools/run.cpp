@@ -56,14 +56,7 @@ std::string who_runs(const Graph& graph) {
 }
 
 const char* name_of(Mode mode) {
-    switch (mode) {
-        case Mode::serial:
-            return "serial";
-        case Mode::threads:
-            return "threads";
-        default:
-            return "network";
-    }
+    return mode == Mode::serial ? "serial" : mode == Mode::threads ? "threads" : "network";
 }
 
 RunReport first_page(const RunRequest& request, const Registry& registry, const FilmFormat& film) {
@@ -196,6 +189,7 @@ int Run::perform() {
         SceneData scene = std::move(read->scene);
         override_scene(request_.graph, registry_, files, scene);
         for (const auto& warning : scene.warnings) book_.warn(to_string(warning));
+        book_.will_keep(request_.graph, registry_, scene);
         const float scale = scene.film.scale;
         job_ = make_job(files);
         book_.expose(scale);
@@ -252,6 +246,7 @@ void Run::render_serially(SceneData scene) {
     book_.use(Plan{{PlaceAt{}}, std::vector<std::vector<std::uint32_t>>(job_.graph.nodes.size(), {0})}, job_.graph);
     try {
         run.prepare(made_from(job_), cache(), [this](const std::string& text) { book_.say(text); });
+        book_.write_kept([&](std::size_t node) { return run.last_result(node); });
         book_.phase("render");
         for (std::size_t next = 0; next < tiles_.size() && !stopped(); ++next) {
             const Tile tile = tiles_[next];
@@ -320,6 +315,7 @@ void Run::hand_out(Carrier& carrier, const Plan& plan, const LookAround& look_ar
     Conductor conductor(std::move(options), carrier);
     conductor.propose(plan);
     if (!prepare(conductor, look_around)) return;
+    book_.write_kept([&](std::size_t node) { return conductor.last_result(node); });
     book_.phase("render");
     MasterRenderer::Job job;
     job.run = id_;

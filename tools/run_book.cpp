@@ -8,10 +8,12 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/film/atomic_file.hpp"
 #include "core/film/checkpoint.hpp"
 #include "core/film/exr.hpp"
 #include "core/film/png.hpp"
 #include "core/graph/layout.hpp"
+#include "core/prepare/kept.hpp"
 
 namespace lightnet {
 namespace {
@@ -190,6 +192,22 @@ void RunBook::use(const Plan& plan, const Graph& graph) {
             if (std::count(plan.places_of[node].begin(), plan.places_of[node].end(), place))
                 entry.nodes.push_back(graph.nodes[node].name);
         report_.places.push_back(std::move(entry));
+    }
+}
+
+void RunBook::will_keep(const Graph& graph, const Registry& registry, const SceneData& scene) {
+    for (const auto& [node, file] : files_to_keep(graph, registry))
+        to_keep_.push_back({node, graph.nodes[node].name, file, registry.find(graph.nodes[node].kind)});
+    if (!to_keep_.empty()) scene_ = identity_of(scene);
+}
+
+void RunBook::write_kept(const std::function<Bytes(std::size_t node)>& result_of) {
+    for (const auto& [node, name, file, kind] : to_keep_) {
+        const Bytes result = result_of(node);
+        if (!result) continue;
+        write_file(file, kept_text(*kind, scene_, *result));
+        set("kept." + name, file);
+        say(fmt::format("{}: kept in {}", name, file));
     }
 }
 

@@ -4,18 +4,22 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <future>
 #include <map>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/film/checkpoint.hpp"
 #include "core/film/film.hpp"
 #include "core/film/progress.hpp"
 #include "core/film/run_report.hpp"
 #include "core/graph/plan.hpp"
+#include "core/hash.hpp"
 #include "core/message/counters.hpp"
+#include "core/scene/scene_data.hpp"
 #include "transport/cluster.hpp"
 
 namespace lightnet {
@@ -64,6 +68,11 @@ public:
     bool save_checkpoint();
     void remove_checkpoint();
 
+    /// Nodes of the graph want what they learn kept in files: `scene` is what they learn it of.
+    void will_keep(const Graph& graph, const Registry& registry, const SceneData& scene);
+    /// Writes these files; `result_of` gives what a node has learnt.
+    void write_kept(const std::function<Bytes(std::size_t node)>& result_of);
+
     /// Writes x.exr, x.png and run.json beside them, each whole or not at all. Says what was written.
     void write_picture(const std::string& exr);
     /// Writes run.json beside `exr`.
@@ -83,6 +92,14 @@ private:
 
     Film film_;
     float scale_ = 1;
+    /// What one node has learnt, to be kept.
+    struct ToKeep {
+        std::size_t node = 0;
+        std::string name, file;
+        const Kind* kind = nullptr;
+    };
+    std::vector<ToKeep> to_keep_;
+    Hash scene_;  // whose
     std::optional<Preview> preview_;
     bool previewed_ = false;
     RunReport report_;

@@ -139,17 +139,16 @@ std::optional<Rgb> IrradianceOctree::irradiance(Vec3 position, Vec3 normal, floa
 }
 
 const IrradianceRecord* IrradianceOctree::nearest(Vec3 position, Vec3 normal, float within) const {
-    const Entry* best = nullptr;
+    const Reach* best = nullptr;
     float least = within * within;
-    for_all_near(position, [&](const Reach& reach) {
-        const Entry& entry = records_[reach.entry];
-        const float distance2 = length_squared(position - reach.position);
-        const bool nearer = distance2 < least || (best && distance2 == least && &entry < best);
-        if (!nearer || std::fabs(dot(normal, reach.normal)) < 0.7f) return;
+    for_all_near(position, [&](const Reach& entry) {
+        const float distance2 = length_squared(position - entry.position);
+        const bool nearer = distance2 < least || (best && distance2 == least && entry.entry < best->entry);
+        if (!nearer || std::fabs(dot(normal, entry.normal)) < 0.7f) return;
         best = &entry;
         least = distance2;
     });
-    return best ? &best->record : nullptr;
+    return best ? &records_[best->entry].record : nullptr;
 }
 
 bool IrradianceOctree::covers(Vec3 position, Vec3 normal) const {

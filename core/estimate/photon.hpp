@@ -27,6 +27,11 @@ struct Photon {
     Vec3 towards_light() const {
         return from_octahedral({float(incoming & 0xffff) / half - 1, float(incoming >> 16) / half - 1});
     }
+    /// Of the surface, unit; either side.
+    Vec3 normal() const {
+        const auto part = [&](unsigned shift) { return float(std::int8_t(std::uint8_t(surface >> shift))); };
+        return normalize({part(0), part(8), part(16)});
+    }
     /// Cosine between `normal` and the surface's.
     float cosine_to(Vec3 normal) const {
         const auto part = [&](unsigned shift) { return float(std::int8_t(std::uint8_t(surface >> shift))); };

@@ -85,7 +85,13 @@ void check_layouts(const Hosts& hosts, const Graph& graph, const Registry& regis
         if (!kind || layout_called(entry.name) != Layout::sharded) continue;
         const auto counts = sectors_by_host(hosts, entry.node);
         const auto sectors = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
-        if (!kind->landmarks)
+        const auto taker = std::find_if(graph.nodes.begin(), graph.nodes.end(), [&](const Node& node) {
+            const auto taken = graph.taken_by(*graph.find(node.name));
+            return std::any_of(taken.begin(), taken.end(), [&](auto i) { return graph.nodes[i].name == entry.node; });
+        });
+        if (taker != graph.nodes.end())
+            check.complain(entry, ": it can't be sharded, as '" + taker->name + "' takes all that it keeps");
+        else if (!kind->landmarks)
             check.complain(entry, ": a " + kind->name + " can't be sharded" + kinds_with_sectors(registry));
         else if (sectors < 2)
             check.complain(entry,

@@ -59,6 +59,11 @@ Kind scene_kind() {
          .type = ParamType::text,
          .help = "clay: all surfaces are grey and diffuse; lamps and cut-outs stay",
          .choices = {"clay"},
+         .optional = true},
+        {.name = "two_sided",
+         .type = ParamType::flag,
+         .help =
+             "surfaces that the file has black from behind (Mitsuba's, without a twosided) look alike on both sides",
          .optional = true}};
     return kind;
 }

@@ -80,6 +80,9 @@ struct Kind {
     /// What is wrong with a node whose parameters fit the schema, one sentence each. `scene`: what it will be made
     /// with; null as long as that has not been read.
     std::function<std::vector<std::string>(const Node&, const SceneData* scene)> mistakes = {};
+    bool keeps = false;     // the result of its last call while preparing goes to the file that its parameter `keep`
+                            // names; `extend` names such a file, whose content is in SceneData::kept
+    bool converts = false;  // gives the light of the node whose frozen state it takes, in another representation
     /// Points of the scene that lie about as densely as what a node prepares, the same wherever they are made. Nodes of
     /// a kind that has this can be sharded: what they prepare comes from Services::map_near(), and an answer depends on
     /// nothing that lies farther from its question than was said there. Asks no inputs.

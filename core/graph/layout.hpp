@@ -34,7 +34,8 @@ constexpr std::optional<Layout> layout_called(std::string_view name) {
 std::vector<std::uint32_t> sectors_by_host(const Hosts& hosts, const std::string& node);
 
 /// Which nodes are to be sharded, by name, and into how many sectors: those that the hosts file has in that layout,
-/// with more than one sector. A layout for all nodes means those that can be sharded. Whether it makes sense is said by
+/// with more than one sector. A layout for all nodes means those that can be sharded. Nodes whose frozen state others
+/// take are never. Whether it makes sense is said by
 /// check_hosts().
 std::map<std::string, std::uint32_t> shards_of(const Graph& graph, const Registry& registry, const Hosts& hosts);
 

@@ -45,8 +45,14 @@ private:
         if (kind.paths)
             for (const auto& text = kind.paths(node); const auto& own : text)
                 shares.push_back({PathSet::parse(own), quoted(node.name), 1, false, true, index});
-        if ((!kind.paths && !passes) || (!inputs.empty() && !passes))
+        if ((!kind.paths && !passes && !kind.converts) || (!inputs.empty() && !passes))
             shares.push_back({{}, quoted(node.name), 1, false, false, index});
+        if (kind.converts)
+            for (const std::size_t taken : graph_.taken_by(index))
+                for (Share share : of(taken)) {
+                    share.who = quoted(node.name) + " from " + share.who;
+                    shares.push_back(std::move(share));
+                }
         if (!passes) return shares;
         const PathSet onward = PathSet::parse(kind.onward.value_or(""));
         for (std::size_t i = 0; i < inputs.size(); ++i)

@@ -64,8 +64,8 @@ struct HostOffer {
 /// Spreads the graph over the hosts that are there. Without a hosts file (or where an entry names no nodes) each place
 /// holds the whole network. A node whose hosts are all absent is put on the place that holds the fewest nodes. Sectors
 /// of sharded nodes go to the hosts of the file in its order; hosts that it doesn't name hold only those that have lost
-/// theirs, and nobody holds the sharded node itself. Who
-/// takes a node's frozen state has that node beside it on all its places.
+/// theirs, and nobody holds the sharded node itself. Who takes a node's frozen state has that node beside it on all its
+/// places.
 Plan plan(const Graph& graph, const Registry& registry, const Hosts& hosts, const std::vector<HostOffer>& offers);
 
 /// Every node of the graph has a row, and every place that is named is there. Plans that arrive are checked.

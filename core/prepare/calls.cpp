@@ -160,6 +160,13 @@ std::map<std::string, Hash> Calls::hashes() const {
     return hashes;
 }
 
+Bytes Calls::last_result(std::size_t node) const {
+    Bytes last;
+    for (const auto& [key, call] : calls_)
+        if (key.first == node && call.result()) last = call.result();
+    return last;
+}
+
 const Call* Calls::unfinished(std::size_t node) const {
     for (const auto& [key, call] : calls_)
         if (key.first == node && !call.done()) return &call;

@@ -92,6 +92,8 @@ public:
     void all_have(std::size_t node, std::uint32_t number);
     /// Node → hash over all its results.
     std::map<std::string, Hash> hashes() const;
+    /// Of the node's last call; null: it has none.
+    Bytes last_result(std::size_t node) const;
     /// The call of the node that has no result yet.
     const Call* unfinished(std::size_t node) const;
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/graph/graph_film.hpp"
+#include "core/prepare/kept.hpp"
 #include "core/readers/read_scene.hpp"
 
 namespace lightnet {
@@ -51,6 +52,8 @@ SceneOverrides scene_overrides(const Graph& graph, const Registry& registry) {
     overrides.environment_scale = number(params, "environment_scale").value_or(1);
     overrides.exposure = number(params, "exposure").value_or(0);
     overrides.clay = params.contains("material");
+    const auto two_sided = params.find("two_sided");
+    overrides.two_sided = two_sided != params.end() && std::get<bool>(two_sided->second.data);
     return overrides;
 }
 
@@ -69,6 +72,7 @@ std::map<std::string, std::string> scene_constants(const Graph& graph, const Reg
 void override_scene(const Graph& graph, const Registry& registry, Files& files, SceneData& scene) {
     apply(scene_overrides(graph, registry), scene, files, scene_of(graph, registry).where);
     std::vector<Problem> problems;
+    take_up_kept(graph, registry, files, scene, problems);
     for (const auto& node : graph.nodes)
         if (const Kind* kind = registry.find(node.kind); kind && kind->mistakes)
             for (const auto& what : kind->mistakes(node, &scene))

@@ -106,6 +106,8 @@ void apply(const SceneOverrides& overrides, SceneData& scene, Files& files, cons
     for (auto& environment : scene.environments) environment.radiance *= overrides.environment_scale;
     scene.film.scale *= std::exp2(overrides.exposure);
     if (overrides.clay) make_clay(scene);
+    if (overrides.two_sided)
+        for (auto& material : scene.materials) material.one_sided = false;
 }
 
 }  // namespace lightnet

@@ -26,6 +26,7 @@ struct SceneOverrides {
     float environment_scale = 1;                                 // of whatever is around the scene then
     float exposure = 0;                                          // stops: doublings of the picture's brightness
     bool clay = false;                                           // all surfaces grey and diffuse
+    bool two_sided = false;                                      // none is black from behind
 };
 
 /// Changes the scene, the same on every host. Opens files only through `files`. Throws UserError, which names `where`.

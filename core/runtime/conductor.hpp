@@ -57,6 +57,9 @@ public:
     /// What was prepared: node → content hash of all its results.
     std::map<std::string, Hash> prepared() const { return calls_.hashes(); }
 
+    /// The result of a node's last call, when it is prepared; null: it made none.
+    Bytes last_result(std::size_t node) const { return calls_.last_result(node); }
+
     bool ask(const PlaceAt& to, Message& message) override;
     void reply(Message message) override { carrier_.reply(std::move(message)); }
     /// Work for the master; plans in force. Preparing goes on inside.

@@ -53,6 +53,11 @@ protected:
 private:
     template <class Make>
     Bytes recall(const Make& make) {
+        return run_.last_results_[node_] = found_or(make);
+    }
+
+    template <class Make>
+    Bytes found_or(const Make& make) {
         const Hash recipe = recipes_.of(node_, call_++, rehearsed_);
         if (cache_)
             if (auto known = cache_->find(recipe)) return known;
@@ -94,6 +99,11 @@ void SerialRun::prepare(const std::string& made_from, ResultCache* cache,
         assembly_.prepare(node, services);
     }
     counters_.tiles = 0;  // those of rehearsals make no picture
+}
+
+Bytes SerialRun::last_result(std::size_t node) const {
+    const auto found = last_results_.find(node);
+    return found == last_results_.end() ? nullptr : found->second;
 }
 
 std::vector<Rgb> SerialRun::render(const Tile& tile) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -22,6 +23,8 @@ public:
     /// lines for the user go to `say`.
     void prepare(const std::string& made_from, ResultCache* cache = nullptr,
                  const std::function<void(const std::string&)>& say = {});
+    /// The result of a node's last call while it prepared; null: it made none.
+    Bytes last_result(std::size_t node) const;
     /// All samples of the tile's block: see Renderer::render.
     std::vector<Rgb> render(const Tile& tile);
     Counters counters() const;
@@ -35,6 +38,7 @@ private:
     Counters counters_;
     std::uint64_t rays_before_;
     std::vector<std::unique_ptr<CallPort>> ports_;
+    std::map<std::size_t, Bytes> last_results_;
     NoLocks locks_;
     Assembly assembly_;
 };

@@ -8,6 +8,7 @@
 #include "core/scene/triangle.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -105,8 +106,30 @@ void AreaLamps::add_lamp(std::uint32_t shape, std::uint32_t first, std::uint32_t
     if (const auto* ball = std::get_if<Sphere>(&data_.shapes[shape].geometry))
         lamp.area = 4 * pi * ball->radius * ball->radius;
     if (!std::isfinite(lamp.area)) lamp.area = 0;  // never chosen
+    if (lamp.plain && facets == 2)
+        if (const auto whole = parallelogram(facets_[first], facets_[first + 1])) {
+            lamp.whole = std::uint32_t(wholes_.size());
+            wholes_.push_back(*whole);
+        }
     lamp.mean = mean_of_texture(lamp);
     lamps_.push_back(lamp);
+}
+
+// Of two triangles that are its halves.
+std::optional<AreaLamps::Facet> AreaLamps::parallelogram(const Facet& first, const Facet& second) {
+    const auto corners_of = [](const Facet& f) {
+        return std::array{f.corner, f.corner + f.first_edge, f.corner + f.second_edge};
+    };
+    const auto a = corners_of(first), b = corners_of(second);
+    const float tolerance = 1e-5f * (length(first.first_edge) + length(first.second_edge));
+    const auto near = [&](Vec3 p, Vec3 q) { return length(p - q) <= tolerance; };
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) {
+            const Vec3 p = a[(i + 1) % 3], q = a[(i + 2) % 3], r = b[(j + 1) % 3], s = b[(j + 2) % 3];
+            const bool share_a_side = (near(p, r) && near(q, s)) || (near(p, s) && near(q, r));
+            if (share_a_side && near(a[i] + b[j], p + q)) return Facet{a[i], p - a[i], q - a[i], first.normal};
+        }
+    return {};
 }
 
 // Of 16 points. Never nothing: what lies between them may shine.
@@ -173,9 +196,10 @@ std::optional<LightSample> AreaLamps::sample(std::size_t lamp, Vec3 from, Vec2 u
 }
 
 std::optional<LightSample> AreaLamps::from_mesh(const Lamp& lamp, Vec3 from, Vec2 u) const {
-    const std::uint32_t facet = facet_of(lamp, u.x);
-    const auto& [corner, first_edge, second_edge, normal] = facets_[facet];
-    const Vec2 at = triangle(u);
+    const bool whole = lamp.whole != none;
+    const std::uint32_t facet = whole ? 0 : facet_of(lamp, u.x);
+    const auto& [corner, first_edge, second_edge, normal] = whole ? wholes_[lamp.whole] : facets_[facet];
+    const Vec2 at = whole ? u : triangle(u);
     const Vec3 position = corner + first_edge * at.x + second_edge * at.y;
     const Vec3 way = position - from;
     const float distance2 = length_squared(way);
@@ -284,7 +308,7 @@ bool AreaLamps::is_there(const Lamp& lamp, const Spot& spot) const {
 
 std::size_t AreaLamps::memory() const {
     return lamps_.size() * sizeof(Lamp) + facets_.size() * sizeof(Facet) + ends_.size() * sizeof(float) +
-           balls_.size() * sizeof(Ball) + places_.size() * sizeof(Place);
+           wholes_.size() * sizeof(Facet) + balls_.size() * sizeof(Ball) + places_.size() * sizeof(Place);
 }
 
 }  // namespace lightnet

@@ -45,6 +45,7 @@ public:
     std::size_t memory() const;
 
 private:
+    static constexpr std::uint32_t none = 0xffffffffu;
     struct Facet {
         Vec3 corner, first_edge, second_edge, normal;
     };
@@ -54,8 +55,9 @@ private:
         float area = 0;                       // m²
         Rgb radiance;
         bool two_sided = false;
-        bool plain = true;  // neither texture nor holes
-        Rgb mean{1, 1, 1};  // of the texture
+        bool plain = true;           // neither texture nor holes
+        std::uint32_t whole = none;  // into wholes_
+        Rgb mean{1, 1, 1};           // of the texture
     };
     struct Ball {
         Vec3 center;
@@ -68,6 +70,7 @@ private:
         float u = 0, v = 0;
     };
     void add_mesh(std::uint32_t shape, const Mesh& mesh);
+    static std::optional<Facet> parallelogram(const Facet& first, const Facet& second);
     void add_lamp(std::uint32_t shape, std::uint32_t first, std::uint32_t facets);
     Rgb mean_of_texture(const Lamp& lamp) const;
     Rgb texture_at(std::uint32_t shape, std::uint32_t primitive, float u, float v) const;
@@ -83,15 +86,15 @@ private:
     const Shading& shading_;
     std::vector<Lamp> lamps_;
     std::vector<Facet> facets_;
-    std::vector<float> ends_;  // by facet: share of its lamp's area up to and with it
-    std::vector<Ball> balls_;  // one around each shape that shines
+    std::vector<float> ends_;    // by facet: share of its lamp's area up to and with it
+    std::vector<Facet> wholes_;  // parallelograms of two triangles, which can be chosen from at once
+    std::vector<Ball> balls_;    // one around each shape that shines
     struct Place {
         std::uint32_t lamp = none;  // the first of the shape's
         std::uint32_t facet = 0;    // the first of the shape's
         bool by_triangle = false;   // each triangle is a lamp
     };
     std::vector<Place> places_;  // by shape
-    static constexpr std::uint32_t none = 0xffffffffu;
 };
 
 }  // namespace lightnet

@@ -32,6 +32,14 @@ public:
 
     const MaterialNeeds& needs(MaterialId material) const { return made_[material].needs; }
     Bsdf bsdf(MaterialId material, const SurfacePoint& point) const;
+    /// The same, made where it is to stay.
+    void add_bsdf(MaterialId material, const SurfacePoint& point, std::vector<Bsdf>& to) const {
+        const Made& made = made_[material];
+        if (made.simple)
+            to.emplace_back(point.shading, point.normal, *made.plain);
+        else
+            to.push_back(bsdf(material, point));
+    }
     /// Share of the light that meets the surface.
     float opacity(MaterialId material, const TexturePlace& place) const;
 

@@ -144,6 +144,10 @@ const SceneData& Scene::data() const { return built_->data; }
 
 Bsdf Scene::bsdf(const SurfacePoint& point) const { return built_->shading.bsdf(point); }
 
+void Scene::bsdfs(std::span<const SurfacePoint> points, std::vector<Bsdf>& to) const {
+    for (const SurfacePoint& point : points) built_->shading.add_bsdf(point, to);
+}
+
 Rgb Scene::emission(const SurfacePoint& point, Vec3 direction) const {
     return built_->lights.emission(point, direction);
 }

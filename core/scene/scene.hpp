@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/bsdf/bsdf.hpp"
 #include "core/light/query.hpp"
@@ -62,6 +63,8 @@ public:
     void surfaces(std::span<const Hit> hits, std::span<SurfacePoint> points) const;
     /// How the surface scatters there.
     Bsdf bsdf(const SurfacePoint& point) const;
+    /// The same of many points; appended.
+    void bsdfs(std::span<const SurfacePoint> points, std::vector<Bsdf>& to) const;
 
     /// Radiance that the surface itself emits into `direction` (unit, away from it).
     Rgb emission(const SurfacePoint& point, Vec3 direction) const;

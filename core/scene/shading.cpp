@@ -161,6 +161,10 @@ bool Shading::is_there(std::uint32_t geometry, std::uint32_t primitive, float u,
     return float(here >> 40) * 0x1p-24f < opacity;
 }
 
+void Shading::add_bsdf(const SurfacePoint& point, std::vector<Bsdf>& to) const {
+    materials_.add_bsdf(data_.shapes[point.geometry].material, point, to);
+}
+
 Bsdf Shading::bsdf(const SurfacePoint& point) const {
     return materials_.bsdf(data_.shapes[point.geometry].material, point);
 }

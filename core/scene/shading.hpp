@@ -27,6 +27,7 @@ public:
     /// The same, put where it is wanted: copies of what has just been written wait for it.
     void find(std::uint32_t geometry, std::uint32_t primitive, float u, float v, SurfacePoint& point) const;
     Bsdf bsdf(const SurfacePoint& point) const;
+    void add_bsdf(const SurfacePoint& point, std::vector<Bsdf>& to) const;
 
     /// What textures may depend on there, by the same coordinates.
     TexturePlace place(std::uint32_t geometry, std::uint32_t primitive, float u, float v) const;

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "core/math/samples.hpp"
 #include "tests/support/rig.hpp"
 #include "tests/support/small_scenes.hpp"
 
@@ -71,6 +74,76 @@ TEST(DirectLighting, SeesTheEnvironmentWhereNothingHidesIt) {
     const Scene scene(data);
     Rig rig(scene);
     EXPECT_NEAR(answer(rig.add("DirectLighting", "direct"), middle, 16).r, 1.2f, 1e-5f);
+}
+
+struct Spread {
+    double mean = 0, variance = 0;
+};
+
+Spread spread_of(const LightOp& op, const Query& question, std::uint32_t answers) {
+    std::vector<Query> questions(answers, question);
+    for (std::uint32_t i = 0; i < answers; ++i) questions[i].stream = i;
+    std::vector<Rgb> found(answers);
+    op.light(questions, found);
+    Spread spread;
+    for (const Rgb& one : found) spread.mean += one.g / answers;
+    for (const Rgb& one : found) spread.variance += std::pow(one.g - spread.mean, 2) / (answers - 1);
+    return spread;
+}
+
+TEST(DirectLighting, TakesAsManySamplesAsItsErrorWants) {
+    const Scene scene(floor_and(quad({-1, 0.2f, -1}, {2, 0, 0}, {0, 0, 2}), {10, 10, 10}));
+    Rig rig(scene);
+    Query question = middle;
+    question.u = 0, question.v = 0.5f;
+    const auto exact = spread_of(rig.add("DirectLighting", "many", {}, {{"samples", Value{64.0}}}), question, 4000);
+    for (const double error : {0.1, 0.05}) {
+        const auto& op =
+            rig.add("DirectLighting", "direct", {}, {{"error", Value{error}}, {"most_samples", Value{1024.0}}});
+        const auto spread = spread_of(op, question, 4000);
+        EXPECT_NEAR(spread.mean, exact.mean, 4 * std::sqrt(spread.variance / 4000) + 1e-3 * exact.mean)
+            << "trials decide, and are no part of the answer";
+        EXPECT_LT(std::sqrt(spread.variance), 1.5 * error * exact.mean);
+    }
+    const auto& none = rig.add("DirectLighting", "one", {}, {{"error", Value{1.0}}, {"most_samples", Value{1.0}}});
+    EXPECT_GT(std::sqrt(spread_of(none, question, 4000).variance), 0.1 * exact.mean) << "one sample has noise to lose";
+}
+
+// 400 lamps over a floor: few of them are near. Choosing all alike, as their power says, is what the tree is held to.
+TEST(DirectLighting, ChoosesAmongManyLampsTheFewThatMatter) {
+    SceneData data;
+    add(data, quad({-50, 0, -50}, {0, 0, 100}, {100, 0, 0}), diffuse(data, 0.6f));
+    const std::uint32_t black = diffuse(data, 0);
+    std::vector<Vec3> corners;
+    for (int x = 0; x < 20; ++x)
+        for (int z = 0; z < 20; ++z) {
+            corners.push_back({float(x) - 9.6f, 1, float(z) - 9.6f});
+            add(data, quad(corners.back(), {0.2f, 0, 0}, {0, 0, 0.2f}), black).emission =
+                AreaEmission{{10, 10, 10}, false};
+        }
+    const Scene scene(std::move(data));
+    Rig rig(scene);
+    Query question = middle;
+    question.u = 0, question.v = 0.5f;
+    const Vec3 point = scene.surface(question).position;
+    ASSERT_NEAR(length(point), 0, 1e-4f);
+    const auto tree = spread_of(rig.add("DirectLighting", "direct"), question, 20000);
+
+    Spread even;
+    constexpr int count = 20000;
+    std::vector<double> values;
+    for (int i = 0; i < count; ++i) {
+        Samples samples(17, std::uint32_t(i));
+        const auto& corner = corners[std::min(corners.size() - 1, std::size_t(samples.next() * float(corners.size())))];
+        const Vec2 u = samples.next_2d();
+        const Vec3 way = corner + Vec3{0.2f * u.x, 0, 0.2f * u.y} - point;
+        const double distance2 = length_squared(way), cosine = way.y / std::sqrt(distance2);
+        values.push_back(0.6 / 3.14159265 * 10 * cosine * cosine / distance2 * 0.04 * double(corners.size()));
+        even.mean += values.back() / count;
+    }
+    for (const double value : values) even.variance += std::pow(value - even.mean, 2) / (count - 1);
+    EXPECT_NEAR(tree.mean, even.mean, 4 * std::sqrt((tree.variance + even.variance) / count));
+    EXPECT_LT(tree.variance, 0.35 * even.variance) << "a third, as the decisions say";
 }
 
 TEST(DirectLighting, DependsOnItsQuestionAlone) {

@@ -51,6 +51,32 @@ TEST(PhotonMap, FindsTheCausticThatPathTracingFinds) {
     EXPECT_NEAR(caustic, all, 0.04 * all);
 }
 
+// The light of the map itself, in steps.
+TEST(PhotonIrradiance, IsAsBrightAsTheMapThatItTakes) {
+    for (const char* paths : {"all", "diffuse"}) {
+        SmallNetwork network(furnace(0.5f, 1), 24, 24);
+        network.add("map", "PhotonMap", {}, {{"paths", word(paths)}, {"photons", number(20000)}})
+            .add("quick", "PhotonIrradiance", {}, {{"of", Value{NodeRef{"map"}}}})
+            .lit_by("map")
+            .show({"quick"});
+        const auto pictures = network.pictures(4);
+        const double map = mean_of(pictures.at("map"));
+        EXPECT_NEAR(mean_of(pictures.at("quick")), map, 0.02 * map);
+    }
+}
+
+TEST(PhotonIrradiance, ServesACacheLikeTheMap) {
+    const auto soft = [](bool quick) {
+        SmallNetwork network(furnace(0.5f, 1), 24, 24);
+        network.add("map", "PhotonMap", {}, {{"paths", word("all")}, {"photons", number(20000)}});
+        if (quick) network.add("records", "PhotonIrradiance", {}, {{"of", Value{NodeRef{"map"}}}});
+        network.add("soft", "IrradianceCache", {quick ? "records" : "map"}, {{"rays", number(64)}});
+        return mean_of(network.picture(2));
+    };
+    const double map = soft(false);
+    EXPECT_NEAR(soft(true), map, 0.02 * map);
+}
+
 TEST(PhotonMap, SaysThatItNeedsMoreMemoryThanItMayHave) {
     SmallNetwork network(lit_floor(), 4, 4);
     network.add("map", "PhotonMap", {}, {{"paths", word("all")}, {"photons", number(100000)}, {"memory", number(1)}});

@@ -72,6 +72,31 @@ TEST(RecordPositions, DrawsDotsWhereACacheHasItsRecords) {
     EXPECT_LT(mean(tiny.pictures(4).at("records")), 0.5 * covered) << "only where it was asked about the record itself";
 }
 
+// A conversion gives the light of the map that it takes, so both together count it twice.
+TEST(PhotonIrradiance, CountsThePathsOfItsMap) {
+    const auto warnings = [](const char* also) {
+        const Registry registry(standard_nodes());
+        std::vector<Node> nodes{{"scene", "Scene", {word("none.pbrt")}, {}, {}},
+                                {"map", "PhotonMap", {}, {{"paths", word("indirect")}}, {}},
+                                {"quick", "PhotonIrradiance", {}, {{"of", node("map")}}, {}},
+                                {"direct", "DirectLighting", {}, {}, {}},
+                                {"lighting", "Combine", {node("quick"), node(also)}, {}, {}},
+                                {"image",
+                                 "RayTracer",
+                                 {node("lighting")},
+                                 {{"scene", node("scene")}, {"film", Value{Table{{number(8), number(8)}, {}}}}},
+                                 {}}};
+        const auto found = examine({"test.lua", nodes}, registry);
+        EXPECT_TRUE(found.problems.empty());
+        std::string said;
+        for (const auto& problem : found.warnings) said += to_string(problem) + "\n";
+        for (const auto& note : found.notes) said += to_string(note) + "\n";
+        return said;
+    };
+    EXPECT_EQ(warnings("direct"), "");
+    EXPECT_THAT(warnings("map"), testing::HasSubstr("is counted by"));
+}
+
 std::string mistakes(SmallNetwork& network) {
     try {
         network.picture(1);

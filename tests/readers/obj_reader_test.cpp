@@ -104,6 +104,8 @@ TEST(Mtl, MakesMatterOfKdAndLightOfKe) {
 
 TEST(Mtl, KnowsMirrorsAndGlass) {
     EXPECT_NO_THROW(model_of<ConductorMaterial>(with_material("Kd 0 0 0\nKs .9 .9 .9\nillum 3\n")));
+    for (const char* none : {"illum 4.4e28\n", "illum -7e30\n", "illum 11\n"})
+        EXPECT_NO_THROW(model_of<DiffuseMaterial>(with_material("Kd .5 .5 .5\n" + std::string(none)))) << none;
     const auto glass = with_material("Ni 1.33\nTf .5 1 1\nd 0\nillum 7\n");
     EXPECT_EQ(model_of<DielectricMaterial>(glass).eta, 1.33f);
     EXPECT_FALSE(material_of(glass).opacity);  // glass is there, though it lets all through

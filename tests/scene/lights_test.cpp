@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <map>
 
 #include "core/math/samples.hpp"
@@ -41,6 +42,41 @@ TEST(Lights, FillTheSolidAngleOfASquare) {
     EXPECT_NEAR(solid_angle(scene, {0, 0, 0}), 4 * std::asin(1.0 / 5), 2e-3);
     EXPECT_NEAR(solid_angle(scene, {0, 0, 1}), 4 * std::asin(1.0 / 2), 5e-3);
     EXPECT_EQ(solid_angle(scene, {0, 0, 3}), 0);  // behind it
+}
+
+// A parallelogram is sampled as one, however its halves are cut and written; other pairs of triangles are not.
+TEST(Lights, FillASquareHoweverItsHalvesAreWritten) {
+    Mesh square;
+    square.positions = {{-1, -1, 2}, {-1, 1, 2}, {1, 1, 2}, {1, -1, 2}};
+    const std::array<std::array<std::uint32_t, 3>, 2> cuts[2] = {{{{0, 1, 2}, {0, 2, 3}}}, {{{0, 1, 3}, {1, 2, 3}}}};
+    for (const auto& [first, second] : cuts)
+        for (std::uint32_t i = 0; i < 9; ++i) {
+            const auto turned = [](const std::array<std::uint32_t, 3>& t, std::uint32_t by) {
+                return std::array{t[by % 3], t[(by + 1) % 3], t[(by + 2) % 3]};
+            };
+            square.triangles = {turned(first, i / 3), turned(second, i % 3)};
+            const Scene scene = one_lamp(square);
+            ASSERT_NEAR(solid_angle(scene, {0, 0, 0}), 4 * std::asin(1.0 / 5), 2e-3);
+            Vec3 mean;
+            for (std::uint32_t k = 0; k < 1024; ++k) {
+                const Vec3 at = draw(scene, {0, 0, 0}, k)->position;
+                ASSERT_LE(std::max(std::fabs(at.x), std::fabs(at.y)), 1.00001f);
+                mean += at * (1 / 1024.0f);
+            }
+            ASSERT_NEAR(length(mean - Vec3{0, 0, 2}), 0, 5e-3f);
+        }
+}
+
+TEST(Lights, FillTwoTrianglesThatAreNoParallelogram) {
+    Mesh kite;
+    kite.positions = {{-1, -1, 2}, {-1, 1, 2}, {1, 1, 2}, {2, -2, 2}};
+    kite.triangles = {{0, 1, 2}, {0, 2, 3}};
+    const auto half = [&](std::uint32_t i) {
+        Mesh triangle = kite;
+        triangle.triangles = {kite.triangles[i]};
+        return solid_angle(one_lamp(triangle), {0, 0, 0});
+    };
+    EXPECT_NEAR(solid_angle(one_lamp(kite), {0, 0, 0}) / (half(0) + half(1)), 1, 1e-2);
 }
 
 TEST(Lights, FillTheSolidAngleOfABallHoweverSmall) {

@@ -133,5 +133,15 @@ TEST(SceneOverrides, OfClayKeepWhatIsCutOutAndWhatIsNotThere) {
     EXPECT_TRUE(std::holds_alternative<NoMaterial>(clay.materials[1].model));
 }
 
+TEST(SceneOverrides, TakeBlackBacksAway) {
+    SceneData scene = with_camera();
+    scene.materials.resize(2);
+    scene.materials[1].one_sided = true;
+    SceneOverrides overrides;
+    EXPECT_TRUE(changed(scene, overrides).materials[1].one_sided);
+    overrides.two_sided = true;
+    EXPECT_FALSE(changed(scene, overrides).materials[1].one_sided);
+}
+
 }  // namespace
 }  // namespace lightnet

@@ -69,7 +69,7 @@ TEST(Render, MakesAGraphOfASceneFile) {
 TEST(Render, TakesTheOptionsOfRun) {
     Bench lightnet;
     lightnet({"render", lightnet.scene, "--samples", "3", "--size", "8x4", "-o", "y.exr", "--local-workers", "2",
-              "--lighting", "ao", "--env", "1,0.5,0.25", "--exposure", "2"});
+              "--lighting", "ao", "--env", "1,0.5,0.25", "--exposure", "2", "--two-sided"});
     const RunRequest& run = lightnet.runs.at(0);
     EXPECT_EQ(film_of(run.graph, lightnet.registry), (GraphFilm{8, 4, ""}));
     EXPECT_EQ(run.output, "y.exr");
@@ -77,6 +77,7 @@ TEST(Render, TakesTheOptionsOfRun) {
     EXPECT_EQ(run.graph.nodes[1].kind, "AmbientOcclusion");
     EXPECT_EQ(lightnet.overrides().environment, (std::variant<std::monostate, Rgb, std::string>(Rgb{1, 0.5f, 0.25f})));
     EXPECT_EQ(lightnet.overrides().exposure, 2);
+    EXPECT_TRUE(lightnet.overrides().two_sided);
 }
 
 TEST(Render, DefinesVariablesOfTheSceneFileOnAllHosts) {

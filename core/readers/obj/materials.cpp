@@ -217,8 +217,14 @@ private:
         return {alpha < 0.02f ? 0 : alpha, alpha < 0.02f ? 0 : alpha, {}, Roughness::Means::alpha};
     }
 
+    /// There are the models 0 to 10; others count as the usual one.
+    static int illumination(const Statements& said) {
+        const float value = said.number("illum", 2);
+        return value >= 0 && value <= 10 ? static_cast<int>(value) : 2;
+    }
+
     Material model(const Statements& said) {
-        const int illum = static_cast<int>(said.number("illum", 2));
+        const int illum = illumination(said);
         const Rgb specular = said.colour("Ks", {});
         const float eta = std::clamp(said.number("Ni", 1.5f), 1.0f, 4.0f);
         if (said.has("Pr") || said.has("Pm") || said.has("Pc") || said.has("Ps")) return principled(said, eta);
@@ -258,7 +264,7 @@ private:
         model.clearcoat = std::clamp(said.number("Pc", 0), 0.0f, 1.0f);
         model.clearcoat_roughness.u = model.clearcoat_roughness.v = std::clamp(said.number("Pcr", 0), 0.0f, 1.0f);
         model.eta = eta > 1 ? eta : 1.5f;
-        const int illum = static_cast<int>(said.number("illum", 2));
+        const int illum = illumination(said);
         if (illum == 4 || illum == 6 || illum == 7 || illum == 9) model.transmission = 1, model.thin = false;
         return {said.name, model};
     }

@@ -1,0 +1,17 @@
+// What surfaces make of light that arrives evenly.
+#pragma once
+
+#include <cstdint>
+
+#include "core/bsdf/bsdf.hpp"
+#include "core/math/rgb.hpp"
+#include "core/math/vec.hpp"
+
+namespace lightnet {
+
+/// Radiance that the named lobes scatter to `outgoing` per irradiance (sr⁻¹), when light arrives evenly from the side
+/// of `normal` (unit): exact for surfaces that scatter evenly, else the mean of four directions. Black for opaque
+/// surfaces seen from the other side.
+Rgb evenly_scattered(const Bsdf& bsdf, Vec3 outgoing, Vec3 normal, std::uint8_t lobes);
+
+}  // namespace lightnet

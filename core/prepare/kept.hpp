@@ -1,0 +1,37 @@
+// What a node has learnt in one run, kept in a file for later ones.
+#pragma once
+
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/bytes.hpp"
+#include "core/graph/graph.hpp"
+#include "core/graph/kind.hpp"
+#include "core/hash.hpp"
+#include "core/readers/files.hpp"
+#include "core/scene/scene_data.hpp"
+
+namespace lightnet {
+
+/// Names what light meets in a scene: surfaces, where they stand, what they are made of, and what shines. Camera, film
+/// and the places of files don't count: another view of a room is the same room.
+Hash identity_of(const SceneData& scene);
+
+/// The content of a file that keeps what a node of that kind has learnt: some lines of text, then the results.
+std::string kept_text(const Kind& kind, const Hash& scene, std::span<const std::byte> results);
+
+/// The results in such a file. Throws Error when it is none, or of another kind or scene.
+Bytes kept_results(const Kind& kind, const Hash& scene, std::span<const std::byte> file);
+
+/// Reads the files that nodes of a checked graph go on from (`extend`) into scene.kept. Appends to `problems` what is
+/// wrong with them.
+void take_up_kept(const Graph& graph, const Registry& registry, Files& files, SceneData& scene,
+                  std::vector<Problem>& problems);
+
+/// The nodes of a checked graph whose results are to be kept, and in which files (`keep`), taken from the graph's
+/// folder.
+std::vector<std::pair<std::size_t, std::string>> files_to_keep(const Graph& graph, const Registry& registry);
+
+}  // namespace lightnet
