@@ -48,7 +48,7 @@ const std::vector<Row>& rows() {
         {"indirect", "path_all.lua", "indirect.pbrt", indirect, {}, false, 6e-4, 40},
         {"terrain", "path_all.lua", "terrain.pbrt", "terrain.combined.exr", {}, false, 0, 5},
         {"cornell_grey_layers", "path.lua", "cornell_grey.pbrt", grey, {{"samples", "64"}}, false, 0, 3.5},
-        {"indirect_cache", "irradiance_cache.lua", "indirect.pbrt", indirect, {{"rays", "384"}}, true, 6e-4, 0.8},
+        {"indirect_cache", "irradiance_cache.lua", "indirect.pbrt", indirect, {{"rays", "512"}}, true, 6e-4, 0.8},
         {"cornell_grey_cache", "irradiance_cache.lua", "cornell_grey.pbrt", grey, {{"rays", "256"}}, true, 0, 0.7},
         {"caustic_map_cache", "figure5.lua", "caustic.pbrt", caustic, {}, true, 6e-4, 5},
         {"caustic_progressive", "progressive.lua", "caustic.pbrt", caustic, {{"passes", "96"}}, true, 6e-4, 12},
