@@ -87,6 +87,8 @@ void check_layouts(const Hosts& hosts, const Graph& graph, const Registry& regis
         const auto sectors = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
         if (!kind->landmarks)
             check.complain(entry, ": a " + kind->name + " can't be sharded" + kinds_with_sectors(registry));
+        else if (is_taken(graph, *graph.find(entry.node)))
+            check.complain(entry, ": another node takes all that it keeps, so it can't be sharded");
         else if (sectors < 2)
             check.complain(entry,
                            ": it takes two replicas or more to share it, but this file has " + std::to_string(sectors));
