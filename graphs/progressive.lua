@@ -5,6 +5,6 @@ width, height, passes, photons = 256, 256, 64, 100000
 
 scene    = Scene          { file }
 direct   = DirectLighting { samples = 1 }
-photons  = ProgressivePhotonMapping { paths = "indirect", passes = passes, photons = photons }
-lighting = Combine        { direct, photons }
+indirect = ProgressivePhotonMapping { paths = "indirect", passes = passes, photons = photons }
+lighting = Combine        { direct, indirect }
 image    = RayTracer { lighting, scene = scene, samples = passes, film = { width, height, file = "progressive.exr" } }

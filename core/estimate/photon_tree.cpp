@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <thread>
 #include <tuple>
+#include <utility>
 
 namespace lightnet {
 namespace {
