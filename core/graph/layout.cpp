@@ -31,16 +31,21 @@ std::vector<std::uint32_t> sectors_by_host(const Hosts& hosts, const std::string
     return counts;
 }
 
+bool is_taken(const Graph& graph, std::size_t node) {
+    for (std::size_t taker = 0; taker < graph.nodes.size(); ++taker) {
+        const auto taken = graph.taken_by(taker);
+        if (std::find(taken.begin(), taken.end(), node) != taken.end()) return true;
+    }
+    return false;
+}
+
 std::map<std::string, std::uint32_t> shards_of(const Graph& graph, const Registry& registry, const Hosts& hosts) {
     std::map<std::string, std::uint32_t> shards;
     const auto used = used_nodes(graph, renderer_of(graph, registry));
-    std::vector<bool> taken(graph.nodes.size());
-    for (std::size_t node = 0; node < graph.nodes.size(); ++node)
-        for (const std::size_t other : graph.taken_by(node)) taken[other] = true;
     for (std::size_t node = 0; node < graph.nodes.size(); ++node) {
         const auto& [name, kind, entries, params, where] = graph.nodes[node];
         if (!used[node] || !registry.find(kind)->landmarks || layout_of(hosts, name) != Layout::sharded) continue;
-        if (taken[node]) continue;  // whoever takes its frozen state needs all of it
+        if (is_taken(graph, node)) continue;  // whoever takes its frozen state needs all of it
         const auto counts = sectors_by_host(hosts, name);
         const auto count = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
         if (count > 1) shards[name] = static_cast<std::uint32_t>(std::min<std::uint64_t>(count, most_sectors));

@@ -39,6 +39,9 @@ std::vector<std::uint32_t> sectors_by_host(const Hosts& hosts, const std::string
 /// check_hosts().
 std::map<std::string, std::uint32_t> shards_of(const Graph& graph, const Registry& registry, const Hosts& hosts);
 
+/// Does another node take what this one keeps? Then each place needs all of it.
+bool is_taken(const Graph& graph, std::size_t node);
+
 constexpr std::uint32_t most_sectors = 1024;
 
 /// The graph with a node of its own for each sector, behind all others: "photons#1", "photons#2", … , made like the
