@@ -20,7 +20,7 @@ constexpr auto length = seconds(120);  // of an undisturbed run: all of this mus
 constexpr auto patience = seconds(900);
 #else
 constexpr int cuts = 10, kills = 4, stops = 1;
-constexpr auto length = seconds(0);
+constexpr auto length = seconds(2);
 constexpr auto patience = slowdown * seconds(60);
 #endif
 
