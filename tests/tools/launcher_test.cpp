@@ -184,8 +184,8 @@ TEST(Launcher, DrawsGraphsAndPlans) {
 
 TEST(Launcher, ShowsAndRunsWhatIsSharded) {
     Bench lightnet;
-    const std::string hosts = lightnet.write(
-        "h.lua", "layout = 'sharded'\nplace 'tcp://127.0.0.1:7777' {}\nplace 'tcp://127.0.0.1:7778' {}");
+    const std::string hosts =
+        lightnet.write("h.lua", "layout = 'sharded'\nplace 'tcp://127.0.0.1:7777' {}\nplace 'tcp://127.0.0.1:7778' {}");
     EXPECT_EQ(lightnet({"check", lightnet.graph, "--hosts", hosts}), 0);
     EXPECT_THAT(lightnet.out, HasSubstr(", lighting in 2 sectors\n"));
     EXPECT_EQ(lightnet({"dot", lightnet.graph, "--hosts", hosts}), 0);
