@@ -154,7 +154,7 @@ private:
         const std::uint8_t lobes = bsdf.lobes();
         const Rgb emitted = way.mirrored.weight() * scene_.emission(point, outgoing);
         if (lobes & lobe::rough) {
-            Query question = question_about(*way.hit, outgoing, lobes & lobe::rough, way.depth);
+            Query question = way.mirrored.question_about(*way.hit, lobes, way.depth);
             question.stream = child(look.key, key_, met);
             question.sample = look.sample;
             seen.questions.push_back(question);
@@ -169,17 +169,6 @@ private:
         }
         seen.ways.push_back({way.mirrored, scene_.intersect(way.mirrored.ray()), way.depth + 1});
         return emitted;
-    }
-
-    static Query question_about(const Hit& hit, Vec3 outgoing, int lobes, std::uint32_t depth) {
-        return {.instance = hit.instance,
-                .geometry = hit.geometry,
-                .primitive = hit.primitive,
-                .u = hit.u,
-                .v = hit.v,
-                .outgoing = outgoing,
-                .lobes = static_cast<std::uint8_t>(lobes),
-                .depth = static_cast<std::uint8_t>(std::min(depth, 255u))};
     }
 
     void add_answers(const Seen& seen, std::span<Rgb> pixels) const {

@@ -27,10 +27,6 @@ struct Ggx {
     float visible(Vec3 w) const { return 1 / (1 + lambda(w)); }
     /// Seen from both directions; heights correlated (Heitz 2014, eq. 99).
     float visible(Vec3 a, Vec3 b) const { return 1 / (1 + lambda(a) + lambda(b)); }
-    /// Density of the normals visible from `w`, per steradian (Heitz 2018).
-    float visible_density(Vec3 w, Vec3 m) const {
-        return w.z == 0 ? 0 : visible(w) / std::fabs(w.z) * density(m) * std::fabs(dot(w, m));
-    }
     /// A visible normal. Heitz 2018, "Sampling the GGX Distribution of Visible Normals".
     Vec3 sample_visible(Vec3 w, Vec2 u) const {
         Vec3 stretched = normalize({alpha_u * w.x, alpha_v * w.y, w.z});

@@ -20,17 +20,12 @@ struct Met {
     std::vector<Rgb> weights;
 };
 
-Query question_about(const Look& look, const Hit& hit, Vec3 outgoing, int lobes, std::uint32_t mirrors) {
-    return {.stream = mirrors ? child(look.stream, chain_key, mirrors) : look.stream,
-            .instance = hit.instance,
-            .geometry = hit.geometry,
-            .primitive = hit.primitive,
-            .u = hit.u,
-            .v = hit.v,
-            .outgoing = outgoing,
-            .sample = look.sample,
-            .lobes = static_cast<std::uint8_t>(lobes),
-            .depth = static_cast<std::uint8_t>(std::min(look.depth + 1u + mirrors, 255u))};
+Query question_about(const Look& look, const MirrorWay& way, const Hit& hit, std::uint8_t lobes,
+                     std::uint32_t mirrors) {
+    Query question = way.question_about(hit, lobes, look.depth + 1u + mirrors);
+    question.stream = mirrors ? child(look.stream, chain_key, mirrors) : look.stream;
+    question.sample = look.sample;
+    return question;
 }
 
 void follow(const Scene& scene, const Look& look, std::optional<Hit> hit, std::size_t index, Met& met) {
@@ -41,7 +36,7 @@ void follow(const Scene& scene, const Look& look, std::optional<Hit> hit, std::s
         const Bsdf bsdf = scene.bsdf(point);
         const std::uint8_t lobes = bsdf.lobes();
         if (lobes & lobe::rough) {
-            met.questions.push_back(question_about(look, *hit, -way.ray().direction, lobes & lobe::rough, mirrors));
+            met.questions.push_back(question_about(look, way, *hit, lobes, mirrors));
             met.looks.push_back(index);
             met.weights.push_back(way.weight());
         }

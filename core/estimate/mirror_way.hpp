@@ -1,8 +1,10 @@
 // A ray on its way through mirrors and glass.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
+#include "core/light/query.hpp"
 #include "core/math/rgb.hpp"
 #include "core/math/samples.hpp"
 #include "core/math/vec.hpp"
@@ -21,6 +23,8 @@ public:
 
     /// It has led to a surface, so far away.
     void arrive(float distance);
+    /// The question about rough lobes of that surface, after `depth` scattering events; whose it is, the asker adds.
+    Query question_about(const Hit& hit, std::uint8_t lobes, std::uint32_t depth) const;
     /// Leads on from that surface by one sample of its specular lobes; false: it doesn't. Those whose weight is below
     /// 1 / `keep` are followed seldom, and count more for it.
     bool go_on(const SurfacePoint& point, const Bsdf& bsdf, Samples samples, float keep);

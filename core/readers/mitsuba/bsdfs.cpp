@@ -14,6 +14,13 @@ namespace {
 
 constexpr int deepest = 64;  // bsdfs inside of bsdfs
 
+template <class Model>
+Material one_sided(Model model) {
+    Material material{"", std::move(model)};
+    material.one_sided = true;
+    return material;
+}
+
 /// Models that are black from behind unless they stand in a <twosided>.
 bool opaque(const Material& material) {
     if (const auto* principled = std::get_if<PrincipledMaterial>(&material.model)) return principled->transmission == 0;
@@ -68,9 +75,7 @@ MaterialId Bsdfs::of(const Node& node) {
 MaterialId Bsdfs::plain(bool lamp) {
     auto& known = plain_[lamp ? 1 : 0];
     if (!known) {
-        Material material{"", DiffuseMaterial{context_.assets.grey(lamp ? 0.0f : 0.5f)}};
-        material.one_sided = true;
-        known = context_.assets.add(std::move(material));
+        known = context_.assets.add(one_sided(DiffuseMaterial{context_.assets.grey(lamp ? 0.0f : 0.5f)}));
     }
     return *known;
 }
@@ -135,9 +140,7 @@ Roughness Bsdfs::roughness(Properties& properties, float fallback) {
 }
 
 Material Bsdfs::diffuse(Properties& properties) {
-    Material material{"", DiffuseMaterial{textures_.get(properties, "reflectance", 0.5f)}};
-    material.one_sided = true;
-    return material;
+    return one_sided(DiffuseMaterial{textures_.get(properties, "reflectance", 0.5f)});
 }
 
 Material Bsdfs::rough_diffuse(Properties& properties) {
@@ -202,18 +205,12 @@ ConductorMaterial Bsdfs::metal(Properties& properties) {
     return model;
 }
 
-Material Bsdfs::conductor(Properties& properties) {
-    Material material{"", metal(properties)};
-    material.one_sided = true;
-    return material;
-}
+Material Bsdfs::conductor(Properties& properties) { return one_sided(metal(properties)); }
 
 Material Bsdfs::rough_conductor(Properties& properties) {
     auto model = metal(properties);
     model.roughness = roughness(properties, 0.1f);
-    Material material{"", model};
-    material.one_sided = true;
-    return material;
+    return one_sided(model);
 }
 
 CoatedDiffuseMaterial Bsdfs::coat(Properties& properties) {
@@ -225,18 +222,12 @@ CoatedDiffuseMaterial Bsdfs::coat(Properties& properties) {
     return model;
 }
 
-Material Bsdfs::plastic(Properties& properties) {
-    Material material{"", coat(properties)};
-    material.one_sided = true;
-    return material;
-}
+Material Bsdfs::plastic(Properties& properties) { return one_sided(coat(properties)); }
 
 Material Bsdfs::rough_plastic(Properties& properties) {
     auto model = coat(properties);
     model.roughness = roughness(properties, 0.1f);
-    Material material{"", model};
-    material.one_sided = true;
-    return material;
+    return one_sided(model);
 }
 
 /// A diffuse surface under a highlight of a model that a scene has not.
@@ -247,9 +238,7 @@ Material Bsdfs::highlight(Properties& properties, Roughness rough) {
     const TextureId shine = textures_.get(properties, "specular_reflectance", 0.2f);
     model.specular = std::clamp(luminance(mean_colour(context_.assets.scene(), shine)), 0.0f, 1.0f);
     model.roughness = rough;
-    Material material{"", model};
-    material.one_sided = true;
-    return material;
+    return one_sided(model);
 }
 
 Material Bsdfs::phong(Properties& properties) {
