@@ -12,7 +12,7 @@ find_package(fmt REQUIRED)                                 # text: g++ 12 has no
 find_package(nlohmann_json REQUIRED)                       # canonical text of graphs and plans, run.json
 find_package(CLI11 REQUIRED)                               # command lines (tools)
 find_package(cppzmq REQUIRED)                              # sockets (transport)
-pkg_check_modules(sodium REQUIRED IMPORTED_TARGET libsodium)   # BLAKE2b content hashes (core)
+pkg_check_modules(crypto REQUIRED IMPORTED_TARGET libcrypto)   # SHA-256 content hashes (core)
 pkg_check_modules(lua REQUIRED IMPORTED_TARGET lua5.4-c++)     # the build of Lua whose errors are C++ exceptions
 
 # msgpack-cxx installs a config file under a name of its own; an interface target is surer.

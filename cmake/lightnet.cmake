@@ -19,6 +19,10 @@ target_compile_options(lightnet_warnings INTERFACE
   $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>
   $<$<AND:$<CONFIG:Release,RelWithDebInfo>,$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-maybe-uninitialized>)
 
+# For what is run seldom: less time to build.
+add_library(lightnet_quick_build INTERFACE)
+target_compile_options(lightnet_quick_build INTERFACE $<$<CONFIG:Release>:-O1>)
+
 # With a sanitizer (presets asan, tsan) every program knows how it is to behave, wherever it is started from.
 if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=")
   add_library(sanitizer_options OBJECT "${PROJECT_SOURCE_DIR}/tests/support/sanitizer_options.cpp")

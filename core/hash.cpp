@@ -1,8 +1,10 @@
 #include "core/hash.hpp"
 
-#include <sodium.h>
+#include <openssl/evp.h>
 
 #include <cstring>
+#include <memory>
+#include <new>
 
 namespace lightnet {
 namespace {
@@ -16,34 +18,33 @@ int digit(char c) {
 
 }  // namespace
 
-// libsodium's generic hash needs no sodium_init(): that only chooses faster code and seeds the random numbers.
 Hash content_hash(std::span<const std::byte> content) {
-    Hash hash;
-    crypto_generichash(hash.bytes.data(), hash.bytes.size(), reinterpret_cast<const unsigned char*>(content.data()),
-                       content.size(), nullptr, 0);
-    return hash;
+    Hasher hasher;
+    hasher.add(content);
+    return hasher.finish();
 }
 
 Hash content_hash(std::string_view text) { return content_hash(std::as_bytes(std::span{text})); }
 
 struct Hasher::State {
-    crypto_generichash_state sodium;
+    std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context{EVP_MD_CTX_new(), EVP_MD_CTX_free};
 };
 
+// The library fails only for want of memory.
 Hasher::Hasher() : state_(std::make_unique<State>()) {
-    crypto_generichash_init(&state_->sodium, nullptr, 0, sizeof(Hash::bytes));
+    if (EVP_DigestInit_ex(state_->context.get(), EVP_sha256(), nullptr) != 1) throw std::bad_alloc();
 }
 
 Hasher::~Hasher() = default;
 Hasher::Hasher(Hasher&&) noexcept = default;
 
 void Hasher::add(std::span<const std::byte> piece) {
-    crypto_generichash_update(&state_->sodium, reinterpret_cast<const unsigned char*>(piece.data()), piece.size());
+    if (EVP_DigestUpdate(state_->context.get(), piece.data(), piece.size()) != 1) throw std::bad_alloc();
 }
 
 Hash Hasher::finish() {
     Hash hash;
-    crypto_generichash_final(&state_->sodium, hash.bytes.data(), hash.bytes.size());
+    if (EVP_DigestFinal_ex(state_->context.get(), hash.bytes.data(), nullptr) != 1) throw std::bad_alloc();
     return hash;
 }
 

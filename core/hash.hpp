@@ -13,7 +13,7 @@
 
 namespace lightnet {
 
-/// A 32-byte BLAKE2b digest. A value; the default one (all zero) names nothing.
+/// A SHA-256 digest. A value; the default one (all zero) names nothing.
 struct Hash {
     std::array<unsigned char, 32> bytes{};
     friend bool operator==(const Hash&, const Hash&) = default;

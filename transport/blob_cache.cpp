@@ -74,8 +74,18 @@ BlobCache::Incoming::~Incoming() {
     if (!partial_.empty()) fs::remove(partial_, ignored);
 }
 
+void BlobCache::store(const Hash& hash, std::span<const std::byte> blob) const {
+    auto incoming = receive(hash);
+    incoming.write(blob);
+    incoming.appear();
+}
+
 void BlobCache::Incoming::add(std::span<const std::byte> piece) {
     hasher_.add(piece);
+    write(piece);
+}
+
+void BlobCache::Incoming::write(std::span<const std::byte> piece) {
     size_ += piece.size();
     file_.write(reinterpret_cast<const char*>(piece.data()), static_cast<std::streamsize>(piece.size()));
     if (!file_) throw Error(partial_, "can't be written");
@@ -83,6 +93,10 @@ void BlobCache::Incoming::add(std::span<const std::byte> piece) {
 
 void BlobCache::Incoming::finish() {
     if (hasher_.finish() != hash_) throw Error("a file of the scene arrived damaged");
+    appear();
+}
+
+void BlobCache::Incoming::appear() {
     file_.close();
     std::error_code error;
     if (file_.fail()) throw Error(partial_, "can't be written");

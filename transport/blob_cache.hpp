@@ -31,6 +31,8 @@ public:
 
     private:
         friend class BlobCache;
+        void write(std::span<const std::byte> piece);
+        void appear();
         Incoming(std::string path, const Hash& hash);
         std::string path_, partial_;  // partial_ empty: nothing to remove
         Hash hash_;
@@ -47,6 +49,8 @@ public:
     Bytes read(const Hash& hash) const;
     /// Room for a blob that comes in pieces. It is not synced: what is read is verified, and can be sent again.
     Incoming receive(const Hash& hash) const;
+    /// The same at once, for a blob that is what its name says. Throws Error when the disk refuses.
+    void store(const Hash& hash, std::span<const std::byte> blob) const;
     /// Removes the blobs that were not read for the longest time until the folder is within its limit.
     void trim() const;
 

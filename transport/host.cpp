@@ -75,9 +75,10 @@ void Host::Service::arrived(Frames frames) {
     if (header && plain && packet::is_ask(header->type)) return work(*header, std::move(frames));
     if (header && frames.size() == 4 && header->type < Type::hello) return from_another(*header, std::move(frames));
     const auto body = bytes_of(frames.back());
-    const auto fields =
-        header && plain && packet::read_header(header_bytes, body) ? packet::unpack_fields(body) : std::nullopt;
-    if (!fields) {
+    const bool sound = header && plain && packet::read_header(header_bytes, body);
+    const auto piece = sound && header->type == Type::blob ? packet::unpack_piece(body) : std::nullopt;
+    const auto fields = sound && header->type != Type::blob ? packet::unpack_fields(body) : std::nullopt;
+    if (!piece && !fields) {
         const auto theirs = packet::claimed_version(header_bytes);
         if (theirs && *theirs != packet::version)
             door.send(route, Type::refuse, 0,
@@ -86,7 +87,11 @@ void Host::Service::arrived(Frames frames) {
         return damaged(route);
     }
     try {
-        control(route, *header, *fields);
+        if (run && header->run == run->id()) heard = std::chrono::steady_clock::now();
+        if (piece)
+            take_blob(route, header->run, *piece);
+        else
+            control(route, *header, *fields);
     } catch (const std::exception& error) {
         door.send(route, Type::broken, header->run, Fields{}.set("text", error.what()));
         if (run && run->id() == header->run) drop_run(error.what());

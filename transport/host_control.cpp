@@ -16,14 +16,11 @@ using packet::Type;
 
 void Host::Service::control(const std::string& route, const packet::Header& header, const Fields& fields) {
     const bool ours = run && header.run == run->id();
-    if (ours) heard = std::chrono::steady_clock::now();
     switch (header.type) {
         case Type::hello:
             return greet(route, fields);
         case Type::begin:
             return begin(route, header.run, fields);
-        case Type::blob:
-            return take_blob(route, header.run, fields);
         case Type::ping:
             return door.send(route, Type::pong, header.run,
                              Fields{}
@@ -123,12 +120,10 @@ void Host::Service::tell_state(const std::string& route) {
     door.send(route, Type::state, run ? run->id() : 0, fields);
 }
 
-void Host::Service::take_blob(const std::string& route, std::uint64_t id, const Fields& fields) {
-    const auto hash = hash_from_hex(fields.text("hash"));
-    if (!run || run->id() != id || !hash) return;
-    if (run->take_blob(*hash, fields.number("offset"), fields.text("bytes")))
-        door.send(route, Type::blob_taken, id,
-                  Fields{}.set("hash", fields.text("hash")).set("offset", fields.number("offset")));
+void Host::Service::take_blob(const std::string& route, std::uint64_t id, const packet::Piece& piece) {
+    if (!run || run->id() != id) return;
+    if (run->take_blob(piece))
+        door.send(route, Type::blob_taken, id, Fields{}.set("hash", to_hex(piece.hash)).set("offset", piece.offset));
     tell_found();
 }
 

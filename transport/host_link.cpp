@@ -240,11 +240,9 @@ void HostLink::send_blobs(Time now) {
             chunks_.pop_front();
             continue;
         }
-        const std::string_view bytes(reinterpret_cast<const char*>(whole->data()) + offset,
-                                     std::min<std::size_t>(chunk_size, whole->size() - offset));
+        const auto bytes = std::span(*whole).subspan(offset, std::min<std::size_t>(chunk_size, whole->size() - offset));
         Frames frames;
-        append(frames, packet::pack(Type::blob, told_.run,
-                                    Fields{}.set("hash", to_hex(hash)).set("offset", offset).set("bytes", bytes)));
+        append(frames, packet::pack(told_.run, {hash, offset, bytes}));
         if (!line_->send(frames, true)) return;
         counters_.file_bytes += bytes.size();
         if (chunks_out_++ == 0) chunk_taken_ = now;

@@ -61,7 +61,7 @@ struct Host::Service {
     void tell_needs();
     void tell_state(const std::string& route);
     void tell_found();
-    void take_blob(const std::string& route, std::uint64_t id, const packet::Fields& fields);
+    void take_blob(const std::string& route, std::uint64_t id, const packet::Piece& piece);
     Counters stop_run();
     void end(const std::string& route, std::uint64_t id);
     void drop_run(const std::string& why);

@@ -53,26 +53,28 @@ std::vector<std::pair<Hash, bool>> HostedRun::found() {
     return std::exchange(found_, {});
 }
 
-void HostedRun::take_result(const Hash& hash, IncomingResult& result, std::uint64_t offset, std::string_view bytes) {
-    if (offset == 0) {  // from the beginning, perhaps again
-        result.bytes->clear();
-        result.file.emplace(cache_.receive(hash));
+void HostedRun::take_result(const packet::Piece& piece, IncomingResult& result) {
+    constexpr std::uint64_t believed = std::uint64_t{4} << 30;  // room is taken for so much before it is there
+    if (piece.offset == 0) {                                    // from the beginning, perhaps again
+        result.bytes = std::make_shared<std::vector<std::byte>>();
+        result.bytes->reserve(std::min(result.size, believed));
+        result.hasher.emplace();
     }
-    if (!result.file || offset != result.file->size()) return;
-    if (bytes.size() > result.size - offset) throw Error("a result is longer than it was said to be");
-    const auto piece = std::as_bytes(std::span(bytes));
-    result.bytes->insert(result.bytes->end(), piece.begin(), piece.end());
-    result.file->add(piece);
-    if (result.file->size() < result.size) return;
-    result.file->finish();
-    results_->take(hash, std::move(result.bytes));
-    expected_.erase(hash);
-    found_.push_back({hash, true});
+    if (!result.bytes || piece.offset != result.bytes->size()) return;
+    if (piece.bytes.size() > result.size - piece.offset) throw Error("a result is longer than it was said to be");
+    result.bytes->insert(result.bytes->end(), piece.bytes.begin(), piece.bytes.end());
+    result.hasher->add(piece.bytes);
+    if (result.bytes->size() < result.size) return;
+    if (result.hasher->finish() != piece.hash) throw Error("a result of preparing arrived damaged");
+    results_->keep(piece.hash, std::move(result.bytes));
+    expected_.erase(piece.hash);
+    found_.push_back({piece.hash, true});
 }
 
-bool HostedRun::take_blob(const Hash& hash, std::uint64_t offset, std::string_view bytes) {
+bool HostedRun::take_blob(const packet::Piece& piece) {
+    const auto& [hash, offset, bytes] = piece;
     if (const auto expected = expected_.find(hash); expected != expected_.end()) {
-        take_result(hash, expected->second, offset, bytes);
+        take_result(piece, expected->second);
         return true;
     }
     if (state_ == State::looking) return false;
@@ -83,7 +85,7 @@ bool HostedRun::take_blob(const Hash& hash, std::uint64_t offset, std::string_vi
     auto& blob = found->second;
     if (offset != blob.size()) return offset < blob.size();  // pieces come in order; some may come again
     if (bytes.size() > size_of(hash) - offset) throw Error("a file of the scene is longer than it was said to be");
-    blob.add(std::as_bytes(std::span(bytes)));
+    blob.add(bytes);
     if (blob.size() < size_of(hash)) return true;
     blob.finish();
     incoming_.erase(hash);

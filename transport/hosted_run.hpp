@@ -43,7 +43,7 @@ public:
     /// The files will be sent from their beginnings.
     void expect_files_anew() { incoming_.clear(); }
     /// Takes a piece of a file. True: it is here now. Throws Error when a whole file is not what it was named.
-    bool take_blob(const Hash& hash, std::uint64_t offset, std::string_view bytes);
+    bool take_blob(const packet::Piece& piece);
     /// Bytes that a step will name are to come, unless the cache has them: see found().
     void expect(const Hash& hash, std::uint64_t size);
     /// What has become of bytes that were expected, since the last call: here, or lacking.
@@ -60,15 +60,15 @@ public:
     std::string nodes() const;
 
 private:
-    // One on its way in, kept in memory as well as on disk.
+    // One on its way in.
     struct IncomingResult {
         std::uint64_t size = 0;
-        std::shared_ptr<std::vector<std::byte>> bytes = std::make_shared<std::vector<std::byte>>();
-        std::optional<BlobCache::Incoming> file;
+        std::shared_ptr<std::vector<std::byte>> bytes;  // null before it has begun
+        std::optional<Hasher> hasher;
     };
 
     std::uint64_t size_of(const Hash& hash) const;
-    void take_result(const Hash& hash, IncomingResult& result, std::uint64_t offset, std::string_view bytes);
+    void take_result(const packet::Piece& piece, IncomingResult& result);
 
     zmq::context_t& context_;
     BlobCache& cache_;

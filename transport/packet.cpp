@@ -263,6 +263,33 @@ Packet pack(Type type, std::uint64_t run, const Fields& fields) {
     return finish(header, std::move(body));
 }
 
+Packet pack(std::uint64_t run, const Piece& piece) {
+    constexpr std::size_t rest = 128;  // names, hash and offset
+    Buffer body;
+    body.reserve(piece.bytes.size() + rest);
+    BodyWriter writer(body, 3);
+    writer.number("offset", piece.offset);
+    writer.bytes("bytes", piece.bytes);
+    writer.bytes("hash", std::as_bytes(std::span(piece.hash.bytes)));
+    Header header;
+    header.type = Type::blob;
+    header.run = run;
+    return finish(header, std::move(body));
+}
+
+std::optional<Piece> unpack_piece(View body) {
+    const BodyReader map(body);
+    if (!map.good()) return std::nullopt;
+    const auto offset = map.number("offset");
+    const auto bytes = map.bytes("bytes"), hash = map.bytes("hash");
+    Piece piece;
+    if (!offset || !bytes || !hash || hash->size() != piece.hash.bytes.size()) return std::nullopt;
+    std::memcpy(piece.hash.bytes.data(), hash->data(), hash->size());
+    piece.offset = *offset;
+    piece.bytes = *bytes;
+    return piece;
+}
+
 std::optional<Fields> unpack_fields(View body) {
     if (body.size() > most_bytes) return std::nullopt;
     const BodyReader map(body);

@@ -22,6 +22,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/hash.hpp"
 #include "core/message/message.hpp"
 #include "transport/columns.hpp"
 
@@ -134,6 +135,17 @@ public:
 };
 
 Packet pack(Type type, std::uint64_t run, const Fields& fields);
+/// A piece of a file or result; its bytes are a view.
+struct Piece {
+    Hash hash;  // of the whole
+    std::uint64_t offset = 0;
+    std::span<const std::byte> bytes;
+};
+
+Packet pack(std::uint64_t run, const Piece& piece);
+/// The piece of a blob packet whose header has been read, in `body`. None: damaged.
+std::optional<Piece> unpack_piece(std::span<const std::byte> body);
+
 /// The fields of a control packet whose header has been read. None: damaged.
 std::optional<Fields> unpack_fields(std::span<const std::byte> body);
 

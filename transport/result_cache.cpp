@@ -15,21 +15,18 @@ DiskResultCache::DiskResultCache(const std::string& folder) : blobs_(folder), re
     blobs_.trim();
 }
 
-Bytes DiskResultCache::find(const Hash& recipe) const {
+Result DiskResultCache::find(const Hash& recipe) const {
     std::ifstream in(recipes_ + "/" + to_hex(recipe));
     std::string name;
     const auto hash = in >> name ? hash_from_hex(name) : std::nullopt;
-    return hash ? blobs_.read(*hash) : nullptr;
+    return hash ? Result{*hash, blobs_.read(*hash)} : Result{};
 }
 
-void DiskResultCache::keep(const Hash& recipe, const Bytes& result) {
+void DiskResultCache::keep(const Hash& recipe, const Result& result) {
     keeping_.emplace_back([this, recipe, result] {
         try {
-            const Hash name = content_hash(*result);
-            auto blob = blobs_.receive(name);
-            blob.add(*result);
-            blob.finish();
-            write_file(recipes_ + "/" + to_hex(recipe), to_hex(name) + "\n");
+            blobs_.store(result.name, *result.bytes);
+            write_file(recipes_ + "/" + to_hex(recipe), to_hex(result.name) + "\n");
         } catch (const std::exception&) {
             // Not kept: the next run computes it again.
         }

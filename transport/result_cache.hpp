@@ -17,8 +17,8 @@ public:
     /// Throws Error when the folder can't be made.
     explicit DiskResultCache(const std::string& folder);
 
-    Bytes find(const Hash& recipe) const override;
-    void keep(const Hash& recipe, const Bytes& result) override;
+    Result find(const Hash& recipe) const override;
+    void keep(const Hash& recipe, const Result& result) override;
 
 private:
     BlobCache blobs_;

@@ -1,5 +1,9 @@
 #include "transport/results.hpp"
 
+#include <chrono>
+
+#include "core/error.hpp"
+
 namespace lightnet {
 
 void Results::take(const Hash& name, Bytes bytes) {
@@ -11,6 +15,23 @@ void Results::take(const Hash& name, Bytes bytes) {
         latest_bytes_ -= latest_.front()->size();
         latest_.pop_front();
     }
+}
+
+void Results::keep(const Hash& name, Bytes bytes) {
+    take(name, bytes);
+    const std::lock_guard lock(mutex_);
+    std::erase_if(writing_, [](auto& one) {
+        return one.second.wait_for(std::chrono::seconds(0)) == std::future_status::ready && one.second.get();
+    });
+    auto written = std::async(std::launch::async, [this, name, bytes = bytes.get()] {
+        try {
+            cache_.store(name, *bytes);
+            return true;
+        } catch (const Error&) {
+            return false;
+        }
+    });
+    writing_.emplace_back(std::move(bytes), std::move(written));
 }
 
 bool Results::in_memory(const Hash& name) const {

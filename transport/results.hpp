@@ -3,10 +3,12 @@
 
 #include <cstddef>
 #include <deque>
+#include <future>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <utility>
+#include <vector>
 
 #include "core/bytes.hpp"
 #include "core/hash.hpp"
@@ -24,6 +26,8 @@ public:
 
     /// One that the cache has.
     void take(const Hash& name, Bytes bytes);
+    /// One that it is to have: written by a thread of its own, and held until it is on disk.
+    void keep(const Hash& name, Bytes bytes);
     bool in_memory(const Hash& name) const;
     /// Null when the cache has lost it.
     Bytes find(const Hash& name);
@@ -35,6 +39,7 @@ private:
     std::map<Hash, std::weak_ptr<const std::vector<std::byte>>> all_;
     std::deque<Bytes> latest_;
     std::size_t latest_bytes_ = 0;
+    std::vector<std::pair<Bytes, std::shared_future<bool>>> writing_;  // those that the disk refuses stay
 };
 
 }  // namespace lightnet

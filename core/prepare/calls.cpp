@@ -60,10 +60,11 @@ bool Call::answer(std::uint32_t shard, const Bytes& results) {
     return --missing_ == 0;
 }
 
-void Call::complete(std::vector<Bytes> parts) {
-    kept_ = std::move(parts);
-    lent_.assign(kept_.begin(), kept_.end());
-    for (const auto& part : kept_) names_.push_back(content_hash(*part));
+void Call::complete(const std::vector<Result>& parts) {
+    for (std::size_t part = 0; part < parts.size(); ++part) {
+        lent_[part] = kept_[part] = parts[part].bytes;
+        names_.push_back(parts[part].name);
+    }
     shards_ = {};
     missing_ = 0;
 }
@@ -79,17 +80,19 @@ void Call::complete_from_shards() {
             lists.front().push_back(shard ? std::span<const std::byte>(*shard) : std::span<const std::byte>());
         }
     }
-    std::vector<Bytes> parts;
-    for (const auto& list : lists) parts.push_back(join_shards(std::span(list)));
-    complete(std::move(parts));
+    std::vector<Result> parts;
+    for (const auto& list : lists) {
+        auto joined = join_shards(std::span(list));
+        parts.push_back({content_hash(*joined), std::move(joined)});
+    }
+    complete(parts);
 }
 
 void Call::let_go() { kept_.assign(kept_.size(), nullptr); }
 
-bool Call::restore(std::uint32_t part, const Bytes& result) {
-    if (content_hash(*result) != names_[part]) return false;
-    kept_[part] = result;
-    lent_[part] = result;
+bool Call::restore(std::uint32_t part, const Result& result) {
+    if (!result.bytes || result.name != names_[part]) return false;
+    lent_[part] = kept_[part] = result.bytes;
     return true;
 }
 
@@ -107,12 +110,12 @@ Call& Calls::reported(std::size_t node, const Report& at) {
     const bool rehearsed = at.kind == Report::Kind::rehearse || (at.call > 0 && of(whole, at.call - 1).rehearsed());
     auto& call = calls_[{whole, at.call}] = Call(at, rehearsed, at.kind == Report::Kind::sectors ? sector->count : 1);
     if (!cache_ || call.done()) return call;
-    std::vector<Bytes> parts;
+    std::vector<Result> parts;
     for (std::uint32_t part = 0; part < call.parts(); ++part) {
         parts.push_back(cache_->find(recipe_of(whole, at.call, call, part)));
-        if (!parts.back()) return call;
+        if (!parts.back().bytes) return call;
     }
-    call.complete(std::move(parts));
+    call.complete(parts);
     return call;
 }
 
@@ -133,8 +136,8 @@ Bytes Calls::result(std::size_t node, std::uint32_t number) {
     if (!call.done()) return nullptr;
     const auto part = part_of(node, call);
     if (auto known = call.result(part)) return known;
-    const auto kept = cache_ ? cache_->find(recipe_of(whole_of(graph_, node), number, call, part)) : nullptr;
-    if (kept && call.restore(part, kept)) return kept;
+    if (cache_ && call.restore(part, cache_->find(recipe_of(whole_of(graph_, node), number, call, part))))
+        return call.result(part);
     call.begin_again();
     return nullptr;
 }
@@ -142,7 +145,7 @@ Bytes Calls::result(std::size_t node, std::uint32_t number) {
 void Calls::keep(std::size_t node, std::uint32_t number) {
     const auto& call = of(node, number);
     for (std::uint32_t part = 0; cache_ && part < call.parts(); ++part)
-        cache_->keep(recipe_of(whole_of(graph_, node), number, call, part), call.result(part));
+        cache_->keep(recipe_of(whole_of(graph_, node), number, call, part), {call.name(part), call.result(part)});
 }
 
 void Calls::all_have(std::size_t node, std::uint32_t number) {

@@ -44,13 +44,13 @@ public:
     /// The results of a shard. True when it was the last one. Throws Error when they have not as many parts as they
     /// should.
     bool answer(std::uint32_t shard, const Bytes& results);
-    void complete(Bytes result) { complete(std::vector<Bytes>(1, std::move(result))); }
-    void complete(std::vector<Bytes> parts);
+    void complete(const Bytes& result) { complete({Result{content_hash(*result), result}}); }
+    void complete(const std::vector<Result>& parts);
     void complete_from_shards();
     /// Lets the results go, which somebody else keeps.
     void let_go();
     /// One that was let go of is there again. False: it is another one.
-    bool restore(std::uint32_t part, const Bytes& result);
+    bool restore(std::uint32_t part, const Result& result);
     /// All shards are to be done once more.
     void begin_again();
 

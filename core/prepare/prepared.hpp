@@ -44,14 +44,20 @@ private:
     std::vector<std::string> subgraph_;  // by node, as text
 };
 
+/// What a call of preparing has given, and its content hash. Without bytes: there is none.
+struct Result {
+    Hash name;
+    Bytes bytes;
+};
+
 /// Keeps results from run to run. Any thread.
 class ResultCache {
 public:
     virtual ~ResultCache() = default;
-    /// Null when there is none.
-    virtual Bytes find(const Hash& recipe) const = 0;
+    /// Its bytes are what its name says.
+    virtual Result find(const Hash& recipe) const = 0;
     /// Failing to keep is no error: the next run computes it again.
-    virtual void keep(const Hash& recipe, const Bytes& result) = 0;
+    virtual void keep(const Hash& recipe, const Result& result) = 0;
 };
 
 /// Values that the places of one process share: made by the first that asks, while the others wait. Any thread.

@@ -60,9 +60,9 @@ private:
     Bytes found_or(const Make& make) {
         const Hash recipe = recipes_.of(node_, call_++, rehearsed_);
         if (cache_)
-            if (auto known = cache_->find(recipe)) return known;
+            if (auto known = cache_->find(recipe).bytes) return known;
         auto made = make();
-        if (cache_) cache_->keep(recipe, made);
+        if (cache_) cache_->keep(recipe, {content_hash(*made), made});
         return made;
     }
 

@@ -42,7 +42,7 @@ const std::array homes{
     Home{"pugixml", std::regex("pugixml\\.hpp"), std::regex("core/readers/mitsuba/.*")},
     Home{"zlib", std::regex("zlib\\.h"), std::regex("core/readers/(mitsuba/\\w+|gzip)\\.cpp")},
     Home{"Boost.Context", std::regex("boost/.*"), std::regex("core/fiber/.*")},
-    Home{"libsodium", std::regex("sodium.*"), std::regex("core/.*")},
+    Home{"libcrypto", std::regex("openssl/.*"), std::regex("core/.*")},
     Home{"CLI11", std::regex("CLI/.*"), std::regex("tools/.*")},
     Home{"nlohmann JSON", std::regex("nlohmann/.*"), std::regex("(core|lua|tools|transport)/.*")},
 };

@@ -96,6 +96,32 @@ void replay(const std::vector<Recorded>& recorded) {
     }
 }
 
+/// The same rays one by one, as a loop over Embree would be written at first.
+void replay_singly(const std::vector<Recorded>& recorded) {
+    const auto one_by_one = [](auto& many, const auto& valid, auto&& lane) {
+        for (std::size_t i = 0; i < valid.size(); ++i)
+            if (valid[i]) lane(many, static_cast<unsigned>(i));
+    };
+    for (const Recorded& each : recorded) {
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+        alignas(64) auto rays = each.rays;
+        if (auto* one = std::get_if<RTCRayHit>(&rays)) __real_rtcIntersect1(each.scene, &context, one);
+        if (auto* one = std::get_if<RTCRay>(&rays)) __real_rtcOccluded1(each.scene, &context, one);
+        if (auto* many = std::get_if<RTCRayHit8>(&rays))
+            one_by_one(*many, each.valid, [&](auto& from, unsigned i) {
+                RTCRayHit one = rtcGetRayHitFromRayHitN(reinterpret_cast<RTCRayHitN*>(&from), 8, i);
+                __real_rtcIntersect1(each.scene, &context, &one);
+            });
+        if (auto* many = std::get_if<RTCRay8>(&rays))
+            one_by_one(*many, each.valid, [&](auto& from, unsigned i) {
+                RTCRay one = rtcGetRayFromRayN(reinterpret_cast<RTCRayN*>(&from), 8, i);
+                __real_rtcOccluded1(each.scene, &context, &one);
+            });
+    }
+}
+
 void measure(const char* name, const std::string& scene, const Registry& registry, std::uint32_t samples) {
     const auto network = network_of(scene, registry, std::to_string(samples));
     const auto tiles = tiles_of(side, side, tile_size, samples);
@@ -109,19 +135,22 @@ void measure(const char* name, const std::string& scene, const Registry& registr
     render();
     const double rays = double(Scene::rays_of_this_thread() - before);
     recording = nullptr;
-    std::vector<double> ratios, whole_rates, bare_rates;
+    std::vector<double> ratios, whole_rates, bare_rates, single_rates;
     for (int round = 0; round < rounds; ++round) {
         const double begun = thread_seconds();
         replay(recorded);
         const double middle = thread_seconds();
         render();
-        const double bare = middle - begun, whole = thread_seconds() - middle;
+        const double end = thread_seconds();
+        replay_singly(recorded);
+        const double bare = middle - begun, whole = end - middle, singly = thread_seconds() - end;
+        single_rates.push_back(rays / singly * 1e-6);
         ratios.push_back(bare / whole);
         whole_rates.push_back(rays / whole * 1e-6);
         bare_rates.push_back(rays / bare * 1e-6);
     }
-    std::printf("  %s: %.2f M rays/s of work in a whole render, %.2f M rays/s in the bare loop\n", name,
-                median(whole_rates), median(bare_rates));
+    std::printf("  %s: %.2f M rays/s of work in a whole render, %.2f M rays/s in the bare loop, %.2f M ray by ray\n",
+                name, median(whole_rates), median(bare_rates), median(single_rates));
     show("part of the bare rate", ratios);
     figure(name, median(ratios), 0.6, true);
 }

@@ -35,6 +35,7 @@ void read(View bytes) {
     read_both(header, body);
     if (header.size() < packet::header_size) return;
     (void)packet::unpack_fields(body);
+    (void)packet::unpack_piece(body);
     read_both(put_right(header, body), body);
 }
 

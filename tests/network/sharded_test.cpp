@@ -161,13 +161,13 @@ TEST(Sharded, SaysForEachSectorWhatItsNodeSaysAndHowMuchItTookIn) {
 // A result cache in memory, and how often it was asked for what it has.
 class MemoryCache final : public ResultCache {
 public:
-    Bytes find(const Hash& recipe) const override {
+    Result find(const Hash& recipe) const override {
         const auto found = kept_.find(recipe);
-        if (found == kept_.end()) return nullptr;
+        if (found == kept_.end()) return {};
         ++found_;
-        return std::make_shared<const std::vector<std::byte>>(found->second);
+        return {content_hash(found->second), std::make_shared<const std::vector<std::byte>>(found->second)};
     }
-    void keep(const Hash& recipe, const Bytes& result) override { kept_[recipe] = *result; }
+    void keep(const Hash& recipe, const Result& result) override { kept_[recipe] = *result.bytes; }
     std::size_t size() const { return kept_.size(); }
     std::size_t found() const { return found_; }
     void forget() { kept_.clear(); }

@@ -7,9 +7,9 @@
 namespace lightnet {
 namespace {
 
-TEST(Hash, IsBlake2bOf32Bytes) {
-    // the digest of "abc", as by `b2sum -l 256`
-    EXPECT_EQ(to_hex(content_hash("abc")), "bddd813c634239723171ef3fee98579b94964e3bb1cb3e427262c8c068d52319");
+TEST(Hash, IsSha256) {
+    // the digest of "abc", as by `sha256sum`
+    EXPECT_EQ(to_hex(content_hash("abc")), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
 }
 
 TEST(Hash, TellsContentsApart) {

@@ -88,11 +88,12 @@ TEST(Call, GivesEachSectorItsOwnPartInTheOrderOfShards) {
 
 class KeepingCache final : public ResultCache {
 public:
-    Bytes find(const Hash& recipe) const override {
+    Result find(const Hash& recipe) const override {
         const auto found = kept.find(recipe);
-        return found == kept.end() ? nullptr : std::make_shared<const std::vector<std::byte>>(found->second);
+        if (found == kept.end()) return {};
+        return {content_hash(found->second), std::make_shared<const std::vector<std::byte>>(found->second)};
     }
-    void keep(const Hash& recipe, const Bytes& result) override { kept[recipe] = *result; }
+    void keep(const Hash& recipe, const Result& result) override { kept[recipe] = *result.bytes; }
     std::map<Hash, std::vector<std::byte>> kept;
 };
 

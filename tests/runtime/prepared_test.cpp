@@ -41,12 +41,12 @@ std::shared_ptr<const Network> network_of(const Graph& graph, const Registry& re
 // Remembers in memory.
 class MemoryCache final : public ResultCache {
 public:
-    Bytes find(const Hash& recipe) const override {
+    Result find(const Hash& recipe) const override {
         const auto found = results.find(recipe);
-        return found == results.end() ? nullptr : found->second;
+        return found == results.end() ? Result{} : found->second;
     }
-    void keep(const Hash& recipe, const Bytes& result) override { results[recipe] = result; }
-    std::map<Hash, Bytes> results;
+    void keep(const Hash& recipe, const Result& result) override { results[recipe] = result; }
+    std::map<Hash, Result> results;
 };
 
 TEST(Mapped, GivesShardsAndAllOfThemInOrder) {

@@ -6,6 +6,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <stdexcept>
 #include <vector>
@@ -105,9 +106,21 @@ bool BadLine::pass(Connection& connection, int from) {
         ++flips_;
         bytes[size / 2] = static_cast<char>(bytes[size / 2] ^ (1 << (flips_ % 8)));
     }
+    wait_for(size);
     const bool truncated = size > 1 && truncate_.exchange(false);
     if (truncated) size /= 2;
     return write_all(connection.ends[1 - from], bytes.data(), size) && !truncated;
+}
+
+// Time that was overslept is made good.
+void BadLine::wait_for(std::size_t bytes) {
+    const double limit = limit_;
+    if (limit <= 0) return;
+    const auto now = std::chrono::steady_clock::now();
+    const std::chrono::duration<double> takes(double(bytes) / limit);
+    free_at_ = std::max(free_at_, now - std::chrono::milliseconds(2)) +
+               std::chrono::duration_cast<std::chrono::nanoseconds>(takes);
+    std::this_thread::sleep_until(free_at_);
 }
 
 void BadLine::reset(const Connection& connection) {

@@ -1,7 +1,8 @@
-// A line to a tcp port that can be cut, held and damaged.
+// A line to a tcp port that can be cut, held, damaged and slow.
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <list>
 #include <string>
@@ -27,6 +28,8 @@ public:
     void hold(bool on) { held_ = on; }
     /// One bit is flipped after about so many bytes, again and again; 0: none.
     void flip_every(std::uint64_t bytes) { flip_every_ = bytes; }
+    /// No more bytes pass in a second, both ways together; 0: as many as can.
+    void limit(double bytes_per_second) { limit_ = bytes_per_second; }
 
     std::uint64_t cuts() const { return cuts_; }  // of connections
     std::uint64_t flips() const { return flips_; }
@@ -38,12 +41,15 @@ private:
     void serve(const std::stop_token& stop);
     void accept_one();
     bool pass(Connection& connection, int from);
+    void wait_for(std::size_t bytes);
     void reset(const Connection& connection);
 
     int target_port_ = 0, listener_ = -1, port_ = 0;
     std::atomic<bool> cut_{false}, truncate_{false}, held_{false};
     std::atomic<std::uint64_t> flip_every_{0}, cuts_{0}, flips_{0};
-    std::uint64_t passed_ = 0;  // since the last flip
+    std::atomic<double> limit_{0};
+    std::uint64_t passed_ = 0;                         // since the last flip
+    std::chrono::steady_clock::time_point free_at_{};  // of its limit
     std::list<Connection> connections_;
     std::jthread thread_;
 };

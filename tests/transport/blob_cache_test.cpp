@@ -51,6 +51,15 @@ TEST_F(BlobCacheTest, KeepsBytesByTheirHash) {
     EXPECT_EQ(*BlobCache(folder).read(hash), blob) << "another process finds it";
 }
 
+TEST_F(BlobCacheTest, StoresAWholeBlobAtOnce) {
+    const BlobCache cache(folder);
+    const auto blob = bytes("photons");
+    cache.store(content_hash(blob), blob);
+    EXPECT_EQ(*cache.read(content_hash(blob)), blob);
+    fs::remove_all(folder);
+    EXPECT_THROW(cache.store(content_hash(blob), blob), Error) << "the disk refuses";
+}
+
 // As when a line is cut in the middle of it.
 TEST_F(BlobCacheTest, TakesABlobFromItsBeginningAgainBeforeTheFirstAttemptIsGivenUp) {
     const BlobCache cache(folder);

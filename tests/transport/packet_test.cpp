@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <random>
 
@@ -154,6 +155,25 @@ std::vector<Packet> corpus() {
 
 bool accepted(const std::vector<std::byte>& header, const std::vector<std::byte>& body) {
     return packet::unpack(header, body) || (packet::read_header(header, body) && packet::unpack_fields(body));
+}
+
+TEST(Packet, BringsPiecesOfFilesBack) {
+    const std::vector<std::byte> bytes(1000, std::byte{7});
+    const Hash whole = content_hash("a file");
+    const Packet sent = packet::pack(9, packet::Piece{whole, 123456789012, bytes});
+    const auto header = packet::read_header(sent.header, sent.body);
+    ASSERT_TRUE(header);
+    EXPECT_EQ(header->type, Type::blob);
+    EXPECT_EQ(header->run, 9u);
+    const auto piece = packet::unpack_piece(sent.body);
+    ASSERT_TRUE(piece);
+    EXPECT_EQ(piece->hash, whole);
+    EXPECT_EQ(piece->offset, 123456789012u);
+    EXPECT_TRUE(std::ranges::equal(piece->bytes, bytes));
+    for (std::size_t size = 0; size < sent.body.size(); ++size)
+        EXPECT_FALSE(packet::unpack_piece(std::span(sent.body).first(size)));
+    EXPECT_FALSE(
+        packet::unpack_piece(packet::pack(Type::blob, 9, Fields{}.set("hash", "short").set("offset", 1)).body));
 }
 
 TEST(Packet, IsRefusedWhenCutAnywhere) {

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <filesystem>
+#include <thread>
+
 #include "tests/support/folder.hpp"
 
 namespace lightnet {
@@ -40,6 +44,26 @@ TEST_F(ResultsTest, FindsInMemoryWhatSomebodyStillLooksAt) {
     const auto held = results.find(one);
     take(2, 90);
     EXPECT_EQ(results.find(one), held);
+}
+
+TEST_F(ResultsTest, PutsOnDiskWhatIsToBeKept) {
+    const auto bytes = std::make_shared<const std::vector<std::byte>>(60, std::byte{1});
+    const Hash name = content_hash(*bytes);
+    results.keep(name, bytes);
+    EXPECT_TRUE(results.in_memory(name));
+    take(2, 90);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (!cache.has(name) && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+    EXPECT_EQ(*results.find(name), *bytes);
+}
+
+TEST_F(ResultsTest, HoldsWhatTheDiskRefuses) {
+    const auto bytes = std::make_shared<const std::vector<std::byte>>(60, std::byte{1});
+    const Hash name = content_hash(*bytes);
+    std::filesystem::remove_all(home.path());
+    for (int i = 0; i < 2; ++i) results.keep(name, bytes);
+    results.take(content_hash(std::string_view("another")), std::make_shared<const std::vector<std::byte>>(200));
+    EXPECT_TRUE(results.find(name));
 }
 
 TEST_F(ResultsTest, HasNothingThatItWasNotGiven) {
