@@ -9,8 +9,6 @@ namespace {
 
 constexpr std::size_t word = sizeof(std::uint64_t);
 
-std::size_t head_of(std::uint64_t shards) { return ((shards + 1) * word + 15) / 16 * 16; }
-
 }  // namespace
 
 Bytes join_shards(std::span<const std::vector<std::byte>> shards) {
@@ -20,17 +18,17 @@ Bytes join_shards(std::span<const std::vector<std::byte>> shards) {
 
 Bytes join_shards(std::span<const std::span<const std::byte>> shards) {
     const std::uint64_t count = shards.size();
-    std::size_t size = head_of(count);
+    std::size_t size = tail_of_joined(count);
     for (const auto& shard : shards) size += shard.size();
-    auto joined = std::make_shared<std::vector<std::byte>>(size);
-    std::memcpy(joined->data(), &count, word);
-    std::size_t at = head_of(count);
-    for (std::size_t i = 0; i < shards.size(); ++i) {
-        const std::uint64_t bytes = shards[i].size();
-        std::memcpy(joined->data() + (i + 1) * word, &bytes, word);
-        if (bytes) std::memcpy(joined->data() + at, shards[i].data(), bytes);
-        at += bytes;
-    }
+    auto joined = std::make_shared<std::vector<std::byte>>();
+    joined->reserve(size);
+    const auto append = [&](std::span<const std::byte> bytes) {
+        joined->insert(joined->end(), bytes.begin(), bytes.end());
+    };
+    const auto append_number = [&](std::uint64_t number) { append(std::as_bytes(std::span(&number, 1))); };
+    for (const auto& shard : shards) append(shard);
+    for (const auto& shard : shards) append_number(shard.size());
+    append_number(~count);
     return joined;
 }
 
@@ -39,18 +37,20 @@ std::vector<std::span<const std::byte>> split_shards(const Bytes& joined) {
     const std::size_t size = joined ? joined->size() : 0;
     std::uint64_t count = 0;
     if (size < word) throw broken;
-    std::memcpy(&count, joined->data(), word);
-    if (count > size / word || head_of(count) > size) throw broken;
+    std::memcpy(&count, joined->data() + size - word, word);
+    count = ~count;
+    if (count > size / word - 1) throw broken;
+    const std::size_t results = size - tail_of_joined(count);
     std::vector<std::span<const std::byte>> shards;
-    std::size_t at = head_of(count);
+    std::size_t at = 0;
     for (std::uint64_t i = 0; i < count; ++i) {
         std::uint64_t bytes = 0;
-        std::memcpy(&bytes, joined->data() + (i + 1) * word, word);
-        if (bytes > size - at) throw broken;
+        std::memcpy(&bytes, joined->data() + results + i * word, word);
+        if (bytes > results - at) throw broken;
         shards.push_back({joined->data() + at, bytes});
         at += bytes;
     }
-    if (at != size) throw broken;
+    if (at != results) throw broken;
     return shards;
 }
 

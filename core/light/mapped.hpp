@@ -11,10 +11,14 @@
 
 namespace lightnet {
 
-/// Puts the results of shards 0, 1, … behind each other. Layout: the number of shards and the size of each in bytes
-/// (64 bits each), then, from a multiple of 16 on, the results.
+/// Puts the results of shards 0, 1, … behind each other. Layout: the results, then the size of each in bytes and the
+/// number of shards (64 bits each, the latter inverted, as zeros are no end); so that what comes first is known before
+/// all is.
 Bytes join_shards(std::span<const std::span<const std::byte>> shards);
 Bytes join_shards(std::span<const std::vector<std::byte>> shards);
+
+/// Bytes behind the results of so many shards.
+constexpr std::size_t tail_of_joined(std::size_t shards) { return (shards + 1) * sizeof(std::uint64_t); }
 
 /// Where the results are. Throws Error when `joined` was not made by join_shards().
 std::vector<std::span<const std::byte>> split_shards(const Bytes& joined);

@@ -23,6 +23,8 @@ void Call::begin_again() {
     shards_.assign(what_.count, nullptr);
     copies_.assign(what_.count, 0);
     answered_.assign(what_.count, false);
+    hashers_ = std::vector<Hasher>(parts());
+    hashed_ = 0;
     missing_ = what_.count;
     for (std::uint32_t shard = 0; shard < what_.count; ++shard) to_do_.push_back(shard);
     if (what_.count == 0) complete_from_shards();
@@ -57,7 +59,21 @@ bool Call::answer(std::uint32_t shard, const Bytes& results) {
         throw Error("results of preparing", "they are not for as many sectors as there are");
     answered_[shard] = true;
     shards_[shard] = results;
+    hash_what_is_next();
     return --missing_ == 0;
+}
+
+std::vector<std::span<const std::byte>> Call::parts_of(const Bytes& shard) const {
+    if (what_.kind == Report::Kind::sectors) return split_shards(shard);
+    return {shard ? std::span<const std::byte>(*shard) : std::span<const std::byte>()};
+}
+
+// While places still work; at the end they would wait for it.
+void Call::hash_what_is_next() {
+    for (; hashed_ < shards_.size() && answered_[hashed_]; ++hashed_) {
+        const auto spans = parts_of(shards_[hashed_]);
+        for (std::size_t part = 0; part < spans.size(); ++part) hashers_[part].add(spans[part]);
+    }
 }
 
 void Call::complete(const std::vector<Result>& parts) {
@@ -73,19 +89,17 @@ void Call::complete(const std::vector<Result>& parts) {
 void Call::complete_from_shards() {
     std::vector<std::vector<std::span<const std::byte>>> lists(parts());
     for (const auto& shard : shards_) {
-        if (what_.kind == Report::Kind::sectors) {
-            const auto of_sectors = split_shards(shard);
-            for (std::size_t part = 0; part < lists.size(); ++part) lists[part].push_back(of_sectors[part]);
-        } else {
-            lists.front().push_back(shard ? std::span<const std::byte>(*shard) : std::span<const std::byte>());
-        }
+        const auto spans = parts_of(shard);
+        for (std::size_t part = 0; part < lists.size(); ++part) lists[part].push_back(spans[part]);
     }
-    std::vector<Result> parts;
-    for (const auto& list : lists) {
-        auto joined = join_shards(std::span(list));
-        parts.push_back({content_hash(*joined), std::move(joined)});
+    std::vector<Result> results;
+    for (std::size_t part = 0; part < lists.size(); ++part) {
+        auto joined = join_shards(std::span(lists[part]));
+        hashers_[part].add(std::span(*joined).last(tail_of_joined(lists[part].size())));
+        results.push_back({hashers_[part].finish(), std::move(joined)});
     }
-    complete(parts);
+    hashers_.clear();
+    complete(results);
 }
 
 void Call::let_go() { kept_.assign(kept_.size(), nullptr); }

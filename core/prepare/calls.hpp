@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -55,6 +56,9 @@ public:
     void begin_again();
 
 private:
+    std::vector<std::span<const std::byte>> parts_of(const Bytes& shard) const;
+    void hash_what_is_next();
+
     Report what_;
     bool rehearsed_ = false;
     std::vector<Bytes> kept_ = std::vector<Bytes>(1);  // results, by part
@@ -64,6 +68,8 @@ private:
     std::vector<Bytes> shards_;
     std::vector<std::uint8_t> copies_;  // under way, by shard
     std::vector<bool> answered_;
+    std::vector<Hasher> hashers_;  // of all parts, over shards that came before hashed_
+    std::size_t hashed_ = 0;
     std::deque<std::uint32_t> to_do_;
     std::size_t missing_ = 0;
 };
