@@ -93,8 +93,6 @@ void check_layouts(const Hosts& hosts, const Graph& graph, const Registry& regis
             check.complain(entry, ": it can't be sharded, as '" + taker->name + "' takes all that it keeps");
         else if (!kind->landmarks)
             check.complain(entry, ": a " + kind->name + " can't be sharded" + kinds_with_sectors(registry));
-        else if (is_taken(graph, *graph.find(entry.node)))
-            check.complain(entry, ": another node takes all that it keeps, so it can't be sharded");
         else if (sectors < 2)
             check.complain(entry,
                            ": it takes two replicas or more to share it, but this file has " + std::to_string(sectors));

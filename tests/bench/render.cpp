@@ -66,7 +66,7 @@ const std::vector<NetworkedRow>& networked_rows() {
     static const std::vector<NetworkedRow> table{
         {"networked_path", "path_all.lua", {{"samples", "64"}}},
         {"networked_cache", "irradiance_cache.lua", {{"samples", "128"}, {"rays", "4096"}}},
-        {"networked_map_cache", "figure5.lua", {{"samples", "48"}, {"photons", "400000"}, {"rays", "512"}}},
+        {"networked_map_cache", "figure5.lua", {{"samples", "96"}, {"photons", "400000"}, {"rays", "512"}}},
     };
     return table;
 }
@@ -100,7 +100,7 @@ void measure(const Row& row, const fs::path& folder, const Registry& registry) {
 
 /// Warm daemons: they have the scene, as a run before this one brought it.
 void measure_networked(const NetworkedRow& row, const fs::path& folder, const Registry& registry) {
-    constexpr int rounds = 3;
+    constexpr int rounds = 5;
     Constants constants = row.constants;
     constants["file"] = (folder / "cornell_grey.pbrt").string();
     Stage stage(registry, row.graph, constants);
@@ -113,19 +113,20 @@ void measure_networked(const NetworkedRow& row, const fs::path& folder, const Re
         cluster.adopt(cluster.plan());
         const Rendered made = stage.on(cluster, run);
         cluster.finish();
-        return made.seconds;
+        return made;
     };
     std::vector<double> more;
     for (int round = 0; round < rounds; ++round) {
         // Each goes first in turn, so that a machine that gets slower or faster favours nobody.
-        std::array<double, 2> seconds{};
+        std::array<Rendered, 2> made;
         for (int turn = 0; turn < 2; ++turn)
             if ((turn + round) % 2 == 0)
-                seconds[0] = stage.in_threads(places).seconds;
+                made[0] = stage.in_threads(places);
             else
-                seconds[1] = networked();
-        std::printf("  %s: %.2f s in threads, %.2f s on daemons\n", row.name.c_str(), seconds[0], seconds[1]);
-        more.push_back(seconds[1] / seconds[0] - 1);
+                made[1] = networked();
+        std::printf("  %s: %.2f s in threads (%.2f to prepare), %.2f s on daemons (%.2f)\n", row.name.c_str(),
+                    made[0].seconds, made[0].preparing, made[1].seconds, made[1].preparing);
+        more.push_back(made[1].seconds / made[0].seconds - 1);
     }
     figure(("render." + row.name).c_str(), median(more), 0.01, false);
 }

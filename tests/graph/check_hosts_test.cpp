@@ -55,6 +55,19 @@ TEST(CheckHosts, WantsCountsThatMakeSense) {
     EXPECT_THAT(problems_with_hosts("place 'tcp://a:7' { places = 5000 }"), HasSubstr("'places' must be 1 … 1024"));
 }
 
+TEST(CheckHosts, KeepsWhatIsTakenByOthersWhole) {
+    const std::string two = "\nplace 'tcp://a:7'\nplace 'tcp://b:7'";
+    const auto problems = [&](const std::string& taker) {
+        return test::problems_of("a = Ambient {} b = Cache { a }" + taker +
+                                     " box = Scene { 'b.pbrt' }\n"
+                                     "image = RayTracer { sum, scene = box, film = { 8, 8 } }",
+                                 parse_hosts("layout { b = 'sharded' }" + two, "hosts.lua"));
+    };
+    EXPECT_THAT(problems(" c = Reuse { of = b } sum = Combine { b, c }"),
+                HasSubstr("layout of 'b': it can't be sharded, as 'c' takes all that it keeps"));
+    EXPECT_EQ(problems(" sum = Combine { b }"), "");
+}
+
 TEST(CheckHosts, WantsStrategiesAndNodesThatThereAre) {
     EXPECT_THAT(problems_with_hosts("strategy = 'afinity'"),
                 HasSubstr("hosts.lua:1: strategy: there is none called 'afinity' (did you mean 'affinity'?)"));
@@ -73,7 +86,7 @@ TEST(CheckHosts, WantsLayoutsThatThereAreOfNodesThatHaveThem) {
                 HasSubstr("layout of 'sly': there is no node of that name (did you mean 'sky'?)"));
     EXPECT_THAT(problems_with_hosts("layout { box = 'sharded' }" + two), HasSubstr("it is a scene, which nobody asks"));
     EXPECT_THAT(problems_with_hosts("layout { image = 'sharded' }" + two),
-                HasSubstr("layout of 'image': a RayTracer can't be sharded (these can: Ambient)"));
+                HasSubstr("layout of 'image': a RayTracer can't be sharded (these can: Ambient, Cache)"));
 }
 
 TEST(CheckHosts, WantsTwoReplicasOrMoreOfWhatIsSharded) {

@@ -43,6 +43,15 @@ TEST(Layout, OfANodeComesBeforeThatOfAll) {
 
 TEST(Layout, LeavesWhatOnePlaceHasWhole) { EXPECT_EQ(shards("layout = 'sharded'\nplace 'tcp://x:1'"), Shards{}); }
 
+TEST(Layout, LeavesWholeWhatAnotherNodeTakes) {
+    const auto shards_with = [](const std::string& taker) {
+        const Graph kept = sound_graph("a = Ambient {} b = Cache { a }" + taker);
+        return shards_of(kept, fake_registry(), hosts("layout = 'sharded'\nplace 'tcp://x:1'\nplace 'tcp://y:1'"));
+    };
+    EXPECT_EQ(shards_with(" lighting = Combine { b }"), (Shards{{"a", 2}, {"b", 2}}));
+    EXPECT_EQ(shards_with(" c = Reuse { of = b } lighting = Combine { b, c }"), (Shards{{"a", 2}}));
+}
+
 TEST(Layout, GivesASectorANodeOfItsOwn) {
     const Graph cut = sharded(graph(), {{"a", 3}});
     EXPECT_EQ(written_nodes(cut), 4u);

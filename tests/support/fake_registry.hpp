@@ -52,6 +52,7 @@ inline Kind cache() {
     kind.least_inputs = kind.most_inputs = 1;
     kind.prepares = true;
     kind.freezes = "records";
+    kind.landmarks = [](const NodeContext&) { return std::vector<Vec3>{}; };
     return kind;
 }
 
