@@ -10,7 +10,7 @@
 namespace lightnet {
 namespace {
 
-constexpr std::string_view first_line = "lightnet kept 2";
+constexpr std::string_view first_line = "lightnet kept 1";
 constexpr std::size_t longest_head = 1024;
 
 /// Texts and numbers of a scene, one after the other.

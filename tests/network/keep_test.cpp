@@ -57,7 +57,7 @@ TEST_F(Keep, LetsAnotherViewOfASceneGoOnFromTheRecordsOfOne) {
     const auto first = launch(graph("first.lua", ", keep = 'room.records'"), folder, with({}));
     ASSERT_EQ(first.code, 0) << first.said;
     EXPECT_THAT(first.said, HasSubstr("soft: kept in"));
-    EXPECT_TRUE(bytes_of(folder / "room.records").starts_with("lightnet kept 2\nwhat irradiance records\n"));
+    EXPECT_TRUE(bytes_of(folder / "room.records").starts_with("lightnet kept 1\nwhat irradiance records\n"));
 
     const auto alone = launch(graph("alone.lua", "", aside), folder, with({}));
     const auto second_graph = graph("second.lua", ", extend = 'room.records'", aside);
