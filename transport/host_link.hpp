@@ -62,6 +62,8 @@ public:
     State state() const { return state_; }
     bool takes_part() const { return state_ == State::ready || state_ == State::leaving; }
     std::uint32_t places() const { return places_; }
+    /// Which process it is; 0 before it has said so.
+    std::uint64_t incarnation() const { return incarnation_; }
     /// Why it is refused or lost, or what it waits for.
     const std::string& reason() const { return reason_; }
     /// It can't build the job: the run is at fault, not the host.

@@ -67,9 +67,10 @@ const std::string& text_of(const Json& json) {
 template <class Integer>
 Integer integer_of(const Json& json) {
     if (!json.is_number_integer()) malformed("an integer was expected");
-    const auto value = json.get<std::int64_t>();
-    if (value < 0 || value > std::int64_t{std::numeric_limits<Integer>::max()}) malformed("an integer is out of range");
-    return static_cast<Integer>(value);
+    if (!json.is_number_unsigned() ||
+        json.get<std::uint64_t>() > static_cast<std::uint64_t>(std::numeric_limits<Integer>::max()))
+        malformed("an integer is out of range");
+    return json.get<Integer>();
 }
 
 Json json_of(const SourceLine& where) { return Json::array({where.file, where.line}); }
@@ -253,12 +254,13 @@ std::string to_json(const Plan& plan) {
     return dump({{"places", std::move(places)},
                  {"places_of", plan.places_of},
                  {"strategy", name_of(plan.strategy)},
-                 {"strategies", std::move(strategies)}});
+                 {"strategies", std::move(strategies)},
+                 {"processes", plan.processes}});
 }
 
 Plan plan_from_json(std::string_view text) {
     const Json json = parse(text);
-    object_of(json, 4);
+    object_of(json, 5);
     Plan plan;
     for (const auto& place : array_of(member(json, "places"))) {
         if (array_of(place).size() != 2) malformed("a host and an index were expected");
@@ -273,6 +275,9 @@ Plan plan_from_json(std::string_view text) {
     }
     plan.strategy = strategy_of(member(json, "strategy"));
     take_strategies(member(json, "strategies"), plan);
+    const Json& processes = member(json, "processes");
+    object_of(processes, processes.size());
+    for (const auto& [host, process] : processes.items()) plan.processes[host] = integer_of<std::uint64_t>(process);
     return plan;
 }
 

@@ -48,6 +48,13 @@ struct Plan {
     Strategy strategy = Strategy::fastest;           // by which askers choose among the places of a node ...
     std::map<std::uint32_t, Strategy> strategies{};  // ... but of these nodes
 
+    std::map<std::string, std::uint64_t> processes{};  // host → which process serves there, as far as is known: who
+                                                       // comes back as the same one had not died
+
+    std::uint64_t process_of(const std::string& host) const {
+        const auto known = processes.find(host);
+        return known == processes.end() ? 0 : known->second;
+    }
     Strategy strategy_of(std::size_t node) const {
         const auto own = strategies.find(static_cast<std::uint32_t>(node));
         return own == strategies.end() ? strategy : own->second;

@@ -48,6 +48,8 @@ public:
     virtual Load load() const { return {}; }
     /// The host of the answerer; places of one host are lost together. "": this process.
     virtual std::string host() const { return {}; }
+    /// Which process of that host answers: another one when it was started anew. 0: not known.
+    virtual std::uint64_t process() const { return 0; }
     /// A short name for the answerer, the same whenever it comes back.
     virtual std::uint64_t name() const { return 0; }
 };

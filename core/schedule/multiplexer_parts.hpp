@@ -47,7 +47,8 @@ void Multiplexer<Question>::add_replica(Channel<Question>* channel) {
     const auto [host, is_new] = hosts_.emplace(host_name, static_cast<Scheduler::Host>(host_names_.size()));
     if (is_new) host_names_.push_back(host_name);
     slots_[replica] = {channel, false, host_name};
-    tell(Scheduler::Joined{replica, host->second, channel->name() ? channel->name() : replica + 1, channel->credit()});
+    tell(Scheduler::Joined{replica, host->second, channel->name() ? channel->name() : replica + 1, channel->credit(),
+                           channel->process()});
 }
 
 // ---- the way there ----

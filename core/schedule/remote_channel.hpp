@@ -22,6 +22,7 @@ public:
         std::uint32_t channel = 0;  // number among the channels of this place
         std::uint32_t node = 0;     // who is asked
         PlaceAt place;              // where
+        std::uint64_t process = 0;  // see Channel
         std::uint64_t asker = 0;    // name_of() the place that asks; 0: the launcher
     };
     RemoteChannel(Carrier& carrier, Ends ends, Credit credit, Counters& counters)
@@ -47,6 +48,7 @@ public:
     Credit credit() const override { return credit_; }
     Load load() const override { return load_; }
     std::string host() const override { return ends_.place.host; }
+    std::uint64_t process() const override { return ends_.process; }
     std::uint64_t name() const override { return name_of(ends_.place); }
 
     /// A reply or a failure that names this channel.

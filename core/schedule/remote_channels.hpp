@@ -40,7 +40,7 @@ public:
             const auto& at = plan.places[place];
             const Key key{at.host, at.index};
             const auto before = edge.known.find(key);
-            const auto number = before == edge.known.end() ? open(edge, at) : before->second;
+            const auto number = before == edge.known.end() ? open(edge, at, plan.process_of(at.host)) : before->second;
             known.emplace(key, number);
             replicas.push_back(channels_[number].get());
         }
@@ -62,10 +62,10 @@ public:
     }
 
 private:
-    std::uint32_t open(const Edge& edge, const PlaceAt& at) {
+    std::uint32_t open(const Edge& edge, const PlaceAt& at, std::uint64_t process) {
         const auto number = static_cast<std::uint32_t>(channels_.size());
         channels_.push_back(std::make_unique<RemoteChannel<Question>>(
-            carrier_, typename RemoteChannel<Question>::Ends{run_, number, edge.node, at, asker_}, edge.credit,
+            carrier_, typename RemoteChannel<Question>::Ends{run_, number, edge.node, at, process, asker_}, edge.credit,
             counters_));
         return number;
     }

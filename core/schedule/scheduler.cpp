@@ -25,7 +25,7 @@ std::optional<Scheduler::Replica> Scheduler::replica_of(CopyId copy) const {
 
 void Scheduler::happens(const Added& event, Time) {
     assert(!items_.contains(event.work) && "work goes by numbers of its own");
-    items_.emplace(event.work, Item{event, {}, {}, {}, false, true});
+    items_.emplace(event.work, Item{event, {}, {}, {}, true});
     waiting_.push_back(event.work);
     questions_waiting_ += event.questions;
     ++added_;
@@ -45,7 +45,7 @@ void Scheduler::happens(const Dropped&, Time) {
 void Scheduler::wait_again(Item& item) {
     item.waiting = true;
     questions_waiting_ += item.work.questions;
-    if (item.suspect)
+    if (item.suspect())
         suspects_.push_back(item.work.work);
     else
         waiting_.push_front(item.work.work);
@@ -73,10 +73,12 @@ void Scheduler::happens(const Joined& event, Time) {
     place.present = true;
     place.host = event.host;
     place.name = event.name;
+    place.process = event.process;
     place.credit = event.credit;
     place.patience = rules_.patience;
     sites_[event.host].replicas.insert(event.replica);
     ++present_;
+    if (lost_.erase({event.host, event.process}) > 0) acquit(event.host, event.process);
     give_home(event.replica);
     refresh(event.replica);
 }
@@ -110,15 +112,16 @@ void Scheduler::go(Replica replica, bool died, bool alone) {
         take_stray(out_.at(stray), stray);
         out_.erase(stray);
     }
-    const auto host = place.host;
+    const Loss loss{place.host, place.process, alone};
+    if (died && loss.process) lost_.insert({loss.host, loss.process});
     take_home(replica);
     place.present = false;
     --present_;
-    auto& site = sites_.at(host);
+    auto& site = sites_.at(loss.host);
     site.replicas.erase(replica);
     if (site.replicas.empty()) {
-        sites_.erase(host);
-        quarantined_.erase(host);
+        sites_.erase(loss.host);
+        quarantined_.erase(loss.host);
     }
     refresh(replica);
     for (auto copy = copies.rbegin(); copy != copies.rend(); ++copy) {
@@ -127,7 +130,7 @@ void Scheduler::go(Replica replica, bool died, bool alone) {
         ++counts_.asked_again;
         std::erase(copy->item->copies, copy->id);
         if (died)
-            blame(*copy->item, host, alone);
+            blame(*copy->item, loss);
         else
             ask_again(*copy->item);
     }
@@ -137,12 +140,25 @@ void Scheduler::ask_again(Item& item) {
     if (item.copies.empty() && !item.waiting) wait_again(item);
 }
 
-void Scheduler::blame(Item& item, Host host, bool alone) {
-    item.suspect = true;
-    if (alone) item.died_alone.push_back(host);
-    if (item.died_alone.size() < static_cast<std::size_t>(rules_.deaths_alone)) return ask_again(item);
-    actions_->push_back(SetAside{item.work.work, item.died_alone});
+void Scheduler::blame(Item& item, const Loss& loss) {
+    item.losses.push_back(loss);
+    std::vector<Host> alone;
+    for (const auto& each : item.losses)
+        if (each.alone) alone.push_back(each.host);
+    if (alone.size() < static_cast<std::size_t>(rules_.deaths_alone)) return ask_again(item);
+    actions_->push_back(SetAside{item.work.work, alone});
     finish(item);
+}
+
+void Scheduler::acquit(Host host, std::uint64_t process) {
+    for (auto& [work, item] : items_)
+        std::erase_if(item.losses, [&](const Loss& loss) { return loss.host == host && loss.process == process; });
+    std::erase_if(suspects_, [&](WorkId work) {
+        const auto item = items_.find(work);
+        const bool clear = item != items_.end() && !item->second.suspect();
+        if (clear && item->second.waiting) waiting_.push_front(work);
+        return clear;
+    });
 }
 
 // ---- copies come back ----
@@ -262,7 +278,7 @@ void Scheduler::hand_out(Time now) {
         const auto found = items_.find(waiting_.front());
         if (found == items_.end() || !found->second.waiting) {
             waiting_.pop_front();
-        } else if (found->second.suspect) {
+        } else if (found->second.suspect()) {
             suspects_.push_back(waiting_.front());
             waiting_.pop_front();
         } else {

@@ -23,7 +23,8 @@ namespace lightnet {
 /// Work is a bundle or a tile, handed out in copies: one, as a rule. A second copy goes to another replica when the
 /// first is overdue (its place may hang, or the network has lost it), or when a phase ends and a replica is idle. The
 /// first answer counts. Copies on a host that dies make their work suspect: it is asked again alone, with nothing else
-/// on its host, and set aside after its third death alone.
+/// on its host, and set aside after its third death alone. A host that comes back as the same process had not died: it
+/// was out of reach, and no work is to blame.
 class Scheduler {
 public:
     using Time = double;  // seconds, on any clock that does not go back
@@ -58,6 +59,7 @@ public:
         Host host;
         std::uint64_t name;  // of the place: the same whenever it comes back
         Credit credit;
+        std::uint64_t process = 0;  // of the host: one that is back had not died. 0: not known
     };
     struct Draining {  // it answers what it has, and is asked no more, until it is not draining any more
         Replica replica;
@@ -154,19 +156,24 @@ private:
         std::size_t questions, bytes;
         Time sent, expected, overdue;
     };
+    struct Loss {  // of a host on which work was under way
+        Host host;
+        std::uint64_t process;
+        bool alone;  // nothing else was
+    };
     struct Item {
         Added work;
         std::vector<CopyId> copies;       // under way
         std::vector<CopyId> written_off;  // an answer would still be welcome
-        std::vector<Host> died_alone;
-        bool suspect = false;
+        std::vector<Loss> losses;         // that it may be to blame for
         bool waiting = false;
+        bool suspect() const { return !losses.empty(); }
     };
     struct Place {
         bool present = false, draining = false, refused = false;
         bool silent = false;  // something is overdue, and no reply has come since it was sent
         Host host = 0;
-        std::uint64_t name = 0;
+        std::uint64_t name = 0, process = 0;
         Credit credit;
         std::vector<Copy> copies;
         std::vector<CopyId> strays;            // written off, and not answered so far
@@ -205,7 +212,8 @@ private:
     void wait_again(Item& item);
     void go(Replica replica, bool died, bool alone);
     void ask_again(Item& item);
-    void blame(Item& item, Host host, bool alone);
+    void blame(Item& item, const Loss& loss);
+    void acquit(Host host, std::uint64_t process);
     Copy take_copy(Replica replica, CopyId copy);
     Item* take_stray(const Out& out, CopyId copy);
     void measure(Place& place, const Copy& copy, const Replied& reply, Time now);
@@ -237,6 +245,7 @@ private:
     std::vector<Place> places_;  // by replica
     std::map<Host, Site> sites_;
     std::set<Host> quarantined_;
+    std::set<std::pair<Host, std::uint64_t>> lost_;  // processes, which may come back
     std::vector<Replica> refused_;
     std::map<std::uint64_t, Replica> ring_;  // affinity: points of a circle → their replica
 

@@ -127,7 +127,7 @@ bool Scheduler::better_held_back(const Item& item, Replica replica) const {
 }
 
 bool Scheduler::may_be_doubled(const Copy& copy) const {
-    return copy.item && !copy.item->suspect && copy.item->copies.size() == 1 && copy.expected < Lowest::none;
+    return copy.item && !copy.item->suspect() && copy.item->copies.size() == 1 && copy.expected < Lowest::none;
 }
 
 // What `idle` could do: a copy that is late by half of its time, else the one that is expected last, if that is later

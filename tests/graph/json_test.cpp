@@ -81,7 +81,8 @@ TEST(HostsJson, ComesBackEqual) {
 }
 
 TEST(PlanJson, ComesBackEqual) {
-    const Plan plan{{{"tcp://a:1", 0}, {"", 1}}, {{0, 1}, {}, {1}}};
+    Plan plan{{{"tcp://a:1", 0}, {"", 1}}, {{0, 1}, {}, {1}}};
+    plan.processes = {{"tcp://a:1", ~std::uint64_t{0}}};
     EXPECT_EQ(plan_from_json(to_json(plan)), plan);
 }
 

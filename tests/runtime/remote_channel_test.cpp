@@ -53,7 +53,7 @@ protected:
 };
 
 TEST_F(RemoteChannelTest, BringsAnswersAndTheLoadOfTheAnswererBack) {
-    RemoteChannel<Query> channel{carrier, {1, 0, 3, {"tcp://onyx1:7777", 0}, 9}, {}, counters};
+    RemoteChannel<Query> channel{carrier, {1, 0, 3, {"tcp://onyx1:7777", 0}, 5, 9}, {}, counters};
     EXPECT_TRUE(channel.send(bundle(5)));
     EXPECT_EQ(carrier.asked[0].node, 3u);
     EXPECT_EQ(carrier.asked[0].asker, 9u);
@@ -64,7 +64,7 @@ TEST_F(RemoteChannelTest, BringsAnswersAndTheLoadOfTheAnswererBack) {
 }
 
 TEST_F(RemoteChannelTest, DropsAndCountsWhatComesAfterItsPlaceWasLost) {
-    RemoteChannel<Query> channel{carrier, {1, 0, 0, {"tcp://onyx1:7777", 0}, 0}, {}, counters};
+    RemoteChannel<Query> channel{carrier, {1, 0, 0, {"tcp://onyx1:7777", 0}, 5, 0}, {}, counters};
     channel.send(bundle(5));
     channel.close();
     auto reply = reply_for(carrier.asked[0]);

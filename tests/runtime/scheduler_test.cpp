@@ -15,8 +15,9 @@ protected:
 
     void use(Scheduler::Rules rules) { scheduler = Scheduler(rules); }
     void join(Scheduler::Replica replica, Credit credit = {1, 1000, 1 << 20}) { join_on(replica, replica, credit); }
-    void join_on(Scheduler::Host host, Scheduler::Replica replica, Credit credit = {1, 1000, 1 << 20}) {
-        tell(Scheduler::Joined{replica, host, replica + 1, credit});
+    void join_on(Scheduler::Host host, Scheduler::Replica replica, Credit credit = {1, 1000, 1 << 20},
+                 std::uint64_t process = 0) {
+        tell(Scheduler::Joined{replica, host, replica + 1, credit, process});
     }
     void add(Scheduler::WorkId work, std::size_t bytes = 0, std::uint64_t region = 0) {
         tell(Scheduler::Added{work, 1, bytes, region});
@@ -173,6 +174,28 @@ TEST_F(SchedulerTest, RunsSuspectsAloneAndConvictsAfterThreeDeathsAlone) {
     }
     EXPECT_EQ(alone, (std::set<Scheduler::WorkId>{1, 2}));
     EXPECT_EQ(scheduler.unfinished(), 0u);
+}
+
+TEST_F(SchedulerTest, BlamesNobodyForAHostThatComesBackAsTheSameProcess) {
+    join_on(0, 0, {2, 1000, 1000}, 5);
+    add(1), add(2);
+    for (int cut = 0; cut < 10; ++cut) {
+        EXPECT_EQ(tick().size(), 2u) << "nothing is suspect";
+        tell(Scheduler::Gone{{0}, true});
+        join_on(0, 0, {2, 1000, 1000}, 5);
+    }
+    EXPECT_FALSE(did<Scheduler::SetAside>());
+}
+
+TEST_F(SchedulerTest, StillBlamesWorkForTheDeathsOfOtherProcesses) {
+    join_on(0, 0, {2, 1000, 1000}, 5);
+    add(1);
+    for (std::uint64_t process = 6; process < 9; ++process) {
+        EXPECT_EQ(tick().size(), 1u);
+        tell(Scheduler::Gone{{0}, true});
+        EXPECT_EQ(did<Scheduler::SetAside>(), process == 8);
+        join_on(0, 0, {2, 1000, 1000}, process);
+    }
 }
 
 TEST_F(SchedulerTest, CountsNoDeathAgainstWorkThatSharedItsHost) {

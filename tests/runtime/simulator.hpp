@@ -30,6 +30,7 @@ struct World {
     double loss = 0;              // part of all messages
     double twice = 0;             // part of all replies
     double deaths = 0;            // per host and simulated second; a host comes back after some seconds
+    double cuts = 0;              // likewise: only its line is gone
     double drains = 0;            // likewise, in good order
     double calm_after = 1e9;      // seconds; then nobody dies any more
     double hangs = 0;             // likewise: answers nothing for some time, and is never missed
@@ -70,6 +71,7 @@ public:
                 if (asked) plan.places_of[0].push_back(static_cast<std::uint32_t>(plan.places.size()));
                 plan.places.push_back({name(host), place});
             }
+            plan.processes[name(host)] = hosts_[host].process;
         }
         return plan;
     }
@@ -81,7 +83,7 @@ public:
     const std::map<std::uint32_t, int>& died_alone() const { return died_alone_; }
     /// From now on nothing goes wrong any more.
     void calm_down() {
-        world_.loss = world_.deaths = world_.drains = world_.hangs = 0;
+        world_.loss = world_.deaths = world_.cuts = world_.drains = world_.hangs = 0;
         for (auto& host : hosts_) host.hangs_until = std::min(host.hangs_until, now_);
     }
 
@@ -112,13 +114,14 @@ private:
     enum class State { there, draining, gone };
     struct Host {
         State state = State::there;
-        std::uint64_t life = 1;  // messages to an earlier one are lost
+        std::uint64_t life = 1;     // messages to an earlier one are lost
+        std::uint64_t process = 1;  // it is another one after each death, but not after a cut
         double seconds_per_tile = 1;
         double hangs_until = 0;
         std::vector<double> busy_until;  // by place
     };
     struct Event {
-        enum class Kind { ask, done, reply, plan, death, drain, hang, leave, back };
+        enum class Kind { ask, done, reply, plan, death, cut, drain, hang, leave, back };
         double time;
         Kind kind;
         std::uint32_t host = 0;
@@ -134,6 +137,7 @@ private:
     static std::string name(std::uint32_t host) { return std::to_string(host); }
     std::map<Event::Kind, double> rates() const {
         return {{Event::Kind::death, world_.deaths},
+                {Event::Kind::cut, world_.cuts},
                 {Event::Kind::drain, world_.drains},
                 {Event::Kind::hang, world_.hangs}};
     }
@@ -186,6 +190,13 @@ private:
             case Event::Kind::death:
                 if (host.state != State::gone && world_.deaths > 0 && now_ < world_.calm_after) die(event.host);
                 plan_next(Event::Kind::death, event.host, world_.deaths);
+                break;
+            case Event::Kind::cut:
+                if (host.state != State::gone && world_.cuts > 0 && now_ < world_.calm_after) {
+                    tell("is cut off", event.host, 0);
+                    go(event.host, 0);
+                }
+                plan_next(Event::Kind::cut, event.host, world_.cuts);
                 break;
             case Event::Kind::drain:
                 if (host.state == State::there && world_.drains > 0) {
@@ -243,6 +254,7 @@ private:
 
     void die(std::uint32_t host) {
         tell("dies", host, 0);
+        ++hosts_[host].process;
         died_.insert(host);
         go(host, 1.5 * part());
     }

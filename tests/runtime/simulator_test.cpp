@@ -68,6 +68,14 @@ TEST(SimulatedRun, EndsThoughHostsStandInForEachOtherAgainAndAgain) {
     });
 }
 
+TEST(SimulatedRun, BlamesNoTileForLinesThatAreCutAgainAndAgain) {
+    for_every_seed([](std::uint64_t seed) {
+        World world{.seed = seed, .hosts = 2, .places_per_host = 1, .cuts = 0.4};
+        world.calm_after = 200;
+        EXPECT_EQ(expect_sound(world).counters.set_aside, 0u);
+    });
+}
+
 TEST(SimulatedRun, LosesNothingToHostsThatLeaveInGoodOrder) {
     for_every_seed([](std::uint64_t seed) {
         const auto told = expect_sound({.seed = seed, .drains = 0.03});
