@@ -31,7 +31,7 @@ public:
     template <class T>
     void get(T* values, std::size_t count) {
         if (count > left_.size() / sizeof(T)) throw Error("it is damaged");
-        std::memcpy(values, left_.data(), count * sizeof(T));
+        if (count > 0) std::memcpy(values, left_.data(), count * sizeof(T));
         left_.remove_prefix(count * sizeof(T));
     }
     std::string_view text(std::size_t size) {

@@ -29,11 +29,12 @@ public:
 
     /// Answers the oldest bundle.
     void answer() {
-        const auto bundle = take();
+        auto bundle = take();
         std::vector<Rgb> answers;
         for (const auto& query : *bundle.questions)
             for (std::uint32_t k = 0; k < bundle.width; ++k)
                 answers.push_back({static_cast<float>(query.sample), query.u, static_cast<float>(k)});
+        bundle.questions.reset();  // who answers has read them
         bundle.owner->answered(bundle, std::move(answers));
     }
     Bundle<Question> take() {
