@@ -135,6 +135,7 @@ public:
 };
 
 Packet pack(Type type, std::uint64_t run, const Fields& fields);
+
 /// A piece of a file or result; its bytes are a view.
 struct Piece {
     Hash hash;  // of the whole

@@ -81,7 +81,7 @@ int main() {
         const auto [least, most] = std::minmax_element(all.begin(), all.end());
         std::printf("  %s: %.1f MiB early, %.1f MiB late, from %.1f to %.1f\n", name.c_str(), early / (1 << 20),
                     late / (1 << 20), *least / (1 << 20), *most / (1 << 20));
-        lightnet::bench::figure(("memory." + name).c_str(), early > 0 ? late / early - 1 : 1, 0.05, false);
+        lightnet::bench::figure(("memory." + name).c_str(), early > 0 && late > 0 ? late / early - 1 : 1, 0.05, false);
     }
     for (const auto& [name, process] : processes) kill(process, SIGKILL);
     for (const auto& [name, process] : processes) waitpid(process, nullptr, 0);
