@@ -107,7 +107,7 @@ struct Cluster::Links {
             for (std::uint32_t place = 0; link->state() == State::leaving && place < places_before(*link); ++place)
                 made.places.push_back({link->name(), place});
         for (const auto& link : links)
-            if (link->incarnation()) made.processes[link->name()] = link->incarnation();
+            if (link->process()) made.processes[link->name()] = link->process();
         return made;
     }
     std::uint32_t places_before(const HostLink& link) const {

@@ -25,7 +25,7 @@ Host::Service::Service(Options given_options, const Registry& kinds)
       registry(kinds),
       cache(options.cache.empty() ? default_cache_folder() : options.cache),
       context(std::make_unique<zmq::context_t>(1)),
-      door(*context, {options.listen, options.join, options.name.empty() ? machine.name : options.name, incarnation}) {
+      door(*context, {options.listen, options.join, options.name.empty() ? machine.name : options.name, process}) {
     if (!options.places) options.places = static_cast<std::uint32_t>(machine.cores);
     cache.trim();
 }

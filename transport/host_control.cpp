@@ -24,7 +24,7 @@ void Host::Service::control(const std::string& route, const packet::Header& head
         case Type::ping:
             return door.send(route, Type::pong, header.run,
                              Fields{}
-                                 .set("incarnation", incarnation)
+                                 .set("process", process)
                                  .set("run", run ? run->id() : 0)
                                  .set("sent", fields.number("sent"))
                                  .set("line", door.tally().line)
@@ -58,7 +58,7 @@ void Host::Service::greet(const std::string& route, const Fields& fields) {
         Fields answer;
         set(answer, machine);
         answer.set("places", options.places)
-            .set("incarnation", incarnation)
+            .set("process", process)
             .set("fingerprint", fingerprint(fields.text("isa")));
         door.send(route, Type::welcome, 0, answer);
     } catch (const Error& error) {  // a processor without that instruction set

@@ -105,9 +105,8 @@ void HostDoor::keep_in_touch(Time now) {
     next_join_ = now + join_interval;
     Frames frames;
     append(frames,
-           packet::pack(
-               Type::join, 0,
-               Fields{}.set("name", ends_.name).set("incarnation", ends_.incarnation).set("endpoint", endpoint())));
+           packet::pack(Type::join, 0,
+                        Fields{}.set("name", ends_.name).set("process", ends_.process).set("endpoint", endpoint())));
     if (!send_frames(*launcher_, frames)) next_join_ = now + 20ms;
 }
 

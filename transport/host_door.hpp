@@ -21,7 +21,7 @@ public:
         std::string listen;  // empty: nobody can call this host
         std::string join;    // of a launcher; empty: none is dialled
         std::string name;    // under which it joins
-        std::uint64_t incarnation = 0;
+        std::uint64_t process = 0;
     };
     /// Throws Error when the port can't be had.
     HostDoor(zmq::context_t& context, Ends ends);

@@ -163,7 +163,7 @@ void HostLink::control(Type type, const Fields& fields, Time now) {
             return;
         case Type::pong:
             if (state_ == State::calling || state_ == State::refused) return;
-            if (fields.number("incarnation") != incarnation_)
+            if (fields.number("process") != process_)
                 lose(now, "it was started anew");
             else if (state_ != State::greeted && fields.number("run") != told_.run)
                 lose(now, "it gave the run up");
@@ -197,7 +197,7 @@ void HostLink::welcome(const Fields& fields) {
         return;
     }
     places_ = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(fields.number("places"), 1, 1024));
-    incarnation_ = fields.number("incarnation");
+    process_ = fields.number("process");
     machine_ = machine_from(fields);
     state_ = State::greeted;
 }

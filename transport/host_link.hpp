@@ -63,7 +63,7 @@ public:
     bool takes_part() const { return state_ == State::ready || state_ == State::leaving; }
     std::uint32_t places() const { return places_; }
     /// Which process it is; 0 before it has said so.
-    std::uint64_t incarnation() const { return incarnation_; }
+    std::uint64_t process() const { return process_; }
     /// Why it is refused or lost, or what it waits for.
     const std::string& reason() const { return reason_; }
     /// It can't build the job: the run is at fault, not the host.
@@ -111,7 +111,7 @@ private:
     std::string reason_;
     bool broken_ = false;
     std::uint32_t places_ = 0;
-    std::uint64_t incarnation_ = 0, progress_ = 0;
+    std::uint64_t process_ = 0, progress_ = 0;
     Machine machine_;
     Time heard_{}, next_call_{}, next_ping_{}, chunk_taken_{};
     // Messages that this end and the other have counted. What lies between their counts is the same on an undamaged

@@ -29,7 +29,7 @@ struct Host::Service {
     const Registry& registry;
     BlobCache cache;
     Machine machine = this_machine();
-    std::uint64_t incarnation = incarnation_number();
+    std::uint64_t process = process_number();
     std::unique_ptr<zmq::context_t> context;
     HostDoor door;
     std::uint64_t broken_packets = 0;

@@ -81,7 +81,7 @@ bool Joiners::control(Frames& frames, const Takers& takers) {
             return false;
         }
         send(route, Type::joined, {});
-    } else if (fields->number("incarnation")) {
+    } else if (fields->number("process")) {
         join(route, *fields, takers);
     } else {
         return false;
@@ -90,9 +90,9 @@ bool Joiners::control(Frames& frames, const Takers& takers) {
 }
 
 void Joiners::join(const std::string& route, const Fields& fields, const Takers& takers) {
-    const auto incarnation = fields.number("incarnation");
+    const auto process = fields.number("process");
     send(route, Type::joined, {});
-    const auto name = name_for(fields.text("name"), incarnation);
+    const auto name = name_for(fields.text("name"), process);
     if (!name || (!joined_.contains(*name) && joined_.size() >= most_joined)) return;
     auto& known = joined_[*name];
     if (!known.line) {
@@ -102,27 +102,27 @@ void Joiners::join(const std::string& route, const Fields& fields, const Takers&
     } else if (known.line->route() != route) {
         by_route_.erase(known.line->route());
         known.line->use(route);
-        takers.lost(*name, known.incarnation == incarnation ? "its connection was cut" : "it was started anew");
+        takers.lost(*name, known.process == process ? "its connection was cut" : "it was started anew");
     }
-    known.incarnation = incarnation;
+    known.process = process;
     known.heard = Clock::now();
     by_route_[route] = *name;
 }
 
 // A host that was started anew gets the name that it had, as soon as it is clear that its predecessor is gone; of two
 // that are both there, the later gets a number. None: not clear yet.
-std::optional<std::string> Joiners::name_for(std::string wanted, std::uint64_t incarnation) {
+std::optional<std::string> Joiners::name_for(std::string wanted, std::uint64_t process) {
     if (!is_name(wanted)) wanted = "host";
     const auto now = Clock::now();
     for (int number = 1;; ++number) {
         const auto name = number == 1 ? wanted : wanted + "-" + std::to_string(number);
         const auto known = joined_.find(name);
-        if (known == joined_.end() || known->second.incarnation == incarnation || now - known->second.heard > lease) {
-            rivals_.erase(incarnation);
+        if (known == joined_.end() || known->second.process == process || now - known->second.heard > lease) {
+            rivals_.erase(process);
             return name;
         }
         if (rivals_.size() > most_joined) rivals_.clear();
-        if (now - rivals_.try_emplace(incarnation, now).first->second < lease + std::chrono::milliseconds(500))
+        if (now - rivals_.try_emplace(process, now).first->second < lease + std::chrono::milliseconds(500))
             return std::nullopt;
     }
 }

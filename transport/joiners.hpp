@@ -37,13 +37,13 @@ public:
 private:
     using Time = std::chrono::steady_clock::time_point;
     struct Joined {
-        std::uint64_t incarnation = 0;
+        std::uint64_t process = 0;
         JoinedLine* line = nullptr;
         Time heard{};
     };
     bool control(Frames& frames, const Takers& takers);
     void join(const std::string& route, const packet::Fields& fields, const Takers& takers);
-    std::optional<std::string> name_for(std::string wanted, std::uint64_t incarnation);
+    std::optional<std::string> name_for(std::string wanted, std::uint64_t process);
     void tell_state(const std::string& route, const std::vector<HostState>& hosts);
     void send(const std::string& route, packet::Type type, const packet::Fields& fields);
 
@@ -51,7 +51,7 @@ private:
     std::uint64_t run_;
     std::map<std::string, Joined> joined_;         // by name
     std::map<std::string, std::string> by_route_;  // names
-    std::map<std::uint64_t, Time> rivals_;         // incarnations that want a name that is taken, since when
+    std::map<std::uint64_t, Time> rivals_;         // processes that want a name that is taken, since when
 };
 
 }  // namespace lightnet

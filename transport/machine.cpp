@@ -36,7 +36,7 @@ Machine this_machine() {
     return machine;
 }
 
-std::uint64_t incarnation_number() {
+std::uint64_t process_number() {
     std::random_device device;
     return ((std::uint64_t{device()} << 32) | device()) | 1;
 }

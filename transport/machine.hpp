@@ -23,7 +23,7 @@ struct Machine {
 Machine this_machine();
 
 /// Tells one life of a daemon from the next; never 0. Nothing that is computed depends on it.
-std::uint64_t incarnation_number();
+std::uint64_t process_number();
 
 /// As fields of a control packet, and back.
 void set(packet::Fields& fields, const Machine& machine);

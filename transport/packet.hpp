@@ -43,7 +43,7 @@ enum class Type : std::uint8_t {
     data,           // bytes
     // control: launcher → host                       host → launcher
     hello = 16,  // version, build, isa
-    welcome,     //                             places, incarnation, fingerprint
+    welcome,     //                             places, process, fingerprint
     refuse,      //                             text: what differs, or who is being served
     begin,       // graph, plan, seed, rules, manifest of the scene's files, who
     need,        //                             hashes that are not in the host's cache
@@ -52,12 +52,12 @@ enum class Type : std::uint8_t {
     ready,       //                             all places are assembled
     broken,      //                             text: the run can't be served here
     ping,        // sent: messages so far, see is_counted()
-    pong,        //                          incarnation, run, progress, sent (as in the ping), taken, told, line
+    pong,        //                          process, run, progress, sent (as in the ping), taken, told, line
     plan,        // who answers for which node from now on
     end,         // of the run
     ended,       //                             counters
     leaving,     //                             it was told to stop: it answers what it has, then ends the run
-    join,        //                             name, incarnation, endpoint: "I am here", from a host that dialled out
+    join,        //                             name, process, endpoint: "I am here", from a host that dialled out
     joined,      // to such a host
     expect,      // hash, size: bytes that a step will name
     lacks,       //                             hash: please send them

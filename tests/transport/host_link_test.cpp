@@ -57,7 +57,7 @@ protected:
     }
     void become_ready() {
         pass({});
-        line->say(packet::pack(Type::welcome, 1, Fields{}.set("places", 2).set("incarnation", 5)));
+        line->say(packet::pack(Type::welcome, 1, Fields{}.set("places", 2).set("process", 5)));
         pass({});
         line->say(packet::pack(Type::need, 1, {}));
         line->say(packet::pack(Type::ready, 1, {}));
@@ -70,7 +70,7 @@ protected:
         pass(milliseconds(401));
         line->say(packet::pack(Type::pong, 1,
                                Fields{}
-                                   .set("incarnation", 5)
+                                   .set("process", 5)
                                    .set("run", 1)
                                    .set("line", 1)
                                    .set("sent", line->said)
@@ -170,7 +170,7 @@ TEST_F(HostLinkTest, TakesAnEmptyMessageForACut) {
 
 TEST_F(HostLinkTest, LosesAHostThatWasStartedAnew) {
     become_ready();
-    line->say(packet::pack(Type::pong, 1, Fields{}.set("incarnation", 6)));
+    line->say(packet::pack(Type::pong, 1, Fields{}.set("process", 6)));
     pass({});
     EXPECT_EQ(link->reason(), "it was started anew");
 }

@@ -39,8 +39,8 @@ protected:
         }
         return enough();
     }
-    static packet::Packet join(const std::string& name, std::uint64_t incarnation) {
-        return packet::pack(Type::join, 0, Fields{}.set("name", name).set("incarnation", incarnation));
+    static packet::Packet join(const std::string& name, std::uint64_t process) {
+        return packet::pack(Type::join, 0, Fields{}.set("name", name).set("process", process));
     }
 
     zmq::context_t context;
@@ -104,7 +104,7 @@ TEST_F(JoinersTest, GiveANewProcessTheNameOfItsDeadPredecessor) {
 
 TEST_F(JoinersTest, CallBackWhoHasAPort) {
     Stranger host(joiners.endpoint());
-    host.send(packet::pack(Type::join, 0, Fields{}.set("endpoint", "tcp://0.0.0.0:7777").set("incarnation", 1)));
+    host.send(packet::pack(Type::join, 0, Fields{}.set("endpoint", "tcp://0.0.0.0:7777").set("process", 1)));
     ASSERT_TRUE(wait_for([&] { return !called.empty(); }));
     EXPECT_THAT(called, ElementsAre("tcp://127.0.0.1:7777")) << "at the address from which it came";
     EXPECT_THAT(lines, IsEmpty());
@@ -125,7 +125,7 @@ TEST_F(JoinersTest, CountWhatStrangersSay) {
     Stranger anyone(joiners.endpoint());
     anyone.send("nonsense");
     anyone.send(packet::pack(Type::end, 1, {}));
-    anyone.send(packet::pack(Type::join, 0, Fields{}.set("name", "no incarnation")));
+    anyone.send(packet::pack(Type::join, 0, Fields{}.set("name", "no process")));
     ASSERT_TRUE(wait_for([&] { return broken == 3; }));
     EXPECT_THAT(lines, IsEmpty());
 }
