@@ -1,12 +1,16 @@
 // Indirect light, or all light: what reaches a point by way of other surfaces.
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/graph/kind.hpp"
 #include "core/light/light_op.hpp"
 #include "core/light/node_context.hpp"
+#include "core/math/columns.hpp"
+#include "core/math/many_samples.hpp"
 #include "core/scene/direct_light.hpp"
 
 namespace lightnet {
@@ -41,12 +45,16 @@ public:
             const std::size_t last = std::min(paths, first + paths_at_once);
             start(going, questions, first, last);
             for (std::uint32_t depth = 1; !going.walks.empty(); ++depth) go_on(going, depth);
-            for (std::size_t path = first; path < last; ++path) answers[path / samples_] += going.sums[path - first];
+            for (std::size_t path = first; path < last; ++path)
+                answers[going.asked[path - first]] += going.sums[path - first];
         }
         for (Rgb& answer : answers) answer = answer / float(samples_);
     }
 
 private:
+    static constexpr std::size_t paths_at_once = 256;
+    static constexpr std::size_t stops_at_once = lanes;  // so many stay in the nearest cache
+
     /// A path on its way from one surface to the next.
     struct Walk {
         std::uint32_t path;  // index into Paths::sums
@@ -58,47 +66,42 @@ private:
     };
     /// Random numbers of each walk at the surface that it has come to, dimension by dimension.
     struct Numbers {
-        std::vector<Key> keys;
-        std::vector<std::uint32_t> indices;
         std::vector<float> choices, survivals;
         std::vector<Vec2> places, ways;
     };
     /// Surfaces that walks have come to, and who has come there.
     struct Stops {
-        std::vector<SurfacePoint> points;
-        std::vector<Bsdf> bsdfs;
-        std::vector<Vec3> outgoing;
-        std::vector<std::uint8_t> lobes;
         struct Visitor {
             std::uint32_t walk, stop;
         };
+        std::size_t count = 0;
+        std::array<Hit, stops_at_once> hits;
+        std::array<SurfacePoint, stops_at_once> points;
+        std::array<Vec3, stops_at_once> outgoing;
+        std::array<std::uint8_t, stops_at_once> lobes;
+        std::vector<Bsdf> bsdfs;
         std::vector<Visitor> visitors;
-        std::vector<Hit> hits;
+        // of each visitor
+        std::vector<LampLook> looks_for_lamps;
+        std::vector<Bsdf::Look> looks_on;
+        std::vector<BsdfSample> steps;
+        std::vector<std::uint8_t> goes_on;
 
-        void clear() {
-            bsdfs.clear();
-            outgoing.clear();
-            lobes.clear();
-            visitors.clear();
-            hits.clear();
-        }
-    };
-    /// Light from lamps, if nothing is in the way.
-    struct FromLamps {
-        std::vector<Ray> rays;
-        std::vector<Rgb> light;
-        std::vector<std::uint32_t> paths;  // whom it is for
-        std::vector<std::uint8_t> hidden;
+        void clear() { count = 0, bsdfs.clear(), visitors.clear(); }
+        std::span<const SurfacePoint> surfaces() const { return std::span(points).first(count); }
     };
     /// Some paths, and scratch space for them.
     struct Paths {
-        std::vector<Rgb> sums;  // of each path
+        std::vector<Rgb> sums;           // of each path
+        std::vector<std::size_t> asked;  // the same: which question it's for
         std::vector<Walk> walks;
         std::vector<Ray> rays;  // of each walk
         std::vector<std::optional<Hit>> hits;
+        ManySamples samples;  // of each walk
         Numbers numbers;
         Stops stops;
-        FromLamps from_lamps;
+        LampRays from_lamps;  // for whom: paths
+        std::vector<std::uint8_t> hidden;
         std::size_t kept = 0;  // walks and rays of the next leg
     };
     /// Each surface on a way has these dimensions of its own, used or not.
@@ -116,16 +119,20 @@ private:
     void start(Paths& going, std::span<const Query> questions, std::size_t first, std::size_t last) const {
         going.sums.assign(last - first, Rgb{});
         going.walks.clear();
-        going.numbers.keys.clear();
-        going.numbers.indices.clear();
-        for (std::size_t path = first; path < last; ++path) {
-            const Query& question = questions[path / samples_];
-            going.numbers.keys.push_back(child(question.stream, key_));
-            going.numbers.indices.push_back(question.sample * samples_ + static_cast<std::uint32_t>(path % samples_));
-            going.walks.push_back({static_cast<std::uint32_t>(path - first), 1, {1, 1, 1}, nullptr, {}, {}});
+        going.samples.keep(0);
+        going.asked.clear();
+        for (std::size_t path = first; path < last;) {
+            const std::size_t q = path / samples_, end = std::min(last, (q + 1) * samples_);
+            const Key key = child(questions[q].stream, key_);
+            auto index = questions[q].sample * samples_ + static_cast<std::uint32_t>(path - q * samples_);
+            for (; path < end; ++path, ++index) {
+                going.asked.push_back(q);
+                going.samples.add(key, index);
+                going.walks.push_back({static_cast<std::uint32_t>(path - first), 1, {1, 1, 1}, nullptr, {}, {}});
+            }
         }
         going.rays.resize(going.walks.size());
-        draw(going.numbers, 0);
+        draw(going, 0);
         going.kept = 0;
         for (std::size_t path = first; path < last;) path = begin_at(going, questions, first, path, last);
         close(going);
@@ -136,28 +143,30 @@ private:
                          std::size_t last) const {
         Stops& stops = going.stops;
         stops.clear();
-        stops.points.clear();
         while (path < last && stops.visitors.size() < stops_at_once) {
             const std::size_t q = path / samples_, end = std::min(last, (q + 1) * samples_);
-            stops.points.push_back(scene_.surface(questions[q]));
-            stops.outgoing.push_back(questions[q].outgoing);
-            stops.lobes.push_back(questions[q].lobes);
-            for (; path < end; ++path)
-                stops.visitors.push_back(
-                    {static_cast<std::uint32_t>(path - first), static_cast<std::uint32_t>(stops.points.size() - 1)});
+            const auto stop = static_cast<std::uint32_t>(stops.count++);
+            stops.hits[stop] = scene_.hit(questions[q]);
+            stops.outgoing[stop] = questions[q].outgoing;
+            stops.lobes[stop] = questions[q].lobes;
+            for (; path < end; ++path) stops.visitors.push_back({static_cast<std::uint32_t>(path - first), stop});
         }
-        scene_.bsdfs(stops.points, stops.bsdfs);
-        if (all_)
-            for (const auto visitor : stops.visitors) look_around(going, visitor, 0);
-        for (const auto visitor : stops.visitors) scatter(going, visitor, 0);
+        find_surfaces(stops);
+        scene_.bsdfs(stops.surfaces(), stops.bsdfs);
+        if (all_) look_around(going, 0);
+        scatter(going, 0);
         return path;
+    }
+
+    void find_surfaces(Stops& stops) const {
+        scene_.surfaces(std::span(stops.hits).first(stops.count), std::span(stops.points).first(stops.count));
     }
 
     /// Takes all paths over the next surface: number `depth` on their way.
     void go_on(Paths& going, std::uint32_t depth) const {
         going.hits.resize(going.rays.size());
         scene_.intersect(going.rays, going.hits);
-        draw(going.numbers, depth);
+        draw(going, depth);
         going.kept = 0;
         for (std::size_t first = 0; first < going.walks.size(); first += stops_at_once)
             visit(going, first, std::min(going.walks.size(), first + stops_at_once), depth);
@@ -168,16 +177,15 @@ private:
     void close(Paths& going) const {
         going.walks.resize(going.kept);
         going.rays.resize(going.kept);
-        going.numbers.keys.resize(going.kept);
-        going.numbers.indices.resize(going.kept);
-        FromLamps& found = going.from_lamps;
-        found.hidden.resize(found.rays.size());
-        scene_.occluded(found.rays, found.hidden);
-        for (std::size_t i = 0; i < found.paths.size(); ++i)
-            going.sums[found.paths[i]] += nothing_if(found.hidden[i], found.light[i]);
+        going.samples.keep(going.kept);
+        LampRays& found = going.from_lamps;
+        going.hidden.resize(found.rays.size());
+        scene_.occluded(found.rays, going.hidden);
+        for (std::size_t i = 0; i < found.who.size(); ++i)
+            going.sums[found.who[i]] += nothing_if(going.hidden[i], found.light[i]);
         found.rays.clear();
         found.light.clear();
-        found.paths.clear();
+        found.who.clear();
     }
 
     /// Without a branch, as what is in the way can't be foretold.
@@ -187,25 +195,14 @@ private:
         return {masked(light.r), masked(light.g), masked(light.b)};
     }
 
-    void draw(Numbers& numbers, std::uint32_t depth) const {
-        const std::size_t count = numbers.keys.size();
+    void draw(Paths& going, std::uint32_t depth) const {
+        const ManySamples& samples = going.samples;
+        Numbers& numbers = going.numbers;
         const std::uint32_t first = depth * dimensions;
-        const auto draw_2d = [&](Dimension dimension, std::vector<Vec2>& points) {
-            points.resize(count);
-            Samples::many_2d(numbers.keys, numbers.indices, first + dimension, points);
-        };
-        const auto draw_1d = [&](Dimension dimension, std::vector<float>& values) {
-            values.resize(count);
-            Samples::many(numbers.keys, numbers.indices, first + dimension, values);
-        };
-        if (scene_.has_lamps() && (all_ || depth > 0)) draw_2d(place_on_lamp, numbers.places);
-        if (scene_.has_many_lamps()) draw_1d(choice_of_lamp, numbers.choices);
-        draw_2d(way, numbers.ways);
-        if (depth >= roulette_depth_) draw_1d(survival, numbers.survivals);
-    }
-    /// Those that few need.
-    static float draw_one(const Paths& going, std::size_t walk, std::uint32_t depth, Dimension dimension) {
-        return Samples(going.numbers.keys[walk], going.numbers.indices[walk], depth * dimensions + dimension).next();
+        if (scene_.has_lamps() && (all_ || depth > 0)) samples.draw(first + place_on_lamp, numbers.places);
+        if (scene_.has_many_lamps()) samples.draw(first + choice_of_lamp, numbers.choices);
+        samples.draw(first + way, numbers.ways);
+        if (depth >= roulette_depth_) samples.draw(first + survival, numbers.survivals);
     }
 
     void visit(Paths& going, std::size_t first, std::size_t last, std::uint32_t depth) const {
@@ -218,20 +215,19 @@ private:
                 continue;
             }
             if (walk.inside) walk.weight *= left_after(walk.inside, going.hits[i]->distance);
-            stops.visitors.push_back(
-                {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(stops.visitors.size())});
-            stops.hits.push_back(*going.hits[i]);
-            stops.outgoing.push_back(-walk.step.incoming);
-            stops.lobes.push_back(lobe::all);
+            const auto stop = static_cast<std::uint32_t>(stops.count++);
+            stops.visitors.push_back({static_cast<std::uint32_t>(i), stop});
+            stops.hits[stop] = *going.hits[i];
+            stops.outgoing[stop] = -walk.step.incoming;
+            stops.lobes[stop] = lobe::all;
         }
-        stops.points.resize(stops.hits.size());
-        scene_.surfaces(stops.hits, stops.points);
+        find_surfaces(stops);
         if (all_ || depth > 1)
             for (const auto [walk, stop] : stops.visitors) meet_lamp(going.walks[walk], stops.points[stop], going);
         if (max_depth_ && depth > max_depth_) return;
-        scene_.bsdfs(stops.points, stops.bsdfs);
-        for (const auto visitor : stops.visitors) look_around(going, visitor, depth);
-        for (const auto visitor : stops.visitors) scatter(going, visitor, depth);
+        scene_.bsdfs(stops.surfaces(), stops.bsdfs);
+        look_around(going, depth);
+        scatter(going, depth);
     }
 
     /// What a path finds that meets nothing any more.
@@ -253,58 +249,87 @@ private:
                 stops.lobes[visitor.stop], going.walks[visitor.walk].inside};
     }
 
-    /// What a path finds at a surface by looking for light, rather than by going on.
-    void look_around(Paths& going, const Stops::Visitor& visitor, std::uint32_t depth) const {
+    /// What paths find at surfaces by looking for light, rather than by going on.
+    void look_around(Paths& going, std::uint32_t depth) const {
+        if (scene_.has_lamps()) look_for_lamps(going);
+        if (two_looks(depth))
+            for (const auto visitor : going.stops.visitors) look_at_sky(going, visitor, depth);
+    }
+
+    void look_for_lamps(Paths& going) const {
+        Stops& stops = going.stops;
+        const Numbers& numbers = going.numbers;
+        const bool many_lamps = scene_.has_many_lamps();
+        stops.looks_for_lamps.clear();
+        for (const auto& visitor : stops.visitors) {
+            const float choice = many_lamps ? numbers.choices[visitor.walk] : 0;
+            stops.looks_for_lamps.push_back({gathering(going, visitor), {choice, numbers.places[visitor.walk]}});
+        }
+        LampRays& found = going.from_lamps;
+        const auto first = found.who.size();
+        rays_to_lamps(scene_, stops.looks_for_lamps, heuristic, found);
+        for (std::size_t i = first; i < found.who.size(); ++i) {
+            const Walk& walk = going.walks[stops.visitors[found.who[i]].walk];
+            found.light[i] = walk.weight * found.light[i];
+            found.who[i] = walk.path;
+        }
+    }
+
+    void look_at_sky(Paths& going, const Stops::Visitor& visitor, std::uint32_t depth) const {
         const Walk& walk = going.walks[visitor.walk];
         const Gathering at = gathering(going, visitor);
-        const auto add = [&](const Ray& ray, Rgb light) {
-            going.from_lamps.rays.push_back(ray);
-            going.from_lamps.light.push_back(walk.weight * light);
-            going.from_lamps.paths.push_back(walk.path);
-        };
-        if (scene_.has_lamps()) {
-            const LampNumbers numbers{scene_.has_many_lamps() ? going.numbers.choices[visitor.walk] : 0,
-                                      going.numbers.places[visitor.walk]};
-            if (const auto lamp = ray_to_lamp(scene_, at, numbers, heuristic)) add(lamp->ray, lamp->light);
-        }
-        if (!two_looks(depth)) return;
-        Samples samples(going.numbers.keys[visitor.walk], going.numbers.indices[visitor.walk],
-                        depth * dimensions + choice_of_look);
+        Samples samples = going.samples.at(visitor.walk, depth * dimensions + choice_of_look);
         const float choice = at.bsdf.chooses() ? samples.next() : samples.skip();
-        if (const auto found = at.bsdf.sample(at.outgoing, choice, samples.next_2d(), at.lobes)) {
-            const Rgb sky = found->weight * light_by_bsdf(scene_, at.point.position, *found, nullptr, heuristic);
-            if (!is_black(sky)) add({at.point.origin_towards(found->incoming), found->incoming}, 0.5f * sky);
-        }
+        const auto found = at.bsdf.sample(at.outgoing, choice, samples.next_2d(), at.lobes);
+        if (!found) return;
+        const Rgb sky = found->weight * light_by_bsdf(scene_, at.point.position, *found, nullptr, heuristic);
+        if (is_black(sky)) return;
+        going.from_lamps.rays.push_back({at.point.origin_towards(found->incoming), found->incoming});
+        going.from_lamps.light.push_back(walk.weight * (0.5f * sky));
+        going.from_lamps.who.push_back(walk.path);
     }
 
     /// Is the environment seen from the surface number `depth` looked at by two directions?
     bool two_looks(std::uint32_t depth) const { return looks_twice_ && depth == (all_ ? 0 : 1); }
 
-    /// Sends a path on from the surface number `depth`, if it isn't absorbed.
-    void scatter(Paths& going, const Stops::Visitor& visitor, std::uint32_t depth) const {
-        const std::size_t i = visitor.walk;
+    /// Sends paths on from surfaces, if they aren't absorbed.
+    void scatter(Paths& going, std::uint32_t depth) const {
+        Stops& stops = going.stops;
+        stops.looks_on.clear();
+        for (const auto& [i, stop] : stops.visitors) {
+            const Bsdf& bsdf = stops.bsdfs[stop];
+            const float choice = bsdf.chooses() ? going.samples.at(i, depth * dimensions + choice_of_way).next() : 0;
+            stops.looks_on.push_back({bsdf, stops.outgoing[stop], stops.lobes[stop], choice, going.numbers.ways[i]});
+        }
+        stops.steps.resize(stops.visitors.size());
+        stops.goes_on.resize(stops.visitors.size());
+        Bsdf::sample(stops.looks_on, stops.steps, stops.goes_on);
+        for (std::size_t i = 0; i < stops.visitors.size(); ++i)
+            if (stops.goes_on[i]) send_on(going, stops.visitors[i], stops.steps[i], depth);
+    }
+
+    /// Puts a walk on into the place of one that has been here before, or of itself. Who ends by chance, which can't be
+    /// foretold, is put there as well, and written over by the next.
+    void send_on(Paths& going, const Stops::Visitor& visitor, const BsdfSample& step, std::uint32_t depth) const {
+        const std::size_t i = visitor.walk, to = going.kept;
         const Gathering at = gathering(going, visitor);
-        const float choice = at.bsdf.chooses() ? draw_one(going, i, depth, choice_of_way) : 0;
-        const auto step = at.bsdf.sample(at.outgoing, choice, going.numbers.ways[i], at.lobes);
-        if (!step) return;
         const Walk& walk = going.walks[i];
-        Rgb weight = walk.weight * step->weight;
-        const float squeezed = walk.squeezed * step->eta * step->eta;
+        Rgb weight = walk.weight * step.weight;
+        const float squeezed = walk.squeezed * step.eta * step.eta;
         const float kept = max_component(weight) * squeezed / (max_component(walk.weight) * walk.squeezed);
         if (!(kept > 0)) return;
+        bool survives = true;
         if (depth >= roulette_depth_) {
             const float chance = chance_to_survive(kept);
-            if (going.numbers.survivals[i] >= chance) return;
+            survives = going.numbers.survivals[i] < chance;
             weight *= 1 / chance;
         }
-        // in the place of one that has been here before, or of itself
-        const std::size_t to = going.kept++;
-        going.numbers.keys[to] = going.numbers.keys[i];
-        going.numbers.indices[to] = going.numbers.indices[i];
-        going.rays[to] = {at.point.origin_towards(step->incoming), step->incoming};
+        going.kept += survives;
+        going.samples.move(i, to);
+        going.rays[to] = {at.point.origin_towards(step.incoming), step.incoming};
         going.walks[to] = {
-            walk.path,         squeezed, weight, filling(at.bsdf, at.point, at.outgoing, step->incoming, at.inside),
-            at.point.position, *step};
+            walk.path,         squeezed, weight, filling(at.bsdf, at.point, at.outgoing, step.incoming, at.inside),
+            at.point.position, step};
     }
 
     /// Paths end by chance, and the others carry more. `kept` is the share of light that the last surface leaves: by it
@@ -313,8 +338,6 @@ private:
     static float chance_to_survive(float kept) { return std::min(kept, 0.95f); }
 
     static constexpr Heuristic heuristic = Heuristic::power;
-    static constexpr std::size_t paths_at_once = 256;
-    static constexpr std::size_t stops_at_once = 32;  // so many stay in the nearest cache
 
     const Scene& scene_;
     Key key_;

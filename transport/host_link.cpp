@@ -74,6 +74,7 @@ void HostLink::lose(Time now, const std::string& why) {
     chunks_out_ = 0;
     brought_.clear();
     between_.reset();
+    arrived_ = sent_;
     line_->renew();
 }
 
@@ -169,6 +170,7 @@ void HostLink::control(Type type, const Fields& fields, Time now) {
                 lose(now, "it gave the run up");
             else if (fields.number("run") == told_.run && lacks_something(fields))
                 lose(now, "a message to or from it was lost");
+            arrived_ = fields.number("sent");
             progress_ = fields.number("progress");
             return;
         case Type::leaving:
@@ -255,7 +257,7 @@ bool HostLink::send(Message& message, std::uint32_t place) {
     append(frames, packet::pack(message, place));
     const std::size_t size = frames[0].size() + frames[1].size();
     if (!line_->send(frames, false)) {
-        ++counters_.refused_sends;
+        counters_.refused_sends += may_be_full(sent_ - arrived_);
         return false;
     }
     counters_.bytes += size;
@@ -269,7 +271,7 @@ bool HostLink::pass(Frames& frames) {
         sent_ += work;
         return true;
     }
-    ++counters_.refused_sends;
+    counters_.refused_sends += may_be_full(sent_ - arrived_);
     return false;
 }
 

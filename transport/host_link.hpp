@@ -121,6 +121,7 @@ private:
         friend bool operator==(const Between&, const Between&) = default;
     };
     std::uint64_t sent_ = 0, received_ = 0;
+    std::uint64_t arrived_ = 0;  // of those sent, at least
     std::optional<Between> between_;
     struct Chunk {
         Hash hash;

@@ -225,7 +225,7 @@ bool ZmqCarrier::ask(const PlaceAt& to, Message& message) {
             s.pending.insert_or_assign({message.channel, message.bundle}, std::move(kept));
             return true;
         }
-        if (s.peer(to.host).asked == Clock::time_point{}) return false;  // not connected yet
+        if (!may_be_full(s.pending.size())) return false;  // not connected yet, or cut for the moment
     }
     ++s.counters.refused_sends;
     return false;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -67,6 +68,15 @@ public:
         const DiffuseBsdf* plain = diffuse();
         return plain ? diffuse_sample(*plain, outgoing, u, lobes) : sample_of_any(outgoing, choice, u, lobes);
     }
+    /// The same of many surfaces, to the bit; far less work where they are diffuse. found[i]: is there a samples[i]?
+    struct Look;
+    static void sample(std::span<const Look> looks, std::span<BsdfSample> samples, std::span<std::uint8_t> found);
+    /// The colour of a diffuse reflector that fills nothing, alike on both sides or black from behind; null: another.
+    const Rgb* diffuse_albedo() const { return diffuse() && !absorption_ ? &diffuse()->albedo : nullptr; }
+    /// Is it black from behind?
+    bool one_sided() const { return one_sided_; }
+    const Frame& shading() const { return shading_; }
+
     /// What a way into `direction` leads through absorbs, per metre: of light on a way of that length exp(-it × length)
     /// is left. Null: nothing.
     const Rgb* absorption(Vec3 direction) const {
@@ -99,32 +109,28 @@ private:
     std::shared_ptr<const std::vector<Part>> parts_;  // null but for blends
 };
 
-// The same as of any other model, without what only those need: of the outgoing direction no more than its side counts.
 inline BsdfValue Bsdf::diffuse_value(const DiffuseBsdf& plain, Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const {
-    const float seen = dot(outgoing, normal_), lit = dot(incoming, normal_);
-    if (one_sided_ && seen <= 0) return {};
-    float from = dot(outgoing, shading_.z), to = dot(incoming, shading_.z);
-    if ((seen > 0) != (from > 0)) [[unlikely]] {
-        from = seen;
-        to = lit;
-    }
-    if (from == 0 || (to > 0) != (lit > 0)) return {};
-    return plain.evaluate({}, {0, 0, from < 0 ? -to : to}, lobes);
+    if (!(lobes & lobe::diffuse)) return {};
+    const float pdf = diffuse_pdf(shading_.z, normal_, one_sided_, outgoing, incoming);
+    return {plain.albedo * pdf, pdf};
 }
 
 inline std::optional<BsdfSample> Bsdf::diffuse_sample(const DiffuseBsdf& plain, Vec3 outgoing, Vec2 u,
                                                       std::uint8_t lobes) const {
-    const float seen = dot(outgoing, normal_);
-    const bool agree = (seen > 0) == (dot(outgoing, shading_.z) > 0);
-    const float from = agree ? dot(outgoing, shading_.z) : seen;
-    Vec3 local = cosine_hemisphere(u);
-    if (!(lobes & lobe::diffuse) || local.z <= 0 || from == 0 || (one_sided_ && seen <= 0)) return {};
-    const float pdf = local.z * inverse_pi;
-    if (from < 0) local.z = -local.z;
-    const Vec3 incoming = normalize(agree ? shading_.to_world(local) : Frame::around(normal_).to_world(local));
-    if ((local.z > 0) != (dot(incoming, normal_) > 0)) return {};
+    if (!(lobes & lobe::diffuse) || (one_sided_ && dot(outgoing, normal_) <= 0)) return {};
+    const auto [incoming, pdf] = diffuse_step(frame_for(outgoing), normal_, outgoing, u);
+    if (pdf == 0) return {};
     return BsdfSample{incoming, plain.albedo, pdf, lobe::diffuse};
 }
+
+/// One surface of many.
+struct Bsdf::Look {
+    const Bsdf& bsdf;
+    Vec3 outgoing;
+    std::uint8_t lobes;
+    float choice;
+    Vec2 u;
+};
 
 struct Bsdf::Part {
     Bsdf bsdf;

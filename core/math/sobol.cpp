@@ -101,6 +101,11 @@ struct SeedColumns {
         values[i] = first_coordinate(shuffled(some.indices[i], seeds.order[i]), seeds.first[i]);
 }
 
+// The widest that this processor has. Keys are of 64 bits, which only the last one multiplies in one go.
+struct Makers {
+    void (*points)(const Some&, Key offset, Vec2*);
+    void (*coordinates)(const Some&, Key offset, float*);
+};
 #if defined(__x86_64__)
 [[gnu::target("avx2")]] void make_points_avx2(const Some& some, Key offset, Vec2* points) {
     make_points(some, offset, points);
@@ -108,12 +113,29 @@ struct SeedColumns {
 [[gnu::target("avx2")]] void make_coordinates_avx2(const Some& some, Key offset, float* values) {
     make_coordinates(some, offset, values);
 }
-bool has_avx2() { return __builtin_cpu_supports("avx2"); }
+[[gnu::target("avx2,avx512f,avx512vl,avx512dq")]] void make_points_avx512(const Some& some, Key offset, Vec2* points) {
+    make_points(some, offset, points);
+}
+[[gnu::target("avx2,avx512f,avx512vl,avx512dq")]] void make_coordinates_avx512(const Some& some, Key offset,
+                                                                               float* values) {
+    make_coordinates(some, offset, values);
+}
+Makers widest() {
+    __builtin_cpu_init();
+    const bool avx2 = __builtin_cpu_supports("avx2");
+    if (avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+        __builtin_cpu_supports("avx512dq"))
+        return {make_points_avx512, make_coordinates_avx512};
+    if (avx2) return {make_points_avx2, make_coordinates_avx2};
+    return {make_points, make_coordinates};
+}
 #else
-constexpr auto make_points_avx2 = make_points;
-constexpr auto make_coordinates_avx2 = make_coordinates;
-bool has_avx2() { return false; }
+Makers widest() { return {make_points, make_coordinates}; }
 #endif
+const Makers& makers() {
+    static const Makers found = widest();
+    return found;
+}
 
 }  // namespace
 
@@ -133,7 +155,7 @@ void sobol_points(std::span<const Key> keys, Key offset, std::span<const std::ui
     assert(keys.size() == indices.size() && keys.size() == points.size() && "each point has its key and its index");
     for (std::size_t first = 0; first < keys.size(); first += at_once) {
         const Some some{std::min(at_once, keys.size() - first), &keys[first], &indices[first]};
-        has_avx2() ? make_points_avx2(some, offset, &points[first]) : make_points(some, offset, &points[first]);
+        makers().points(some, offset, &points[first]);
     }
 }
 
@@ -142,8 +164,7 @@ void sobol_coordinates(std::span<const Key> keys, Key offset, std::span<const st
     assert(keys.size() == indices.size() && keys.size() == values.size() && "each number has its key and its index");
     for (std::size_t first = 0; first < keys.size(); first += at_once) {
         const Some some{std::min(at_once, keys.size() - first), &keys[first], &indices[first]};
-        has_avx2() ? make_coordinates_avx2(some, offset, &values[first])
-                   : make_coordinates(some, offset, &values[first]);
+        makers().coordinates(some, offset, &values[first]);
     }
 }
 

@@ -30,7 +30,7 @@ struct Counters {
     std::uint64_t set_aside = 0;       // bundles and tiles that seem to kill hosts
     std::uint64_t cancelled = 0;       // asks of lost places, dropped before they were answered
     std::uint64_t late_replies = 0;    // of bundles that were answered already; dropped
-    std::uint64_t refused_sends = 0;   // at a full or broken line; tried again. 0 where none broke: credit leaves room
+    std::uint64_t refused_sends = 0;   // at a full line; tried again. 0, as credit leaves room
     std::uint64_t broken_packets = 0;  // dropped
     std::map<std::string, std::uint64_t> not_finite;  // answers that were infinite or no numbers, by node
 

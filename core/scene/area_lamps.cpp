@@ -116,7 +116,7 @@ void AreaLamps::add_lamp(std::uint32_t shape, std::uint32_t first, std::uint32_t
 }
 
 // Of two triangles that are its halves.
-std::optional<AreaLamps::Facet> AreaLamps::parallelogram(const Facet& first, const Facet& second) {
+std::optional<Facet> AreaLamps::parallelogram(const Facet& first, const Facet& second) {
     const auto corners_of = [](const Facet& f) {
         return std::array{f.corner, f.corner + f.first_edge, f.corner + f.second_edge};
     };
@@ -181,9 +181,8 @@ std::uint32_t AreaLamps::facet_of(const Lamp& lamp, float& u) const {
 
 AreaLamps::Spot AreaLamps::on_mesh(const Lamp& lamp, Vec2 u) const {
     const std::uint32_t facet = facet_of(lamp, u.x);
-    const auto& [corner, first_edge, second_edge, normal] = facets_[facet];
     const Vec2 at = triangle(u);
-    return {corner + first_edge * at.x + second_edge * at.y, normal, facet - places_[lamp.shape].facet, at.x, at.y};
+    return {facets_[facet].at(at), facets_[facet].normal, facet - places_[lamp.shape].facet, at.x, at.y};
 }
 
 AreaLamps::Spot AreaLamps::on_sphere(const Sphere& ball, Vec3 outwards) const {
@@ -198,21 +197,25 @@ std::optional<LightSample> AreaLamps::sample(std::size_t lamp, Vec3 from, Vec2 u
 std::optional<LightSample> AreaLamps::from_mesh(const Lamp& lamp, Vec3 from, Vec2 u) const {
     const bool whole = lamp.whole != none;
     const std::uint32_t facet = whole ? 0 : facet_of(lamp, u.x);
-    const auto& [corner, first_edge, second_edge, normal] = whole ? wholes_[lamp.whole] : facets_[facet];
-    const Vec2 at = whole ? u : triangle(u);
-    const Vec3 position = corner + first_edge * at.x + second_edge * at.y;
-    const Vec3 way = position - from;
-    const float distance2 = length_squared(way);
-    const Vec3 direction = way / std::sqrt(distance2);
-    const float cosine = std::fabs(dot(normal, direction));
-    if (!(distance2 > 0) || cosine < 1e-7f || !shines_towards(lamp.two_sided, normal, -direction)) return {};
+    const Facet& on = whole ? wholes_[lamp.whole] : facets_[facet];
+    const Vec2 at = Facet::uniform(u, whole);
+    const Vec3 position = on.at(at);
+    const auto [direction, pdf, found] = way_to_lamp(from, position, on.normal, lamp.area, lamp.two_sided);
+    if (!found) return {};
     Rgb radiance = lamp.radiance;
     if (!lamp.plain) {
-        const Spot spot{position, normal, facet - places_[lamp.shape].facet, at.x, at.y};
+        const Spot spot{position, on.normal, facet - places_[lamp.shape].facet, at.x, at.y};
         if (!is_there(lamp, spot)) return {};
         radiance = radiance_at(lamp, spot);
     }
-    return LightSample{position, direction, radiance, distance2 / (lamp.area * cosine), false, false};
+    return LightSample{position, direction, radiance, pdf, false, false};
+}
+
+std::optional<FlatLamp> AreaLamps::flat(std::size_t index) const {
+    const Lamp& lamp = lamps_[index];
+    const bool whole = lamp.whole != none;
+    if (!lamp.plain || (!whole && lamp.facets != 1)) return {};
+    return FlatLamp{whole ? wholes_[lamp.whole] : facets_[lamp.first], whole, lamp.area, lamp.radiance, lamp.two_sided};
 }
 
 std::optional<LightSample> AreaLamps::from_sphere(const Lamp& lamp, Vec3 from, Vec2 u) const {

@@ -8,6 +8,7 @@
 
 #include "core/math/rgb.hpp"
 #include "core/math/vec.hpp"
+#include "core/scene/flat_lamp.hpp"
 #include "core/scene/light_sample.hpp"
 #include "core/scene/light_tree.hpp"
 #include "core/scene/ray.hpp"
@@ -28,6 +29,8 @@ public:
     std::size_t size() const { return lamps_.size(); }
     /// A point on a lamp that is chosen for certain. None: it sends no light this way.
     std::optional<LightSample> sample(std::size_t lamp, Vec3 from, Vec2 u) const;
+    /// The same lamp for many points at once, if it's a plain triangle or parallelogram.
+    std::optional<FlatLamp> flat(std::size_t lamp) const;
     /// Density with which sample() finds the emitting point `on`, which lies in `direction` from `from`.
     float pdf(std::size_t lamp, Vec3 from, Vec3 direction, const SurfacePoint& on) const;
     /// The lamp that a point of a surface belongs to.
@@ -46,9 +49,6 @@ public:
 
 private:
     static constexpr std::uint32_t none = 0xffffffffu;
-    struct Facet {
-        Vec3 corner, first_edge, second_edge, normal;
-    };
     struct Lamp {
         std::uint32_t shape = 0;
         std::uint32_t first = 0, facets = 0;  // of a mesh: into facets_

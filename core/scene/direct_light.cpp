@@ -18,12 +18,6 @@ bool finds_lamps(const Scene& scene, const Gathering& at) {
 
 }  // namespace
 
-const Rgb* filling(const Bsdf& bsdf, const SurfacePoint& point, Vec3 outgoing, Vec3 direction, const Rgb* arriving) {
-    if (const Rgb* own = bsdf.absorption(direction)) return own;
-    const bool same_side = (dot(outgoing, point.normal) > 0) == (dot(direction, point.normal) > 0);
-    return same_side ? arriving : nullptr;
-}
-
 std::optional<LampRay> ray_to_lamp(const Scene& scene, const Gathering& at, const LampNumbers& numbers,
                                    Heuristic heuristic) {
     if (!finds_lamps(scene, at)) return {};

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "core/math/rgb.hpp"
 #include "core/math/samples.hpp"
@@ -15,9 +17,9 @@ enum class Heuristic { balance, power };
 
 /// Weight of the way with density `mine`, when `other` is the density of the other way.
 inline float share(Heuristic heuristic, float mine, float other) {
-    if (other == 0) return 1;
     const float ratio = other / mine;
-    return 1 / (1 + (heuristic == Heuristic::power ? ratio * ratio : ratio));
+    const float part = 1 / (1 + (heuristic == Heuristic::power ? ratio * ratio : ratio));
+    return other == 0 ? 1 : part;
 }
 
 /// What is left of light after that way through something that absorbs: Beer and Lambert's law. `absorption` per metre,
@@ -26,7 +28,13 @@ Rgb left_after(const Rgb* absorption, float distance);
 
 /// What a way into `direction` leads through from a surface, when light arrived there through `arriving` from
 /// `outgoing`: what the surface is filled with; on the viewer's side what was there; else nothing.
-const Rgb* filling(const Bsdf& bsdf, const SurfacePoint& point, Vec3 outgoing, Vec3 direction, const Rgb* arriving);
+inline const Rgb* filling(const Bsdf& bsdf, const SurfacePoint& point, Vec3 outgoing, Vec3 direction,
+                          const Rgb* arriving) {
+    if (const Rgb* own = bsdf.absorption(direction)) return own;
+    if (!arriving) return nullptr;
+    const bool same_side = (dot(outgoing, point.normal) > 0) == (dot(direction, point.normal) > 0);
+    return same_side ? arriving : nullptr;
+}
 
 /// A point as its light is gathered.
 struct Gathering {
@@ -54,6 +62,21 @@ std::optional<LampRay> ray_to_lamp(const Scene& scene, const Gathering& at, cons
                                    Heuristic heuristic);
 /// The same with the next two dimensions of `samples`, needed or not.
 std::optional<LampRay> ray_to_lamp(const Scene& scene, const Gathering& at, Samples& samples, Heuristic heuristic);
+
+/// One point of many, and the numbers for its light.
+struct LampLook {
+    Gathering at;
+    LampNumbers numbers;
+};
+/// What many points found.
+struct LampRays {
+    std::vector<Ray> rays;
+    std::vector<Rgb> light;
+    std::vector<std::uint32_t> who;  // of the looks
+};
+/// ray_to_lamp() of many points, to the bit: who finds none is left out. Appended. Far less work where surfaces are
+/// diffuse and the only light is a flat lamp.
+void rays_to_lamps(const Scene& scene, std::span<const LampLook> looks, Heuristic heuristic, LampRays& to);
 
 /// Radiance that one sampled light sends to `at` and on into its direction: a point of a lamp, a bare light or a part
 /// of the environment; weighted against finding it by a direction from the BSDF. Uses two dimensions.

@@ -61,6 +61,7 @@ void Lights::build_tree() {
     choices_ = in_tree + beside;
     for (std::size_t i = 0; choices_ == 1 && i < lamps_.size(); ++i)
         if (bounds[i].intensity > 0) only_lamp_ = i;
+    if (only_lamp_) only_flat_lamp_ = lamps_.flat(*only_lamp_);
     share_of_tree_ = in_tree ? 1 / float(1 + beside) : 0;
     share_of_far_ = beside ? (1 - share_of_tree_) / float(beside) : 0;
 }

@@ -38,6 +38,8 @@ public:
     bool many() const { return choices_ > 1; }
     /// None: no light can reach the point by this sample.
     std::optional<LightSample> sample(Vec3 from, float choice, Vec2 u) const;
+    /// What sample() always chooses, if that's a flat lamp; else null.
+    const FlatLamp* only_flat_lamp() const { return only_flat_lamp_ ? &*only_flat_lamp_ : nullptr; }
     /// Density with which sample() finds the emitting point `on`, which lies in `direction` from `from`. 0: not a lamp.
     float pdf(Vec3 from, Vec3 direction, const SurfacePoint& on) const;
     /// The same of the environment.
@@ -82,6 +84,7 @@ private:
     bool has_environment_ = false;
     std::size_t choices_ = 0;                     // lights that sample() chooses from
     std::optional<std::size_t> only_lamp_;        // there is nothing else to choose from
+    std::optional<FlatLamp> only_flat_lamp_;      // the same
     float share_of_tree_ = 0, share_of_far_ = 0;  // the latter: of each directional light, and of all maps together
     std::vector<float> power_ends_;               // share of the power: lamps, near, far, environments
 };

@@ -14,6 +14,19 @@ struct Ray {
     float far = std::numeric_limits<float>::infinity();  // metres along the direction
 };
 
+/// The ray on which nothing may be if `origin` is to see a lamp at `position`. Where they are one point, it goes into
+/// `direction`, and nowhere. Without a branch, as loops over many rays want it.
+inline Ray ray_between(Vec3 origin, Vec3 position, Vec3 direction) {
+    constexpr float nearly = 1 - 1e-4f;  // the lamp itself is not in the way
+    const Vec3 way = position - origin;
+    const float distance = length(way);
+    const bool apart = distance > 0;
+    const Vec3 along = way / distance;
+    return {origin,
+            {apart ? along.x : direction.x, apart ? along.y : direction.y, apart ? along.z : direction.z},
+            apart ? distance * nearly : 0};
+}
+
 /// What names a point of a surface: no more than a Query carries.
 struct Hit {
     std::uint32_t instance = 0xffffffffu;

@@ -82,19 +82,6 @@ struct Scene::Built {
           camera(data.camera_given ? data.camera : camera_for(box.low, box.high, film.width, film.height), film.width,
                  film.height) {}
 
-    /// What a question or a hit names.
-    template <class Name>
-    void find(const Name& name, SurfacePoint& point) const {
-        shading.find(name.geometry, name.primitive, name.u, name.v, point);
-        if (name.instance != Query::no_instance) point = placements[name.instance].place(point);
-    }
-    template <class Name>
-    SurfacePoint point(const Name& name) const {
-        SurfacePoint point;
-        find(name, point);
-        return point;
-    }
-
     SceneData data;
     Shading shading;
     Geometry geometry;
@@ -122,13 +109,18 @@ void Scene::occluded(std::span<const Ray> rays, std::span<std::uint8_t> hidden) 
     built_->geometry.occluded(rays, hidden);
 }
 
-SurfacePoint Scene::surface(const Hit& hit) const { return built_->point(hit); }
-
-void Scene::surfaces(std::span<const Hit> hits, std::span<SurfacePoint> points) const {
-    for (std::size_t i = 0; i < hits.size(); ++i) built_->find(hits[i], points[i]);
+SurfacePoint Scene::surface(const Hit& hit) const {
+    const SurfacePoint point = built_->shading.point(hit.geometry, hit.primitive, hit.u, hit.v);
+    return hit.instance == Query::no_instance ? point : built_->placements[hit.instance].place(point);
 }
 
-SurfacePoint Scene::surface(const Query& query) const {
+void Scene::surfaces(std::span<const Hit> hits, std::span<SurfacePoint> points) const {
+    built_->shading.find(hits, points);
+    for (std::size_t i = 0; i < hits.size(); ++i)
+        if (hits[i].instance != Query::no_instance) points[i] = built_->placements[hits[i].instance].place(points[i]);
+}
+
+Hit Scene::hit(const Query& query) const {
     const auto& shapes = built_->data.shapes;
     const auto primitives = [](const Shape& shape) {
         const auto* mesh = std::get_if<Mesh>(&shape.geometry);
@@ -136,8 +128,8 @@ SurfacePoint Scene::surface(const Query& query) const {
     };
     if (query.geometry >= shapes.size() || query.primitive >= primitives(shapes[query.geometry]) ||
         (query.instance != Query::no_instance && query.instance >= built_->placements.size()))
-        throw Error("scene", "a question names a surface that isn't there");  // it may come from another host
-    return built_->point(query);
+        throw Error("scene", "a question names a surface that isn't there");
+    return {query.instance, query.geometry, query.primitive, query.u, query.v, 0};
 }
 
 const SceneData& Scene::data() const { return built_->data; }
@@ -158,6 +150,8 @@ std::optional<LightSample> Scene::sample_light(Vec3 from, float choice, Vec2 u) 
     return built_->lights.sample(from, choice, u);
 }
 
+const FlatLamp* Scene::only_flat_lamp() const { return built_->lights.only_flat_lamp(); }
+
 float Scene::light_pdf(Vec3 from, Vec3 direction, const SurfacePoint& on) const {
     return built_->lights.pdf(from, direction, on);
 }
@@ -176,12 +170,7 @@ bool Scene::may_meet_lamp(const Ray& ray) const { return built_->lights.may_meet
 
 Ray Scene::ray_to(const SurfacePoint& from, const LightSample& lamp) const {
     const Vec3 origin = from.origin_towards(lamp.direction);
-    if (lamp.from_infinity) return {origin, lamp.direction};
-    constexpr float nearly = 1 - 1e-4f;  // the lamp itself is not in the way
-    const Vec3 way = lamp.position - origin;
-    const float distance = length(way);
-    if (!(distance > 0)) return {origin, lamp.direction, 0};
-    return {origin, way / distance, distance * nearly};
+    return lamp.from_infinity ? Ray{origin, lamp.direction} : ray_between(origin, lamp.position, lamp.direction);
 }
 
 bool Scene::visible(const SurfacePoint& from, const LightSample& lamp) const { return !occluded(ray_to(from, lamp)); }

@@ -12,6 +12,7 @@
 #include "core/bsdf/bsdf.hpp"
 #include "core/light/query.hpp"
 #include "core/scene/camera.hpp"
+#include "core/scene/flat_lamp.hpp"
 #include "core/scene/light_sample.hpp"
 #include "core/scene/ray.hpp"
 #include "core/scene/scene_data.hpp"
@@ -56,7 +57,9 @@ public:
     void occluded(std::span<const Ray> rays, std::span<std::uint8_t> hidden) const;
 
     SurfacePoint surface(const Hit& hit) const;
-    SurfacePoint surface(const Query& query) const;
+    SurfacePoint surface(const Query& query) const { return surface(hit(query)); }
+    /// What a question names, as if a ray had met it. Throws Error if it isn't there: it may come from another host.
+    Hit hit(const Query& query) const;
     /// What the scene was built from: names of shapes, materials and objects. Its meshes may be gone.
     const SceneData& data() const;
     /// Of many hits.
@@ -74,6 +77,8 @@ public:
     /// Chooses a light and a way from `from` to it: a point of a lamp, a bare light, or a direction to the environment.
     /// None: no light can reach the point by this sample.
     std::optional<LightSample> sample_light(Vec3 from, float choice, Vec2 u) const;
+    /// What sample_light() always chooses, if that's a flat lamp; else null.
+    const FlatLamp* only_flat_lamp() const;
     /// Density with which sample_light() finds the emitting point `on`, which lies in `direction` from `from`. 0 if it
     /// is not on a lamp.
     float light_pdf(Vec3 from, Vec3 direction, const SurfacePoint& on) const;

@@ -14,14 +14,12 @@
 namespace lightnet {
 namespace {
 
-float largest(Vec3 v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
-
 // Rounding of a point grows with the coordinates of the shape: fully for spheres, far less for triangles.
 float least_offset(const Shape& shape) {
     if (const auto* sphere = std::get_if<Sphere>(&shape.geometry))
-        return 0x1p-20f * (largest(sphere->center) + sphere->radius);
+        return 0x1p-20f * (largest_coordinate(sphere->center) + sphere->radius);
     float reach = 0;
-    for (const Vec3 p : std::get<Mesh>(shape.geometry).positions) reach = std::max(reach, largest(p));
+    for (const Vec3 p : std::get<Mesh>(shape.geometry).positions) reach = std::max(reach, largest_coordinate(p));
     return 0x1p-21f * reach;
 }
 
@@ -89,32 +87,35 @@ void Shading::find(std::uint32_t geometry, std::uint32_t primitive, float u, flo
 }
 
 void Shading::on_mesh(const Mesh& mesh, const Needs& needs, SurfacePoint& point) const {
-    const auto [i, j, k] = mesh.triangles[point.primitive];
-    const Corners at{mesh.positions[i], mesh.positions[j], mesh.positions[k]};
-    const float u = point.u, v = point.v, w = 1 - u - v;
-    const Vec3 position = at.a * w + at.b * u + at.c * v;
-    const Vec3 normal = geometric_normal(mesh, point.primitive, at);
-    Vec3 shading = normal;
+    const Corners at = corners(mesh, point.primitive);
+    Vec3 interpolated;
     if (!mesh.normals.empty()) {
-        const Vec3 n = mesh.normals[i] * w + mesh.normals[j] * u + mesh.normals[k] * v;
-        const float size = length(n);
-        if (size > 0) shading = dot(n, normal) < 0 ? -n / size : n / size;
+        const auto [i, j, k] = mesh.triangles[point.primitive];
+        interpolated = on_triangle({mesh.normals[i], mesh.normals[j], mesh.normals[k]}, point.u, point.v);
     }
-    point.position = position;
-    point.normal = normal;
-    point.offset = std::max(0x1p-16f * largest(position), needs.offset);
-    point.shading = Frame::around(shading);
+    point.position = on_triangle(at, point.u, point.v);
+    point.normal = geometric_normal(mesh, point.primitive, at);
+    point.offset = offset_at(point.position, needs.offset);
+    point.shading = Frame::around(shading_normal(interpolated, point.normal));
+    dress(mesh, needs, point);
+}
+
+void Shading::dress(const Mesh& mesh, const Needs& needs, SurfacePoint& point) const {
     const auto& [texture, tangent, holes] = needs.material;
     if (!texture && !tangent) return;
     const auto [a, b, c] = uvs_of(mesh, point.primitive);
+    const float u = point.u, v = point.v, w = 1 - u - v;
     point.uv = a * w + b * u + c * v;
-    point.vertex_colour =
-        mesh.colours.empty() ? Rgb{1, 1, 1} : mesh.colours[i] * w + mesh.colours[j] * u + mesh.colours[k] * v;
+    point.vertex_colour = {1, 1, 1};
+    if (!mesh.colours.empty()) {
+        const auto [i, j, k] = mesh.triangles[point.primitive];
+        point.vertex_colour = mesh.colours[i] * w + mesh.colours[j] * u + mesh.colours[k] * v;
+    }
     if (!tangent) return;
-    const auto along = along_triangle(at, a, b, c);
+    const auto along = along_triangle(corners(mesh, point.primitive), a, b, c);
     point.along_u = along.u;
     point.along_v = along.v;
-    point.shading = frame_along(shading, along.u);
+    point.shading = frame_along(point.shading.z, along.u);
 }
 
 void Shading::on_sphere(const Sphere& sphere, const Needs& needs, SurfacePoint& point) const {

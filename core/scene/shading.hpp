@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/bsdf/bsdf.hpp"
 #include "core/scene/materials.hpp"
+#include "core/scene/ray.hpp"
 #include "core/scene/scene_data.hpp"
 #include "core/scene/surface.hpp"
 #include "core/scene/textures.hpp"
@@ -26,6 +28,8 @@ public:
     }
     /// The same, put where it is wanted: copies of what has just been written wait for it.
     void find(std::uint32_t geometry, std::uint32_t primitive, float u, float v, SurfacePoint& point) const;
+    /// The same of many hits, to the bit, for less work. Of instances they are points of the object.
+    void find(std::span<const Hit> hits, std::span<SurfacePoint> points) const;
     Bsdf bsdf(const SurfacePoint& point) const;
     void add_bsdf(const SurfacePoint& point, std::vector<Bsdf>& to) const;
 
@@ -45,6 +49,8 @@ private:
         float offset = 0;  // least distance by which rays must leave the shape, m
     };
     void on_mesh(const Mesh& mesh, const Needs& needs, SurfacePoint& point) const;
+    /// Adds what textures, grooves and bumps need.
+    void dress(const Mesh& mesh, const Needs& needs, SurfacePoint& point) const;
     void on_sphere(const Sphere& sphere, const Needs& needs, SurfacePoint& point) const;
 
     const SceneData& data_;

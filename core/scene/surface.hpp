@@ -1,6 +1,7 @@
 // A point of a surface, with all that shading needs to know of it.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "core/math/frame.hpp"
@@ -24,9 +25,25 @@ struct SurfacePoint {
     float offset = 0;    // metres: beyond the rounding errors of `position`
 
     /// Where a ray into `direction` starts: off the surface, on the side into which it goes.
-    Vec3 origin_towards(Vec3 direction) const {
-        return position + normal * (dot(direction, normal) < 0 ? -offset : offset);
-    }
+    Vec3 origin_towards(Vec3 direction) const;
 };
+
+inline float largest_coordinate(Vec3 v) {
+    const float x = std::fabs(v.x), y = std::fabs(v.y), z = std::fabs(v.z), xy = x > y ? x : y;
+    return xy > z ? xy : z;
+}
+/// Beyond the rounding errors of a point of a triangle, and `least`.
+inline float offset_at(Vec3 position, float least) {
+    const float own = 0x1p-16f * largest_coordinate(position);
+    return own > least ? own : least;
+}
+
+/// The same of what it takes: a ray's start, that far off a surface.
+inline Vec3 off_surface(Vec3 position, Vec3 normal, float offset, Vec3 direction) {
+    return position + normal * (dot(direction, normal) < 0 ? -offset : offset);
+}
+inline Vec3 SurfacePoint::origin_towards(Vec3 direction) const {
+    return off_surface(position, normal, offset, direction);
+}
 
 }  // namespace lightnet

@@ -8,6 +8,7 @@
 #include <zmq.hpp>
 
 #include "transport/host_link.hpp"
+#include "transport/sockets.hpp"
 
 namespace lightnet {
 namespace {
@@ -21,6 +22,7 @@ using std::chrono::milliseconds;
 class FakeLine final : public HostLine {
 public:
     bool send(Frames& frames, bool) override {
+        if (refuses) return false;
         sent.push_back(packet::peek_header(bytes_of(frames[frames.size() - 2]))->type);
         if (sent.back() == Type::ping) said = packet::unpack_fields(bytes_of(frames[1]))->number("sent");
         return true;
@@ -40,6 +42,7 @@ public:
     std::uint64_t said = 0;  // messages so far, in the last ping
     std::deque<Frames> arriving;
     int renewed = 0;
+    bool refuses = false;
 };
 
 class HostLinkTest : public ::testing::Test {
@@ -78,11 +81,11 @@ protected:
                                    .set("told", told_to_us)));
         pass({});
     }
-    void ask() {
+    bool ask() {
         Message message;
         message.run = 1;
         message.questions = std::make_shared<const std::vector<Query>>(1);
-        ASSERT_TRUE(link->send(message, 0));
+        return link->send(message, 0);
     }
     void answer() {
         Message message;
@@ -106,6 +109,25 @@ TEST_F(HostLinkTest, GreetsBeginsAndIsReady) {
     EXPECT_EQ(link->places(), 2u);
 }
 
+TEST_F(HostLinkTest, CountsWhatAFullLineRefusesAndNotWhatACutOneDoes) {
+    become_ready();
+    line->refuses = true;
+    EXPECT_FALSE(ask());
+    EXPECT_EQ(counters.refused_sends, 0u) << "nothing was on its way that could have filled it";
+
+    line->refuses = false;
+    for (int i = 0; i < high_water_mark; ++i) ASSERT_TRUE(ask());
+    line->refuses = true;
+    EXPECT_FALSE(ask());
+    EXPECT_EQ(counters.refused_sends, 1u);
+
+    line->refuses = false;
+    beat(high_water_mark);
+    line->refuses = true;
+    EXPECT_FALSE(ask());
+    EXPECT_EQ(counters.refused_sends, 1u) << "all that was sent has arrived";
+}
+
 TEST_F(HostLinkTest, LosesAHostThatDoesNotAnswerAndCallsItAnew) {
     become_ready();
     for (int i = 0; i < 4; ++i) pass(milliseconds(400));
@@ -120,7 +142,7 @@ TEST_F(HostLinkTest, LosesAHostThatDoesNotAnswerAndCallsItAnew) {
 TEST_F(HostLinkTest, KeepsAHostThatHasAllMessages) {
     become_ready();
     beat(0);
-    ask(), ask();
+    ASSERT_TRUE(ask() && ask());
     answer();
     ++told_to_us;
     beat(2);
@@ -132,7 +154,7 @@ TEST_F(HostLinkTest, KeepsAHostThatHasAllMessages) {
 TEST_F(HostLinkTest, NoticesThatAnAskHasVanished) {
     become_ready();
     beat(0);
-    ask(), ask();
+    ASSERT_TRUE(ask() && ask());
     beat(1);
     EXPECT_EQ(link->state(), State::calling);
     EXPECT_EQ(link->reason(), "a message to or from it was lost");
@@ -141,7 +163,7 @@ TEST_F(HostLinkTest, NoticesThatAnAskHasVanished) {
 TEST_F(HostLinkTest, NoticesThatAReplyHasVanished) {
     become_ready();
     beat(0);
-    ask();
+    ASSERT_TRUE(ask());
     ++told_to_us;
     beat(1);
     EXPECT_EQ(link->state(), State::calling);
@@ -150,12 +172,12 @@ TEST_F(HostLinkTest, NoticesThatAReplyHasVanished) {
 TEST_F(HostLinkTest, CountsAnewAfterALoss) {
     become_ready();
     beat(0);
-    ask();
+    ASSERT_TRUE(ask());
     beat(0);
     ASSERT_EQ(link->state(), State::calling);
     become_ready();
     beat(17);
-    ask();
+    ASSERT_TRUE(ask());
     beat(18);
     EXPECT_EQ(link->state(), State::ready);
 }

@@ -1,0 +1,55 @@
+// Many points side by side, coordinate by coordinate: what the compiler turns loops over points into vectors from.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/math/vec.hpp"
+
+namespace lightnet {
+
+/// Of so many points at once; all that is known of them stays in the nearest cache.
+inline constexpr std::size_t lanes = 32;
+
+using Column = std::array<float, lanes>;
+using Flags = std::array<std::uint32_t, lanes>;  // as wide as the numbers
+
+struct Columns2 {
+    Column x, y;
+    void set(std::size_t i, Vec2 v) {
+        x[i] = v.x;
+        y[i] = v.y;
+    }
+    Vec2 operator[](std::size_t i) const { return {x[i], y[i]}; }
+};
+
+struct Columns3 {
+    Column x, y, z;
+    void set(std::size_t i, Vec3 v) {
+        x[i] = v.x;
+        y[i] = v.y;
+        z[i] = v.z;
+    }
+    Vec3 operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
+};
+
+/// Calls many.work(), an always_inline loop over lanes, in vectors as wide as this processor has them. With no fused
+/// operations anywhere, its results are the same in any width.
+#if defined(__x86_64__)
+template <class Many>
+[[gnu::target("avx2")]] void work_in_avx2(Many& many) {
+    many.work();
+}
+template <class Many>
+void work_side_by_side(Many& many) {
+    __builtin_cpu_supports("avx2") ? work_in_avx2(many) : many.work();
+}
+#else
+template <class Many>
+void work_side_by_side(Many& many) {
+    many.work();
+}
+#endif
+
+}  // namespace lightnet

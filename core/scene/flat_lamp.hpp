@@ -1,0 +1,46 @@
+// A triangle or parallelogram that shines, and points on it.
+#pragma once
+
+#include <cmath>
+
+#include "core/math/rgb.hpp"
+#include "core/math/sampling.hpp"
+#include "core/math/vec.hpp"
+
+namespace lightnet {
+
+/// Two sides of a triangle or parallelogram from one corner.
+struct Facet {
+    Vec3 corner, first_edge, second_edge, normal;
+
+    /// Weights of the sides for a point that is uniform by area.
+    static Vec2 uniform(Vec2 u, bool whole) { return whole ? u : triangle(u); }
+    Vec3 at(Vec2 weights) const { return corner + first_edge * weights.x + second_edge * weights.y; }
+};
+
+/// From a point that is lit to one that was chosen on a facet, uniform by area.
+struct WayToLamp {
+    Vec3 direction;
+    float pdf;   // per steradian
+    bool found;  // else the lamp sends no light this way
+};
+/// Without a branch, as loops over many points want it.
+inline WayToLamp way_to_lamp(Vec3 from, Vec3 position, Vec3 normal, float area, bool two_sided) {
+    const Vec3 way = position - from;
+    const float distance2 = length_squared(way);
+    const Vec3 direction = way / std::sqrt(distance2);
+    const float towards = -dot(normal, direction), cosine = std::fabs(towards);
+    const bool found = (distance2 > 0) & (cosine >= 1e-7f) & (two_sided | (towards > 0));
+    return {direction, distance2 / (area * cosine), found};
+}
+
+/// One that shines alike everywhere.
+struct FlatLamp {
+    Facet facet;
+    bool whole = false;  // a parallelogram
+    float area = 0;      // m²
+    Rgb radiance;
+    bool two_sided = false;
+};
+
+}  // namespace lightnet
