@@ -257,10 +257,10 @@ struct Geometry::Tracer {
         rtcAttachGeometryByID(to, geometry, id);
     }
     void attach(const Instance& instance, unsigned id) {
+        const auto columns = Placement(instance.to_world).columns();  // may throw: before there is what would leak
         RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
         rtcSetGeometryInstancedScene(geometry, objects[instance.object]);
-        rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR,
-                                Placement(instance.to_world).columns().data());
+        rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns.data());
         rtcCommitGeometry(geometry);
         rtcAttachGeometryByID(scene, geometry, id);
         rtcReleaseGeometry(geometry);
