@@ -9,6 +9,9 @@ set(CMAKE_VERIFY_INTERFACE_HEADER_SETS ON)
 
 # Same bytes everywhere: no fused multiply-add behind our back, no fast-math, one instruction set.
 add_compile_options(-ffp-contract=off -march=${LIGHTNET_ARCH})
+# For files that many roots are drawn in. Nobody asks for errno or for the flags of exceptions; a root is then one
+# instruction, and loops over roots become vectors, with the same bits.
+set(lightnet_quick_roots -fno-math-errno -fno-trapping-math)
 
 # Warnings are each target's own business; -Werror comes from the dev preset.
 add_library(lightnet_warnings INTERFACE)

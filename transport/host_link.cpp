@@ -164,13 +164,13 @@ void HostLink::control(Type type, const Fields& fields, Time now) {
             return;
         case Type::pong:
             if (state_ == State::calling || state_ == State::refused) return;
+            arrived_ = fields.number("sent");
             if (fields.number("process") != process_)
                 lose(now, "it was started anew");
             else if (state_ != State::greeted && fields.number("run") != told_.run)
                 lose(now, "it gave the run up");
             else if (fields.number("run") == told_.run && lacks_something(fields))
                 lose(now, "a message to or from it was lost");
-            arrived_ = fields.number("sent");
             progress_ = fields.number("progress");
             return;
         case Type::leaving:
