@@ -28,10 +28,10 @@ public:
 
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
         if (!photons_) return;  // others rehearse
-        std::vector<PhotonTree::Near> found;
+        Nearest scratch;
         for (std::size_t i = 0; i < questions.size(); ++i) {
             const SurfacePoint point = scene_.surface(questions[i]);
-            photons_->find({point.position, point.normal, radius_, gather_}, found);
+            const auto found = photons_->find({point.position, point.normal, radius_, gather_}, scratch);
             const bool enough = found.size() == gather_ && found.back().distance2 > 0;
             const float r2 = enough ? found.back().distance2 : radius_ * radius_;
             const float density = float(enough ? gather_ - 1 : found.size()) / (pi * r2);

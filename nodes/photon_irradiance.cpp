@@ -42,23 +42,23 @@ public:
         const auto others = services.once<PhotonTree>([&] {
             std::vector<Photon> rest;
             for (std::size_t i = 0; i < photons->size(); ++i)
-                if (!is_chosen(i)) rest.push_back(photons->photons()[i]);
+                if (!is_chosen(i)) rest.push_back((*photons)[i]);
             return PhotonTree(rest);
         });
         const std::size_t count = chosen.size();
         const auto records = services.map<Photon>(
             (count + records_per_shard - 1) / records_per_shard, [&](std::size_t shard, std::vector<Photon>& out) {
                 const std::size_t first = shard * records_per_shard;
-                std::vector<PhotonTree::Near> scratch;
+                Nearest scratch;
                 for (std::size_t i = first; i < std::min(count, first + records_per_shard); ++i)
-                    out.push_back(record_at(photons->photons()[chosen[i]], *others, scratch));
+                    out.push_back(record_at((*photons)[chosen[i]], *others, scratch));
             });
         records_ = services.once<PhotonTree>([&] { return PhotonTree(records.all()); });
     }
 
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
         if (!records_) return;  // others rehearse
-        std::vector<PhotonTree::Near> scratch;
+        Nearest scratch;
         for (std::size_t i = 0; i < questions.size(); ++i) {
             const Query& question = questions[i];
             const SurfacePoint point = scene_.surface(question);
@@ -75,25 +75,24 @@ private:
 
     /// Where a photon lies, on the side that it came from; its flux stands for irradiance. `others` bring the light of
     /// all.
-    Photon record_at(const Photon& at, const PhotonTree& others, std::vector<PhotonTree::Near>& scratch) const {
+    Photon record_at(const Photon& at, const PhotonTree& others, Nearest& scratch) const {
         Vec3 normal = at.normal();
         if (dot(normal, at.towards_light()) < 0) normal = -normal;
-        others.find({at.position, normal, radius_, gather_}, scratch);
-        const bool all = gather_ && scratch.size() == gather_;
-        const float r2 = all ? scratch.back().distance2 : radius_ * radius_;
+        const auto found = others.find({at.position, normal, radius_, gather_}, scratch);
+        const bool all = gather_ && found.size() == gather_;
+        const float r2 = all ? found.back().distance2 : radius_ * radius_;
         Rgb sum;
-        for (const auto& near : scratch) {
-            const Photon& photon = others.photons()[near.index];
+        for (const auto& near : found) {
+            const Photon photon = others[near.index];
             if (dot(photon.towards_light(), normal) > 0) sum += photon.flux * (1 - near.distance2 / r2);
         }
         const float share = float(every_) / float(every_ - 1);
         return {at.position, r2 > 0 ? sum * (share * 2 / (pi * r2)) : Rgb{}, normal, normal};
     }
 
-    Rgb irradiance(Vec3 position, Vec3 side, std::vector<PhotonTree::Near>& scratch) const {
-        records_->find({position, side, radius_, candidates}, scratch);
-        for (const auto& near : scratch) {
-            const Photon& record = records_->photons()[near.index];
+    Rgb irradiance(Vec3 position, Vec3 side, Nearest& scratch) const {
+        for (const auto& near : records_->find({position, side, radius_, candidates}, scratch)) {
+            const Photon record = (*records_)[near.index];
             if (dot(record.towards_light(), side) > 0) return record.flux;
         }
         return {};

@@ -19,7 +19,7 @@ std::vector<Photon> taken_out_of(std::vector<Mapped<Photon>>& lots) {
     std::vector<Photon> all;
     std::size_t count = 0;
     for (const auto& lot : lots) count += lot.size();
-    all.reserve(count);
+    all.reserve(count + PhotonTree::room);
     for (; !lots.empty(); lots.pop_back()) all.insert(all.end(), lots.back().begin(), lots.back().end());
     return all;
 }
@@ -47,7 +47,7 @@ public:
 
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
         assert(tree_ && "nobody asks before it is prepared");
-        std::vector<PhotonTree::Near> scratch;
+        Nearest scratch;
         for (std::size_t i = 0; i < questions.size(); ++i) {
             const Query& question = questions[i];
             const SurfacePoint point = scene_.surface(question);

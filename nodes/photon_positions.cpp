@@ -25,12 +25,12 @@ public:
 
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
         if (!photons_) return;  // others rehearse
-        std::vector<PhotonTree::Near> found;
+        Nearest scratch;
         for (std::size_t i = 0; i < questions.size(); ++i) {
             const SurfacePoint point = scene_.surface(questions[i]);
-            photons_->find({point.position, point.normal, size_, 1}, found);
+            const auto found = photons_->find({point.position, point.normal, size_, 1}, scratch);
             if (found.empty()) continue;
-            const Rgb flux = photons_->photons()[found.front().index].flux;
+            const Rgb flux = (*photons_)[found.front().index].flux;
             answers[i] = flux / max_component(flux);
         }
     }

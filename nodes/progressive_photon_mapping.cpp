@@ -44,7 +44,7 @@ public:
 
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
         assert(passes_.size() == radii_.size() && "nobody asks before it is prepared");
-        std::vector<PhotonTree::Near> scratch;
+        Nearest scratch;
         for (std::size_t i = 0; i < questions.size(); ++i) {
             const Query& question = questions[i];
             const std::size_t pass = question.sample % radii_.size();

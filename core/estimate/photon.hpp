@@ -24,19 +24,23 @@ struct Photon {
         : position(at), flux(power), incoming(packed_direction(towards_light)), surface(packed_normal(normal)) {}
 
     /// Unit, away from the surface: where it came from.
-    Vec3 towards_light() const {
-        return from_octahedral({float(incoming & 0xffff) / half - 1, float(incoming >> 16) / half - 1});
+    Vec3 towards_light() const { return unpacked_direction(incoming); }
+    static Vec3 unpacked_direction(std::uint32_t packed) {
+        // as signed, of which vectors can be made
+        const auto part = [](std::uint32_t bits) { return float(std::int32_t(bits)) / half - 1; };
+        return from_octahedral({part(packed & 0xffff), part(packed >> 16)});
     }
     /// Of the surface, unit; either side.
     Vec3 normal() const {
         const auto part = [&](unsigned shift) { return float(std::int8_t(std::uint8_t(surface >> shift))); };
         return normalize({part(0), part(8), part(16)});
     }
-    /// Cosine between `normal` and the surface's.
-    float cosine_to(Vec3 normal) const {
-        const auto part = [&](unsigned shift) { return float(std::int8_t(std::uint8_t(surface >> shift))); };
+    /// Cosine between `normal` and that of a `surface`.
+    static float cosine_between(std::uint32_t surface, Vec3 normal) {
+        const auto part = [&](unsigned shift) { return float(std::int32_t((surface >> shift & 255) ^ 128) - 128); };
         return (part(0) * normal.x + part(8) * normal.y + part(16) * normal.z) * (1.0f / 127);
     }
+    float cosine_to(Vec3 normal) const { return cosine_between(surface, normal); }
 
 private:
     static constexpr float half = 32767.5f;

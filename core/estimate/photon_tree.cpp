@@ -1,8 +1,12 @@
 #include "core/estimate/photon_tree.hpp"
 
+#include "core/math/columns.hpp"
 #include "core/math/sampling.hpp"
 
 #include <algorithm>
+#include <cstring>
+#include <limits>
+#include <new>
 #include <thread>
 #include <tuple>
 #include <utility>
@@ -10,11 +14,13 @@
 namespace lightnet {
 namespace {
 
-constexpr std::size_t leaf = 8;                // photons that are looked at one by one
+constexpr std::size_t width = Nearest::width;  // photons of a leaf
+constexpr std::size_t fan = 8;                 // boxes in a box
 constexpr std::size_t least_shared = 1 << 15;  // photons that are worth a thread
 constexpr float height_counts = 15;            // of a height squared, beside its part of the distance: a flat ellipsoid
 constexpr float least_cosine = 0.7f;           // between normals of a surface that is taken for the same one
 constexpr float grazing = 0.02f;               // cosine below which light is taken to arrive at this one
+constexpr float nowhere = std::numeric_limits<float>::infinity(), visited = nowhere;
 
 // By all that a photon is, so that the order can't depend on how the library sorts.
 bool comes_before(const Photon& a, const Photon& b, std::size_t axis) {
@@ -28,23 +34,66 @@ bool comes_before(const Photon& a, const Photon& b, std::size_t axis) {
 
 }  // namespace
 
+/// What a photon brings.
+struct PhotonTree::Light {
+    Rgb flux;
+    std::uint32_t incoming;
+};
+
+/// Photons: by what they are found, coordinate by coordinate, before what they bring.
+struct PhotonTree::Leaf {
+    using Floats = std::array<float, width>;
+    Floats x, y, z;
+    std::array<std::uint32_t, width> surface;
+    std::array<Light, width> light;
+};
+
+/// Boxes side by side in a greater one.
+struct PhotonTree::Boxes {
+    using Floats = std::array<float, fan>;
+    std::array<Floats, 3> least, most;
+};
+
 PhotonTree::PhotonTree(std::vector<Photon> photons, std::size_t threads)
-    : photons_(std::move(photons)), axes_(photons_.size()) {
-    build(0, photons_.size(), std::clamp<std::size_t>(threads, 1, std::max(1u, std::thread::hardware_concurrency())));
+    : size_(photons.size()), photons_(std::move(photons)) {
+    static_assert(sizeof(Leaf) == width * sizeof(Photon) && alignof(Leaf) == alignof(Photon) && width == room);
+    Photon none;
+    none.position = Vec3{1, 1, 1} * std::numeric_limits<float>::quiet_NaN();
+    photons_.resize((size_ + width - 1) / width * width, none);
+    if (size_ == 0) return;
+    sort(0, photons_.size() / width,
+         std::clamp(threads, std::size_t{1}, std::size_t{std::thread::hardware_concurrency()}));
+    put_in_boxes();
 }
 
-// Indices would differ between the trees of all photons and of some.
-bool PhotonTree::comes_first(const Near& a, const Near& b) const {
-    if (a.distance2 != b.distance2) return a.distance2 < b.distance2;
-    return comes_before(photons_[a.index], photons_[b.index], 0);
+PhotonTree::~PhotonTree() = default;
+PhotonTree::PhotonTree(PhotonTree&&) noexcept = default;
+
+const PhotonTree::Leaf& PhotonTree::leaf(std::size_t i) const {
+    return *std::launder(reinterpret_cast<const Leaf*>(photons_.data() + i * width));
 }
 
-// A subtree is a range, its root in the middle; what others do with other ranges changes nothing in it.
-void PhotonTree::build(std::size_t low, std::size_t high, std::size_t threads) {
+const PhotonTree::Light& PhotonTree::light_of(std::size_t i) const { return leaf(i / width).light[i % width]; }
+
+Photon PhotonTree::operator[](std::size_t i) const {
+    const Leaf& leaf = this->leaf(i / width);
+    const std::size_t k = i % width;
+    Photon photon;
+    photon.position = {leaf.x[k], leaf.y[k], leaf.z[k]};
+    photon.flux = leaf.light[k].flux;
+    photon.incoming = leaf.light[k].incoming;
+    photon.surface = leaf.surface[k];
+    return photon;
+}
+
+// Halves photons along the longest side until there is a leaf of them, at such places that the leaves of every box
+// follow one another. What other threads do with other leaves changes nothing in these.
+void PhotonTree::sort(std::size_t first, std::size_t leaves, std::size_t threads) {
+    const std::size_t low = first * width, high = std::min(low + leaves * width, size_);
     const auto at = [&](std::size_t i) { return photons_.begin() + std::ptrdiff_t(i); };
-    if (high - low <= leaf) {
+    if (leaves == 1) {
         std::sort(at(low), at(high), [](const Photon& a, const Photon& b) { return comes_before(a, b, 0); });
-        return;
+        return put_in_columns(first);
     }
     Vec3 least = photons_[low].position, most = least;
     for (std::size_t i = low; i < high; ++i)
@@ -54,100 +103,217 @@ void PhotonTree::build(std::size_t low, std::size_t high, std::size_t threads) {
         }
     const Vec3 size = most - least;
     const std::size_t axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const std::size_t middle = low + (high - low) / 2;
-    std::nth_element(at(low), at(middle), at(high),
+    std::size_t of_box = 1;  // leaves of the boxes in the smallest box that has all these
+    while (of_box * fan < leaves) of_box *= fan;
+    const std::size_t left = ((leaves + of_box - 1) / of_box + 1) / 2 * of_box;
+    std::nth_element(at(low), at(low + left * width), at(high),
                      [axis](const Photon& a, const Photon& b) { return comes_before(a, b, axis); });
-    axes_[middle] = std::uint8_t(axis);
     if (threads < 2 || high - low < least_shared) {
-        build(low, middle, 1);
-        build(middle + 1, high, 1);
+        sort(first, left, 1);
+        sort(first + left, leaves - left, 1);
     } else {
-        const std::jthread other([=, this] { build(low, middle, threads / 2); });
-        build(middle + 1, high, threads - threads / 2);
+        const std::jthread other([=, this] { sort(first, left, threads / 2); });
+        sort(first + left, leaves - left, threads - threads / 2);
+    }
+}
+
+void PhotonTree::put_in_columns(std::size_t leaf) {
+    Leaf columns;
+    for (std::size_t k = 0; k < width; ++k) {
+        const Photon& photon = photons_[leaf * width + k];
+        columns.x[k] = photon.position.x;
+        columns.y[k] = photon.position.y;
+        columns.z[k] = photon.position.z;
+        columns.surface[k] = photon.surface;
+        columns.light[k] = {photon.flux, photon.incoming};
+    }
+    std::memcpy(static_cast<void*>(photons_.data() + leaf * width), &columns, sizeof columns);
+}
+
+// How many boxes or leaves are in one, which may be the last of its level.
+std::size_t PhotonTree::children(std::size_t level, std::size_t at) const {
+    const std::size_t inside = level == 0 ? photons_.size() / width : levels_[level - 1].size();
+    return std::min(fan, inside - at * fan);
+}
+
+void PhotonTree::put_in_boxes() {
+    const auto groups = [](std::size_t count) { return (count + fan - 1) / fan; };
+    const std::size_t leaves = photons_.size() / width;
+    levels_.emplace_back(groups(leaves));
+    for (std::size_t i = 0; i < leaves; ++i) {
+        const Leaf& inside = leaf(i);
+        Boxes& boxes = levels_[0][i / fan];
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto& values = axis == 0 ? inside.x : axis == 1 ? inside.y : inside.z;
+            float least = values[0], most = least;
+            for (const float value : values) {  // also those that are no numbers, as no photons are there
+                least = value < least ? value : least;
+                most = value > most ? value : most;
+            }
+            boxes.least[axis][i % fan] = least;
+            boxes.most[axis][i % fan] = most;
+        }
+    }
+    for (std::size_t count = levels_[0].size(); count > 1; count = groups(count)) {
+        const auto& inside = levels_.back();
+        std::vector<Boxes> level(groups(count));
+        for (std::size_t i = 0; i < count; ++i)
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const auto all = std::ptrdiff_t(children(levels_.size() - 1, i));
+                const auto &least = inside[i].least[axis], &most = inside[i].most[axis];
+                level[i / fan].least[axis][i % fan] = *std::min_element(least.begin(), least.begin() + all);
+                level[i / fan].most[axis][i % fan] = *std::max_element(most.begin(), most.begin() + all);
+            }
+        levels_.push_back(std::move(level));
     }
 }
 
 class PhotonTree::Search {
 public:
-    Search(const PhotonTree& tree, const Wanted& wanted, std::vector<Near>& found)
-        : tree_(tree), wanted_(wanted), found_(found), limit_(wanted.radius * wanted.radius) {}
+    Search(const PhotonTree& tree, const Wanted& wanted, Nearest& found) : tree_(tree), wanted_(wanted), found_(found) {
+        found_.begin(wanted.most, std::min(wanted.radius * wanted.radius, std::numeric_limits<float>::max()));
+    }
 
-    void look(std::size_t low, std::size_t high) {
-        if (high - low <= leaf) {
-            for (std::size_t i = low; i < high; ++i) consider(i);
-            return;
-        }
-        const std::size_t middle = low + (high - low) / 2, axis = tree_.axes_[middle];
-        const float beyond = wanted_.position[axis] - tree_.photons_[middle].position[axis];
-        if (beyond < 0) {
-            look(low, middle);
-            if (beyond * beyond > limit_) return;
-            consider(middle);
-            look(middle + 1, high);
-        } else {
-            look(middle + 1, high);
-            if (beyond * beyond > limit_) return;
-            consider(middle);
-            look(low, middle);
+    void look(std::size_t level, std::size_t at) {
+        const std::size_t count = tree_.children(level, at), first = at * fan;
+        Bounds bounds{tree_.levels_[level][at], wanted_, {}};
+        work_side_by_side(bounds);
+        if (level == 0)
+            for (std::size_t i = 0; i < count; ++i)
+                if (bounds.distance2[i] <= found_.limit()) fetch(tree_.leaf(first + i));
+        for (std::size_t visits = 0; visits < count; ++visits) {
+            std::size_t next = 0;
+            for (std::size_t i = 1; i < count; ++i) next = bounds.distance2[i] < bounds.distance2[next] ? i : next;
+            if (!(bounds.distance2[next] <= found_.limit())) return;
+            bounds.distance2[next] = visited;
+            level == 0 ? look_at_leaf(first + next) : look(level - 1, first + next);
         }
     }
 
 private:
-    void consider(std::size_t i) {
-        const Photon& photon = tree_.photons_[i];
-        const Vec3 way = photon.position - wanted_.position;
-        const float height = dot(way, wanted_.normal);
-        const Near near{length_squared(way) + height_counts * height * height, std::uint32_t(i)};
-        if (!(near.distance2 <= limit_) || std::fabs(photon.cosine_to(wanted_.normal)) < least_cosine) return;
-        if (!wanted_.most) {
-            found_.push_back(near);
-            return;
+    // Distances of a leaf's photons as they are counted; infinite for those on surfaces that are turned elsewhere.
+    struct Distances {
+        const Leaf& leaf;
+        Vec3 at, normal;
+        Leaf::Floats distance2;
+
+        [[gnu::always_inline]] void work() {
+            for (std::size_t i = 0; i < width; ++i) {
+                const Vec3 way = Vec3{leaf.x[i], leaf.y[i], leaf.z[i]} - at;
+                const float height = dot(way, normal);
+                const float counted = length_squared(way) + height_counts * height * height;
+                const float cosine = std::fabs(Photon::cosine_between(leaf.surface[i], normal));
+                distance2[i] = counted + (cosine < least_cosine ? nowhere : 0);
+            }
         }
-        if (found_.size() == wanted_.most) {
-            if (!tree_.comes_first(near, found_.front())) return;
-            std::pop_heap(found_.begin(), found_.end(), order_);
-            found_.back() = near;
-            std::push_heap(found_.begin(), found_.end(), order_);
-        } else {
-            found_.push_back(near);
-            std::push_heap(found_.begin(), found_.end(), order_);
-        }
-        if (found_.size() == wanted_.most) limit_ = found_.front().distance2;
+    };
+
+    // Ahead of time what a leaf is judged by, as a map does not fit into the nearest caches.
+    static void fetch(const Leaf& leaf) {
+        for (const void* part : {leaf.x.data(), leaf.y.data(), leaf.z.data()}) __builtin_prefetch(part);
+        __builtin_prefetch(leaf.surface.data());
     }
 
-    struct Order {
-        const PhotonTree& tree;
-        bool operator()(const Near& a, const Near& b) const { return tree.comes_first(a, b); }
+    void look_at_leaf(std::size_t leaf) {
+        Distances seen{tree_.leaf(leaf), wanted_.position, wanted_.normal, {}};
+        work_side_by_side(seen);
+        found_.offer(seen.distance2, std::uint32_t(leaf * width));
+    }
+
+    // No photon in a box is nearer, as it is counted: each step rounds a greater number to no smaller one, and is the
+    // same for photons.
+    struct Bounds {
+        const Boxes& boxes;
+        const Wanted& wanted;
+        Boxes::Floats distance2;
+
+        [[gnu::always_inline]] void work() {
+            const Vec3 at = wanted.position, normal = wanted.normal;
+            for (std::size_t i = 0; i < fan; ++i) {
+                const Vec3 low = Vec3{boxes.least[0][i], boxes.least[1][i], boxes.least[2][i]} - at;
+                const Vec3 high = Vec3{boxes.most[0][i], boxes.most[1][i], boxes.most[2][i]} - at;
+                const Vec3 out{outside(low.x, high.x), outside(low.y, high.y), outside(low.z, high.z)};
+                const Vec3 a{low.x * normal.x, low.y * normal.y, low.z * normal.z};
+                const Vec3 b{high.x * normal.x, high.y * normal.y, high.z * normal.z};
+                const float least = lesser(a.x, b.x) + lesser(a.y, b.y) + lesser(a.z, b.z);
+                const float most = greater(a.x, b.x) + greater(a.y, b.y) + greater(a.z, b.z);
+                const float height = outside(least, most);
+                distance2[i] = length_squared(out) + height_counts * height * height;
+            }
+        }
+        // How far a range is from zero.
+        static float outside(float low, float high) { return greater(greater(low, -high), 0); }
+        static float lesser(float a, float b) { return a < b ? a : b; }
+        static float greater(float a, float b) { return a > b ? a : b; }
     };
 
     const PhotonTree& tree_;
-    Order order_{tree_};
     const Wanted& wanted_;
-    std::vector<Near>& found_;  // a heap while there is a `most`
-    float limit_;
+    Nearest& found_;
 };
 
-void PhotonTree::find(const Wanted& wanted, std::vector<Near>& found) const {
-    found.clear();
-    Search(*this, wanted, found).look(0, photons_.size());
-    std::sort(found.begin(), found.end(), [this](const Near& a, const Near& b) { return comes_first(a, b); });
+std::span<const Nearest::Item> PhotonTree::find(const Wanted& wanted, Nearest& scratch) const {
+    Search search(*this, wanted, scratch);
+    if (size_ > 0) search.look(levels_.size() - 1, 0);
+    // Indices would differ between the trees of all photons and of some.
+    return scratch.sorted([this](auto a, auto b) { return comes_before((*this)[a], (*this)[b], 0); });
 }
 
-Rgb PhotonTree::radiance(const Lookup& at, float radius, std::size_t most, std::vector<Near>& scratch) const {
-    const Vec3 normal = at.point.normal;
-    find({at.point.position, normal, radius, most}, scratch);
-    const float r2 = most && scratch.size() == most ? scratch.back().distance2 : radius * radius;
-    if (scratch.empty() || !(r2 > 0)) return {};
-    Rgb sum;
-    for (const Near& near : scratch) {
-        const Photon& photon = photons_[near.index];
-        const Vec3 incoming = photon.towards_light();
-        const Rgb scattered = at.bsdf.evaluate(at.outgoing, incoming, at.lobes);
-        // flux arrived per area of the surface as it is, not as it is shaded
-        const float cosine = std::max(std::fabs(dot(incoming, normal)), grazing);
-        sum += scattered * photon.flux * ((1 - near.distance2 / r2) / cosine);
+namespace {
+
+// What a surface makes of light that arrives, of many photons at once.
+struct Arrivals {
+    Arrivals(const PhotonTree::Lookup& lookup, float square) : at(lookup), r2(square) {}
+
+    const PhotonTree::Lookup& at;
+    float r2;  // m², of the disc
+    std::size_t count = 0;
+    std::array<std::uint32_t, lanes> packed;
+    Column distance2;
+
+    Columns3 incoming;
+    Column share;  // of the kernel's height, for an area of the surface as it is, not as it is shaded
+    Column pdf;    // of a diffuse surface
+
+    [[gnu::always_inline]] void work() {
+        const Vec3 normal = at.point.normal, shading = at.bsdf.shading().z, outgoing = at.outgoing;
+        const bool one_sided = at.bsdf.one_sided();
+        for (std::size_t i = 0; i < count; ++i) {
+            const Vec3 towards_light = Photon::unpacked_direction(packed[i]);
+            const float cosine = std::fabs(dot(towards_light, normal));
+            incoming.set(i, towards_light);
+            share[i] = (1 - distance2[i] / r2) / (cosine > grazing ? cosine : grazing);
+            pdf[i] = diffuse_pdf(shading, normal, one_sided, outgoing, towards_light);
+        }
     }
-    return sum * (2 / (pi * r2));
+};
+
+}  // namespace
+
+Rgb PhotonTree::radiance(const Lookup& at, float radius, std::size_t most, Nearest& scratch) const {
+    if (!(at.bsdf.lobes() & at.lobes)) return {};
+    const auto found = find({at.point.position, at.point.normal, radius, most}, scratch);
+    const float r2 = most && found.size() == most ? found.back().distance2 : radius * radius;
+    if (found.empty() || !(r2 > 0)) return {};
+    const Rgb* albedo = at.bsdf.diffuse_albedo();
+    Arrivals many(at, r2);
+    Rgb sum;
+    for (std::size_t first = 0; first < found.size(); first += lanes) {
+        many.count = std::min(lanes, found.size() - first);
+        for (std::size_t i = 0; i < many.count; ++i) {
+            many.packed[i] = light_of(found[first + i].index).incoming;
+            many.distance2[i] = found[first + i].distance2;
+        }
+        work_side_by_side(many);
+        for (std::size_t i = 0; i < many.count; ++i) {
+            const Rgb flux = light_of(found[first + i].index).flux * many.share[i];
+            if (albedo)
+                sum += flux * many.pdf[i];
+            else
+                sum += flux * at.bsdf.evaluate(at.outgoing, many.incoming[i], at.lobes);
+        }
+    }
+    return sum * (albedo ? *albedo : Rgb{1, 1, 1}) * (2 / (pi * r2));
 }
 
 }  // namespace lightnet

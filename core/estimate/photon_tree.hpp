@@ -7,38 +7,39 @@
 #include <vector>
 
 #include "core/bsdf/bsdf.hpp"
+#include "core/estimate/nearest.hpp"
 #include "core/estimate/photon.hpp"
 #include "core/light/query.hpp"
 #include "core/scene/surface.hpp"
 
 namespace lightnet {
 
-/// A balanced kd-tree. Immutable; any thread may ask. Its order depends on the photons alone.
+/// A balanced tree of boxes, as wide as the processor compares at once. Immutable; any thread may ask. Its order
+/// depends on the photons alone.
 class PhotonTree {
 public:
     /// `threads` of the caller's machine build it together.
     explicit PhotonTree(std::vector<Photon> photons, std::size_t threads = 1);
+    ~PhotonTree();
+    PhotonTree(PhotonTree&&) noexcept;
     explicit PhotonTree(std::span<const Photon> photons, std::size_t threads = 1)
         : PhotonTree(std::vector<Photon>(photons.begin(), photons.end()), threads) {}
 
-    std::size_t size() const { return photons_.size(); }
-    std::size_t memory() const { return photons_.size() * (sizeof(Photon) + sizeof(std::uint8_t)); }
-    std::span<const Photon> photons() const { return photons_; }
+    /// What `photons` may need beyond their number so that they need not be copied.
+    static constexpr std::size_t room = Nearest::width;
 
-    /// A photon that was found.
-    struct Near {
-        float distance2;  // m²; heights above the surface count four times
-        std::uint32_t index;
-    };
+    std::size_t size() const { return size_; }
+    Photon operator[](std::size_t i) const;
+
     /// Which photons are looked for: the nearest `most` within `radius` that lie on a surface turned like this one.
     struct Wanted {
         Vec3 position, normal;
         float radius;          // m
         std::size_t most = 0;  // 0: all of them
     };
-    /// Writes them by distance, those of equal distance by what they are: what is found, and in which order, does not
-    /// depend on photons farther away.
-    void find(const Wanted& wanted, std::vector<Near>& found) const;
+    /// Those, by distance (heights above the surface count four times), those of equal distance by what they are: what
+    /// is found, and in which order, does not depend on photons farther away. It lies in `scratch`.
+    std::span<const Nearest::Item> find(const Wanted& wanted, Nearest& scratch) const;
 
     /// Where, and for whom.
     struct Lookup {
@@ -49,16 +50,25 @@ public:
     };
     /// Radiance that the surface scatters on of what the photons bring: their density under Epanechnikov's kernel,
     /// 2 (1 - d²/r²) / (π r²), whose radius r is the distance of the farthest of `most` photons, or `radius` where
-    /// there are fewer. Without bias where light is even on a plane larger than that. `scratch` saves allocations.
-    Rgb radiance(const Lookup& at, float radius, std::size_t most, std::vector<Near>& scratch) const;
+    /// there are fewer. Without bias where light is even on a plane larger than that.
+    Rgb radiance(const Lookup& at, float radius, std::size_t most, Nearest& scratch) const;
 
 private:
+    struct Light;
+    struct Leaf;
+    struct Boxes;
     class Search;
-    bool comes_first(const Near& a, const Near& b) const;
-    void build(std::size_t low, std::size_t high, std::size_t threads);
 
-    std::vector<Photon> photons_;
-    std::vector<std::uint8_t> axes_;
+    const Leaf& leaf(std::size_t i) const;
+    const Light& light_of(std::size_t i) const;
+    std::size_t children(std::size_t level, std::size_t at) const;
+    void sort(std::size_t first, std::size_t leaves, std::size_t threads);
+    void put_in_columns(std::size_t leaf);
+    void put_in_boxes();
+
+    std::size_t size_;
+    std::vector<Photon> photons_;             // a place for leaves, each in that of its photons
+    std::vector<std::vector<Boxes>> levels_;  // around leaves, around those of the level before, … around all
 };
 
 }  // namespace lightnet

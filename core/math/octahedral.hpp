@@ -15,11 +15,11 @@ inline Vec2 to_octahedral(Vec3 n) {
     return {std::copysign(1 - std::fabs(y), x), std::copysign(1 - std::fabs(x), y)};
 }
 
-/// The unit vector again, within a few ulps.
+/// The unit vector again, within a few ulps. Without a branch, so that loops over many become vectors.
 inline Vec3 from_octahedral(Vec2 p) {
     const float z = 1 - std::fabs(p.x) - std::fabs(p.y);
-    if (z >= 0) return normalize({p.x, p.y, z});
-    return normalize({std::copysign(1 - std::fabs(p.y), p.x), std::copysign(1 - std::fabs(p.x), p.y), z});
+    const float x = std::copysign(1 - std::fabs(p.y), p.x), y = std::copysign(1 - std::fabs(p.x), p.y);
+    return normalize({z >= 0 ? p.x : x, z >= 0 ? p.y : y, z});
 }
 
 }  // namespace lightnet

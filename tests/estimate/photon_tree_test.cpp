@@ -28,7 +28,7 @@ Rgb seen(const PhotonTree& tree, Vec3 at, float radius, std::size_t most) {
     SurfacePoint point;
     point.position = at;
     point.normal = {0, 1, 0};
-    std::vector<PhotonTree::Near> scratch;
+    Nearest scratch;
     return tree.radiance({point, bsdf, {0, 1, 0}, lobe::rough}, radius, most, scratch);
 }
 
@@ -48,16 +48,17 @@ TEST(PhotonTree, FindsTheNearestWithTiesByWhatTheyAre) {
         for (std::uint32_t i = 0; i < 50; ++i) {
             const Vec2 at{float(mix(99 + 2 * i) >> 40) / float(1 << 24),
                           float(mix(100 + 2 * i) >> 40) / float(1 << 24)};
-            std::vector<PhotonTree::Near> found, all;
+            Nearest scratch;
+            std::vector<Nearest::Item> all;
             const PhotonTree::Wanted wanted{{at.x, 0, at.y}, {0, 1, 0}, 0.2f, 40};
-            tree.find(wanted, found);
+            const auto found = tree.find(wanted, scratch);
             for (std::uint32_t k = 0; k < tree.size(); ++k) {
-                const float d = length_squared(tree.photons()[k].position - wanted.position);
+                const float d = length_squared(tree[k].position - wanted.position);
                 if (d <= wanted.radius * wanted.radius) all.push_back({d, k});
             }
             std::sort(all.begin(), all.end(), [&](const auto& a, const auto& b) {
-                const auto rank = [&](const PhotonTree::Near& near) {
-                    const Vec3 where = tree.photons()[near.index].position;
+                const auto rank = [&](const Nearest::Item& near) {
+                    const Vec3 where = tree[near.index].position;
                     return std::tuple(near.distance2, where.x, where.y, where.z);
                 };
                 return rank(a) < rank(b);
@@ -65,10 +66,40 @@ TEST(PhotonTree, FindsTheNearestWithTiesByWhatTheyAre) {
             all.resize(std::min<std::size_t>(all.size(), wanted.most));
             ASSERT_EQ(found.size(), all.size());
             for (std::size_t k = 0; k < all.size(); ++k) {
-                EXPECT_EQ(tree.photons()[found[k].index].position, tree.photons()[all[k].index].position);
+                EXPECT_EQ(tree[found[k].index].position, tree[all[k].index].position);
                 EXPECT_EQ(found[k].distance2, all[k].distance2);
             }
         }
+    }
+}
+
+// In space, on surfaces turned every way: the boxes that are passed over must have none that is near.
+TEST(PhotonTree, FindsAllThatCountsAsNearInSpace) {
+    const auto part = [](std::uint64_t i) { return float(mix(i) >> 40) / float(1 << 23) - 1; };
+    const auto direction = [&](std::uint64_t i) { return normalize({part(3 * i), part(3 * i + 1), part(3 * i + 2)}); };
+    for (const std::size_t count : {1, 15, 16, 17, 129, 5000}) {
+        std::vector<Photon> photons;
+        for (std::size_t i = 0; i < count; ++i)
+            photons.push_back({{part(7 * i), part(7 * i + 1), part(7 * i + 2)}, {1, 1, 1}, {0, 0, 1}, direction(i)});
+        const PhotonTree tree(photons);
+        Nearest scratch;
+        for (const float radius : {0.1f, 0.7f, 1e30f})
+            for (const std::size_t most : {0, 1, 5, 50, 300})
+                for (std::uint64_t i = 0; i < 20; ++i) {
+                    const PhotonTree::Wanted wanted{{part(i), part(i + 90), part(i + 50)}, direction(i), radius, most};
+                    std::vector<float> all, found;
+                    for (const Photon& photon : photons) {
+                        const Vec3 way = photon.position - wanted.position;
+                        const float height = dot(way, wanted.normal);
+                        const float d = length_squared(way) + 15 * height * height;
+                        if (std::fabs(photon.cosine_to(wanted.normal)) >= 0.7f && d <= radius * radius)
+                            all.push_back(d);
+                    }
+                    std::sort(all.begin(), all.end());
+                    if (most) all.resize(std::min(all.size(), most));
+                    for (const auto& near : tree.find(wanted, scratch)) found.push_back(near.distance2);
+                    ASSERT_EQ(found, all) << count << " photons, at most " << most << " within " << radius;
+                }
     }
 }
 
@@ -77,7 +108,7 @@ TEST(PhotonTree, DependsNeitherOnTheOrderOfPhotonsNorOnThreads) {
     const PhotonTree one(photons);
     std::reverse(photons.begin(), photons.end());
     const PhotonTree other(photons, 4);
-    for (std::size_t i = 0; i < one.size(); ++i) EXPECT_EQ(one.photons()[i].position, other.photons()[i].position);
+    for (std::size_t i = 0; i < one.size(); ++i) EXPECT_EQ(one[i].position, other[i].position);
 }
 
 // The bytes of a sharded map are those of a whole one.
@@ -98,8 +129,8 @@ TEST(PhotonTree, PassesOverPhotonsOfOtherSurfaces) {
     auto photons = on_floor(100, 3);
     for (auto& photon : photons) photon = Photon(photon.position, photon.flux, {1, 0, 0}, {1, 0, 0});
     const PhotonTree tree(photons);
-    std::vector<PhotonTree::Near> found;
-    tree.find({{0.5f, 0, 0.5f}, {0, 1, 0}, 1, 0}, found);
+    Nearest scratch;
+    const auto found = tree.find({{0.5f, 0, 0.5f}, {0, 1, 0}, 1, 0}, scratch);
     EXPECT_TRUE(found.empty());
 }
 
