@@ -87,7 +87,10 @@ bool Nearest::sort_by_rank() {
     if (count_ <= most_ranked) {
         make_room();
         std::fill_n(distances_.begin() + std::ptrdiff_t(count_), padded(count_) - count_, nowhere);
-        Ranks ranks{distances_.data(), count_, padded(count_), {}};
+        Ranks ranks;
+        ranks.distances2 = distances_.data();
+        ranks.count = count_;
+        ranks.padded = padded(count_);
         work_side_by_side(ranks);
         std::size_t sum = 0;
         for (std::size_t i = 0; i < count_; ++i) {

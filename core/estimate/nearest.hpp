@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include <boost/align/aligned_allocator.hpp>
+
 namespace lightnet {
 
 /// Keeps what may be among the `most` nearest, and little more, without putting it in order before the end: sifting
@@ -67,7 +69,8 @@ private:
 
     std::size_t most_ = 0, full_ = 0, count_ = 0;
     float limit_ = 0;
-    std::vector<float> distances_;  // the first `count_` of them, with room for more behind
+    /// The first `count_` of them, with room for more behind; no vector of them lies across two lines of the cache.
+    std::vector<float, boost::alignment::aligned_allocator<float, 64>> distances_;
     std::vector<std::uint32_t> indices_;
     std::vector<Item> items_;
 };

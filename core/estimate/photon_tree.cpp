@@ -32,6 +32,39 @@ bool comes_before(const Photon& a, const Photon& b, std::size_t axis) {
     return rank(a) < rank(b);
 }
 
+// In parts as wide as they are read again: a processor waits where it reads at once what was written in smaller ones.
+void swap_whole(Photon& a, Photon& b) {
+    using Part [[gnu::vector_size(16)]] = float;
+    std::array<Part, sizeof(Photon) / sizeof(Part)> of_a, of_b;
+    std::memcpy(&of_a, &a, sizeof a);
+    std::memcpy(&of_b, &b, sizeof b);
+    std::memcpy(static_cast<void*>(&a), &of_b, sizeof a);
+    std::memcpy(static_cast<void*>(&b), &of_a, sizeof b);
+}
+
+// As nth_element: it puts those before the one in place `middle` before it. Where that guesses at each photon, this
+// moves all alike.
+void halve(std::span<Photon> photons, std::size_t middle, std::size_t axis) {
+    constexpr std::size_t tries = 16;
+    std::array<Photon, tries> some;
+    const auto before = [axis](const Photon& a, const Photon& b) { return comes_before(a, b, axis); };
+    while (photons.size() > 2 * tries) {
+        for (std::size_t i = 0; i < tries; ++i) some[i] = photons[(2 * i + 1) * photons.size() / (2 * tries)];
+        std::sort(some.begin(), some.end(), before);
+        const Photon border = some[std::clamp<std::size_t>(middle * tries / photons.size(), 1, tries - 1)];
+        std::size_t low = 0;
+        for (Photon& photon : photons) {
+            const bool is_low = before(photon, border);
+            swap_whole(photon, photons[low]);
+            low += is_low;
+        }
+        if (low == 0) break;  // as many are the same
+        photons = middle < low ? photons.first(low) : photons.subspan(low);
+        middle -= middle < low ? 0 : low;
+    }
+    std::nth_element(photons.begin(), photons.begin() + std::ptrdiff_t(middle), photons.end(), before);
+}
+
 }  // namespace
 
 /// What a photon brings.
@@ -106,8 +139,7 @@ void PhotonTree::sort(std::size_t first, std::size_t leaves, std::size_t threads
     std::size_t of_box = 1;  // leaves of the boxes in the smallest box that has all these
     while (of_box * fan < leaves) of_box *= fan;
     const std::size_t left = ((leaves + of_box - 1) / of_box + 1) / 2 * of_box;
-    std::nth_element(at(low), at(low + left * width), at(high),
-                     [axis](const Photon& a, const Photon& b) { return comes_before(a, b, axis); });
+    halve(std::span(photons_).subspan(low, high - low), left * width, axis);
     if (threads < 2 || high - low < least_shared) {
         sort(first, left, 1);
         sort(first + left, leaves - left, 1);
