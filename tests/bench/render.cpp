@@ -66,7 +66,7 @@ const std::vector<NetworkedRow>& networked_rows() {
     static const std::vector<NetworkedRow> table{
         {"networked_path", "path_all.lua", {{"samples", "64"}}},
         {"networked_cache", "irradiance_cache.lua", {{"samples", "128"}, {"rays", "4096"}}},
-        {"networked_map_cache", "figure5.lua", {{"samples", "96"}, {"photons", "400000"}, {"rays", "512"}}},
+        {"networked_map_cache", "figure5.lua", {{"samples", "192"}, {"photons", "400000"}, {"rays", "512"}}},
     };
     return table;
 }
