@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/estimate/stops.hpp"
 #include "core/graph/kind.hpp"
 #include "core/light/light_op.hpp"
 #include "core/light/node_context.hpp"
@@ -40,7 +41,7 @@ public:
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
         std::fill(answers.begin(), answers.end(), Rgb{});
         const std::size_t paths = questions.size() * samples_;
-        Paths going;
+        Paths going(scene_);
         for (std::size_t first = 0; first < paths; first += paths_at_once) {
             const std::size_t last = std::min(paths, first + paths_at_once);
             start(going, questions, first, last);
@@ -53,7 +54,7 @@ public:
 
 private:
     static constexpr std::size_t paths_at_once = 256;
-    static constexpr std::size_t stops_at_once = lanes;  // so many stay in the nearest cache
+    static constexpr std::size_t stops_at_once = lanes;
 
     /// A path on its way from one surface to the next.
     struct Walk {
@@ -69,29 +70,10 @@ private:
         std::vector<float> choices, survivals;
         std::vector<Vec2> places, ways;
     };
-    /// Surfaces that walks have come to, and who has come there.
-    struct Stops {
-        struct Visitor {
-            std::uint32_t walk, stop;
-        };
-        std::size_t count = 0;
-        std::array<Hit, stops_at_once> hits;
-        std::array<SurfacePoint, stops_at_once> points;
-        std::array<Vec3, stops_at_once> outgoing;
-        std::array<std::uint8_t, stops_at_once> lobes;
-        std::vector<Bsdf> bsdfs;
-        std::vector<Visitor> visitors;
-        // of each visitor
-        std::vector<LampLook> looks_for_lamps;
-        std::vector<Bsdf::Look> looks_on;
-        std::vector<BsdfSample> steps;
-        std::vector<std::uint8_t> goes_on;
-
-        void clear() { count = 0, bsdfs.clear(), visitors.clear(); }
-        std::span<const SurfacePoint> surfaces() const { return std::span(points).first(count); }
-    };
     /// Some paths, and scratch space for them.
     struct Paths {
+        explicit Paths(const Scene& scene) : stops(scene) {}
+
         std::vector<Rgb> sums;           // of each path
         std::vector<std::size_t> asked;  // the same: which question it's for
         std::vector<Walk> walks;
@@ -100,7 +82,7 @@ private:
         ManySamples samples;  // of each walk
         Numbers numbers;
         Stops stops;
-        LampRays from_lamps;  // for whom: paths
+        LampRays from_lamps;
         std::vector<std::uint8_t> hidden;
         std::size_t kept = 0;  // walks and rays of the next leg
     };
@@ -141,25 +123,21 @@ private:
     /// Some of the paths from `path` on, at the surfaces that are asked about. Returns where the next ones begin.
     std::size_t begin_at(Paths& going, std::span<const Query> questions, std::size_t first, std::size_t path,
                          std::size_t last) const {
-        Stops& stops = going.stops;
-        stops.clear();
-        while (path < last && stops.visitors.size() < stops_at_once) {
-            const std::size_t q = path / samples_, end = std::min(last, (q + 1) * samples_);
-            const auto stop = static_cast<std::uint32_t>(stops.count++);
-            stops.hits[stop] = scene_.hit(questions[q]);
-            stops.outgoing[stop] = questions[q].outgoing;
-            stops.lobes[stop] = questions[q].lobes;
-            for (; path < end; ++path) stops.visitors.push_back({static_cast<std::uint32_t>(path - first), stop});
+        going.stops.clear();
+        Hit hit;
+        for (std::size_t begun = path; path < last && !going.stops.full(); ++path) {
+            const Query& question = questions[path / samples_];
+            const auto walk = static_cast<std::uint32_t>(path - first);
+            if (path == begun || path % samples_ == 0) {
+                hit = scene_.hit(question);
+                going.stops.add(walk, hit, question.outgoing, question.lobes, nullptr);
+            } else {
+                going.stops.add_again(walk, hit, question.outgoing);
+            }
         }
-        find_surfaces(stops);
-        scene_.bsdfs(stops.surfaces(), stops.bsdfs);
-        if (all_) look_around(going, 0);
-        scatter(going, 0);
+        going.stops.find_points();
+        go_round(going, 0);
         return path;
-    }
-
-    void find_surfaces(Stops& stops) const {
-        scene_.surfaces(std::span(stops.hits).first(stops.count), std::span(stops.points).first(stops.count));
     }
 
     /// Takes all paths over the next surface: number `depth` on their way.
@@ -181,11 +159,9 @@ private:
         LampRays& found = going.from_lamps;
         going.hidden.resize(found.rays.size());
         scene_.occluded(found.rays, going.hidden);
-        for (std::size_t i = 0; i < found.who.size(); ++i)
-            going.sums[found.who[i]] += nothing_if(going.hidden[i], found.light[i]);
-        found.rays.clear();
-        found.light.clear();
-        found.who.clear();
+        for (std::size_t i = 0; i < found.paths.size(); ++i)
+            going.sums[found.paths[i]] += nothing_if(going.hidden[i], found.light[i]);
+        found.resize(0);
     }
 
     /// Without a branch, as what is in the way can't be foretold.
@@ -206,27 +182,28 @@ private:
     }
 
     void visit(Paths& going, std::size_t first, std::size_t last, std::uint32_t depth) const {
-        Stops& stops = going.stops;
-        stops.clear();
+        going.stops.clear();
         for (std::size_t i = first; i < last; ++i) {
             Walk& walk = going.walks[i];
             if (!going.hits[i]) {
                 leave(walk, depth, going);
                 continue;
             }
-            if (walk.inside) walk.weight *= left_after(walk.inside, going.hits[i]->distance);
-            const auto stop = static_cast<std::uint32_t>(stops.count++);
-            stops.visitors.push_back({static_cast<std::uint32_t>(i), stop});
-            stops.hits[stop] = *going.hits[i];
-            stops.outgoing[stop] = -walk.step.incoming;
-            stops.lobes[stop] = lobe::all;
+            const Hit& hit = *going.hits[i];
+            if (walk.inside) walk.weight *= left_after(walk.inside, hit.distance);
+            going.stops.add(static_cast<std::uint32_t>(i), hit, -walk.step.incoming, lobe::all, walk.inside);
         }
-        find_surfaces(stops);
+        going.stops.find_points();
         if (all_ || depth > 1)
-            for (const auto [walk, stop] : stops.visitors) meet_lamp(going.walks[walk], stops.points[stop], going);
-        if (max_depth_ && depth > max_depth_) return;
-        scene_.bsdfs(stops.surfaces(), stops.bsdfs);
-        look_around(going, depth);
+            going.stops.each_that_may_shine(
+                [&](std::uint32_t walk, const SurfacePoint& point) { meet_lamp(going.walks[walk], point, going); });
+        if (!max_depth_ || depth <= max_depth_) go_round(going, depth);
+    }
+
+    /// What paths do at the surfaces that they have come to.
+    void go_round(Paths& going, std::uint32_t depth) const {
+        going.stops.find_bsdfs();
+        if (depth > 0 || all_) look_around(going, depth);
         scatter(going, depth);
     }
 
@@ -243,50 +220,29 @@ private:
         if (!is_black(light)) going.sums[walk.path] += walk.weight * light;
     }
 
-    static Gathering gathering(const Paths& going, const Stops::Visitor& visitor) {
-        const Stops& stops = going.stops;
-        return {stops.points[visitor.stop], stops.bsdfs[visitor.stop], stops.outgoing[visitor.stop],
-                stops.lobes[visitor.stop], going.walks[visitor.walk].inside};
-    }
-
     /// What paths find at surfaces by looking for light, rather than by going on.
     void look_around(Paths& going, std::uint32_t depth) const {
-        if (scene_.has_lamps()) look_for_lamps(going);
+        const auto& walks = going.walks;
+        if (scene_.has_lamps()) {
+            const Numbers& numbers = going.numbers;
+            going.stops.look_for_lamps(
+                {numbers.choices, numbers.places}, heuristic, going.from_lamps,
+                [&](std::uint32_t i) { return walks[i].weight; }, [&](std::uint32_t i) { return walks[i].path; });
+        }
         if (two_looks(depth))
-            for (const auto visitor : going.stops.visitors) look_at_sky(going, visitor, depth);
+            going.stops.each([&](std::uint32_t i, const Gathering& at) { look_at_sky(going, i, at, depth); });
     }
 
-    void look_for_lamps(Paths& going) const {
-        Stops& stops = going.stops;
-        const Numbers& numbers = going.numbers;
-        const bool many_lamps = scene_.has_many_lamps();
-        stops.looks_for_lamps.clear();
-        for (const auto& visitor : stops.visitors) {
-            const float choice = many_lamps ? numbers.choices[visitor.walk] : 0;
-            stops.looks_for_lamps.push_back({gathering(going, visitor), {choice, numbers.places[visitor.walk]}});
-        }
-        LampRays& found = going.from_lamps;
-        const auto first = found.who.size();
-        rays_to_lamps(scene_, stops.looks_for_lamps, heuristic, found);
-        for (std::size_t i = first; i < found.who.size(); ++i) {
-            const Walk& walk = going.walks[stops.visitors[found.who[i]].walk];
-            found.light[i] = walk.weight * found.light[i];
-            found.who[i] = walk.path;
-        }
-    }
-
-    void look_at_sky(Paths& going, const Stops::Visitor& visitor, std::uint32_t depth) const {
-        const Walk& walk = going.walks[visitor.walk];
-        const Gathering at = gathering(going, visitor);
-        Samples samples = going.samples.at(visitor.walk, depth * dimensions + choice_of_look);
+    void look_at_sky(Paths& going, std::uint32_t i, const Gathering& at, std::uint32_t depth) const {
+        const Walk& walk = going.walks[i];
+        Samples samples = going.samples.at(i, depth * dimensions + choice_of_look);
         const float choice = at.bsdf.chooses() ? samples.next() : samples.skip();
         const auto found = at.bsdf.sample(at.outgoing, choice, samples.next_2d(), at.lobes);
         if (!found) return;
         const Rgb sky = found->weight * light_by_bsdf(scene_, at.point.position, *found, nullptr, heuristic);
         if (is_black(sky)) return;
-        going.from_lamps.rays.push_back({at.point.origin_towards(found->incoming), found->incoming});
-        going.from_lamps.light.push_back(walk.weight * (0.5f * sky));
-        going.from_lamps.who.push_back(walk.path);
+        going.from_lamps.add({at.point.origin_towards(found->incoming), found->incoming}, walk.weight * (0.5f * sky),
+                             walk.path);
     }
 
     /// Is the environment seen from the surface number `depth` looked at by two directions?
@@ -294,28 +250,20 @@ private:
 
     /// Sends paths on from surfaces, if they aren't absorbed.
     void scatter(Paths& going, std::uint32_t depth) const {
-        Stops& stops = going.stops;
-        stops.looks_on.clear();
-        for (const auto& [i, stop] : stops.visitors) {
-            const Bsdf& bsdf = stops.bsdfs[stop];
-            const float choice = bsdf.chooses() ? going.samples.at(i, depth * dimensions + choice_of_way).next() : 0;
-            stops.looks_on.push_back({bsdf, stops.outgoing[stop], stops.lobes[stop], choice, going.numbers.ways[i]});
-        }
-        stops.steps.resize(stops.visitors.size());
-        stops.goes_on.resize(stops.visitors.size());
-        Bsdf::sample(stops.looks_on, stops.steps, stops.goes_on);
-        for (std::size_t i = 0; i < stops.visitors.size(); ++i)
-            if (stops.goes_on[i]) send_on(going, stops.visitors[i], stops.steps[i], depth);
+        const auto choice = [&](std::uint32_t i) {
+            return going.samples.at(i, depth * dimensions + choice_of_way).next();
+        };
+        going.stops.scatter(going.numbers.ways, choice,
+                            [&](std::uint32_t i, const Stops::Step& step) { send_on(going, i, step, depth); });
     }
 
     /// Puts a walk on into the place of one that has been here before, or of itself. Who ends by chance, which can't be
     /// foretold, is put there as well, and written over by the next.
-    void send_on(Paths& going, const Stops::Visitor& visitor, const BsdfSample& step, std::uint32_t depth) const {
-        const std::size_t i = visitor.walk, to = going.kept;
-        const Gathering at = gathering(going, visitor);
+    void send_on(Paths& going, std::size_t i, const Stops::Step& on, std::uint32_t depth) const {
+        const std::size_t to = going.kept;
         const Walk& walk = going.walks[i];
-        Rgb weight = walk.weight * step.weight;
-        const float squeezed = walk.squeezed * step.eta * step.eta;
+        Rgb weight = walk.weight * on.sample.weight;
+        const float squeezed = walk.squeezed * on.sample.eta * on.sample.eta;
         const float kept = max_component(weight) * squeezed / (max_component(walk.weight) * walk.squeezed);
         if (!(kept > 0)) return;
         bool survives = true;
@@ -326,10 +274,8 @@ private:
         }
         going.kept += survives;
         going.samples.move(i, to);
-        going.rays[to] = {at.point.origin_towards(step.incoming), step.incoming};
-        going.walks[to] = {
-            walk.path,         squeezed, weight, filling(at.bsdf, at.point, at.outgoing, step.incoming, at.inside),
-            at.point.position, step};
+        going.rays[to] = on.ray;
+        going.walks[to] = {walk.path, squeezed, weight, on.inside, on.from, on.sample};
     }
 
     /// Paths end by chance, and the others carry more. `kept` is the share of light that the last surface leaves: by it

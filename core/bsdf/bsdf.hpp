@@ -68,9 +68,6 @@ public:
         const DiffuseBsdf* plain = diffuse();
         return plain ? diffuse_sample(*plain, outgoing, u, lobes) : sample_of_any(outgoing, choice, u, lobes);
     }
-    /// The same of many surfaces, to the bit; far less work where they are diffuse. found[i]: is there a samples[i]?
-    struct Look;
-    static void sample(std::span<const Look> looks, std::span<BsdfSample> samples, std::span<std::uint8_t> found);
     /// The colour of a diffuse reflector that fills nothing, alike on both sides or black from behind; null: another.
     const Rgb* diffuse_albedo() const { return diffuse() && !absorption_ ? &diffuse()->albedo : nullptr; }
     /// Is it black from behind?
@@ -122,15 +119,6 @@ inline std::optional<BsdfSample> Bsdf::diffuse_sample(const DiffuseBsdf& plain, 
     if (pdf == 0) return {};
     return BsdfSample{incoming, plain.albedo, pdf, lobe::diffuse};
 }
-
-/// One surface of many.
-struct Bsdf::Look {
-    const Bsdf& bsdf;
-    Vec3 outgoing;
-    std::uint8_t lobes;
-    float choice;
-    Vec2 u;
-};
 
 struct Bsdf::Part {
     Bsdf bsdf;

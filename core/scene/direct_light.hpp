@@ -63,21 +63,6 @@ std::optional<LampRay> ray_to_lamp(const Scene& scene, const Gathering& at, cons
 /// The same with the next two dimensions of `samples`, needed or not.
 std::optional<LampRay> ray_to_lamp(const Scene& scene, const Gathering& at, Samples& samples, Heuristic heuristic);
 
-/// One point of many, and the numbers for its light.
-struct LampLook {
-    Gathering at;
-    LampNumbers numbers;
-};
-/// What many points found.
-struct LampRays {
-    std::vector<Ray> rays;
-    std::vector<Rgb> light;
-    std::vector<std::uint32_t> who;  // of the looks
-};
-/// ray_to_lamp() of many points, to the bit: who finds none is left out. Appended. Far less work where surfaces are
-/// diffuse and the only light is a flat lamp.
-void rays_to_lamps(const Scene& scene, std::span<const LampLook> looks, Heuristic heuristic, LampRays& to);
-
 /// Radiance that one sampled light sends to `at` and on into its direction: a point of a lamp, a bare light or a part
 /// of the environment; weighted against finding it by a direction from the BSDF. Uses two dimensions.
 Rgb light_by_lamp(const Scene& scene, const Gathering& at, Samples& samples, Heuristic heuristic);

@@ -315,6 +315,22 @@ Bsdf::Model Materials::model_at(MaterialId id, const TexturePlace& place) const 
     return std::visit(Mixer(data_, place, made.coat, made.coated_metal), data_.materials[id].model);
 }
 
+bool Materials::is_plain(MaterialId id) const {
+    const auto* diffuse = std::get_if<DiffuseMaterial>(&data_.materials[id].model);
+    const Made& made = made_[id];
+    return diffuse && !diffuse->transmittance && !(diffuse->sigma > 0) && !made.bumpy && !made.filled &&
+           !made.needs.tangent;
+}
+
+const Rgb* Materials::plain_albedo(MaterialId id) const {
+    const auto& model = made_[id].plain;
+    return model ? &std::get<DiffuseBsdf>(*model).albedo : nullptr;
+}
+
+Rgb Materials::albedo(MaterialId id, const TexturePlace& place) const {
+    return std::get<DiffuseBsdf>(model_at(id, place)).albedo;
+}
+
 float Materials::opacity(MaterialId id, const TexturePlace& place) const {
     const Material& material = data_.materials[id];
     if (std::holds_alternative<NoMaterial>(material.model)) return 0;

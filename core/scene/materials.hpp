@@ -40,6 +40,11 @@ public:
         else
             to.push_back(bsdf(material, point));
     }
+    /// Is it diffuse and nothing else?
+    bool is_plain(MaterialId material) const;
+    /// Reflectance of a plain one; null: it depends on the place.
+    const Rgb* plain_albedo(MaterialId material) const;
+    Rgb albedo(MaterialId material, const TexturePlace& place) const;
     /// Share of the light that meets the surface.
     float opacity(MaterialId material, const TexturePlace& place) const;
 

@@ -114,11 +114,7 @@ SurfacePoint Scene::surface(const Hit& hit) const {
     return hit.instance == Query::no_instance ? point : built_->placements[hit.instance].place(point);
 }
 
-void Scene::surfaces(std::span<const Hit> hits, std::span<SurfacePoint> points) const {
-    built_->shading.find(hits, points);
-    for (std::size_t i = 0; i < hits.size(); ++i)
-        if (hits[i].instance != Query::no_instance) points[i] = built_->placements[hits[i].instance].place(points[i]);
-}
+std::span<const PlainShape> Scene::plain_shapes() const { return built_->shading.plain_shapes(); }
 
 Hit Scene::hit(const Query& query) const {
     const auto& shapes = built_->data.shapes;
@@ -136,9 +132,7 @@ const SceneData& Scene::data() const { return built_->data; }
 
 Bsdf Scene::bsdf(const SurfacePoint& point) const { return built_->shading.bsdf(point); }
 
-void Scene::bsdfs(std::span<const SurfacePoint> points, std::vector<Bsdf>& to) const {
-    for (const SurfacePoint& point : points) built_->shading.add_bsdf(point, to);
-}
+void Scene::add_bsdf(const SurfacePoint& point, std::vector<Bsdf>& to) const { built_->shading.add_bsdf(point, to); }
 
 Rgb Scene::emission(const SurfacePoint& point, Vec3 direction) const {
     return built_->lights.emission(point, direction);

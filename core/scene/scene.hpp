@@ -14,6 +14,7 @@
 #include "core/scene/camera.hpp"
 #include "core/scene/flat_lamp.hpp"
 #include "core/scene/light_sample.hpp"
+#include "core/scene/plain_surfaces.hpp"
 #include "core/scene/ray.hpp"
 #include "core/scene/scene_data.hpp"
 #include "core/scene/surface.hpp"
@@ -62,12 +63,12 @@ public:
     Hit hit(const Query& query) const;
     /// What the scene was built from: names of shapes, materials and objects. Its meshes may be gone.
     const SceneData& data() const;
-    /// Of many hits.
-    void surfaces(std::span<const Hit> hits, std::span<SurfacePoint> points) const;
+    /// By shape: how plain it is. What is hit in an instance is not.
+    std::span<const PlainShape> plain_shapes() const;
     /// How the surface scatters there.
     Bsdf bsdf(const SurfacePoint& point) const;
-    /// The same of many points; appended.
-    void bsdfs(std::span<const SurfacePoint> points, std::vector<Bsdf>& to) const;
+    /// The same, made where it is to stay; appended.
+    void add_bsdf(const SurfacePoint& point, std::vector<Bsdf>& to) const;
 
     /// Radiance that the surface itself emits into `direction` (unit, away from it).
     Rgb emission(const SurfacePoint& point, Vec3 direction) const;

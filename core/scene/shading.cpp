@@ -71,8 +71,23 @@ Shading::Shading(const SceneData& data) : data_(data), materials_(data) {
     for (const auto& shape : data.shapes) {
         needs_.push_back({materials_.needs(shape.material), least_offset(shape)});
         needs_.back().material.texture |= shape.emission && shape.emission->texture;
+        plain_.push_back(plain(shape, needs_.back()));
     }
 }
+
+PlainShape Shading::plain(const Shape& shape, const Needs& needs) const {
+    const auto* mesh = std::get_if<Mesh>(&shape.geometry);
+    if (!mesh || shape.emission || !materials_.is_plain(shape.material)) return {};
+    const Rgb* albedo = materials_.plain_albedo(shape.material);
+    return {mesh, albedo ? *albedo : Rgb{}, albedo ? nullptr : this, needs.offset,
+            data_.materials[shape.material].one_sided};
+}
+
+Rgb Shading::albedo(const Hit& hit) const {
+    return materials_.albedo(data_.shapes[hit.geometry].material, place(hit.geometry, hit.primitive, hit.u, hit.v));
+}
+
+Rgb albedo_at(const Shading& shading, const Hit& hit) { return shading.albedo(hit); }
 
 void Shading::find(std::uint32_t geometry, std::uint32_t primitive, float u, float v, SurfacePoint& point) const {
     point.geometry = geometry;

@@ -7,6 +7,7 @@
 
 #include "core/bsdf/bsdf.hpp"
 #include "core/scene/materials.hpp"
+#include "core/scene/plain_surfaces.hpp"
 #include "core/scene/ray.hpp"
 #include "core/scene/scene_data.hpp"
 #include "core/scene/surface.hpp"
@@ -28,10 +29,12 @@ public:
     }
     /// The same, put where it is wanted: copies of what has just been written wait for it.
     void find(std::uint32_t geometry, std::uint32_t primitive, float u, float v, SurfacePoint& point) const;
-    /// The same of many hits, to the bit, for less work. Of instances they are points of the object.
-    void find(std::span<const Hit> hits, std::span<SurfacePoint> points) const;
     Bsdf bsdf(const SurfacePoint& point) const;
     void add_bsdf(const SurfacePoint& point, std::vector<Bsdf>& to) const;
+    /// What is plain about each shape.
+    std::span<const PlainShape> plain_shapes() const { return plain_; }
+    /// Reflectance there of a plain one.
+    Rgb albedo(const Hit& hit) const;
 
     /// What textures may depend on there, by the same coordinates.
     TexturePlace place(std::uint32_t geometry, std::uint32_t primitive, float u, float v) const;
@@ -48,6 +51,7 @@ private:
         MaterialNeeds material;
         float offset = 0;  // least distance by which rays must leave the shape, m
     };
+    PlainShape plain(const Shape& shape, const Needs& needs) const;
     void on_mesh(const Mesh& mesh, const Needs& needs, SurfacePoint& point) const;
     /// Adds what textures, grooves and bumps need.
     void dress(const Mesh& mesh, const Needs& needs, SurfacePoint& point) const;
@@ -56,6 +60,7 @@ private:
     const SceneData& data_;
     Materials materials_;
     std::vector<Needs> needs_;  // by shape
+    std::vector<PlainShape> plain_;
 };
 
 }  // namespace lightnet

@@ -21,11 +21,6 @@ using namespace test;
 constexpr std::size_t many = 1000;  // not a multiple of anything
 
 auto parts(const Frame& f) { return std::tuple(f.x, f.y, f.z); }
-auto parts(const SurfacePoint& p) {
-    return std::tuple(p.position, p.normal, parts(p.shading), p.uv, p.vertex_colour, p.along_u, p.along_v, p.geometry,
-                      p.primitive, p.u, p.v, p.offset);
-}
-auto parts(const BsdfSample& s) { return std::tuple(s.incoming, s.weight, s.pdf, s.lobe, s.transmitted, s.eta); }
 auto parts(const Ray& r) { return std::tuple(r.origin, r.direction, r.far); }
 
 Vec3 somewhere(Samples& samples) { return sphere(samples.next_2d()) * (3 * samples.next()); }
@@ -102,70 +97,111 @@ std::vector<Hit> some_hits(const Scene& scene) {
     return hits;
 }
 
-// Points, how they scatter, and who looks at them.
-struct Surfaces {
-    explicit Surfaces(const Scene& scene) : hits(some_hits(scene)), points(many) {
-        scene.surfaces(hits, points);
-        scene.bsdfs(points, bsdfs);
-        for (std::uint32_t i = 0; i < many; ++i) {
-            Samples samples(8, i);
-            outgoing.push_back(sphere(samples.next_2d()));
-            choices.push_back(samples.next());
-            numbers.push_back(samples.next_2d());
-            lobes.push_back(i % 7 ? lobe::all : std::uint8_t(lobe::all & ~lobe::diffuse));
-        }
-    }
-    std::vector<Hit> hits;
+// Plain points among many hits, who looks at them, and the same points one by one.
+struct Plain {
+    PlainSurfaces together;
     std::vector<SurfacePoint> points;
     std::vector<Bsdf> bsdfs;
     std::vector<Vec3> outgoing;
-    std::vector<float> choices;
     std::vector<Vec2> numbers;
-    std::vector<std::uint8_t> lobes;
 };
+
+// Calls `with` for all plain points, as many as go together at once. Returns how many there were.
+template <class With>
+std::size_t each_plain(const Scene& scene, With&& with) {
+    const auto hits = some_hits(scene);
+    std::size_t count = 0;
+    Plain plain;
+    const auto hand_over = [&] {
+        plain.together.find_points();
+        with(plain);
+        count += plain.points.size();
+        plain = {};
+    };
+    for (std::uint32_t i = 0; i < many; ++i) {
+        const PlainShape& shape = scene.plain_shapes()[hits[i].geometry];
+        if (!shape.mesh || hits[i].instance != Query::no_instance) continue;
+        Samples samples(8, i);
+        plain.points.push_back(scene.surface(hits[i]));
+        plain.bsdfs.push_back(scene.bsdf(plain.points.back()));
+        plain.outgoing.push_back(sphere(samples.next_2d()));
+        plain.numbers.push_back(samples.next_2d());
+        plain.together.add(i, shape, hits[i], plain.outgoing.back());
+        if (plain.together.full()) hand_over();
+    }
+    hand_over();
+    return count;
+}
 
 TEST(Many, PointsAreThoseOfOne) {
     const Scene scene(everything());
-    const auto hits = some_hits(scene);
-    std::vector<SurfacePoint> points(many);
-    scene.surfaces(hits, points);
-    std::size_t instanced = 0, turned = 0;
-    for (std::size_t i = 0; i < many; ++i) {
-        ASSERT_EQ(parts(points[i]), parts(scene.surface(hits[i]))) << "hit " << i << " of shape " << hits[i].geometry;
-        instanced += hits[i].instance != Query::no_instance;
-        turned += dot(points[i].shading.z, points[i].normal) < 0.9f;
-    }
-    EXPECT_GT(instanced, 20u);
+    std::size_t turned = 0, black_behind = 0;
+    const std::size_t count = each_plain(scene, [&](const Plain& plain) {
+        for (std::size_t i = 0; i < plain.points.size(); ++i) {
+            const SurfacePoint &one = plain.points[i], it = plain.together.point(i);
+            const Bsdf &bsdf = plain.bsdfs[i], its = plain.together.bsdf(i);
+            ASSERT_EQ(std::tuple(it.position, it.normal, parts(it.shading), it.offset),
+                      std::tuple(one.position, one.normal, parts(one.shading), one.offset));
+            ASSERT_EQ(std::tuple(plain.together.position(i), plain.together.normal(i), plain.together.outgoing(i)),
+                      std::tuple(one.position, one.normal, plain.outgoing[i]));
+            ASSERT_EQ(std::tuple(*its.diffuse_albedo(), its.one_sided(), parts(its.shading())),
+                      std::tuple(*bsdf.diffuse_albedo(), bsdf.one_sided(), parts(bsdf.shading())));
+            turned += dot(one.shading.z, one.normal) < 0.9f;
+            black_behind += bsdf.one_sided();
+        }
+    });
+    EXPECT_GT(count, 200u);
+    EXPECT_LT(count, many - 200);
     EXPECT_GT(turned, 20u);
+    EXPECT_GT(black_behind, 20u);
+}
+
+// Whatever has some finesse is not plain.
+TEST(Many, WhatIsNotPlainIsLeftOut) {
+    const auto is_plain = [](auto&& change) {
+        SceneData data;
+        const auto grey = diffuse(data, 0.5f);
+        add(data, waves(), grey);
+        change(data);
+        return Scene(std::move(data)).plain_shapes()[0].mesh != nullptr;
+    };
+    EXPECT_TRUE(is_plain([](SceneData&) {}));
+    EXPECT_TRUE(is_plain([](SceneData& d) { d.materials[0].one_sided = true; }));
+    EXPECT_FALSE(is_plain([](SceneData& d) { d.shapes[0].emission = AreaEmission{{1, 1, 1}}; }));
+    EXPECT_FALSE(is_plain([](SceneData& d) { d.shapes[0].geometry = ball({}, 1); }));
+    EXPECT_FALSE(is_plain([](SceneData& d) { d.materials[0].model = DielectricMaterial{}; }));
+    EXPECT_FALSE(is_plain([](SceneData& d) { std::get<DiffuseMaterial>(d.materials[0].model).sigma = 0.3f; }));
+    EXPECT_FALSE(is_plain([](SceneData& d) {
+        std::get<DiffuseMaterial>(d.materials[0].model).transmittance = colour(d, {0.1f, 0.1f, 0.1f});
+    }));
+    EXPECT_FALSE(is_plain([](SceneData& d) { d.materials[0].bump_map = colour(d, {0.1f, 0.1f, 0.1f}); }));
 }
 
 TEST(Many, DirectionsAreThoseOfOne) {
     const Scene scene(everything());
-    const Surfaces at(scene);
-    std::vector<Bsdf::Look> looks;
-    for (std::size_t i = 0; i < many; ++i)
-        looks.push_back({at.bsdfs[i], at.outgoing[i], at.lobes[i], at.choices[i], at.numbers[i]});
-    std::vector<BsdfSample> samples(many);
-    std::vector<std::uint8_t> found(many);
-    Bsdf::sample(looks, samples, found);
-    std::size_t diffuse = 0, absorbed = 0;
-    for (std::size_t i = 0; i < many; ++i) {
-        const auto one = at.bsdfs[i].sample(at.outgoing[i], at.choices[i], at.numbers[i], at.lobes[i]);
-        ASSERT_EQ(found[i] != 0, one.has_value()) << "look " << i;
-        if (one) {
-            ASSERT_EQ(parts(samples[i]), parts(*one)) << "look " << i;
-            diffuse += one->lobe == lobe::diffuse;
-        } else {
-            ++absorbed;
+    std::size_t found = 0, absorbed = 0;
+    each_plain(scene, [&](Plain& plain) {
+        for (std::size_t i = 0; i < plain.points.size(); ++i) plain.together.set_numbers(i, plain.numbers[i]);
+        const auto& steps = plain.together.sample();
+        for (std::size_t i = 0; i < plain.points.size(); ++i) {
+            const auto one = plain.bsdfs[i].sample(plain.outgoing[i], 0, plain.numbers[i], lobe::all);
+            ASSERT_EQ(steps.pdf[i] != 0, one.has_value());
+            absorbed += !one;
+            if (!one) continue;
+            ++found;
+            ASSERT_EQ(std::tuple(steps.incoming[i], steps.pdf[i], plain.together.albedo(i)),
+                      std::tuple(one->incoming, one->pdf, one->weight));
+            ASSERT_EQ(parts(plain.together.ray_from(i, one->incoming)),
+                      parts(Ray{plain.points[i].origin_towards(one->incoming), one->incoming}));
         }
-    }
-    EXPECT_GT(diffuse, 200u);
-    EXPECT_GT(absorbed, 50u);
+    });
+    EXPECT_GT(found, 200u);
+    EXPECT_GT(absorbed, 20u);
 }
 
 struct Lighting {
     const char* name;
-    std::vector<std::variant<Mesh, Sphere>> lamps;
+    Mesh lamp;
     bool two_sided = false;
     friend std::ostream& operator<<(std::ostream& out, const Lighting& lighting) { return out << lighting.name; }
 };
@@ -174,35 +210,26 @@ class ManyLit : public testing::TestWithParam<Lighting> {};
 
 TEST_P(ManyLit, RaysAreThoseOfOne) {
     SceneData data = everything();
-    const auto black = diffuse(data, 0);
-    for (const auto& lamp : GetParam().lamps)
-        add(data, lamp, black).emission = AreaEmission{{3, 2, 1}, GetParam().two_sided};
+    add(data, GetParam().lamp, diffuse(data, 0)).emission = AreaEmission{{3, 2, 1}, GetParam().two_sided};
     const Scene scene(data);
-    const Surfaces at(scene);
-    const Rgb absorption{0.1f, 0.2f, 0.3f};
-    std::vector<LampLook> looks;
-    for (std::size_t i = 0; i < many; ++i)
-        looks.push_back({{at.points[i], at.bsdfs[i], at.outgoing[i], at.lobes[i], i % 11 ? nullptr : &absorption},
-                         {at.choices[i], at.numbers[i]}});
+    ASSERT_TRUE(scene.only_flat_lamp());
     for (const Heuristic heuristic : {Heuristic::balance, Heuristic::power}) {
-        LampRays together;
-        rays_to_lamps(scene, looks, heuristic, together);
-        std::vector<bool> lit(many);
-        for (std::size_t i = 0; i < together.who.size(); ++i) {
-            const std::uint32_t who = together.who[i];
-            ASSERT_FALSE(lit[who]) << "look " << who << " twice";
-            lit[who] = true;
-            const auto one = ray_to_lamp(scene, looks[who].at, looks[who].numbers, heuristic);
-            ASSERT_TRUE(one) << "look " << who;
-            ASSERT_EQ(parts(together.rays[i]), parts(one->ray)) << "look " << who;
-            ASSERT_EQ(together.light[i], one->light) << "look " << who;
-        }
-        for (std::size_t i = 0; i < many; ++i) {
-            if (lit[i]) continue;
-            EXPECT_FALSE(ray_to_lamp(scene, looks[i].at, looks[i].numbers, heuristic)) << "look " << i;
-        }
-        EXPECT_GT(together.who.size(), 100u);
-        EXPECT_LT(together.who.size(), many - 100);
+        std::size_t lit = 0;
+        const std::size_t count = each_plain(scene, [&](Plain& plain) {
+            for (std::size_t i = 0; i < plain.points.size(); ++i) plain.together.set_numbers(i, plain.numbers[i]);
+            const auto& rays = plain.together.look_at(*scene.only_flat_lamp(), heuristic == Heuristic::power);
+            for (std::size_t i = 0; i < plain.points.size(); ++i) {
+                const Gathering at{plain.points[i], plain.bsdfs[i], plain.outgoing[i], lobe::all};
+                const auto one = ray_to_lamp(scene, at, {0, plain.numbers[i]}, heuristic);
+                ASSERT_EQ(rays.found[i] != 0, one.has_value());
+                if (!one) continue;
+                ++lit;
+                ASSERT_EQ(std::tuple(rays.origin[i], rays.direction[i], rays.far[i]), parts(one->ray));
+                ASSERT_EQ(rays.light[i], (Vec3{one->light.r, one->light.g, one->light.b}));
+            }
+        });
+        EXPECT_GT(lit, 50u);
+        EXPECT_LT(lit, count - 50);
     }
 }
 
@@ -212,13 +239,12 @@ Mesh triangle_lamp() {
     return mesh;
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    By, ManyLit,
-    testing::Values(Lighting{"square", {quad({-1, -1, 4}, {0, 2, 0}, {2, 0, 0})}},
-                    Lighting{"square_in_the_midst", {quad({-1, -1, 0.5f}, {0, 2, 0}, {2, 0, 1})}, true},
-                    Lighting{"triangle", {triangle_lamp()}}, Lighting{"sphere", {ball({0, 0, 5}, 1)}},
-                    Lighting{"two_lamps", {triangle_lamp(), ball({0, 4, 0}, 1)}}),
-    [](const auto& lighting) { return std::string(lighting.param.name); });
+INSTANTIATE_TEST_SUITE_P(By, ManyLit,
+                         testing::Values(Lighting{"square", quad({-1, -1, 4}, {0, 2, 0}, {2, 0, 0})},
+                                         Lighting{"square_in_the_midst", quad({-1, -1, 0.5f}, {0, 2, 0}, {2, 0, 1}),
+                                                  true},
+                                         Lighting{"triangle", triangle_lamp()}),
+                         [](const auto& lighting) { return std::string(lighting.param.name); });
 
 }  // namespace
 }  // namespace lightnet

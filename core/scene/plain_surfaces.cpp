@@ -1,0 +1,111 @@
+#include "core/scene/plain_surfaces.hpp"
+
+#include "core/scene/direct_light.hpp"
+
+namespace lightnet {
+
+// As Shading::on_mesh().
+struct PlainSurfaces::Points {
+    PlainSurfaces& all;
+
+    [[gnu::always_inline]] void work() {
+        for (std::size_t i = 0; i < all.count_; ++i) {
+            const Corners at{all.a_[i], all.b_[i], all.c_[i]};
+            const Vec3 p = on_triangle(at, all.u_[i], all.v_[i]);
+            const Vec3 n = geometric_normal(at, all.towards_[i], all.flip_[i] != 0);
+            all.position_.set(i, p);
+            all.normal_.set(i, n);
+            all.offset_[i] = offset_at(p, all.least_offset_[i]);
+            all.shading_.set(i, shading_normal(all.interpolated_[i], n));
+        }
+    }
+};
+
+void PlainSurfaces::find_points() {
+    Points points{*this};
+    work_side_by_side(points);
+}
+
+SurfacePoint PlainSurfaces::point(std::size_t i) const {
+    SurfacePoint point;
+    point.position = position_[i];
+    point.normal = normal_[i];
+    point.shading = Frame::around(shading_[i]);
+    point.offset = offset_[i];
+    point.u = u_[i];
+    point.v = v_[i];
+    return point;
+}
+
+Bsdf PlainSurfaces::bsdf(std::size_t i) const {
+    Bsdf bsdf(Frame::around(shading_[i]), normal_[i], DiffuseBsdf{albedo(i)});
+    if (one_sided_[i]) bsdf.make_one_sided();
+    return bsdf;
+}
+
+struct PlainSurfaces::Sampling {
+    PlainSurfaces& at;
+
+    // As Bsdf::sample().
+    [[gnu::always_inline]] void work() {
+        for (std::size_t i = 0; i < at.count_; ++i) {
+            const Vec3 outgoing = at.outgoing_[i], normal = at.normal_[i], shading = at.shading_[i];
+            const float seen = dot(outgoing, normal);
+            const float side = seen > 0 ? 1 : 0, shading_side = dot(outgoing, shading) > 0 ? 1 : 0;
+            const bool agree = side == shading_side;
+            const Vec3 up{agree ? shading.x : normal.x, agree ? shading.y : normal.y, agree ? shading.z : normal.z};
+            const DiffuseStep step = diffuse_step(Frame::around(up), normal, outgoing, at.numbers_[i]);
+            at.steps_.incoming.set(i, step.incoming);
+            const float front = seen > 0 ? step.pdf : 0;
+            at.steps_.pdf[i] = at.one_sided_[i] != 0 ? front : step.pdf;
+        }
+    }
+};
+
+const PlainSurfaces::Steps& PlainSurfaces::sample() {
+    Sampling sampling{*this};
+    work_side_by_side(sampling);
+    return steps_;
+}
+
+template <bool by_power, bool whole>
+struct PlainSurfaces::Looking {
+    PlainSurfaces& at;
+    const FlatLamp& lamp;
+
+    // As ray_to_lamp().
+    [[gnu::always_inline]] void work() {
+        constexpr Heuristic by = by_power ? Heuristic::power : Heuristic::balance;
+        const Facet facet = lamp.facet;
+        const Rgb radiance = lamp.radiance;
+        const float area = lamp.area;
+        const bool two_sided = lamp.two_sided;
+        for (std::size_t i = 0; i < at.count_; ++i) {
+            const Vec3 position = at.position_[i], normal = at.normal_[i];
+            const Vec3 on_lamp = facet.at(Facet::uniform(at.numbers_[i], whole));
+            const WayToLamp way = way_to_lamp(position, on_lamp, facet.normal, area, two_sided);
+            const float pdf =
+                diffuse_pdf(at.shading_[i], normal, at.one_sided_[i] != 0, at.outgoing_[i], way.direction);
+            const Rgb value = Rgb{at.albedo_.x[i], at.albedo_.y[i], at.albedo_.z[i]} * pdf;
+            const Rgb arriving = value * radiance * (share(by, way.pdf, pdf) / way.pdf);
+            const Ray ray =
+                ray_between(off_surface(position, normal, at.offset_[i], way.direction), on_lamp, way.direction);
+            at.rays_.origin.set(i, ray.origin);
+            at.rays_.direction.set(i, ray.direction);
+            at.rays_.far[i] = ray.far;
+            at.rays_.light.set(i, {arriving.r, arriving.g, arriving.b});
+            at.rays_.found[i] = way.found & ((value.r != 0) | (value.g != 0) | (value.b != 0));
+        }
+    }
+};
+
+const PlainSurfaces::LampRays& PlainSurfaces::look_at(const FlatLamp& lamp, bool by_power) {
+    const auto look = [&](auto looking) { work_side_by_side(looking); };
+    if (by_power)
+        lamp.whole ? look(Looking<true, true>{*this, lamp}) : look(Looking<true, false>{*this, lamp});
+    else
+        lamp.whole ? look(Looking<false, true>{*this, lamp}) : look(Looking<false, false>{*this, lamp});
+    return rays_;
+}
+
+}  // namespace lightnet

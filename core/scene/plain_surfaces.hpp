@@ -1,0 +1,124 @@
+// What most surfaces are, many at once: of meshes, diffuse, without any finesse.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/bsdf/bsdf.hpp"
+#include "core/math/columns.hpp"
+#include "core/scene/flat_lamp.hpp"
+#include "core/scene/ray.hpp"
+#include "core/scene/surface.hpp"
+#include "core/scene/triangle.hpp"
+
+namespace lightnet {
+
+class Shading;
+
+/// A shape whose surface is nothing but diffuse, is filled with nothing, and shines not.
+struct PlainShape {
+    const Mesh* mesh = nullptr;  // null: the shape is another
+    Rgb albedo;
+    const Shading* textured = nullptr;  // knows the albedo, which is not the same everywhere
+    float least_offset = 0;             // by which rays must leave the shape, m
+    bool one_sided = false;
+};
+
+/// Points of such shapes side by side. They are put into columns once, and stay there: points, light from a lamp and
+/// the ways on are worked out in loops without a branch, by the formulas of one point alone, to the bit.
+class PlainSurfaces {
+public:
+    std::size_t size() const { return count_; }
+    bool full() const { return count_ == lanes; }
+    void clear() { count_ = 0; }
+
+    /// Adds the point of a hit on `shape`, seen from `outgoing`; there is room for it. `who`: the caller's.
+    void add(std::uint32_t who, const PlainShape& shape, const Hit& hit, Vec3 outgoing);
+    /// Works out where the points are, and how they are turned: before anything of the following is asked.
+    void find_points();
+
+    std::uint32_t who(std::size_t i) const { return who_[i]; }
+    Vec3 position(std::size_t i) const { return position_[i]; }
+    Vec3 normal(std::size_t i) const { return normal_[i]; }
+    Vec3 outgoing(std::size_t i) const { return outgoing_[i]; }
+    Rgb albedo(std::size_t i) const { return {albedo_.x[i], albedo_.y[i], albedo_.z[i]}; }
+    /// As of one alone; of textures the point knows nothing.
+    SurfacePoint point(std::size_t i) const;
+    Bsdf bsdf(std::size_t i) const;
+
+    /// The random numbers that sample() or look_at() uses next.
+    void set_numbers(std::size_t i, Vec2 u) { numbers_.set(i, u); }
+
+    /// What Bsdf::sample() gives for each.
+    struct Steps {
+        Columns3 incoming;
+        Column pdf;  // 0: none
+    };
+    const Steps& sample();
+    Ray ray_from(std::size_t i, Vec3 direction) const {
+        return {off_surface(position_[i], normal_[i], offset_[i], direction), direction};
+    }
+
+    /// What ray_to_lamp() gives for each, of the only lamp.
+    struct LampRays {
+        Columns3 origin, direction, light;
+        Column far;
+        Flags found;
+    };
+    const LampRays& look_at(const FlatLamp& lamp, bool by_power);
+
+private:
+    struct Points;
+    struct Sampling;
+    template <bool by_power, bool whole>
+    struct Looking;
+
+    // All in one place, so that the compiler sees that no column is another.
+
+    std::size_t count_ = 0;
+    std::array<std::uint32_t, lanes> who_;
+    Columns3 a_, b_, c_;  // corners
+    Column u_, v_, least_offset_;
+    Columns3 interpolated_, towards_;  // shading normals: there, and their sum over the corners; nothing: it has none
+    Flags flip_, one_sided_;
+    Columns3 outgoing_, albedo_;
+
+    Columns3 position_, normal_, shading_;
+    Column offset_;
+    Columns2 numbers_;
+    Steps steps_;
+    LampRays rays_;
+};
+
+/// Reflectance of a textured plain shape there.
+Rgb albedo_at(const Shading& shading, const Hit& hit);
+
+inline void PlainSurfaces::add(std::uint32_t who, const PlainShape& shape, const Hit& hit, Vec3 outgoing) {
+    const std::size_t to = count_++;
+    const Mesh& mesh = *shape.mesh;
+    const auto [i, j, k] = mesh.triangles[hit.primitive];
+    who_[to] = who;
+    a_.set(to, mesh.positions[i]);
+    b_.set(to, mesh.positions[j]);
+    c_.set(to, mesh.positions[k]);
+    u_[to] = hit.u;
+    v_[to] = hit.v;
+    least_offset_[to] = shape.least_offset;
+    one_sided_[to] = shape.one_sided;
+    outgoing_.set(to, outgoing);
+    const Rgb albedo = shape.textured ? albedo_at(*shape.textured, hit) : shape.albedo;
+    albedo_.set(to, {albedo.r, albedo.g, albedo.b});
+    if (mesh.normals.empty()) {
+        interpolated_.set(to, {});
+        towards_.set(to, {});
+        flip_[to] = mesh.flip_normals;
+        return;
+    }
+    const Corners normals{mesh.normals[i], mesh.normals[j], mesh.normals[k]};
+    interpolated_.set(to, on_triangle(normals, hit.u, hit.v));
+    towards_.set(to, normals.a + normals.b + normals.c);
+    flip_[to] = 0;
+}
+
+}  // namespace lightnet
