@@ -1,5 +1,6 @@
 // How long pictures take until they are good: prepared and rendered with two places, beside reference pictures. The
-// references are not part of the project: LIGHTNET_SHARED names the folder that has them under reference/.
+// references are not part of the project: LIGHTNET_SHARED names the folder that has them under reference/. Goals are
+// seconds of one machine; bare Embree tells, before and after each row, how fast this one is beside it.
 // Arguments: names of rows; without any, all of them. LIGHTNET_BENCH_SAMPLES changes the samples per pixel of rows that
 // have no bias.
 #include <algorithm>
@@ -17,6 +18,7 @@
 #include "core/film/exr.hpp"
 #include "nodes/standard_nodes.hpp"
 #include "tests/bench/figure.hpp"
+#include "tests/bench/machine.hpp"
 #include "tests/bench/stage.hpp"
 #include "transport/local_workers.hpp"
 
@@ -37,7 +39,7 @@ struct Row {
     Constants constants;  // of the graph; path_all.lua follows four paths for each sample
     bool biased;          // noise doesn't fall in proportion to time: the picture has to be good as it is
     double noise;         // of the reference itself, in the same measure; subtracted
-    double goal;          // seconds
+    double goal;          // seconds, on the machine of machine.hpp
 };
 
 const std::vector<Row>& rows() {
@@ -71,13 +73,15 @@ const std::vector<NetworkedRow>& networked_rows() {
     return table;
 }
 
-void measure(const Row& row, const fs::path& folder, const Registry& registry) {
+void measure(const Row& row, const fs::path& folder, const Registry& registry, const Machine& machine) {
     Constants constants = row.constants;
     constants["file"] = (folder / row.scene).string();
     if (const char* samples = std::getenv("LIGHTNET_BENCH_SAMPLES"); samples && !row.biased)
         constants["samples"] = samples;
     Stage stage(registry, row.graph, constants);
+    const double before = machine.speed();
     const Rendered made = stage.in_threads(places);
+    const double speed = (before + machine.speed()) / 2;
     const Difference found = compare(read_exr(folder / row.reference), made.picture);
     const double error = std::max(0.0, found.relative_square - row.noise);
     std::printf(
@@ -92,8 +96,11 @@ void measure(const Row& row, const fs::path& folder, const Registry& registry) {
     const double part = row.biased ? 1 : error / target;
     std::printf("  %s: %.2f s of work per place to %g\n", row.name.c_str(), made.cpu_seconds / places * part,
                 row.biased ? error : target);
-    const bool good = made.seconds * part <= row.goal && (!row.biased || error <= target);
-    std::printf("render.%s %.2fs%s <=%gs %s\n", row.name.c_str(), made.seconds * part,
+    const double seconds = made.seconds * part, scaled = seconds * speed;
+    std::printf("  %s: %.2f s here, where bare Embree has %.2f of the speed for which the goal holds\n",
+                row.name.c_str(), seconds, speed);
+    const bool good = scaled <= row.goal && (!row.biased || error <= target);
+    std::printf("render.%s %.2fs%s <=%gs %s\n", row.name.c_str(), scaled,
                 row.biased && error > target ? ", but not good" : "", row.goal, good ? "ok" : "short");
     std::fflush(stdout);
 }
@@ -142,8 +149,9 @@ void measure_all(const std::vector<std::string>& names) {
     const auto wanted = [&](const std::string& name) {
         return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
     };
+    const Machine machine(folder / "terrain.ply");
     for (const Row& row : rows())
-        if (wanted(row.name)) measure(row, folder, registry);
+        if (wanted(row.name)) measure(row, folder, registry, machine);
     for (const NetworkedRow& row : networked_rows())
         if (wanted(row.name)) measure_networked(row, folder, registry);
 }

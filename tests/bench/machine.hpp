@@ -1,0 +1,45 @@
+// How fast this machine is, beside the one for which goals in seconds hold.
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <array>
+#include <filesystem>
+#include <vector>
+
+#include "core/math/vec.hpp"
+
+namespace lightnet::bench {
+
+/// Goals in seconds hold for a machine on which two threads of bare Embree, ray by ray, trace so many of a camera's
+/// rays over terrain.ply, of those that leave what they meet, of those that leave that, and of the second kind as
+/// shadows: in M rays/s.
+inline constexpr std::array<double, 4> goals_hold_at{13.9, 6.5, 4.5, 7.3};
+
+/// The terrain, and rays over it.
+class Machine {
+public:
+    explicit Machine(const std::filesystem::path& terrain);
+    ~Machine();
+    Machine(const Machine&) = delete;
+    Machine& operator=(const Machine&) = delete;
+
+    /// Of what it traces now, as a part of what the goals' machine does: the geometric mean of the four. Takes a
+    /// second.
+    double speed() const;
+
+private:
+    struct Flight {
+        Vec3 origin, direction;
+    };
+    using Flights = std::vector<Flight>;
+    Flights from_camera() const;
+    Flights bounced(const Flights& arriving) const;
+    double rate(const Flights& flights, bool shadows, bool coherent) const;
+
+    RTCDevice device_;
+    RTCScene scene_;
+    std::array<Flights, 3> flights_;
+};
+
+}  // namespace lightnet::bench
