@@ -2,6 +2,7 @@
 
 #include <xmmintrin.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstring>
@@ -129,8 +130,13 @@ double Machine::rate(const Flights& flights, bool shadows, bool coherent) const 
 }
 
 double Machine::speed() const {
-    const std::array<double, 4> rates{rate(flights_[0], false, true), rate(flights_[1], false, false),
-                                      rate(flights_[2], false, false), rate(flights_[1], true, false)};
+    const auto best = [this](const Flights& flights, bool shadows, bool coherent) {
+        double most = 0;
+        for (int round = 0; round < 3; ++round) most = std::max(most, rate(flights, shadows, coherent));
+        return most;
+    };
+    const std::array<double, 4> rates{best(flights_[0], false, true), best(flights_[1], false, false),
+                                      best(flights_[2], false, false), best(flights_[1], true, false)};
     double product = 1;
     for (std::size_t i = 0; i < rates.size(); ++i) product *= rates[i] / goals_hold_at[i];
     return std::pow(product, 0.25);

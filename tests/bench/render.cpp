@@ -45,15 +45,19 @@ struct Row {
 const std::vector<Row>& rows() {
     static const std::string grey = "cornell_grey.mits_path_2048.exr", indirect = "indirect.mits_path_2048.exr",
                              caustic = "caustic.mits_bdpt_1280.exr";
+    // What is just good enough.
+    static const Constants quick_cache{{"rays", "128"}, {"samples", "8"}};
+    static const Constants quick_map{{"photons", "100000"}, {"rays", "128"}, {"samples", "12"}};
+    static const Constants quick_passes{{"passes", "64"}, {"photons", "120000"}};
     static const std::vector<Row> table{
         {"cornell_grey", "path_all.lua", "cornell_grey.pbrt", grey, {}, false, 0, 3.5},
         {"indirect", "path_all.lua", "indirect.pbrt", indirect, {}, false, 6e-4, 40},
         {"terrain", "path_all.lua", "terrain.pbrt", "terrain.combined.exr", {}, false, 0, 5},
         {"cornell_grey_layers", "path.lua", "cornell_grey.pbrt", grey, {{"samples", "64"}}, false, 0, 3.5},
-        {"indirect_cache", "irradiance_cache.lua", "indirect.pbrt", indirect, {{"rays", "512"}}, true, 6e-4, 0.8},
-        {"cornell_grey_cache", "irradiance_cache.lua", "cornell_grey.pbrt", grey, {{"rays", "256"}}, true, 0, 0.7},
-        {"caustic_map_cache", "figure5.lua", "caustic.pbrt", caustic, {}, true, 6e-4, 5},
-        {"caustic_progressive", "progressive.lua", "caustic.pbrt", caustic, {{"passes", "96"}}, true, 6e-4, 12},
+        {"indirect_cache", "irradiance_cache.lua", "indirect.pbrt", indirect, quick_cache, true, 6e-4, 0.8},
+        {"cornell_grey_cache", "irradiance_cache.lua", "cornell_grey.pbrt", grey, quick_cache, true, 0, 0.7},
+        {"caustic_map_cache", "figure5.lua", "caustic.pbrt", caustic, quick_map, true, 6e-4, 5},
+        {"caustic_progressive", "progressive.lua", "caustic.pbrt", caustic, quick_passes, true, 6e-4, 12},
     };
     return table;
 }
