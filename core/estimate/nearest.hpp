@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include <boost/align/aligned_allocator.hpp>
+#include "core/math/columns.hpp"
 
 namespace lightnet {
 
@@ -69,8 +69,7 @@ private:
 
     std::size_t most_ = 0, full_ = 0, count_ = 0;
     float limit_ = 0;
-    /// The first `count_` of them, with room for more behind; no vector of them lies across two lines of the cache.
-    std::vector<float, boost::alignment::aligned_allocator<float, 64>> distances_;
+    std::vector<float, InLines<float>> distances_;  // the first `count_` of them, with room for more behind
     std::vector<std::uint32_t> indices_;
     std::vector<Item> items_;
 };

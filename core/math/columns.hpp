@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <new>
 
 #include "core/math/vec.hpp"
 
@@ -32,6 +33,20 @@ struct Columns3 {
         z[i] = v.z;
     }
     Vec3 operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
+};
+
+/// Gives a std::vector memory that begins with a line of the cache: no vector of the processor's lies across two.
+template <class T>
+struct InLines {
+    using value_type = T;
+    static constexpr std::align_val_t line{64};
+
+    InLines() = default;
+    template <class U>
+    InLines(const InLines<U>&) {}
+    T* allocate(std::size_t count) { return static_cast<T*>(::operator new(count * sizeof(T), line)); }
+    void deallocate(T* memory, std::size_t) { ::operator delete(memory, line); }
+    friend bool operator==(InLines, InLines) { return true; }
 };
 
 /// Calls many.work(), an always_inline loop over lanes, in vectors as wide as this processor has them. With no fused
