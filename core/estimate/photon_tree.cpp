@@ -94,8 +94,8 @@ PhotonTree::PhotonTree(std::vector<Photon> photons, std::size_t threads)
     none.position = Vec3{1, 1, 1} * std::numeric_limits<float>::quiet_NaN();
     photons_.resize((size_ + width - 1) / width * width, none);
     if (size_ == 0) return;
-    sort(0, photons_.size() / width,
-         std::clamp(threads, std::size_t{1}, std::size_t{std::thread::hardware_concurrency()}));
+    const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
+    sort(0, photons_.size() / width, std::clamp<std::size_t>(threads, 1, cores));
     put_in_boxes();
 }
 

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "core/estimate/stops.hpp"
 #include "core/math/samples.hpp"
 #include "core/math/sampling.hpp"
 #include "core/scene/direct_light.hpp"
@@ -230,6 +231,112 @@ TEST_P(ManyLit, RaysAreThoseOfOne) {
         });
         EXPECT_GT(lit, 50u);
         EXPECT_LT(lit, count - 50);
+    }
+}
+
+// Walks come to surfaces of all kinds, each to some twice, and are told what each alone would be told.
+TEST(Many, StopsTellEachWalkWhatOneIsTold) {
+    const auto lamps = [](std::size_t count) {
+        SceneData data = everything();
+        for (std::size_t i = 0; i < count; ++i)
+            add(data, quad({-1, -1, 4 + float(i)}, {0, 2, 0}, {2, 0, 0}), diffuse(data, 0)).emission =
+                AreaEmission{{3, 2, 1}};
+        return data;
+    };
+    for (const std::size_t count : {1, 2}) {
+        const Scene scene(lamps(count));
+        const auto hits = some_hits(scene);
+        const Rgb absorption{0.1f, 0.2f, 0.3f};
+        struct Walk {
+            Hit hit;
+            Vec3 outgoing;
+            std::uint8_t lobes;
+            const Rgb* inside;
+            float choice;
+        };
+        std::vector<Walk> walks;
+        std::vector<Vec2> numbers;
+        Stops stops(scene);
+        std::size_t told = 0, found = 0, went_on = 0;
+        const auto compare = [&] {
+            std::vector<float> choices;
+            for (const Walk& walk : walks) choices.push_back(walk.choice);
+            const auto alone = [&](std::uint32_t i, auto&& with) {
+                const SurfacePoint point = scene.surface(walks[i].hit);
+                const Bsdf bsdf = scene.bsdf(point);
+                with(Gathering{point, bsdf, walks[i].outgoing, walks[i].lobes, walks[i].inside});
+            };
+            stops.find_points();
+            stops.find_bsdfs();
+            std::vector<int> seen(walks.size());
+            stops.each([&](std::uint32_t i, const Gathering& at) {
+                ++seen[i];
+                alone(i, [&](const Gathering& one) {
+                    EXPECT_EQ(std::tuple(at.point.position, at.point.normal, at.outgoing, at.inside),
+                              std::tuple(one.point.position, one.point.normal, one.outgoing, one.inside));
+                    EXPECT_EQ(at.bsdf.lobes(), one.bsdf.lobes());
+                });
+            });
+            EXPECT_EQ(seen, std::vector<int>(walks.size(), 1));
+            LampRays rays;
+            stops.look_for_lamps(
+                {choices, numbers}, Heuristic::power, rays, [](auto) { return 2.0f; }, [](auto i) { return i; });
+            std::vector<int> lit(walks.size(), -1);
+            for (std::size_t k = 0; k < rays.paths.size(); ++k) lit[rays.paths[k]] = int(k);
+            std::vector<int> goes(walks.size());
+            std::uint32_t last = 0;
+            const auto choice = [&](std::uint32_t i) { return choices[i]; };
+            stops.scatter(numbers, choice, [&](std::uint32_t i, const Stops::Step& step) {
+                EXPECT_GE(i, last);
+                last = i;
+                goes[i] = 1;
+                alone(i, [&](const Gathering& one) {
+                    const auto sample = one.bsdf.sample(one.outgoing, choices[i], numbers[i], one.lobes);
+                    ASSERT_TRUE(sample);
+                    EXPECT_EQ(std::tuple(step.sample.incoming, step.sample.weight, step.sample.pdf, step.sample.eta),
+                              std::tuple(sample->incoming, sample->weight, sample->pdf, sample->eta));
+                    EXPECT_EQ(parts(step.ray),
+                              parts(Ray{one.point.origin_towards(sample->incoming), sample->incoming}));
+                    EXPECT_EQ(step.from, one.point.position);
+                    EXPECT_EQ(step.inside, filling(one.bsdf, one.point, one.outgoing, sample->incoming, one.inside));
+                });
+            });
+            for (std::uint32_t i = 0; i < walks.size(); ++i)
+                alone(i, [&](const Gathering& one) {
+                    const auto ray = ray_to_lamp(scene, one, {choices[i], numbers[i]}, Heuristic::power);
+                    ASSERT_EQ(lit[i] >= 0, ray.has_value());
+                    if (ray) {
+                        EXPECT_EQ(parts(rays.rays[std::size_t(lit[i])]), parts(ray->ray));
+                        EXPECT_EQ(rays.light[std::size_t(lit[i])], 2.0f * ray->light);
+                    }
+                    found += ray.has_value();
+                    const bool on = one.bsdf.sample(one.outgoing, choices[i], numbers[i], one.lobes).has_value();
+                    EXPECT_EQ(goes[i] != 0, on);
+                    went_on += on;
+                });
+            told += walks.size();
+            walks.clear();
+            numbers.clear();
+            stops.clear();
+        };
+        for (std::uint32_t i = 0; i < many; ++i) {
+            Samples samples(9, i);
+            Walk walk{hits[i], sphere(samples.next_2d()), i % 7 ? lobe::all : lobe::specular,
+                      i % 11 ? nullptr : &absorption, samples.next()};
+            stops.add(std::uint32_t(walks.size()), walk.hit, walk.outgoing, walk.lobes, walk.inside);
+            walks.push_back(walk);
+            numbers.push_back(samples.next_2d());
+            if (i % 3 == 0 && !stops.full()) {
+                stops.add_again(std::uint32_t(walks.size()), walk.hit, walk.outgoing);
+                walks.push_back(walk);
+                numbers.push_back(samples.next_2d());
+            }
+            if (stops.full()) compare();
+        }
+        compare();
+        EXPECT_GT(told, many);
+        EXPECT_GT(found, 100u);
+        EXPECT_GT(went_on, 500u);
     }
 }
 
