@@ -99,7 +99,7 @@ struct PlainSurfaces::Looking {
     }
 };
 
-const PlainSurfaces::LampRays& PlainSurfaces::look_at(const FlatLamp& lamp, bool by_power) {
+const PlainSurfaces::RaysToLamp& PlainSurfaces::look_at(const FlatLamp& lamp, bool by_power) {
     const auto look = [&](auto looking) { work_side_by_side(looking); };
     if (by_power)
         lamp.whole ? look(Looking<true, true>{*this, lamp}) : look(Looking<true, false>{*this, lamp});

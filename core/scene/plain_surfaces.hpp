@@ -61,12 +61,12 @@ public:
     }
 
     /// What ray_to_lamp() gives for each, of the only lamp.
-    struct LampRays {
+    struct RaysToLamp {
         Columns3 origin, direction, light;
         Column far;
         Flags found;
     };
-    const LampRays& look_at(const FlatLamp& lamp, bool by_power);
+    const RaysToLamp& look_at(const FlatLamp& lamp, bool by_power);
 
 private:
     struct Points;
@@ -88,7 +88,7 @@ private:
     Column offset_;
     Columns2 numbers_;
     Steps steps_;
-    LampRays rays_;
+    RaysToLamp rays_;
 };
 
 /// Reflectance of a textured plain shape there.
