@@ -41,14 +41,19 @@ struct Ranks {
     }
 };
 
-constexpr std::size_t padded(std::size_t count) {
-    return (count + Nearest::width - 1) / Nearest::width * Nearest::width;
-}
-
 }  // namespace
 
+// Fills up the last vector with what is nowhere. Returns how many there are with that.
+std::size_t Nearest::pad() {
+    make_room();
+    const std::size_t padded = (count_ + width - 1) / width * width;
+    std::fill_n(distances_.begin() + std::ptrdiff_t(count_), padded - count_, nowhere);
+    return padded;
+}
+
 std::size_t Nearest::count_within(float distance2) {
-    Count count{distances_.data(), padded(count_), distance2};
+    const std::size_t padded = pad();  // may move them
+    Count count{distances_.data(), padded, distance2};
     work_side_by_side(count);
     return count.within;
 }
@@ -56,8 +61,6 @@ std::size_t Nearest::count_within(float distance2) {
 // Lowers the limit until hardly more than `most` are within it. Photons of an even surface are as many as the square of
 // the distance is great, so that a guess in proportion is good at once.
 void Nearest::sift() {
-    make_room();
-    std::fill_n(distances_.begin() + std::ptrdiff_t(count_), padded(count_) - count_, nowhere);
     float low = 0, high = limit_;
     std::size_t at_low = 0, at_high = count_;
     for (int guesses = 0; at_high > most_ + slack; ++guesses) {
@@ -85,12 +88,10 @@ void Nearest::sift() {
 bool Nearest::sort_by_rank() {
     items_.resize(count_);
     if (count_ <= most_ranked) {
-        make_room();
-        std::fill_n(distances_.begin() + std::ptrdiff_t(count_), padded(count_) - count_, nowhere);
         Ranks ranks;
+        ranks.padded = pad();
         ranks.distances2 = distances_.data();
         ranks.count = count_;
-        ranks.padded = padded(count_);
         work_side_by_side(ranks);
         std::size_t sum = 0;
         for (std::size_t i = 0; i < count_; ++i) {

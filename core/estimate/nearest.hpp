@@ -63,6 +63,7 @@ private:
         distances_.resize(2 * count_ + 8 * width);
         indices_.resize(distances_.size());
     }
+    std::size_t pad();
     std::size_t count_within(float distance2);
     void sift();
     bool sort_by_rank();

@@ -43,7 +43,7 @@ public:
     Vec3 normal(std::size_t i) const { return normal_[i]; }
     Vec3 outgoing(std::size_t i) const { return outgoing_[i]; }
     Rgb albedo(std::size_t i) const { return {albedo_.x[i], albedo_.y[i], albedo_.z[i]}; }
-    /// As of one alone; of textures the point knows nothing.
+    /// As of one alone; but the point knows nothing of textures, nor which shape it is of.
     SurfacePoint point(std::size_t i) const;
     Bsdf bsdf(std::size_t i) const;
 
