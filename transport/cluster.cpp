@@ -136,6 +136,28 @@ struct Cluster::Links {
         tell_changes();
     }
 
+    // Until something can be read.
+    void wait(std::chrono::nanoseconds most) {
+        std::vector<zmq::socket_t*> sockets;
+        bool soon = relays.waiting();
+        for (auto& link : links) {
+            soon |= link->state() == State::sending;
+            for (auto* socket : link->line().sockets()) sockets.push_back(socket);
+        }
+        if (joiners) sockets.push_back(&joiners->socket());
+        if (own)
+            for (auto* socket : own->sockets()) sockets.push_back(socket);
+        std::vector<zmq::pollitem_t> items;
+        for (auto* socket : sockets) items.push_back({socket->handle(), 0, ZMQ_POLLIN, 0});
+        const auto ms = std::clamp(std::chrono::ceil<std::chrono::milliseconds>(most), std::chrono::milliseconds(1),
+                                   std::chrono::milliseconds(soon ? 5 : 100));
+        try {
+            zmq::poll(items, ms);
+        } catch (const zmq::error_t& error) {
+            if (error.num() != EINTR) throw;
+        }
+    }
+
     void take_joiners(Clock::time_point now) {
         if (!joiners) return;
         const Joiners::Takers takers{
@@ -271,6 +293,7 @@ void Cluster::gather(Patience patience, const std::atomic<bool>& cancelled, cons
     links_->hold_until = begun + patience.absent;
     std::string said;
     while (!cancelled) {
+        links_->arrived.clear();  // plans on the way here; plan() is the one that counts
         wait(std::chrono::milliseconds(20));
         look_around();
         const auto all = links_->standing();
@@ -278,10 +301,7 @@ void Cluster::gather(Patience patience, const std::atomic<bool>& cancelled, cons
             links_->options.say(said = "waiting for hosts that serve another run" + links_->reasons());
         const auto waited = Clock::now() - begun;
         if (all.pending || (waited < patience.absent && (all.absent || all.busy))) continue;
-        if (all.ready) {
-            links_->arrived.clear();  // plans on the way here; plan() is the one that counts
-            return;
-        }
+        if (all.ready) return links_->arrived.clear();
         const bool somebody_may_come = links_->links.empty() || links_->joiners;
         if (!all.busy && (waited >= patience.nobody || !somebody_may_come))
             throw NoWorker("no worker can be reached:" + links_->reasons());
@@ -326,7 +346,7 @@ Counters Cluster::finish(std::chrono::milliseconds patience) {
                 open.erase(link);
             }
         }
-        if (!open.empty()) wait(std::chrono::milliseconds(5));
+        if (!open.empty()) links_->wait(std::chrono::milliseconds(5));  // no more: who ended would be called again
     }
     Counters sum = links_->counters;
     sum += links_->ended;
@@ -355,25 +375,7 @@ std::optional<Message> Cluster::receive() {
 
 void Cluster::wait(std::chrono::nanoseconds most) {
     links_->look();
-    if (!links_->arrived.empty()) return;
-    std::vector<zmq::socket_t*> sockets;
-    bool soon = links_->relays.waiting();
-    for (auto& link : links_->links) {
-        soon |= link->state() == State::sending;
-        for (auto* socket : link->line().sockets()) sockets.push_back(socket);
-    }
-    if (links_->joiners) sockets.push_back(&links_->joiners->socket());
-    if (links_->own)
-        for (auto* socket : links_->own->sockets()) sockets.push_back(socket);
-    std::vector<zmq::pollitem_t> items;
-    for (auto* socket : sockets) items.push_back({socket->handle(), 0, ZMQ_POLLIN, 0});
-    const auto ms = std::clamp(std::chrono::ceil<std::chrono::milliseconds>(most), std::chrono::milliseconds(1),
-                               std::chrono::milliseconds(soon ? 5 : 100));
-    try {
-        zmq::poll(items, ms);
-    } catch (const zmq::error_t& error) {
-        if (error.num() != EINTR) throw;
-    }
+    if (links_->arrived.empty()) links_->wait(most);
 }
 
 bool Cluster::bring(const PlaceAt& to, const Hash& name, const Bytes& bytes) {

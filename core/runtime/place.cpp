@@ -134,7 +134,7 @@ void Place::serve(const std::atomic<bool>& stop, std::atomic<std::uint64_t>& pro
         take_in();
         flush(false);
         if (!step()) {
-            if (!flush(true)) carrier_.wait(patience());
+            if (!flush(true) && !stopping_) carrier_.wait(patience());
             continue;
         }
         // Looking at the sockets costs calls of the system: what has come together is worked off together.
