@@ -50,7 +50,7 @@ void Host::serve(const std::atomic<bool>& stop) {
             while (auto frames = s.door.receive(Clock::now())) s.arrived(std::move(*frames));
         if (readable.relay) s.pass_asks();
         if (readable.reports || (s.run && !s.run->serving())) s.advance();
-        if (s.run && s.run->looking_for_results()) s.tell_found();
+        if (readable.news) s.tell_found();
         if (s.run && now - s.heard > launcher_lease) s.drop_run("its launcher is silent");
         if (!s.leaving) s.door.keep_in_touch(now);
         if (s.run) s.needed = now;
@@ -187,27 +187,30 @@ Host::Service::Readable Host::Service::wait() {
     std::vector<zmq::pollitem_t> items;
     for (auto* socket : door.sockets()) items.push_back({socket->handle(), 0, ZMQ_POLLIN, 0});
     const std::size_t doors = items.size();
-    const bool serving = run && run->serving();
-    if (relay) items.push_back({relay->socket().handle(), 0, ZMQ_POLLIN, 0});
-    if (serving) {
-        items.push_back({run->places()->reports().handle(), 0, ZMQ_POLLIN, 0});
-        for (std::uint32_t place = 0; place < run->places()->count(); ++place)
-            items.push_back({run->places()->to(place).handle(), 0, ZMQ_POLLIN, 0});
+    auto* const places = run ? run->places() : nullptr;
+    if (run) {
+        items.push_back({relay->socket().handle(), 0, ZMQ_POLLIN, 0});
+        items.push_back({nullptr, run->news(), ZMQ_POLLIN, 0});
     }
-    const bool soon = (run && (!serving || run->looking_for_results())) || leaving;
+    if (places) items.push_back({places->reports().handle(), 0, ZMQ_POLLIN, 0});
+    const std::size_t others = items.size();
+    for (std::uint32_t place = 0; places && run->serving() && place < places->count(); ++place)
+        items.push_back({places->to(place).handle(), 0, ZMQ_POLLIN, 0});
     try {
-        zmq::poll(items, std::chrono::milliseconds(soon ? 5 : 100));
+        zmq::poll(items, std::chrono::milliseconds(leaving ? 5 : 100));
     } catch (const zmq::error_t& error) {
         if (error.num() != EINTR) throw;
     }
     const auto has_some = [&](std::size_t item) { return (items[item].revents & ZMQ_POLLIN) != 0; };
     Readable readable;
     for (std::size_t item = 0; item < doors; ++item) readable.door |= has_some(item);
-    if (relay) readable.relay = has_some(doors);
-    if (!serving) return readable;
-    readable.reports = has_some(doors + 1);
-    for (std::size_t item = doors + 2; item < items.size(); ++item)
-        if (has_some(item)) readable.places.push_back(static_cast<std::uint32_t>(item - doors - 2));
+    if (!run) return readable;
+    readable.relay = has_some(doors);
+    readable.news = has_some(doors + 1);
+    if (readable.news) run->clear_news();
+    readable.reports = places && has_some(doors + 2);
+    for (std::size_t item = others; item < items.size(); ++item)
+        if (has_some(item)) readable.places.push_back(static_cast<std::uint32_t>(item - others));
     return readable;
 }
 

@@ -13,7 +13,7 @@ HostedRun::HostedRun(zmq::context_t& context, BlobCache& cache, const Registry& 
     : context_(context), cache_(cache), registry_(registry), given_(std::move(given)) {
     check(given_.job.graph, registry_);  // it comes from outside, like the plan
     use(given_.plan);
-    looking_ = std::async(std::launch::async, [this] {
+    looking_ = beside_.start([this] {
         std::set<Hash> missing;
         for (const auto& file : given_.job.files)
             if (!cache_.has(file.hash)) missing.insert(file.hash);
@@ -33,7 +33,7 @@ void HostedRun::expect(const Hash& hash, std::uint64_t size) {
     if (results_->in_memory(hash)) return found_.push_back({hash, true});
     expected_[hash].size = size;
     if (!looked_for_.contains(hash))
-        looked_for_[hash] = std::async(std::launch::async, [this, hash] { return cache_.read(hash); });
+        looked_for_[hash] = beside_.start([this, hash] { return cache_.read(hash); });
 }
 
 std::vector<std::pair<Hash, bool>> HostedRun::found() {
@@ -100,7 +100,7 @@ bool HostedRun::advance() {
         missing_ = looking_.get();
         state_ = State::fetching;
     } else if (state_ == State::fetching && missing_.empty()) {
-        building_ = std::async(std::launch::async, [this] {
+        building_ = beside_.start([this]() -> std::shared_ptr<const Network> {
             BlobFiles files(cache_, given_.job.files);
             return build_network(given_.job, registry_, files,
                                  [results = results_](const Hash& hash) { return results->find(hash); });

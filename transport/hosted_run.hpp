@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/runtime/job.hpp"
+#include "transport/beside.hpp"
 #include "transport/blob_cache.hpp"
 #include "transport/packet.hpp"
 #include "transport/place_threads.hpp"
@@ -48,7 +49,9 @@ public:
     void expect(const Hash& hash, std::uint64_t size);
     /// What has become of bytes that were expected, since the last call: here, or lacking.
     std::vector<std::pair<Hash, bool>> found();
-    bool looking_for_results() const { return !looked_for_.empty(); }
+    /// To be polled: readable when advance() or found() may have news.
+    int news() const { return beside_.handle(); }
+    void clear_news() { beside_.clear(); }
     /// Goes on with what can go on. True when the state has changed. Throws Error when it can't go on.
     bool advance();
     /// Null until the places have been started.
@@ -84,6 +87,7 @@ private:
     std::map<Hash, IncomingResult> expected_;
     std::vector<std::pair<Hash, bool>> found_;
     std::unique_ptr<PlaceThreads> places_;
+    Beside beside_;  // last: what it does looks at the rest
 };
 
 }  // namespace lightnet
