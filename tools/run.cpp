@@ -323,7 +323,7 @@ void Run::hand_out(Carrier& carrier, const Plan& plan, const LookAround& look_ar
     job.width = static_cast<std::uint32_t>(format_.colours());
     job.tiles = tiles_;
     const auto tiles = tiles_per_place(plan);
-    job.credit = {tiles, tiles};
+    job.credit = {tiles, tiles * MasterRenderer::most_together};
     job.check = request_.check_answers;
     MasterRenderer* more = nullptr;
     MasterRenderer master(std::move(job), conductor, [this, &more](const Tile& tile, std::span<const Rgb> pixels) {
@@ -339,7 +339,7 @@ void Run::hand_out(Carrier& carrier, const Plan& plan, const LookAround& look_ar
     }
     book_.count(master.counters());
     if (const auto& aside = master.set_aside_tiles(); !aside.empty()) {
-        std::string all = "the picture lacks " + std::to_string(aside.size()) + " of its tiles, and is not written:";
+        std::string all = "the picture lacks some of its tiles, and is not written:";
         for (const auto& tile : aside) all += "\n  " + tile;
         throw Error("node '" + job_.graph.nodes[image_].name + "'", all);
     }

@@ -1,6 +1,8 @@
 #include "core/light/mapped.hpp"
 
+#include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "core/error.hpp"
 
@@ -9,27 +11,41 @@ namespace {
 
 constexpr std::size_t word = sizeof(std::uint64_t);
 
+// Bytes behind the results of so many shards.
+constexpr std::size_t tail_of_joined(std::size_t shards) { return (shards + 1) * word; }
+
 }  // namespace
 
-Bytes join_shards(std::span<const std::vector<std::byte>> shards) {
-    const std::vector<std::span<const std::byte>> spans(shards.begin(), shards.end());
-    return join_shards(std::span(spans));
+// Room for all, if the others are like those that are there: what is moved to a larger room is moved in vain.
+void ShardJoiner::make_room(std::size_t more) {
+    const std::size_t size = joined_.size() + more, shards = sizes_.size() + 1;
+    if (size <= joined_.capacity()) return;
+    joined_.reserve(size + size / shards * (count_ - std::min(count_, shards)) * 17 / 16 + tail_of_joined(count_));
 }
 
-Bytes join_shards(std::span<const std::span<const std::byte>> shards) {
-    const std::uint64_t count = shards.size();
-    std::size_t size = tail_of_joined(count);
-    for (const auto& shard : shards) size += shard.size();
-    auto joined = std::make_shared<std::vector<std::byte>>();
-    joined->reserve(size);
-    const auto append = [&](std::span<const std::byte> bytes) {
-        joined->insert(joined->end(), bytes.begin(), bytes.end());
-    };
-    const auto append_number = [&](std::uint64_t number) { append(std::as_bytes(std::span(&number, 1))); };
-    for (const auto& shard : shards) append(shard);
-    for (const auto& shard : shards) append_number(shard.size());
-    append_number(~count);
-    return joined;
+void ShardJoiner::add(std::span<const std::byte> results) {
+    make_room(results.size());
+    joined_.insert(joined_.end(), results.begin(), results.end());
+    sizes_.push_back(results.size());
+}
+
+std::vector<std::byte> ShardJoiner::tail() const {
+    std::vector<std::uint64_t> numbers = sizes_;
+    numbers.push_back(~std::uint64_t{count_});
+    const auto bytes = std::as_bytes(std::span(numbers));
+    return {bytes.begin(), bytes.end()};
+}
+
+Bytes ShardJoiner::finish() {
+    const auto end = tail();
+    joined_.insert(joined_.end(), end.begin(), end.end());
+    return std::make_shared<const std::vector<std::byte>>(std::move(joined_));
+}
+
+Bytes join_shards(std::span<const std::vector<std::byte>> shards) {
+    ShardJoiner joiner(shards.size());
+    for (const auto& shard : shards) joiner.add(shard);
+    return joiner.finish();
 }
 
 std::vector<std::span<const std::byte>> split_shards(const Bytes& joined) {

@@ -11,14 +11,28 @@
 
 namespace lightnet {
 
-/// Puts the results of shards 0, 1, … behind each other. Layout: the results, then the size of each in bytes and the
-/// number of shards (64 bits each, the latter inverted, as zeros are no end); so that what comes first is known before
-/// all is.
-Bytes join_shards(std::span<const std::span<const std::byte>> shards);
-Bytes join_shards(std::span<const std::vector<std::byte>> shards);
+/// Puts the results of shards 0, 1, … behind each other as they come. Layout: the results, then the size of each in
+/// bytes and the number of shards (64 bits each, the latter inverted, as zeros are no end); so that what comes first is
+/// known before all is.
+class ShardJoiner {
+public:
+    explicit ShardJoiner(std::size_t count) : count_(count) {}
+    /// The results of the next shard.
+    void add(std::span<const std::byte> results);
+    /// What stands behind the results of all `count`.
+    std::vector<std::byte> tail() const;
+    /// All of it. Leaves nothing here.
+    Bytes finish();
 
-/// Bytes behind the results of so many shards.
-constexpr std::size_t tail_of_joined(std::size_t shards) { return (shards + 1) * sizeof(std::uint64_t); }
+private:
+    void make_room(std::size_t more);
+
+    std::size_t count_;
+    std::vector<std::byte> joined_;
+    std::vector<std::uint64_t> sizes_;
+};
+
+Bytes join_shards(std::span<const std::vector<std::byte>> shards);
 
 /// Where the results are. Throws Error when `joined` was not made by join_shards().
 std::vector<std::span<const std::byte>> split_shards(const Bytes& joined);

@@ -1,5 +1,8 @@
 #include "core/prepare/calls.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "core/error.hpp"
 #include "core/light/mapped.hpp"
 
@@ -8,6 +11,9 @@ namespace {
 
 constexpr std::size_t most_per_place = 2;  // a shard that is done and one that waits
 constexpr std::uint8_t most_copies = 2;
+constexpr double late_factor = 2;        // times as long as others
+constexpr double least_late = 0.01;      // seconds
+constexpr double patience_at_first = 1;  // seconds, as long as nobody has answered
 
 }  // namespace
 
@@ -23,29 +29,40 @@ void Call::begin_again() {
     shards_.assign(what_.count, nullptr);
     copies_.assign(what_.count, 0);
     answered_.assign(what_.count, false);
-    hashers_ = std::vector<Hasher>(parts());
-    hashed_ = 0;
+    begun_.assign(what_.count, 0);
+    seconds_ = 0;
+    joined_.clear();
+    for (std::uint32_t part = 0; part < parts(); ++part) joined_.push_back({ShardJoiner(what_.count), {}});
+    next_ = 0;
     missing_ = what_.count;
     for (std::uint32_t shard = 0; shard < what_.count; ++shard) to_do_.push_back(shard);
     if (what_.count == 0) complete_from_shards();
 }
 
-std::optional<std::uint32_t> Call::hand_out(std::size_t under_way) {
-    if (under_way >= most_per_place || missing_ == 0) return std::nullopt;
+std::optional<std::uint32_t> Call::hand_out(const Asker& asker) {
+    if (asker.under_way >= most_per_place || missing_ == 0) return std::nullopt;
+    // The last ones go to who is idle first: behind others they would wait longer.
+    if (asker.under_way > 0 && to_do_.size() <= asker.places) return std::nullopt;
     if (!to_do_.empty()) {
         const auto shard = to_do_.front();
         to_do_.pop_front();
-        ++copies_[shard];
+        if (++copies_[shard] == 1) begun_[shard] = asker.now;
         return shard;
     }
-    if (under_way > 0) return std::nullopt;
-    // Nothing is left but what others do: whoever is idle does it, too, and the first result counts.
+    // Nothing is left but what others do: whoever is idle does what they are late with, too, and the first result
+    // counts.
     for (std::uint32_t shard = 0; shard < answered_.size(); ++shard)
-        if (!answered_[shard] && copies_[shard] < most_copies) {
+        if (!answered_[shard] && copies_[shard] < most_copies && is_late(shard, asker.now)) {
             ++copies_[shard];
             return shard;
         }
     return std::nullopt;
+}
+
+bool Call::is_late(std::uint32_t shard, double now) const {
+    const std::size_t done = answered_.size() - missing_;
+    const double usual = done > 0 ? seconds_ / double(done) : patience_at_first / late_factor;
+    return now - begun_[shard] > std::max(late_factor * usual, least_late);
 }
 
 void Call::take_back(std::uint32_t shard) {
@@ -53,13 +70,14 @@ void Call::take_back(std::uint32_t shard) {
     if (--copies_[shard] == 0) to_do_.push_front(shard);
 }
 
-bool Call::answer(std::uint32_t shard, const Bytes& results) {
+bool Call::answer(std::uint32_t shard, const Bytes& results, double now) {
     if (done() || answered_[shard]) return false;
     if (what_.kind == Report::Kind::sectors && split_shards(results).size() != parts())
         throw Error("results of preparing", "they are not for as many sectors as there are");
     answered_[shard] = true;
+    seconds_ += now - begun_[shard];
     shards_[shard] = results;
-    hash_what_is_next();
+    join_what_is_next();
     return --missing_ == 0;
 }
 
@@ -69,10 +87,14 @@ std::vector<std::span<const std::byte>> Call::parts_of(const Bytes& shard) const
 }
 
 // While places still work; at the end they would wait for it.
-void Call::hash_what_is_next() {
-    for (; hashed_ < shards_.size() && answered_[hashed_]; ++hashed_) {
-        const auto spans = parts_of(shards_[hashed_]);
-        for (std::size_t part = 0; part < spans.size(); ++part) hashers_[part].add(spans[part]);
+void Call::join_what_is_next() {
+    for (; next_ < shards_.size() && answered_[next_]; ++next_) {
+        const Bytes shard = std::exchange(shards_[next_], nullptr);
+        const auto spans = parts_of(shard);
+        for (std::size_t part = 0; part < spans.size(); ++part) {
+            joined_[part].results.add(spans[part]);
+            joined_[part].hasher.add(spans[part]);
+        }
     }
 }
 
@@ -85,20 +107,13 @@ void Call::complete(const std::vector<Result>& parts) {
     missing_ = 0;
 }
 
-// In the order of shards, each part by itself.
 void Call::complete_from_shards() {
-    std::vector<std::vector<std::span<const std::byte>>> lists(parts());
-    for (const auto& shard : shards_) {
-        const auto spans = parts_of(shard);
-        for (std::size_t part = 0; part < lists.size(); ++part) lists[part].push_back(spans[part]);
-    }
     std::vector<Result> results;
-    for (std::size_t part = 0; part < lists.size(); ++part) {
-        auto joined = join_shards(std::span(lists[part]));
-        hashers_[part].add(std::span(*joined).last(tail_of_joined(lists[part].size())));
-        results.push_back({hashers_[part].finish(), std::move(joined)});
+    for (auto& [joiner, hasher] : joined_) {
+        hasher.add(joiner.tail());
+        results.push_back({hasher.finish(), joiner.finish()});
     }
-    hashers_.clear();
+    joined_.clear();
     complete(results);
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/graph/layout.hpp"
+#include "core/light/mapped.hpp"
 #include "core/message/step.hpp"
 #include "core/prepare/prepared.hpp"
 
@@ -37,14 +38,20 @@ public:
     /// Does it take shards?
     bool shared_out() const { return what_.kind == Report::Kind::map || what_.kind == Report::Kind::sectors; }
 
-    /// A shard for a place that has `under_way` of them: one that nobody does, or, for a place that has nothing else to
-    /// do, one that another place is still at. It counts as handed out.
-    std::optional<std::uint32_t> hand_out(std::size_t under_way);
+    /// A place that wants shards.
+    struct Asker {
+        std::size_t under_way = 0;  // shards that it has
+        std::size_t places = 1;     // that share them
+        double now = 0;             // seconds
+    };
+    /// A shard for it: one that nobody does, or, for a place that has nothing else to do, one that another place is at
+    /// for long. It counts as handed out.
+    std::optional<std::uint32_t> hand_out(const Asker& asker);
     /// It was not handed out after all, or its place is lost.
     void take_back(std::uint32_t shard);
     /// The results of a shard. True when it was the last one. Throws Error when they have not as many parts as they
     /// should.
-    bool answer(std::uint32_t shard, const Bytes& results);
+    bool answer(std::uint32_t shard, const Bytes& results, double now = 0);
     void complete(const Bytes& result) { complete({Result{content_hash(*result), result}}); }
     void complete(const std::vector<Result>& parts);
     void complete_from_shards();
@@ -57,19 +64,26 @@ public:
 
 private:
     std::vector<std::span<const std::byte>> parts_of(const Bytes& shard) const;
-    void hash_what_is_next();
+    void join_what_is_next();
+    bool is_late(std::uint32_t shard, double now) const;
 
     Report what_;
     bool rehearsed_ = false;
     std::vector<Bytes> kept_ = std::vector<Bytes>(1);  // results, by part
     std::vector<std::weak_ptr<const std::vector<std::byte>>> lent_ =
         std::vector<std::weak_ptr<const std::vector<std::byte>>>(1);
-    std::vector<Hash> names_;  // of all parts, or none
-    std::vector<Bytes> shards_;
+    std::vector<Hash> names_;           // of all parts, or none
+    std::vector<Bytes> shards_;         // that wait for those before them
     std::vector<std::uint8_t> copies_;  // under way, by shard
     std::vector<bool> answered_;
-    std::vector<Hasher> hashers_;  // of all parts, over shards that came before hashed_
-    std::size_t hashed_ = 0;
+    std::vector<double> begun_;  // when it was handed out first
+    double seconds_ = 0;         // that those took that were answered
+    struct Joined {
+        ShardJoiner results;
+        Hasher hasher;
+    };
+    std::vector<Joined> joined_;  // by part: of shards that came before next_
+    std::size_t next_ = 0;
     std::deque<std::uint32_t> to_do_;
     std::size_t missing_ = 0;
 };

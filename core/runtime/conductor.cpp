@@ -198,7 +198,8 @@ void Conductor::lead(const Copy& copy, std::size_t position) {
 
 void Conductor::hand_out(const Copy& copy, std::size_t position, Call& call) {
     auto& follower = followers_[copy];
-    while (const auto shard = call.hand_out(follower.shards)) {
+    const std::size_t places = copies(position).size();
+    while (const auto shard = call.hand_out({follower.shards, places, steady_seconds()})) {
         const Step step{.kind = Step::Kind::shard, .call = follower.at.call, .shard = *shard};
         if (!send(copy, position, step)) return call.take_back(*shard);
         ++follower.shards;
@@ -280,7 +281,7 @@ void Conductor::say(std::size_t node, std::string_view lines) {
 
 void Conductor::shard_done(const Sent& sent, const Bytes& data) {
     auto& call = calls_.of(order_[sent.position], sent.step.call);
-    if (!call.answer(sent.step.shard, data)) {
+    if (!call.answer(sent.step.shard, data, steady_seconds())) {
         if (is_there(sent.to, sent.position))
             hand_out(sent.to, sent.position, call);  // who was told to stop gets no more
         return;

@@ -1,8 +1,17 @@
 #include "core/runtime/master_renderer.hpp"
 
+#include <algorithm>
+
 #include "core/error.hpp"
 
 namespace lightnet {
+namespace {
+
+constexpr double worth_the_way = 0.1;    // seconds of work: beside them, some hundred µs of sending are little
+constexpr std::size_t most_bytes = 4e6;  // of an answer of several tiles
+constexpr std::size_t shares = 8;        // of what is left, for each place: who ends last keeps nobody waiting long
+
+}  // namespace
 
 MasterRenderer::MasterRenderer(Job job, Carrier& carrier, Done done)
     : job_(std::move(job)),
@@ -30,13 +39,42 @@ void MasterRenderer::append(const std::vector<Tile>& tiles) {
     unanswered_ += tiles.size();
 }
 
+// How many tiles go together: of quick ones, several, but fewer towards the end (guided self-scheduling,
+// Polychronopoulos & Kuck 1987).
+std::size_t MasterRenderer::together() const {
+    const auto left = job_.tiles.size() - next_;
+    const double seconds = replicas_.scheduler().service() * double(replicas_.size());  // of one tile at one place
+    const auto most = std::min(job_.credit.questions / job_.credit.bundles, left / (shares * replicas_.size()));
+    if (seconds <= 0 || most < 2) return 1;
+    const auto quick = std::max<std::size_t>(1, std::size_t(std::min(worth_the_way / seconds, double(most))));
+    std::size_t count = 1, bytes = 0;
+    while (count < quick) {
+        bytes += answers_to(job_.tiles[next_ + count], job_.width) * sizeof(Rgb);
+        if (bytes > most_bytes) break;
+        ++count;
+    }
+    return count;
+}
+
+std::vector<Tile> MasterRenderer::take_next() {
+    if (!alone_.empty()) {
+        const Tile tile = alone_.back();
+        alone_.pop_back();
+        return {tile};
+    }
+    const auto first = job_.tiles.begin() + std::ptrdiff_t(next_);
+    std::vector<Tile> tiles(first, first + std::ptrdiff_t(together()));
+    next_ += tiles.size();
+    return tiles;
+}
+
 void MasterRenderer::hand_out() {
-    replicas_.foresee(job_.tiles.size() - next_);
-    while (next_ < job_.tiles.size() && replicas_.has_credit()) {
-        const auto number = next_++;
-        replicas_.foresee(job_.tiles.size() - next_);
-        auto tile = std::make_shared<const std::vector<Tile>>(1, job_.tiles[number]);
-        replicas_.send({std::move(tile), this, number, job_.width});
+    const auto left = [&] { return job_.tiles.size() - next_ + alone_.size(); };
+    replicas_.foresee(left());
+    while (left() > 0 && replicas_.has_credit()) {
+        auto tiles = std::make_shared<const std::vector<Tile>>(take_next());
+        replicas_.foresee(left());
+        replicas_.send({std::move(tiles), this, 0, job_.width});
     }
     replicas_.tick();
 }
@@ -76,20 +114,32 @@ void MasterRenderer::settle(std::chrono::nanoseconds most) {
 void MasterRenderer::drain() {
     draining_ = true;
     next_ = job_.tiles.size();
+    alone_.clear();
     replicas_.drop_waiting();
 }
 
 void MasterRenderer::answered(const Bundle<Tile>& bundle, std::vector<Rgb> pixels) {
-    --unanswered_;
-    done_(bundle.questions->front(), pixels);
+    std::span<const Rgb> rest = pixels;
+    for (const Tile& tile : *bundle.questions) {
+        const std::size_t own = answers_to(tile, job_.width);
+        --unanswered_;
+        done_(tile, rest.first(own));
+        rest = rest.subspan(own);
+    }
 }
 
 void MasterRenderer::failed(const Bundle<Tile>&, const std::string& why) {
     if (error_.empty()) error_ = why;
 }
 
-void MasterRenderer::set_aside(const Bundle<Tile>&, const std::string& why) {
-    --unanswered_;
+// Of several tiles, one may be to blame: each is tried alone.
+void MasterRenderer::set_aside(const Bundle<Tile>& bundle, const std::string& why) {
+    const auto& tiles = *bundle.questions;
+    if (tiles.size() > 1 && !draining_) {
+        alone_.insert(alone_.end(), tiles.rbegin(), tiles.rend());
+        return;
+    }
+    unanswered_ -= tiles.size();
     set_aside_.push_back(why);
 }
 

@@ -23,12 +23,14 @@ public:
         std::uint32_t image = 0;  // the renderer's node
         std::uint32_t width = 1;  // colours per pixel
         std::vector<Tile> tiles;  // in the order of handing out
-        Credit credit{3, 3};      // tiles in flight per place
+        Credit credit{3, 3};      // of a place: more tiles than bundles, and quick ones go together
         bool double_tail = true;  // idle places do the last tiles once more
         bool check = false;       // tiles that are done twice must have the same bits
         std::function<double()> clock = steady_seconds;
     };
     MasterRenderer(Job job, Carrier& carrier, Done done);
+    /// As many quick tiles as should go together at most, for the credit of jobs.
+    static constexpr std::size_t most_together = 8;
 
     /// From now on, these places render.
     void use(const Plan& plan);
@@ -55,6 +57,8 @@ private:
     void failed(const Bundle<Tile>& bundle, const std::string& why) override;
     void returned(Bundle<Tile>) override {}  // a multiplexer keeps what it has taken
     void set_aside(const Bundle<Tile>& bundle, const std::string& why) override;
+    std::size_t together() const;
+    std::vector<Tile> take_next();
     void hand_out();
     void take_in();
 
@@ -66,7 +70,8 @@ private:
     RemoteChannels<Tile>::Edge edge_;
     Multiplexer<Tile> replicas_;
     bool planned_ = false, draining_ = false;
-    std::size_t next_ = 0;  // tile to hand out
+    std::size_t next_ = 0;     // tile to hand out
+    std::vector<Tile> alone_;  // to be handed out before it, the last one first
     std::size_t unanswered_;
     std::vector<std::string> set_aside_;
     std::string error_;

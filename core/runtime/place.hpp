@@ -93,7 +93,7 @@ private:
     bool answer_together(const std::vector<Message>& asks, std::vector<Message>& replies);
     void answer_alone(const Message& ask, Message& reply);
     std::vector<Rgb> light_answers(std::size_t node, std::size_t width, std::span<const Query> questions);
-    std::vector<Rgb> pixel_answers(const Message& message);
+    std::vector<Rgb> pixel_answers(const Message& message, const Tile*& at);
     void pause();
     bool flush(bool idle);
     std::chrono::nanoseconds patience() const;

@@ -79,18 +79,18 @@ bool Place::answer_together(const std::vector<Message>& asks, std::vector<Messag
 }
 
 void Place::answer_alone(const Message& ask, Message& reply) {
-    std::string who;  // what a light operator threw has its name already
+    const Tile* at = nullptr;  // what a light operator threw has its name already
     try {
         if (const auto* steps = std::get_if<Questions<Step>>(&ask.questions)) {
             reply.data = preparer_.shard(ask.node, (*steps)->front());
-        } else if (const auto* tiles = std::get_if<Questions<Tile>>(&ask.questions)) {
-            who = "'" + network_.graph.nodes[ask.node].name + "' at " + describe(**tiles) + ", ";
-            reply.answers = pixel_answers(ask);
+        } else if (std::holds_alternative<Questions<Tile>>(ask.questions)) {
+            reply.answers = pixel_answers(ask, at);
         } else {
             reply.answers = light_answers(ask.node, ask.width, *std::get<Questions<Query>>(ask.questions));
         }
     } catch (const std::exception& error) {
         reply.type = Message::Type::failure;
+        const auto who = at ? "'" + network_.graph.nodes[ask.node].name + "' at " + describe(*at) + ", " : "";
         reply.text = who + "on " + my_name() + ": " + error.what();
     }
 }
@@ -104,7 +104,8 @@ std::vector<Rgb> Place::light_answers(std::size_t node, std::size_t width, std::
     return answers;
 }
 
-std::vector<Rgb> Place::pixel_answers(const Message& message) {
+// `at`: the tile that is being rendered.
+std::vector<Rgb> Place::pixel_answers(const Message& message, const Tile*& at) {
     const auto& tiles = *std::get<Questions<Tile>>(message.questions);
     const std::size_t layers = network_.width_of(message.node);
     if (network_.kind_of(message.node).role != Role::image || message.width != layers)
@@ -112,6 +113,7 @@ std::vector<Rgb> Place::pixel_answers(const Message& message) {
     std::vector<Rgb> pixels(answers_to(tiles, layers));
     std::size_t first = 0;
     for (const auto& tile : tiles) {
+        at = &tile;
         const std::size_t size = tile.pixels() * layers;
         assembly_.renderer(message.node).render(tile, std::span(pixels).subspan(first, size));
         first += size;

@@ -68,7 +68,7 @@ void Stage::lead(Carrier& carrier, const Plan& plan, std::uint64_t run, const st
                            static_cast<std::uint32_t>(image_),
                            static_cast<std::uint32_t>(format_.layers.size()),
                            tiles_of(job_.width, job_.height, tile_size, format_.samples),
-                           {2, 2}},
+                           {2, 2 * MasterRenderer::most_together}},
                           conductor, [&](const Tile& tile, std::span<const Rgb> pixels) { film.add(tile, pixels); });
     master.use(conductor.in_force());
     while (!master.work(50ms)) check();

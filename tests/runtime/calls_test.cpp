@@ -13,22 +13,39 @@ namespace {
 
 Bytes one_byte(int value) { return std::make_shared<const std::vector<std::byte>>(1, static_cast<std::byte>(value)); }
 
-TEST(Call, HandsEachShardOutOnceAndThenToThoseWhoAreIdle) {
+TEST(Call, HandsEachShardOutOnceAndTheLastOnesToThoseWhoAreIdle) {
+    Call call({Report::Kind::map, 0, 5}, false);
+    EXPECT_EQ(call.hand_out({0, 2}), 0u);
+    EXPECT_EQ(call.hand_out({1, 2}), 1u);
+    EXPECT_EQ(call.hand_out({2, 2}), std::nullopt) << "two at a time";
+    EXPECT_EQ(call.hand_out({0, 2}), 2u);
+    EXPECT_EQ(call.hand_out({1, 2}), std::nullopt) << "as many are left as there are places";
+    EXPECT_EQ(call.hand_out({0, 2}), 3u);
+    EXPECT_EQ(call.hand_out({0, 2}), 4u);
+    EXPECT_EQ(call.hand_out({0, 2}), std::nullopt) << "nobody is late";
+}
+
+TEST(Call, HandsOutOnceMoreWhatSomebodyIsLateWith) {
     Call call({Report::Kind::map, 0, 3}, false);
-    EXPECT_EQ(call.hand_out(0), 0u);
-    EXPECT_EQ(call.hand_out(1), 1u);
-    EXPECT_EQ(call.hand_out(2), std::nullopt) << "two at a time";
-    EXPECT_EQ(call.hand_out(0), 2u);
-    EXPECT_EQ(call.hand_out(1), std::nullopt) << "only who is idle does what others are at";
-    EXPECT_EQ(call.hand_out(0), 0u);
-    EXPECT_EQ(call.hand_out(0), 1u);
-    EXPECT_EQ(call.hand_out(0), 2u);
-    EXPECT_EQ(call.hand_out(0), std::nullopt) << "no shard is done three times at once";
+    for (std::uint32_t shard = 0; shard < 3; ++shard) EXPECT_EQ(call.hand_out({0, 3, 10}), shard);
+    call.answer(0, one_byte(0), 10.1);
+    EXPECT_EQ(call.hand_out({0, 3, 10.15}), std::nullopt) << "it takes as long as the first, and half as long again";
+    EXPECT_EQ(call.hand_out({1, 3, 10.25}), std::nullopt) << "only who is idle does what others are at";
+    EXPECT_EQ(call.hand_out({0, 3, 10.25}), 1u);
+    EXPECT_EQ(call.hand_out({0, 3, 10.25}), 2u);
+    EXPECT_EQ(call.hand_out({0, 3, 20}), std::nullopt) << "no shard is done three times at once";
+}
+
+TEST(Call, WaitsForTheFirstShardsWithPatience) {
+    Call call({Report::Kind::map, 0, 1}, false);
+    EXPECT_EQ(call.hand_out({0, 2, 10}), 0u);
+    EXPECT_EQ(call.hand_out({0, 2, 10.9}), std::nullopt);
+    EXPECT_EQ(call.hand_out({0, 2, 11.1}), 0u);
 }
 
 TEST(Call, PutsShardsTogetherInTheirOrderAndCountsTheFirstAnswerOnly) {
     Call call({Report::Kind::map, 0, 2}, false);
-    call.hand_out(0), call.hand_out(1), call.hand_out(0);
+    call.hand_out({0}), call.hand_out({0}), call.hand_out({0, 1, 100});
     EXPECT_FALSE(call.answer(1, one_byte(1)));
     EXPECT_FALSE(call.answer(1, one_byte(9)));
     EXPECT_TRUE(call.answer(0, one_byte(0)));
@@ -40,12 +57,12 @@ TEST(Call, PutsShardsTogetherInTheirOrderAndCountsTheFirstAnswerOnly) {
 
 TEST(Call, HandsOutAgainWhatALostPlaceHad) {
     Call call({Report::Kind::map, 0, 2}, false);
-    call.hand_out(0), call.hand_out(1);
+    call.hand_out({0}), call.hand_out({0});
     call.take_back(1);
-    EXPECT_EQ(call.hand_out(0), 1u);
-    call.hand_out(0);  // shard 0, doubled
+    EXPECT_EQ(call.hand_out({0}), 1u);
+    EXPECT_EQ(call.hand_out({0, 1, 100}), 0u) << "doubled";
     call.take_back(0);
-    EXPECT_EQ(call.hand_out(1), std::nullopt) << "another place is still at it";
+    EXPECT_EQ(call.hand_out({0, 1, 0.5}), std::nullopt) << "another place is still at it";
 }
 
 TEST(Calls, NamesANodeThatDoesNotPrepareAlikeEverywhere) {
@@ -76,7 +93,7 @@ std::vector<int> values(const Bytes& result) {
 
 TEST(Call, GivesEachSectorItsOwnPartInTheOrderOfShards) {
     Call call({Report::Kind::sectors, 0, 2}, false, 2);
-    call.hand_out(0), call.hand_out(1);
+    call.hand_out({0}), call.hand_out({0});
     EXPECT_THROW(call.answer(0, join_shards(std::span<const std::vector<std::byte>>())), Error) << "of no sector";
     EXPECT_FALSE(call.answer(1, two_lists(3, 4)));
     EXPECT_TRUE(call.answer(0, two_lists(1, 2)));
@@ -111,7 +128,7 @@ protected:
     void do_all() {
         auto& call = calls->reported(1, at);
         EXPECT_EQ(&call, &calls->reported(2, at)) << "their calls are the same";
-        while (const auto shard = call.hand_out(0)) {
+        while (const auto shard = call.hand_out({0})) {
             const int value = static_cast<int>(*shard);
             if (call.answer(*shard, two_lists(value, 10 + value))) {
                 call.complete_from_shards();

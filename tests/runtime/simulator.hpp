@@ -78,6 +78,7 @@ public:
     /// Everything that was sent and received, and when.
     std::string story() const { return story_.str(); }
     std::size_t events() const { return events_; }
+    std::size_t asks() const { return asks_; }
     /// In how many deaths each tile was under way on the host, and in how many as the only one.
     const std::map<std::uint32_t, int>& died_with() const { return died_with_; }
     const std::map<std::uint32_t, int>& died_alone() const { return died_alone_; }
@@ -90,7 +91,10 @@ public:
     bool ask(const PlaceAt& to, Message& message) override {
         const auto host = static_cast<std::uint32_t>(std::stoul(to.host));
         tell("ask", host, message.bundle);
-        out_[host][message.bundle] = std::get<Questions<Tile>>(message.questions)->front().x;
+        auto& tiles = out_[host][message.bundle];
+        tiles.clear();
+        for (const Tile& tile : *std::get<Questions<Tile>>(message.questions)) tiles.push_back(tile.x);
+        ++asks_;
         if (lost()) return true;
         schedule({arrival(), Event::Kind::ask, host, hosts_[host].life, to.index, message});
         return true;
@@ -223,9 +227,14 @@ private:
         }
     }
 
+    static const std::vector<Tile>& tiles_of(const Event& event) {
+        return *std::get<Questions<Tile>>(event.message.questions);
+    }
+
     void begin(Event& event, Host& host) {
         auto& busy = host.busy_until[event.place];
-        busy = std::max({busy, now_, host.hangs_until}) + host.seconds_per_tile * (0.5 + part());
+        busy = std::max({busy, now_, host.hangs_until}) +
+               host.seconds_per_tile * (0.5 + part()) * double(tiles_of(event).size());
         event.time = busy;
         event.kind = Event::Kind::done;
         schedule(std::move(event));
@@ -236,12 +245,13 @@ private:
             event.time = host.hangs_until + world_.delay;
             return schedule(std::move(event));
         }
-        const auto& tile = std::get<Questions<Tile>>(event.message.questions)->front();
-        if (world_.poisonous.contains(tile.x)) return die(event.host);
         Message reply;
+        for (const Tile& tile : tiles_of(event)) {
+            if (world_.poisonous.contains(tile.x)) return die(event.host);
+            reply.answers.push_back({static_cast<float>(tile.x), 1, 0});
+        }
         reply.type = Message::Type::reply;
         reply.channel = event.message.channel, reply.bundle = event.message.bundle;
-        reply.answers = {Rgb{static_cast<float>(tile.x), 1, 0}};
         reply.load = {0, static_cast<std::uint32_t>(std::min(4e9, host.seconds_per_tile * 1e9))};
         event.kind = Event::Kind::reply;
         event.message = std::move(reply);
@@ -260,10 +270,11 @@ private:
     }
     void notice_deaths() {
         for (const auto host : std::exchange(died_, {})) {
-            for (const auto& [bundle, tile] : out_[host]) {
-                ++died_with_[tile];
-                if (out_[host].size() == 1) ++died_alone_[tile];
-            }
+            for (const auto& [bundle, tiles] : out_[host])
+                for (const auto tile : tiles) {
+                    ++died_with_[tile];
+                    if (out_[host].size() == 1 && tiles.size() == 1) ++died_alone_[tile];
+                }
             out_[host].clear();
         }
     }
@@ -283,11 +294,11 @@ private:
     std::vector<Host> hosts_;
     std::priority_queue<Event> queue_;
     std::deque<Message> arrived_;
-    std::map<std::uint32_t, std::map<std::uint64_t, std::uint32_t>> out_;  // by host: asked and not answered, its tile
-    std::set<std::uint32_t> died_;                                         // and nobody knows
+    std::map<std::uint32_t, std::map<std::uint64_t, std::vector<std::uint32_t>>> out_;  // by host: asked, not answered
+    std::set<std::uint32_t> died_;                                                      // and nobody knows
     std::map<std::uint32_t, int> died_with_, died_alone_;
     std::uint64_t next_order_ = 1;
-    std::size_t events_ = 0;
+    std::size_t events_ = 0, asks_ = 0;
     std::ostringstream story_;
     Counters counters_;
 };
@@ -301,7 +312,7 @@ struct Told {
     std::size_t outstanding = 0;
     double seconds = 0;
     std::map<std::uint32_t, int> died_with, died_alone;
-    std::size_t events = 0;
+    std::size_t events = 0, asks = 0;
     std::string story;
 };
 
@@ -333,6 +344,7 @@ inline Told play(const World& world, double most = 1e6) {
     told.died_with = simulator.died_with();
     told.died_alone = simulator.died_alone();
     told.events = simulator.events();
+    told.asks = simulator.asks();
     told.story = simulator.story();
     return told;
 }

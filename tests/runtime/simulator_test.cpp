@@ -100,7 +100,8 @@ TEST(SimulatedRun, EndsWithAllOfThisAtOnceWhateverTheStrategy) {
         World world{
             .seed = seed, .delay = 0.5, .loss = 0.02, .twice = 0.1, .deaths = 0.01, .drains = 0.01, .hangs = 0.01};
         world.strategy = static_cast<Strategy>(seed % strategy_names.size());
-        world.credit = {1 + seed % 4, 1 + seed % 4};
+        world.credit = {1 + seed % 4, (1 + seed % 4) * (1 + seed % 3)};
+        if (seed % 2) world.seconds_per_tile = 0.01;
         expect_sound(world);
     });
 }
@@ -115,6 +116,28 @@ TEST(SimulatedRun, SetsAsideTilesThatKillHostsAndNoOthers) {
         EXPECT_FALSE(told.folded.contains(31));
         ASSERT_EQ(told.set_aside.size(), 2u);
         for (const auto tile : world.poisonous) EXPECT_GE(told.died_alone.at(tile), 3);
+    });
+}
+
+TEST(SimulatedRun, HandsOutQuickTilesTogether) {
+    for_every_seed([](std::uint64_t seed) {
+        World world{.seed = seed, .tiles = 1500, .seconds_per_tile = 0.001};
+        const auto singly = expect_sound(world);
+        EXPECT_GE(singly.asks, world.tiles);
+        world.credit = {3, 24};
+        EXPECT_LT(expect_sound(world).asks, singly.asks / 2);
+    });
+}
+
+TEST(SimulatedRun, FindsTheTileThatKillsAmongThoseThatWentTogether) {
+    for_every_seed([](std::uint64_t seed) {
+        World world{.seed = seed, .tiles = 200, .seconds_per_tile = 0.005, .loss = 0.01, .twice = 0.1};
+        world.credit = {2, 16};
+        world.poisonous = {47, 131};
+        const auto told = expect_sound(world);
+        SCOPED_TRACE("play it again with LIGHTNET_SEED=" + std::to_string(seed));
+        EXPECT_EQ(told.set_aside.size(), 2u);
+        for (const auto tile : world.poisonous) EXPECT_FALSE(told.folded.contains(tile));
     });
 }
 
