@@ -293,15 +293,15 @@ void Cluster::gather(Patience patience, const std::atomic<bool>& cancelled, cons
     links_->hold_until = begun + patience.absent;
     std::string said;
     while (!cancelled) {
-        links_->arrived.clear();  // plans on the way here; plan() is the one that counts
         wait(std::chrono::milliseconds(20));
         look_around();
+        links_->arrived.clear();  // plans on the way here; plan() is the one that counts
         const auto all = links_->standing();
         if (all.busy && said.empty())
             links_->options.say(said = "waiting for hosts that serve another run" + links_->reasons());
         const auto waited = Clock::now() - begun;
         if (all.pending || (waited < patience.absent && (all.absent || all.busy))) continue;
-        if (all.ready) return links_->arrived.clear();
+        if (all.ready) return;
         const bool somebody_may_come = links_->links.empty() || links_->joiners;
         if (!all.busy && (waited >= patience.nobody || !somebody_may_come))
             throw NoWorker("no worker can be reached:" + links_->reasons());

@@ -66,9 +66,10 @@ struct Host::Service {
     void end(const std::string& route, std::uint64_t id);
     void drop_run(const std::string& why);
     void advance();
-    // Who has something to be read, or to be told. Looking at an empty socket costs a system call, so only these are looked at.
+    // Who has something to be read. Looking at an empty socket costs a system call, so only these are looked at.
     struct Readable {
-        bool door = false, relay = false, news = false, reports = false;
+        bool door = false, relay = false, reports = false;
+        bool news = false;  // of the run
         std::vector<std::uint32_t> places;
     };
     Readable wait();

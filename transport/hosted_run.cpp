@@ -32,8 +32,7 @@ std::uint64_t HostedRun::size_of(const Hash& hash) const {
 void HostedRun::expect(const Hash& hash, std::uint64_t size) {
     if (results_->in_memory(hash)) return found_.push_back({hash, true});
     expected_[hash].size = size;
-    if (!looked_for_.contains(hash))
-        looked_for_[hash] = beside_.start([this, hash] { return cache_.read(hash); });
+    if (!looked_for_.contains(hash)) looked_for_[hash] = beside_.start([this, hash] { return cache_.read(hash); });
 }
 
 std::vector<std::pair<Hash, bool>> HostedRun::found() {
@@ -100,7 +99,7 @@ bool HostedRun::advance() {
         missing_ = looking_.get();
         state_ = State::fetching;
     } else if (state_ == State::fetching && missing_.empty()) {
-        building_ = beside_.start([this]() -> std::shared_ptr<const Network> {
+        building_ = beside_.start([this] {
             BlobFiles files(cache_, given_.job.files);
             return build_network(given_.job, registry_, files,
                                  [results = results_](const Hash& hash) { return results->find(hash); });

@@ -104,6 +104,7 @@ void Call::complete(const std::vector<Result>& parts) {
         names_.push_back(parts[part].name);
     }
     shards_ = {};
+    joined_.clear();
     missing_ = 0;
 }
 
@@ -113,7 +114,6 @@ void Call::complete_from_shards() {
         hasher.add(joiner.tail());
         results.push_back({hasher.finish(), joiner.finish()});
     }
-    joined_.clear();
     complete(results);
 }
 

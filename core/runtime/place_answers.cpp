@@ -79,7 +79,7 @@ bool Place::answer_together(const std::vector<Message>& asks, std::vector<Messag
 }
 
 void Place::answer_alone(const Message& ask, Message& reply) {
-    const Tile* at = nullptr;  // what a light operator threw has its name already
+    const Tile* at = nullptr;  // none: what a light operator threw has its name already
     try {
         if (const auto* steps = std::get_if<Questions<Step>>(&ask.questions)) {
             reply.data = preparer_.shard(ask.node, (*steps)->front());
