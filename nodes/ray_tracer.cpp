@@ -73,7 +73,7 @@ public:
           max_depth_(static_cast<std::uint32_t>(here.integer("max_depth"))),
           filter_(here.text("filter"), static_cast<float>(here.number("filter_radius"))) {}
 
-    void render(const Tile& tile, std::span<Rgb> pixels) const override {
+    void render_block(const Tile& tile, std::span<Rgb> pixels) const override {
         const std::size_t at_once = std::max<std::size_t>(1, samples_at_once / std::max(1u, tile.samples));
         for (std::size_t first = 0; first < tile.pixels(); first += at_once)
             render_some(tile, first, std::min(tile.pixels(), first + at_once), pixels);

@@ -89,7 +89,7 @@ public:
           image_(renderer_of(request.graph, registry)),
           format_(format()),
           tiles_(tiles_of(format_, request.tuning.tile)),
-          book_(format_, request.progress, tiles_of(format_.work(), request.tuning.tile, format_.samples).size(),
+          book_(format_, request.progress, work_in(tiles_of(format_.work(), request.tuning.tile, format_.samples)),
                 first_page(request, registry, format_)) {}
 
     int perform();
@@ -174,7 +174,9 @@ std::map<std::string, std::string> Run::recipe() const {
 void Run::take_up_checkpoint() {
     book_.keep_checkpoint(request_.output, recipe(), std::chrono::seconds(request_.tuning.checkpoint));
     if (request_.resume) book_.take_up_checkpoint();
-    book_.found(std::erase_if(tiles_, [this](const Tile& tile) { return book_.has(tile); }));
+    const auto all = work_in(tiles_);
+    std::erase_if(tiles_, [this](const Tile& tile) { return book_.has(tile); });
+    book_.found(all - work_in(tiles_));
     const auto more = book_.going_on();
     tiles_.insert(tiles_.end(), more.begin(), more.end());
 }

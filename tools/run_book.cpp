@@ -26,11 +26,11 @@ std::filesystem::path next_to(const std::string& exr, const std::string& name) {
 
 }  // namespace
 
-RunBook::RunBook(FilmFormat format, ProgressMode progress, std::uint64_t tiles, RunReport report)
+RunBook::RunBook(FilmFormat format, ProgressMode progress, std::uint64_t blocks, RunReport report)
     : film_(std::move(format)),
       report_(std::move(report)),
-      all_tiles_(tiles),
-      progress_(tiles, Progress::style_of_stderr(progress), std::cerr, Clock::now()) {}
+      all_blocks_(blocks),
+      progress_(blocks, Progress::style_of_stderr(progress), std::cerr, Clock::now()) {}
 
 void RunBook::end_phase(Clock::time_point now) {
     if (phase_begun_) report_.phases.back().seconds = std::chrono::duration<double>(now - *phase_begun_).count();
@@ -62,14 +62,16 @@ void RunBook::preview(const std::string& exr, double seconds) {
 
 std::vector<Tile> RunBook::take(const Tile& tile, std::span<const Rgb> pixels) {
     const bool added = film_.add(tile, pixels);
-    added ? ++tiles_ : ++repeated_;
+    const bool wanted = added || !film_.has(tile);
+    if (added) blocks_ += tile.blocks();
+    if (!wanted) ++repeated_;
     // Tiles differ in size where cells decide.
     const bool differ = film_.format().adaptive();
-    progress_.update(differ ? static_cast<std::uint64_t>(film_.done() * double(all_tiles_)) : tiles_, Clock::now());
+    progress_.update(differ ? static_cast<std::uint64_t>(film_.done() * double(all_blocks_)) : blocks_, Clock::now());
     const auto now = Clock::now();
     if (preview_ && now >= preview_->next && !film_.complete()) write_preview();
     if (keeping_ && now >= keeping_->next) save_in_background(now);
-    return added ? film_.more(tile) : std::vector<Tile>{};
+    return wanted ? film_.more(tile) : std::vector<Tile>{};
 }
 
 // A preview that can't be written is no reason to lose the picture.
@@ -117,14 +119,14 @@ void RunBook::take_up_checkpoint() {
     say(fmt::format("going on from {}", file.string()));
 }
 
-void RunBook::found(std::uint64_t tiles) {
-    tiles_ = keeping_->saved = tiles;
-    if (tiles) progress_.found_done(tiles, Clock::now());
+void RunBook::found(std::uint64_t blocks) {
+    blocks_ = keeping_->saved = blocks;
+    if (blocks) progress_.found_done(blocks, Clock::now());
 }
 
 void RunBook::save_in_background(Clock::time_point now) {
     keeping_->next = now + keeping_->period;
-    if (keeping_->saved == tiles_) return;
+    if (keeping_->saved == blocks_) return;
     if (keeping_->saving.valid()) {
         if (keeping_->saving.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
         try {
@@ -136,7 +138,7 @@ void RunBook::save_in_background(Clock::time_point now) {
             warn(std::string("no checkpoint: ") + error.what());
         }
     }
-    keeping_->saved = tiles_;
+    keeping_->saved = blocks_;
     film_.state(keeping_->last.film);
     keeping_->saving = std::async(std::launch::async, [&keeping = *keeping_] {
         const auto begun = Clock::now();
@@ -146,9 +148,9 @@ void RunBook::save_in_background(Clock::time_point now) {
 }
 
 bool RunBook::save_checkpoint() {
-    if (!keeping_ || tiles_ == 0) return false;
+    if (!keeping_ || blocks_ == 0) return false;
     if (keeping_->saving.valid()) keeping_->saving.wait();
-    if (keeping_->saved != tiles_ || !std::filesystem::exists(keeping_->file)) {
+    if (keeping_->saved != blocks_ || !std::filesystem::exists(keeping_->file)) {
         film_.state(keeping_->last.film);
         write_checkpoint(keeping_->file, keeping_->last);
     }

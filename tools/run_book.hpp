@@ -27,8 +27,8 @@ namespace lightnet {
 /// One thread's. Tiles come in, files go out.
 class RunBook {
 public:
-    /// `tiles`: how many there are if all pixels get all samples.
-    RunBook(FilmFormat format, ProgressMode progress, std::uint64_t tiles, RunReport report);
+    /// `blocks`: of tiles, how many there are if all pixels get all samples.
+    RunBook(FilmFormat format, ProgressMode progress, std::uint64_t blocks, RunReport report);
 
     /// Another part of the run begins; the one before has ended.
     void phase(const std::string& name);
@@ -58,12 +58,12 @@ public:
                          std::chrono::seconds period);
     /// Takes up what an earlier run left there, if anything. Throws UserError when that was another picture's.
     void take_up_checkpoint();
-    /// Is this block there already?
+    /// Is all of this tile there already?
     bool has(const Tile& tile) const { return film_.has(tile); }
     /// What else is wanted, of cells that need more.
     std::vector<Tile> going_on() const { return film_.going_on(); }
-    /// So many tiles were there already.
-    void found(std::uint64_t tiles);
+    /// So many blocks of tiles were there already.
+    void found(std::uint64_t blocks);
     /// Saves what is there now; false: nothing was worth it.
     bool save_checkpoint();
     void remove_checkpoint();
@@ -103,17 +103,17 @@ private:
     std::optional<Preview> preview_;
     bool previewed_ = false;
     RunReport report_;
-    std::uint64_t all_tiles_;
+    std::uint64_t all_blocks_;
     Progress progress_;
     Counters counters_;
-    std::uint64_t tiles_ = 0, repeated_ = 0;
+    std::uint64_t blocks_ = 0, repeated_ = 0;  // of tiles
     struct Keeping {
         std::filesystem::path file;
         Checkpoint last;  // being saved, or what was; its room is used again
         std::chrono::seconds period;
         std::chrono::steady_clock::time_point next;
         std::future<double> saving;  // seconds that it took
-        std::uint64_t saved = 0;     // tiles
+        std::uint64_t saved = 0;     // blocks
     };
     std::optional<Keeping> keeping_;
     std::optional<std::chrono::steady_clock::time_point> phase_begun_;

@@ -49,7 +49,8 @@ constexpr std::array columns<Tile>{Column{"x", offsetof(Tile, x), 4},
 
 template <>
 constexpr std::array columns<Step>{Column{"kind", offsetof(Step, kind), 4}, Column{"call", offsetof(Step, call), 4},
-                                   Column{"shard", offsetof(Step, shard), 4}, Column{"data", offsetof(Step, data), 32}};
+                                   Column{"first", offsetof(Step, first), 4}, Column{"count", offsetof(Step, count), 4},
+                                   Column{"data", offsetof(Step, data), 32}};
 
 // Loops whose copies have a constant size.
 template <std::size_t Size>

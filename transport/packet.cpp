@@ -78,7 +78,7 @@ Buffer write_header(const Header& header, View body) {
 bool sane(const Tile& tile) {
     constexpr std::uint32_t most = 1 << 16;
     return tile.width > 0 && tile.height > 0 && tile.pixels() <= most && tile.x < most && tile.y < most &&
-           tile.samples > 0 && tile.stride > 0 && tile.samples <= samples_per_block &&
+           tile.samples > 0 && tile.stride > 0 && tile.samples <= samples_per_block * blocks_per_group &&
            tile.first_sample % samples_per_block == 0;
 }
 

@@ -17,7 +17,7 @@ namespace lightnet {
 namespace {
 
 // magic, size of the text, text (JSON), sums, blocks that wait, hash of all before it. Little-endian, as in memory.
-constexpr std::string_view magic = "lightnet checkpoint 2\n";
+constexpr std::string_view magic = "lightnet checkpoint 3\n";
 
 template <class T>
 std::string_view bytes_of(std::span<const T> values) {
@@ -51,7 +51,7 @@ std::string text_of(const Checkpoint& checkpoint) {
     nlohmann::json parts = nlohmann::json::array();
     for (const auto& part : film.parts) {
         nlohmann::json waiting = nlohmann::json::array();
-        for (const auto& [block, pixels] : part.waiting) waiting.push_back({block, pixels.size()});
+        for (const auto& [block, sum] : part.waiting) waiting.push_back({block, sum.blocks, sum.pixels.size()});
         parts.push_back({part.x, part.y, part.width, part.height, part.next_block, std::move(waiting)});
     }
     return nlohmann::json{{"of", checkpoint.of},
@@ -91,7 +91,7 @@ Checkpoint from_bytes(std::string_view bytes) {
     film.lost = text.at("lost").get<std::vector<std::uint64_t>>();
     for (const auto& part : text.at("parts")) {
         auto& made = film.parts.emplace_back(FilmState::Part{part[0], part[1], part[2], part[3], part[4], {}});
-        for (const auto& one : part[5]) made.waiting.emplace(one[0], colours(reader, one[1]));
+        for (const auto& one : part[5]) made.waiting.emplace(one[0], FilmState::Sum{one[1], colours(reader, one[2])});
     }
     return checkpoint;
 }
@@ -110,7 +110,7 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint& check
     std::vector<std::string_view> pieces{magic, bytes_of(std::span(&size, 1)), text, bytes_of(std::span(film.sums)),
                                          bytes_of(std::span(film.spreads))};
     for (const auto& part : film.parts)
-        for (const auto& [block, pixels] : part.waiting) pieces.push_back(bytes_of(std::span(pixels)));
+        for (const auto& [block, sum] : part.waiting) pieces.push_back(bytes_of(std::span(sum.pixels)));
     Hasher hasher;
     for (const auto piece : pieces) hasher.add(std::as_bytes(std::span(piece)));
     const Hash hash = hasher.finish();

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <numeric>
 #include <set>
 #include <utility>
@@ -53,27 +55,76 @@ bool Film::add(const Tile& tile, std::span<const Rgb> pixels) {
     return added;
 }
 
+Blocks Film::group_of(std::uint32_t block) const {
+    if (format_.adaptive()) return {block, 1};
+    const Blocks group = lightnet::group_of(block);
+    return {group.first, std::min(group.count, blocks_ - group.first)};
+}
+
+bool Film::is_whole(const Tile& tile) const {
+    const Blocks group = group_of(tile.block());
+    return tile.block() == group.first && tile.blocks() == group.count;
+}
+
+bool Film::Rectangle::has(std::uint32_t block) const {
+    if (done || block < next_block) return true;
+    const auto behind = waiting.upper_bound(block);
+    return behind != waiting.begin() && block < std::prev(behind)->first + std::prev(behind)->second.blocks;
+}
+
 bool Film::add_area(const Tile& tile, std::span<const Rgb> pixels) {
     auto& rectangle = rectangle_of(tile);
-    const std::uint32_t block = tile.block();
-    if (rectangle.done || block < rectangle.next_block || rectangle.waiting.contains(block)) return false;
-    if (block > rectangle.next_block) {
-        rectangle.waiting.emplace(block, std::vector<Rgb>(pixels.begin(), pixels.end()));
-        return true;
-    }
-    fold_next(rectangle, tile, pixels);
-    for (auto next = rectangle.waiting.begin(); next != rectangle.waiting.end() && next->first == rectangle.next_block;
-         next = rectangle.waiting.erase(next))
-        fold_next(rectangle, tile, next->second);
+    if (has_area(tile)) return false;
+    if (tile.blocks() > 1 && !std::all_of(pixels.begin(), pixels.end(), finite)) return false;
+    if (is_whole(tile) && tile.block() == rectangle.next_block)
+        fold_next(rectangle, tile, pixels);
+    else
+        keep(rectangle, tile, pixels);
+    auto& waiting = rectangle.waiting;
+    const auto comes_next = [&](const auto& sum) {
+        return sum.first == rectangle.next_block && sum.second.blocks == group_of(sum.first).count;
+    };
+    while (!waiting.empty() && comes_next(*waiting.begin()))
+        fold_next(rectangle, tile, waiting.extract(waiting.begin()).mapped().pixels);
     return true;
 }
 
-// The block after those that are in the sums.
+// The group after those that are in the sums.
 void Film::fold_next(Rectangle& rectangle, const Tile& tile, std::span<const Rgb> pixels) {
     if (rectangle.done) return;
-    fold(tile, pixels);
-    ++rectangle.next_block;
+    const Blocks group = group_of(rectangle.next_block);
+    fold(tile, group.count, pixels);
+    rectangle.next_block += group.count;
+    rectangle.waiting.erase(rectangle.waiting.begin(), rectangle.waiting.lower_bound(rectangle.next_block));
     end_if_enough(rectangle, tile);
+}
+
+// Until its turn comes. Blocks of a group are added up as soon as those before them are there.
+void Film::keep(Rectangle& rectangle, const Tile& tile, std::span<const Rgb> pixels) {
+    auto& waiting = rectangle.waiting;
+    const Blocks group = group_of(tile.block());
+    const std::uint32_t end = group.first + group.count;
+    if (is_whole(tile)) waiting.erase(waiting.lower_bound(group.first), waiting.lower_bound(end));
+    auto& kept = waiting[tile.block()] = {tile.blocks(), {pixels.begin(), pixels.end()}};
+    if (is_whole(tile)) return;
+    blacken(kept.pixels);
+    const auto sum = waiting.find(group.first);
+    if (sum == waiting.end()) return;
+    auto& [blocks, colours] = sum->second;
+    for (auto next = std::next(sum); next != waiting.end() && next->first == group.first + blocks && next->first < end;
+         next = waiting.erase(next)) {
+        std::transform(colours.begin(), colours.end(), next->second.pixels.begin(), colours.begin(), std::plus<>());
+        blocks += next->second.blocks;
+    }
+}
+
+// What is not finite, and counts it.
+void Film::blacken(std::span<Rgb> pixels) {
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+        if (!finite(pixels[i])) {
+            pixels[i] = {};
+            ++lost_[i % format_.colours()];
+        }
 }
 
 void Film::end_if_enough(Rectangle& rectangle, const Tile& tile) {
@@ -116,6 +167,7 @@ std::vector<Tile> Film::going_on() const {
 }
 
 std::vector<Tile> Film::more(const Tile& tile) const {
+    if (tile.blocks() > 1 && !has(tile)) return one_by_one(tile);
     std::vector<Tile> wanted;
     if (!format_.adaptive()) return wanted;
     for (const Tile& place : cells_of(tile)) {
@@ -152,57 +204,10 @@ bool Film::has(const Tile& tile) const {
 
 bool Film::has_area(const Tile& tile) const {
     const auto known = rectangles_.find({tile.x, tile.y, tile.width, tile.height});
-    return known != rectangles_.end() && (known->second.done || tile.block() < known->second.next_block ||
-                                          known->second.waiting.contains(tile.block()));
-}
-
-FilmState Film::state() const {
-    FilmState made;
-    state(made);
-    return made;
-}
-
-void Film::state(FilmState& into) const {
-    into.sums = sums_;
-    into.spreads = spreads_;
-    into.lost = lost_;
-    into.parts.clear();
-    for (const auto& [area, rectangle] : rectangles_) {
-        const auto& [x, y, width, height] = area;
-        into.parts.push_back({x, y, width, height, rectangle.next_block, rectangle.waiting});
-    }
-}
-
-void Film::restore(FilmState state) {
-    if (!rectangles_.empty()) throw Error("film", "only an empty film can take up another");
-    if (state.sums.size() != sums_.size() || state.spreads.size() != spreads_.size() ||
-        state.lost.size() != lost_.size())
-        throw Error("film", "what is taken up is of another size");
-    for (auto& part : state.parts) {
-        Tile tile{part.x, part.y, part.width, part.height, 0, samples_of(0, format_.samples)};
-        expect_valid(tile, tile.pixels() * format_.colours());
-        if (part.next_block > blocks_) throw Error("film", "what is taken up has more samples");
-        auto& rectangle = rectangle_of(tile);
-        rectangle.next_block = part.next_block;
-        for (auto& [block, pixels] : part.waiting) {
-            if (block <= part.next_block || block >= blocks_)
-                throw Error("film", "what is taken up has a block that can't wait");
-            tile.first_sample = block * samples_per_block;
-            tile.samples = samples_of(block, format_.samples);
-            expect_valid(tile, pixels.size());
-        }
-        rectangle.waiting = std::move(part.waiting);
-        for (std::uint32_t y = part.y; y < part.y + part.height; ++y)
-            for (std::uint32_t x = part.x; x < part.x + part.width; ++x) block_of_[index(x, y)] = part.next_block;
-        folded_ += tile.pixels() * part.next_block;
-    }
-    sums_ = std::move(state.sums);
-    spreads_ = std::move(state.spreads);
-    for (auto& [area, rectangle] : rectangles_) {
-        const auto& [x, y, width, height] = area;
-        end_if_enough(rectangle, {x, y, width, height});
-    }
-    lost_ = std::move(state.lost);
+    if (known == rectangles_.end()) return false;
+    for (std::uint32_t i = 0; i < tile.blocks(); ++i)
+        if (!known->second.has(tile.block() + i)) return false;
+    return true;
 }
 
 void Film::expect_valid(const Tile& tile, std::size_t colours) const {
@@ -216,9 +221,10 @@ void Film::expect_valid(const Tile& tile, std::size_t colours) const {
                         within(tile.y, tile.height, window_.y, window_.height) &&
                         of_cells(tile.x, tile.width, window_.x + window_.width) &&
                         of_cells(tile.y, tile.height, window_.y + window_.height);
-    const bool one_block = tile.first_sample % samples_per_block == 0 && tile.first_sample < format_.samples &&
-                           tile.samples == samples_of(tile.block(), format_.samples);
-    if (!inside || !one_block)
+    const bool of_blocks = tile.first_sample % samples_per_block == 0 && tile.first_sample < format_.samples &&
+                           (tile.samples == samples_of(tile.block(), format_.samples) ||
+                            tile.samples == samples_of(group_of(tile.block()), format_.samples));
+    if (!inside || !of_blocks)
         throw Error("film", fmt::format("no tile of this picture: {}x{} pixels at {},{}, {} samples from {}",
                                         tile.width, tile.height, tile.x, tile.y, tile.samples, tile.first_sample));
     if (colours != tile.pixels() * format_.colours())
@@ -240,7 +246,7 @@ Film::Rectangle& Film::rectangle_of(const Tile& tile) {
     return rectangles_[area];
 }
 
-void Film::fold(const Tile& tile, std::span<const Rgb> pixels) {
+void Film::fold(const Tile& tile, std::uint32_t blocks, std::span<const Rgb> pixels) {
     const std::size_t layers = format_.colours();
     const Rgb* next = pixels.data();
     std::vector<Rgb> sound(layers);
@@ -257,9 +263,9 @@ void Film::fold(const Tile& tile, std::span<const Rgb> pixels) {
             if (format_.adaptive())
                 note(pixel, std::span(sound).first(format_.layers.size()),
                      samples_of(block_of_[pixel], format_.samples));
-            ++block_of_[pixel];
+            block_of_[pixel] += blocks;
         }
-    folded_ += tile.pixels();
+    folded_ += tile.pixels() * blocks;
 }
 
 void Film::note(std::size_t pixel, std::span<const Rgb> layers, std::uint32_t samples) {

@@ -23,10 +23,13 @@ inline std::uint32_t blocks_in(std::uint32_t samples) { return (samples + sample
 inline std::uint32_t samples_of(std::uint32_t block, std::uint32_t samples) {
     return std::min(samples_per_block, samples - block * samples_per_block);
 }
+/// Of those blocks of so many samples that there are.
+inline std::uint32_t samples_of(const Blocks& blocks, std::uint32_t samples) {
+    return std::min(blocks.count * samples_per_block, samples - blocks.first * samples_per_block);
+}
 
-/// The tiles of a part of a picture in the order in which they are handed out: one block of samples of the whole
-/// picture after the other, and within a block along a Hilbert curve, so that neighbours in time are neighbours in the
-/// scene.
+/// The tiles of a part of a picture in the order in which they are handed out: one group of blocks of the whole picture
+/// after the other, and within it along a Hilbert curve, so that neighbours in time are neighbours in the scene.
 std::vector<Tile> tiles_of(const Window& window, std::uint32_t tile_size, std::uint32_t samples);
 /// Of a whole picture.
 std::vector<Tile> tiles_of(std::uint32_t width, std::uint32_t height, std::uint32_t tile_size, std::uint32_t samples);
@@ -66,17 +69,24 @@ struct FilmFormat {
     Window work() const;
 };
 
-/// The tiles that such a film needs in any case. Where cells decide, tiles are of whole cells, and Film::more() gives
-/// the others.
+/// The tiles that such a film needs in any case. Where cells decide, tiles are single blocks of whole cells, and
+/// Film::more() gives the others.
 std::vector<Tile> tiles_of(const FilmFormat& format, std::uint32_t tile_size);
 
 /// What a film holds, to be kept and taken up again. A value.
 struct FilmState {
+    /// What came before its turn, or before all of its group.
+    struct Sum {
+        std::uint32_t blocks = 0;
+        std::vector<Rgb> pixels;
+        friend bool operator==(const Sum&, const Sum&) = default;
+    };
+    using Waiting = std::map<std::uint32_t, Sum>;  // by first block
     /// One rectangle of the tiling.
     struct Part {
         std::uint32_t x = 0, y = 0, width = 0, height = 0;
-        std::uint32_t next_block = 0;                       // the first one that is not in the sums
-        std::map<std::uint32_t, std::vector<Rgb>> waiting;  // blocks that came before their turn
+        std::uint32_t next_block = 0;  // the first one that is not in the sums
+        Waiting waiting;
         friend bool operator==(const Part&, const Part&) = default;
     };
     /// Of a pixel's blocks, per channel (Welford 1962).
@@ -91,9 +101,12 @@ struct FilmState {
     friend bool operator==(const FilmState&, const FilmState&) = default;
 };
 
-/// Adds up the blocks of samples of each pixel in the order of their index, whatever the order in which they arrive and
-/// however the picture was cut into tiles. Rectangles of one film are those of one tiling. Owned by whoever makes the
-/// picture; one thread.
+/// Adds up the blocks of samples of each pixel, group by group, in the order of their index, whatever the order in
+/// which they arrive, whether a group comes as a whole or block by block, and however the picture was cut into tiles.
+/// Rectangles of one film are those of one tiling. Owned by whoever makes the picture; one thread.
+///
+/// What is not finite of a block counts as black. A group with such a colour is not taken: its blocks are wanted one by
+/// one, so that no more is lost than if it had never been added up elsewhere. Where cells decide, a group is one block.
 ///
 /// With a refinement, a cell is done when sqrt(mean(v / (m² + 0.01))) over its pixels and channels is at most the
 /// error, or when it has all samples. m is the mean of a pixel's k blocks as the picture shows it, v = Σ(b - m)² / (k
@@ -105,19 +118,20 @@ public:
     /// Throws Error on a format without pixels, samples or layers, or with two layers of one name.
     explicit Film(FilmFormat format);
 
-    /// Takes the sums of one block: a colour per pixel (row by row) and layer, side by side. False when the film has
-    /// that block already (the first one counts). Throws Error on a tile that is none of this film's.
+    /// Takes the sums of a tile: a colour per pixel (row by row) and layer, side by side. False when the film has all
+    /// of it already (the first one counts), or can't take it as a whole. Throws Error on a tile that is none of this
+    /// film's.
     bool add(const Tile& tile, std::span<const Rgb> pixels);
 
     /// What becomes of radiance in the picture, for errors as they are seen. Before the first tile.
     void expose(float scale) { scale_ = scale; }
-    /// The tiles that are wanted now that `tile` was added: those cells of it that aren't done. None without
-    /// refinement.
+    /// The tiles that are wanted now that `tile` has come: those cells of it that aren't done, or its blocks if it
+    /// could not be taken as a whole.
     std::vector<Tile> more(const Tile& tile) const;
     /// The same for all that is there: what a film that was taken up goes on with, beside what tiles_of() gives.
     std::vector<Tile> going_on() const;
 
-    /// Is this block there already?
+    /// Is all of this tile there already?
     bool has(const Tile& tile) const;
     FilmState state() const;
     /// The same, into room that is there already.
@@ -141,9 +155,10 @@ public:
 
 private:
     struct Rectangle {
-        std::uint32_t next_block = 0;                       // the first one that is not in the sums
-        std::map<std::uint32_t, std::vector<Rgb>> waiting;  // blocks that came before their turn
-        bool done = false;                                  // needs no further block
+        std::uint32_t next_block = 0;  // the first one that is not in the sums
+        FilmState::Waiting waiting;
+        bool done = false;  // needs no further block
+        bool has(std::uint32_t block) const;
     };
     using Spread = FilmState::Spread;
     using Area = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>;  // x, y, width, height
@@ -152,10 +167,14 @@ private:
     bool has_area(const Tile& tile) const;
     std::optional<Tile> next_of(const Tile& place) const;
     void end_if_enough(Rectangle& rectangle, const Tile& tile);
+    Blocks group_of(std::uint32_t block) const;
+    bool is_whole(const Tile& tile) const;
     bool add_area(const Tile& tile, std::span<const Rgb> pixels);
+    void keep(Rectangle& rectangle, const Tile& tile, std::span<const Rgb> pixels);
     std::vector<Tile> cells_of(const Tile& tile) const;
     Rectangle& rectangle_of(const Tile& tile);
-    void fold(const Tile& tile, std::span<const Rgb> pixels);
+    void blacken(std::span<Rgb> pixels);
+    void fold(const Tile& tile, std::uint32_t blocks, std::span<const Rgb> pixels);
     void fold_next(Rectangle& rectangle, const Tile& tile, std::span<const Rgb> pixels);
     void note(std::size_t pixel, std::span<const Rgb> layers, std::uint32_t samples);
     bool enough(const Tile& cell) const;

@@ -1,29 +1,50 @@
 // A piece of the picture, and of its samples.
 #pragma once
 
+#include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
+#include <vector>
 
 namespace lightnet {
 
-/// Samples of a pixel are added up in blocks of this many, and the blocks in the order of their index. Fixed for ever:
-/// the bytes of a picture depend on it.
+/// Samples of a pixel are added up in blocks of this many. Fixed for ever: the bytes of a picture depend on it.
 inline constexpr std::uint32_t samples_per_block = 16;
+/// Blocks are added up in groups of at most this many.
+inline constexpr std::uint32_t blocks_per_group = 8;
 
-/// One block of samples for a rectangle of pixels: the unit of work of a renderer.
+/// Some blocks, one behind the other.
+struct Blocks {
+    std::uint32_t first = 0, count = 0;
+};
+
+/// The group of a block. Blocks of a group are added up in the order of their index, and groups likewise, so that the
+/// sum of a group is the same wherever it was made. Groups grow from one block to blocks_per_group: much of the picture
+/// is seen early, and later the sum of many samples is sent at once. Fixed for ever.
+constexpr Blocks group_of(std::uint32_t block) {
+    const std::uint32_t count = std::clamp(std::bit_floor(block), 1u, blocks_per_group);
+    return {block / count * count, count};
+}
+
+/// One block of samples, or a whole group of them, for a rectangle of pixels: the unit of work of a renderer.
 struct Tile {
     std::uint32_t x = 0, y = 0;  // of the upper left pixel, in the picture
     std::uint32_t width = 0, height = 0;
     std::uint32_t first_sample = 0;  // a multiple of samples_per_block
-    std::uint32_t samples = 0;       // 1 … samples_per_block
+    std::uint32_t samples = 0;       // 1 … samples_per_block, or as many as the group has
     std::uint32_t stride = 1;        // only pixels whose x and y are multiples of it are wanted (for rehearsals)
 
     std::size_t pixels() const { return std::size_t{width} * height; }
     std::uint32_t block() const { return first_sample / samples_per_block; }
+    std::uint32_t blocks() const { return (samples + samples_per_block - 1) / samples_per_block; }
     friend bool operator==(const Tile&, const Tile&) = default;
 };
 
 static_assert(std::is_trivially_copyable_v<Tile>, "tiles travel as bytes");
+
+/// The same work, block by block.
+std::vector<Tile> one_by_one(const Tile& tile);
 
 }  // namespace lightnet

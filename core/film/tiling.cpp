@@ -30,6 +30,15 @@ std::uint32_t up_to_whole(std::uint32_t number, std::uint32_t step) { return (nu
 
 }  // namespace
 
+std::vector<Tile> one_by_one(const Tile& tile) {
+    std::vector<Tile> blocks(tile.blocks(), tile);
+    for (std::uint32_t i = 0; i < blocks.size(); ++i) {
+        blocks[i].first_sample = tile.first_sample + i * samples_per_block;
+        blocks[i].samples = samples_of(i, tile.samples);
+    }
+    return blocks;
+}
+
 std::vector<Tile> tiles_of(std::uint32_t width, std::uint32_t height, std::uint32_t tile_size, std::uint32_t samples) {
     return tiles_of(Window{0, 0, width, height}, tile_size, samples);
 }
@@ -48,21 +57,27 @@ std::vector<Tile> tiles_of(const Window& window, std::uint32_t tile_size, std::u
         tiles.push_back(
             {window.x + x, window.y + y, std::min(tile_size, width - x), std::min(tile_size, height - y), 0, 0});
     }
-    const std::size_t per_block = tiles.size();
-    if (blocks_in(samples) == 0) return {};
-    for (std::uint32_t block = 0; block < blocks_in(samples); ++block)
-        for (std::size_t i = 0; i < per_block; ++i) {
+    const std::size_t per_group = tiles.size(), blocks = blocks_in(samples);
+    if (blocks == 0) return {};
+    for (std::uint32_t block = 0, group = 0; block < blocks; block += group_of(block).count, ++group)
+        for (std::size_t i = 0; i < per_group; ++i) {
             if (block > 0) tiles.push_back(tiles[i]);
-            Tile& tile = tiles[block * per_block + i];
+            Tile& tile = tiles[group * per_group + i];
             tile.first_sample = block * samples_per_block;
-            tile.samples = samples_of(block, samples);
+            tile.samples = samples_of(group_of(block), samples);
         }
     return tiles;
 }
 
 std::vector<Tile> tiles_of(const FilmFormat& format, std::uint32_t tile_size) {
-    if (format.adaptive()) tile_size = up_to_whole(tile_size, cell_size);
-    return tiles_of(format.work(), tile_size, format.least_samples());
+    if (!format.adaptive()) return tiles_of(format.work(), tile_size, format.least_samples());
+    // Cells decide block by block.
+    std::vector<Tile> tiles;
+    for (const Tile& tile : tiles_of(format.work(), up_to_whole(tile_size, cell_size), format.least_samples()))
+        for (const Tile& block : one_by_one(tile)) tiles.push_back(block);
+    std::stable_sort(tiles.begin(), tiles.end(),
+                     [](const Tile& a, const Tile& b) { return a.first_sample < b.first_sample; });
+    return tiles;
 }
 
 std::uint32_t FilmFormat::least_samples() const {

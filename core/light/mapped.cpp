@@ -31,7 +31,7 @@ void ShardJoiner::add(std::span<const std::byte> results) {
 
 std::vector<std::byte> ShardJoiner::tail() const {
     std::vector<std::uint64_t> numbers = sizes_;
-    numbers.push_back(~std::uint64_t{count_});
+    numbers.push_back(~std::uint64_t{sizes_.size()});
     const auto bytes = std::as_bytes(std::span(numbers));
     return {bytes.begin(), bytes.end()};
 }
@@ -48,12 +48,12 @@ Bytes join_shards(std::span<const std::vector<std::byte>> shards) {
     return joiner.finish();
 }
 
-std::vector<std::span<const std::byte>> split_shards(const Bytes& joined) {
+std::vector<std::span<const std::byte>> split_shards(std::span<const std::byte> joined) {
     const Error broken("results of preparing", "they are damaged");
-    const std::size_t size = joined ? joined->size() : 0;
+    const std::size_t size = joined.size();
     std::uint64_t count = 0;
     if (size < word) throw broken;
-    std::memcpy(&count, joined->data() + size - word, word);
+    std::memcpy(&count, joined.data() + size - word, word);
     count = ~count;
     if (count > size / word - 1) throw broken;
     const std::size_t results = size - tail_of_joined(count);
@@ -61,9 +61,9 @@ std::vector<std::span<const std::byte>> split_shards(const Bytes& joined) {
     std::size_t at = 0;
     for (std::uint64_t i = 0; i < count; ++i) {
         std::uint64_t bytes = 0;
-        std::memcpy(&bytes, joined->data() + results + i * word, word);
+        std::memcpy(&bytes, joined.data() + results + i * word, word);
         if (bytes > results - at) throw broken;
-        shards.push_back({joined->data() + at, bytes});
+        shards.push_back({joined.data() + at, bytes});
         at += bytes;
     }
     if (at != results) throw broken;

@@ -19,7 +19,7 @@ public:
     explicit ShardJoiner(std::size_t count) : count_(count) {}
     /// The results of the next shard.
     void add(std::span<const std::byte> results);
-    /// What stands behind the results of all `count`.
+    /// What stands behind the results that are there.
     std::vector<std::byte> tail() const;
     /// All of it. Leaves nothing here.
     Bytes finish();
@@ -35,7 +35,10 @@ private:
 Bytes join_shards(std::span<const std::vector<std::byte>> shards);
 
 /// Where the results are. Throws Error when `joined` was not made by join_shards().
-std::vector<std::span<const std::byte>> split_shards(const Bytes& joined);
+std::vector<std::span<const std::byte>> split_shards(std::span<const std::byte> joined);
+inline std::vector<std::span<const std::byte>> split_shards(const Bytes& joined) {
+    return split_shards(joined ? std::span(*joined) : std::span<const std::byte>());
+}
 
 /// The results of a map(): one memory for all places of a process. Constant.
 template <class T>

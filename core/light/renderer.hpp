@@ -13,15 +13,20 @@ class Renderer {
 public:
     virtual ~Renderer() = default;
 
-    /// Writes the sum, over the samples of the tile's block, of what each pixel receives: for each pixel (row by row)
-    /// one colour per film layer, side by side; layer 0 is the emission that the renderer sees itself, the others are
-    /// those of its lighting input. `pixels` comes zeroed. Each sample's radiance is added in the order of samples.
-    virtual void render(const Tile& tile, std::span<Rgb> pixels) const = 0;
+    /// Writes the sums of a tile: for each pixel (row by row) one colour per film layer, side by side. Blocks are added
+    /// up in the order of their index. `pixels` comes zeroed.
+    void render(const Tile& tile, std::span<Rgb> pixels) const;
 
 protected:
     Renderer() = default;
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
+
+private:
+    /// Writes the sum, over the samples of the tile's one block, of what each pixel receives; layer 0 is the emission
+    /// that the renderer sees itself, the others are those of its lighting input. `pixels` comes zeroed. Each sample's
+    /// radiance is added in the order of samples.
+    virtual void render_block(const Tile& tile, std::span<Rgb> pixels) const = 0;
 };
 
 }  // namespace lightnet

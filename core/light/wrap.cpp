@@ -137,7 +137,7 @@ public:
     WrappedRenderer(const NodeContext& here, const Wrapping& wrapping, MakeInstance make)
         : seed_(here.seed()), wrapped_(std::make_unique<Wrapped>(here, wrapping, std::move(make))) {}
 
-    void render(const Tile& tile, std::span<Rgb> pixels) const override {
+    void render_block(const Tile& tile, std::span<Rgb> pixels) const override {
         std::vector<std::size_t> wanted;
         for (std::size_t pixel = 0; pixel < tile.pixels(); ++pixel)
             if ((tile.x + pixel % tile.width) % tile.stride == 0 && (tile.y + pixel / tile.width) % tile.stride == 0)

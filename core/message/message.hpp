@@ -69,14 +69,25 @@ inline Message reply_to(Message& ask) {
     return reply;
 }
 
-/// How many questions a message asks.
+/// How much work questions are: tiles count their blocks of samples.
+template <class Question>
+std::size_t work_in(const std::vector<Question>& questions) {
+    if constexpr (std::is_same_v<Question, Tile>) {
+        std::size_t blocks = 0;
+        for (const auto& tile : questions) blocks += tile.blocks();
+        return blocks;
+    }
+    return questions.size();
+}
+
+/// The same of a message.
 inline std::size_t questions_of(const Message& message) {
     return std::visit(
         [](const auto& questions) -> std::size_t {
             if constexpr (std::is_same_v<std::decay_t<decltype(questions)>, std::monostate>)
                 return 0;
             else
-                return questions->size();
+                return work_in(*questions);
         },
         message.questions);
 }

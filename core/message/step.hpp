@@ -13,7 +13,7 @@ struct Step {
     enum class Kind : std::uint32_t {
         prepare,  // begin prepare(); answered by a Report when it first waits, or ends
         go_on,    // the result of call `call` is there: `data` names it. Answered by the next Report
-        shard,    // do shard `shard` of call `call`; answered by its results
+        shards,   // do `count` shards of call `call`, from `first` on; answered by join_shards() of their results
         collect,  // answered by what the node has noted in the rehearsal that is call `call`
         attend,   // answered by LockWords as soon as there are some; `call` 1: by all that holds now, once more
         grant,    // the lock that `data` names belongs to this place until it says otherwise
@@ -21,8 +21,7 @@ struct Step {
     };
     Kind kind = Kind::prepare;
     std::uint32_t call = 0;
-    std::uint32_t shard = 0;
-    std::uint32_t unused = 0;  // keeps the size a multiple of 8
+    std::uint32_t first = 0, count = 0;
     Hash data{};
     friend bool operator==(const Step&, const Step&) = default;
 };

@@ -9,8 +9,11 @@
 namespace lightnet {
 namespace {
 
-constexpr std::size_t most_per_place = 2;  // a shard that is done and one that waits
+constexpr std::size_t most_per_place = 2;  // asks: one that is worked at and one that waits
 constexpr std::uint8_t most_copies = 2;
+// Of what nobody does, what is handed out at once is this part for each place, so that there are fewer messages and the
+// last ones are still small (guided self-scheduling, Polychronopoulos & Kuck 1987).
+constexpr std::size_t shares = 3;
 constexpr double late_factor = 2;        // times as long as others
 constexpr double least_late = 0.01;      // seconds
 constexpr double patience_at_first = 1;  // seconds, as long as nobody has answered
@@ -26,7 +29,7 @@ void Call::begin_again() {
     names_.clear();
     if (!shared_out()) return;
     to_do_.clear();
-    shards_.assign(what_.count, nullptr);
+    shards_.assign(what_.count, {});
     copies_.assign(what_.count, 0);
     answered_.assign(what_.count, false);
     begun_.assign(what_.count, 0);
@@ -39,22 +42,26 @@ void Call::begin_again() {
     if (what_.count == 0) complete_from_shards();
 }
 
-std::optional<std::uint32_t> Call::hand_out(const Asker& asker) {
+std::optional<Shards> Call::hand_out(const Asker& asker) {
     if (asker.under_way >= most_per_place || missing_ == 0) return std::nullopt;
     // The last ones go to who is idle first: behind others they would wait longer.
     if (asker.under_way > 0 && to_do_.size() <= asker.places) return std::nullopt;
     if (!to_do_.empty()) {
-        const auto shard = to_do_.front();
-        to_do_.pop_front();
-        if (++copies_[shard] == 1) begun_[shard] = asker.now;
-        return shard;
+        const auto most = std::max<std::size_t>(1, to_do_.size() / (shares * asker.places));
+        Shards some{to_do_.front(), 0};
+        while (!to_do_.empty() && to_do_.front() == some.first + some.count && some.count < most) {
+            if (++copies_[to_do_.front()] == 1) begun_[to_do_.front()] = asker.now;
+            to_do_.pop_front();
+            ++some.count;
+        }
+        return some;
     }
     // Nothing is left but what others do: whoever is idle does what they are late with, too, and the first result
     // counts.
     for (std::uint32_t shard = 0; shard < answered_.size(); ++shard)
         if (!answered_[shard] && copies_[shard] < most_copies && is_late(shard, asker.now)) {
             ++copies_[shard];
-            return shard;
+            return Shards{shard, 1};
         }
     return std::nullopt;
 }
@@ -65,31 +72,43 @@ bool Call::is_late(std::uint32_t shard, double now) const {
     return now - begun_[shard] > std::max(late_factor * usual, least_late);
 }
 
-void Call::take_back(std::uint32_t shard) {
-    if (done() || answered_[shard] || copies_[shard] == 0) return;
-    if (--copies_[shard] == 0) to_do_.push_front(shard);
+void Call::take_back(const Shards& shards) {
+    if (done()) return;
+    for (auto shard = shards.first + shards.count; shard-- > shards.first;)
+        if (!answered_[shard] && copies_[shard] > 0 && --copies_[shard] == 0) to_do_.push_front(shard);
 }
 
-bool Call::answer(std::uint32_t shard, const Bytes& results, double now) {
-    if (done() || answered_[shard]) return false;
-    if (what_.kind == Report::Kind::sectors && split_shards(results).size() != parts())
+bool Call::answer(const Shards& shards, const Bytes& joined, double now) {
+    if (done()) return false;
+    const auto results = split_shards(joined);
+    if (results.empty() || results.size() > shards.count)
+        throw Error("results of preparing", "they are not of the shards that were asked for");
+    for (std::uint32_t i = 0; i < results.size(); ++i) take({joined, results[i]}, shards.first + i, now);
+    const auto some = static_cast<std::uint32_t>(results.size());
+    take_back({shards.first + some, shards.count - some});
+    join_what_is_next();
+    return missing_ == 0;
+}
+
+void Call::take(const Results& results, std::uint32_t shard, double now) {
+    if (answered_[shard]) return;
+    if (what_.kind == Report::Kind::sectors && split_shards(results.own).size() != parts())
         throw Error("results of preparing", "they are not for as many sectors as there are");
     answered_[shard] = true;
     seconds_ += now - begun_[shard];
     shards_[shard] = results;
-    join_what_is_next();
-    return --missing_ == 0;
+    --missing_;
 }
 
-std::vector<std::span<const std::byte>> Call::parts_of(const Bytes& shard) const {
-    if (what_.kind == Report::Kind::sectors) return split_shards(shard);
-    return {shard ? std::span<const std::byte>(*shard) : std::span<const std::byte>()};
+std::vector<std::span<const std::byte>> Call::parts_of(const Results& shard) const {
+    if (what_.kind == Report::Kind::sectors) return split_shards(shard.own);
+    return {shard.own};
 }
 
 // While places still work; at the end they would wait for it.
 void Call::join_what_is_next() {
     for (; next_ < shards_.size() && answered_[next_]; ++next_) {
-        const Bytes shard = std::exchange(shards_[next_], nullptr);
+        const Results shard = std::exchange(shards_[next_], {});
         const auto spans = parts_of(shard);
         for (std::size_t part = 0; part < spans.size(); ++part) {
             joined_[part].results.add(spans[part]);

@@ -19,6 +19,12 @@
 
 namespace lightnet {
 
+/// Shards of a call, one behind the other.
+struct Shards {
+    std::uint32_t first = 0, count = 0;
+    friend bool operator==(const Shards&, const Shards&) = default;
+};
+
 /// One call of a node's prepare(), which is the same on all its places.
 class Call {
 public:
@@ -40,18 +46,19 @@ public:
 
     /// A place that wants shards.
     struct Asker {
-        std::size_t under_way = 0;  // shards that it has
+        std::size_t under_way = 0;  // asks for shards that it has
         std::size_t places = 1;     // that share them
         double now = 0;             // seconds
     };
-    /// A shard for it: one that nobody does, or, for a place that has nothing else to do, one that another place is at
-    /// for long. It counts as handed out.
-    std::optional<std::uint32_t> hand_out(const Asker& asker);
-    /// It was not handed out after all, or its place is lost.
-    void take_back(std::uint32_t shard);
-    /// The results of a shard. True when it was the last one. Throws Error when they have not as many parts as they
-    /// should.
-    bool answer(std::uint32_t shard, const Bytes& results, double now = 0);
+    /// Shards for it: some that nobody does, or, for a place that has nothing else to do, one that another place is at
+    /// for long. They count as handed out.
+    std::optional<Shards> hand_out(const Asker& asker);
+    /// They were not handed out after all, or their place is lost.
+    void take_back(const Shards& shards);
+    /// The results of the first of these shards, or of more of them, by join_shards(); the others are taken back. True
+    /// when none is missing any more. Throws Error when they are not what was asked for, or have not as many parts as
+    /// they should.
+    bool answer(const Shards& shards, const Bytes& joined, double now = 0);
     void complete(const Bytes& result) { complete({Result{content_hash(*result), result}}); }
     void complete(const std::vector<Result>& parts);
     void complete_from_shards();
@@ -63,7 +70,12 @@ public:
     void begin_again();
 
 private:
-    std::vector<std::span<const std::byte>> parts_of(const Bytes& shard) const;
+    struct Results {
+        Bytes all;  // of what was done together
+        std::span<const std::byte> own;
+    };
+    std::vector<std::span<const std::byte>> parts_of(const Results& shard) const;
+    void take(const Results& results, std::uint32_t shard, double now);
     void join_what_is_next();
     bool is_late(std::uint32_t shard, double now) const;
 
@@ -73,7 +85,7 @@ private:
     std::vector<std::weak_ptr<const std::vector<std::byte>>> lent_ =
         std::vector<std::weak_ptr<const std::vector<std::byte>>>(1);
     std::vector<Hash> names_;           // of all parts, or none
-    std::vector<Bytes> shards_;         // that wait for those before them
+    std::vector<Results> shards_;       // that wait for those before them
     std::vector<std::uint8_t> copies_;  // under way, by shard
     std::vector<bool> answered_;
     std::vector<double> begun_;  // when it was handed out first

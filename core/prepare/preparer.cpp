@@ -1,5 +1,6 @@
 #include "core/prepare/preparer.hpp"
 
+#include <chrono>
 #include <cstring>
 #include <optional>
 #include <span>
@@ -17,6 +18,12 @@ Bytes bytes_of(std::span<const T> values) {
     const auto bytes = std::as_bytes(values);
     return std::make_shared<const std::vector<std::byte>>(bytes.begin(), bytes.end());
 }
+
+using Clock = std::chrono::steady_clock;
+
+// Of the answer to one ask, beyond which no further shard is begun.
+constexpr auto worth_the_way = std::chrono::milliseconds(50);  // beside them, some hundred µs of sending are little
+constexpr std::size_t most_bytes = 4e6;
 
 const Step& step_of(const Message& ask) { return std::get<Questions<Step>>(ask.questions)->front(); }
 
@@ -68,10 +75,10 @@ public:
         preparer_.place_.reply(std::move(reply));
     }
 
-    Bytes shard(const Step& step) {
+    Bytes shards(const Step& step) {
         if (!waiting_ || (at_.kind != Report::Kind::map && at_.kind != Report::Kind::sectors) ||
-            at_.call != step.call || step.shard >= at_.count)
-            throw Error("it does not wait for this shard");
+            at_.call != step.call || step.first >= at_.count || step.count < 1 || step.count > at_.count - step.first)
+            throw Error("it does not wait for these shards");
         // prepare() must stay where it is while its work is done: work looks at what lies on its stack.
         struct Busy {
             Node& node;
@@ -81,9 +88,17 @@ public:
                 if (!node.waiting_) node.resume_if_free();
             }
         } busy(*this);
-        auto out = std::make_shared<std::vector<std::byte>>();
-        (*work_)(step.shard, *out);
-        return out;
+        ShardJoiner joined(step.count);
+        const auto end = Clock::now() + worth_the_way;
+        std::size_t bytes = 0;
+        for (std::uint32_t i = 0; i < step.count && waiting_; ++i) {
+            std::vector<std::byte> results;
+            (*work_)(step.first + i, results);
+            joined.add(results);
+            bytes += results.size();
+            if (Clock::now() > end || bytes > most_bytes) break;
+        }
+        return joined.finish();
     }
 
     std::vector<Query> rehearse(std::uint32_t stride) override {
@@ -200,10 +215,10 @@ bool Preparer::start_next() {
     return true;
 }
 
-Bytes Preparer::shard(std::size_t node, const Step& step) {
+Bytes Preparer::shards(std::size_t node, const Step& step) {
     const auto found = nodes_.find(node);
     if (found == nodes_.end()) throw Error("it has not begun to prepare");
-    return found->second->shard(step);
+    return found->second->shards(step);
 }
 
 }  // namespace lightnet

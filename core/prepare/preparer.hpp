@@ -29,12 +29,13 @@ public:
     Preparer(const Network& network, Assembly& assembly, Fibers& fibers, Place place);
     ~Preparer();
 
-    /// A step of any kind but shard.
+    /// A step of any kind but shards.
     void take(Message ask);
     /// Begins one prepare() that has been asked for. Outside fibers only. False: there is none.
     bool start_next();
-    /// Does a shard, in a fiber of the node. Throws Error when the node does not wait for it.
-    Bytes shard(std::size_t node, const Step& step);
+    /// Does shards, in a fiber of the node: the first, and as many more of them as take little time and room; whoever
+    /// asked hands out the others again. Throws Error when the node does not wait for them.
+    Bytes shards(std::size_t node, const Step& step);
     /// What all its nodes have been given so far.
     std::uint64_t result_bytes() const { return result_bytes_; }
 

@@ -61,7 +61,7 @@ void Conductor::lose(const std::set<PlaceKey>& gone) {
             continue;
         }
         const auto& [to, position, step] = sent->second;
-        if (step.kind == Step::Kind::shard) calls_.of(order_[position], step.call).take_back(step.shard);
+        if (step.kind == Step::Kind::shards) calls_.of(order_[position], step.call).take_back({step.first, step.count});
         sent = sent_.erase(sent);
     }
     std::erase_if(followers_, [&](const auto& follower) { return gone.contains(follower.first.place); });
@@ -199,10 +199,10 @@ void Conductor::lead(const Copy& copy, std::size_t position) {
 void Conductor::hand_out(const Copy& copy, std::size_t position, Call& call) {
     auto& follower = followers_[copy];
     const std::size_t places = copies(position).size();
-    while (const auto shard = call.hand_out({follower.shards, places, steady_seconds()})) {
-        const Step step{.kind = Step::Kind::shard, .call = follower.at.call, .shard = *shard};
-        if (!send(copy, position, step)) return call.take_back(*shard);
-        ++follower.shards;
+    while (const auto shards = call.hand_out({follower.asks, places, steady_seconds()})) {
+        const Step step{Step::Kind::shards, follower.at.call, shards->first, shards->count};
+        if (!send(copy, position, step)) return call.take_back(*shards);
+        ++follower.asks;
     }
 }
 
@@ -227,16 +227,16 @@ void Conductor::take(Message message) {
     if (found == sent_.end()) return;  // of a place that was lost
     const Sent sent = found->second;
     sent_.erase(found);
-    const bool shard = sent.step.kind == Step::Kind::shard;
-    if (shard) {
-        --followers_[sent.to].shards;
+    const bool shards = sent.step.kind == Step::Kind::shards;
+    if (shards) {
+        --followers_[sent.to].asks;
         if (calls_.of(order_[sent.position], sent.step.call).done()) return;  // another place was first
     }
     if (message.type == Message::Type::failure) throw Error(message.text);
     if (sent.step.kind >= Step::Kind::attend) {
         heard(sent, message.data);
-    } else if (shard) {
-        shard_done(sent, message.data);
+    } else if (shards) {
+        shards_done(sent, message.data);
     } else if (sent.step.kind == Step::Kind::collect) {
         noted(sent, message.data);
     } else {
@@ -279,9 +279,9 @@ void Conductor::say(std::size_t node, std::string_view lines) {
     }
 }
 
-void Conductor::shard_done(const Sent& sent, const Bytes& data) {
+void Conductor::shards_done(const Sent& sent, const Bytes& data) {
     auto& call = calls_.of(order_[sent.position], sent.step.call);
-    if (!call.answer(sent.step.shard, data, steady_seconds())) {
+    if (!call.answer({sent.step.first, sent.step.count}, data, steady_seconds())) {
         if (is_there(sent.to, sent.position))
             hand_out(sent.to, sent.position, call);  // who was told to stop gets no more
         return;

@@ -83,7 +83,7 @@ private:
         enum class State { idle, asked, waiting, done };
         State state = State::idle;
         Report at;
-        std::size_t shards = 0;  // handed out and not answered
+        std::size_t asks = 0;  // for shards, handed out and not answered
     };
     /// A step that was sent and not answered.
     struct Sent {
@@ -121,7 +121,7 @@ private:
     void reported(const Sent& sent, const Bytes& data);
     void let_go_of_taken(std::size_t position, std::uint32_t before);
     void say(std::size_t node, std::string_view lines);
-    void shard_done(const Sent& sent, const Bytes& data);
+    void shards_done(const Sent& sent, const Bytes& data);
     void noted(const Sent& sent, const Bytes& data);
     void lose(const std::set<PlaceKey>& gone);
     void enforce();

@@ -19,7 +19,8 @@ MasterRenderer::MasterRenderer(Job job, Carrier& carrier, Done done)
       done_(std::move(done)),
       channels_(carrier, job_.run, 0, counters_),
       edge_{job_.image, job_.credit, {}},
-      unanswered_(job_.tiles.size()) {}
+      left_(work_in(job_.tiles)),
+      unanswered_(left_) {}
 
 void MasterRenderer::use(const Plan& plan) {
     if (!std::exchange(planned_, true)) {
@@ -36,44 +37,61 @@ void MasterRenderer::use(const Plan& plan) {
 void MasterRenderer::append(const std::vector<Tile>& tiles) {
     if (draining_) return;
     job_.tiles.insert(job_.tiles.end(), tiles.begin(), tiles.end());
-    unanswered_ += tiles.size();
+    left_ += work_in(tiles);
+    unanswered_ += work_in(tiles);
 }
 
-// How many tiles go together: of quick ones, several, but fewer towards the end (guided self-scheduling,
+// How many blocks of samples go together: of quick ones, several, but fewer towards the end (guided self-scheduling,
 // Polychronopoulos & Kuck 1987).
 std::size_t MasterRenderer::together() const {
-    const auto left = job_.tiles.size() - next_;
-    const double seconds = replicas_.scheduler().service() * double(replicas_.size());  // of one tile at one place
-    const auto most = std::min(job_.credit.questions / job_.credit.bundles, left / (shares * replicas_.size()));
+    const double seconds = replicas_.scheduler().service() * double(replicas_.size());  // of one block at one place
+    const auto most = std::min(job_.credit.questions / job_.credit.bundles, left_ / (shares * replicas_.size()));
     if (seconds <= 0 || most < 2) return 1;
-    const auto quick = std::max<std::size_t>(1, std::size_t(std::min(worth_the_way / seconds, double(most))));
-    std::size_t count = 1, bytes = 0;
-    while (count < quick) {
-        bytes += answers_to(job_.tiles[next_ + count], job_.width) * sizeof(Rgb);
-        if (bytes > most_bytes) break;
-        ++count;
-    }
-    return count;
+    return std::max<std::size_t>(1, std::size_t(std::min(worth_the_way / seconds, double(most))));
 }
 
+const Tile& MasterRenderer::next_tile() const { return pieces_.empty() ? job_.tiles[next_] : pieces_.back(); }
+
+void MasterRenderer::pass_next_tile() {
+    if (pieces_.empty())
+        ++next_;
+    else
+        pieces_.pop_back();
+}
+
+// What goes together. A group of blocks for which there is no time goes block by block.
 std::vector<Tile> MasterRenderer::take_next() {
     if (!alone_.empty()) {
         const Tile tile = alone_.back();
         alone_.pop_back();
         return {tile};
     }
-    const auto first = job_.tiles.begin() + std::ptrdiff_t(next_);
-    std::vector<Tile> tiles(first, first + std::ptrdiff_t(together()));
-    next_ += tiles.size();
+    const std::size_t most = together();
+    std::vector<Tile> tiles;
+    std::size_t bytes = 0;
+    for (std::size_t blocks = 0; next_ < job_.tiles.size() || !pieces_.empty();) {
+        const Tile tile = next_tile();
+        bytes += answers_to(tile, job_.width) * sizeof(Rgb);
+        if (!tiles.empty() && (blocks + tile.blocks() > most || bytes > most_bytes)) break;
+        pass_next_tile();
+        if (tile.blocks() > most) {
+            const auto pieces = one_by_one(tile);
+            pieces_.insert(pieces_.end(), pieces.rbegin(), pieces.rend());
+            bytes = 0;
+            continue;
+        }
+        tiles.push_back(tile);
+        blocks += tile.blocks();
+    }
     return tiles;
 }
 
 void MasterRenderer::hand_out() {
-    const auto left = [&] { return job_.tiles.size() - next_ + alone_.size(); };
-    replicas_.foresee(left());
-    while (left() > 0 && replicas_.has_credit()) {
+    replicas_.foresee(left_);
+    while (left_ > 0 && replicas_.has_credit()) {
         auto tiles = std::make_shared<const std::vector<Tile>>(take_next());
-        replicas_.foresee(left());
+        left_ -= work_in(*tiles);
+        replicas_.foresee(left_);
         replicas_.send({std::move(tiles), this, 0, job_.width});
     }
     replicas_.tick();
@@ -114,7 +132,9 @@ void MasterRenderer::settle(std::chrono::nanoseconds most) {
 void MasterRenderer::drain() {
     draining_ = true;
     next_ = job_.tiles.size();
+    pieces_.clear();
     alone_.clear();
+    left_ = 0;
     replicas_.drop_waiting();
 }
 
@@ -122,7 +142,7 @@ void MasterRenderer::answered(const Bundle<Tile>& bundle, std::vector<Rgb> pixel
     std::span<const Rgb> rest = pixels;
     for (const Tile& tile : *bundle.questions) {
         const std::size_t own = answers_to(tile, job_.width);
-        --unanswered_;
+        unanswered_ -= tile.blocks();
         done_(tile, rest.first(own));
         rest = rest.subspan(own);
     }
@@ -137,9 +157,10 @@ void MasterRenderer::set_aside(const Bundle<Tile>& bundle, const std::string& wh
     const auto& tiles = *bundle.questions;
     if (tiles.size() > 1 && !draining_) {
         alone_.insert(alone_.end(), tiles.rbegin(), tiles.rend());
+        left_ += work_in(tiles);
         return;
     }
-    unanswered_ -= tiles.size();
+    unanswered_ -= work_in(tiles);
     set_aside_.push_back(why);
 }
 

@@ -23,13 +23,13 @@ public:
         std::uint32_t image = 0;  // the renderer's node
         std::uint32_t width = 1;  // colours per pixel
         std::vector<Tile> tiles;  // in the order of handing out
-        Credit credit{3, 3};      // of a place: more tiles than bundles, and quick ones go together
+        Credit credit{3, 3};      // of a place: more blocks of samples than bundles: quick ones go together
         bool double_tail = true;  // idle places do the last tiles once more
         bool check = false;       // tiles that are done twice must have the same bits
         std::function<double()> clock = steady_seconds;
     };
     MasterRenderer(Job job, Carrier& carrier, Done done);
-    /// As many quick tiles as should go together at most, for the credit of jobs.
+    /// As many blocks of samples as should go together at most, for the credit of jobs.
     static constexpr std::size_t most_together = 8;
 
     /// From now on, these places render.
@@ -58,6 +58,8 @@ private:
     void returned(Bundle<Tile>) override {}  // a multiplexer keeps what it has taken
     void set_aside(const Bundle<Tile>& bundle, const std::string& why) override;
     std::size_t together() const;
+    const Tile& next_tile() const;
+    void pass_next_tile();
     std::vector<Tile> take_next();
     void hand_out();
     void take_in();
@@ -70,9 +72,10 @@ private:
     RemoteChannels<Tile>::Edge edge_;
     Multiplexer<Tile> replicas_;
     bool planned_ = false, draining_ = false;
-    std::size_t next_ = 0;     // tile to hand out
-    std::vector<Tile> alone_;  // to be handed out before it, the last one first
-    std::size_t unanswered_;
+    std::size_t next_ = 0;           // tile to hand out
+    std::vector<Tile> pieces_;       // to be handed out before it, the last one first
+    std::vector<Tile> alone_;        // and before those, one by one
+    std::size_t left_, unanswered_;  // blocks of samples: not handed out, not there
     std::vector<std::string> set_aside_;
     std::string error_;
 };

@@ -82,7 +82,7 @@ void Place::answer_alone(const Message& ask, Message& reply) {
     const Tile* at = nullptr;  // none: what a light operator threw has its name already
     try {
         if (const auto* steps = std::get_if<Questions<Step>>(&ask.questions)) {
-            reply.data = preparer_.shard(ask.node, (*steps)->front());
+            reply.data = preparer_.shards(ask.node, (*steps)->front());
         } else if (std::holds_alternative<Questions<Tile>>(ask.questions)) {
             reply.answers = pixel_answers(ask, at);
         } else {

@@ -79,7 +79,7 @@ template <class Question>
 void Multiplexer<Question>::add(Entry entry) {
     const auto& questions = *entry.bundle.questions;
     const auto bytes = questions.size() * sizeof(Question) + answers_to(questions, entry.bundle.width) * sizeof(Rgb);
-    const Scheduler::Added added{next_work_, questions.size(), bytes, region_of(questions.front())};
+    const Scheduler::Added added{next_work_, work_in(questions), bytes, region_of(questions.front())};
     entries_.emplace(next_work_++, std::move(entry));
     tell(added);
 }

@@ -70,7 +70,7 @@ public:
 class Asker final : public Renderer {
 public:
     explicit Asker(const NodeContext& here) : inputs_(here.inputs()), questions_(some_questions()) {}
-    void render(const Tile&, std::span<Rgb>) const override {
+    void render_block(const Tile&, std::span<Rgb>) const override {
         std::vector<Rgb> answers(bundle);
         for (std::size_t i = 0; i < asks / in_flight; ++i) {
             Port& port = *inputs_[0].port;

@@ -61,7 +61,7 @@ public:
         : inputs_(here.inputs()),
           questions_(static_cast<std::size_t>(here.number("questions"))),
           cost_(here.number("milliseconds") * 1e-3, std::move(slowness)) {}
-    void render(const Tile& tile, std::span<Rgb> pixels) const override {
+    void render_block(const Tile& tile, std::span<Rgb> pixels) const override {
         cost_.pay(1);
         if (inputs_.empty()) return;
         std::vector<Query> questions(questions_);

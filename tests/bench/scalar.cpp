@@ -71,7 +71,7 @@ public:
 class Watch final : public Renderer {
 public:
     explicit Watch(const NodeContext& here) : inputs_(here.inputs()) {}
-    void render(const Tile&, std::span<Rgb> pixels) const override {
+    void render_block(const Tile&, std::span<Rgb> pixels) const override {
         const std::vector<Query> questions(patients);
         const double begun = thread_seconds();
         const Part part = ask(inputs_, 0, questions);

@@ -11,26 +11,32 @@
 namespace lightnet {
 namespace {
 
-const FilmFormat format{8, 4, {"emission", "direct"}, 40};
+const FilmFormat format{8, 4, {"emission", "direct"}, 300};
 
-// All tiles, with sums that are not exact, so that the order in which they are added shows.
-std::vector<std::pair<Tile, std::vector<Rgb>>> all_tiles() {
-    std::vector<std::pair<Tile, std::vector<Rgb>>> tiles;
-    for (const auto& tile : tiles_of(format.width, format.height, 3, format.samples)) {
-        std::vector<Rgb> pixels(tile.pixels() * format.layers.size());
-        for (std::size_t i = 0; i < pixels.size(); ++i)
-            pixels[i] = Rgb{0.1f, 1e-3f, 7.7f} * (1.f + 0.37f * static_cast<float>(i + tile.block() + tile.x));
-        tiles.emplace_back(tile, std::move(pixels));
-    }
-    return tiles;
+// Sums that are not exact, so that the order in which they are added shows.
+std::vector<Rgb> rendered(const Tile& tile) {
+    std::vector<Rgb> pixels(tile.pixels() * format.layers.size());
+    for (const Tile& block : one_by_one(tile))
+        for (std::size_t i = 0; i < pixels.size(); ++i) {
+            const auto colour = Rgb{0.1f, 1e-3f, 7.7f} * (1.f + 0.37f * static_cast<float>(i + block.block() + tile.x));
+            pixels[i] = block.block() == tile.block() ? colour : pixels[i] + colour;
+        }
+    return pixels;
 }
 
-// Some blocks come before their turn, so that they have to wait.
+std::vector<Tile> all_tiles() { return tiles_of(format.width, format.height, 3, format.samples); }
+
+// Some tiles come before their turn, and some block by block and not whole, so that they have to wait.
 Film half_a_film() {
     Film film(format);
     const auto tiles = all_tiles();
-    for (std::size_t i = 0; i < tiles.size(); ++i)
-        if (i % 3 != 1) film.add(tiles[i].first, tiles[i].second);
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+        if (i % 3 == 0) film.add(tiles[i], rendered(tiles[i]));
+        if (i % 3 != 1) continue;
+        const auto blocks = one_by_one(tiles[i]);
+        for (std::size_t k = 0; k < blocks.size(); ++k)
+            if (k % 4 != 2 && blocks.size() > 1) film.add(blocks[k], rendered(blocks[k]));
+    }
     return film;
 }
 
@@ -47,10 +53,10 @@ TEST(Checkpoint, GoesOnToTheSameBytes) {
     Film whole(format), resumed(format);
     resumed.restore(found->film);
     std::size_t had = 0;
-    for (const auto& [tile, pixels] : all_tiles()) {
-        whole.add(tile, pixels);
+    for (const auto& tile : all_tiles()) {
+        whole.add(tile, rendered(tile));
         had += resumed.has(tile);
-        EXPECT_EQ(resumed.add(tile, pixels), !half_a_film().has(tile));
+        EXPECT_EQ(resumed.add(tile, rendered(tile)), !half_a_film().has(tile));
     }
     EXPECT_GT(had, 0u);
     EXPECT_TRUE(resumed.complete());
@@ -71,6 +77,28 @@ TEST(Checkpoint, ThatIsDamagedAnywhereIsRefused) {
         std::ofstream(path, std::ios::binary) << bytes.substr(0, i);
         EXPECT_THROW(read_checkpoint(path), Error) << i;
     }
+}
+
+TEST(Checkpoint, WithBlocksThatCantWaitDoesNotFit) {
+    const auto refused = [](const auto& spoil) {
+        FilmState state = half_a_film().state();
+        for (auto& part : state.parts) spoil(part);
+        EXPECT_THROW(Film(format).restore(std::move(state)), Error);
+    };
+    refused([](auto& part) { part.next_block = 3; });  // within a group
+    refused([](auto& part) { part.next_block = 40; });
+    const auto sum = [](const auto& part, std::uint32_t blocks) {
+        return FilmState::Sum{blocks, std::vector<Rgb>(std::size_t{part.width} * part.height * 2)};
+    };
+    refused([&](auto& part) { part.waiting = {{19, sum(part, 1)}}; });                     // there is none
+    refused([&](auto& part) { part.waiting = {{16, sum(part, 4)}}; });                     // beyond its group
+    refused([&](auto& part) { part.waiting = {{8, sum(part, 3)}, {10, sum(part, 1)}}; });  // twice
+    refused([&](auto& part) { part.waiting = {{17, sum(part, 0)}}; });
+    refused([&](auto& part) { part.waiting = {{17, {1, {}}}}; });
+    refused([&](auto& part) {  // its turn has come
+        part.next_block = 0;
+        part.waiting = {{0, sum(part, 1)}};
+    });
 }
 
 TEST(Checkpoint, OfAnotherFormatDoesNotFit) {

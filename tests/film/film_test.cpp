@@ -11,20 +11,29 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "core/light/renderer.hpp"
 #include "tests/film/pictures.hpp"
 
 namespace lightnet {
 namespace {
 
-const FilmFormat format{37, 21, {"emission", "direct", "bounce"}, 100};  // 7 blocks, the last one of 4 samples
+// 19 blocks, the last one of 4 samples: groups of 1, 1, 2, 4, 8 and 3.
+const FilmFormat format{37, 21, {"emission", "direct", "bounce"}, 292};
 
-// What a renderer would answer: noise that depends on pixel, block and layer alone.
+// Makes noise that depends on pixel, block and layer alone.
+class Noise final : public Renderer {
+    void render_block(const Tile& tile, std::span<Rgb> pixels) const override {
+        auto next = pixels.begin();
+        for (std::uint32_t y = tile.y; y < tile.y + tile.height; ++y)
+            for (std::uint32_t x = tile.x; x < tile.x + tile.width; ++x)
+                for (const Rgb& colour : noise(format.layers.size(), (y * 64 + x) * 32 + tile.block()))
+                    *next++ = colour;
+    }
+};
+
 std::vector<Rgb> rendered(const Tile& tile) {
-    std::vector<Rgb> pixels;
-    for (std::uint32_t y = tile.y; y < tile.y + tile.height; ++y)
-        for (std::uint32_t x = tile.x; x < tile.x + tile.width; ++x)
-            for (const Rgb& colour : noise(format.layers.size(), (y * 64 + x) * 8 + tile.block()))
-                pixels.push_back(colour);
+    std::vector<Rgb> pixels(tile.pixels() * format.layers.size());
+    Noise().render(tile, pixels);
     return pixels;
 }
 
@@ -48,11 +57,25 @@ TEST(Tiles, CoverEachSampleOfEachPixelOnce) {
     }
 }
 
-TEST(Tiles, AreHandedOutBlockByBlock) {
+TEST(Tiles, AreHandedOutGroupByGroup) {
     const auto all = tiles(8);
     EXPECT_TRUE(std::is_sorted(all.begin(), all.end(),
                                [](const Tile& a, const Tile& b) { return a.first_sample < b.first_sample; }));
-    EXPECT_EQ(all.size(), 7u * 5 * 3);
+    EXPECT_EQ(all.size(), 6u * 5 * 3);
+    std::vector<std::uint32_t> blocks;
+    for (std::size_t i = 0; i < all.size(); i += 15) blocks.push_back(all[i].blocks());
+    EXPECT_THAT(blocks, ::testing::ElementsAre(1, 1, 2, 4, 8, 3));
+}
+
+TEST(Tiles, CanBeDoneBlockByBlock) {
+    const Tile last = tiles(8).back();
+    const auto blocks = one_by_one(last);
+    ASSERT_EQ(blocks.size(), 3u);
+    EXPECT_EQ(blocks[0].first_sample, 256u);
+    EXPECT_EQ(blocks[2].first_sample, 288u);
+    EXPECT_EQ(blocks[1].samples, 16u);
+    EXPECT_EQ(blocks[2].samples, 4u);
+    EXPECT_EQ(blocks[2].x, last.x);
 }
 
 TEST(Tiles, AreNeighboursWhenTheyFollowEachOther) {
@@ -76,6 +99,23 @@ TEST(Film, GivesTheSameBytesInAnyOrderOfArrival) {
     auto backwards = tiles(8);
     std::reverse(backwards.begin(), backwards.end());
     EXPECT_TRUE(picture_of(backwards) == in_order);
+}
+
+// As a launcher does when there is no time for a whole group, or when some are there already.
+TEST(Film, GivesTheSameBytesWhetherGroupsComeAsAWholeOrBlockByBlock) {
+    const Picture in_order = picture_of(tiles(8));
+    for (const unsigned seed : {1u, 2u, 3u, 4u, 5u}) {
+        std::mt19937 random(seed);
+        std::vector<Tile> pieces;
+        for (const Tile& tile : tiles(8)) {
+            const auto blocks = one_by_one(tile);
+            const auto part = random() % 3;  // nothing of it apart, all, or some and then all
+            if (part > 0) pieces.insert(pieces.end(), blocks.begin() + (part == 2 && blocks.size() > 1), blocks.end());
+            if (part != 1) pieces.push_back(tile);
+        }
+        if (seed > 1) std::shuffle(pieces.begin(), pieces.end(), random);
+        EXPECT_TRUE(picture_of(pieces) == in_order) << seed;
+    }
 }
 
 TEST(Film, GivesTheSameBytesForAnyTileSize) {
@@ -111,6 +151,26 @@ TEST(Film, CountsWhatIsNotFiniteAsBlack) {
     film.add({0, 0, 2, 1, 0, 16}, std::vector<Rgb>{{16, 0, 0}, {0, nan, 1}, {0, infinity, 0}, {32, 0, 0}});
     EXPECT_THAT(film.lost(), ::testing::ElementsAre(1, 1));
     EXPECT_EQ(film.picture().beauty, (std::vector<Rgb>{{1, 0, 0}, {2, 0, 0}}));
+}
+
+// No more is lost of it than of single blocks.
+TEST(Film, WantsAGroupBlockByBlockWhenItsSumIsNotFinite) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const auto pixels = [](float r) { return std::vector<Rgb>{{r, 0, 0}, {1, 0, 0}}; };
+    Film film({2, 1, {"emission"}, 64});
+    film.add({0, 0, 2, 1, 0, 16}, pixels(1));
+    film.add({0, 0, 2, 1, 16, 16}, pixels(1));
+    const Tile group{0, 0, 2, 1, 32, 32};
+    EXPECT_FALSE(film.add(group, pixels(nan)));
+    EXPECT_FALSE(film.has(group));
+    EXPECT_EQ(film.more(group), one_by_one(group));
+    EXPECT_TRUE(film.add({0, 0, 2, 1, 48, 16}, pixels(nan)));
+    EXPECT_FALSE(film.complete());
+    EXPECT_TRUE(film.add({0, 0, 2, 1, 32, 16}, pixels(8)));
+    EXPECT_TRUE(film.complete());
+    EXPECT_TRUE(film.more(group).empty());
+    EXPECT_THAT(film.lost(), ::testing::ElementsAre(1));
+    EXPECT_EQ(film.picture().beauty, (std::vector<Rgb>{{10.f / 64, 0, 0}, {4.f / 64, 0, 0}}));
 }
 
 TEST(Film, KeepsWhatIsShownOutOfTheSum) {
@@ -154,6 +214,7 @@ TEST(Film, RefusesTilesThatAreNoneOfItsOwn) {
     refuses({0, 0, 8, 8, 3, 16}, 64);            // no block
     refuses({0, 0, 8, 8, 16, 16}, 64);           // more samples than the last block has
     refuses({0, 0, 8, 8, 32, 16}, 64);           // no such block
+    refuses({0, 0, 8, 8, 0, 20}, 64);            // no group
     refuses({0, 0, 8, 8, 0, 16}, 63);            // a colour is missing
     film.add({0, 0, 4, 4, 0, 16}, std::vector<Rgb>(16));
     refuses({2, 2, 4, 4, 16, 4}, 16);  // of another tiling

@@ -146,7 +146,7 @@ TEST_F(DaemonTest, WithNothingYetIsSentLargeFilesPieceByPiece) {
 
 TEST_F(DaemonTest, ServesOneRunAtATimeAndTellsTheOtherToWait) {
     auto words = launch_words(graph_file("cornell.lua"), folder / "long.exr",
-                              {"--size", "128x128", "--samples", "64", "--progress", "json", "--hosts", hosts_file()});
+                              {"--size", "128x128", "--samples", "256", "--progress", "json", "--hosts", hosts_file()});
     Process first(words);
     ASSERT_TRUE(first.wait_for("\"done\"")) << first.output();
     const auto second = launch_there();

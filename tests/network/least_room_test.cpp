@@ -77,7 +77,7 @@ private:
 class Asking final : public Renderer {
 public:
     explicit Asking(const NodeContext& here) : inputs_(here.inputs()) {}
-    void render(const Tile& tile, std::span<Rgb> pixels) const override {
+    void render_block(const Tile& tile, std::span<Rgb> pixels) const override {
         std::vector<Query> questions(tile.pixels());
         for (std::size_t i = 0; i < questions.size(); ++i)
             questions[i].stream = pixel_key(tile.x, tile.y, std::uint32_t(i));

@@ -13,56 +13,91 @@ namespace {
 
 Bytes one_byte(int value) { return std::make_shared<const std::vector<std::byte>>(1, static_cast<std::byte>(value)); }
 
+// One result of each of these shards.
+Bytes results(const std::vector<int>& values) {
+    std::vector<std::vector<std::byte>> shards;
+    for (const int value : values) shards.push_back(*one_byte(value));
+    return join_shards(shards);
+}
+
+constexpr Shards only(std::uint32_t shard) { return {shard, 1}; }
+
 TEST(Call, HandsEachShardOutOnceAndTheLastOnesToThoseWhoAreIdle) {
     Call call({Report::Kind::map, 0, 5}, false);
-    EXPECT_EQ(call.hand_out({0, 2}), 0u);
-    EXPECT_EQ(call.hand_out({1, 2}), 1u);
+    EXPECT_EQ(call.hand_out({0, 2}), only(0));
+    EXPECT_EQ(call.hand_out({1, 2}), only(1));
     EXPECT_EQ(call.hand_out({2, 2}), std::nullopt) << "two at a time";
-    EXPECT_EQ(call.hand_out({0, 2}), 2u);
+    EXPECT_EQ(call.hand_out({0, 2}), only(2));
     EXPECT_EQ(call.hand_out({1, 2}), std::nullopt) << "as many are left as there are places";
-    EXPECT_EQ(call.hand_out({0, 2}), 3u);
-    EXPECT_EQ(call.hand_out({0, 2}), 4u);
+    EXPECT_EQ(call.hand_out({0, 2}), only(3));
+    EXPECT_EQ(call.hand_out({0, 2}), only(4));
     EXPECT_EQ(call.hand_out({0, 2}), std::nullopt) << "nobody is late";
 }
 
 TEST(Call, HandsOutOnceMoreWhatSomebodyIsLateWith) {
     Call call({Report::Kind::map, 0, 3}, false);
-    for (std::uint32_t shard = 0; shard < 3; ++shard) EXPECT_EQ(call.hand_out({0, 3, 10}), shard);
-    call.answer(0, one_byte(0), 10.1);
+    for (std::uint32_t shard = 0; shard < 3; ++shard) EXPECT_EQ(call.hand_out({0, 3, 10}), only(shard));
+    call.answer(only(0), results({0}), 10.1);
     EXPECT_EQ(call.hand_out({0, 3, 10.15}), std::nullopt) << "it takes as long as the first, and half as long again";
     EXPECT_EQ(call.hand_out({1, 3, 10.25}), std::nullopt) << "only who is idle does what others are at";
-    EXPECT_EQ(call.hand_out({0, 3, 10.25}), 1u);
-    EXPECT_EQ(call.hand_out({0, 3, 10.25}), 2u);
+    EXPECT_EQ(call.hand_out({0, 3, 10.25}), only(1));
+    EXPECT_EQ(call.hand_out({0, 3, 10.25}), only(2));
     EXPECT_EQ(call.hand_out({0, 3, 20}), std::nullopt) << "no shard is done three times at once";
 }
 
 TEST(Call, WaitsForTheFirstShardsWithPatience) {
     Call call({Report::Kind::map, 0, 1}, false);
-    EXPECT_EQ(call.hand_out({0, 2, 10}), 0u);
+    EXPECT_EQ(call.hand_out({0, 2, 10}), only(0));
     EXPECT_EQ(call.hand_out({0, 2, 10.9}), std::nullopt);
-    EXPECT_EQ(call.hand_out({0, 2, 11.1}), 0u);
+    EXPECT_EQ(call.hand_out({0, 2, 11.1}), only(0));
 }
 
 TEST(Call, PutsShardsTogetherInTheirOrderAndCountsTheFirstAnswerOnly) {
     Call call({Report::Kind::map, 0, 2}, false);
     call.hand_out({0}), call.hand_out({0}), call.hand_out({0, 1, 100});
-    EXPECT_FALSE(call.answer(1, one_byte(1)));
-    EXPECT_FALSE(call.answer(1, one_byte(9)));
-    EXPECT_TRUE(call.answer(0, one_byte(0)));
+    EXPECT_FALSE(call.answer(only(1), results({1})));
+    EXPECT_FALSE(call.answer(only(1), results({9})));
+    EXPECT_TRUE(call.answer(only(0), results({0})));
     call.complete_from_shards();
     const Mapped<std::uint8_t> result(call.result());
     EXPECT_THAT(result.all(), testing::ElementsAre(0, 1));
-    EXPECT_FALSE(call.answer(0, one_byte(5))) << "too late";
+    EXPECT_FALSE(call.answer(only(0), results({5}))) << "too late";
 }
 
 TEST(Call, HandsOutAgainWhatALostPlaceHad) {
     Call call({Report::Kind::map, 0, 2}, false);
     call.hand_out({0}), call.hand_out({0});
-    call.take_back(1);
-    EXPECT_EQ(call.hand_out({0}), 1u);
-    EXPECT_EQ(call.hand_out({0, 1, 100}), 0u) << "doubled";
-    call.take_back(0);
+    call.take_back(only(1));
+    EXPECT_EQ(call.hand_out({0}), only(1));
+    EXPECT_EQ(call.hand_out({0, 1, 100}), only(0)) << "doubled";
+    call.take_back(only(0));
     EXPECT_EQ(call.hand_out({0, 1, 0.5}), std::nullopt) << "another place is still at it";
+}
+
+// Fewer towards the end; what is not answered goes to somebody else.
+TEST(Call, HandsOutSeveralShardsTogetherWhileThereAreMany) {
+    Call call({Report::Kind::map, 0, 20}, false);
+    EXPECT_EQ(call.hand_out({0, 2}), (Shards{0, 3}));
+    EXPECT_EQ(call.hand_out({1, 2}), (Shards{3, 2}));
+    EXPECT_FALSE(call.answer({0, 3}, results({0, 1})));
+    EXPECT_EQ(call.missing(), 18u);
+    EXPECT_EQ(call.hand_out({0, 2}), (Shards{2, 1})) << "those that follow it are under way";
+    call.take_back({3, 2});
+    EXPECT_EQ(call.hand_out({0, 2}), (Shards{3, 2}));
+    EXPECT_THROW(call.answer({3, 2}, results({})), Error);
+    EXPECT_THROW(call.answer({3, 2}, results({3, 4, 5})), Error);
+    EXPECT_THROW(call.answer({3, 2}, one_byte(3)), Error);
+    std::vector<int> all{0, 1};
+    for (int i = 2; i < 20; ++i) all.push_back(i);
+    EXPECT_FALSE(call.answer({2, 1}, results({2})));
+    EXPECT_FALSE(call.answer({3, 2}, results({3, 4})));
+    while (const auto some = call.hand_out({0, 2})) {
+        const std::vector<int> values(all.begin() + some->first, all.begin() + some->first + some->count);
+        if (call.answer(*some, results(values))) call.complete_from_shards();
+    }
+    ASSERT_TRUE(call.done());
+    const Mapped<std::uint8_t> result(call.result());
+    EXPECT_EQ(std::vector<int>(result.begin(), result.end()), all);
 }
 
 TEST(Calls, NamesANodeThatDoesNotPrepareAlikeEverywhere) {
@@ -85,6 +120,13 @@ Bytes two_lists(int first, int second) {
     return join_shards(std::span<const std::vector<std::byte>>(lists));
 }
 
+// The results of shards that gave these lists.
+Bytes done(const std::vector<Bytes>& lists) {
+    std::vector<std::vector<std::byte>> shards;
+    for (const auto& list : lists) shards.push_back(*list);
+    return join_shards(shards);
+}
+
 std::vector<int> values(const Bytes& result) {
     std::vector<int> values;
     for (const auto value : Mapped<std::uint8_t>(result)) values.push_back(value);
@@ -94,9 +136,10 @@ std::vector<int> values(const Bytes& result) {
 TEST(Call, GivesEachSectorItsOwnPartInTheOrderOfShards) {
     Call call({Report::Kind::sectors, 0, 2}, false, 2);
     call.hand_out({0}), call.hand_out({0});
-    EXPECT_THROW(call.answer(0, join_shards(std::span<const std::vector<std::byte>>())), Error) << "of no sector";
-    EXPECT_FALSE(call.answer(1, two_lists(3, 4)));
-    EXPECT_TRUE(call.answer(0, two_lists(1, 2)));
+    EXPECT_THROW(call.answer(only(0), results({})), Error);
+    EXPECT_THROW(call.answer(only(0), done({results({})})), Error) << "of no sector";
+    EXPECT_FALSE(call.answer(only(1), done({two_lists(3, 4)})));
+    EXPECT_TRUE(call.answer(only(0), done({two_lists(1, 2)})));
     call.complete_from_shards();
     EXPECT_EQ(values(call.result(0)), (std::vector{1, 3}));
     EXPECT_EQ(values(call.result(1)), (std::vector{2, 4}));
@@ -128,9 +171,11 @@ protected:
     void do_all() {
         auto& call = calls->reported(1, at);
         EXPECT_EQ(&call, &calls->reported(2, at)) << "their calls are the same";
-        while (const auto shard = call.hand_out({0})) {
-            const int value = static_cast<int>(*shard);
-            if (call.answer(*shard, two_lists(value, 10 + value))) {
+        while (const auto some = call.hand_out({0})) {
+            std::vector<Bytes> lists;
+            for (auto shard = some->first; shard < some->first + some->count; ++shard)
+                lists.push_back(two_lists(static_cast<int>(shard), 10 + static_cast<int>(shard)));
+            if (call.answer(*some, done(lists))) {
                 call.complete_from_shards();
                 calls->keep(0, 0);
                 return;
@@ -166,7 +211,7 @@ TEST_F(SectorCalls, ComputeAgainWhatTheDiskHasLostOrSpoiled) {
 TEST_F(SectorCalls, StayInMemoryWhereNothingElseKeepsThem) {
     Calls alone(graph, "", nullptr);
     auto& call = alone.reported(1, at);
-    for (std::uint32_t shard = 0; shard < 3; ++shard) call.answer(shard, two_lists(1, 2));
+    for (std::uint32_t shard = 0; shard < 3; ++shard) call.answer(only(shard), done({two_lists(1, 2)}));
     call.complete_from_shards();
     alone.all_have(0, 0);
     EXPECT_NE(alone.result(2, 0), nullptr);

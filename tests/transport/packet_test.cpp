@@ -46,8 +46,12 @@ Message tile_ask() {
 
 Message step_ask() {
     Message message;
-    message.questions = Questions<Step>(std::make_shared<const std::vector<Step>>(std::vector<Step>{
-        {.kind = Step::Kind::go_on, .call = 3, .shard = 2, .data = content_hash(std::string_view("photons"))}}));
+    message.questions = Questions<Step>(std::make_shared<const std::vector<Step>>(
+        std::vector<Step>{{.kind = Step::Kind::go_on,
+                           .call = 3,
+                           .first = 2,
+                           .count = 5,
+                           .data = content_hash(std::string_view("photons"))}}));
     return message;
 }
 

@@ -1,0 +1,23 @@
+#include "core/light/renderer.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <vector>
+
+namespace lightnet {
+
+void Renderer::render(const Tile& tile, std::span<Rgb> pixels) const {
+    if (tile.blocks() == 1) return render_block(tile, pixels);
+    std::vector<Rgb> block;
+    for (const Tile& next : one_by_one(tile)) {
+        if (next.block() == tile.block()) {
+            render_block(next, pixels);
+            continue;
+        }
+        block.assign(pixels.size(), {});
+        render_block(next, block);
+        std::transform(pixels.begin(), pixels.end(), block.begin(), pixels.begin(), std::plus<>());
+    }
+}
+
+}  // namespace lightnet
