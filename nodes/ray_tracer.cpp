@@ -108,7 +108,7 @@ private:
         for (std::size_t pixel = first; pixel < last; ++pixel) {
             const auto x = tile.x + static_cast<std::uint32_t>(pixel % tile.width);
             const auto y = tile.y + static_cast<std::uint32_t>(pixel / tile.width);
-            if (x % tile.stride || y % tile.stride) continue;
+            if (!tile.looks_at(x, y)) continue;
             const Key key = pixel_key(seed_, x, y);
             for (std::uint32_t s = 0; s < tile.samples; ++s) {
                 const Look& look = looks.emplace_back(Look{pixel, key, tile.first_sample + s});

@@ -120,11 +120,12 @@ void pack_numbers(const char* name, const std::byte* from, std::size_t step, std
     }
 }
 
+// `more`: other entries that will follow.
 template <class Question>
-void pack(const std::vector<Question>& questions, Buffer& body) {
+BodyWriter pack(const std::vector<Question>& questions, Buffer& body, std::size_t more = 0) {
     const std::size_t count = questions.size();
     body.reserve(count * sizeof(Question) + 256);
-    BodyWriter writer(body, columns<Question>.size());
+    BodyWriter writer(body, columns<Question>.size() + more);
     for (const auto& column : columns<Question>) {
         const auto* from = reinterpret_cast<const std::byte*>(questions.data()) + column.offset;
         if (column.number)
@@ -133,6 +134,7 @@ void pack(const std::vector<Question>& questions, Buffer& body) {
             copy_column(column.size, writer.room(column.name, count * column.size).data(), column.size, from,
                         sizeof(Question), count);
     }
+    return writer;
 }
 
 /// A column as it lies in a body: its entries, or the number that they all are.
@@ -170,7 +172,16 @@ void write(const Found& found, const Column& column, std::byte* to, std::size_t 
 
 void pack_columns(const std::vector<Query>& questions, Buffer& body) { pack(questions, body); }
 void pack_columns(const std::vector<Tile>& tiles, Buffer& body) { pack(tiles, body); }
-void pack_columns(const std::vector<Step>& steps, Buffer& body) { pack(steps, body); }
+void pack_columns(const std::vector<Step>& steps, const Bytes& data, Buffer& body) {
+    auto writer = pack(steps, body, data ? 1 : 0);
+    if (data) writer.bytes("result", *data);
+}
+
+Bytes unpack_data(View body) {
+    const BodyReader map(body);
+    const auto data = map.good() ? map.bytes("result") : std::nullopt;
+    return data ? std::make_shared<const std::vector<std::byte>>(data->begin(), data->end()) : nullptr;
+}
 
 template <class Question>
 std::optional<Questions<Question>> unpack_columns(std::size_t count, View body) {

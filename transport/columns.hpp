@@ -18,7 +18,11 @@ inline constexpr std::size_t most_questions = 1 << 16;  // in one bundle
 
 void pack_columns(const std::vector<Query>& questions, std::vector<std::byte>& body);
 void pack_columns(const std::vector<Tile>& tiles, std::vector<std::byte>& body);
-void pack_columns(const std::vector<Step>& steps, std::vector<std::byte>& body);
+/// `data`: what the steps name, if it goes along.
+void pack_columns(const std::vector<Step>& steps, const Bytes& data, std::vector<std::byte>& body);
+
+/// What goes along with steps; null: nothing.
+Bytes unpack_data(std::span<const std::byte> body);
 
 /// Reads `count` questions. None: there are others in `body`, or something else. Makes room only for what is there.
 template <class Question>

@@ -78,7 +78,7 @@ Buffer write_header(const Header& header, View body) {
 bool sane(const Tile& tile) {
     constexpr std::uint32_t most = 1 << 16;
     return tile.width > 0 && tile.height > 0 && tile.pixels() <= most && tile.x < most && tile.y < most &&
-           tile.samples > 0 && tile.stride > 0 && tile.samples <= samples_per_block * blocks_per_group &&
+           tile.samples > 0 && tile.samples <= samples_per_block * blocks_per_group &&
            tile.first_sample % samples_per_block == 0;
 }
 
@@ -164,7 +164,10 @@ Packet pack(const Message& message, std::uint32_t place) {
         header.fill = static_cast<std::uint32_t>(message.asker);
         header.service_ns = static_cast<std::uint32_t>(message.asker >> 32);
         header.count = static_cast<std::uint32_t>(questions->size());
-        pack_columns(*questions, body);
+        if constexpr (std::is_same_v<decltype(questions), const Questions<Step>&>)
+            pack_columns(*questions, goes_along(message.data) ? message.data : nullptr, body);
+        else
+            pack_columns(*questions, body);
     };
     if (message.type == Message::Type::failure) {
         header.type = Type::failure;
@@ -200,6 +203,7 @@ std::optional<Message> unpack(View header_bytes, View body) {
             return message;
         case Type::ask_step:
             if (!take_questions<Step>(*header, body, message)) return std::nullopt;
+            message.data = unpack_data(body);
             return message;
         case Type::data: {
             const BodyReader map(body);

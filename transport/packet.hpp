@@ -115,6 +115,10 @@ std::optional<Header> peek_header(std::span<const std::byte> header);
 /// The version a header claims, if it is a header at all: for a refusal that names it.
 std::optional<std::uint16_t> claimed_version(std::span<const std::byte> header);
 
+/// What a step names, a result, goes along with it when it is small. Else it must have been brought to the host before,
+/// where all places share it.
+inline bool goes_along(const Bytes& result) { return result && result->size() <= 64000; }
+
 /// An ask, a reply or a failure, for `place` of a host.
 Packet pack(const Message& message, std::uint32_t place);
 /// Reads it back; the route is left empty. None: damaged, or sizes that don't fit.

@@ -28,15 +28,20 @@ constexpr Blocks group_of(std::uint32_t block) {
     return {block / count * count, count};
 }
 
-/// One block of samples, or a whole group of them, for a rectangle of pixels: the unit of work of a renderer.
+/// One block of samples, or a whole group of them, for a rectangle of pixels: the unit of work of a renderer. In a
+/// rehearsal only pixels whose x and y are multiples of the stride are looked at, and nobody wants to see them.
 struct Tile {
     std::uint32_t x = 0, y = 0;  // of the upper left pixel, in the picture
     std::uint32_t width = 0, height = 0;
     std::uint32_t first_sample = 0;  // a multiple of samples_per_block
     std::uint32_t samples = 0;       // 1 … samples_per_block, or as many as the group has
-    std::uint32_t stride = 1;        // only pixels whose x and y are multiples of it are wanted (for rehearsals)
+    std::uint32_t stride = 0;        // of a rehearsal, see below; 0: it is for the picture
 
     std::size_t pixels() const { return std::size_t{width} * height; }
+    bool rehearses() const { return stride > 0; }
+    bool looks_at(std::uint32_t px, std::uint32_t py) const {
+        return stride == 0 || (px % stride == 0 && py % stride == 0);
+    }
     std::uint32_t block() const { return first_sample / samples_per_block; }
     std::uint32_t blocks() const { return (samples + samples_per_block - 1) / samples_per_block; }
     friend bool operator==(const Tile&, const Tile&) = default;

@@ -139,9 +139,8 @@ public:
 
     void render_block(const Tile& tile, std::span<Rgb> pixels) const override {
         std::vector<std::size_t> wanted;
-        for (std::size_t pixel = 0; pixel < tile.pixels(); ++pixel)
-            if ((tile.x + pixel % tile.width) % tile.stride == 0 && (tile.y + pixel / tile.width) % tile.stride == 0)
-                wanted.push_back(pixel);
+        for (std::uint32_t pixel = 0; pixel < tile.pixels(); ++pixel)
+            if (tile.looks_at(tile.x + pixel % tile.width, tile.y + pixel / tile.width)) wanted.push_back(pixel);
         std::vector<Rgb> seen(wanted.size() * tile.samples);
         const auto look = [&](std::size_t i) { return look_at(tile, wanted[i / tile.samples], i % tile.samples); };
         wrapped_->answer(look, seen);

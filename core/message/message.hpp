@@ -94,7 +94,9 @@ inline std::size_t questions_of(const Message& message) {
 
 /// How many colours answer one question when each has `width`.
 inline std::size_t answers_to(const Query&, std::size_t width) { return width; }
-inline std::size_t answers_to(const Tile& tile, std::size_t width) { return tile.pixels() * width; }
+inline std::size_t answers_to(const Tile& tile, std::size_t width) {
+    return tile.rehearses() ? 0 : tile.pixels() * width;
+}
 
 template <class Question>
 std::size_t answers_to(const std::vector<Question>& questions, std::size_t width) {

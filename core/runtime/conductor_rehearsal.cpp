@@ -10,7 +10,7 @@
 namespace lightnet {
 namespace {
 
-constexpr std::size_t tiles_per_place = 4;  // small ones
+constexpr std::uint32_t tiles_per_place = 4;  // small ones, or bundles of them
 
 }  // namespace
 
@@ -42,7 +42,7 @@ void Conductor::begin_rehearsal(std::uint32_t call) {
     job.image = static_cast<std::uint32_t>(renderer_of(*options_.graph, *options_.registry));
     job.width = options_.width;
     job.tiles = rehearsal_tiles(*options_.graph, *options_.registry, calls_.of(order_[done_], call).what().count);
-    job.credit = {tiles_per_place, tiles_per_place};
+    job.credit = {tiles_per_place, tiles_per_place * MasterRenderer::most_together};
     job.double_tail = false;  // what is still under way at its end would note questions in the next rehearsal
     ++epoch_;
     rehearsing_.emplace();

@@ -8,8 +8,9 @@ namespace lightnet {
 namespace {
 
 constexpr double worth_the_way = 0.1;    // seconds of work: beside them, some hundred µs of sending are little
+constexpr double soon_enough = 1;        // seconds until a group of blocks is there
 constexpr std::size_t most_bytes = 4e6;  // of an answer of several tiles
-constexpr std::size_t shares = 8;        // of what is left, for each place: who ends last keeps nobody waiting long
+constexpr std::size_t shares = 4;        // of what is left, for each place: who ends last keeps nobody waiting long
 
 }  // namespace
 
@@ -41,13 +42,13 @@ void MasterRenderer::append(const std::vector<Tile>& tiles) {
     unanswered_ += work_in(tiles);
 }
 
-// How many blocks of samples go together: of quick ones, several, but fewer towards the end (guided self-scheduling,
-// Polychronopoulos & Kuck 1987).
-std::size_t MasterRenderer::together() const {
+// How many blocks of samples go together: fewer towards the end (guided self-scheduling, Polychronopoulos & Kuck 1987).
+MasterRenderer::Together MasterRenderer::together() const {
     const double seconds = replicas_.scheduler().service() * double(replicas_.size());  // of one block at one place
     const auto most = std::min(job_.credit.questions / job_.credit.bundles, left_ / (shares * replicas_.size()));
-    if (seconds <= 0 || most < 2) return 1;
-    return std::max<std::size_t>(1, std::size_t(std::min(worth_the_way / seconds, double(most))));
+    if (seconds <= 0 || most < 2) return {};
+    const auto within = [&](double time) { return std::size_t(std::max(1.0, std::min(time / seconds, double(most)))); };
+    return {within(worth_the_way), within(soon_enough)};
 }
 
 const Tile& MasterRenderer::next_tile() const { return pieces_.empty() ? job_.tiles[next_] : pieces_.back(); }
@@ -59,22 +60,23 @@ void MasterRenderer::pass_next_tile() {
         pieces_.pop_back();
 }
 
-// What goes together. A group of blocks for which there is no time goes block by block.
+// What goes together: one tile, or several quick ones. A group of blocks for which there is no time goes block by
+// block.
 std::vector<Tile> MasterRenderer::take_next() {
     if (!alone_.empty()) {
         const Tile tile = alone_.back();
         alone_.pop_back();
         return {tile};
     }
-    const std::size_t most = together();
+    const Together most = together();
     std::vector<Tile> tiles;
-    std::size_t bytes = 0;
-    for (std::size_t blocks = 0; next_ < job_.tiles.size() || !pieces_.empty();) {
+    std::size_t blocks = 0, bytes = 0;
+    while (next_ < job_.tiles.size() || !pieces_.empty()) {
         const Tile tile = next_tile();
         bytes += answers_to(tile, job_.width) * sizeof(Rgb);
-        if (!tiles.empty() && (blocks + tile.blocks() > most || bytes > most_bytes)) break;
+        if (!tiles.empty() && (blocks + tile.blocks() > most.quick || bytes > most_bytes)) break;
         pass_next_tile();
-        if (tile.blocks() > most) {
+        if (tile.blocks() > most.of_group) {
             const auto pieces = one_by_one(tile);
             pieces_.insert(pieces_.end(), pieces.rbegin(), pieces.rend());
             bytes = 0;

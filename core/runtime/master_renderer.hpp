@@ -57,7 +57,11 @@ private:
     void failed(const Bundle<Tile>& bundle, const std::string& why) override;
     void returned(Bundle<Tile>) override {}  // a multiplexer keeps what it has taken
     void set_aside(const Bundle<Tile>& bundle, const std::string& why) override;
-    std::size_t together() const;
+    struct Together {              // blocks
+        std::size_t quick = 1;     // of several tiles
+        std::size_t of_group = 1;  // of one
+    };
+    Together together() const;
     const Tile& next_tile() const;
     void pass_next_tile();
     std::vector<Tile> take_next();

@@ -110,12 +110,14 @@ std::vector<Rgb> Place::pixel_answers(const Message& message, const Tile*& at) {
     const std::size_t layers = network_.width_of(message.node);
     if (network_.kind_of(message.node).role != Role::image || message.width != layers)
         throw Error("was asked for pixels in a way that its graph does not have");
-    std::vector<Rgb> pixels(answers_to(tiles, layers));
+    std::vector<Rgb> pixels(answers_to(tiles, layers)), unseen;
     std::size_t first = 0;
     for (const auto& tile : tiles) {
         at = &tile;
-        const std::size_t size = tile.pixels() * layers;
-        assembly_.renderer(message.node).render(tile, std::span(pixels).subspan(first, size));
+        const std::size_t size = answers_to(tile, layers);
+        if (tile.rehearses()) unseen.assign(tile.pixels() * layers, {});
+        assembly_.renderer(message.node)
+            .render(tile, tile.rehearses() ? std::span(unseen) : std::span(pixels).subspan(first, size));
         first += size;
         ++counters_.tiles;
     }
