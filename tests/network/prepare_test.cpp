@@ -73,6 +73,42 @@ TEST(Prepare, GoesOnWhenAHostLeavesInTheMiddle) {
     }
 }
 
+// Has much done in little pieces, some of which take long or have large results.
+class Bulky final : public LightOp {
+public:
+    explicit Bulky(const NodeContext&) {}
+    void prepare(Services& services) override {
+        const auto made = services.map<std::uint64_t>(60, [](std::size_t shard, std::vector<std::uint64_t>& out) {
+            for (std::size_t i = 0; i < (shard % 20 == 3 ? 600'000 : shard); ++i) out.push_back(child(7, shard, i));
+        });
+        services.say(to_hex(content_hash(std::as_bytes(made.all()))) + " of " + std::to_string(made.shards()));
+    }
+    void light(std::span<const Query>, std::span<Rgb>) const override {}
+};
+
+TEST(Prepare, PutsShardsTogetherThoughPlacesDoOnlySomeOfThoseThatTheyAreAskedFor) {
+    Kind bulky{.name = "Bulky", .help = "for tests", .prepares = true};
+    bulky.make_light = [](const NodeContext& here) { return std::make_unique<Bulky>(here); };
+    auto kinds = standard_nodes();
+    kinds.push_back(bulky);
+    const auto nodes = std::vector{node("scene", "Scene", {Value{std::string("none.pbrt")}}), node("bulk", "Bulky", {}),
+                                   node("image", "RayTracer", {Value{NodeRef{"bulk"}}}, test::seen())};
+    const Learning learning(Registry(std::move(kinds)), nodes);
+    std::vector<std::string> expected;
+    SerialRun(*learning.network).prepare("", nullptr, [&](const std::string& line) { expected.push_back(line); });
+    ASSERT_EQ(expected.size(), 1u);
+    learning.threaded(plan(learning.network->graph, learning.registry, {}, {{"", 3}}), {});
+    EXPECT_EQ(learning.said, expected);
+    const test::Folder folder;
+    HostThread one(learning.registry, 1, folder.file("one")), two(learning.registry, 1, folder.file("two"));
+    const std::atomic<bool> never{false};
+    Cluster cluster(cluster_of(learning, {one.endpoint(), two.endpoint()}));
+    cluster.gather(test::slowdown * 5s, never);
+    learning.networked(cluster);
+    EXPECT_EQ(learning.said, expected);
+    cluster.finish();
+}
+
 // A daemon in a process of its own, which can be killed.
 class LearningDaemon {
 public:

@@ -25,7 +25,8 @@ struct World {
     std::uint32_t hosts = 4;
     std::uint32_t places_per_host = 2;
     std::size_t tiles = 60;
-    double seconds_per_tile = 1;  // of the fastest; others take up to eight times as long
+    std::uint32_t blocks = 1;     // of samples, of each tile: at most a group of them
+    double seconds_per_tile = 1;  // and block, of the fastest; others take up to eight times as long
     double delay = 0.005;         // of each message, at most
     double loss = 0;              // part of all messages
     double twice = 0;             // part of all replies
@@ -234,7 +235,7 @@ private:
     void begin(Event& event, Host& host) {
         auto& busy = host.busy_until[event.place];
         busy = std::max({busy, now_, host.hangs_until}) +
-               host.seconds_per_tile * (0.5 + part()) * double(tiles_of(event).size());
+               host.seconds_per_tile * (0.5 + part()) * double(work_in(tiles_of(event)));
         event.time = busy;
         event.kind = Event::Kind::done;
         schedule(std::move(event));
@@ -305,8 +306,8 @@ private:
 
 /// How a simulated run ended.
 struct Told {
-    std::map<std::uint32_t, int> folded;  // by tile: how often its pixels came
-    double sum = 0;                       // of the pixels, in the order of the tiles
+    std::map<std::uint32_t, std::uint32_t> folded;  // by tile: of how many blocks its pixels came
+    double sum = 0;                                 // of the pixels, in the order of the tiles
     std::vector<std::string> set_aside;
     Counters counters;
     std::size_t outstanding = 0;
@@ -323,11 +324,13 @@ inline Told play(const World& world, double most = 1e6) {
     job.credit = world.credit;
     job.clock = [&] { return simulator.now(); };
     job.check = true;
-    for (std::uint32_t i = 0; i < world.tiles; ++i) job.tiles.push_back({i, 0, 1, 1, 0, 1});
+    constexpr std::uint32_t first = 2 * blocks_per_group * samples_per_block;  // of a whole group
+    for (std::uint32_t i = 0; i < world.tiles; ++i)
+        job.tiles.push_back({i, 0, 1, 1, first, world.blocks * samples_per_block});
     Told told;
     std::map<std::uint32_t, float> pixels;
     MasterRenderer master(std::move(job), simulator, [&](const Tile& tile, std::span<const Rgb> colours) {
-        ++told.folded[tile.x];
+        told.folded[tile.x] += tile.blocks();
         pixels[tile.x] = colours[0].r;
     });
     master.use(simulator.plan());

@@ -29,7 +29,7 @@ Told expect_sound(const World& world) {
         return told;
     }
     EXPECT_EQ(told.folded.size() + told.set_aside.size(), world.tiles) << "tiles are missing";
-    for (const auto& [tile, times] : told.folded) EXPECT_EQ(times, 1) << "tile " << tile;
+    for (const auto& [tile, blocks] : told.folded) EXPECT_EQ(blocks, world.blocks) << "tile " << tile;
     EXPECT_EQ(told.outstanding, 0u) << "credit that did not come back";
     const bool poisoned = !world.poisonous.empty() || world.deaths > 0;
     if (!poisoned) {
@@ -126,6 +126,28 @@ TEST(SimulatedRun, HandsOutQuickTilesTogether) {
         EXPECT_GE(singly.asks, world.tiles);
         world.credit = {3, 24};
         EXPECT_LT(expect_sound(world).asks, singly.asks / 2);
+    });
+}
+
+TEST(SimulatedRun, HandsOutGroupsAsAWholeUntilTheEndIsNear) {
+    for_every_seed([](std::uint64_t seed) {
+        World world{.seed = seed, .tiles = 300, .blocks = 8, .seconds_per_tile = 0.005};
+        world.credit = {3, 24};
+        EXPECT_LT(expect_sound(world).asks, 2 * world.tiles);
+        world.tiles = 40;
+        world.seconds_per_tile = 2;  // there is no time for eight of them
+        EXPECT_GE(expect_sound(world).asks, 8 * world.tiles);
+    });
+}
+
+TEST(SimulatedRun, LosesNoBlockOfGroupsWhateverHappens) {
+    for_every_seed([](std::uint64_t seed) {
+        World world{
+            .seed = seed, .delay = 0.5, .loss = 0.02, .twice = 0.1, .cuts = 0.02, .drains = 0.01, .hangs = 0.01};
+        world.tiles = 40 + seed % 40, world.blocks = 1 + seed % 8;
+        world.seconds_per_tile = seed % 3 ? 0.02 : 0.5;
+        world.credit = {2, 16};
+        expect_sound(world);
     });
 }
 

@@ -127,6 +127,7 @@ TEST(Packet, BringsStepsAndTheirAnswersBack) {
     const auto step = packet::pack(step_ask(), 0);
     EXPECT_EQ(*std::get<Questions<Step>>(packet::unpack(step.header, step.body)->questions),
               *std::get<Questions<Step>>(step_ask().questions));
+    EXPECT_EQ(packet::unpack(step.header, step.body)->data, nullptr);
     auto unknown = step_ask();
     unknown.questions = Questions<Step>(
         std::make_shared<const std::vector<Step>>(std::vector<Step>{{.kind = static_cast<Step::Kind>(99)}}));
@@ -134,6 +135,23 @@ TEST(Packet, BringsStepsAndTheirAnswersBack) {
     EXPECT_FALSE(packet::unpack(refused.header, refused.body));
     const auto data = packet::pack(data_reply(), 0);
     EXPECT_EQ(*packet::unpack(data.header, data.body)->data, *data_reply().data);
+}
+
+// Large ones are brought to a host once, and not to each of its places.
+TEST(Packet, TakesSmallResultsAlongWithTheirStep) {
+    for (const std::size_t size : {0u, 64'000u, 64'001u}) {
+        auto ask = step_ask();
+        ask.data = std::make_shared<const std::vector<std::byte>>(size, std::byte{7});
+        const auto step = packet::pack(ask, 0);
+        const auto got = packet::unpack(step.header, step.body);
+        ASSERT_TRUE(got);
+        EXPECT_EQ(*std::get<Questions<Step>>(got->questions), *std::get<Questions<Step>>(ask.questions));
+        ASSERT_EQ(packet::goes_along(ask.data), size <= 64'000);
+        if (packet::goes_along(ask.data))
+            EXPECT_EQ(*got->data, *ask.data);
+        else
+            EXPECT_EQ(got->data, nullptr);
+    }
 }
 
 TEST(Packet, BringsControlFieldsBackAndIgnoresUnknownOnes) {
