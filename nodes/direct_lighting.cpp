@@ -1,17 +1,23 @@
 // Light that comes straight from lamps and environment.
 #include <algorithm>
 #include <bit>
+#include <optional>
+#include <span>
+#include <vector>
 
+#include "core/estimate/stops.hpp"
 #include "core/graph/kind.hpp"
 #include "core/light/light_op.hpp"
 #include "core/light/node_context.hpp"
+#include "core/math/many_samples.hpp"
 #include "core/scene/direct_light.hpp"
 
 namespace lightnet {
 namespace {
 
 /// Two ways to find each light, by a point on a lamp and by a direction from the surface, weighted by multiple
-/// importance sampling (Veach 1997, chapter 9).
+/// importance sampling (Veach 1997, chapter 9). The samples of many questions are worked out side by side; what each
+/// finds does not depend on the others.
 class DirectLighting final : public LightOp {
 public:
     explicit DirectLighting(const NodeContext& here)
@@ -24,59 +30,162 @@ public:
           heuristic_(here.text("heuristic") == "balance" ? Heuristic::balance : Heuristic::power) {}
 
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
-        for (std::size_t i = 0; i < questions.size(); ++i) answers[i] = answer(questions[i]);
+        Samplers samplers(scene_);
+        Wanted wanted{questions, std::vector<std::uint32_t>(questions.size(), samples_), samples_, {}};
+        if (error_ > 0) wanted = enough_for_error(samplers, questions);
+        std::fill(answers.begin(), answers.end(), Rgb{});
+        each_sample(samplers, wanted, [&](std::size_t q, Rgb found) { answers[q] += found; });
+        for (std::size_t q = 0; q < questions.size(); ++q) answers[q] = answers[q] / float(wanted.counts[q]);
     }
 
 private:
-    Rgb answer(const Query& question) const {
-        const SurfacePoint point = scene_.surface(question);
-        const Bsdf bsdf = scene_.bsdf(point);
-        const Gathering at{point, bsdf, question.outgoing, question.lobes};
-        const Key stream = child(question.stream, key_);
-        const std::uint32_t count = error_ > 0 ? samples_for_error(at, stream, question.sample) : samples_;
-        const std::uint32_t room = error_ > 0 ? most_ : samples_;
-        Rgb sum;
-        for (std::uint32_t i = 0; i < count; ++i) add_one(at, stream, question.sample * room + i, sum);
-        return sum / float(count);
+    static constexpr std::size_t samples_at_once = 256;
+
+    /// How many samples of each question.
+    struct Wanted {
+        std::span<const Query> questions;
+        std::vector<std::uint32_t> counts;
+        std::uint32_t room;  // numbers of a question's samples: more than counts
+        Key key;             // of their random numbers; 0: those of the answer
+    };
+    /// A direction in which a sample looks.
+    struct Look {
+        std::uint32_t sample;
+        Stops::Step step;
+    };
+    /// Some samples, and scratch space for them.
+    struct Samplers {
+        explicit Samplers(const Scene& scene) : stops(scene) {}
+
+        std::vector<std::size_t> asked;  // whose each sample is
+        std::vector<Rgb> found;          // by each
+        ManySamples numbers;             // of each
+        std::vector<float> choices;
+        std::vector<Vec2> places, ways;
+        Stops stops;
+        LampRays from_lamps;
+        std::vector<std::uint8_t> hidden;
+        std::vector<Look> looks;
+        std::vector<Ray> rays;  // of each look
+        std::vector<std::optional<Hit>> hits;
+    };
+    /// Numbers of a sample.
+    enum Dimension : std::uint32_t { choice_of_lamp, place_on_lamp, choice_of_way, way };
+
+    /// take(index of question, what one sample of it finds), in the order of questions and samples.
+    template <class Take>
+    void each_sample(Samplers& some, const Wanted& wanted, Take&& take) const {
+        const auto& questions = wanted.questions;
+        for (std::size_t q = 0; q < questions.size(); ++q) {
+            const Key stream = child(questions[q].stream, key_), key = wanted.key ? child(stream, wanted.key) : stream;
+            for (std::uint32_t i = 0; i < wanted.counts[q]; ++i) {
+                some.asked.push_back(q);
+                some.numbers.add(key, questions[q].sample * wanted.room + i);
+                if (some.asked.size() == samples_at_once) finish(some, questions, take);
+            }
+        }
+        finish(some, questions, take);
     }
 
-    void add_one(const Gathering& at, Key stream, std::uint32_t index, Rgb& sum) const {
-        Samples samples(stream, index);
-        sum += light_by_lamp(scene_, at, samples, heuristic_);
-        sum += from_direction(at, samples);
+    template <class Take>
+    void finish(Samplers& some, std::span<const Query> questions, Take&& take) const {
+        some.found.assign(some.asked.size(), Rgb{});
+        if (scene_.has_lamps()) some.numbers.draw(place_on_lamp, some.places);
+        if (scene_.has_many_lamps()) some.numbers.draw(choice_of_lamp, some.choices);
+        some.numbers.draw(way, some.ways);
+        for (std::size_t next = 0; next < some.asked.size();) next = look_around(some, questions, next);
+        find_lamps(some);
+        find_by_direction(some);
+        for (std::size_t i = 0; i < some.asked.size(); ++i) take(some.asked[i], some.found[i]);
+        some.asked.clear();
+        some.numbers.keep(0);
+    }
+
+    /// Some samples from `next` on: where they look for light. Returns where the next ones begin.
+    std::size_t look_around(Samplers& some, std::span<const Query> questions, std::size_t next) const {
+        some.stops.clear();
+        Hit hit;
+        for (std::size_t begun = next; next < some.asked.size() && !some.stops.full(); ++next) {
+            const Query& question = questions[some.asked[next]];
+            const auto sample = static_cast<std::uint32_t>(next);
+            if (next == begun || some.asked[next] != some.asked[next - 1]) {
+                hit = scene_.hit(question);
+                some.stops.add(sample, hit, question.outgoing, question.lobes, nullptr);
+            } else {
+                some.stops.add_again(sample, hit, question.outgoing);
+            }
+        }
+        some.stops.find_points();
+        some.stops.find_bsdfs();
+        if (scene_.has_lamps())
+            some.stops.look_for_lamps(
+                {some.choices, some.places}, heuristic_, some.from_lamps,
+                [](std::uint32_t) {
+                    return Rgb{1, 1, 1};
+                },
+                [](std::uint32_t i) { return i; });
+        const auto choice = [&](std::uint32_t i) { return some.numbers.at(i, choice_of_way).next(); };
+        some.stops.scatter(some.ways, choice, [&](std::uint32_t i, const Stops::Step& step) {
+            if (!scene_.may_shine(step.ray)) return;
+            some.looks.push_back({i, step});
+            some.rays.push_back(step.ray);
+        });
+        return next;
+    }
+
+    void find_lamps(Samplers& some) const {
+        LampRays& rays = some.from_lamps;
+        some.hidden.resize(rays.rays.size());
+        scene_.occluded(rays.rays, some.hidden);
+        for (std::size_t i = 0; i < some.hidden.size(); ++i)
+            if (!some.hidden[i]) some.found[rays.paths[i]] += rays.light[i];
+        rays.resize(0);
+    }
+
+    void find_by_direction(Samplers& some) const {
+        some.hits.resize(some.rays.size());
+        scene_.intersect(some.rays, some.hits);
+        for (std::size_t i = 0; i < some.looks.size(); ++i) {
+            const auto& [sample, step] = some.looks[i];
+            const auto& hit = some.hits[i];
+            std::optional<SurfacePoint> end;
+            if (hit) end = scene_.surface(*hit);
+            const Rgb arriving = light_by_bsdf(scene_, step.from, step.sample, end ? &*end : nullptr, heuristic_);
+            if (is_black(arriving)) continue;
+            const Rgb left = hit ? left_after(step.inside, hit->distance) : Rgb{1, 1, 1};
+            some.found[sample] += step.sample.weight * left * arriving;
+        }
+        some.looks.clear();
+        some.rays.clear();
     }
 
     /// How many samples bring the root of the mean square error, relative to the answer, to what is wanted, as some
     /// trials tell. They have random numbers of their own and are no part of the answer, which stays without bias.
-    std::uint32_t samples_for_error(const Gathering& at, Key stream, std::uint32_t sample) const {
-        double mean = 0, squares = 0;
-        for (std::uint32_t i = 0; i < trials; ++i) {
-            Rgb one;
-            add_one(at, child(stream, trial_key), sample * trials + i, one);
-            const double value = luminance(one);
-            const double step = value - mean;
-            mean += step / (i + 1);
+    Wanted enough_for_error(Samplers& some, std::span<const Query> questions) const {
+        struct Seen {
+            double mean = 0, squares = 0;
+            std::uint32_t trials = 0;
+        };
+        std::vector<Seen> seen(questions.size());
+        const Wanted tried{questions, std::vector<std::uint32_t>(questions.size(), trials), trials, trial_key};
+        each_sample(some, tried, [&](std::size_t q, Rgb found) {
+            auto& [mean, squares, count] = seen[q];
+            const double value = luminance(found), step = value - mean;
+            mean += step / ++count;
             squares += step * (value - mean);
-        }
+        });
+        Wanted wanted{questions, {}, most_, {}};
+        for (const auto& [mean, squares, count] : seen) wanted.counts.push_back(enough(mean, squares));
+        return wanted;
+    }
+
+    std::uint32_t enough(double mean, double squares) const {
         const double variance = surely * squares / (trials - 1),
                      wanted = double(error_) * error_ * (mean * mean + faint_);
         // Aligned powers of two, so that they are stratified.
         std::uint32_t count = std::min(std::bit_ceil(samples_), most_);
         while (count < most_ && variance > wanted * count) count *= 2;
         return count;
-    }
-
-    Rgb from_direction(const Gathering& at, Samples& samples) const {
-        const float choice = at.bsdf.chooses() ? samples.next() : samples.skip();
-        const auto sample = at.bsdf.sample(at.outgoing, choice, samples.next_2d(), at.lobes);
-        if (!sample) return {};
-        const Ray ray{at.point.origin_towards(sample->incoming), sample->incoming};
-        if (!scene_.may_shine(ray)) return {};
-        const auto hit = scene_.intersect(ray);
-        if (!hit) return sample->weight * light_by_bsdf(scene_, at.point.position, *sample, nullptr, heuristic_);
-        const SurfacePoint end = scene_.surface(*hit);
-        const Rgb left = left_after(at.bsdf.absorption(ray.direction), hit->distance);
-        return sample->weight * left * light_by_bsdf(scene_, at.point.position, *sample, &end, heuristic_);
     }
 
     const Scene& scene_;

@@ -14,7 +14,7 @@ struct Step {
         prepare,  // begin prepare(); answered by a Report when it first waits, or ends
         go_on,    // the result of call `call` is there: `data` names it. Answered by the next Report
         shards,   // do `count` shards of call `call`, from `first` on; answered by join_shards() of their results
-        collect,  // answered by what the node has noted in the rehearsal that is call `call`
+        collect,  // answered by what the node has noted in the rehearsal that is call `call`; `first` is the asker's
         attend,   // answered by LockWords as soon as there are some; `call` 1: by all that holds now, once more
         grant,    // the lock that `data` names belongs to this place until it says otherwise
         last = grant,

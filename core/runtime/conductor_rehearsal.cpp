@@ -32,7 +32,7 @@ void Conductor::collect() {
     if (!rehearsing_->rendered || rehearsing_->broken) return;
     for (const auto& copy : rehearsing_->copies)
         if (!rehearsing_->collecting.contains(copy) &&
-            send(copy, done_, {.kind = Step::Kind::collect, .call = rehearsing_->call}))
+            send(copy, done_, {.kind = Step::Kind::collect, .call = rehearsing_->call, .first = epoch_}))
             rehearsing_->collecting.insert(copy);
 }
 
@@ -54,7 +54,8 @@ void Conductor::begin_rehearsal(std::uint32_t call) {
 }
 
 void Conductor::noted(const Sent& sent, const Bytes& data) {
-    if (!rehearsing_ || rehearsing_->broken || sent.position != done_ || sent.step.call != rehearsing_->call) return;
+    // What was noted in one that was broken off, perhaps of the same call, does not count.
+    if (!rehearsing_ || rehearsing_->broken || sent.step.first != epoch_) return;
     auto& all = rehearsing_->noted;
     const std::size_t before = all.size();
     all.resize(before + (data ? data->size() / sizeof(Query) : 0));

@@ -33,19 +33,6 @@ std::optional<LampRay> ray_to_lamp(const Scene& scene, const Gathering& at, cons
     return LampRay{ray, light};
 }
 
-std::optional<LampRay> ray_to_lamp(const Scene& scene, const Gathering& at, Samples& samples, Heuristic heuristic) {
-    const bool useless = !finds_lamps(scene, at);
-    LampNumbers numbers;
-    numbers.choice = useless || !scene.has_many_lamps() ? samples.skip() : samples.next();
-    numbers.place = useless ? Vec2{samples.skip(), 0} : samples.next_2d();
-    return ray_to_lamp(scene, at, numbers, heuristic);
-}
-
-Rgb light_by_lamp(const Scene& scene, const Gathering& at, Samples& samples, Heuristic heuristic) {
-    const auto found = ray_to_lamp(scene, at, samples, heuristic);
-    return found && !scene.occluded(found->ray) ? found->light : Rgb{};
-}
-
 Rgb light_by_bsdf(const Scene& scene, Vec3 from, const BsdfSample& sample, const SurfacePoint* end,
                   Heuristic heuristic) {
     const bool certain = sample.lobe == lobe::specular;  // no lamp sample can find this direction

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/math/rgb.hpp"
-#include "core/math/samples.hpp"
 #include "core/scene/scene.hpp"
 
 namespace lightnet {
@@ -57,15 +56,11 @@ struct LampNumbers {
     Vec2 place;
 };
 
-/// light_by_lamp() before it is known what is in the way. None: no light by this sample, whatever is in between.
+/// Radiance that one sampled light sends to `at` and on into its direction, if nothing is in the way: a point of a
+/// lamp, a bare light or a part of the environment; weighted against finding it by a direction from the BSDF. None: no
+/// light by this sample, whatever is in between.
 std::optional<LampRay> ray_to_lamp(const Scene& scene, const Gathering& at, const LampNumbers& numbers,
                                    Heuristic heuristic);
-/// The same with the next two dimensions of `samples`, needed or not.
-std::optional<LampRay> ray_to_lamp(const Scene& scene, const Gathering& at, Samples& samples, Heuristic heuristic);
-
-/// Radiance that one sampled light sends to `at` and on into its direction: a point of a lamp, a bare light or a part
-/// of the environment; weighted against finding it by a direction from the BSDF. Uses two dimensions.
-Rgb light_by_lamp(const Scene& scene, const Gathering& at, Samples& samples, Heuristic heuristic);
 
 /// Radiance that arrives from where a ray into `sample.incoming` ended (nothing there: the environment), times the
 /// weight of having found it by the BSDF. Without the sample's own weight.

@@ -13,7 +13,7 @@ using std::chrono::seconds;
 class Resume : public ::testing::Test {
 protected:
     std::vector<std::string> words(std::vector<std::string> more) const {
-        std::vector<std::string> all{"--size",     "64x64", "--samples",    std::to_string(256 / slowdown),
+        std::vector<std::string> all{"--size",     "64x64", "--samples",    std::to_string(768 / slowdown),
                                      "--tile",     "16",    "--checkpoint", "1",
                                      "--progress", "json"};
         all.insert(all.end(), more.begin(), more.end());

@@ -10,7 +10,7 @@ namespace lightnet::test {
 namespace {
 
 #if defined(LIGHTNET_LARGE)
-const std::vector<std::string> small_pictures{"--size", "160x120",    "--samples", "40",      "--seed",
+const std::vector<std::string> small_pictures{"--size", "96x80",      "--samples", "136",     "--seed",
                                               "7",      "--progress", "none",      "--cache", "none"};
 const std::vector<std::string> threads_tried{"1", "2", "3", "4", "8"}, tiles_tried{"64", "32", "11", "3"};
 const std::vector<std::string> daemons_tried{"1", "2", "3", "4"}, bundles_tried{"4096", "512", "61", "37", "8"};

@@ -10,6 +10,7 @@
 #include "core/scene/direct_light.hpp"
 #include "core/scene/light_tree.hpp"
 #include "core/scene/scene.hpp"
+#include "tests/support/both_ways.hpp"
 #include "tests/support/small_scenes.hpp"
 
 namespace lightnet {
@@ -38,17 +39,7 @@ Estimate estimate(std::uint32_t n, Function value) {
 Estimate reflected(const Scene& scene, std::uint32_t n = many) {
     const SurfacePoint point = scene.surface(Query{.primitive = 0, .u = 0, .v = 0.5f});
     const Bsdf bsdf = scene.bsdf(point);
-    const Gathering at{point, bsdf, {0, 1, 0}, lobe::all};
-    return estimate(n, [&](std::uint32_t i) {
-        Samples samples(4, i);
-        Rgb value = light_by_lamp(scene, at, samples, Heuristic::power);
-        const auto sample = bsdf.sample({0, 1, 0}, 0, samples.next_2d(), lobe::all);
-        const auto hit = scene.intersect({point.origin_towards(sample->incoming), sample->incoming});
-        SurfacePoint end;
-        if (hit) end = scene.surface(*hit);
-        value += sample->weight * light_by_bsdf(scene, point.position, *sample, hit ? &end : nullptr, Heuristic::power);
-        return double{value.g};
-    });
+    return estimate(n, [&](std::uint32_t i) { return double{both_ways(scene, point, bsdf, Samples(4, i)).g}; });
 }
 
 SceneData white_floor() {

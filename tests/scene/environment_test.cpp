@@ -11,6 +11,7 @@
 #include "core/scene/environment.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/sky_layout.hpp"
+#include "tests/support/both_ways.hpp"
 #include "tests/support/small_scenes.hpp"
 
 namespace lightnet {
@@ -172,19 +173,10 @@ TEST_P(Maps, LightAFloorAsMuchAsTheyShould) {
     for (const auto* scene : {&sky_only, &both}) {
         const SurfacePoint point = scene->surface(Query{.primitive = 0, .u = 0, .v = 0.5f});
         const Bsdf bsdf = scene->bsdf(point);
-        const Gathering at{point, bsdf, {0, 1, 0}, lobe::all};
         double sum = 0, squares = 0;
         constexpr std::uint32_t n = 1 << 15;
         for (std::uint32_t i = 0; i < n; ++i) {
-            Samples samples(4, i);
-            double value = light_by_lamp(*scene, at, samples, Heuristic::power).r;
-            const auto sample = bsdf.sample({0, 1, 0}, 0, samples.next_2d(), lobe::all);
-            const auto hit = scene->intersect({point.origin_towards(sample->incoming), sample->incoming});
-            SurfacePoint end;
-            if (hit) end = scene->surface(*hit);
-            value += (sample->weight *
-                      light_by_bsdf(*scene, point.position, *sample, hit ? &end : nullptr, Heuristic::power))
-                         .r;
+            const double value = both_ways(*scene, point, bsdf, Samples(4, i)).r;
             sum += value;
             squares += value * value;
         }

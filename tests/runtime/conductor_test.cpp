@@ -1,0 +1,138 @@
+// The conductor, with places that the test plays.
+#include "core/runtime/conductor.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <deque>
+
+#include "core/graph/check.hpp"
+#include "core/light/mapped.hpp"
+#include "tests/support/learner.hpp"
+
+namespace lightnet {
+namespace {
+
+using Nodes = std::vector<Node>;
+
+// Keeps what is asked until somebody answers.
+class ByHand final : public Carrier {
+public:
+    struct Asked {
+        PlaceAt place;
+        Message message;
+        const Step* step() const {
+            const auto* steps = std::get_if<Questions<Step>>(&message.questions);
+            return steps ? &(*steps)->front() : nullptr;
+        }
+        bool of_kind(Step::Kind kind) const { return step() && step()->kind == kind; }
+        bool of_tiles() const { return std::holds_alternative<Questions<Tile>>(message.questions); }
+    };
+    bool ask(const PlaceAt& to, Message& message) override {
+        asked.push_back({to, message});
+        return true;
+    }
+    void reply(Message) override {}
+    std::optional<Message> receive() override {
+        if (arrived.empty()) return std::nullopt;
+        Message message = std::move(arrived.front());
+        arrived.pop_front();
+        return message;
+    }
+    void wait(std::chrono::nanoseconds) override {}
+    void forget(const PlaceAt&) override {}
+    const Counters& counters() const override { return counters_; }
+
+    Asked take() {
+        if (asked.empty()) throw std::runtime_error("nothing was asked");
+        Asked first = std::move(asked.front());
+        asked.pop_front();
+        return first;
+    }
+    template <class T>
+    void answer(Asked to, const T& data) {
+        Message message = reply_to(to.message);
+        std::vector<std::byte> bytes(sizeof data);
+        std::memcpy(bytes.data(), &data, sizeof data);
+        message.data = std::make_shared<const std::vector<std::byte>>(std::move(bytes));
+        arrived.push_back(std::move(message));
+    }
+    void answer_tiles(Asked to) { arrived.push_back(reply_to(to.message)); }
+
+    std::deque<Asked> asked;
+    std::deque<Message> arrived;
+
+private:
+    Counters counters_;
+};
+
+Node node(std::string name, std::string kind, std::vector<Value> entries, std::map<std::string, Value> params = {}) {
+    return {std::move(name), std::move(kind), std::move(entries), std::move(params), {"test.lua", 1}};
+}
+
+Query at(std::uint32_t primitive) {
+    Query question;
+    question.primitive = primitive;
+    return question;
+}
+
+// A host leaves after all tiles of a rehearsal are rendered. The rehearsal begins again; what another host still says
+// of the first one comes in its middle.
+TEST(Conductor, TakesNoNotesOfARehearsalThatWasBrokenOff) {
+    const Registry kinds = test::with_learner();
+    const Graph graph = check(
+        {"test.lua",
+         Nodes{node("scene", "Scene", {Value{std::string("none.pbrt")}}), node("direct", "DirectLighting", {}),
+               node("learned", "Learner", {Value{NodeRef{"direct"}}}),
+               node("image", "RayTracer", {Value{NodeRef{"learned"}}},
+                    {{"scene", Value{NodeRef{"scene"}}}, {"film", Value{Table{{Value{24.0}, Value{16.0}}, {}}}}})}},
+        kinds);
+    Plan both{{{"a", 0}, {"b", 0}}, std::vector<std::vector<std::uint32_t>>(graph.nodes.size(), {0, 1})};
+    const Plan alone{{{"a", 0}}, std::vector<std::vector<std::uint32_t>>(graph.nodes.size(), {0})};
+    ByHand places;
+    Conductor::Options options;
+    options.run = 1;
+    options.graph = &graph;
+    options.registry = &kinds;
+    Conductor conductor(options, places);
+    const auto lead = [&] { EXPECT_FALSE(conductor.prepare(std::chrono::milliseconds(2))); };
+
+    conductor.propose(both);
+    const Report rehearses{Report::Kind::rehearse, 0, 4};
+    for (int i = 0; i < 2; ++i) {
+        auto prepare = places.take();
+        ASSERT_TRUE(prepare.of_kind(Step::Kind::prepare));
+        places.answer(std::move(prepare), rehearses);
+    }
+    lead();
+    auto tiles = places.take();
+    ASSERT_TRUE(tiles.of_tiles());
+    places.answer_tiles(std::move(tiles));
+    lead();
+    auto collect = places.take();
+    ASSERT_TRUE(collect.of_kind(Step::Kind::collect));
+    ASSERT_EQ(collect.place.host, "a");
+    ASSERT_TRUE(places.take().of_kind(Step::Kind::collect));
+
+    conductor.propose(alone);
+    lead();
+    tiles = places.take();
+    ASSERT_TRUE(tiles.of_tiles()) << "it begins again";
+    places.answer(std::move(collect), at(7));
+    lead();
+    EXPECT_TRUE(places.asked.empty()) << "it is not over";
+    places.answer_tiles(std::move(tiles));
+    lead();
+    collect = places.take();
+    ASSERT_TRUE(collect.of_kind(Step::Kind::collect));
+    places.answer(std::move(collect), at(9));
+    lead();
+    const auto go_on = places.take();
+    ASSERT_TRUE(go_on.of_kind(Step::Kind::go_on));
+    const Mapped<Query> noted(go_on.message.data);
+    ASSERT_EQ(noted.size(), 1u);
+    EXPECT_EQ(noted.begin()->primitive, 9u);
+}
+
+}  // namespace
+}  // namespace lightnet
