@@ -6,6 +6,7 @@
 
 #include "core/estimate/photon_tree.hpp"
 #include "core/estimate/shooting.hpp"
+#include "core/estimate/stops.hpp"
 #include "core/graph/kind.hpp"
 #include "core/light/light_op.hpp"
 #include "core/light/node_context.hpp"
@@ -48,12 +49,9 @@ public:
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
         assert(tree_ && "nobody asks before it is prepared");
         Nearest scratch;
-        for (std::size_t i = 0; i < questions.size(); ++i) {
-            const Query& question = questions[i];
-            const SurfacePoint point = scene_.surface(question);
-            const Bsdf bsdf = scene_.bsdf(point);
-            answers[i] = tree_->radiance({point, bsdf, question.outgoing, question.lobes}, radius_, gather_, scratch);
-        }
+        gather_each(scene_, questions, [&](std::uint32_t i, const Gathering& at) {
+            answers[i] = tree_->radiance({at.point, at.bsdf, at.outgoing, at.lobes}, radius_, gather_, scratch);
+        });
     }
 
     Frozen frozen() const override { return Frozen(tree_); }

@@ -6,6 +6,7 @@
 
 #include "core/estimate/photon_tree.hpp"
 #include "core/estimate/shooting.hpp"
+#include "core/estimate/stops.hpp"
 #include "core/graph/kind.hpp"
 #include "core/light/light_op.hpp"
 #include "core/light/node_context.hpp"
@@ -45,14 +46,10 @@ public:
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
         assert(passes_.size() == radii_.size() && "nobody asks before it is prepared");
         Nearest scratch;
-        for (std::size_t i = 0; i < questions.size(); ++i) {
-            const Query& question = questions[i];
-            const std::size_t pass = question.sample % radii_.size();
-            const SurfacePoint point = scene_.surface(question);
-            const Bsdf bsdf = scene_.bsdf(point);
-            answers[i] =
-                passes_[pass]->radiance({point, bsdf, question.outgoing, question.lobes}, radii_[pass], 0, scratch);
-        }
+        gather_each(scene_, questions, [&](std::uint32_t i, const Gathering& at) {
+            const std::size_t pass = questions[i].sample % radii_.size();
+            answers[i] = passes_[pass]->radiance({at.point, at.bsdf, at.outgoing, at.lobes}, radii_[pass], 0, scratch);
+        });
     }
 
 private:

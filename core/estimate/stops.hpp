@@ -175,4 +175,21 @@ private:
     std::vector<Visitor> visitors_;
 };
 
+/// with(index, Gathering) of each question, in another order than theirs.
+template <class With>
+void gather_each(const Scene& scene, std::span<const Query> questions, With&& with) {
+    Stops stops(scene);
+    for (std::size_t next = 0; next < questions.size();) {
+        stops.clear();
+        for (; next < questions.size() && !stops.full(); ++next) {
+            const Query& question = questions[next];
+            stops.add(static_cast<std::uint32_t>(next), scene.hit(question), question.outgoing, question.lobes,
+                      nullptr);
+        }
+        stops.find_points();
+        stops.find_bsdfs();
+        stops.each(with);
+    }
+}
+
 }  // namespace lightnet

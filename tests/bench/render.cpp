@@ -71,8 +71,8 @@ struct NetworkedRow {
 const std::vector<NetworkedRow>& networked_rows() {
     static const std::vector<NetworkedRow> table{
         {"networked_path", "path_all.lua", {{"samples", "160"}}},
-        {"networked_cache", "irradiance_cache.lua", {{"samples", "480"}}},
-        {"networked_map_cache", "figure5.lua", {{"samples", "448"}}},
+        {"networked_cache", "irradiance_cache.lua", {{"samples", "600"}}},
+        {"networked_map_cache", "figure5.lua", {{"samples", "560"}}},
     };
     return table;
 }
