@@ -7,7 +7,7 @@
 namespace lightnet {
 namespace {
 
-constexpr double worth_the_way = 0.1;    // seconds of work: beside them, some hundred µs of sending are little
+constexpr double worth_the_way = 0.25;   // seconds of work: beside them, some hundred µs of sending are little
 constexpr double soon_enough = 1;        // seconds until a group of blocks is there
 constexpr std::size_t most_bytes = 4e6;  // of an answer of several tiles
 constexpr std::size_t shares = 4;        // of what is left, for each place: who ends last keeps nobody waiting long

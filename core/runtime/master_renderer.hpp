@@ -30,7 +30,7 @@ public:
     };
     MasterRenderer(Job job, Carrier& carrier, Done done);
     /// As many blocks of samples as should go together at most, for the credit of jobs.
-    static constexpr std::size_t most_together = 8;
+    static constexpr std::size_t most_together = 32;
 
     /// From now on, these places render.
     void use(const Plan& plan);

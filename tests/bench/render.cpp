@@ -65,14 +65,14 @@ const std::vector<Row>& rows() {
 /// What runs on two daemons of one place should take no longer than in two threads.
 struct NetworkedRow {
     std::string name, graph;
-    Constants constants;  // as many samples as make it a job of 10 s and more; all else as the graph has it
+    Constants constants;  // as many samples as make it a job of 10 to 20 s; all else as the graph has it
 };
 
 const std::vector<NetworkedRow>& networked_rows() {
     static const std::vector<NetworkedRow> table{
         {"networked_path", "path_all.lua", {{"samples", "160"}}},
-        {"networked_cache", "irradiance_cache.lua", {{"samples", "600"}}},
-        {"networked_map_cache", "figure5.lua", {{"samples", "560"}}},
+        {"networked_cache", "irradiance_cache.lua", {{"samples", "960"}}},
+        {"networked_map_cache", "figure5.lua", {{"samples", "960"}}},
     };
     return table;
 }
