@@ -81,7 +81,7 @@ std::size_t work_in(const std::vector<Question>& questions) {
 }
 
 /// The same of a message.
-inline std::size_t questions_of(const Message& message) {
+inline std::size_t work_in(const Message& message) {
     return std::visit(
         [](const auto& questions) -> std::size_t {
             if constexpr (std::is_same_v<std::decay_t<decltype(questions)>, std::monostate>)

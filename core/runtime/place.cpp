@@ -123,7 +123,7 @@ void Place::cancel_asks_of_lost(const Plan& before) {
         counters_.cancelled +=
             std::erase_if(inbox.waiting, [&](const Message& ask) { return lost.contains(ask.asker); });
         inbox.questions = inbox.answering;
-        for (const auto& ask : inbox.waiting) inbox.questions += questions_of(ask);
+        for (const auto& ask : inbox.waiting) inbox.questions += work_in(ask);
     }
 }
 
@@ -205,7 +205,7 @@ void Place::take(Message message) {
 
 void Place::queue(Message message) {
     auto& inbox = inboxes_[message.node];
-    inbox.questions += questions_of(message);
+    inbox.questions += work_in(message);
     inbox.waiting.push_back(std::move(message));
 }
 

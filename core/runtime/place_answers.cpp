@@ -18,10 +18,10 @@ std::vector<Message> Place::next_asks(std::size_t node) {
         return asks.empty() ||
                (std::holds_alternative<Questions<Query>>(ask.questions) &&
                 std::holds_alternative<Questions<Query>>(asks.front().questions) && ask.width == asks.front().width &&
-                questions + questions_of(ask) <= rules_.bundles.questions);
+                questions + work_in(ask) <= rules_.bundles.questions);
     };
     while (!waiting.empty() && fits(waiting.front())) {
-        questions += questions_of(waiting.front());
+        questions += work_in(waiting.front());
         asks.push_back(std::move(waiting.front()));
         waiting.pop_front();
     }
@@ -34,7 +34,7 @@ void Place::answer(std::vector<Message>& asks) {
     const bool spare = inbox.fibers++ > 0;
     spare_in_use_ += spare;
     std::size_t questions = 0;
-    for (const auto& ask : asks) questions += questions_of(ask);
+    for (const auto& ask : asks) questions += work_in(ask);
     inbox.answering += questions;
     const auto* fiber = fibers_.current();
     std::vector<Message> replies;
@@ -68,7 +68,7 @@ bool Place::answer_together(const std::vector<Message>& asks, std::vector<Messag
         const auto answers = light_answers(asks.front().node, asks.front().width, questions);
         auto from = answers.begin();
         for (std::size_t i = 0; i < asks.size(); ++i) {
-            const auto next = from + static_cast<std::ptrdiff_t>(questions_of(asks[i]) * asks[i].width);
+            const auto next = from + static_cast<std::ptrdiff_t>(work_in(asks[i]) * asks[i].width);
             replies[i].answers.assign(from, next);
             from = next;
         }
