@@ -7,6 +7,7 @@
 #include <xxhash.h>
 
 #include "transport/body.hpp"
+#include "transport/colours.hpp"
 #include "transport/columns.hpp"
 
 namespace lightnet::packet {
@@ -97,11 +98,6 @@ bool take_questions(const Header& header, View body, Message& message) {
     return true;
 }
 
-void pack_rgb(const std::vector<Rgb>& answers, Buffer& body) {
-    body.reserve(answers.size() * sizeof(Rgb) + 16);
-    BodyWriter(body, 1).bytes("rgb", std::as_bytes(std::span(answers)));
-}
-
 Packet finish(const Header& header, Buffer body) { return {write_header(header, body), std::move(body)}; }
 
 Message message_of(const Header& header) {
@@ -179,7 +175,7 @@ Packet pack(const Message& message, std::uint32_t place) {
     } else if (message.type == Message::Type::reply) {
         header.type = Type::answers;
         header.count = static_cast<std::uint32_t>(message.answers.size());
-        pack_rgb(message.answers, body);
+        pack_colours(message.answers, body);
     } else if (const auto* queries = std::get_if<Questions<Query>>(&message.questions)) {
         ask(Type::ask_light, *queries);
     } else if (const auto* tiles = std::get_if<Questions<Tile>>(&message.questions)) {
@@ -214,13 +210,10 @@ std::optional<Message> unpack(View header_bytes, View body) {
             return message;
         }
         case Type::answers: {
-            const BodyReader map(body);
-            if (!map.good()) return std::nullopt;
-            const auto rgb = map.bytes("rgb");
-            if (!rgb || rgb->size() != header->count * sizeof(Rgb)) return std::nullopt;
+            auto colours = unpack_colours(header->count, body);
+            if (!colours) return std::nullopt;
             message.type = Message::Type::reply;
-            message.answers.resize(header->count);
-            if (!rgb->empty()) std::memcpy(message.answers.data(), rgb->data(), rgb->size());
+            message.answers = std::move(*colours);
             return message;
         }
         case Type::failure: {

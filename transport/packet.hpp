@@ -2,8 +2,7 @@
 // its way through the launcher, behind the sealed address of relay.hpp):
 //
 //   header   64 bytes, little-endian, in the order of the members of Header
-//   body     a msgpack map. Asks: columns, see columns.hpp. Replies: one column, a `bin` of colours. Control: small
-//   maps
+//   body     a msgpack map. Asks: columns, see columns.hpp. Replies: colours, see colours.hpp. Control: small maps
 //            of numbers and texts; unknown keys are skipped.
 //
 // A message of one empty frame instead: a connection was made, or a packet was damaged; what was under way may be lost.
@@ -37,7 +36,7 @@ enum class Type : std::uint8_t {
     // work: goes through to a place
     ask_light = 1,  // columns of Query → answers
     ask_pixels,     // columns of Tile → answers
-    answers,        // one column: rgb
+    answers,        // colours
     failure,        // text
     ask_step,       // columns of Step → data
     data,           // bytes

@@ -54,14 +54,16 @@ Message ask(std::vector<Question> questions) {
 }
 
 std::vector<std::string> seeds() {
-    Message reply, failure;
+    Message reply, dark, failure;
     reply.type = Message::Type::reply;
     reply.answers = {{1, 2, 3}, {4, 5, 6}};
+    dark.type = Message::Type::reply;
+    dark.answers = {{}, {}, {1, 2, 3}, {}, {}, {}, {}, {}, {}, {4, 5, 6}};
     failure.type = Message::Type::failure;
     failure.text = "no photons";
     std::vector<std::string> seeds;
     for (const auto& message :
-         {ask(std::vector<Query>(3)), ask(std::vector<Tile>{{0, 16, 32, 16, 16, 16}}), reply, failure})
+         {ask(std::vector<Query>(3)), ask(std::vector<Tile>{{0, 16, 32, 16, 16, 16}}), reply, dark, failure})
         seeds.push_back(text_of(packet::pack(message, 0)));
     const auto fields = packet::Fields{}.set("places", 4).set("build", "0.1.0").set("offset", std::uint64_t{1} << 40);
     seeds.push_back(text_of(packet::pack(packet::Type::hello, 1, fields)));

@@ -6,6 +6,9 @@
 #include <cstring>
 #include <random>
 
+#include "transport/body.hpp"
+#include "transport/colours.hpp"
+
 namespace lightnet {
 namespace {
 
@@ -71,6 +74,17 @@ Message reply() {
     return message;
 }
 
+// Of four layers three are black, but for one colour; the last is a zero with a sign.
+Message dark_reply(std::size_t count = 45) {
+    Message message;
+    message.type = Message::Type::reply;
+    message.answers.resize(count);
+    for (std::size_t i = 0; i < count; i += 4) message.answers[i] = {1, static_cast<float>(i), 0};
+    if (count > 13) message.answers[13] = {0, 0, 1e-40f};
+    if (count) message.answers.back() = {0, -0.f, 0};
+    return message;
+}
+
 Message failure() {
     Message message;
     message.type = Message::Type::failure;
@@ -123,6 +137,37 @@ TEST(Packet, BringsTilesAnswersAndFailuresBack) {
     EXPECT_EQ(packet::unpack(failed.header, failed.body)->text, failure().text);
 }
 
+TEST(Packet, LeavesBlackColoursOut) {
+    for (const std::size_t count : {0, 1, 8, 9, 45, 2000}) {
+        const auto sent = dark_reply(count);
+        const auto packed = packet::pack(sent, 0);
+        const auto got = packet::unpack(packed.header, packed.body);
+        ASSERT_TRUE(got);
+        ASSERT_EQ(got->answers.size(), count);
+        EXPECT_EQ(std::memcmp(got->answers.data(), sent.answers.data(), count * sizeof(Rgb)), 0);
+        EXPECT_LE(packed.body.size(), count * sizeof(Rgb) / 3 + 60);
+    }
+}
+
+// A body that a sender with bad intentions would make: never more room than for colours that are there, or black.
+TEST(Packet, RefusesColoursThatDoNotFitTheirBits) {
+    const auto accepted = [](std::uint32_t count, std::vector<std::uint8_t> lit, std::size_t colours) {
+        std::vector<std::byte> body;
+        packet::BodyWriter writer(body, 2);
+        writer.bytes("lit", std::as_bytes(std::span(lit)));
+        writer.room("rgb", colours * sizeof(Rgb));
+        return packet::unpack_colours(count, body).has_value();
+    };
+    EXPECT_TRUE(accepted(10, {3, 2}, 3));
+    EXPECT_FALSE(accepted(10, {3, 2}, 2));
+    EXPECT_FALSE(accepted(10, {3, 2}, 4));
+    EXPECT_FALSE(accepted(10, {3}, 2));
+    EXPECT_FALSE(accepted(10, {3, 0, 0}, 2));
+    EXPECT_FALSE(accepted(10, {3, 4}, 3));  // the eleventh
+    EXPECT_FALSE(accepted(0, {1}, 1));
+    EXPECT_FALSE(accepted(1 << 30, std::vector<std::uint8_t>(1 << 27), 0));
+}
+
 TEST(Packet, BringsStepsAndTheirAnswersBack) {
     const auto step = packet::pack(step_ask(), 0);
     EXPECT_EQ(*std::get<Questions<Step>>(packet::unpack(step.header, step.body)->questions),
@@ -169,7 +214,7 @@ TEST(Packet, BringsControlFieldsBackAndIgnoresUnknownOnes) {
 
 std::vector<Packet> corpus() {
     std::vector<Packet> packets;
-    for (const auto& message : {light_ask(3), tile_ask(), step_ask(), data_reply(), reply(), failure()})
+    for (const auto& message : {light_ask(3), tile_ask(), step_ask(), data_reply(), reply(), dark_reply(), failure()})
         packets.push_back(packet::pack(message, 0));
     packets.push_back(packet::pack(Type::hello, 1, Fields{}.set("build", "x").set("n", 5)));
     return packets;
