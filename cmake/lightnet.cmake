@@ -9,6 +9,8 @@ set(CMAKE_VERIFY_INTERFACE_HEADER_SETS ON)
 
 # Same bytes everywhere: no fused multiply-add behind our back, no fast-math, one instruction set.
 add_compile_options(-ffp-contract=off -march=${LIGHTNET_ARCH})
+# Else how fast a short loop is would depend on where the linker happens to put it: differently in each program.
+add_compile_options($<$<CONFIG:Release>:-falign-functions=64>)
 # For files that many roots are drawn in. Nobody asks for errno or for the flags of exceptions; a root is then one
 # instruction, and loops over roots become vectors, with the same bits.
 set(lightnet_quick_roots -fno-math-errno -fno-trapping-math)

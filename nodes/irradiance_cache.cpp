@@ -314,6 +314,7 @@ Kind irradiance_cache_kind() {
         .least_inputs = 1,
         .most_inputs = 1,
         .prepares = true,
+        .rehearses = true,
         .freezes = "irradiance records",
         .onward = "S*D",
         .keeps = true,

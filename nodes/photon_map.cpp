@@ -16,8 +16,8 @@ namespace lightnet {
 namespace {
 
 // Lets each lot go as soon as it is copied.
-std::vector<Photon> taken_out_of(std::vector<Mapped<Photon>>& lots) {
-    std::vector<Photon> all;
+PhotonTree::Photons taken_out_of(std::vector<Mapped<Photon>>& lots) {
+    PhotonTree::Photons all;
     std::size_t count = 0;
     for (const auto& lot : lots) count += lot.size();
     all.reserve(count + PhotonTree::room);

@@ -57,6 +57,7 @@ struct ZmqCarrier::Sockets {
     std::size_t next = 0;  // fair turns among the asking sockets
     std::map<std::string, Peer> peers;
     std::map<std::pair<std::uint32_t, std::uint64_t>, Pending> pending;  // by channel and bundle
+    std::size_t asked_here = 0;                                          // of places of this host, and not answered
     bool unsent = false;                                                 // some of them are to be sent again
     Clock::time_point looked{};
 
@@ -192,7 +193,10 @@ struct ZmqCarrier::Sockets {
             return std::nullopt;
         }
         const bool by_pointer = endpoint.starts_with("inproc://") && endpoint != relay_endpoint(ends.run);
-        if (by_pointer) return take_message(frames[0]);
+        if (by_pointer) {
+            asked_here -= asked_here > 0;
+            return take_message(frames[0]);
+        }
         auto message = frames.size() == 2 ? from_packet(frames, 0) : std::nullopt;  // a flipped bit splits messages
         if (message)
             settle({message->channel, message->bundle});
@@ -203,7 +207,7 @@ struct ZmqCarrier::Sockets {
 };
 
 ZmqCarrier::ZmqCarrier(zmq::context_t& context, Ends ends)
-    : sockets_(new Sockets{context, std::move(ends), std::nullopt, {}, {}, 0, {}, {}, false, {}}) {
+    : sockets_(new Sockets{context, std::move(ends), std::nullopt, {}, {}, 0, {}, {}, 0, false, {}}) {
     if (!sockets_->ends.answers) return;
     sockets_->answering.emplace(Sockets::Source{answering_socket(context)});
     sockets_->answering->socket.bind(inproc_endpoint(sockets_->ends.run, sockets_->ends.place));
@@ -216,8 +220,12 @@ bool ZmqCarrier::ask(const PlaceAt& to, Message& message) {
     if (to.host == s.ends.host) {
         Frames frames;
         frames.push_back(frame_of(std::move(message)));
-        if (send_frames(s.to(inproc_endpoint(s.ends.run, to.index)), frames)) return true;
+        if (send_frames(s.to(inproc_endpoint(s.ends.run, to.index)), frames)) {
+            ++s.asked_here;
+            return true;
+        }
         message = take_message(frames[0]);
+        if (!may_be_full(s.asked_here)) return false;  // it has ended
     } else {
         auto packet = packet::pack(message, to.index);
         Sockets::Pending kept{to.host, frame_of(std::move(packet.header)), frame_of(std::move(packet.body)), true};

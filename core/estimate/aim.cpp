@@ -8,7 +8,7 @@
 namespace lightnet {
 namespace {
 
-constexpr std::size_t least_trials = 64;  // in a cell that is divided
+constexpr std::size_t least_trials = 16;  // of use, in a cell that is divided
 constexpr std::size_t slices = 8;         // at whose borders it may be divided
 constexpr int most_divisions = 32;        // one after the other
 constexpr double even_share = 0.15;       // of all light, for what trials overlooked
@@ -36,7 +36,7 @@ Aim::Aim(std::span<const Trial> trials) {
 // Of light with that density in the cell, the deviation is least when cells are chosen in proportion to this.
 double Aim::gain_of(const Cell& cell, std::span<const Trial> trials) {
     double squares = 0;
-    for (const Trial& trial : trials) squares += double{trial.weight} * trial.gain * trial.gain;
+    for (const Trial& trial : trials) squares += trial.square();
     return std::sqrt(cell.volume() * squares);
 }
 
@@ -46,12 +46,13 @@ std::pair<std::size_t, float> Aim::border_in(const Cell& cell, std::span<const T
     std::pair<std::size_t, float> best{cell.low.size(), 0};
     for (std::size_t i = 0; i < cell.low.size(); ++i) {
         const float low = cell.low[i], size = cell.high[i] - low;
+        if (size < slices * Trial::step) continue;
         std::array<double, slices> squares{};
         double all = 0;
         for (const Trial& trial : trials) {
-            const double gain = double{trial.weight} * trial.gain * trial.gain;
-            squares[std::min(slices - 1, std::size_t((trial.numbers[i] - low) / size * slices))] += gain;
-            all += gain;
+            const double square = trial.square();
+            squares[std::min(slices - 1, std::size_t((trial.number(i) - low) / size * slices))] += square;
+            all += square;
         }
         double below = 0;
         for (std::size_t k = 1; k < slices; ++k) {
@@ -81,7 +82,7 @@ void Aim::divide(const Cell& cell, std::span<Trial> trials, int depth) {
     }
     const auto second =
         std::stable_partition(trials.begin(), trials.end(),
-                              [&, at = best, end = border](const Trial& trial) { return trial.numbers[at] < end; });
+                              [&, at = best, end = border](const Trial& trial) { return trial.number(at) < end; });
     const auto first_half = std::size_t(second - trials.begin());
     Cell below = cell, above = cell;
     below.high[best] = above.low[best] = border;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -15,12 +16,26 @@ namespace lightnet {
 /// The numbers that Scene::emit() takes: which light, where on it, and whither.
 using EmissionNumbers = std::array<float, 5>;
 
-/// One way of light that was tried.
-struct Trial {
-    EmissionNumbers numbers;
-    float weight = 0;  // 1 over the density with which `numbers` were chosen
-    float gain = 0;    // how much of its light was of use, W
+/// A way of light that was tried, and was of use. Small, as many travel: its numbers are cut off.
+class Trial {
+public:
+    Trial() = default;
+    /// `weight`: 1 over the density with which `numbers` were chosen; `gain`: how much of its light was of use, W.
+    Trial(const EmissionNumbers& numbers, float weight, float gain) : worth_(std::sqrt(weight) * gain) {
+        for (std::size_t i = 0; i < numbers.size(); ++i) steps_[i] = static_cast<std::uint16_t>(numbers[i] / step);
+    }
+    float number(std::size_t i) const { return step * (static_cast<float>(steps_[i]) + 0.5f); }
+    /// Weight × gain².
+    double square() const { return double{worth_} * worth_; }
+
+    static constexpr float step = 0x1p-16f;
+
+private:
+    std::array<std::uint16_t, 5> steps_{};
+    std::uint16_t nothing_ = 0;  // no byte is left to chance
+    float worth_ = 0;
 };
+static_assert(sizeof(Trial) == 16);
 
 /// A density over the cube of all emission numbers: high where trials gained much, and nowhere less than a fixed share
 /// of the even one, so that light chosen by it and weighted with 1 / density is right whatever the trials saw. After

@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "core/estimate/ranks.hpp"
 #include "core/math/columns.hpp"
 
 namespace lightnet {
@@ -22,22 +23,6 @@ struct Count {
         std::uint32_t sum = 0;
         for (std::size_t i = 0; i < count; ++i) sum += distances2[i] <= bound ? 1u : 0u;
         within = sum;
-    }
-};
-
-// How many are nearer than each.
-struct Ranks {
-    const float* distances2;
-    std::size_t count, padded;
-    std::array<std::uint32_t, most_ranked> ranks;
-
-    [[gnu::always_inline]] void work() {
-        for (std::size_t i = 0; i < count; ++i) {
-            const float own = distances2[i];
-            std::uint32_t nearer = 0;
-            for (std::size_t k = 0; k < padded; ++k) nearer += distances2[k] < own ? 1u : 0u;
-            ranks[i] = nearer;
-        }
     }
 };
 
@@ -88,17 +73,10 @@ void Nearest::sift() {
 bool Nearest::sort_by_rank() {
     items_.resize(count_);
     if (count_ <= most_ranked) {
-        Ranks ranks;
-        ranks.padded = pad();
-        ranks.distances2 = distances_.data();
-        ranks.count = count_;
-        work_side_by_side(ranks);
-        std::size_t sum = 0;
-        for (std::size_t i = 0; i < count_; ++i) {
-            items_[ranks.ranks[i]] = {distances_[i], indices_[i]};
-            sum += ranks.ranks[i];
-        }
-        if (sum == count_ * (count_ - 1) / 2 || count_ == 0) return true;
+        const std::size_t padded = pad();  // may move them
+        const Ranks<most_ranked> ranks(distances_.data(), count_, padded);
+        for (std::size_t i = 0; i < count_; ++i) items_[ranks[i]] = {distances_[i], indices_[i]};
+        if (ranks.all_differ()) return true;
     }
     for (std::size_t i = 0; i < count_; ++i) items_[i] = {distances_[i], indices_[i]};
     return false;

@@ -102,12 +102,13 @@ void PhotonShooter::visit(Walk walk, const Ray& ray, const Hit& hit, const Keep&
 
 template <class Keep>
 void PhotonShooter::follow(std::uint64_t first, std::size_t count, float share, const Aim& aim, const Keep& keep,
-                           std::vector<Trial>* trials) const {
+                           std::vector<Aim::Choice>* chosen) const {
     Flock flock;
     for (std::size_t i = 0; i < count; ++i) {
         Samples samples(key_, static_cast<std::uint32_t>(first + i));
-        const auto [numbers, weight] = aim.choose(samples);
-        if (trials) trials->push_back({numbers, weight, 0});
+        const auto choice = aim.choose(samples);
+        const auto& [numbers, weight] = choice;
+        if (chosen) chosen->push_back(choice);
         const auto light = scene_.emit(numbers[0], {numbers[1], numbers[2]}, {numbers[3], numbers[4]});
         if (!light || !(max_component(light->flux) > 0)) continue;
         flock.walks.push_back({samples, static_cast<std::uint32_t>(i), light->flux * (weight * share)});
@@ -136,13 +137,15 @@ void PhotonShooter::shoot(std::uint64_t first, std::size_t count, double share, 
 
 void PhotonShooter::attempt(std::uint64_t first, std::size_t count, const Aim& aim, std::vector<Trial>& out) const {
     for (std::size_t done = 0; done < count; done += ways_at_once) {
-        const std::size_t start = out.size();
+        std::vector<Aim::Choice> chosen;
+        std::vector<float> gains(ways_at_once);
         // What the choice itself added to the flux is none of the gain.
         const auto keep = [&](const Walk& walk, const SurfacePoint&, Vec3) {
-            Trial& trial = out[start + walk.way];
-            trial.gain += luminance(walk.flux) / trial.weight;
+            gains[walk.way] += luminance(walk.flux) / chosen[walk.way].weight;
         };
-        follow(first + done, std::min(ways_at_once, count - done), 1, aim, keep, &out);
+        follow(first + done, std::min(ways_at_once, count - done), 1, aim, keep, &chosen);
+        for (std::size_t way = 0; way < chosen.size(); ++way)
+            if (gains[way] > 0) out.emplace_back(chosen[way].numbers, chosen[way].weight, gains[way]);
     }
 }
 

@@ -33,7 +33,7 @@ public:
     /// Ways `first` … `first + count` of `total`; appends what they leave on surfaces: of all light `share` (1 /
     /// total).
     void shoot(std::uint64_t first, std::size_t count, double share, const Aim& aim, std::vector<Photon>& out) const;
-    /// The same ways, as trials.
+    /// The same ways, as trials: of those that leave something.
     void attempt(std::uint64_t first, std::size_t count, const Aim& aim, std::vector<Trial>& out) const;
 
 private:
@@ -41,7 +41,7 @@ private:
     struct Flock;
     template <class Keep>
     void follow(std::uint64_t first, std::size_t count, float share, const Aim& aim, const Keep& keep,
-                std::vector<Trial>* trials) const;
+                std::vector<Aim::Choice>* chosen) const;
     template <class Keep>
     void visit(Walk walk, const Ray& ray, const Hit& hit, const Keep& keep, Flock& flock) const;
     bool keeps(bool met_mirror, bool met_rough) const;

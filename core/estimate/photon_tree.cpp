@@ -1,5 +1,6 @@
 #include "core/estimate/photon_tree.hpp"
 
+#include "core/estimate/ranks.hpp"
 #include "core/math/columns.hpp"
 #include "core/math/sampling.hpp"
 
@@ -17,52 +18,118 @@ namespace {
 constexpr std::size_t width = Nearest::width;  // photons of a leaf
 constexpr std::size_t fan = 8;                 // boxes in a box
 constexpr std::size_t least_shared = 1 << 15;  // photons that are worth a thread
+constexpr std::size_t leaves_at_once = 128;    // whose photons stay in the nearest caches
 constexpr float height_counts = 15;            // of a height squared, beside its part of the distance: a flat ellipsoid
 constexpr float least_cosine = 0.7f;           // between normals of a surface that is taken for the same one
 constexpr float grazing = 0.02f;               // cosine below which light is taken to arrive at this one
 constexpr float nowhere = std::numeric_limits<float>::infinity(), visited = nowhere;
 
 // By all that a photon is, so that the order can't depend on how the library sorts.
-bool comes_before(const Photon& a, const Photon& b, std::size_t axis) {
-    const float x = a.position[axis], y = b.position[axis];
-    if (x != y) return x < y;
+bool comes_before(const Photon& a, const Photon& b) {
     const auto rank = [](const Photon& p) {
         return std::tuple(p.position.x, p.position.y, p.position.z, p.incoming, p.flux.r, p.flux.g, p.flux.b);
     };
     return rank(a) < rank(b);
 }
 
+/// A photon that stays where it is while others are put before and behind it.
+struct Spot {
+    Vec3 position;
+    std::uint32_t photon;
+};
+
+/// The order of photons along an axis.
+struct ByPhoton {
+    std::size_t axis;
+    bool operator()(const Photon& a, const Photon& b) const {
+        const float x = a.position[axis], y = b.position[axis];
+        return x != y ? x < y : comes_before(a, b);
+    }
+};
+/// The same order of those that stand for them.
+struct BySpot {
+    std::size_t axis;
+    const Photon* photons;
+    bool operator()(const Spot& a, const Spot& b) const {
+        const float x = a.position[axis], y = b.position[axis];
+        return x != y ? x < y : comes_before(photons[a.photon], photons[b.photon]);
+    }
+};
+
 // In parts as wide as they are read again: a processor waits where it reads at once what was written in smaller ones.
-void swap_whole(Photon& a, Photon& b) {
+template <class T>
+void swap_whole(T& a, T& b) {
     using Part [[gnu::vector_size(16)]] = float;
-    std::array<Part, sizeof(Photon) / sizeof(Part)> of_a, of_b;
+    std::array<Part, sizeof(T) / sizeof(Part)> of_a, of_b;
     std::memcpy(&of_a, &a, sizeof a);
     std::memcpy(&of_b, &b, sizeof b);
     std::memcpy(static_cast<void*>(&a), &of_b, sizeof a);
     std::memcpy(static_cast<void*>(&b), &of_a, sizeof b);
 }
 
+constexpr std::size_t few = 32;  // that are sorted by their ranks
+
+template <class T, class Before>
+void sort_few(std::span<T> all, const Before& before) {
+    alignas(64) std::array<float, few> values;
+    const std::size_t padded = all.size() <= few / 2 ? few / 2 : few;
+    for (std::size_t i = 0; i < padded; ++i) values[i] = i < all.size() ? all[i].position[before.axis] : nowhere;
+    const Ranks<few> ranks(values.data(), all.size(), padded);
+    if (!ranks.all_differ()) return std::sort(all.begin(), all.end(), before);
+    std::array<T, few> sorted;
+    for (std::size_t i = 0; i < all.size(); ++i) sorted[ranks[i]] = all[i];
+    std::copy_n(sorted.begin(), all.size(), all.begin());
+}
+
 // As nth_element: it puts those before the one in place `middle` before it. Where that guesses at each photon, this
 // moves all alike.
-void halve(std::span<Photon> photons, std::size_t middle, std::size_t axis) {
-    constexpr std::size_t tries = 16;
-    std::array<Photon, tries> some;
-    const auto before = [axis](const Photon& a, const Photon& b) { return comes_before(a, b, axis); };
-    while (photons.size() > 2 * tries) {
-        for (std::size_t i = 0; i < tries; ++i) some[i] = photons[(2 * i + 1) * photons.size() / (2 * tries)];
-        std::sort(some.begin(), some.end(), before);
-        const Photon border = some[std::clamp<std::size_t>(middle * tries / photons.size(), 1, tries - 1)];
+template <class T, class Before>
+void halve(std::span<T> all, std::size_t middle, const Before& before) {
+    constexpr std::size_t tries = few / 2;
+    std::array<T, tries> some;
+    while (all.size() > few) {
+        for (std::size_t i = 0; i < tries; ++i) some[i] = all[(2 * i + 1) * all.size() / (2 * tries)];
+        sort_few(std::span<T>(some), before);
+        const T border = some[std::clamp<std::size_t>(middle * tries / all.size(), 1, tries - 1)];
         std::size_t low = 0;
-        for (Photon& photon : photons) {
-            const bool is_low = before(photon, border);
-            swap_whole(photon, photons[low]);
+        for (T& one : all) {
+            const bool is_low = before(one, border);
+            swap_whole(one, all[low]);
             low += is_low;
         }
         if (low == 0) break;  // as many are the same
-        photons = middle < low ? photons.first(low) : photons.subspan(low);
+        all = middle < low ? all.first(low) : all.subspan(low);
         middle -= middle < low ? 0 : low;
     }
-    std::nth_element(photons.begin(), photons.begin() + std::ptrdiff_t(middle), photons.end(), before);
+    if (all.size() <= few) return sort_few(all, before);
+    std::nth_element(all.begin(), all.begin() + std::ptrdiff_t(middle), all.end(), before);
+}
+
+template <class T>
+std::size_t longest_side(std::span<const T> all) {
+    Vec3 least = all[0].position, most = least;
+    for (const T& one : all)
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            least[axis] = std::min(least[axis], one.position[axis]);
+            most[axis] = std::max(most[axis], one.position[axis]);
+        }
+    const Vec3 size = most - least;
+    return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+}
+
+// How many of the leaves come first: so many that the leaves of every box follow one another.
+std::size_t first_half(std::size_t leaves) {
+    std::size_t of_box = 1;  // leaves of the boxes in the smallest box that has all these
+    while (of_box * fan < leaves) of_box *= fan;
+    return ((leaves + of_box - 1) / of_box + 1) / 2 * of_box;
+}
+
+void sort_spots(std::span<Spot> spots, std::size_t leaves, const Photon* photons) {
+    if (leaves == 1) return sort_few(spots, BySpot{0, photons});
+    const std::size_t left = first_half(leaves);
+    halve(spots, left * width, BySpot{longest_side(std::span<const Spot>(spots)), photons});
+    sort_spots(spots.first(left * width), left, photons);
+    sort_spots(spots.subspan(left * width), leaves - left, photons);
 }
 
 }  // namespace
@@ -87,8 +154,7 @@ struct PhotonTree::Boxes {
     std::array<Floats, 3> least, most;
 };
 
-PhotonTree::PhotonTree(std::vector<Photon> photons, std::size_t threads)
-    : size_(photons.size()), photons_(std::move(photons)) {
+PhotonTree::PhotonTree(Photons photons, std::size_t threads) : size_(photons.size()), photons_(std::move(photons)) {
     static_assert(sizeof(Leaf) == width * sizeof(Photon) && alignof(Leaf) == alignof(Photon) && width == room);
     Photon none;
     none.position = Vec3{1, 1, 1} * std::numeric_limits<float>::quiet_NaN();
@@ -119,27 +185,14 @@ Photon PhotonTree::operator[](std::size_t i) const {
     return photon;
 }
 
-// Halves photons along the longest side until there is a leaf of them, at such places that the leaves of every box
-// follow one another. What other threads do with other leaves changes nothing in these.
+// Halves photons along the longest side until there is a leaf of them. What other threads do with other leaves changes
+// nothing in these.
 void PhotonTree::sort(std::size_t first, std::size_t leaves, std::size_t threads) {
+    if (leaves <= leaves_at_once) return put_in_leaves(first, leaves);
     const std::size_t low = first * width, high = std::min(low + leaves * width, size_);
-    const auto at = [&](std::size_t i) { return photons_.begin() + std::ptrdiff_t(i); };
-    if (leaves == 1) {
-        std::sort(at(low), at(high), [](const Photon& a, const Photon& b) { return comes_before(a, b, 0); });
-        return put_in_columns(first);
-    }
-    Vec3 least = photons_[low].position, most = least;
-    for (std::size_t i = low; i < high; ++i)
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            least[axis] = std::min(least[axis], photons_[i].position[axis]);
-            most[axis] = std::max(most[axis], photons_[i].position[axis]);
-        }
-    const Vec3 size = most - least;
-    const std::size_t axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    std::size_t of_box = 1;  // leaves of the boxes in the smallest box that has all these
-    while (of_box * fan < leaves) of_box *= fan;
-    const std::size_t left = ((leaves + of_box - 1) / of_box + 1) / 2 * of_box;
-    halve(std::span(photons_).subspan(low, high - low), left * width, axis);
+    const auto photons = std::span(photons_).subspan(low, high - low);
+    const std::size_t left = first_half(leaves);
+    halve(photons, left * width, ByPhoton{longest_side(std::span<const Photon>(photons))});
     if (threads < 2 || high - low < least_shared) {
         sort(first, left, 1);
         sort(first + left, leaves - left, 1);
@@ -147,6 +200,18 @@ void PhotonTree::sort(std::size_t first, std::size_t leaves, std::size_t threads
         const std::jthread other([=, this] { sort(first, left, threads / 2); });
         sort(first + left, leaves - left, threads - threads / 2);
     }
+}
+
+// The same for so few that they stay in the cache: where they are is moved, and they follow in the end.
+void PhotonTree::put_in_leaves(std::size_t first, std::size_t leaves) {
+    const std::size_t low = first * width, high = std::min(low + leaves * width, size_);
+    const std::vector<Photon> photons(photons_.begin() + std::ptrdiff_t(low), photons_.begin() + std::ptrdiff_t(high));
+    std::vector<Spot> spots;
+    spots.reserve(photons.size());
+    for (const Photon& photon : photons) spots.push_back({photon.position, std::uint32_t(spots.size())});
+    sort_spots(spots, leaves, photons.data());
+    for (std::size_t i = 0; i < spots.size(); ++i) photons_[low + i] = photons[spots[i].photon];
+    for (std::size_t leaf = first; leaf < first + leaves; ++leaf) put_in_columns(leaf);
 }
 
 void PhotonTree::put_in_columns(std::size_t leaf) {
@@ -188,7 +253,7 @@ void PhotonTree::put_in_boxes() {
     }
     for (std::size_t count = levels_[0].size(); count > 1; count = groups(count)) {
         const auto& inside = levels_.back();
-        std::vector<Boxes> level(groups(count));
+        Level level(groups(count));
         for (std::size_t i = 0; i < count; ++i)
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 const auto all = std::ptrdiff_t(children(levels_.size() - 1, i));
@@ -288,7 +353,7 @@ std::span<const Nearest::Item> PhotonTree::find(const Wanted& wanted, Nearest& s
     Search search(*this, wanted, scratch);
     if (size_ > 0) search.look(levels_.size() - 1, 0);
     // Indices would differ between the trees of all photons and of some.
-    return scratch.sorted([this](auto a, auto b) { return comes_before((*this)[a], (*this)[b], 0); });
+    return scratch.sorted([this](auto a, auto b) { return comes_before((*this)[a], (*this)[b]); });
 }
 
 namespace {

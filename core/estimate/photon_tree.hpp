@@ -10,6 +10,7 @@
 #include "core/estimate/nearest.hpp"
 #include "core/estimate/photon.hpp"
 #include "core/light/query.hpp"
+#include "core/math/columns.hpp"
 #include "core/scene/surface.hpp"
 
 namespace lightnet {
@@ -18,12 +19,14 @@ namespace lightnet {
 /// depends on the photons alone.
 class PhotonTree {
 public:
+    using Photons = std::vector<Photon, InLines<Photon>>;
+
     /// `threads` of the caller's machine build it together.
-    explicit PhotonTree(std::vector<Photon> photons, std::size_t threads = 1);
+    explicit PhotonTree(Photons photons, std::size_t threads = 1);
     ~PhotonTree();
     PhotonTree(PhotonTree&&) noexcept;
     explicit PhotonTree(std::span<const Photon> photons, std::size_t threads = 1)
-        : PhotonTree(std::vector<Photon>(photons.begin(), photons.end()), threads) {}
+        : PhotonTree(Photons(photons.begin(), photons.end()), threads) {}
 
     /// What `photons` may need beyond their number so that they need not be copied.
     static constexpr std::size_t room = Nearest::width;
@@ -58,17 +61,19 @@ private:
     struct Leaf;
     struct Boxes;
     class Search;
+    using Level = std::vector<Boxes, InLines<Boxes>>;
 
     const Leaf& leaf(std::size_t i) const;
     const Light& light_of(std::size_t i) const;
     std::size_t children(std::size_t level, std::size_t at) const;
     void sort(std::size_t first, std::size_t leaves, std::size_t threads);
+    void put_in_leaves(std::size_t first, std::size_t leaves);
     void put_in_columns(std::size_t leaf);
     void put_in_boxes();
 
     std::size_t size_;
-    std::vector<Photon> photons_;             // a place for leaves, each in that of its photons
-    std::vector<std::vector<Boxes>> levels_;  // around leaves, around those of the level before, … around all
+    Photons photons_;            // a place for leaves, each in that of its photons
+    std::vector<Level> levels_;  // around leaves, around those of the level before, … around all
 };
 
 }  // namespace lightnet

@@ -65,6 +65,7 @@ struct Kind {
     std::size_t least_inputs = 0;  // light inputs, from the array part
     std::size_t most_inputs = 0;
     bool prepares = false;     // learns something before the first question: LightOp::prepare()
+    bool rehearses = false;    // asks for rehearsals meanwhile: Services::rehearse()
     std::string freezes = {};  // what it keeps for good when it has prepared, for nodes that take it: "photons"
     bool locks = false;        // holds named locks: NodeContext::locks()
     bool linear = false;       // answers with a weighted sum of its inputs: layers pass through

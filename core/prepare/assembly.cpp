@@ -109,6 +109,12 @@ void Assembly::prepare(std::size_t node, Services& services) {
     }
 }
 
+Rehearsal& Assembly::rehearsal(std::size_t node) {
+    if (!network_.kind_of(node).rehearses)
+        throw Error("it asks for a rehearsal, but its kind does not say that it does");
+    return rehearsals_[node];
+}
+
 const Renderer& Assembly::renderer(std::size_t node) {
     auto& renderer = renderers_[node];
     if (!renderer) renderer = made(network_, node, inputs_of(node), own_of(node), network_.kind_of(node).make_renderer);

@@ -59,7 +59,7 @@ public:
     const LightOp& light(std::size_t node);
     /// Has the node prepare itself.
     void prepare(std::size_t node, Services& services);
-    Rehearsal& rehearsal(std::size_t node) { return rehearsals_[node]; }
+    Rehearsal& rehearsal(std::size_t node);
     Called called(std::size_t node) {
         return {light(node), network_.graph.nodes[node].name, network_.width_of(node),
                 network_.kind_of(node).side_by_side, &not_finite_[node]};

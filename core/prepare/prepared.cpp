@@ -19,6 +19,19 @@ std::vector<std::size_t> preparing_nodes(const Graph& graph, const Registry& reg
     return nodes;
 }
 
+std::vector<std::size_t> stages_of(const std::vector<std::size_t>& nodes, const Graph& graph,
+                                   const Registry& registry) {
+    const auto ranks = ranks_of(graph);
+    const auto rehearses = [&](std::size_t node) { return registry.find(graph.nodes[node].kind)->rehearses; };
+    std::vector<std::size_t> stages;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const bool together =
+            i > 0 && ranks[nodes[i]] == ranks[nodes[i - 1]] && !rehearses(nodes[i]) && !rehearses(nodes[i - 1]);
+        stages.push_back(together ? stages.back() : i);
+    }
+    return stages;
+}
+
 std::vector<Tile> rehearsal_tiles(const Graph& graph, const Registry& registry, std::uint32_t stride) {
     if (stride == 0) throw Error("a rehearsal's stride must be at least 1");
     const auto film = film_of(graph, registry);

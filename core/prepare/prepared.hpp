@@ -23,6 +23,11 @@ namespace lightnet {
 /// Nodes that the picture needs and that prepare, inputs before those who ask them.
 std::vector<std::size_t> preparing_nodes(const Graph& graph, const Registry& registry);
 
+/// For each of these nodes, the position of the first that prepares together with it. Those of one rank can't ask each
+/// other, so what one computes fills the pauses of another. A node that rehearses prepares alone: what it notes must
+/// not depend on how far others are.
+std::vector<std::size_t> stages_of(const std::vector<std::size_t>& nodes, const Graph& graph, const Registry& registry);
+
 /// The pixels of a rehearsal: every `stride`-th of every `stride`-th row of the graph's film. Throws Error when stride
 /// is 0.
 std::vector<Tile> rehearsal_tiles(const Graph& graph, const Registry& registry, std::uint32_t stride);

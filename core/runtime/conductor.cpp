@@ -29,6 +29,7 @@ Conductor::Conductor(Options options, Carrier& carrier)
       carrier_(carrier),
       calls_(*options_.graph, options_.made_from, options_.cache),
       order_(preparing_nodes(*options_.graph, *options_.registry)),
+      stages_(stages_of(order_, *options_.graph, *options_.registry)),
       locks_(std::any_of(options_.graph->nodes.begin(), options_.graph->nodes.end(),
                          [&](const Node& node) { return options_.registry->find(node.kind)->locks; })) {
     proposal_.places_of.resize(options_.graph->nodes.size());
@@ -132,10 +133,17 @@ void Conductor::enforce() {
 
 // ---- leading --------------------------------------------------------------------------------------------------------
 
+// Up to where: what is prepared, for those who come late, and the whole stage of what is not.
+std::size_t Conductor::led() const {
+    std::size_t end = done_;
+    while (end < order_.size() && stages_[end] <= done_) ++end;
+    return end;
+}
+
 void Conductor::advance() {
     bool more = true;
     while (more) {
-        for (std::size_t position = 0; position <= done_ && position < order_.size(); ++position)
+        for (std::size_t position = 0; position < led(); ++position)
             for (const auto& copy : copies(position)) lead(copy, position);
         more = false;
         if (done_ < order_.size()) {
@@ -178,7 +186,7 @@ void Conductor::lead(const Copy& copy, std::size_t position) {
     auto& follower = followers_[copy];
     if (follower.state == Follower::State::idle) {
         // Inputs are prepared before those who ask them: at every place, in the order of all.
-        for (std::size_t before = 0; before < position; ++before)
+        for (std::size_t before = 0; before < stages_[position]; ++before)
             for (const auto& earlier : copies(before))
                 if (earlier.place == copy.place && !is_done(earlier)) return;
         if (send(copy, position, {.kind = Step::Kind::prepare})) follower.state = Follower::State::asked;

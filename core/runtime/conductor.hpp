@@ -22,11 +22,11 @@
 
 namespace lightnet {
 
-/// Stands between the run's carrier and the master renderer. Nodes prepare one after the other, inputs first, each on
-/// all places that hold it: shards go to whoever is free, results are put together here, in order, and brought to all.
-/// The sectors of a sharded node prepare together, each in its own copies, which get their parts of the results alone.
-/// A place that comes later is given the results, and is made known to the others when it has caught up. Belongs to
-/// the launcher's thread.
+/// Stands between the run's carrier and the master renderer. Nodes prepare stage by stage, inputs first, see
+/// stages_of(), each on all places that hold it: shards go to whoever is free, results are put together here, in order,
+/// and brought to all. The sectors of a sharded node prepare together, each in its own copies, which get their parts of
+/// the results alone. A place that comes later is given the results, and is made known to the others when it has caught
+/// up. Belongs to the launcher's thread.
 ///
 /// What is proposed and what is in force: the carrier proposes a plan whenever hosts come or go. In force is the part
 /// of it that can be asked: a place that is still behind is left out, and so is a node that was moved to a place and
@@ -111,6 +111,7 @@ private:
     bool is_done(const Copy& copy) const;
     const std::string& name_of(std::size_t position) const;
     void advance();
+    std::size_t led() const;
     void lead(const Copy& copy, std::size_t position);
     void hand_out(const Copy& copy, std::size_t position, Call& call);
     void collect();
@@ -133,7 +134,8 @@ private:
     Carrier& carrier_;
     Calls calls_;
     std::vector<std::size_t> order_;  // nodes that prepare; what stands for their sectors is found by nodes_at()
-    bool locks_;                      // somebody in the graph does
+    std::vector<std::size_t> stages_;
+    bool locks_;  // somebody in the graph does
     LockDesk desk_;
     std::set<PlaceKey> attended_;                    // have a step `attend` now
     std::set<PlaceKey> heard_of_;                    // had one

@@ -76,6 +76,64 @@ Query at(std::uint32_t primitive) {
     return question;
 }
 
+// What one node computes fills the pauses of another that it can't ask; who asks both waits for them.
+TEST(Conductor, PreparesNodesThatDoNotAskEachOtherAtTheSameTime) {
+    const Registry kinds = test::with_learner();
+    const Graph graph = check(
+        {"test.lua",
+         Nodes{node("scene", "Scene", {Value{std::string("none.pbrt")}}), node("caustics", "PhotonMap", {}),
+               node("global", "PhotonMap", {}, {{"paths", Value{"diffuse"}}}),
+               node("both", "Combine", {Value{NodeRef{"caustics"}}, Value{NodeRef{"global"}}}),
+               node("learned", "Learner", {Value{NodeRef{"both"}}}),
+               node("image", "RayTracer", {Value{NodeRef{"learned"}}},
+                    {{"scene", Value{NodeRef{"scene"}}}, {"film", Value{Table{{Value{24.0}, Value{16.0}}, {}}}}})}},
+        kinds);
+    const std::size_t caustics = 1, global = 2, learned = 4;
+    ByHand places;
+    Conductor::Options options;
+    options.run = 1;
+    options.graph = &graph;
+    options.registry = &kinds;
+    Conductor conductor(options, places);
+    const auto lead = [&] { EXPECT_FALSE(conductor.prepare(std::chrono::milliseconds(2))); };
+    const auto next = [&](Step::Kind kind, std::size_t node) {
+        auto asked = places.take();
+        EXPECT_TRUE(asked.of_kind(kind));
+        EXPECT_EQ(asked.message.node, node);
+        return asked;
+    };
+    conductor.propose({{{"a", 0}}, std::vector<std::vector<std::uint32_t>>(graph.nodes.size(), {0})});
+    auto first = next(Step::Kind::prepare, caustics), second = next(Step::Kind::prepare, global);
+    EXPECT_TRUE(places.asked.empty());
+    // The later one has shards to do while the first still thinks, and is done before it.
+    places.answer(std::move(second), Report{Report::Kind::map, 0, 1});
+    lead();
+    auto shards = next(Step::Kind::shards, global);
+    Message results = reply_to(shards.message);
+    const std::vector<std::byte> none;
+    results.data = join_shards(std::span(&none, 1));
+    places.arrived.push_back(results);
+    lead();
+    places.answer(next(Step::Kind::go_on, global), Report{Report::Kind::done, 1, 0});
+    lead();
+    EXPECT_TRUE(places.asked.empty()) << "not before both are done";
+    // Who comes now is led through both, too.
+    conductor.propose({{{"a", 0}, {"b", 0}}, std::vector<std::vector<std::uint32_t>>(graph.nodes.size(), {0, 1})});
+    const auto late_first = next(Step::Kind::prepare, caustics), late_second = next(Step::Kind::prepare, global);
+    EXPECT_EQ(late_first.place.host, "b");
+    places.answer(late_first, Report{Report::Kind::done, 0, 0});
+    places.answer(late_second, Report{Report::Kind::map, 0, 1});
+    lead();
+    places.answer(next(Step::Kind::go_on, global), Report{Report::Kind::done, 1, 0});
+    lead();
+    EXPECT_TRUE(places.asked.empty());
+    places.answer(std::move(first), Report{Report::Kind::done, 0, 0});
+    lead();
+    next(Step::Kind::prepare, learned);
+    next(Step::Kind::prepare, learned);
+    EXPECT_TRUE(places.asked.empty());
+}
+
 // A host leaves after all tiles of a rehearsal are rendered. The rehearsal begins again; what another host still says
 // of the first one comes in its middle.
 TEST(Conductor, TakesNoNotesOfARehearsalThatWasBrokenOff) {

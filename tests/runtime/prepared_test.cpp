@@ -93,6 +93,46 @@ TEST(RehearsalTiles, CoverTheFilm) {
     EXPECT_EQ(pixels, 24u * 16);
 }
 
+// Rehearsals change what others would note in theirs, so who rehearses is alone.
+TEST(Stages, AreOfNodesThatCannotAskEachOther) {
+    const auto registry = test::with_learner();
+    Graph graph{"test.lua", {}};
+    const auto ref = [](const char* name) { return Value{NodeRef{name}}; };
+    graph.nodes = {
+        node("scene", "Scene", {Value{std::string("none.pbrt")}}),
+        node("direct", "DirectLighting", {}),
+        node("caustics", "PhotonMap", {}),
+        node("early", "Learner", {ref("direct")}),
+        node("global", "PhotonMap", {}, {{"paths", Value{"diffuse"}}}),
+        node("records", "PhotonIrradiance", {}, {{"of", ref("global")}}),
+        node("late", "Learner", {ref("early")}),
+        node("all", "Combine", {ref("direct"), ref("caustics"), ref("records"), ref("late")}),
+        node("image", "RayTracer", {ref("all")},
+             {{"scene", ref("scene")}, {"film", Value{Table{{Value{24.0}, Value{16.0}}, {}}}}}),
+    };
+    graph = check(graph, registry);
+    const auto nodes = preparing_nodes(graph, registry);
+    std::vector<std::string> names;
+    for (const auto node : nodes) names.push_back(graph.nodes[node].name);
+    ASSERT_THAT(names, ElementsAre("caustics", "global", "early", "records", "late"));
+    EXPECT_THAT(stages_of(nodes, graph, registry), ElementsAre(0, 0, 2, 3, 4));
+}
+
+TEST(SerialRun, SaysWhenAKindRehearsesUnannounced) {
+    auto kinds = standard_nodes();
+    kinds.push_back(test::learner());
+    kinds.back().rehearses = false;
+    const Registry registry(std::move(kinds));
+    const auto network = network_of(learning_graph(registry), registry);
+    SerialRun run(*network);
+    try {
+        run.prepare("", nullptr);
+        FAIL() << "it rehearsed";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("Learner 'learned', preparing: it asks for a rehearsal"));
+    }
+}
+
 TEST(Recipes, DependOnWhatANodeAsksAndOnNothingAboveIt) {
     const auto registry = test::with_learner();
     const auto graph = learning_graph(registry);

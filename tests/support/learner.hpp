@@ -85,7 +85,7 @@ private:
 
 inline Kind learner() {
     Kind kind{.name = "Learner", .help = "remembers light that it has met", .least_inputs = 1, .most_inputs = 1};
-    kind.prepares = true;
+    kind.prepares = kind.rehearses = true;
     kind.params = {{.name = "stride",
                     .type = ParamType::integer,
                     .help = "of the rehearsals",
