@@ -1,6 +1,6 @@
 #include "core/estimate/photon_tree.hpp"
 
-#include "core/estimate/ranks.hpp"
+#include "core/estimate/photon_order.hpp"
 #include "core/math/columns.hpp"
 #include "core/math/sampling.hpp"
 
@@ -9,7 +9,6 @@
 #include <limits>
 #include <new>
 #include <thread>
-#include <tuple>
 #include <utility>
 
 namespace lightnet {
@@ -23,99 +22,6 @@ constexpr float height_counts = 15;            // of a height squared, beside it
 constexpr float least_cosine = 0.7f;           // between normals of a surface that is taken for the same one
 constexpr float grazing = 0.02f;               // cosine below which light is taken to arrive at this one
 constexpr float nowhere = std::numeric_limits<float>::infinity(), visited = nowhere;
-
-// By all that a photon is, so that the order can't depend on how the library sorts.
-bool comes_before(const Photon& a, const Photon& b) {
-    const auto rank = [](const Photon& p) {
-        return std::tuple(p.position.x, p.position.y, p.position.z, p.incoming, p.flux.r, p.flux.g, p.flux.b);
-    };
-    return rank(a) < rank(b);
-}
-
-/// A photon that stays where it is while others are put before and behind it.
-struct Spot {
-    Vec3 position;
-    std::uint32_t photon;
-};
-
-/// The order of photons along an axis.
-struct ByPhoton {
-    std::size_t axis;
-    bool operator()(const Photon& a, const Photon& b) const {
-        const float x = a.position[axis], y = b.position[axis];
-        return x != y ? x < y : comes_before(a, b);
-    }
-};
-/// The same order of those that stand for them.
-struct BySpot {
-    std::size_t axis;
-    const Photon* photons;
-    bool operator()(const Spot& a, const Spot& b) const {
-        const float x = a.position[axis], y = b.position[axis];
-        return x != y ? x < y : comes_before(photons[a.photon], photons[b.photon]);
-    }
-};
-
-// In parts as wide as they are read again: a processor waits where it reads at once what was written in smaller ones.
-template <class T>
-void swap_whole(T& a, T& b) {
-    using Part [[gnu::vector_size(16)]] = float;
-    std::array<Part, sizeof(T) / sizeof(Part)> of_a, of_b;
-    std::memcpy(&of_a, &a, sizeof a);
-    std::memcpy(&of_b, &b, sizeof b);
-    std::memcpy(static_cast<void*>(&a), &of_b, sizeof a);
-    std::memcpy(static_cast<void*>(&b), &of_a, sizeof b);
-}
-
-constexpr std::size_t few = 32;  // that are sorted by their ranks
-
-template <class T, class Before>
-void sort_few(std::span<T> all, const Before& before) {
-    alignas(64) std::array<float, few> values;
-    const std::size_t padded = all.size() <= few / 2 ? few / 2 : few;
-    for (std::size_t i = 0; i < padded; ++i) values[i] = i < all.size() ? all[i].position[before.axis] : nowhere;
-    const Ranks<few> ranks(values.data(), all.size(), padded);
-    if (!ranks.all_differ()) return std::sort(all.begin(), all.end(), before);
-    std::array<T, few> sorted;
-    for (std::size_t i = 0; i < all.size(); ++i) sorted[ranks[i]] = all[i];
-    std::copy_n(sorted.begin(), all.size(), all.begin());
-}
-
-// As nth_element: it puts those before the one in place `middle` before it. Where that guesses at each photon, this
-// moves all alike.
-template <class T, class Before>
-void halve(std::span<T> all, std::size_t middle, const Before& before) {
-    constexpr std::size_t tries = few / 2;
-    std::array<T, tries> some;
-    while (all.size() > few) {
-        for (std::size_t i = 0; i < tries; ++i) some[i] = all[(2 * i + 1) * all.size() / (2 * tries)];
-        sort_few(std::span<T>(some), before);
-        const T border = some[std::clamp<std::size_t>(middle * tries / all.size(), 1, tries - 1)];
-        std::size_t low = 0;
-        for (T& one : all) {
-            const bool is_low = before(one, border);
-            swap_whole(one, all[low]);
-            low += is_low;
-        }
-        if (low == 0) break;  // as many are the same
-        all = middle < low ? all.first(low) : all.subspan(low);
-        middle -= middle < low ? 0 : low;
-    }
-    if (all.size() <= few) return sort_few(all, before);
-    std::nth_element(all.begin(), all.begin() + std::ptrdiff_t(middle), all.end(), before);
-}
-
-template <class T>
-std::size_t longest_side(std::span<const T> all) {
-    Vec3 least = all[0].position, most = least;
-    for (const T& one : all)
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            least[axis] = std::min(least[axis], one.position[axis]);
-            most[axis] = std::max(most[axis], one.position[axis]);
-        }
-    const Vec3 size = most - least;
-    return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-}
 
 // How many of the leaves come first: so many that the leaves of every box follow one another.
 std::size_t first_half(std::size_t leaves) {

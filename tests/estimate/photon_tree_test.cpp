@@ -2,9 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <tuple>
 
 #include "core/estimate/photon_tree.hpp"
+#include "core/estimate/ranks.hpp"
 #include "core/math/samples.hpp"
 
 namespace lightnet {
@@ -103,12 +106,32 @@ TEST(PhotonTree, FindsAllThatCountsAsNearInSpace) {
     }
 }
 
+TEST(Ranks, AreOrderOrSayThatSomeAreEqual) {
+    std::array<float, 16> values;
+    values.fill(std::numeric_limits<float>::infinity());
+    std::ranges::copy(std::array{7.0f, -3.0f, 0.0f, 2.0f}, values.begin());
+    const Ranks<32> ranks(values.data(), 4, 16);
+    EXPECT_TRUE(ranks.all_differ());
+    for (std::size_t i = 0; i < 4; ++i) {
+        const auto less = [&](std::size_t k) { return values[k] < values[i]; };
+        EXPECT_EQ(ranks[i], less(0) + less(1) + less(2) + less(3));
+    }
+    values[1] = values[2];
+    EXPECT_FALSE(Ranks<32>(values.data(), 4, 16).all_differ());
+    values.fill(std::numeric_limits<float>::infinity());
+    EXPECT_TRUE(Ranks<32>(values.data(), 0, 16).all_differ());
+    values[0] = 1;
+    EXPECT_TRUE(Ranks<32>(values.data(), 1, 16).all_differ());
+}
+
 TEST(PhotonTree, DependsNeitherOnTheOrderOfPhotonsNorOnThreads) {
-    auto photons = on_floor(100000, 2);
-    const PhotonTree one(photons);
-    std::reverse(photons.begin(), photons.end());
-    const PhotonTree other(photons, 4);
-    for (std::size_t i = 0; i < one.size(); ++i) EXPECT_EQ(one[i].position, other[i].position);
+    for (const bool on_grid : {false, true}) {
+        auto photons = on_floor(100000, 2, on_grid);
+        const PhotonTree one(photons);
+        std::reverse(photons.begin(), photons.end());
+        const PhotonTree other(photons, 4);
+        for (std::size_t i = 0; i < one.size(); ++i) EXPECT_EQ(one[i].position, other[i].position);
+    }
 }
 
 // The bytes of a sharded map are those of a whole one.
