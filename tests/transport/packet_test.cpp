@@ -144,7 +144,7 @@ TEST(Packet, LeavesBlackColoursOut) {
         const auto got = packet::unpack(packed.header, packed.body);
         ASSERT_TRUE(got);
         ASSERT_EQ(got->answers.size(), count);
-        EXPECT_EQ(std::memcmp(got->answers.data(), sent.answers.data(), count * sizeof(Rgb)), 0);
+        EXPECT_TRUE(count == 0 || std::memcmp(got->answers.data(), sent.answers.data(), count * sizeof(Rgb)) == 0);
         EXPECT_LE(packed.body.size(), count * sizeof(Rgb) / 3 + 60);
     }
 }
