@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace lightnet {
@@ -44,10 +45,16 @@ public:
     explicit Error(const std::string& what) : std::runtime_error(what) {}
 };
 
-/// An Error that names the node and the question already.
+/// An Error that names the node and the question already, and the host on which it happened; "": this one.
 class NodeError : public Error {
 public:
-    using Error::Error;
+    explicit NodeError(const std::string& what, std::string host = {}) : Error(what), host_(std::move(host)) {}
+    NodeError(const std::string& where, const std::string& what, std::string host)
+        : Error(where, what), host_(std::move(host)) {}
+    const std::string& host() const { return host_; }
+
+private:
+    std::string host_;
 };
 
 }  // namespace lightnet

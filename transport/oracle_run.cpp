@@ -36,7 +36,7 @@ public:
 
     void reply(Message message) override {
         if (message.channel != from_master) return push(message, false);
-        if (message.type == Message::Type::failure) throw Error(message.text);
+        if (message.type == Message::Type::failure) throw Error(message.trouble.why);
         done_(tiles_[message.bundle], message.answers);
         ++tiles_done_;
     }

@@ -167,7 +167,9 @@ Packet pack(const Message& message, std::uint32_t place) {
     };
     if (message.type == Message::Type::failure) {
         header.type = Type::failure;
-        body = pack(Type::failure, message.run, Fields{}.set("text", message.text)).body;
+        body = pack(Type::failure, message.run,
+                    Fields{}.set("text", message.trouble.why).set("host", message.trouble.host))
+                   .body;
     } else if (message.type == Message::Type::reply && message.data) {
         header.type = Type::data;
         body.reserve(message.data->size() + 16);
@@ -220,7 +222,7 @@ std::optional<Message> unpack(View header_bytes, View body) {
             const auto fields = unpack_fields(body);
             if (!fields) return std::nullopt;
             message.type = Message::Type::failure;
-            message.text = fields->text("text");
+            message.trouble = {fields->text("text"), fields->text("host")};
             return message;
         }
         default:

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "core/message/counters.hpp"
 #include "core/message/message.hpp"
@@ -29,6 +30,9 @@ public:
     virtual bool bring(const PlaceAt&, const Hash&, const Bytes&) { return true; }
     /// From now on everybody asks by this plan. For carriers that propose plans.
     virtual void adopt(const Plan&) {}
+    /// Work failed at `host` that others can do: from now on it gets none. False: that can't be, as there is
+    /// nobody else.
+    virtual bool take_out(const std::string& /*host*/, const std::string& /*why*/) { return false; }
     /// Forgets about a place that is gone.
     virtual void forget(const PlaceAt& place) = 0;
     /// Where the carrier counts bytes and refusals.

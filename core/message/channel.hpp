@@ -29,10 +29,10 @@ class BundleOwner {
 public:
     virtual ~BundleOwner() = default;
     virtual void answered(const Bundle<Question>& bundle, std::vector<Rgb> answers) = 0;
-    virtual void failed(const Bundle<Question>& bundle, const std::string& why) = 0;
+    virtual void failed(const Bundle<Question>& bundle, const Failure& failure) = 0;
     virtual void returned(Bundle<Question> bundle) = 0;
     /// It seems to kill hosts, and is asked no more.
-    virtual void set_aside(const Bundle<Question>& bundle, const std::string& why) { failed(bundle, why); }
+    virtual void set_aside(const Bundle<Question>& bundle, const std::string& why) { failed(bundle, {why, {}}); }
 };
 
 /// Takes bundles and has them answered. A multiplexer is itself a channel, made of channels.

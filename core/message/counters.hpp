@@ -25,6 +25,7 @@ struct Counters {
     std::uint64_t spilled = 0;         // bundles and tiles that did not go to the place of their region, as it was busy
     std::uint64_t asked_again = 0;     // bundles and tiles whose place was lost
     std::uint64_t overdue = 0;         // asked again elsewhere, as a place that is not lost kept silent
+    std::uint64_t retried = 0;         // bundles and tiles that failed at one host, and were asked of another
     std::uint64_t doubled = 0;         // done once more at the end, by places with nothing else to do
     std::uint64_t compared = 0;        // answers that came twice and were compared bit for bit
     std::uint64_t set_aside = 0;       // bundles and tiles that seem to kill hosts
@@ -59,11 +60,11 @@ struct Counters {
     static inline const std::string not_finite_of = "not_finite.";
 
     /// Every other count and its name, as in run.json and on the wire.
-    static const std::array<std::pair<const char*, std::uint64_t Counters::*>, 21> all;
+    static const std::array<std::pair<const char*, std::uint64_t Counters::*>, 22> all;
     friend bool operator==(const Counters&, const Counters&) = default;
 };
 
-inline constexpr std::array<std::pair<const char*, std::uint64_t Counters::*>, 21> Counters::all{{
+inline constexpr std::array<std::pair<const char*, std::uint64_t Counters::*>, 22> Counters::all{{
     {"rays", &Counters::rays},
     {"local_questions", &Counters::local_questions},
     {"questions", &Counters::questions},
@@ -78,6 +79,7 @@ inline constexpr std::array<std::pair<const char*, std::uint64_t Counters::*>, 2
     {"spilled", &Counters::spilled},
     {"asked_again", &Counters::asked_again},
     {"overdue", &Counters::overdue},
+    {"retried", &Counters::retried},
     {"doubled", &Counters::doubled},
     {"compared", &Counters::compared},
     {"set_aside", &Counters::set_aside},

@@ -29,6 +29,13 @@ struct Load {
 template <class Question>
 using Questions = std::shared_ptr<const std::vector<Question>>;
 
+/// Why there is no answer.
+struct Failure {
+    std::string why;
+    std::string host;  // where it happened, which may be further up than who was asked
+    friend bool operator==(const Failure&, const Failure&) = default;
+};
+
 /// How a reply finds its way back; only carriers look inside.
 struct Route {
     std::vector<std::string> hops;
@@ -38,7 +45,7 @@ struct Message {
     enum class Type : std::uint8_t {
         ask,      // questions for `node`
         reply,    // answers to them
-        failure,  // there will be none: `text` says why
+        failure,  // there will be none: see `trouble`
         plan,     // who answers for which node from now on
         stop,     // end the run: to a place
     };
@@ -54,7 +61,7 @@ struct Message {
     std::vector<Rgb> answers;
     Bytes data;  // what a step is about, or its answer
     Load load;
-    std::string text;
+    Failure trouble;
     std::shared_ptr<const Plan> plan;
     Route route;  // of an ask that has arrived
 };

@@ -72,9 +72,9 @@ void answer(const Called& node, std::size_t width, std::span<const Query> questi
     if (node.not_finite)
         for (const Rgb& colour : answers) *node.not_finite += !finite(colour);
 } catch (const NodeError& error) {
-    throw NodeError("'" + node.name + "'", error.what());
+    throw NodeError("'" + node.name + "'", error.what(), error.host());
 } catch (const std::exception& error) {
-    throw NodeError("'" + node.name + "'" + culprit(node, questions), error.what());
+    throw NodeError("'" + node.name + "'" + culprit(node, questions), error.what(), {});
 }
 
 }  // namespace lightnet

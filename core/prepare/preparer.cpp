@@ -162,7 +162,7 @@ private:
     void fail(Message& ask, const std::string& why) {
         auto reply = reply_to(ask);
         reply.type = Message::Type::failure;
-        reply.text = "on " + preparer_.place_.name + ": " + why;
+        reply.trouble.why = "on " + preparer_.place_.name + ": " + why;
         preparer_.place_.reply(std::move(reply));
     }
 

@@ -47,7 +47,7 @@ void BundlePort::close(Ticket ticket) {
     auto& ask = asks_[slot_of(ticket)];
     ask.open = false;
     ask.waiting = nullptr;
-    ask.error.clear();
+    ask.failure.reset();
     ++ask.uses;
     closed_.push_back(slot_of(ticket));
 }
@@ -62,7 +62,7 @@ void BundlePort::abandon(Ticket ticket) noexcept {
 void BundlePort::finish(Ticket ticket) {
     auto& ask = *find(ticket);
     try {
-        while (ask.unanswered > 0 && ask.error.empty()) {
+        while (ask.unanswered > 0 && !ask.failure) {
             ask.waiting = fibers_.current();
             assert(ask.waiting && "only a fiber can wait for another place");
             fibers_.park();
@@ -71,10 +71,10 @@ void BundlePort::finish(Ticket ticket) {
         abandon(ticket);
         throw;
     }
-    if (ask.error.empty()) return close(ticket);
-    const std::string error = std::move(ask.error);
+    if (!ask.failure) return close(ticket);
+    const Failure failure = std::move(*ask.failure);
     abandon(ticket);
-    throw NodeError(error);
+    throw NodeError(failure.why, failure.host);
 }
 
 // Who waits long for an answer anyway loses little by waiting for company first.
@@ -193,12 +193,12 @@ void BundlePort::answered(const Bundle<Query>& bundle, std::vector<Rgb> answers)
     close(*pieces, bundle);
 }
 
-void BundlePort::failed(const Bundle<Query>& bundle, const std::string& why) {
+void BundlePort::failed(const Bundle<Query>& bundle, const Failure& failure) {
     auto* const pieces = pieces_of(bundle);
     if (!pieces) return;
     for (const auto& piece : pieces->all)
         if (auto* const ask = find(piece.ask)) {
-            ask->error = why;
+            ask->failure = failure;
             settle(*ask);
         }
     close(*pieces, bundle);

@@ -6,6 +6,7 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -49,7 +50,7 @@ public:
     std::chrono::nanoseconds until_due(Clock::time_point now) const;
 
     void answered(const Bundle<Query>& bundle, std::vector<Rgb> answers) override;
-    void failed(const Bundle<Query>& bundle, const std::string& why) override;
+    void failed(const Bundle<Query>& bundle, const Failure& failure) override;
     void returned(Bundle<Query> bundle) override { again_.push_back(std::move(bundle)); }
 
 private:
@@ -62,7 +63,7 @@ private:
         std::size_t bundled = 0;  // questions that are in bundles already
         std::size_t unanswered = 0;
         Fibers::Fiber* waiting = nullptr;
-        std::string error;
+        std::optional<Failure> failure;
     };
     // A run of questions of one ask inside a bundle.
     struct Piece {

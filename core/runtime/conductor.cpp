@@ -240,7 +240,7 @@ void Conductor::take(Message message) {
         --followers_[sent.to].asks;
         if (calls_.of(order_[sent.position], sent.step.call).done()) return;  // another place was first
     }
-    if (message.type == Message::Type::failure) throw Error(message.text);
+    if (message.type == Message::Type::failure) return failed(sent, message.trouble.why);
     if (sent.step.kind >= Step::Kind::attend) {
         heard(sent, message.data);
     } else if (shards) {
@@ -252,11 +252,26 @@ void Conductor::take(Message message) {
     }
 }
 
+// A host that can't do its part of preparing is left out; what a second one can't do either is the run's own fault.
+void Conductor::failed(const Sent& sent, const std::string& why) {
+    const auto& [to, position, step] = sent;
+    const auto& host = to.place.first;
+    auto& hosts = failed_at_[{position, step.kind, step.call, step.first}];
+    hosts.insert(host);
+    const auto all = copies(position);
+    const bool others =
+        std::any_of(all.begin(), all.end(), [&](const Copy& copy) { return !hosts.contains(copy.place.first); });
+    if (hosts.size() > 1 || !others) throw Error(why);
+    if (step.kind == Step::Kind::shards) calls_.of(order_[position], step.call).take_back({step.first, step.count});
+    if (!carrier_.take_out(host, why)) throw Error(why);
+}
+
 void Conductor::reported(const Sent& sent, const Bytes& data) {
     Report report;
     if (data && data->size() >= sizeof report) std::memcpy(&report, data->data(), sizeof report);
     if (!data || data->size() < sizeof report || report.kind > Report::Kind::last)
-        throw Error("'" + name_of(sent.position) + "': a report of preparing is damaged");
+        return failed(
+            sent, "'" + name_of(sent.position) + "' on " + sent.to.place.first + ": a report of preparing is damaged");
     say(sent.to.node, {reinterpret_cast<const char*>(data->data()) + sizeof report, data->size() - sizeof report});
     auto& follower = followers_[sent.to];
     follower.at = report;
@@ -289,7 +304,13 @@ void Conductor::say(std::size_t node, std::string_view lines) {
 
 void Conductor::shards_done(const Sent& sent, const Bytes& data) {
     auto& call = calls_.of(order_[sent.position], sent.step.call);
-    if (!call.answer({sent.step.first, sent.step.count}, data, steady_seconds())) {
+    bool complete = false;
+    try {
+        complete = call.answer({sent.step.first, sent.step.count}, data, steady_seconds());
+    } catch (const Error& error) {
+        return failed(sent, "'" + name_of(sent.position) + "' on " + sent.to.place.first + ": " + error.what());
+    }
+    if (!complete) {
         if (is_there(sent.to, sent.position))
             hand_out(sent.to, sent.position, call);  // who was told to stop gets no more
         return;

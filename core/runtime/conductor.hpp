@@ -11,6 +11,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -66,6 +67,7 @@ public:
     std::optional<Message> receive() override;
     void wait(std::chrono::nanoseconds most) override;
     void give_up(std::uint32_t channel) override;
+    bool take_out(const std::string& host, const std::string& why) override { return carrier_.take_out(host, why); }
     void forget(const PlaceAt& place) override { carrier_.forget(place); }
     const Counters& counters() const override { return carrier_.counters(); }
 
@@ -119,6 +121,7 @@ private:
     void end_rehearsal();
     bool send(const Copy& to, std::size_t position, Step step, const Bytes& data = nullptr);
     void take(Message message);
+    void failed(const Sent& sent, const std::string& why);
     void reported(const Sent& sent, const Bytes& data);
     void let_go_of_taken(std::size_t position, std::uint32_t before);
     void say(std::size_t node, std::string_view lines);
@@ -144,6 +147,8 @@ private:
     std::deque<Message> arrived_;
     std::map<Copy, Follower> followers_;
     std::map<std::uint64_t, Sent> sent_;
+    using StepKey = std::tuple<std::size_t, Step::Kind, std::uint32_t, std::uint32_t>;  // position, kind, call, shard
+    std::map<StepKey, std::set<std::string>> failed_at_;                                // hosts
     std::uint64_t next_ = 1;
     std::size_t done_ = 0;               // positions of order_ that are prepared everywhere
     std::set<PlaceKey> known_prepared_;  // have caught up once

@@ -29,6 +29,7 @@ void MasterRenderer::use(const Plan& plan) {
         rules.scheduling.strategy = plan.strategy_of(job_.image);
         rules.scheduling.double_tail = job_.double_tail;
         rules.clock = job_.clock;
+        rules.at_fault = [this](const Failure& failure) { carrier_.take_out(failure.host, failure.why); };
         if (job_.check) rules.differs = [this](const std::string& what) { error_ = what; };
         replicas_.follow(std::move(rules), &counters_);
     }
@@ -150,8 +151,8 @@ void MasterRenderer::answered(const Bundle<Tile>& bundle, std::vector<Rgb> pixel
     }
 }
 
-void MasterRenderer::failed(const Bundle<Tile>&, const std::string& why) {
-    if (error_.empty()) error_ = why;
+void MasterRenderer::failed(const Bundle<Tile>&, const Failure& failure) {
+    if (error_.empty()) error_ = failure.why;
 }
 
 // Of several tiles, one may be to blame: each is tried alone.

@@ -54,7 +54,7 @@ public:
 
 private:
     void answered(const Bundle<Tile>& bundle, std::vector<Rgb> pixels) override;
-    void failed(const Bundle<Tile>& bundle, const std::string& why) override;
+    void failed(const Bundle<Tile>& bundle, const Failure& failure) override;
     void returned(Bundle<Tile>) override {}  // a multiplexer keeps what it has taken
     void set_aside(const Bundle<Tile>& bundle, const std::string& why) override;
     struct Together {              // blocks

@@ -102,6 +102,7 @@ MultiplexerRules Place::multiplexer_rules(std::size_t node) {
     MultiplexerRules rules;
     rules.scheduling.strategy = plan_.strategy_of(node);
     rules.scheduling.usual = rules_.bundles.questions;
+    rules.at_fault = [this](const Failure& failure) { carrier_.take_out(failure.host, failure.why); };
     if (rules_.check) rules.differs = [](const std::string& what) { throw Error(what); };
     return rules;
 }

@@ -80,6 +80,10 @@ bool Place::answer_together(const std::vector<Message>& asks, std::vector<Messag
 
 void Place::answer_alone(const Message& ask, Message& reply) {
     const Tile* at = nullptr;  // none: what a light operator threw has its name already
+    const auto text_of = [&](const std::exception& error) {
+        const auto who = at ? "'" + network_.graph.nodes[ask.node].name + "' at " + describe(*at) + ", " : "";
+        return who + "on " + my_name() + ": " + error.what();
+    };
     try {
         if (const auto* steps = std::get_if<Questions<Step>>(&ask.questions)) {
             reply.data = preparer_.shards(ask.node, (*steps)->front());
@@ -88,10 +92,12 @@ void Place::answer_alone(const Message& ask, Message& reply) {
         } else {
             reply.answers = light_answers(ask.node, ask.width, *std::get<Questions<Query>>(ask.questions));
         }
+    } catch (const NodeError& error) {
+        reply.type = Message::Type::failure;
+        reply.trouble = {text_of(error), error.host().empty() ? me_.host : error.host()};
     } catch (const std::exception& error) {
         reply.type = Message::Type::failure;
-        const auto who = at ? "'" + network_.graph.nodes[ask.node].name + "' at " + describe(*at) + ", " : "";
-        reply.text = who + "on " + my_name() + ": " + error.what();
+        reply.trouble = {text_of(error), me_.host};
     }
 }
 

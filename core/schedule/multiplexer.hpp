@@ -37,6 +37,8 @@ struct MultiplexerRules {
     double worth_cutting = 500e-6;  // seconds; what takes less stays whole
     /// Answers that come twice are compared bit for bit, and this is told when they differ; empty: they are not.
     std::function<void(const std::string& what)> differs;
+    /// Told of work that failed at a host and is asked of another.
+    std::function<void(const Failure& failure)> at_fault = [](const Failure&) {};
     std::function<double()> clock = steady_seconds;
 };
 
@@ -107,10 +109,13 @@ private:
         std::shared_ptr<Whole> whole;      // null: the bundle is its own
         std::vector<std::uint32_t> where;  // index in the whole, of each question
         std::vector<Scheduler::CopyId> copies;
+        std::string failure{};  // the last
     };
 
-    void answered(const Bundle<Question>& bundle, std::vector<Rgb> answers) override { replied(bundle, &answers, {}); }
-    void failed(const Bundle<Question>& bundle, const std::string& why) override { replied(bundle, nullptr, why); }
+    void answered(const Bundle<Question>& bundle, std::vector<Rgb> answers) override {
+        replied(bundle, std::move(answers));
+    }
+    void failed(const Bundle<Question>& bundle, const Failure& failure) override;
     void returned(Bundle<Question> bundle) override { tell(Scheduler::Refused{bundle.number}); }
 
     void tell(const Scheduler::Event& event);
@@ -119,12 +124,14 @@ private:
     };
     Performed perform(const std::vector<Scheduler::Action>& actions);
     void add_replica(Channel<Question>* channel);
-    void replied(const Bundle<Question>& bundle, std::vector<Rgb>* answers, const std::string& why);
+    void replied(const Bundle<Question>& bundle, std::vector<Rgb> answers);
+    bool fits(const Bundle<Question>& bundle, const std::vector<Rgb>& answers) const;
     void deliver(Entry entry, std::vector<Rgb> answers);
     void give_up(const Entry& entry, const std::string& why, bool set_aside);
+    void settle(const std::vector<Scheduler::Action>& actions);
     void set_aside_work(const Scheduler::SetAside& verdict);
     void compare_later(const Entry& entry, Scheduler::CopyId first, const std::vector<Rgb>& answers);
-    void compare(Scheduler::CopyId copy, const std::vector<Rgb>* answers);
+    void compare(Scheduler::CopyId copy, const std::vector<Rgb>& answers);
     std::vector<std::vector<std::uint32_t>> cut(const std::vector<Question>& questions) const;
     std::vector<std::vector<std::uint32_t>> by_home(const std::vector<Question>& questions) const;
     void add(Entry entry);

@@ -140,6 +140,7 @@ template <class Question>
 typename Multiplexer<Question>::Performed Multiplexer<Question>::perform(
     const std::vector<Scheduler::Action>& actions) {
     Performed performed;
+    settle(actions);
     for (const auto& action : actions) {
         const auto* send = std::get_if<Scheduler::Send>(&action);
         if (!send) continue;
@@ -163,17 +164,54 @@ template <class Question>
 void Multiplexer<Question>::tell(const Scheduler::Event& event) {
     std::vector<Scheduler::Action> actions;
     scheduler_.on(event, rules_.clock(), actions);
-    for (const auto& action : actions)
-        if (const auto* verdict = std::get_if<Scheduler::SetAside>(&action)) set_aside_work(*verdict);
+    settle(actions);
     if (std::holds_alternative<Scheduler::Dropped>(event))
         std::erase_if(entries_, [&](const auto& entry) { return !scheduler_.knows(entry.first); });
     count();
 }
 
+// Gives work back that nobody is asked for any more.
 template <class Question>
-void Multiplexer<Question>::replied(const Bundle<Question>& bundle, std::vector<Rgb>* answers, const std::string& why) {
+void Multiplexer<Question>::settle(const std::vector<Scheduler::Action>& actions) {
+    for (const auto& action : actions) {
+        if (const auto* verdict = std::get_if<Scheduler::SetAside>(&action)) set_aside_work(*verdict);
+        if (const auto* failed = std::get_if<Scheduler::GiveUp>(&action)) {
+            const Entry entry = std::move(entries_.extract(failed->work).mapped());
+            give_up(entry, entry.failure, false);
+        }
+    }
+}
+
+template <class Question>
+void Multiplexer<Question>::failed(const Bundle<Question>& bundle, const Failure& failure) {
+    const auto work = scheduler_.work_of(bundle.number);
+    if (const auto entry = work ? entries_.find(*work) : entries_.end(); entry != entries_.end())
+        entry->second.failure = failure.why;
+    std::vector<Scheduler::Action> actions;
+    scheduler_.on(Scheduler::Failed{bundle.number}, rules_.clock(), actions);
+    expected_.erase(bundle.number);
+    if (std::holds_alternative<Scheduler::Drop>(actions.front()) && counters_) ++counters_->late_replies;
+    if (std::holds_alternative<Scheduler::Retry>(actions.front())) rules_.at_fault(failure);
+    settle(actions);
+    count();
+}
+
+template <class Question>
+bool Multiplexer<Question>::fits(const Bundle<Question>& bundle, const std::vector<Rgb>& answers) const {
+    const auto work = scheduler_.work_of(bundle.number);
+    const auto entry = work ? entries_.find(*work) : entries_.end();
+    return entry == entries_.end() ||
+           answers.size() == answers_to(*entry->second.bundle.questions, entry->second.bundle.width);
+}
+
+template <class Question>
+void Multiplexer<Question>::replied(const Bundle<Question>& bundle, std::vector<Rgb> answers) {
     const auto replica = scheduler_.replica_of(bundle.number);
     const Load load = replica && slots_[*replica].channel ? slots_[*replica].channel->load() : Load{};
+    if (!fits(bundle, answers)) {
+        const auto host = replica ? slots_[*replica].host : std::string();
+        return failed(bundle, {"an answer of " + (host.empty() ? "a place" : host) + " has a wrong size", host});
+    }
     std::vector<Scheduler::Action> actions;
     scheduler_.on(Scheduler::Replied{bundle.number, load.fill, load.service_ns * 1e-9}, rules_.clock(), actions);
     const auto* accept = std::get_if<Scheduler::Accept>(&actions.front());
@@ -182,12 +220,8 @@ void Multiplexer<Question>::replied(const Bundle<Question>& bundle, std::vector<
         return compare(bundle.number, answers);
     }
     Entry entry = std::move(entries_.extract(accept->work).mapped());
-    if (!answers) return give_up(entry, why, false);
-    if (answers->size() != answers_to(*entry.bundle.questions, entry.bundle.width))
-        return give_up(entry, "an answer of " + (replica ? slots_[*replica].host : "a host") + " has a wrong size",
-                       false);
-    compare_later(entry, bundle.number, *answers);
-    deliver(std::move(entry), std::move(*answers));
+    compare_later(entry, bundle.number, answers);
+    deliver(std::move(entry), std::move(answers));
 }
 
 template <class Question>
@@ -209,7 +243,7 @@ void Multiplexer<Question>::give_up(const Entry& entry, const std::string& why, 
     if (set_aside)
         bundle.owner->set_aside(bundle, why);
     else
-        bundle.owner->failed(bundle, why);
+        bundle.owner->failed(bundle, {why, {}});
 }
 
 template <class Question>
@@ -242,11 +276,11 @@ void Multiplexer<Question>::compare_later(const Entry& entry, Scheduler::CopyId 
 }
 
 template <class Question>
-void Multiplexer<Question>::compare(Scheduler::CopyId copy, const std::vector<Rgb>* answers) {
+void Multiplexer<Question>::compare(Scheduler::CopyId copy, const std::vector<Rgb>& answers) {
     const auto expected = expected_.extract(copy);
-    if (expected.empty() || !answers) return;
+    if (expected.empty()) return;
     if (counters_) ++counters_->compared;
-    if (content_hash(std::as_bytes(std::span(*answers))) != expected.mapped())
+    if (content_hash(std::as_bytes(std::span(answers))) != expected.mapped())
         rules_.differs("the same questions were answered twice, and differently");
 }
 
@@ -276,6 +310,7 @@ void Multiplexer<Question>::count() {
     counters_->asked_again += now.asked_again - counted_.asked_again;
     counters_->doubled += now.doubled - counted_.doubled;
     counters_->overdue += now.written_off - counted_.written_off;
+    counters_->retried += now.retried - counted_.retried;
     counters_->spilled += now.spilled - counted_.spilled;
     counted_ = now;
 }

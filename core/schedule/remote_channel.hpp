@@ -58,7 +58,10 @@ public:
             return;
         }
         const Bundle<Question> bundle{nullptr, owner_, message.bundle, message.width};
-        if (message.type == Message::Type::failure) return owner_->failed(bundle, message.text);
+        if (message.type == Message::Type::failure) {
+            if (message.trouble.host.empty()) message.trouble.host = ends_.place.host;
+            return owner_->failed(bundle, message.trouble);
+        }
         load_ = message.load;
         owner_->answered(bundle, std::move(message.answers));
     }

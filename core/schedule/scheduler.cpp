@@ -21,18 +21,23 @@ std::optional<Scheduler::Replica> Scheduler::replica_of(CopyId copy) const {
     return found == out_.end() ? std::nullopt : std::optional(found->second.replica);
 }
 
+std::optional<Scheduler::WorkId> Scheduler::work_of(CopyId copy) const {
+    const auto found = out_.find(copy);
+    return found == out_.end() ? std::nullopt : std::optional(found->second.work);
+}
+
 // ---- work comes and goes ----
 
 void Scheduler::happens(const Added& event, Time) {
     assert(!items_.contains(event.work) && "work goes by numbers of its own");
-    items_.emplace(event.work, Item{event, {}, {}, {}, true});
+    items_.emplace(event.work, Item{.work = event, .waiting = true});
     waiting_.push_back(event.work);
     questions_waiting_ += event.questions;
     ++added_;
 }
 
 void Scheduler::happens(const Dropped&, Time) {
-    for (auto* queue : {&waiting_, &suspects_}) {
+    for (auto* queue : {&waiting_, &suspects_, &retries_}) {
         for (const auto work : *queue)
             if (const auto found = items_.find(work); found != items_.end() && found->second.waiting)
                 finish(found->second);
@@ -47,6 +52,8 @@ void Scheduler::wait_again(Item& item) {
     questions_waiting_ += item.work.questions;
     if (item.suspect())
         suspects_.push_back(item.work.work);
+    else if (item.failures > 0)
+        retries_.push_back(item.work.work);
     else
         waiting_.push_front(item.work.work);
 }
@@ -220,6 +227,27 @@ void Scheduler::measure(Place& place, const Copy& copy, const Replied& reply, Ti
     if (reply.service > 0) place.reported = reply.service;
 }
 
+void Scheduler::happens(const Failed& event, Time now) {
+    const auto found = out_.find(event.copy);
+    if (found == out_.end()) return actions_->push_back(Drop{event.copy});
+    const Out out = found->second;
+    out_.erase(found);
+    Item* item = nullptr;
+    if (out.written_off) {
+        item = take_stray(out, event.copy);
+    } else if ((item = take_copy(out.replica, event.copy).item)) {
+        std::erase(item->copies, event.copy);
+    }
+    auto& place = places_[out.replica];
+    place.last_reply = now;
+    place.silent = false;
+    refresh(out.replica);
+    if (!item) return actions_->push_back(Drop{event.copy});
+    item->failed_at.insert(place.host);
+    ++item->failures;
+    fail(*item);
+}
+
 void Scheduler::happens(const Refused& event, Time) {
     const auto found = out_.find(event.copy);
     if (found == out_.end()) return;
@@ -244,6 +272,7 @@ void Scheduler::happens(const Tick& event, Time now) {
         }
     write_off_overdue(now);
     test_suspects(now);
+    retry(now);
     hand_out(now);
     if (rules_.double_tail) double_tail(now);
 }

@@ -22,9 +22,9 @@ namespace lightnet {
 ///
 /// Work is a bundle or a tile, handed out in copies: one, as a rule. A second copy goes to another replica when the
 /// first is overdue (its place may hang, or the network has lost it), or when a phase ends and a replica is idle. The
-/// first answer counts. Copies on a host that dies make their work suspect: it is asked again alone, with nothing else
-/// on its host, and set aside after its third death alone. A host that comes back as the same process had not died: it
-/// was out of reach, and no work is to blame.
+/// first answer counts. Work that fails at one host is asked of another, once. Copies on a host that dies make their
+/// work suspect: it is asked again alone, with nothing else on its host, and set aside after its third death alone. A
+/// host that comes back as the same process had not died: it was out of reach, and no work is to blame.
 class Scheduler {
 public:
     using Time = double;  // seconds, on any clock that does not go back
@@ -74,6 +74,9 @@ public:
         std::size_t fill = 0;  // questions that wait at the answerer
         double service = 0;    // seconds per question, as measured there; 0: not known
     };
+    struct Failed {  // by an error at its host, or a wrong answer
+        CopyId copy;
+    };
     struct Refused {  // it could not be sent after all
         CopyId copy;
     };
@@ -81,7 +84,7 @@ public:
     struct Tick {       // time to decide. `again`: at once after the last one, as something was refused
         bool again = false;
     };
-    using Event = std::variant<Added, Foreseen, Joined, Draining, Gone, Replied, Refused, Dropped, Tick>;
+    using Event = std::variant<Added, Foreseen, Joined, Draining, Gone, Replied, Failed, Refused, Dropped, Tick>;
 
     // ---- what is to be done ----
     struct Send {
@@ -104,13 +107,22 @@ public:
         std::vector<Host> died;  // with nothing else under way
         friend bool operator==(const SetAside&, const SetAside&) = default;
     };
-    using Action = std::variant<Send, Accept, Drop, SetAside>;
+    struct Retry {  // another host is asked
+        WorkId work;
+        friend bool operator==(const Retry&, const Retry&) = default;
+    };
+    struct GiveUp {  // a second host has failed, too, or there is none
+        WorkId work;
+        friend bool operator==(const GiveUp&, const GiveUp&) = default;
+    };
+    using Action = std::variant<Send, Accept, Drop, SetAside, Retry, GiveUp>;
 
     /// What it did, for those who count.
     struct Counts {
         std::uint64_t asked_again = 0;  // copies that went under with their replica
         std::uint64_t doubled = 0;      // copies sent to idle replicas at the end of a phase
         std::uint64_t written_off = 0;  // copies that were overdue
+        std::uint64_t retried = 0;      // work that failed at one host, and was asked of another
         std::uint64_t spilled = 0;      // affinity: work that did not go to its home, which had too much
         friend bool operator==(const Counts&, const Counts&) = default;
     };
@@ -123,7 +135,9 @@ public:
     /// Could more work be sent at once?
     bool has_room() const { return waiting_.empty() && open_.any(); }
     /// Is anything waiting to be sent, or again?
-    bool has_waiting() const { return !waiting_.empty() || !suspects_.empty() || !refused_.empty(); }
+    bool has_waiting() const {
+        return !waiting_.empty() || !suspects_.empty() || !retries_.empty() || !refused_.empty();
+    }
     /// Something was refused, and is to be tried again soon.
     bool refused() const { return !refused_.empty(); }
     /// When a Tick is due though nothing else happens. Lowest::none: never.
@@ -142,6 +156,8 @@ public:
     std::size_t copies_out() const { return copies_out_; }
     /// Where a copy is that is not forgotten.
     std::optional<Replica> replica_of(CopyId copy) const;
+    /// What a copy is of, as long as it is not forgotten.
+    std::optional<WorkId> work_of(CopyId copy) const;
     /// Is this work wanted, and not done?
     bool knows(WorkId work) const { return items_.contains(work); }
     /// Work that is not done.
@@ -163,9 +179,11 @@ private:
     };
     struct Item {
         Added work;
-        std::vector<CopyId> copies;       // under way
-        std::vector<CopyId> written_off;  // an answer would still be welcome
-        std::vector<Loss> losses;         // that it may be to blame for
+        std::vector<CopyId> copies{};       // under way
+        std::vector<CopyId> written_off{};  // an answer would still be welcome
+        std::vector<Loss> losses{};         // that it may be to blame for
+        std::set<Host> failed_at{};
+        int failures = 0;
         bool waiting = false;
         bool suspect() const { return !losses.empty(); }
     };
@@ -203,6 +221,7 @@ private:
     void happens(const Draining& event, Time now);
     void happens(const Gone& event, Time now);
     void happens(const Replied& event, Time now);
+    void happens(const Failed& event, Time now);
     void happens(const Refused& event, Time now);
     void happens(const Dropped& event, Time now);
     void happens(const Tick& event, Time now);
@@ -220,6 +239,9 @@ private:
     void write_off_overdue(Time now);
     void hand_out(Time now);
     void test_suspects(Time now);
+    void fail(Item& item);
+    bool can_be_retried(const Item& item) const;
+    void retry(Time now);
     void quarantine(Host host);
     void release_hosts();
     void double_tail(Time now);
@@ -241,7 +263,7 @@ private:
     std::vector<Action>* actions_ = nullptr;
     std::unordered_map<WorkId, Item> items_;
     std::unordered_map<CopyId, Out> out_;
-    std::deque<WorkId> waiting_, suspects_;
+    std::deque<WorkId> waiting_, suspects_, retries_;
     std::vector<Place> places_;  // by replica
     std::map<Host, Site> sites_;
     std::set<Host> quarantined_;

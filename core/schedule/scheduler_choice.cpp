@@ -135,7 +135,8 @@ bool Scheduler::may_be_doubled(const Copy& copy) const {
 const Scheduler::Copy* Scheduler::worth_doubling(Replica idle, Time now) const {
     const auto find = [&](Replica replica, double expected) -> const Copy* {
         for (const auto& copy : places_[replica].copies)
-            if (may_be_doubled(copy) && copy.expected == expected) return &copy;
+            if (may_be_doubled(copy) && copy.expected == expected && !copy.item->failed_at.contains(places_[idle].host))
+                return &copy;
         return nullptr;
     };
     if (!early_.any()) return nullptr;

@@ -45,6 +45,56 @@ void Scheduler::double_tail(Time now) {
     }
 }
 
+// ---- failures ----
+
+// Does another host hold it that has not failed, and is not leaving?
+bool Scheduler::can_be_retried(const Item& item) const {
+    constexpr int most_failures = 3;  // of suspects, which may come to the same host again
+    return item.failed_at.size() < 2 && item.failures < most_failures &&
+           std::any_of(sites_.begin(), sites_.end(), [&](const auto& site) {
+               const auto& replicas = site.second.replicas;
+               return !item.failed_at.contains(site.first) &&
+                      std::any_of(replicas.begin(), replicas.end(),
+                                  [&](auto replica) { return !places_[replica].draining; });
+           });
+}
+
+// What failed once is asked of another host; what fails there as well is the work's own fault, and not a host's.
+void Scheduler::fail(Item& item) {
+    const bool under_way = !item.copies.empty() || item.waiting;
+    if (item.failed_at.size() >= 2 || (!under_way && !can_be_retried(item))) {
+        actions_->push_back(GiveUp{item.work.work});
+        return finish(item);
+    }
+    ++counts_.retried;
+    actions_->push_back(Retry{item.work.work});
+    if (!under_way) wait_again(item);
+}
+
+void Scheduler::retry(Time now) {
+    for (auto left = retries_.size(); left > 0; --left) {
+        const auto work = retries_.front();
+        retries_.pop_front();
+        const auto found = items_.find(work);
+        if (found == items_.end() || !found->second.waiting) continue;
+        auto& item = found->second;
+        std::optional<Replica> best;
+        for (const auto& [host, site] : sites_)
+            for (const auto replica : site.replicas)
+                if (!item.failed_at.contains(host) && open(places_[replica]) &&
+                    (!best || order(places_[replica]) < order(places_[*best])))
+                    best = replica;
+        if (best) {
+            send(item, *best, now);
+        } else if (can_be_retried(item)) {
+            retries_.push_back(work);
+        } else {
+            actions_->push_back(GiveUp{work});
+            finish(item);
+        }
+    }
+}
+
 // ---- suspects ----
 
 // Some hosts, at most half of them, get nothing else until they are empty; then suspects, one by one.

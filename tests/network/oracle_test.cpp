@@ -139,8 +139,8 @@ TEST(Places, EndTheRunWithTheNameOfTheNodeThatThrew) {
     }
     ASSERT_TRUE(reply);
     EXPECT_EQ(reply->type, Message::Type::failure);
-    EXPECT_NE(reply->text.find("on place 1: 'lighting': "), std::string::npos) << reply->text;
-    EXPECT_NE(reply->text.find("a surface that isn't there"), std::string::npos) << reply->text;
+    EXPECT_NE(reply->trouble.why.find("on place 1: 'lighting': "), std::string::npos) << reply->trouble.why;
+    EXPECT_NE(reply->trouble.why.find("a surface that isn't there"), std::string::npos) << reply->trouble.why;
 }
 
 }  // namespace

@@ -119,7 +119,7 @@ TEST_F(BundlePortTest, ThrowsWhereTheAnswerWasAwaited) {
     });
     flush_idle();
     const auto bundle = channel.take();
-    bundle.owner->failed(bundle, "'bounce' on onyx2: out of photons");
+    bundle.owner->failed(bundle, {"'bounce' on onyx2: out of photons", "onyx2"});
     run_ready();
     EXPECT_EQ(what, "'bounce' on onyx2: out of photons");
 }

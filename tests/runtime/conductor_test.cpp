@@ -5,6 +5,8 @@
 
 #include <cstring>
 #include <deque>
+#include <optional>
+#include <string>
 
 #include "core/graph/check.hpp"
 #include "core/light/mapped.hpp"
@@ -41,6 +43,10 @@ public:
     }
     void wait(std::chrono::nanoseconds) override {}
     void forget(const PlaceAt&) override {}
+    bool take_out(const std::string& host, const std::string& why) override {
+        taken_out.push_back(host + ": " + why);
+        return true;
+    }
     const Counters& counters() const override { return counters_; }
 
     Asked take() {
@@ -59,8 +65,16 @@ public:
     }
     void answer_tiles(Asked to) { arrived.push_back(reply_to(to.message)); }
 
+    void fail(Asked to, const std::string& why) {
+        Message message = reply_to(to.message);
+        message.type = Message::Type::failure;
+        message.trouble = {why, to.place.host};
+        arrived.push_back(std::move(message));
+    }
+
     std::deque<Asked> asked;
     std::deque<Message> arrived;
+    std::vector<std::string> taken_out;
 
 private:
     Counters counters_;
@@ -190,6 +204,60 @@ TEST(Conductor, TakesNoNotesOfARehearsalThatWasBrokenOff) {
     const Mapped<Query> noted(go_on.message.data);
     ASSERT_EQ(noted.size(), 1u);
     EXPECT_EQ(noted.begin()->primitive, 9u);
+}
+
+// Two hosts that prepare one node, which has shards to share out.
+class ConductorTrouble : public ::testing::Test {
+protected:
+    ConductorTrouble() {
+        Conductor::Options options;
+        options.run = 1;
+        options.graph = &graph;
+        options.registry = &kinds;
+        conductor.emplace(options, places);
+        conductor->propose({{{"a", 0}, {"b", 0}}, std::vector<std::vector<std::uint32_t>>(graph.nodes.size(), {0, 1})});
+    }
+    void lead() { EXPECT_FALSE(conductor->prepare(std::chrono::milliseconds(2))); }
+
+    Registry kinds = test::with_learner();
+    Graph graph = check(
+        {"test.lua",
+         Nodes{node("scene", "Scene", {Value{std::string("none.pbrt")}}), node("caustics", "PhotonMap", {}),
+               node("image", "RayTracer", {Value{NodeRef{"caustics"}}},
+                    {{"scene", Value{NodeRef{"scene"}}}, {"film", Value{Table{{Value{24.0}, Value{16.0}}, {}}}}})}},
+        kinds);
+    ByHand places;
+    std::optional<Conductor> conductor;
+};
+
+TEST_F(ConductorTrouble, OfOneHostTakesOutThatHost) {
+    places.fail(places.take(), "on a place 0: std::bad_alloc");
+    lead();
+    EXPECT_EQ(places.taken_out, std::vector<std::string>{"a: on a place 0: std::bad_alloc"});
+}
+
+TEST_F(ConductorTrouble, OfTwoHostsWithTheSamePartIsTheRunsOwn) {
+    auto at_a = places.take(), at_b = places.take();
+    places.fail(std::move(at_a), "on a place 0: no photon came anywhere");
+    lead();
+    places.fail(std::move(at_b), "on b place 0: no photon came anywhere");
+    try {
+        conductor->prepare(std::chrono::milliseconds(2));
+        FAIL() << "nobody noticed";
+    } catch (const Error& error) {
+        EXPECT_STREQ(error.what(), "on b place 0: no photon came anywhere");
+    }
+}
+
+TEST_F(ConductorTrouble, OfAHostThatSaysNonsenseIsThatHosts) {
+    places.answer(places.take(), char{7});  // no report
+    places.answer(places.take(), Report{Report::Kind::map, 0, 4});
+    lead();
+    ASSERT_EQ(places.taken_out.size(), 1u);
+    EXPECT_EQ(places.taken_out[0].substr(0, 2), "a:");
+    auto shards = places.take();
+    ASSERT_TRUE(shards.of_kind(Step::Kind::shards));
+    EXPECT_EQ(shards.place.host, "b") << "which goes on alone";
 }
 
 }  // namespace

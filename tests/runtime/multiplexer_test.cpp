@@ -16,7 +16,7 @@ struct Owner final : BundleOwner<Question> {
         numbers.push_back(bundle.number);
         answers.push_back(std::move(colours));
     }
-    void failed(const Bundle<Question>&, const std::string& why) override { failures.push_back(why); }
+    void failed(const Bundle<Question>&, const Failure& failure) override { failures.push_back(failure.why); }
     void returned(Bundle<Question>) override { FAIL() << "a multiplexer keeps what it has taken"; }
     void set_aside(const Bundle<Question>&, const std::string& why) override { aside.push_back(why); }
 
@@ -147,6 +147,45 @@ TEST_F(MultiplexerTest, FailsABundleWhoseAnswerHasAWrongSize) {
     const auto bundle = only.take();
     bundle.owner->answered(bundle, std::vector<Rgb>(2));
     ASSERT_EQ(owner.failures.size(), 1u);
+}
+
+TEST_F(MultiplexerTest, AsksAnotherHostWhenOneFailsOrAnswersWrongly) {
+    for (const bool wrong_size : {false, true}) {
+        FakeChannel<Query> a, b;
+        auto telling = rules();
+        std::vector<Failure> told;
+        telling.at_fault = [&](const Failure& failure) { told.push_back(failure); };
+        Multiplexer<Query> replicas({&a, &b}, std::move(telling));
+        replicas.send(bundle_of(3));
+        auto& sick = a.sent.empty() ? b : a;
+        auto& healthy = a.sent.empty() ? a : b;
+        const auto bundle = sick.take();
+        if (wrong_size)
+            bundle.owner->answered(bundle, std::vector<Rgb>(2));
+        else
+            bundle.owner->failed(bundle, {"out of memory", sick.where});
+        replicas.tick();
+        ASSERT_EQ(healthy.sent.size(), 1u);
+        healthy.answer();
+        EXPECT_TRUE(owner.failures.empty());
+        ASSERT_EQ(told.size(), 1u);
+        EXPECT_EQ(told[0].host, sick.where) << "so that it gets no more";
+    }
+    EXPECT_EQ(owner.answers.size(), 2u);
+}
+
+TEST_F(MultiplexerTest, SaysWhatTwoHostsFailedAt) {
+    FakeChannel<Query> a, b;
+    Multiplexer<Query> replicas({&a, &b}, rules());
+    replicas.send(bundle_of(3));
+    for (int host = 0; host < 2; ++host) {
+        auto& asked = a.sent.empty() ? b : a;
+        const auto bundle = asked.take();
+        bundle.owner->failed(bundle, {"'bounce': no photons", asked.where});
+        replicas.tick();
+    }
+    ASSERT_EQ(owner.failures.size(), 1u);
+    EXPECT_EQ(owner.failures[0], "'bounce': no photons");
 }
 
 TEST_F(MultiplexerTest, ComparesAnswersThatComeTwiceBitForBit) {

@@ -27,7 +27,7 @@ public:
 
 struct Owner final : BundleOwner<Query> {
     void answered(const Bundle<Query>& bundle, std::vector<Rgb>) override { answers.push_back(bundle.number); }
-    void failed(const Bundle<Query>&, const std::string& why) override { failures.push_back(why); }
+    void failed(const Bundle<Query>&, const Failure& failure) override { failures.push_back(failure.why); }
     void returned(Bundle<Query>) override {}
     std::vector<std::uint64_t> answers;
     std::vector<std::string> failures;

@@ -313,5 +313,69 @@ TEST(Lowest, KnowsTheLowestKeyThroughAllChanges) {
     }
 }
 
+// ---- failures ----
+
+TEST_F(SchedulerTest, AsksAnotherHostWhatFailedAtOne) {
+    join_on(0, 0), join_on(0, 1), join_on(1, 2);
+    add(1);
+    const auto first = tick();
+    ASSERT_EQ(first.size(), 1u);
+    tell(Scheduler::Failed{copies.at({1, first[0]})});
+    EXPECT_TRUE(did<Scheduler::Retry>());
+    const auto second = tick();
+    ASSERT_EQ(second.size(), 1u);
+    EXPECT_NE(first[0] < 2, second[0] < 2) << "places of one host fail alike";
+    reply(1, second[0]);
+    EXPECT_TRUE(did<Scheduler::Accept>());
+    EXPECT_EQ(scheduler.counts().retried, 1u);
+}
+
+TEST_F(SchedulerTest, GivesUpWhatFailsAtASecondHost) {
+    join(0), join(1), join(2);
+    add(1);
+    const auto first = tick();
+    tell(Scheduler::Failed{copies.at({1, first[0]})});
+    const auto second = tick();
+    tell(Scheduler::Failed{copies.at({1, second[0]})});
+    EXPECT_TRUE(did<Scheduler::GiveUp>());
+    EXPECT_EQ(scheduler.unfinished(), 0u);
+    EXPECT_TRUE(tick().empty());
+}
+
+TEST_F(SchedulerTest, GivesUpAtOnceWhatFailsAtTheOnlyHost) {
+    join_on(0, 0), join_on(0, 1);
+    add(1);
+    const auto first = tick();
+    tell(Scheduler::Failed{copies.at({1, first[0]})});
+    EXPECT_TRUE(did<Scheduler::GiveUp>());
+}
+
+TEST_F(SchedulerTest, GivesUpWhatFailedWhenTheOtherHostsAreLostMeanwhile) {
+    join(0), join(1);
+    add(1), add(2);
+    EXPECT_EQ(tick().size(), 2u);
+    const auto at = copies.contains({1, 0}) ? 0u : 1u;
+    tell(Scheduler::Failed{copies.at({1, at})});
+    EXPECT_TRUE(did<Scheduler::Retry>());
+    EXPECT_TRUE(tick().empty()) << "the other one is busy";
+    tell(Scheduler::Gone{{1 - at}, false});
+    tick();
+    bool gave_up = false;
+    for (const auto& action : actions) gave_up |= action == Scheduler::Action{Scheduler::GiveUp{1}};
+    EXPECT_TRUE(gave_up) << "rather than wait for ever";
+}
+
+TEST_F(SchedulerTest, DropsALateFailure) {
+    join(0), join(1);
+    add(1);
+    const auto first = tick();
+    now = 1000;
+    const auto second = tick();
+    ASSERT_EQ(second.size(), 1u);
+    reply(1, second[0]);
+    tell(Scheduler::Failed{copies.at({1, first[0]})});
+    EXPECT_TRUE(did<Scheduler::Drop>());
+}
+
 }  // namespace
 }  // namespace lightnet

@@ -88,7 +88,7 @@ Message dark_reply(std::size_t count = 45) {
 Message failure() {
     Message message;
     message.type = Message::Type::failure;
-    message.text = "'bounce' on onyx2: no photons";
+    message.trouble.why = "'bounce' on onyx2: no photons";
     return message;
 }
 
@@ -134,7 +134,7 @@ TEST(Packet, BringsTilesAnswersAndFailuresBack) {
     EXPECT_EQ(got->answers, reply().answers);
     EXPECT_EQ(got->load, reply().load);
     const auto failed = packet::pack(failure(), 0);
-    EXPECT_EQ(packet::unpack(failed.header, failed.body)->text, failure().text);
+    EXPECT_EQ(packet::unpack(failed.header, failed.body)->trouble, failure().trouble);
 }
 
 TEST(Packet, LeavesBlackColoursOut) {
