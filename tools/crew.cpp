@@ -16,15 +16,14 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto host_patience = 5s;     // for hosts that do not answer when the run begins
-constexpr auto join_patience = 10min;  // for the first host, when none is named
+constexpr auto host_patience = 5s;  // for hosts that do not answer when the run begins
 
 // lightnetd stands beside the launcher.
 std::string daemon_program() {
     return std::filesystem::read_symlink("/proc/self/exe").replace_filename("lightnetd").string();
 }
 
-// What nodes elsewhere dial: a port on all addresses is known to them by the name of this machine.
+// What others dial: a port on all addresses is known to them by the name of this machine.
 std::string seen_from_elsewhere(const std::string& endpoint) {
     const std::string all = "tcp://0.0.0.0:";
     if (!endpoint.starts_with(all)) return endpoint;
@@ -47,19 +46,22 @@ Crew::Crew(const RunRequest& request, Cluster::Options cluster) : request_(reque
         for (const auto& endpoint : local_->endpoints()) cluster.endpoints.push_back(endpoint);
     }
     cluster.listen = request.listen;
+    cluster.pass = request.pass;
     cluster.threads = request.threads;
     cluster_ = std::make_unique<Cluster>(std::move(cluster));
-    if (!request.listen.empty()) say_("hosts may join at " + cluster_->join_endpoint());
+    if (!request.listen.empty()) say_("hosts may join at " + seen_from_elsewhere(cluster_->join_endpoint()));
     if (request.slurm.daemons) {
-        slurm_.emplace(SlurmWorkers::Request{daemon_program(), seen_from_elsewhere(cluster_->join_endpoint()),
-                                             request.slurm.daemons, request.slurm.partition, request.slurm.arguments});
+        slurm_.emplace(
+            SlurmWorkers::Request{daemon_program(), seen_from_elsewhere(cluster_->join_endpoint()),
+                                  request.slurm.daemons, request.slurm.partition, request.slurm.arguments,
+                                  request.pass.empty() ? "" : std::filesystem::absolute(request.pass).string()});
         say_("Slurm has taken job " + slurm_->job() + " of " + std::to_string(request.slurm.daemons) + " daemons");
     }
 }
 
 void Crew::gather(const std::atomic<bool>& cancelled) {
     Cluster::Patience patience{host_patience, host_patience};
-    if (!request_.listen.empty()) patience.nobody = join_patience;
+    if (!request_.listen.empty()) patience.nobody = std::max<std::chrono::milliseconds>(request_.wait, host_patience);
     cluster_->gather(patience, cancelled, [this] { look_after(); });
 }
 

@@ -23,6 +23,7 @@
 #include "tools/overrides.hpp"
 #include "tools/render.hpp"
 #include "tools/scene_info.hpp"
+#include "transport/reach.hpp"
 
 namespace lightnet {
 namespace {
@@ -32,7 +33,17 @@ std::vector<std::string> words_of(const std::string& text) {
     return {std::istream_iterator<std::string>(in), {}};
 }
 
+// Packets are for everybody to read who is in between.
+void check_reach(const Options& options, const Hosts& hosts) {
+    std::vector<Problem> problems;
+    for (const auto& host : hosts.hosts)
+        if (!options.insecure && address_of(host.endpoint) && !stays_on_this_machine(host.endpoint))
+            problems.push_back({host.where, beyond_this_machine("'" + host.endpoint + "'")});
+    if (!problems.empty()) throw UserError(std::move(problems));
+}
+
 RunRequest request_of(const Options& options, const Registry& registry, Loaded loaded) {
+    check_reach(options, loaded.hosts);
     RunRequest request;
     request.scene = scene_file(loaded.graph, registry);
     request.output = output_file(loaded.graph, registry, options);
@@ -42,6 +53,7 @@ RunRequest request_of(const Options& options, const Registry& registry, Loaded l
     request.preview = options.preview;
     request.progress = options.progress;
     request.listen = options.listen;
+    request.pass = options.pass;
     request.tuning = options.tuning;
     request.check_answers = options.check_answers;
     request.threads = options.threads.value_or(0);

@@ -3,8 +3,10 @@
 
 #include "nodes/standard_nodes.hpp"
 #include "tools/launcher.hpp"
+#include "transport/descriptors.hpp"
 
 int main(int count, char** words) {
+    lightnet::raise_descriptor_limit();
     const lightnet::Registry registry{lightnet::standard_nodes()};
     const auto run = [&](const lightnet::RunRequest& request) { return lightnet::run(request, registry); };
     return lightnet::Launcher{registry, run, std::cout, std::cerr}({words + 1, words + count});

@@ -7,18 +7,21 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <iostream>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "core/build_info.hpp"
 #include "core/error.hpp"
 #include "nodes/standard_nodes.hpp"
 #include "tools/exit_code.hpp"
-#include "tools/reach.hpp"
 #include "tools/signals.hpp"
 #include "tools/single_instance.hpp"
+#include "transport/descriptors.hpp"
 #include "transport/host.hpp"
+#include "transport/reach.hpp"
 
 namespace {
 
@@ -50,7 +53,10 @@ int main(int argc, char** argv) {
     app.add_option("--single", single, "wait until no other daemon of this user on this machine has this name");
     app.add_option("--places", options.places, "threads that render; 0: one per core")->capture_default_str();
     app.add_option("--cache", options.cache, "folder for files of scenes (default: ~/.cache/lightnet)");
-    app.add_flag("--insecure", insecure, "listen beyond this machine: whoever reaches the port can have it render");
+    app.add_option("--pass", options.pass,
+                   "file with what it must know to join (default: ~/.config/lightnet/pass, made when missing)");
+    app.add_flag("--insecure", insecure,
+                 "reach beyond this machine, unencrypted: whoever reaches the port can have it render");
     app.add_flag("--quiet", quiet, "say nothing but where it listens");
     app.add_option("--parent", parent, "end when this process ends")->group("");
     app.set_version_flag("--version", "lightnetd " + lightnet::build_id());
@@ -62,8 +68,10 @@ int main(int argc, char** argv) {
     if (!options.join.empty() && listen->count() == 0) options.listen.clear();
     options.drain = std::chrono::seconds(drain);
     if (patience) options.patience = std::chrono::seconds(patience);
-    if (!insecure && !options.listen.empty() && !lightnet::stays_on_this_machine(options.listen)) {
-        std::cerr << "lightnetd: " << lightnet::beyond_this_machine("--listen " + options.listen) << '\n';
+    for (const auto& [option, endpoint] :
+         {std::pair{"--listen ", options.listen}, std::pair{"--join ", options.join}}) {
+        if (insecure || endpoint.empty() || lightnet::stays_on_this_machine(endpoint)) continue;
+        std::cerr << "lightnetd: " << lightnet::beyond_this_machine(option + endpoint) << '\n';
         return lightnet::exit_code::usage;
     }
     if (parent) live_no_longer_than(parent);
@@ -71,6 +79,7 @@ int main(int argc, char** argv) {
         options.log = [](const std::string& text) { std::cerr << "lightnetd: " << text << std::endl; };
     try {
         const auto& stop = lightnet::watch_signals();
+        lightnet::raise_descriptor_limit();
         std::optional<lightnet::SingleInstance> only;
         if (!single.empty()) only.emplace(single, stop.any);
         const lightnet::Registry registry{lightnet::standard_nodes()};
@@ -80,6 +89,10 @@ int main(int argc, char** argv) {
         else
             std::cout << "listening on " << host.endpoint() << std::endl;
         host.serve(stop.any);
+        if (host.hangs()) {
+            std::cerr << "lightnetd: leaves behind work that does not end" << std::endl;
+            std::_Exit(0);
+        }
         return 0;
     } catch (const std::exception& error) {
         std::cerr << "lightnetd: " << error.what() << '\n';

@@ -11,7 +11,7 @@
 #include "core/graph/graph_film.hpp"
 #include "core/suggestion.hpp"
 #include "tools/exit_code.hpp"
-#include "tools/reach.hpp"
+#include "transport/reach.hpp"
 
 namespace lightnet {
 namespace {
@@ -238,7 +238,11 @@ private:
             ->check(CLI::Range(1, 1024));
         verb.add_option("--listen", options_.listen, "where lightnetd --join may join, even in the middle of the run")
             ->type_name("tcp://HOST:PORT");
-        verb.add_flag("--insecure", options_.insecure, "listen beyond this machine, on a network that is yours alone");
+        verb.add_option("--pass", options_.pass,
+                        "file with what a host must know to join (default: ~/.config/lightnet/pass, made when missing)")
+            ->type_name("FILE");
+        verb.add_flag("--insecure", options_.insecure,
+                      "reach beyond this machine, unencrypted, on a network that is yours alone");
         verb.add_option("--wait", options_.wait, "seconds to wait for a host when a node has no place any more")
             ->type_name("SECONDS")
             ->check(CLI::Range(0, 864000))

@@ -49,6 +49,7 @@ struct Options {
     ProgressMode progress = ProgressMode::automatic;
     std::string listen;                  // endpoint where hosts may join
     bool insecure = false;               // even beyond this machine
+    std::string pass;                    // file with what hosts must know to join; "": the usual one
     int wait = 30;                       // seconds for a host to come when a node has no place any more
     std::optional<std::uint32_t> slurm;  // daemons to start as a job array
     std::string partition, slurm_arguments;

@@ -11,6 +11,8 @@
 #include <iostream>
 #include <optional>
 #include <random>
+#include <set>
+#include <string>
 
 #include "core/build_info.hpp"
 #include "core/error.hpp"
@@ -104,6 +106,7 @@ private:
     void render_in_threads(SceneData scene);
     void render_on_hosts(const DiskFiles& files, SceneData scene);
     Cluster::Options cluster_options(const DiskFiles& files);
+    std::set<std::string> without(const Cluster& cluster) const;
     /// Called several times a second with the number of places that render.
     using LookAround = std::function<void(std::size_t renderers)>;
     void hand_out(Carrier& carrier, const Plan& plan, const LookAround& look_around);
@@ -360,6 +363,20 @@ Cluster::Options Run::cluster_options(const DiskFiles& files) {
     return options;
 }
 
+// Hosts that the user named and that take no part: why, and what others have to do for them.
+std::set<std::string> Run::without(const Cluster& cluster) const {
+    std::set<std::string> hosts;
+    for (const auto& [name, why] : cluster.missing()) {
+        std::string nodes;
+        for (const auto& entry : request_.hosts.hosts)
+            if (entry.endpoint == name)
+                for (const auto& [node, count] : entry.replicas) nodes += (nodes.empty() ? "" : ", ") + node;
+        hosts.insert(name + ": " + why + "; " +
+                     (nodes.empty() ? "it was to hold the whole network" : "it was to hold " + nodes));
+    }
+    return hosts;
+}
+
 void Run::render_on_hosts(const DiskFiles& files, SceneData scene) {
     book_.phase("prepare");
     auto options = cluster_options(files);
@@ -372,6 +389,8 @@ void Run::render_on_hosts(const DiskFiles& files, SceneData scene) {
         return;
     }
     book_.use(cluster.plan(), job_.graph);
+    const auto absent = without(cluster);
+    for (const auto& host : absent) book_.warn(host);
     std::optional<Clock::time_point> homeless;
     hand_out(cluster, cluster.plan(), [&](std::size_t renderers) {
         crew.look_after();
@@ -388,6 +407,8 @@ void Run::render_on_hosts(const DiskFiles& files, SceneData scene) {
     });
     book_.use(cluster.plan(), job_.graph);
     for (const auto& host : cluster.hosts()) book_.use(host);
+    for (const auto& host : without(cluster))  // those that never came are in the report already
+        absent.contains(host) ? book_.say("warning: " + host) : book_.warn(host);
     book_.count(cluster.finish(stopped() ? 300ms : 1000ms));
 }
 

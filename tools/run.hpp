@@ -51,6 +51,7 @@ struct RunRequest {
     std::uint32_t threads = 0;        // places in this process
     std::uint32_t local_workers = 0;  // mode network: daemons to start
     std::string listen;               // mode network: endpoint where hosts may join; "": nowhere
+    std::string pass;                 // file with what hosts must know to join; "": the usual one
     SlurmRequest slurm;               // mode network
     std::chrono::seconds wait{30};    // for a host when a node has no place any more
     bool resume = false;              // from the checkpoint beside the output, if there is one

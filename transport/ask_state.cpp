@@ -42,7 +42,8 @@ struct Asked {
 }  // namespace
 
 std::vector<HostAnswer> ask_state(const std::vector<std::string>& endpoints, std::chrono::milliseconds patience) {
-    zmq::context_t context{1};
+    const auto its_context = make_context();
+    auto& context = *its_context;
     std::vector<Asked> asked;
     for (const auto& endpoint : endpoints) {
         try {
@@ -53,9 +54,9 @@ std::vector<HostAnswer> ask_state(const std::vector<std::string>& endpoints, std
     }
     const auto end = Clock::now() + patience;
     while (Clock::now() < end && !std::all_of(asked.begin(), asked.end(), [](const auto& one) { return one.all; })) {
-        std::vector<zmq::pollitem_t> items;
-        for (auto& one : asked) items.push_back({one.socket.handle(), 0, ZMQ_POLLIN, 0});
-        zmq::poll(items, std::chrono::milliseconds(5));
+        std::vector<zmq_pollitem_t> items;
+        for (auto& one : asked) items.push_back(readable(one.socket));
+        poll(items, std::chrono::milliseconds(5));
         for (auto& one : asked) one.look();
     }
     std::vector<HostAnswer> answers;

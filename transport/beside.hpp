@@ -1,6 +1,7 @@
 // What takes time, done beside a thread that must stay free to listen.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <future>
 #include <memory>
@@ -8,22 +9,27 @@
 #include <utility>
 #include <vector>
 
+#include "transport/wakeup.hpp"
+
 namespace lightnet {
 
 /// Work in threads of its own, whose ends wake who polls. Used by one thread.
 class Beside {
 public:
     /// Throws Error when the system has no more handles.
-    Beside();
+    Beside() = default;
     /// Waits until all is done.
     ~Beside();
     Beside(const Beside&) = delete;
     Beside& operator=(const Beside&) = delete;
 
     /// To be polled: readable when a future has become ready since the last clear().
-    int handle() const { return handle_; }
+    int handle() const { return wakeup_.handle(); }
     void clear();
+    /// Waits until all is done, for so long at most. True if it is.
+    bool done_within(std::chrono::milliseconds most) const;
 
+    /// Throws std::system_error when no thread can be had.
     template <class Work>
     std::future<std::invoke_result_t<Work>> start(Work work) {
         auto task = std::make_shared<std::packaged_task<std::invoke_result_t<Work>()>>(std::move(work));
@@ -35,7 +41,7 @@ public:
 private:
     void start_thread(std::function<void()> work);
 
-    int handle_;
+    Wakeup wakeup_;
     std::vector<std::future<void>> under_way_;
 };
 

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/runtime/fingerprint.hpp"
+#include "transport/descriptors.hpp"
 #include "transport/host_link.hpp"
 #include "transport/joiners.hpp"
 #include "transport/own_places.hpp"
@@ -20,6 +21,7 @@ using Clock = std::chrono::steady_clock;
 using State = HostLink::State;
 
 constexpr std::size_t most_hosts = 4096;
+constexpr auto first_words_after = std::chrono::seconds(2), words_interval = std::chrono::seconds(5);
 
 Told told_of(const Cluster::Options& options) {
     Told told{options.run, options.who, options.job.isa, fingerprint(options.job.isa), to_json(options.job), {}};
@@ -27,12 +29,28 @@ Told told_of(const Cluster::Options& options) {
     return told;
 }
 
+// Of one that is not ready.
+std::string trouble_of(const HostLink& link) {
+    if (link.busy()) return "is busy: " + link.reason();
+    if (!link.reason().empty()) return link.reason();
+    switch (link.state()) {
+        case State::sending:
+            return "takes in files";
+        case State::building:
+            return "builds";
+        case State::greeted:
+            return "looks at the job";
+        default:
+            return "does not answer";
+    }
+}
+
 std::string words_for(const HostLink& link) {
     switch (link.state()) {
         case State::calling:
             return link.reason().empty() ? "does not answer" : "is lost: " + link.reason();
         case State::greeted:
-            return link.reason().empty() ? "is greeted" : "waits: " + link.reason();
+            return link.reason().empty() ? "is greeted" : "is busy: " + link.reason();
         case State::sending:
             return "takes in files";
         case State::building:
@@ -52,7 +70,8 @@ std::string words_for(const HostLink& link) {
 struct Cluster::Links {
     Options options;
     Told told;
-    zmq::context_t context{1};
+    std::unique_ptr<zmq::context_t> its_context = make_context();
+    zmq::context_t& context = *its_context;
     std::optional<Joiners> joiners;  // hosts that dial in
     std::vector<std::unique_ptr<HostLink>> links;
     std::unique_ptr<OwnPlaces> own;
@@ -61,13 +80,19 @@ struct Cluster::Links {
     Plan plan;                            // proposed
     std::string in_force;                 // the plan that hosts are to go by, as text
     std::deque<Message> arrived;
+    std::set<std::string> turned_down;  // who wanted to join
     Counters counters, ended;
     Relays relays{counters, ways()};
     Clock::time_point hold_until{};  // nobody begins before all are greeted: places make their nodes by the first plan
 
     explicit Links(Options given) : options(std::move(given)), told(told_of(options)) {
         plan.places_of.resize(options.job.graph.nodes.size());
-        if (!options.listen.empty()) joiners.emplace(context, options.listen, options.run);
+        constexpr std::size_t per_host = 4;  // two sockets with a connection each
+        want_descriptors(per_host * options.endpoints.size(),
+                         "a run on " + std::to_string(options.endpoints.size()) + " hosts");
+        if (!options.listen.empty())
+            joiners.emplace(context, options.listen,
+                            Pass::of(options.pass.empty() ? Pass::usual_file() : options.pass));
         for (const auto& endpoint : options.endpoints) call(endpoint);
         if (options.threads)
             own = std::make_unique<OwnPlaces>(context, options.network, options.run, options.threads,
@@ -133,29 +158,44 @@ struct Cluster::Links {
         }
         look_at_own();
         relays.say_again(now);
+        for (auto& link : links)
+            for (const auto& failure : link->take_failures())
+                take_out(failure.host, failure.why + " (" + link->name() + " had asked it)");
         tell_changes();
+    }
+
+    // The last one stays: its failures are the run's.
+    bool take_out(const std::string& name, const std::string& why) {
+        auto* link = find(name);
+        if (!link || link->state() == State::refused) return link;
+        const auto ready = offers(true);
+        if (std::all_of(ready.begin(), ready.end(), [&](const auto& offer) { return offer.endpoint == name; }))
+            return false;
+        link->take_out(why);
+        return true;
     }
 
     // Until something can be read.
     void wait(std::chrono::nanoseconds most) {
         std::vector<zmq::socket_t*> sockets;
+        std::vector<zmq_pollitem_t> items;
         bool soon = relays.waiting();
         for (auto& link : links) {
             soon |= link->state() == State::sending;
             for (auto* socket : link->line().sockets()) sockets.push_back(socket);
         }
-        if (joiners) sockets.push_back(&joiners->socket());
-        if (own)
-            for (auto* socket : own->sockets()) sockets.push_back(socket);
-        std::vector<zmq::pollitem_t> items;
-        for (auto* socket : sockets) items.push_back({socket->handle(), 0, ZMQ_POLLIN, 0});
+        const auto add = [&](const std::vector<zmq::socket_t*>& more) {
+            sockets.insert(sockets.end(), more.begin(), more.end());
+        };
+        if (joiners) add(joiners->sockets());
+        if (own) {
+            add(own->sockets());
+            items.push_back(readable(own->news()));
+        }
+        for (auto* socket : sockets) items.push_back(readable(*socket));
         const auto ms = std::clamp(std::chrono::ceil<std::chrono::milliseconds>(most), std::chrono::milliseconds(1),
                                    std::chrono::milliseconds(soon ? 5 : 100));
-        try {
-            zmq::poll(items, ms);
-        } catch (const zmq::error_t& error) {
-            if (error.num() != EINTR) throw;
-        }
+        poll(items, ms);
     }
 
     void take_joiners(Clock::time_point now) {
@@ -168,7 +208,12 @@ struct Cluster::Links {
             [&](const std::string& name, const std::string& why) {
                 if (auto* link = find(name)) link->lose(now, why);
             },
-            [&] { return hosts(); }};
+            [&] { return hosts(); },
+            [&](const std::string& name, const std::string& address) {
+                if (turned_down.size() < most_hosts && turned_down.insert(name + " " + address).second)
+                    options.say(name + " (" + address +
+                                ") wants to join, but does not know the pass of this run's user (--pass)");
+            }};
         counters.broken_packets += joiners->receive(takers);
     }
 
@@ -188,7 +233,7 @@ struct Cluster::Links {
                 },
                 [this](const std::string& host) {
                     auto frames = empty_message();
-                    if (host.empty() && own) own->say_again();
+                    if (host.empty() && own) own->say_again("");
                     if (auto* link = find(host); link && link->takes_part()) link->pass(frames);
                 },
                 [this] {
@@ -199,6 +244,7 @@ struct Cluster::Links {
 
     void look_at_own() {
         if (!own) return;
+        for (const auto& failure : own->failures()) take_out(failure.host, failure.why);
         if (own->ready() && !std::exchange(own_ready, true)) options.say("places of this process are ready");
         own->receive({[&](Message message) { arrived.push_back(std::move(message)); },
                       [&](Frames& frames) {
@@ -225,7 +271,8 @@ struct Cluster::Links {
             const bool was_there = before == State::ready || before == State::leaving;
             if (state == State::ready) options.say(link->name() + " is ready");
             if (link->takes_part() && !in_force.empty()) link->send_plan(in_force);
-            if (state == State::refused) options.say(link->name() + " takes no part: " + link->reason());
+            if (state == State::refused)
+                options.say(link->name() + (was_there ? " is taken out: " : " takes no part: ") + link->reason());
             if (state == State::leaving) options.say(link->name() + " was told to stop: it finishes what it has");
             if (before == State::leaving) options.say(link->name() + " has left");
             if (before == State::ready && state == State::calling)
@@ -243,17 +290,31 @@ struct Cluster::Links {
 
     std::vector<HostState> hosts() const {
         std::vector<HostState> hosts;
-        if (own) hosts.push_back({"", "is ready", own->count(), own->progress(), this_machine()});
+        if (own) hosts.push_back({"", "is ready", true, own->count(), own->progress(), this_machine()});
         for (const auto& link : links)
-            hosts.push_back({link->name(), words_for(*link), link->places(), link->progress(), link->machine()});
+            hosts.push_back({link->name(), words_for(*link), link->takes_part(), link->places(), link->progress(),
+                             link->machine()});
         return hosts;
     }
 
     std::string reasons() const {
         std::string text;
+        for (const auto& name : options.expected)
+            if (!find(name)) text += "\n  " + name + ": has not joined at " + joiners->endpoint();
+        for (const auto& link : links) text += "\n  " + link->name() + ": " + trouble_of(*link);
+        return text.empty() && joiners ? "\n  nobody has joined at " + joiners->endpoint() : text;
+    }
+
+    void say_what_is_missing(Clock::duration waited) const {
+        const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(waited).count();
+        std::string whom;
+        for (const auto& name : options.expected)
+            if (!find(name)) whom += "\n  " + name + ": has not joined";
         for (const auto& link : links)
-            text += "\n  " + link->name() + ": " + (link->reason().empty() ? "does not answer" : link->reason());
-        return text;
+            if (link->state() == State::calling || link->busy() || link->pending())
+                whom += "\n  " + link->name() + ": " + trouble_of(*link);
+        if (whom.empty() && links.empty() && joiners) whom = "\n  somebody to join";
+        if (!whom.empty()) options.say("waiting for " + std::to_string(seconds) + " s:" + whom);
     }
 
     // Somebody who is to be there from the beginning is not.
@@ -274,14 +335,22 @@ struct Cluster::Links {
         all.pending = own && !own_ready;
         all.absent = absent();
         for (const auto& link : links) {
-            if (link->broken()) throw Error(link->name(), link->reason());
-            const auto state = link->state();
-            all.ready |= state == State::ready;
-            all.busy |= state == State::greeted && !link->reason().empty();
-            all.pending |= (state == State::greeted && link->reason().empty()) || state == State::sending ||
-                           state == State::building;
+            all.ready |= link->state() == State::ready;
+            all.busy |= link->busy();
+            all.pending |= link->pending();
         }
         return all;
+    }
+
+    // One host that can't do its part may be sick. What two hosts say in the same words is the run's own trouble, and
+    // so is what keeps the only ones from serving.
+    void throw_if_broken(bool nobody_left) const {
+        std::map<std::string, const HostLink*> reasons;
+        for (const auto& link : links) {
+            if (!link->broken() || link->state() != State::refused) continue;
+            const bool fresh = reasons.emplace(link->reason(), link.get()).second;
+            if (!fresh || nobody_left) throw Error(link->name(), link->reason());
+        }
     }
 };
 
@@ -291,20 +360,31 @@ Cluster::~Cluster() = default;
 void Cluster::gather(Patience patience, const std::atomic<bool>& cancelled, const std::function<void()>& look_around) {
     const auto begun = Clock::now();
     links_->hold_until = begun + patience.absent;
-    std::string said;
+    std::optional<Clock::time_point> first_ready;
+    auto next_words = begun + first_words_after;
     while (!cancelled) {
         wait(std::chrono::milliseconds(20));
         look_around();
         links_->arrived.clear();  // plans on the way here; plan() is the one that counts
+        const auto now = Clock::now();
         const auto all = links_->standing();
-        if (all.busy && said.empty())
-            links_->options.say(said = "waiting for hosts that serve another run" + links_->reasons());
-        const auto waited = Clock::now() - begun;
-        if (all.pending || (waited < patience.absent && (all.absent || all.busy))) continue;
-        if (all.ready) return;
-        const bool somebody_may_come = links_->links.empty() || links_->joiners;
-        if (!all.busy && (waited >= patience.nobody || !somebody_may_come))
-            throw NoWorker("no worker can be reached:" + links_->reasons());
+        links_->throw_if_broken(!all.ready && !all.pending && !all.busy && !all.absent);
+        const auto waited = now - begun;
+        if (all.ready && !first_ready) first_ready = now;
+        // Machines differ: whoever is not ready gets as long again as the first one took.
+        const bool too_slow =
+            first_ready && now - *first_ready > std::max<Clock::duration>(patience.slow, *first_ready - begun);
+        const bool wait_for_slow = all.pending && !too_slow && (all.ready || waited < patience.build);
+        const bool wait_for_absent = waited < patience.absent && (all.absent || all.busy);
+        if (!wait_for_slow && !wait_for_absent) {
+            if (all.ready) return;
+            const bool somebody_may_come = links_->links.empty() || links_->joiners;
+            if (all.pending || (!all.busy && (waited >= patience.nobody || !somebody_may_come)))
+                throw NoWorker("no worker can be reached:" + links_->reasons());
+        }
+        if (now < next_words) continue;
+        next_words = now + words_interval;
+        links_->say_what_is_missing(waited);
     }
 }
 
@@ -324,6 +404,16 @@ bool Cluster::ready(const std::string& name) const {
 }
 
 std::vector<HostState> Cluster::hosts() const { return links_->hosts(); }
+
+std::map<std::string, std::string> Cluster::missing() const {
+    std::map<std::string, std::string> missing;
+    const auto& s = *links_;
+    for (const auto& name : s.options.expected)
+        if (!s.find(name)) missing[name] = "has not joined";
+    for (const auto& link : s.links)
+        if (!link->takes_part()) missing[link->name()] = trouble_of(*link);
+    return missing;
+}
 
 std::string Cluster::join_endpoint() const { return links_->joiners ? links_->joiners->endpoint() : std::string(); }
 
@@ -376,6 +466,12 @@ std::optional<Message> Cluster::receive() {
 void Cluster::wait(std::chrono::nanoseconds most) {
     links_->look();
     if (links_->arrived.empty()) links_->wait(most);
+}
+
+bool Cluster::take_out(const std::string& host, const std::string& why) {
+    const bool out = links_->take_out(host, why);
+    links_->tell_changes();
+    return out;
 }
 
 bool Cluster::bring(const PlaceAt& to, const Hash& name, const Bytes& bytes) {

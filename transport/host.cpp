@@ -18,14 +18,21 @@ constexpr auto launcher_lease = std::chrono::seconds(4);               // withou
 constexpr auto quiet_before_leaving = std::chrono::milliseconds(300);  // askers may not know yet that it leaves
 constexpr auto goodbye_deadline = std::chrono::milliseconds(500);
 
+HostDoor::Ends ends_of(const Host::Options& options, const Machine& machine, std::uint64_t process) {
+    HostDoor::Ends ends{options.listen, options.join, options.name.empty() ? machine.name : options.name, process};
+    if (!options.join.empty()) ends.pass = Pass::of(options.pass.empty() ? Pass::usual_file() : options.pass);
+    ends.log = options.log;
+    return ends;
+}
+
 }  // namespace
 
 Host::Service::Service(Options given_options, const Registry& kinds)
     : options(std::move(given_options)),
       registry(kinds),
       cache(options.cache.empty() ? default_cache_folder() : options.cache),
-      context(std::make_unique<zmq::context_t>(1)),
-      door(*context, {options.listen, options.join, options.name.empty() ? machine.name : options.name, process}) {
+      context(make_context()),
+      door(*context, ends_of(options, machine, process)) {
     if (!options.places) options.places = static_cast<std::uint32_t>(machine.cores);
     cache.trim();
 }
@@ -46,11 +53,15 @@ void Host::serve(const std::atomic<bool>& stop) {
         if (s.leaving && s.gone(now)) break;
         const auto readable = s.wait();
         for (const auto place : readable.places) s.pass_replies(place);
+        s.door.let_in();
         if (readable.door)
             while (auto frames = s.door.receive(Clock::now())) s.arrived(std::move(*frames));
-        if (readable.relay) s.pass_asks();
-        if (readable.reports || (s.run && !s.run->serving())) s.advance();
-        if (readable.news) s.tell_found();
+        s.look_at_arriving();
+        s.look_at_ending();
+        if (readable.way_out) s.pass_asks();
+        if (s.lines && (readable.lines || s.lines->due(now))) s.lines->tick(now);
+        if (readable.news || (s.run && !s.run->serving())) s.advance();
+        if (readable.news) s.tell_found(), s.tell_failures();
         if (s.run && now - s.heard > launcher_lease) s.drop_run("its launcher is silent");
         if (!s.leaving) s.door.keep_in_touch(now);
         if (s.run) s.needed = now;
@@ -62,10 +73,12 @@ void Host::serve(const std::atomic<bool>& stop) {
     if (s.run) s.drop_run("this host is stopping");
 }
 
+bool Host::hangs() const { return !service_->beside.done_within(goodbye_deadline); }
+
 void Host::Service::arrived(Frames frames) {
     const auto route = text_of(frames[0]);
     if (frames.size() == 2 && frames[1].size() == 0) {  // what went through the launcher may be lost
-        if (relay && route == launcher) relay->say_again();
+        if (way_out && route == launcher) way_out->say_again("");
         return;
     }
     if (frames.size() < 3) return damaged(route);
@@ -122,10 +135,10 @@ void Host::Service::work(const packet::Header& header, Frames frames) {
 // [route][address][header][body], through the launcher: an ask, or the reply to one of ours.
 void Host::Service::from_another(const packet::Header& header, Frames frames) {
     if (packet::is_ask(header.type)) return work(header, std::move(frames));
-    if (!relay || header.run != run->id()) return;
+    if (!run || header.run != run->id()) return;
     const auto address = unseal(bytes_of(frames[1]));
     frames.erase(frames.begin(), frames.begin() + 2);
-    if (!address || !relay->pass(address->place, frames)) relay->say_again();
+    if (!address || !way_out->pass(address->place, frames)) way_out->say_again("");
 }
 
 void Host::Service::advance() {
@@ -151,14 +164,24 @@ void Host::Service::pass_replies(std::uint32_t place) {
     }
 }
 
-// For hosts that our places can't call: the launcher passes them on.
 void Host::Service::pass_asks() {
-    if (!relay) return;
-    while (auto frames = relay->receive()) {
-        const auto place = text_of((*frames)[0]), host = text_of((*frames)[1]);
-        (*frames)[0] = frame_of(launcher);
-        (*frames)[1] = frame_of(seal({host, place}));
-        door.send(*frames);  // if it fails the launcher greets us anew, and all is said again
+    if (!way_out) return;
+    while (auto frames = way_out->receive()) lines->ask(std::move(*frames));
+}
+
+// For hosts that we can't call: the launcher passes it on.
+void Host::Service::pass_to_launcher(Frames& frames) {
+    const auto place = text_of(frames[0]), host = text_of(frames[1]);
+    frames[0] = frame_of(launcher);
+    frames[1] = frame_of(seal({host, place}));
+    door.send(frames);  // if it fails the launcher greets us anew, and all is said again
+}
+
+void Host::Service::tell_failures() {
+    if (!run) return;
+    for (const auto& [why, host] : run->failures()) {
+        options.log(host + " failed at what it was asked: " + why);
+        door.send(launcher, Type::fault, run->id(), Fields{}.set("host", host).set("text", why));
     }
 }
 
@@ -174,7 +197,7 @@ void Host::Service::leave(Clock::time_point now) {
 
 bool Host::Service::gone(Clock::time_point now) {
     if (leaving->farewell) return !run && now - *leaving->farewell > goodbye_deadline;
-    if (!run) return true;
+    if (!run) return !ending || now - leaving->since > goodbye_deadline;
     if (now - leaving->since > options.drain) return true;
     const bool idle = answered >= given && now - leaving->last_work > quiet_before_leaving;
     if (!leaving->known || !idle) return false;
@@ -184,31 +207,33 @@ bool Host::Service::gone(Clock::time_point now) {
 }
 
 Host::Service::Readable Host::Service::wait() {
-    std::vector<zmq::pollitem_t> items;
-    for (auto* socket : door.sockets()) items.push_back({socket->handle(), 0, ZMQ_POLLIN, 0});
+    std::vector<zmq_pollitem_t> items;
+    for (auto* socket : door.sockets()) items.push_back(lightnet::readable(*socket));
     const std::size_t doors = items.size();
+    items.push_back(lightnet::readable(beside.handle()));
+    if (lines)
+        for (auto* socket : lines->sockets()) items.push_back(lightnet::readable(*socket));
+    const std::size_t way = items.size();
     auto* const places = run ? run->places() : nullptr;
     if (run) {
-        items.push_back({relay->socket().handle(), 0, ZMQ_POLLIN, 0});
-        items.push_back({nullptr, run->news(), ZMQ_POLLIN, 0});
+        items.push_back(lightnet::readable(way_out->socket()));
+        items.push_back(lightnet::readable(run->news()));
     }
-    if (places) items.push_back({places->reports().handle(), 0, ZMQ_POLLIN, 0});
+    if (places) items.push_back(lightnet::readable(places->news()));
     const std::size_t others = items.size();
     for (std::uint32_t place = 0; places && run->serving() && place < places->count(); ++place)
-        items.push_back({places->to(place).handle(), 0, ZMQ_POLLIN, 0});
-    try {
-        zmq::poll(items, std::chrono::milliseconds(leaving ? 5 : 100));
-    } catch (const zmq::error_t& error) {
-        if (error.num() != EINTR) throw;
-    }
+        items.push_back(lightnet::readable(places->to(place)));
+    const bool soon = leaving || (lines && lines->waiting());
+    poll(items, std::chrono::milliseconds(soon ? 5 : 100));
     const auto has_some = [&](std::size_t item) { return (items[item].revents & ZMQ_POLLIN) != 0; };
     Readable readable;
     for (std::size_t item = 0; item < doors; ++item) readable.door |= has_some(item);
+    if (has_some(doors)) beside.clear();
     if (!run) return readable;
-    readable.relay = has_some(doors);
-    readable.news = has_some(doors + 1);
+    for (std::size_t item = doors + 1; item < way; ++item) readable.lines |= has_some(item);
+    readable.way_out = has_some(way);
+    readable.news = has_some(way + 1) || (places && has_some(way + 2));
     if (readable.news) run->clear_news();
-    readable.reports = places && has_some(doors + 2);
     for (std::size_t item = others; item < items.size(); ++item)
         if (has_some(item)) readable.places.push_back(static_cast<std::uint32_t>(item - others));
     return readable;

@@ -22,13 +22,14 @@ public:
         std::string listen = "tcp://127.0.0.1:*";  // empty: lets nobody in
         std::string join;                          // endpoint of a launcher to report to; empty: wait to be asked
         std::string name;                          // under which it joins; empty: that of the machine
+        std::string pass;                          // file with what it must know to join; empty: Pass::usual_file()
         std::uint32_t places = 0;                  // 0: one per core
         std::string cache;                         // folder for blobs; empty: default_cache_folder()
         std::chrono::milliseconds drain{20'000};   // to answer what it has when it is told to stop
         std::optional<std::chrono::milliseconds> patience;  // it leaves when nobody needs it for so long
         std::function<void(const std::string&)> log = [](const std::string&) {};
     };
-    /// Throws Error when the port can't be had.
+    /// Throws Error when the port can't be had, or the system has too few descriptors.
     Host(Options options, const Registry& registry);
     ~Host();
     Host(const Host&) = delete;
@@ -39,6 +40,9 @@ public:
     /// Serves until `stop` is set; then takes no more work, answers what it has, and returns, after `drain` at the
     /// latest.
     void serve(const std::atomic<bool>& stop);
+    /// Some of its own work hangs, in a file system that does not answer for instance. Destroying the host would wait
+    /// for it; a program that is to end had better do so at once.
+    bool hangs() const;
 
 private:
     struct Service;

@@ -29,8 +29,10 @@ bool is_counted(const Frames& frames) {
 HostDoor::HostDoor(zmq::context_t& context, Ends ends)
     : context_(context), ends_(std::move(ends)), silence_(shortest_silence) {
     if (!ends_.listen.empty()) {
+        keeper_.emplace(context_);
         port_ = std::make_unique<zmq::socket_t>(door_socket(context_));
         try {
+            keeper_->guard(*port_);
             port_->bind(ends_.listen);
         } catch (const zmq::error_t& error) {
             throw Error(ends_.listen, std::string("can't listen there: ") + error.what());
@@ -44,12 +46,30 @@ HostDoor::~HostDoor() = default;
 std::string HostDoor::endpoint() const { return port_ ? port_->get(zmq::sockopt::last_endpoint) : std::string(); }
 
 void HostDoor::dial(Time now) {
+    launcher_.reset();  // first: there may be no descriptors for both
+    challenge_.clear();
+    heard_ = dialled_ = now;
+    next_join_ = {};
     try {
         launcher_ = std::make_unique<zmq::socket_t>(asking_socket(context_, ends_.join));
     } catch (const zmq::error_t& error) {
+        if (error.num() == EMFILE || error.num() == ENFILE) return;  // later, then
         throw Error(ends_.join, std::string("can't be dialled: ") + error.what());
     }
-    heard_ = dialled_ = now;
+}
+
+// A launcher lets in who proves that he knows the pass of its user.
+void HostDoor::take_challenge(const Frames& frames) {
+    if (frames.size() != 3) return;
+    const auto header = packet::read_header(bytes_of(frames[1]), bytes_of(frames[2]));
+    if (!header || header->type != Type::joined) return;
+    const auto fields = packet::unpack_fields(bytes_of(frames[2]));
+    if (!fields || fields->text("challenge").empty()) return;
+    if (fields->number("turned_down") && !std::exchange(turned_down_, true))
+        ends_.log("the launcher at " + ends_.join +
+                  " does not let this host in: its user has another pass (give both the same file, --pass)");
+    if (challenge_ == fields->text("challenge")) return;
+    challenge_ = fields->text("challenge");
     next_join_ = {};
 }
 
@@ -59,6 +79,7 @@ std::optional<Frames> HostDoor::from_launcher(Time now) {
         silence_ = shortest_silence;
         if (frames->size() == 1 && is_empty(*frames)) next_join_ = {};  // a new connection: it does not know us yet
         frames->insert(frames->begin(), frame_of(launcher_route));
+        take_challenge(*frames);
         return frames;
     }
     return std::nullopt;
@@ -95,18 +116,20 @@ void HostDoor::send(const std::string& route, Type type, std::uint64_t run, cons
 }
 
 void HostDoor::keep_in_touch(Time now) {
-    if (!launcher_) return;
+    if (ends_.join.empty()) return;
     if (now - heard_ > silence_) {
         // Half of the connection may be gone without a word.
         silence_ = std::min<std::chrono::milliseconds>(2 * silence_, longest_silence);
         dial(now);
     }
-    if (now < next_join_) return;
+    if (!launcher_ || now < next_join_) return;
     next_join_ = now + join_interval;
+    const Pass::Claim claim{ends_.name, ends_.process, endpoint()};
+    Fields fields;
+    fields.set("name", claim.name).set("process", claim.process).set("endpoint", claim.endpoint);
+    if (!challenge_.empty() && ends_.pass) fields.set("proof", ends_.pass->proof(challenge_, claim));
     Frames frames;
-    append(frames,
-           packet::pack(Type::join, 0,
-                        Fields{}.set("name", ends_.name).set("process", ends_.process).set("endpoint", endpoint())));
+    append(frames, packet::pack(Type::join, 0, fields));
     if (!send_frames(*launcher_, frames)) next_join_ = now + 20ms;
 }
 
@@ -116,8 +139,12 @@ void HostDoor::count(const std::string& route) {
     tally_ = {tally_.line + 1, 0, 0};
 }
 
+void HostDoor::let_in() {
+    if (keeper_) keeper_->tick();
+}
+
 std::vector<zmq::socket_t*> HostDoor::sockets() {
-    std::vector<zmq::socket_t*> sockets;
+    auto sockets = keeper_ ? keeper_->sockets() : std::vector<zmq::socket_t*>{};
     for (auto* socket : {port_.get(), launcher_.get()})
         if (socket) sockets.push_back(socket);
     return sockets;

@@ -3,12 +3,15 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "transport/doorkeeper.hpp"
 #include "transport/packet.hpp"
+#include "transport/pass.hpp"
 #include "transport/sockets.hpp"
 
 namespace lightnet {
@@ -22,6 +25,8 @@ public:
         std::string join;    // of a launcher; empty: none is dialled
         std::string name;    // under which it joins
         std::uint64_t process = 0;
+        std::optional<Pass> pass{};  // by which it proves that it belongs there; to be had when it joins
+        std::function<void(const std::string&)> log = [](const std::string&) {};
     };
     /// Throws Error when the port can't be had.
     HostDoor(zmq::context_t& context, Ends ends);
@@ -37,6 +42,8 @@ public:
     bool send(Frames& frames);
     /// Reports to the launcher that was dialled, until it answers and from time to time; dials anew when it is silent.
     void keep_in_touch(Time now);
+    /// Lets in who waits, as long as there is room for connections. To be called before receive().
+    void let_in();
     std::vector<zmq::socket_t*> sockets();
 
     /// How many messages came and went on the line to the launcher of the run; see packet::is_counted().
@@ -55,7 +62,12 @@ private:
 
     zmq::context_t& context_;
     Ends ends_;
+    void take_challenge(const Frames& frames);
+
+    std::optional<Doorkeeper> keeper_;
     std::unique_ptr<zmq::socket_t> port_, launcher_;
+    std::string challenge_;  // of the launcher that was dialled
+    bool turned_down_ = false;
     Time heard_{}, dialled_{}, next_join_{};
     std::chrono::milliseconds silence_;  // after which it dials anew
     std::string counted_;                // route

@@ -7,17 +7,29 @@ namespace lightnet {
 
 CalledLine::CalledLine(zmq::context_t& context, std::string endpoint)
     : context_(context), endpoint_(std::move(endpoint)) {
-    renew();
+    for (auto* lane : {&work_, &files_})
+        lane->socket = std::make_unique<zmq::socket_t>(asking_socket(context_, endpoint_));
 }
 
 CalledLine::~CalledLine() = default;
 
+bool CalledLine::open(Lane& lane) {
+    if (lane.socket) return true;
+    try {
+        lane = Lane{std::make_unique<zmq::socket_t>(asking_socket(context_, endpoint_)), false};
+        return true;
+    } catch (const zmq::error_t&) {  // out of descriptors, say
+        return false;
+    }
+}
+
 bool CalledLine::send(Frames& frames, bool files) {
-    return send_frames(files ? *files_.socket : *work_.socket, frames);
+    auto& lane = files ? files_ : work_;
+    return open(lane) && send_frames(*lane.socket, frames);
 }
 
 std::optional<Frames> CalledLine::Lane::receive() {
-    auto frames = receive_frames(*socket);
+    auto frames = socket ? receive_frames(*socket) : std::nullopt;
     if (frames && is_empty(*frames) && !std::exchange(greeted, true)) return receive();
     return frames;
 }
@@ -28,11 +40,17 @@ std::optional<Frames> CalledLine::receive() {
 }
 
 void CalledLine::renew() {
-    for (auto* lane : {&work_, &files_})
-        *lane = Lane{std::make_unique<zmq::socket_t>(asking_socket(context_, endpoint_)), false};
+    // The old ones go first: there may be no descriptors for both.
+    for (auto* lane : {&work_, &files_}) *lane = {};
+    for (auto* lane : {&work_, &files_}) open(*lane);
 }
 
-std::vector<zmq::socket_t*> CalledLine::sockets() { return {work_.socket.get(), files_.socket.get()}; }
+std::vector<zmq::socket_t*> CalledLine::sockets() {
+    std::vector<zmq::socket_t*> sockets;
+    for (auto* lane : {&work_, &files_})
+        if (lane->socket) sockets.push_back(lane->socket.get());
+    return sockets;
+}
 
 JoinedLine::JoinedLine(zmq::socket_t& door, std::string route) : door_(door), route_(std::move(route)) {}
 JoinedLine::~JoinedLine() = default;

@@ -38,10 +38,11 @@ public:
 private:
     // Doors greet each connection with an empty message: the first is expected, others tell of a cut.
     struct Lane {
-        std::unique_ptr<zmq::socket_t> socket;
+        std::unique_ptr<zmq::socket_t> socket{};  // null: the system had none to give; tried again when it is needed
         bool greeted = false;
         std::optional<Frames> receive();
     };
+    bool open(Lane& lane);
     zmq::context_t& context_;
     std::string endpoint_;
     Lane work_, files_;

@@ -29,7 +29,10 @@ HostLink::~HostLink() = default;
 
 bool HostLink::send(Type type, const Fields& fields) {
     Frames frames;
-    append(frames, packet::pack(type, told_.run, fields));
+    // Before it takes part it need not know the number that members of the run are known by.
+    const bool member =
+        type == Type::begin || type == Type::end || (state_ != State::calling && state_ != State::greeted);
+    append(frames, packet::pack(type, member ? told_.run : 0, fields));
     const bool sent = line_->send(frames, false);
     if (sent && packet::is_counted(type)) ++sent_;
     return sent;
@@ -64,6 +67,14 @@ bool HostLink::lacks_something(const Fields& pong) {
     const Between now{pong.number("line"), pong.number("taken") - pong.number("sent"), pong.number("told") - received_};
     if (!between_ || between_->line != now.line) between_ = now;
     return *between_ != now;
+}
+
+void HostLink::take_out(const std::string& why) {
+    if (state_ != State::calling) send_end();
+    state_ = State::refused;
+    reason_ = why;
+    chunks_.clear();
+    brought_.clear();
 }
 
 void HostLink::lose(Time now, const std::string& why) {
@@ -161,6 +172,9 @@ void HostLink::control(Type type, const Fields& fields, Time now) {
             broken_ = true;
             reason_ = fields.text("text");
             state_ = State::refused;
+            return;
+        case Type::fault:
+            failures_.push_back({fields.text("text"), fields.text("host")});
             return;
         case Type::pong:
             if (state_ == State::calling || state_ == State::refused) return;

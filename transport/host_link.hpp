@@ -66,8 +66,16 @@ public:
     std::uint64_t process() const { return process_; }
     /// Why it is refused or lost, or what it waits for.
     const std::string& reason() const { return reason_; }
-    /// It can't build the job: the run is at fault, not the host.
+    /// It says that it can't do its part of the job.
     bool broken() const { return broken_; }
+    /// It serves another run, and will be free at some time.
+    bool busy() const { return state_ == State::greeted && !reason_.empty(); }
+    /// It is neither ready nor out of the question.
+    bool pending() const {
+        return (state_ == State::greeted && !busy()) || state_ == State::sending || state_ == State::building;
+    }
+    /// What other hosts failed at, as it says, since the last call.
+    std::vector<Failure> take_failures() { return std::exchange(failures_, {}); }
     /// Its counters, once after it has ended the run.
     std::optional<Counters> take_ended() { return std::exchange(ended_, std::nullopt); }
     /// What it said of its machine; bundles and tiles that it says it has answered.
@@ -88,6 +96,8 @@ public:
     /// Sees to it that the host has these bytes. True when it has said so.
     bool bring(const Hash& name, const Bytes& bytes);
     void send_end();
+    /// The host gets no more of this run.
+    void take_out(const std::string& why);
     /// The host is gone, or what was under way to it; calls it again.
     void lose(Time now, const std::string& why);
 
@@ -135,6 +145,7 @@ private:
     std::map<Hash, Brought> brought_;
     std::size_t chunks_out_ = 0;
     std::optional<Counters> ended_;
+    std::vector<Failure> failures_;
 };
 
 }  // namespace lightnet

@@ -3,18 +3,22 @@
 
 #include <chrono>
 #include <cstdint>
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "transport/arrival.hpp"
+#include "transport/beside.hpp"
 #include "transport/blob_cache.hpp"
 #include "transport/host.hpp"
 #include "transport/host_door.hpp"
+#include "transport/host_lines.hpp"
 #include "transport/hosted_run.hpp"
 #include "transport/machine.hpp"
 #include "transport/packet.hpp"
-#include "transport/relay_door.hpp"
+#include "transport/way_out.hpp"
 
 namespace zmq {
 class context_t;
@@ -33,9 +37,25 @@ struct Host::Service {
     std::unique_ptr<zmq::context_t> context;
     HostDoor door;
     std::uint64_t broken_packets = 0;
+    // A job that is being read, beside the thread that serves: whoever sent it may be nobody's friend.
+    struct Arriving {
+        std::uint64_t id = 0;
+        std::string route;
+        std::string you, who;  // as the launcher calls this host, and itself
+        std::future<Arrival> read;
+    };
+    std::optional<Arriving> arriving;
     std::unique_ptr<HostedRun> run;
-    std::unique_ptr<RelayDoor> relay;       // of the run
-    std::string who;                        // began it
+    std::unique_ptr<WayOut> way_out;   // of the run
+    std::unique_ptr<HostLines> lines;  // to the other hosts of the run
+    // A run that has ended, and whose threads may take a while to.
+    struct Ending {
+        std::uint64_t id = 0;
+        std::string route;  // who wants its counters; empty: nobody
+        std::future<Counters> counters;
+    };
+    std::optional<Ending> ending;
+    std::string who;                        // began the run
     std::string launcher;                   // route to it
     Time heard{};                           // from it
     std::uint64_t given = 0, answered = 0;  // asks of others
@@ -48,6 +68,7 @@ struct Host::Service {
         std::optional<Time> farewell;
     };
     std::optional<Leaving> leaving;
+    Beside beside;  // last: what it does looks at the rest
 
     Service(Options given, const Registry& kinds);
     ~Service();
@@ -58,23 +79,32 @@ struct Host::Service {
     void control(const std::string& route, const packet::Header& header, const packet::Fields& fields);
     void greet(const std::string& route, const packet::Fields& fields);
     void begin(const std::string& route, std::uint64_t id, const packet::Fields& fields);
+    void look_at_arriving();
+    void start(const Arriving& job, Arrival read);
+    void go_on(const std::string& route, const Plan& plan);
+    void use(const Plan& plan);
+    std::string busy_with() const;
     void tell_needs();
     void tell_state(const std::string& route);
     void tell_found();
     void take_blob(const std::string& route, std::uint64_t id, const packet::Piece& piece);
-    Counters stop_run();
+    void stop_run(const std::string& route);
+    void look_at_ending();
+    void tell_failures();
+    void refuse(const std::string& route, std::uint64_t id, const std::string& why);
     void end(const std::string& route, std::uint64_t id);
     void drop_run(const std::string& why);
     void advance();
     // Who has something to be read. Looking at an empty socket costs a system call, so only these are looked at.
     struct Readable {
-        bool door = false, relay = false, reports = false;
+        bool door = false, lines = false, way_out = false;
         bool news = false;  // of the run
         std::vector<std::uint32_t> places;
     };
     Readable wait();
     void pass_replies(std::uint32_t place);
     void pass_asks();
+    void pass_to_launcher(Frames& frames);
     void leave(Time now);
     bool gone(Time now);
 };

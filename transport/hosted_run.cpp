@@ -5,13 +5,11 @@
 #include <zmq.hpp>
 
 #include "core/error.hpp"
-#include "core/graph/check.hpp"
 
 namespace lightnet {
 
 HostedRun::HostedRun(zmq::context_t& context, BlobCache& cache, const Registry& registry, Given given)
     : context_(context), cache_(cache), registry_(registry), given_(std::move(given)) {
-    check(given_.job.graph, registry_);  // it comes from outside, like the plan
     use(given_.plan);
     looking_ = beside_.start([this] {
         std::set<Hash> missing;
@@ -120,6 +118,10 @@ void HostedRun::use(const Plan& plan) {
     if (!fits(plan, given_.job.graph)) throw Error("the plan does not fit the graph");
     given_.plan = plan;
     if (serving()) places_->use(plan);
+}
+
+void HostedRun::begin_to_stop() {
+    if (places_) places_->begin_to_stop();
 }
 
 Counters HostedRun::stop() {

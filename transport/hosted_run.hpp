@@ -51,12 +51,21 @@ public:
     std::vector<std::pair<Hash, bool>> found();
     /// To be polled: readable when advance() or found() may have news.
     int news() const { return beside_.handle(); }
-    void clear_news() { beside_.clear(); }
-    /// Goes on with what can go on. True when the state has changed. Throws Error when it can't go on.
+    void clear_news() {
+        beside_.clear();
+        if (places_) places_->clear_news();
+    }
+    /// Hosts that failed at what places of this run had asked them, since the last call.
+    std::vector<Failure> failures() { return places_ ? places_->failures() : std::vector<Failure>{}; }
+    /// Goes on with what can go on. True when the state has changed. Throws Error when it can't go on, or a place has
+    /// died.
     bool advance();
     /// Null until the places have been started.
     PlaceThreads* places() { return places_.get(); }
     void use(const Plan& plan);
+    /// Its threads end when they have done what they are at.
+    void begin_to_stop();
+    /// Waits until they have. The only thing that another thread may do, and then nothing else.
     Counters stop();
     /// What it is at, and the nodes that this host holds now, by name, for display.
     const char* words() const;

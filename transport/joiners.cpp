@@ -18,12 +18,17 @@ constexpr std::size_t most_joined = 4096;
 constexpr auto lease = std::chrono::milliseconds(1500);
 constexpr std::size_t longest_name = 200;
 
+std::string address_of(zmq::message_t& from) {
+    const char* address = from.gets("Peer-Address");
+    return address ? address : "";
+}
+
 // Where a host that listens on all its addresses can be called: at the one from which it dialled in.
 std::string callable(const std::string& endpoint, zmq::message_t& from) {
     const std::string all = "tcp://0.0.0.0:";
-    if (!endpoint.starts_with(all)) return endpoint;
-    const char* address = from.gets("Peer-Address");
-    return address ? "tcp://" + std::string(address) + ":" + endpoint.substr(all.size()) : endpoint;
+    const auto address = address_of(from);
+    if (!endpoint.starts_with(all) || address.empty()) return endpoint;
+    return "tcp://" + address + ":" + endpoint.substr(all.size());
 }
 
 // A name that can't be taken for an endpoint, nor for the launcher.
@@ -34,9 +39,10 @@ bool is_name(const std::string& text) {
 
 }  // namespace
 
-Joiners::Joiners(zmq::context_t& context, const std::string& endpoint, std::uint64_t run)
-    : socket_(std::make_unique<zmq::socket_t>(door_socket(context))), run_(run) {
+Joiners::Joiners(zmq::context_t& context, const std::string& endpoint, Pass pass)
+    : keeper_(context), socket_(std::make_unique<zmq::socket_t>(door_socket(context))), pass_(std::move(pass)) {
     try {
+        keeper_.guard(*socket_);
         socket_->bind(endpoint);
     } catch (const zmq::error_t& error) {
         throw Error(endpoint, std::string("can't listen there: ") + error.what());
@@ -47,7 +53,14 @@ Joiners::~Joiners() = default;
 
 std::string Joiners::endpoint() const { return socket_->get(zmq::sockopt::last_endpoint); }
 
+std::vector<zmq::socket_t*> Joiners::sockets() {
+    auto sockets = keeper_.sockets();
+    sockets.push_back(socket_.get());
+    return sockets;
+}
+
 std::uint64_t Joiners::receive(const Takers& takers) {
+    keeper_.tick();
     std::uint64_t broken = 0;
     while (auto frames = receive_frames(*socket_)) {
         if (frames->size() == 3 && control(*frames, takers)) continue;
@@ -74,13 +87,20 @@ bool Joiners::control(Frames& frames, const Takers& takers) {
     const auto route = text_of(frames[0]);
     if (header->type == Type::status) {
         tell_state(route, takers.hosts());
+    } else if (const bool expected = is_expected(*fields); !expected) {
+        const bool turned_down = !fields->text("proof").empty();
+        send(route, Type::joined, Fields{}.set("challenge", challenge_).set("turned_down", turned_down));
+        if (turned_down && is_name(fields->text("name")))
+            takers.turned_down(fields->text("name"), address_of(frames[2]));
+        return fields->number("process") != 0;
     } else if (const auto& endpoint = fields->text("endpoint"); !endpoint.empty()) {
+        if (!endpoint.starts_with("tcp://")) return false;
         try {
             takers.call(callable(endpoint, frames[2]));
         } catch (const zmq::error_t&) {  // not an endpoint at all
             return false;
         }
-        send(route, Type::joined, {});
+        send(route, Type::joined, Fields{}.set("challenge", challenge_));
     } else if (fields->number("process")) {
         join(route, *fields, takers);
     } else {
@@ -89,9 +109,14 @@ bool Joiners::control(Frames& frames, const Takers& takers) {
     return true;
 }
 
+bool Joiners::is_expected(const Fields& fields) const {
+    const Pass::Claim claim{fields.text("name"), fields.number("process"), fields.text("endpoint")};
+    return pass_.proves(challenge_, claim, fields.text("proof"));
+}
+
 void Joiners::join(const std::string& route, const Fields& fields, const Takers& takers) {
     const auto process = fields.number("process");
-    send(route, Type::joined, {});
+    send(route, Type::joined, Fields{}.set("challenge", challenge_));
     const auto name = name_for(fields.text("name"), process);
     if (!name || (!joined_.contains(*name) && joined_.size() >= most_joined)) return;
     auto& known = joined_[*name];
@@ -141,7 +166,7 @@ void Joiners::tell_state(const std::string& route, const std::vector<HostState>&
 void Joiners::send(const std::string& route, Type type, const Fields& fields) {
     Frames frames;
     frames.push_back(frame_of(route));
-    append(frames, packet::pack(type, run_, fields));
+    append(frames, packet::pack(type, 0, fields));
     send_frames(*socket_, frames);
 }
 

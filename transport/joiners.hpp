@@ -10,14 +10,17 @@
 #include <string>
 #include <vector>
 
+#include "transport/doorkeeper.hpp"
 #include "transport/host_line.hpp"
+#include "transport/pass.hpp"
 
 namespace lightnet {
 
 struct HostState;
 
-/// Knows hosts by the name that they give, made unique, and tells a host that dials in anew from another one. One
-/// thread's.
+/// Lets in hosts that prove that they know the pass of the run's user; a stranger learns nothing but that there is a
+/// launcher, and how its hosts are. Knows hosts by the name that they give, made unique, and tells a host that dials in
+/// anew from another one. One thread's.
 class Joiners {
 public:
     struct Takers {
@@ -25,12 +28,15 @@ public:
         std::function<void(const std::string& name, std::unique_ptr<JoinedLine>)> add;
         std::function<void(const std::string& name, const std::string& why)> lost;  // what was under way to it
         std::function<std::vector<HostState>()> hosts;                              // for those who ask
+        std::function<void(const std::string& name, const std::string& address)> turned_down;
     };
-    Joiners(zmq::context_t& context, const std::string& endpoint, std::uint64_t run);
+    /// Lets in who proves that he knows `pass`.
+    Joiners(zmq::context_t& context, const std::string& endpoint, Pass pass);
     ~Joiners();
 
     std::string endpoint() const;
-    zmq::socket_t& socket() { return *socket_; }
+    /// For polling.
+    std::vector<zmq::socket_t*> sockets();
     /// Takes in what there is, and gives it to the lines. Returns how many packets were damaged.
     std::uint64_t receive(const Takers& takers);
 
@@ -43,12 +49,15 @@ private:
     };
     bool control(Frames& frames, const Takers& takers);
     void join(const std::string& route, const packet::Fields& fields, const Takers& takers);
+    bool is_expected(const packet::Fields& fields) const;
     std::optional<std::string> name_for(std::string wanted, std::uint64_t process);
     void tell_state(const std::string& route, const std::vector<HostState>& hosts);
     void send(const std::string& route, packet::Type type, const packet::Fields& fields);
 
+    Doorkeeper keeper_;
     std::unique_ptr<zmq::socket_t> socket_;
-    std::uint64_t run_;
+    Pass pass_;
+    std::string challenge_ = random_challenge();
     std::map<std::string, Joined> joined_;         // by name
     std::map<std::string, std::string> by_route_;  // names
     std::map<std::uint64_t, Time> rivals_;         // processes that want a name that is taken, since when

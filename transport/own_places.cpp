@@ -3,12 +3,12 @@
 #include <zmq.hpp>
 
 #include "transport/place_threads.hpp"
-#include "transport/relay_door.hpp"
+#include "transport/way_out.hpp"
 
 namespace lightnet {
 
 struct OwnPlaces::Parts {
-    RelayDoor door;
+    WayOut door;
     PlaceThreads places;
     bool ready = false;
 };
@@ -21,7 +21,10 @@ OwnPlaces::~OwnPlaces() = default;
 
 std::uint32_t OwnPlaces::count() const { return parts_->places.count(); }
 
-bool OwnPlaces::ready() { return parts_->ready = parts_->places.ready(); }
+bool OwnPlaces::ready() {
+    parts_->places.clear_news();
+    return parts_->ready = parts_->places.ready();
+}
 
 void OwnPlaces::use(const Plan& plan) {
     if (parts_->ready) parts_->places.use(plan);
@@ -54,14 +57,18 @@ bool OwnPlaces::pass_ask(Frames& frames, std::uint32_t place) {
 
 bool OwnPlaces::pass_reply(const std::string& place, Frames& frames) { return parts_->door.pass(place, frames); }
 
-void OwnPlaces::say_again() { parts_->door.say_again(); }
+void OwnPlaces::say_again(const std::string& host) { parts_->door.say_again(host); }
+
+std::vector<Failure> OwnPlaces::failures() { return parts_->places.failures(); }
+
+int OwnPlaces::news() const { return parts_->places.news(); }
 
 Counters OwnPlaces::stop() { return parts_->places.stop(); }
 
 std::uint64_t OwnPlaces::progress() const { return parts_->places.progress(); }
 
 std::vector<zmq::socket_t*> OwnPlaces::sockets() {
-    std::vector<zmq::socket_t*> sockets{&parts_->door.socket(), &parts_->places.reports()};
+    std::vector<zmq::socket_t*> sockets{&parts_->door.socket()};
     if (parts_->ready)
         for (std::uint32_t place = 0; place < count(); ++place) sockets.push_back(&parts_->places.to(place));
     return sockets;

@@ -12,8 +12,8 @@
 
 namespace lightnet {
 
-/// They take part like a host, called "" in plans; what goes between them and other hosts passes the launcher, but for
-/// their own asks to hosts that they can call. One thread's.
+/// They take part like a host, called "" in plans; what goes between them and other hosts goes over the lines that the
+/// launcher has to each. One thread's.
 class OwnPlaces {
 public:
     struct Takers {
@@ -35,12 +35,15 @@ public:
     /// From another host: an ask, or a reply to a place.
     bool pass_ask(Frames& frames, std::uint32_t place);
     bool pass_reply(const std::string& place, Frames& frames);
-    /// What was under way to other hosts may be lost.
-    void say_again();
+    /// What was under way to this host may be lost; "": to any.
+    void say_again(const std::string& host);
+    /// Hosts that failed at what these places had asked them, since the last call.
+    std::vector<Failure> failures();
     Counters stop();
     std::uint64_t progress() const;
     /// For polling.
     std::vector<zmq::socket_t*> sockets();
+    int news() const;
 
 private:
     struct Parts;

@@ -7,6 +7,9 @@
 //
 // A message of one empty frame instead: a connection was made, or a packet was damaged; what was under way may be lost.
 //
+// `run` in the header is a random number that a run tells its members alone. What does not name it is not of that run:
+// nobody else can plan, end, feed or question it. Strangers are told 0.
+//
 // Every size is checked before anything is allocated, and a packet that breaks a rule is dropped and counted.
 // Version 1. A peer of another version is refused at HELLO, with a text that names both.
 #pragma once
@@ -56,11 +59,12 @@ enum class Type : std::uint8_t {
     end,         // of the run
     ended,       //                             counters
     leaving,     //                             it was told to stop: it answers what it has, then ends the run
-    join,        //                             name, process, endpoint: "I am here", from a host that dialled out
-    joined,      // to such a host
-    expect,      // hash, size: bytes that a step will name
-    lacks,       //                             hash: please send them
-    here,        //                             hash: it has them
+    join,    //                             name, process, endpoint, proof: "I am here", from a host that dialled out
+    joined,  // to such a host: challenge, see pass.hpp; turned_down
+    expect,  // hash, size: bytes that a step will name
+    lacks,   //                             hash: please send them
+    here,    //                             hash: it has them
+    fault,   //                             host, text: another host that failed at what this one asked of it
     // anyone → a host or a launcher
     status,
     state,  // a host in words; `left` more follow
@@ -80,6 +84,7 @@ constexpr bool is_counted(Type type) {
         case Type::expect:
         case Type::lacks:
         case Type::here:
+        case Type::fault:
             return true;
         default:
             return type < Type::hello;

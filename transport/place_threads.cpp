@@ -1,79 +1,100 @@
 #include "transport/place_threads.hpp"
 
 #include <atomic>
+#include <mutex>
+#include <system_error>
 #include <thread>
+#include <utility>
 #include <zmq.hpp>
 
 #include "core/error.hpp"
+#include "transport/descriptors.hpp"
 #include "transport/sockets.hpp"
+#include "transport/wakeup.hpp"
 #include "transport/zmq_carrier.hpp"
 
 namespace lightnet {
 namespace {
 
-std::string reports_endpoint(std::uint64_t run) { return "inproc://run-" + std::to_string(run) + "/reports"; }
+constexpr std::size_t sockets_per_place = 3;  // where it answers, its way to other hosts, and ours to it
+constexpr std::size_t other_descriptors = 8;
 
 }  // namespace
 
 struct PlaceThreads::Threads {
+    enum class State { starting, serving, died, ended };
+    // What a place tells this process, without a socket: it must be able to tell that there are none left.
+    struct Life {
+        std::atomic<State> state{State::starting};
+        std::atomic<std::uint64_t> progress{0};
+        Counters counters;  // these two are written before `state` says that it has ended or died
+        std::string died_of;
+    };
+
     zmq::context_t& context;
     std::shared_ptr<const Network> network;
     std::uint64_t run;
     std::string host;
     Plan plan;
     PlaceRules rules;
-    zmq::socket_t reports;  // PULL: a text per place, empty when it serves, else what is wrong
-    std::vector<zmq::socket_t> to;
+    std::vector<Life> lives;  // by place
+    Wakeup news{};
+    std::vector<zmq::socket_t> to{};
     std::atomic<bool> stop{false};
-    std::vector<std::atomic<std::uint64_t>> progress;  // by place
-    std::vector<Counters> counters;                    // each written by its place before it ends
-    std::vector<std::jthread> threads;
-    std::uint32_t serving = 0;
+    std::mutex failures_mutex{};
+    std::vector<Failure> failures{};
+    std::vector<std::jthread> threads{};
 
     void serve(std::uint32_t index);
-    void report(const std::string& what);
+    void tell(Life& life, State state);
+    void start(std::uint32_t count);
 };
 
-void PlaceThreads::Threads::report(const std::string& what) {
-    zmq::socket_t socket(context, zmq::socket_type::push);
-    socket.set(zmq::sockopt::linger, 1000);
-    socket.connect(reports_endpoint(run));
-    Frames frames;
-    frames.push_back(frame_of(what));
-    send_frames(socket, frames);
+void PlaceThreads::Threads::tell(Life& life, State state) {
+    life.state = state;
+    news.notify();
 }
 
 void PlaceThreads::Threads::serve(std::uint32_t index) {
+    auto& life = lives[index];
     try {
-        ZmqCarrier carrier(context, {run, host, true, index});
+        const auto at_fault = [this](const Failure& failure) {
+            const std::lock_guard lock(failures_mutex);
+            failures.push_back(failure);
+            news.notify();
+        };
+        ZmqCarrier carrier(context, {run, host, true, index, at_fault});
         Place place(*network, {host, index}, plan, run, rules, carrier);
-        report("");
-        place.serve(stop, progress[index]);
-        counters[index] = place.counters();
+        tell(life, State::serving);
+        place.serve(stop, life.progress);
+        life.counters = place.counters();
+        tell(life, State::ended);
     } catch (const std::exception& error) {
-        report("place " + std::to_string(index) + ": " + error.what());
+        life.died_of = "place " + std::to_string(index) + ": " + error.what();
+        tell(life, State::died);
+    }
+}
+
+// A system may have no more threads for us. Then those that began must hear that they are to end, before they are
+// joined.
+void PlaceThreads::Threads::start(std::uint32_t count) {
+    try {
+        for (std::uint32_t index = 0; index < count; ++index) threads.emplace_back([this, index] { serve(index); });
+    } catch (const std::system_error& error) {
+        const auto made = threads.size();
+        stop = true;
+        threads.clear();
+        throw Error("only " + std::to_string(made) + " threads of " + std::to_string(count) + " could be made (" +
+                    error.what() + "); fewer places, or a higher limit of threads (ulimit -u, TasksMax), would help");
     }
 }
 
 PlaceThreads::PlaceThreads(zmq::context_t& context, std::shared_ptr<const Network> network, std::uint64_t run,
-                           std::string host, std::uint32_t count, Plan plan, PlaceRules rules)
-    : threads_(new Threads{context,
-                           std::move(network),
-                           run,
-                           std::move(host),
-                           std::move(plan),
-                           rules,
-                           zmq::socket_t(context, zmq::socket_type::pull),
-                           {},
-                           {},
-                           std::vector<std::atomic<std::uint64_t>>(count),
-                           std::vector<Counters>(count),
-                           {},
-                           0}) {
-    auto& t = *threads_;
-    t.reports.set(zmq::sockopt::linger, 0);
-    t.reports.bind(reports_endpoint(run));
-    for (std::uint32_t index = 0; index < count; ++index) t.threads.emplace_back([&t, index] { t.serve(index); });
+                           std::string host, std::uint32_t count, Plan plan, PlaceRules rules) {
+    want_descriptors(sockets_per_place * count + other_descriptors, std::to_string(count) + " places");
+    threads_.reset(new Threads{context, std::move(network), run, std::move(host), std::move(plan), rules,
+                               std::vector<Threads::Life>(count)});
+    threads_->start(count);
 }
 
 PlaceThreads::~PlaceThreads() {
@@ -81,12 +102,15 @@ PlaceThreads::~PlaceThreads() {
 }
 
 bool PlaceThreads::ready() {
+    using State = Threads::State;
     auto& t = *threads_;
-    while (auto frames = receive_frames(t.reports)) {
-        if (const auto what = text_of(frames->front()); !what.empty()) throw Error(what);
-        ++t.serving;
+    std::size_t serving = 0;
+    for (const auto& life : t.lives) {
+        const State state = life.state;
+        if (state == State::died) throw Error(life.died_of);
+        serving += state == State::serving;
     }
-    if (t.serving < count()) return false;
+    if (serving < t.lives.size()) return false;
     // inproc sockets connect only to what is bound, and all places have bound by now.
     while (t.to.size() < count())
         t.to.push_back(asking_socket(t.context, inproc_endpoint(t.run, static_cast<std::uint32_t>(t.to.size()))));
@@ -95,8 +119,9 @@ bool PlaceThreads::ready() {
 
 void PlaceThreads::wait_until_ready() {
     while (!ready()) {
-        zmq::pollitem_t item{threads_->reports.handle(), 0, ZMQ_POLLIN, 0};
-        zmq::poll(&item, 1, std::chrono::milliseconds(100));
+        std::vector<zmq_pollitem_t> items{readable(news())};
+        poll(items, std::chrono::milliseconds(100));
+        clear_news();
     }
 }
 
@@ -113,9 +138,9 @@ void PlaceThreads::use(const Plan& plan) {
     }
 }
 
-Counters PlaceThreads::stop() {
+void PlaceThreads::begin_to_stop() {
     auto& t = *threads_;
-    t.stop = true;
+    if (t.stop.exchange(true)) return;
     for (auto& socket : t.to) {  // wakes those that wait for messages
         Message message;
         message.type = Message::Type::stop;
@@ -124,22 +149,34 @@ Counters PlaceThreads::stop() {
         frames.push_back(frame_of(std::move(message)));
         send_frames(socket, frames);
     }
+}
+
+Counters PlaceThreads::stop() {
+    begin_to_stop();
+    auto& t = *threads_;
     t.threads.clear();
     Counters sum;
-    for (const auto& counters : t.counters) sum += counters;
+    for (const auto& life : t.lives) sum += life.counters;
     return sum;
 }
 
-std::uint32_t PlaceThreads::count() const { return static_cast<std::uint32_t>(threads_->counters.size()); }
+std::vector<Failure> PlaceThreads::failures() {
+    const std::lock_guard lock(threads_->failures_mutex);
+    return std::exchange(threads_->failures, {});
+}
+
+std::uint32_t PlaceThreads::count() const { return static_cast<std::uint32_t>(threads_->lives.size()); }
 
 std::uint64_t PlaceThreads::progress() const {
     std::uint64_t sum = 0;
-    for (const auto& one : threads_->progress) sum += one.load(std::memory_order_relaxed);
+    for (const auto& life : threads_->lives) sum += life.progress.load(std::memory_order_relaxed);
     return sum;
 }
 
 zmq::socket_t& PlaceThreads::to(std::uint32_t place) { return threads_->to.at(place); }
 
-zmq::socket_t& PlaceThreads::reports() { return threads_->reports; }
+int PlaceThreads::news() const { return threads_->news.handle(); }
+
+void PlaceThreads::clear_news() { threads_->news.clear(); }
 
 }  // namespace lightnet

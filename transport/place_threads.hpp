@@ -20,6 +20,7 @@ namespace lightnet {
 /// Starts a thread per place of `host`, and stops them. Used by one thread.
 class PlaceThreads {
 public:
+    /// Throws Error when there are not enough threads or descriptors to be had; none is left behind then.
     PlaceThreads(zmq::context_t& context, std::shared_ptr<const Network> network, std::uint64_t run, std::string host,
                  std::uint32_t count, Plan plan, PlaceRules rules);
     /// Stops and joins.
@@ -27,12 +28,14 @@ public:
     PlaceThreads(const PlaceThreads&) = delete;
     PlaceThreads& operator=(const PlaceThreads&) = delete;
 
-    /// True when all places are assembled and serve. Throws Error when one could not be. Returns at once.
+    /// True when all places are assembled and serve. Throws Error when one could not be, or has died. Returns at once.
     bool ready();
     /// Waits for ready().
     void wait_until_ready();
     /// Tells every place who answers for which node from now on.
     void use(const Plan& plan);
+    /// Tells all places to stop, and returns at once.
+    void begin_to_stop();
     /// Stops all places and returns what they counted. After this nothing else may be called.
     Counters stop();
 
@@ -41,8 +44,11 @@ public:
     std::uint64_t progress() const;
     /// The socket that leads to a place; replies to what is sent there come back on it.
     zmq::socket_t& to(std::uint32_t place);
-    /// The socket on which places report; becomes readable when ready() may have changed.
-    zmq::socket_t& reports();
+    /// Hosts that failed at what places of this process had asked them, since the last call.
+    std::vector<Failure> failures();
+    /// To be polled: readable when ready() or failures() may have changed since clear_news().
+    int news() const;
+    void clear_news();
 
 private:
     struct Threads;

@@ -1,19 +1,14 @@
 #include "transport/relay.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cstdint>
 #include <cstring>
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include "transport/reach.hpp"
+
 namespace lightnet {
 namespace {
-
-bool is_loopback(std::string_view endpoint) {
-    constexpr std::array own{"tcp://127.", "tcp://localhost:", "tcp://[::1]:"};
-    return std::any_of(own.begin(), own.end(), [&](auto prefix) { return endpoint.starts_with(prefix); });
-}
 
 std::string checksum(std::string_view text) {
     const std::uint64_t sum = XXH3_64bits(text.data(), text.size());
@@ -42,10 +37,7 @@ std::optional<RelayAddress> unseal(std::span<const std::byte> frame) {
 
 bool calls_directly(std::string_view asker, std::string_view answerer) {
     if (!answerer.starts_with("tcp://")) return false;
-    if (asker.empty()) return true;  // the launcher has reached it already
-    return asker.starts_with("tcp://") && (is_loopback(asker) || !is_loopback(answerer));
+    return asker.starts_with("tcp://") && (stays_on_this_machine(asker) || !stays_on_this_machine(answerer));
 }
-
-std::string relay_endpoint(std::uint64_t run) { return "inproc://run-" + std::to_string(run) + "/door"; }
 
 }  // namespace lightnet

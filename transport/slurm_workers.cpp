@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "transport/child.hpp"
+#include "transport/reach.hpp"
 
 namespace lightnet {
 namespace {
@@ -28,7 +29,9 @@ std::string slurm_script(const SlurmWorkers::Request& request) {
            "name=slurm-$SLURM_ARRAY_JOB_ID-$SLURM_ARRAY_TASK_ID\n"
            "exec " +
            quoted(request.program) + " --join " + quoted(request.join) +
-           " --name \"$name\" --single \"$name\" --places \"${SLURM_CPUS_ON_NODE:-0}\" --leave-after 60\n";
+           " --name \"$name\" --single \"$name\" --places \"${SLURM_CPUS_ON_NODE:-0}\" --leave-after 60" +
+           (request.pass.empty() ? "" : " --pass " + quoted(request.pass)) +
+           (stays_on_this_machine(request.join) ? "" : " --insecure") + "\n";
 }
 
 SlurmWorkers::SlurmWorkers(const Request& request) {

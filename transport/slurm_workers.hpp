@@ -17,6 +17,7 @@ public:
         std::uint32_t daemons = 1;
         std::string partition;               // "": Slurm's usual one
         std::vector<std::string> arguments;  // more words for sbatch
+        std::string pass{};  // file with what they must know to join, as the nodes find it; "": the usual one
     };
     /// Submits the array. Throws Error with what sbatch said when it doesn't take it.
     explicit SlurmWorkers(const Request& request);

@@ -4,6 +4,8 @@
 #include <memory>
 #include <zmq.hpp>
 
+#include "transport/descriptors.hpp"
+
 #if defined(__SANITIZE_THREAD__)
 extern "C" void __tsan_acquire(void*);
 extern "C" void __tsan_release(void*);
@@ -30,7 +32,29 @@ void common_options(zmq::socket_t& socket) {
     socket.set(zmq::sockopt::handshake_ivl, 2000);
 }
 
+// ZeroMQ's own threads and what they wait at.
+constexpr std::size_t descriptors_of_context = 16;
+constexpr int most_sockets = 65535;  // that it can have
+
+constexpr int heartbeat_ms = 500, heartbeat_timeout_ms = 1500, time_to_live_ms = 5000;
+
 }  // namespace
+
+std::unique_ptr<zmq::context_t> make_context(int io_threads) {
+    want_descriptors(descriptors_of_context, "a process with sockets");
+    auto context = std::make_unique<zmq::context_t>(io_threads);
+    context->set(zmq::ctxopt::max_sockets, most_sockets);
+    return context;
+}
+
+void poll(std::vector<zmq_pollitem_t>& items, std::chrono::milliseconds most) {
+    if (zmq_poll(items.data(), static_cast<int>(items.size()), static_cast<long>(most.count())) < 0 &&
+        zmq_errno() != EINTR)
+        throw zmq::error_t();
+}
+
+zmq_pollitem_t readable(zmq::socket_t& socket) { return {socket.handle(), 0, ZMQ_POLLIN, 0}; }
+zmq_pollitem_t readable(int descriptor) { return {nullptr, descriptor, ZMQ_POLLIN, 0}; }
 
 zmq::socket_t answering_socket(zmq::context_t& context) {
     zmq::socket_t socket(context, zmq::socket_type::router);
@@ -42,6 +66,10 @@ zmq::socket_t answering_socket(zmq::context_t& context) {
 zmq::socket_t door_socket(zmq::context_t& context) {
     auto socket = answering_socket(context);
     socket.set(zmq::sockopt::probe_router, true);
+    socket.set(zmq::sockopt::heartbeat_ivl, heartbeat_ms);
+    socket.set(zmq::sockopt::heartbeat_timeout, heartbeat_timeout_ms);
+    socket.set(zmq::sockopt::heartbeat_ttl, time_to_live_ms);
+    socket.set(zmq::sockopt::tcp_keepalive, 1);
     return socket;
 }
 
@@ -52,8 +80,9 @@ zmq::socket_t asking_socket(zmq::context_t& context, const std::string& endpoint
     socket.set(zmq::sockopt::reconnect_ivl, 50);
     socket.set(zmq::sockopt::reconnect_ivl_max, 1000);
     if (!endpoint.starts_with("inproc://")) {  // a peer that swallows what it gets looks connected for ever
-        socket.set(zmq::sockopt::heartbeat_ivl, 500);
-        socket.set(zmq::sockopt::heartbeat_timeout, 1500);
+        socket.set(zmq::sockopt::heartbeat_ivl, heartbeat_ms);
+        socket.set(zmq::sockopt::heartbeat_timeout, heartbeat_timeout_ms);
+        socket.set(zmq::sockopt::heartbeat_ttl, time_to_live_ms);
     }
     socket.connect(endpoint);
     return socket;

@@ -1,8 +1,10 @@
 // Small things that every user of a socket needs. For the .cpp files of this folder.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,16 +18,27 @@ class context_t;
 class message_t;
 class socket_t;
 }  // namespace zmq
+struct zmq_pollitem_t;
 
 namespace lightnet {
 
 /// The frames of one message, route first.
 using Frames = std::vector<zmq::message_t>;
 
+/// A context with room for as many sockets as the system has descriptors for. Throws Error when there are too few left
+/// for any work.
+std::unique_ptr<zmq::context_t> make_context(int io_threads = 1);
+/// Returns when one of the items has what it waits for, or after `most`, or when the process was sent a signal. Throws
+/// zmq::error_t when something is wrong with the items.
+void poll(std::vector<zmq_pollitem_t>& items, std::chrono::milliseconds most);
+/// To be read.
+zmq_pollitem_t readable(zmq::socket_t& socket);
+zmq_pollitem_t readable(int descriptor);
+
 /// A socket that binds and answers: knows its peers, refuses those that are gone, never blocks, never lingers.
 zmq::socket_t answering_socket(zmq::context_t& context);
 /// The same for other hosts: greets each connection with an empty message, so that a peer whose connection was cut
-/// knows that what was under way may be lost.
+/// knows that what was under way may be lost. Who does not answer its heartbeats is cut off.
 zmq::socket_t door_socket(zmq::context_t& context);
 /// A socket that connects and asks: one peer only, sends nothing before the peer is there, says hello by itself after
 /// each reconnection.

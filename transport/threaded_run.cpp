@@ -3,12 +3,14 @@
 #include <zmq.hpp>
 
 #include "transport/place_threads.hpp"
+#include "transport/sockets.hpp"
 #include "transport/zmq_carrier.hpp"
 
 namespace lightnet {
 
 struct ThreadedRun::Parts {
-    zmq::context_t context{0};  // inproc needs no thread of ZeroMQ's own
+    std::unique_ptr<zmq::context_t> its_context = make_context(0);  // inproc needs no thread of ZeroMQ's own
+    zmq::context_t& context = *its_context;
     PlaceThreads places;
     ZmqCarrier carrier;
 

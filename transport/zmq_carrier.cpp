@@ -6,15 +6,14 @@
 #include <vector>
 #include <zmq.hpp>
 
-#include "transport/relay.hpp"
 #include "transport/sockets.hpp"
+#include "transport/way_out.hpp"
 
 namespace lightnet {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr auto unreachable_after = std::chrono::seconds(1);  // then the launcher passes on what is for that host
 constexpr auto look_interval = std::chrono::milliseconds(200);
 // After so long without any answer a host is asked again: a flipped bit can make a message vanish without a trace. The
 // next time it is given twice as long, since it may just be slow.
@@ -32,14 +31,10 @@ struct ZmqCarrier::Sockets {
     struct Source {
         zmq::socket_t socket;
         bool dry = false;
-        bool greeted = false;  // doors greet each connection with an empty message: the first is expected
     };
     // Another host.
     struct Peer {
-        bool relayed = false;  // its door can't be reached from here
-        bool may_be_called = false;
-        std::optional<Clock::time_point> unreachable;  // since when
-        Clock::time_point asked{}, answered{};         // last
+        Clock::time_point asked{}, answered{};  // last
         std::chrono::milliseconds patience = shortest_patience;
     };
     // A packet whose reply is not there yet.
@@ -51,14 +46,14 @@ struct ZmqCarrier::Sockets {
 
     zmq::context_t& context;
     Ends ends;
-    std::optional<Source> answering;
-    std::map<std::string, Source> asking;  // by endpoint
-    Counters counters;
+    std::optional<Source> answering{};
+    std::map<std::string, Source> asking{};  // by endpoint
+    Counters counters{};
     std::size_t next = 0;  // fair turns among the asking sockets
-    std::map<std::string, Peer> peers;
-    std::map<std::pair<std::uint32_t, std::uint64_t>, Pending> pending;  // by channel and bundle
-    std::size_t asked_here = 0;                                          // of places of this host, and not answered
-    bool unsent = false;                                                 // some of them are to be sent again
+    std::map<std::string, Peer> peers{};
+    std::map<std::pair<std::uint32_t, std::uint64_t>, Pending> pending{};  // by channel and bundle
+    std::size_t asked_here = 0;                                            // of places of this host, and not answered
+    bool unsent = false;                                                   // some of them are to be sent again
     Clock::time_point looked{};
 
     std::vector<Source*> all() {
@@ -74,54 +69,21 @@ struct ZmqCarrier::Sockets {
         return asking.emplace(endpoint, Source{asking_socket(context, endpoint)}).first->second.socket;
     }
 
-    Peer& peer(const std::string& host) {
-        const auto [found, fresh] = peers.try_emplace(host);
-        if (fresh) {
-            found->second.may_be_called = calls_directly(ends.host, host);
-            found->second.relayed = !found->second.may_be_called;
-        }
-        return found->second;
-    }
-
-    // Sends a packet by the way that its host has now.
+    // Hands a packet to the way out of this process.
     bool send(Pending& packet) {
-        auto& way = peer(packet.host);
         Frames frames;
-        if (way.relayed) frames.push_back(frame_of(packet.host));
+        frames.push_back(frame_of(packet.host));
         for (auto* frame : {&packet.header, &packet.body}) frames.emplace_back().copy(*frame);
-        if (send_frames(to(way.relayed ? relay_endpoint(ends.run) : packet.host), frames)) {
-            way.unreachable.reset();
-            way.asked = Clock::now();
-            counters.bytes += packet.header.size() + packet.body.size();
-            return true;
-        }
-        if (!way.relayed) cannot_be_reached(packet.host, way);
-        return false;
+        if (!send_frames(to(way_out_endpoint(ends.run)), frames)) return false;
+        peers[packet.host].asked = Clock::now();
+        counters.bytes += packet.header.size() + packet.body.size();
+        return true;
     }
 
-    // A host that can't be called for a while is asked through the launcher, until it can be.
-    void cannot_be_reached(const std::string& host, Peer& way) {
-        const auto now = Clock::now();
-        if (!way.unreachable) way.unreachable = now;
-        if (now - *way.unreachable < unreachable_after) return;
-        way.relayed = true;
-        say_again([&](const Pending& packet) { return packet.host == host; });
-    }
-
-    template <class Which>
-    void say_again(const Which& which) {
+    // What was under way to a host may be lost; "": to any.
+    void say_again(const std::string& host) {
         for (auto& [key, packet] : pending)
-            if (which(packet)) packet.sent = false, unsent = true;
-    }
-
-    // What was under way on this connection may be lost.
-    void connected_anew(const std::string& endpoint) {
-        if (endpoint == relay_endpoint(ends.run))
-            return say_again([&](const Pending& packet) { return peer(packet.host).relayed; });
-        auto& way = peer(endpoint);
-        way.relayed = false;
-        way.unreachable.reset();
-        say_again([&](const Pending& packet) { return packet.host == endpoint; });
+            if (host.empty() || packet.host == host) packet.sent = false, unsent = true;
     }
 
     void look_after_pending() {
@@ -129,18 +91,10 @@ struct ZmqCarrier::Sockets {
         if (!unsent && now - looked < look_interval) return;
         if (now - looked >= look_interval) {
             looked = now;
-            for (auto& [host, way] : peers) {
-                if (now - std::max(way.asked, way.answered) > way.patience && has_pending(host)) {
-                    way.patience *= 2;
-                    // clang 14 captures no binding by itself
-                    say_again([&host = host](const Pending& packet) { return packet.host == host; });
-                }
-                const auto source = asking.find(host);
-                if (way.relayed || source == asking.end()) continue;
-                if (source->second.socket.get(zmq::sockopt::events) & ZMQ_POLLOUT)
-                    way.unreachable.reset();
-                else if (has_pending(host))
-                    cannot_be_reached(host, way);
+            for (auto& [host, peer] : peers) {
+                if (now - std::max(peer.asked, peer.answered) <= peer.patience || !has_pending(host)) continue;
+                peer.patience *= 2;
+                say_again(host);
             }
         }
         if (!std::exchange(unsent, false)) return;
@@ -155,9 +109,9 @@ struct ZmqCarrier::Sockets {
     void settle(const std::pair<std::uint32_t, std::uint64_t>& key) {
         const auto found = pending.find(key);
         if (found == pending.end()) return;
-        auto& way = peer(found->second.host);
-        way.answered = Clock::now();
-        way.patience = shortest_patience;
+        auto& peer = peers[found->second.host];
+        peer.answered = Clock::now();
+        peer.patience = shortest_patience;
         pending.erase(found);
     }
 
@@ -187,27 +141,24 @@ struct ZmqCarrier::Sockets {
     }
 
     std::optional<Message> from_answerer(const std::string& endpoint, Frames frames) {
-        if (is_empty(frames)) {
-            const bool expected = !std::exchange(asking.at(endpoint).greeted, true);
-            if (endpoint == relay_endpoint(ends.run) || !expected || peer(endpoint).relayed) connected_anew(endpoint);
-            return std::nullopt;
-        }
-        const bool by_pointer = endpoint.starts_with("inproc://") && endpoint != relay_endpoint(ends.run);
-        if (by_pointer) {
+        if (endpoint != way_out_endpoint(ends.run)) {
             asked_here -= asked_here > 0;
             return take_message(frames[0]);
+        }
+        if (frames.size() == 1) {
+            say_again(text_of(frames[0]));
+            return std::nullopt;
         }
         auto message = frames.size() == 2 ? from_packet(frames, 0) : std::nullopt;  // a flipped bit splits messages
         if (message)
             settle({message->channel, message->bundle});
         else
-            connected_anew(endpoint);
+            say_again("");
         return message;
     }
 };
 
-ZmqCarrier::ZmqCarrier(zmq::context_t& context, Ends ends)
-    : sockets_(new Sockets{context, std::move(ends), std::nullopt, {}, {}, 0, {}, {}, 0, false, {}}) {
+ZmqCarrier::ZmqCarrier(zmq::context_t& context, Ends ends) : sockets_(new Sockets{context, std::move(ends)}) {
     if (!sockets_->ends.answers) return;
     sockets_->answering.emplace(Sockets::Source{answering_socket(context)});
     sockets_->answering->socket.bind(inproc_endpoint(sockets_->ends.run, sockets_->ends.place));
@@ -233,7 +184,7 @@ bool ZmqCarrier::ask(const PlaceAt& to, Message& message) {
             s.pending.insert_or_assign({message.channel, message.bundle}, std::move(kept));
             return true;
         }
-        if (!may_be_full(s.pending.size())) return false;  // not connected yet, or cut for the moment
+        if (!may_be_full(s.pending.size())) return false;  // the run ends
     }
     ++s.counters.refused_sends;
     return false;
@@ -280,14 +231,10 @@ std::optional<Message> ZmqCarrier::receive() {
 
 void ZmqCarrier::wait(std::chrono::nanoseconds most) {
     const auto sources = sockets_->all();
-    std::vector<zmq::pollitem_t> items;
-    for (auto* source : sources) items.push_back({source->socket.handle(), 0, ZMQ_POLLIN, 0});
+    std::vector<zmq_pollitem_t> items;
+    for (auto* source : sources) items.push_back(readable(source->socket));
     const auto ms = std::chrono::ceil<std::chrono::milliseconds>(most);
-    try {
-        zmq::poll(items, std::max(ms, std::chrono::milliseconds(1)));
-    } catch (const zmq::error_t& error) {
-        if (error.num() != EINTR) throw;
-    }
+    poll(items, std::max(ms, std::chrono::milliseconds(1)));
     for (std::size_t i = 0; i < items.size(); ++i) sources[i]->dry = !(items[i].revents & ZMQ_POLLIN);
 }
 
@@ -295,12 +242,13 @@ void ZmqCarrier::give_up(std::uint32_t channel) {
     std::erase_if(sockets_->pending, [&](const auto& one) { return one.first.first == channel; });
 }
 
+bool ZmqCarrier::take_out(const std::string& host, const std::string& why) {
+    sockets_->ends.at_fault({why, host});
+    return true;
+}
+
 void ZmqCarrier::forget(const PlaceAt& place) {
-    // Other nodes of that host may still be asked; its socket goes with the last of them. Places of this process share
-    // its end.
-    if (place.host == sockets_->ends.host || sockets_->has_pending(place.host)) return;
-    sockets_->asking.erase(place.host);
-    sockets_->peers.erase(place.host);
+    if (!sockets_->has_pending(place.host)) sockets_->peers.erase(place.host);
 }
 
 const Counters& ZmqCarrier::counters() const { return sockets_->counters; }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -16,16 +17,17 @@ namespace lightnet {
 /// How the sockets of one run inside one process are called. `run` keeps runs apart.
 std::string inproc_endpoint(std::uint64_t run, std::uint32_t place);
 
-/// Within the process a message is handed over by pointer. To another host it goes as a packet, to the one port of
-/// that host, whose door hands it on to the place; or, where that port can't be reached, through the launcher. A packet
-/// is kept until its reply is there, and sent again whenever a connection was cut. Belongs to one thread.
+/// Within the process a message is handed over by pointer. To another host it goes as a packet, through the one way out
+/// that all places of the process share (see way_out.hpp). A packet is kept until its reply is there, and sent again
+/// whenever a connection was cut. Belongs to one thread.
 class ZmqCarrier final : public Carrier {
 public:
     struct Ends {
         std::uint64_t run = 0;
-        std::string host;         // of this process, as in PlaceAt
-        bool answers = true;      // false: only asks, as the master does
-        std::uint32_t place = 0;  // whose messages arrive here
+        std::string host;                                                      // of this process, as in PlaceAt
+        bool answers = true;                                                   // false: only asks, as the master does
+        std::uint32_t place = 0;                                               // whose messages arrive here
+        std::function<void(const Failure&)> at_fault = [](const Failure&) {};  // told of hosts that failed
     };
     ZmqCarrier(zmq::context_t& context, Ends ends);
     ~ZmqCarrier() override;
@@ -35,6 +37,7 @@ public:
     std::optional<Message> receive() override;
     void wait(std::chrono::nanoseconds most) override;
     void give_up(std::uint32_t channel) override;
+    bool take_out(const std::string& host, const std::string& why) override;
     void forget(const PlaceAt& place) override;
     const Counters& counters() const override;
 

@@ -1,6 +1,7 @@
 // A peer that may say anything.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <utility>
@@ -36,6 +37,17 @@ public:
         const auto read = packet::read_header(view(header), view(body));
         const auto fields = packet::unpack_fields(view(body));
         return {read ? read->type : packet::Type::ping, fields ? *fields : packet::Fields{}};
+    }
+
+    /// The number of the run that the next packet names.
+    std::uint64_t receive_run() {
+        zmq::message_t header, body;
+        do {
+            if (!socket_.recv(header)) return ~std::uint64_t{0};
+        } while (header.size() == 0 && !header.more());
+        if (!socket_.recv(body)) return ~std::uint64_t{0};
+        const auto read = packet::peek_header({static_cast<const std::byte*>(header.data()), header.size()});
+        return read ? read->run : ~std::uint64_t{0};
     }
 
 private:

@@ -27,32 +27,47 @@ protected:
     bool wait_for(const Enough& enough) {
         const auto end = std::chrono::steady_clock::now() + test::slowdown * std::chrono::seconds(5);
         while (!enough() && std::chrono::steady_clock::now() < end) {
-            zmq::pollitem_t item{joiners.socket().handle(), 0, ZMQ_POLLIN, 0};
-            zmq::poll(&item, 1, std::chrono::milliseconds(20));
+            std::vector<zmq_pollitem_t> items;
+            for (auto* socket : joiners.sockets()) items.push_back(readable(*socket));
+            poll(items, std::chrono::milliseconds(20));
             broken += joiners.receive(
                 {[this](const std::string& endpoint) { called.push_back(endpoint); },
                  [this](const std::string& name, std::unique_ptr<JoinedLine> line) { lines[name] = std::move(line); },
                  [this](const std::string& name, const std::string& why) { lost.push_back(name + ": " + why); },
                  [] {
-                     return std::vector<HostState>{{"onyx1", "is ready", 2, 7, {}}};
-                 }});
+                     return std::vector<HostState>{{"onyx1", "is ready", true, 2, 7, {}}};
+                 },
+                 [this](const std::string& name, const std::string&) { turned_down.push_back(name); }});
         }
         return enough();
     }
-    static packet::Packet join(const std::string& name, std::uint64_t process) {
-        return packet::pack(Type::join, 0, Fields{}.set("name", name).set("process", process));
+    // Says who it is, learns the challenge, and proves that it knows the pass.
+    void join(Stranger& host, const Pass::Claim& claim, const std::string& secret = "the pass of this run's user") {
+        Fields fields;
+        fields.set("name", claim.name).set("process", claim.process).set("endpoint", claim.endpoint);
+        if (challenge.empty()) {
+            host.send(packet::pack(Type::join, 0, fields));
+            int looks = 0;
+            wait_for([&] { return ++looks > 5; });
+            const auto [type, said] = host.receive();
+            EXPECT_EQ(type, Type::joined);
+            challenge = said.text("challenge");
+        }
+        fields.set("proof", Pass(secret).proof(challenge, claim));
+        host.send(packet::pack(Type::join, 0, fields));
     }
 
     zmq::context_t context;
-    Joiners joiners{context, "tcp://127.0.0.1:*", 1};
-    std::vector<std::string> called, lost;
+    Joiners joiners{context, "tcp://127.0.0.1:*", Pass("the pass of this run's user")};
+    std::string challenge;
+    std::vector<std::string> called, lost, turned_down;
     std::map<std::string, std::unique_ptr<JoinedLine>> lines;
     std::uint64_t broken = 0;
 };
 
 TEST_F(JoinersTest, GiveEachHostALineUnderItsName) {
     Stranger host(joiners.endpoint());
-    host.send(join("onyx1", 1));
+    join(host, {"onyx1", 1, ""});
     ASSERT_TRUE(wait_for([&] { return lines.contains("onyx1"); }));
     EXPECT_EQ(host.receive().first, Type::joined);
     Frames frames;
@@ -66,10 +81,10 @@ TEST_F(JoinersTest, GiveEachHostALineUnderItsName) {
 
 TEST_F(JoinersTest, KnowAHostThatDialsInAgainAndSayThatItWasCut) {
     auto host = std::make_unique<Stranger>(joiners.endpoint());
-    host->send(join("onyx1", 1));
+    join(*host, {"onyx1", 1, ""});
     ASSERT_TRUE(wait_for([&] { return lines.contains("onyx1"); }));
     host = std::make_unique<Stranger>(joiners.endpoint());
-    host->send(join("onyx1", 1));
+    join(*host, {"onyx1", 1, ""});
     ASSERT_TRUE(wait_for([&] { return !lost.empty(); }));
     EXPECT_THAT(lost, ElementsAre("onyx1: its connection was cut"));
     EXPECT_EQ(lines.size(), 1u);
@@ -77,12 +92,12 @@ TEST_F(JoinersTest, KnowAHostThatDialsInAgainAndSayThatItWasCut) {
 
 TEST_F(JoinersTest, TellTwoHostsOfOneNameApart) {
     Stranger one(joiners.endpoint()), two(joiners.endpoint());
-    one.send(join("onyx1", 1));
+    join(one, {"onyx1", 1, ""});
     ASSERT_TRUE(wait_for([&] { return lines.contains("onyx1"); }));
     // Both keep in touch; so the first is not the predecessor of the second.
     ASSERT_TRUE(wait_for([&] {
-        one.send(join("onyx1", 1));
-        two.send(join("onyx1", 2));
+        join(one, {"onyx1", 1, ""});
+        join(two, {"onyx1", 2, ""});
         return lines.size() == 2;
     }));
     EXPECT_TRUE(lines.contains("onyx1-2"));
@@ -91,11 +106,11 @@ TEST_F(JoinersTest, TellTwoHostsOfOneNameApart) {
 
 TEST_F(JoinersTest, GiveANewProcessTheNameOfItsDeadPredecessor) {
     auto host = std::make_unique<Stranger>(joiners.endpoint());
-    host->send(join("onyx1", 1));
+    join(*host, {"onyx1", 1, ""});
     ASSERT_TRUE(wait_for([&] { return lines.contains("onyx1"); }));
     host = std::make_unique<Stranger>(joiners.endpoint());
     ASSERT_TRUE(wait_for([&] {
-        host->send(join("onyx1", 2));
+        join(*host, {"onyx1", 2, ""});
         return !lost.empty();
     }));
     EXPECT_THAT(lost, ElementsAre("onyx1: it was started anew"));
@@ -104,10 +119,52 @@ TEST_F(JoinersTest, GiveANewProcessTheNameOfItsDeadPredecessor) {
 
 TEST_F(JoinersTest, CallBackWhoHasAPort) {
     Stranger host(joiners.endpoint());
-    host.send(packet::pack(Type::join, 0, Fields{}.set("endpoint", "tcp://0.0.0.0:7777").set("process", 1)));
+    join(host, {"onyx1", 1, "tcp://0.0.0.0:7777"});
     ASSERT_TRUE(wait_for([&] { return !called.empty(); }));
     EXPECT_THAT(called, ElementsAre("tcp://127.0.0.1:7777")) << "at the address from which it came";
     EXPECT_THAT(lines, IsEmpty());
+}
+
+TEST_F(JoinersTest, LetNobodyInWhoDoesNotKnowThePass) {
+    Stranger host(joiners.endpoint());
+    join(host, {"onyx1", 1, ""}, "another pass, of another user");
+    ASSERT_TRUE(wait_for([&] { return !turned_down.empty(); }));
+    const auto [type, said] = host.receive();
+    EXPECT_EQ(type, Type::joined);
+    EXPECT_EQ(said.number("turned_down"), 1u) << "it is told why nothing happens";
+    // Nor does a proof count for another name, process or port than it was made for.
+    const auto proof = Pass("the pass of this run's user").proof(challenge, {"onyx1", 1, ""});
+    for (const auto& claim : {Pass::Claim{"onyx2", 1, ""}, {"onyx1", 2, ""}, {"onyx1", 1, "tcp://127.0.0.1:7777"}})
+        host.send(packet::pack(Type::join, 0,
+                               Fields{}
+                                   .set("name", claim.name)
+                                   .set("process", claim.process)
+                                   .set("endpoint", claim.endpoint)
+                                   .set("proof", proof)));
+    ASSERT_TRUE(wait_for([&] { return turned_down.size() == 4; }));
+    EXPECT_THAT(lines, IsEmpty());
+    EXPECT_THAT(called, IsEmpty());
+}
+
+TEST_F(JoinersTest, CallNothingButTcp) {
+    for (const auto* endpoint : {"inproc://reports", "ipc:///tmp/somewhere", "tipc://{1,0,2}"}) {
+        Stranger host(joiners.endpoint());
+        join(host, {"onyx1", 1, endpoint});
+        const auto before = broken;
+        ASSERT_TRUE(wait_for([&] { return broken > before; })) << endpoint;
+    }
+    EXPECT_THAT(called, IsEmpty());
+}
+
+TEST_F(JoinersTest, TellStrangersNoNumberOfARun) {
+    Stranger anyone(joiners.endpoint());
+    anyone.send(packet::pack(Type::join, 0, Fields{}.set("name", "onyx1").set("process", 1)));
+    anyone.send(packet::pack(Type::status, 0, {}));
+    for (int answers = 0; answers < 2; ++answers) {
+        int looks = 0;
+        wait_for([&] { return ++looks > 5; });
+        EXPECT_EQ(anyone.receive_run(), 0u);
+    }
 }
 
 TEST_F(JoinersTest, TellAnyoneHowTheHostsAre) {

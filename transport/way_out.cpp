@@ -1,24 +1,24 @@
-#include "transport/relay_door.hpp"
+#include "transport/way_out.hpp"
 
 #include <zmq.hpp>
 
-#include "transport/relay.hpp"
-
 namespace lightnet {
 
-RelayDoor::RelayDoor(zmq::context_t& context, std::uint64_t run)
-    : endpoint_(relay_endpoint(run)), socket_(std::make_unique<zmq::socket_t>(answering_socket(context))) {
+std::string way_out_endpoint(std::uint64_t run) { return "inproc://run-" + std::to_string(run) + "/way-out"; }
+
+WayOut::WayOut(zmq::context_t& context, std::uint64_t run)
+    : endpoint_(way_out_endpoint(run)), socket_(std::make_unique<zmq::socket_t>(answering_socket(context))) {
     socket_->bind(endpoint_);
 }
 
-RelayDoor::~RelayDoor() {
+WayOut::~WayOut() {
     try {
         socket_->unbind(endpoint_);  // closing alone frees the name later
     } catch (const zmq::error_t&) {
     }
 }
 
-std::optional<Frames> RelayDoor::receive() {
+std::optional<Frames> WayOut::receive() {
     while (auto frames = receive_frames(*socket_)) {
         if (frames->size() != 4) continue;
         places_.insert(text_of(frames->front()));
@@ -27,14 +27,15 @@ std::optional<Frames> RelayDoor::receive() {
     return std::nullopt;
 }
 
-bool RelayDoor::pass(const std::string& place, Frames& frames) {
+bool WayOut::pass(const std::string& place, Frames& frames) {
     frames.insert(frames.begin(), frame_of(place));
     return send_frames(*socket_, frames);
 }
 
-void RelayDoor::say_again() {
+void WayOut::say_again(const std::string& host) {
     for (const auto& place : places_) {
-        auto frames = empty_message();
+        Frames frames;
+        frames.push_back(frame_of(host));
         pass(place, frames);
     }
 }

@@ -1,0 +1,111 @@
+// Nodes that fail on one host, or on all.
+#include <gmock/gmock.h>
+
+#include <atomic>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "tests/network/learning.hpp"
+#include "tests/support/folder.hpp"
+
+namespace lightnet {
+namespace {
+
+using namespace std::chrono_literals;
+using namespace test;
+using ::testing::HasSubstr;
+
+enum class Trouble { none, preparing, answering };
+
+// Passes light on, where it is not in trouble.
+class Fragile final : public LightOp {
+public:
+    Fragile(const NodeContext& here, Trouble trouble) : inputs_(here.inputs()), trouble_(trouble) {}
+    void prepare(Services&) override {
+        if (trouble_ == Trouble::preparing) throw std::bad_alloc();
+    }
+    void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
+        if (trouble_ == Trouble::answering) throw std::bad_alloc();
+        for (const Part& part : ask_all(inputs_, questions)) add(part, answers);
+    }
+
+private:
+    Inputs inputs_;
+    Trouble trouble_;
+};
+
+Registry with_fragile(Trouble trouble) {
+    auto kinds = standard_nodes();
+    Kind fragile{.name = "Fragile", .help = "passes light on", .least_inputs = 1, .most_inputs = 1};
+    fragile.prepares = true;
+    fragile.make_light = [trouble](const NodeContext& here) { return std::make_unique<Fragile>(here, trouble); };
+    kinds.push_back(std::move(fragile));
+    return Registry(std::move(kinds));
+}
+
+class FaultyHost : public ::testing::TestWithParam<Trouble> {
+protected:
+    static std::vector<Node> nodes() {
+        const auto ref = [](const char* name) { return Value{NodeRef{name}}; };
+        return {node("scene", "Scene", {Value{std::string("none.pbrt")}}), node("direct", "DirectLighting", {}),
+                node("fragile", "Fragile", {ref("direct")}), node("image", "RayTracer", {ref("fragile")}, seen())};
+    }
+    // Each host holds everything, or (`spread_out`) operators are spread round about.
+    std::vector<Pixels> render_on(const std::vector<std::string>& endpoints, bool spread_out) {
+        const std::atomic<bool> never{false};
+        auto options = cluster_of(learning, endpoints);
+        if (!spread_out)
+            options.plan = [this](const std::vector<HostOffer>& offers) {
+                return plan(learning.network->graph, learning.registry, {}, offers);
+            };
+        options.say = [this](const std::string& text) { said += text + "\n"; };
+        Cluster cluster(std::move(options));
+        cluster.gather(test::slowdown * 5s, never);
+        auto pixels = learning.networked(cluster);
+        cluster.finish();
+        return pixels;
+    }
+
+    Learning learning{with_fragile(Trouble::none), nodes()};
+    Registry sick = with_fragile(GetParam()), healthy = with_fragile(Trouble::none);
+    Folder folder;
+    std::string said;
+};
+
+TEST_P(FaultyHost, IsTakenOutAndTheOthersGoOn) {
+    const auto expected = learning.serial();
+    for (const bool spread_out : {false, true}) {
+        HostThread one(sick, 1, folder.file("one")), two(healthy, 1, folder.file("two")),
+            three(healthy, 1, folder.file("three"));
+        said.clear();
+        EXPECT_EQ(render_on({one.endpoint(), two.endpoint(), three.endpoint()}, spread_out), expected);
+        EXPECT_THAT(said, HasSubstr(one.endpoint() + " is taken out: ")) << (spread_out ? "spread out" : "whole");
+        EXPECT_THAT(said, HasSubstr("bad_alloc"));
+    }
+}
+
+TEST_P(FaultyHost, EndsTheRunWhenASecondFailsAtTheSame) {
+    HostThread one(sick, 1, folder.file("one")), two(sick, 1, folder.file("two")), three(sick, 1, folder.file("three"));
+    try {
+        render_on({one.endpoint(), two.endpoint(), three.endpoint()}, false);
+        FAIL() << "nobody noticed";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("bad_alloc"));
+    }
+}
+
+TEST_P(FaultyHost, EndsTheRunWhenItIsTheOnlyOne) {
+    HostThread one(sick, 2, folder.file("one"));
+    EXPECT_THROW(render_on({one.endpoint()}, false), Error);
+}
+
+INSTANTIATE_TEST_SUITE_P(Trouble, FaultyHost, ::testing::Values(Trouble::preparing, Trouble::answering),
+                         [](const auto& trouble) {
+                             return trouble.param == Trouble::preparing ? "Preparing" : "Answering";
+                         });
+
+}  // namespace
+}  // namespace lightnet

@@ -1,0 +1,99 @@
+#include "transport/doorkeeper.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+#include <zmq.hpp>
+
+#include "transport/descriptors.hpp"
+
+namespace lightnet {
+namespace {
+
+constexpr const char* authentication = "inproc://zeromq.zap.01";  // the name is ZeroMQ's
+constexpr int enforce_domain = 93;  // ZMQ_ZAP_ENFORCE_DOMAIN: without a doorkeeper nobody gets in; not in all headers
+constexpr std::size_t for_own_work = 64, most = 4096, least = 8;
+
+std::string events_endpoint() {
+    static std::atomic<unsigned> number{0};
+    return "inproc://door-events-" + std::to_string(number++);
+}
+
+}  // namespace
+
+std::size_t most_peers(std::size_t left) {
+    return std::clamp(left > for_own_work ? (left - for_own_work) / 2 : 0, least, most);
+}
+
+Doorkeeper::Doorkeeper(zmq::context_t& context)
+    : context_(context), requests_(std::make_unique<zmq::socket_t>(context, zmq::socket_type::rep)) {
+    requests_->set(zmq::sockopt::linger, 0);
+    requests_->bind(authentication);
+}
+
+Doorkeeper::~Doorkeeper() = default;
+
+void Doorkeeper::guard(zmq::socket_t& door) {
+    door.set(zmq::sockopt::zap_domain, "lightnet");
+    const int on = 1;
+    zmq_setsockopt(door.handle(), enforce_domain, &on, sizeof on);
+    const auto endpoint = events_endpoint();
+    if (zmq_socket_monitor(door.handle(), endpoint.c_str(), ZMQ_EVENT_ACCEPTED | ZMQ_EVENT_DISCONNECTED) != 0)
+        throw zmq::error_t();
+    auto& events = *events_.emplace_back(std::make_unique<zmq::socket_t>(context_, zmq::socket_type::pair));
+    events.set(zmq::sockopt::linger, 0);
+    events.connect(endpoint);
+}
+
+std::vector<zmq::socket_t*> Doorkeeper::sockets() {
+    std::vector<zmq::socket_t*> sockets{requests_.get()};
+    for (const auto& events : events_) sockets.push_back(events.get());
+    return sockets;
+}
+
+void Doorkeeper::tick() {
+    for (auto& events : events_) note_events(*events);
+    while (auto request = receive_frames(*requests_)) answer(*request);
+}
+
+// An event is two frames: a number of 16 bits and a value of 32, then the address.
+void Doorkeeper::note_events(zmq::socket_t& events) {
+    while (auto frames = receive_frames(events)) {
+        std::uint16_t event = 0;
+        std::int32_t descriptor = 0;
+        if (frames->front().size() < sizeof event + sizeof descriptor) continue;
+        std::memcpy(&event, frames->front().data(), sizeof event);
+        std::memcpy(&descriptor, static_cast<const char*>(frames->front().data()) + sizeof event, sizeof descriptor);
+        if (event == ZMQ_EVENT_ACCEPTED)
+            peers_.insert(descriptor);
+        else
+            peers_.erase(descriptor);
+    }
+}
+
+// Looking at all descriptors takes time, and connections may come in floods.
+std::size_t Doorkeeper::most_now() {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - counted_ > std::chrono::seconds(1)) {
+        most_ = most_peers(descriptors_left() + peers_.size());
+        counted_ = now;
+    }
+    return most_;
+}
+
+// [version][request][domain][address][identity][mechanism]… → [version][request][code][text][user][metadata]
+void Doorkeeper::answer(Frames& request) {
+    const bool sound = request.size() >= 6 && text_of(request[0]) == "1.0";
+    const bool room = peers_.size() <= most_now();
+    turned_away_ += !room;
+    Frames reply;
+    reply.push_back(frame_of(std::string("1.0")));
+    reply.push_back(frame_of(sound ? text_of(request[1]) : std::string()));
+    reply.push_back(frame_of(std::string(sound && room ? "200" : "400")));
+    reply.push_back(frame_of(std::string(room ? "" : "too many connections")));
+    reply.push_back(frame_of(std::string()));
+    reply.push_back(frame_of(std::string()));
+    send_frames(*requests_, reply);
+}
+
+}  // namespace lightnet
