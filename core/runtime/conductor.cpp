@@ -253,14 +253,14 @@ void Conductor::take(Message message) {
 }
 
 void Conductor::reported(const Sent& sent, const Bytes& data) {
-    Report report;
+    StepReport report;
     if (data && data->size() >= sizeof report) std::memcpy(&report, data->data(), sizeof report);
-    if (!data || data->size() < sizeof report || report.kind > Report::Kind::last)
+    if (!data || data->size() < sizeof report || report.kind > StepReport::Kind::last)
         throw Error("'" + name_of(sent.position) + "': a report of preparing is damaged");
     say(sent.to.node, {reinterpret_cast<const char*>(data->data()) + sizeof report, data->size() - sizeof report});
     auto& follower = followers_[sent.to];
     follower.at = report;
-    follower.state = follower.at.kind == Report::Kind::done ? Follower::State::done : Follower::State::waiting;
+    follower.state = follower.at.kind == StepReport::Kind::done ? Follower::State::done : Follower::State::waiting;
     let_go_of_taken(sent.position, report.call);
     advance();
 }
@@ -367,7 +367,7 @@ std::string Conductor::progress() const {
     std::string text = name_of(done_);
     const auto* call = calls_.unfinished(order_[done_]);
     if (!call) return text;
-    if (call->what().kind == Report::Kind::rehearse) return text + ": rehearsal";
+    if (call->what().kind == StepReport::Kind::rehearse) return text + ": rehearsal";
     return text + ": " + std::to_string(call->what().count - call->missing()) + "/" +
            std::to_string(call->what().count);
 }

@@ -82,7 +82,7 @@ private:
     struct Follower {
         enum class State { idle, asked, waiting, done };
         State state = State::idle;
-        Report at;
+        StepReport at;
         std::size_t asks = 0;  // for shards, handed out and not answered
     };
     /// A step that was sent and not answered.

@@ -23,7 +23,7 @@ void Conductor::collect() {
         const auto call = followers_[all[0]].at.call;
         for (const auto& copy : all) {
             const auto& follower = followers_[copy];
-            if (follower.state != Follower::State::waiting || follower.at.kind != Report::Kind::rehearse ||
+            if (follower.state != Follower::State::waiting || follower.at.kind != StepReport::Kind::rehearse ||
                 follower.at.call != call || calls_.reported(copy.node, follower.at).done())
                 return;
         }

@@ -106,7 +106,7 @@ TEST(Conductor, PreparesNodesThatDoNotAskEachOtherAtTheSameTime) {
     auto first = next(Step::Kind::prepare, caustics), second = next(Step::Kind::prepare, global);
     EXPECT_TRUE(places.asked.empty());
     // The later one has shards to do while the first still thinks, and is done before it.
-    places.answer(std::move(second), Report{Report::Kind::map, 0, 1});
+    places.answer(std::move(second), StepReport{StepReport::Kind::map, 0, 1});
     lead();
     auto shards = next(Step::Kind::shards, global);
     Message results = reply_to(shards.message);
@@ -114,20 +114,20 @@ TEST(Conductor, PreparesNodesThatDoNotAskEachOtherAtTheSameTime) {
     results.data = join_shards(std::span(&none, 1));
     places.arrived.push_back(results);
     lead();
-    places.answer(next(Step::Kind::go_on, global), Report{Report::Kind::done, 1, 0});
+    places.answer(next(Step::Kind::go_on, global), StepReport{StepReport::Kind::done, 1, 0});
     lead();
     EXPECT_TRUE(places.asked.empty()) << "not before both are done";
     // Who comes now is led through both, too.
     conductor.propose({{{"a", 0}, {"b", 0}}, std::vector<std::vector<std::uint32_t>>(graph.nodes.size(), {0, 1})});
     const auto late_first = next(Step::Kind::prepare, caustics), late_second = next(Step::Kind::prepare, global);
     EXPECT_EQ(late_first.place.host, "b");
-    places.answer(late_first, Report{Report::Kind::done, 0, 0});
-    places.answer(late_second, Report{Report::Kind::map, 0, 1});
+    places.answer(late_first, StepReport{StepReport::Kind::done, 0, 0});
+    places.answer(late_second, StepReport{StepReport::Kind::map, 0, 1});
     lead();
-    places.answer(next(Step::Kind::go_on, global), Report{Report::Kind::done, 1, 0});
+    places.answer(next(Step::Kind::go_on, global), StepReport{StepReport::Kind::done, 1, 0});
     lead();
     EXPECT_TRUE(places.asked.empty());
-    places.answer(std::move(first), Report{Report::Kind::done, 0, 0});
+    places.answer(std::move(first), StepReport{StepReport::Kind::done, 0, 0});
     lead();
     next(Step::Kind::prepare, learned);
     next(Step::Kind::prepare, learned);
@@ -156,7 +156,7 @@ TEST(Conductor, TakesNoNotesOfARehearsalThatWasBrokenOff) {
     const auto lead = [&] { EXPECT_FALSE(conductor.prepare(std::chrono::milliseconds(2))); };
 
     conductor.propose(both);
-    const Report rehearses{Report::Kind::rehearse, 0, 4};
+    const StepReport rehearses{StepReport::Kind::rehearse, 0, 4};
     for (int i = 0; i < 2; ++i) {
         auto prepare = places.take();
         ASSERT_TRUE(prepare.of_kind(Step::Kind::prepare));
