@@ -10,10 +10,7 @@
 namespace lightnet {
 namespace {
 
-// The channels of a master are told apart from those of the one before it, whose late replies mean something else.
-constexpr unsigned epoch_bits = 20;
-constexpr std::uint32_t channel_mask = (1u << epoch_bits) - 1;
-constexpr std::uint32_t own_channel = 0xffffffff;
+constexpr std::uint32_t own_channel = 0xffffffff;  // no master's: see Epoch::most_channels
 
 template <class T>
 std::vector<T> values_of(const Bytes& data) {
@@ -322,13 +319,15 @@ bool Conductor::prepare(std::chrono::nanoseconds most) {
 
 bool Conductor::ask(const PlaceAt& to, Message& message) {
     const auto channel = message.channel;
-    message.channel |= epoch_ << epoch_bits;
+    message.channel = epoch_.marked(channel);
     if (carrier_.ask(to, message)) return true;
     message.channel = channel;
     return false;
 }
 
-void Conductor::give_up(std::uint32_t channel) { carrier_.give_up(channel | epoch_ << epoch_bits); }
+void Conductor::give_up(std::uint32_t channel) {
+    if (channel < Epoch::most_channels) carrier_.give_up(epoch_.marked(channel));  // else nothing was ever asked by it
+}
 
 std::optional<Message> Conductor::receive() {
     while (true) {
@@ -344,8 +343,8 @@ std::optional<Message> Conductor::receive() {
             if (message->plan) propose(*message->plan);
         } else if (message->channel == own_channel) {
             take(std::move(*message));
-        } else if (message->channel >> epoch_bits == epoch_) {
-            message->channel &= channel_mask;
+        } else if (epoch_.has(message->channel)) {
+            message->channel = Epoch::channel_of(message->channel);
             return message;
         }
     }

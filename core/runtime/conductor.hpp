@@ -18,6 +18,7 @@
 #include "core/prepare/calls.hpp"
 #include "core/prepare/lock_desk.hpp"
 #include "core/prepare/prepared.hpp"
+#include "core/runtime/epoch.hpp"
 #include "core/runtime/master_renderer.hpp"
 
 namespace lightnet {
@@ -149,7 +150,7 @@ private:
     std::set<PlaceKey> known_prepared_;  // have caught up once
     std::optional<Rehearsing> rehearsing_;
     std::set<std::string> said_;
-    std::uint32_t epoch_ = 0;  // of the master whose replies count
+    Epoch epoch_;  // of the master whose replies count
 };
 
 }  // namespace lightnet

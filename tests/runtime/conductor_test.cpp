@@ -192,5 +192,41 @@ TEST(Conductor, TakesNoNotesOfARehearsalThatWasBrokenOff) {
     EXPECT_EQ(noted.begin()->primitive, 9u);
 }
 
+// Two epochs for each rehearsal: one of it, and one of what follows it.
+TEST(Conductor, TakesRepliesAfterMoreRehearsalsThanThereAreEpochs) {
+    const Registry kinds = test::with_learner();
+    const Graph graph = check(
+        {"test.lua",
+         Nodes{node("scene", "Scene", {Value{std::string("none.pbrt")}}), node("direct", "DirectLighting", {}),
+               node("learned", "Learner", {Value{NodeRef{"direct"}}}),
+               node("image", "RayTracer", {Value{NodeRef{"learned"}}},
+                    {{"scene", Value{NodeRef{"scene"}}}, {"film", Value{Table{{Value{24.0}, Value{16.0}}, {}}}}})}},
+        kinds);
+    ByHand places;
+    Conductor::Options options;
+    options.run = 1;
+    options.graph = &graph;
+    options.registry = &kinds;
+    Conductor conductor(options, places);
+    const auto lead = [&] { EXPECT_FALSE(conductor.prepare(std::chrono::microseconds(50))); };
+    for (std::uint32_t rehearsal = 0; rehearsal < Epoch::count / 2 + 2; ++rehearsal) {
+        // Each host stays for one rehearsal, which is broken off when the next one has taken its place.
+        conductor.propose(
+            {{{std::to_string(rehearsal), 0}}, std::vector<std::vector<std::uint32_t>>(graph.nodes.size(), {0})});
+        auto prepare = places.take();
+        ASSERT_TRUE(prepare.of_kind(Step::Kind::prepare)) << rehearsal;
+        places.answer(std::move(prepare), StepReport{StepReport::Kind::rehearse, 0, 4});
+        for (int patience = 0; places.asked.empty() && patience < 1000; ++patience) lead();
+        ASSERT_FALSE(places.asked.empty()) << "nobody is asked for the tiles of rehearsal " << rehearsal;
+        auto tiles = places.take();
+        ASSERT_TRUE(tiles.of_tiles()) << rehearsal;
+        if (rehearsal % 64 && rehearsal + 4 < Epoch::count / 2) continue;
+        places.answer_tiles(std::move(tiles));
+        for (int patience = 0; places.asked.empty() && patience < 1000; ++patience) lead();
+        ASSERT_TRUE(!places.asked.empty() && places.take().of_kind(Step::Kind::collect))
+            << "the reply to rehearsal " << rehearsal << " was not taken";
+    }
+}
+
 }  // namespace
 }  // namespace lightnet
