@@ -9,6 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -16,6 +17,8 @@
 #include <cstdint>
 #include <cstring>
 #include <exception>
+#include <fstream>
+#include <new>
 
 #include "core/error.hpp"
 #include "core/graph/value.hpp"
@@ -83,7 +86,14 @@ void limit_processor(double seconds) {
     const double whole = std::floor(seconds);
     const itimerval once{{0, 0}, {static_cast<time_t>(whole), static_cast<suseconds_t>((seconds - whole) * 1e6)}};
     ::setitimer(ITIMER_PROF, &once, nullptr);
-    limit(RLIMIT_CPU, static_cast<rlim_t>(whole) + 2);
+    limit(RLIMIT_CPU, static_cast<rlim_t>(whole) + 1);
+}
+
+// Counted from what there is already: of a parent's libraries, or of what a sanitizer has set apart.
+void limit_memory(std::size_t more) {
+    std::size_t pages = 0;
+    if (std::ifstream("/proc/self/statm") >> pages)
+        limit(RLIMIT_AS, rlim_t{pages} * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + more);
 }
 
 void write_all(int file, const void* data, std::size_t size) {
@@ -97,18 +107,26 @@ void write_all(int file, const void* data, std::size_t size) {
     }
 }
 
-[[noreturn]] void be_child(pid_t parent, int out, const Budget& budget, const std::function<std::string()>& work) {
+/// The child's ends of its pipes.
+struct Ends {
+    int answer, said;
+};
+
+[[noreturn]] void be_child(pid_t parent, Ends out, const Budget& budget, const std::function<std::string()>& work) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != parent) ::_exit(1);  // it died before we could ask
     ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
     default_signals();
-    constexpr int pipe = 3;
-    if (out != pipe) ::dup2(out, pipe);
+    constexpr int pipe = 3, out_of_the_way = 10;  // who started us may have closed what is usually below that
+    const int answer = ::fcntl(out.answer, F_DUPFD, out_of_the_way), said = ::fcntl(out.said, F_DUPFD, out_of_the_way);
+    ::dup2(said, STDERR_FILENO);
+    ::dup2(answer, pipe);
     ::close_range(pipe + 1, ~0U, 0);
     ::close(STDIN_FILENO);
     ::close(STDOUT_FILENO);
     limit(RLIMIT_CORE, 0);
     limit(RLIMIT_FSIZE, 0);
+    limit_memory(budget.memory);
     limit_processor(budget.cpu_seconds);
     try {
         const std::string text = work();
@@ -117,20 +135,52 @@ void write_all(int file, const void* data, std::size_t size) {
         write_all(pipe, &length, sizeof length);
         write_all(pipe, text.data(), text.size());
         ::_exit(0);
+    } catch (const std::bad_alloc&) {
+        ::_exit(3);
     } catch (const std::exception&) {
         ::_exit(1);  // the parent says that there was no answer
     }
 }
 
-// Reads to the end of the pipe, or until the time or the size is over. False: the time is over.
-bool receive(int file, const Budget& budget, std::string& text) {
+/// Passes on what the child says, and so much of it only: it may be talkative.
+class Said {
+public:
+    explicit Said(int in) : in_(in) {}
+
+    /// Of what is there to read. False: no more will come.
+    bool pass_on() {
+        std::array<char, 4096> buffer;
+        const ssize_t size = ::read(in_, buffer.data(), buffer.size());
+        if (size <= 0) return size < 0 && errno == EINTR;
+        const auto told = std::min(static_cast<std::size_t>(size), room_);
+        room_ -= told;
+        // what doesn't get through is lost, and no harm done
+        if (told > 0 && ::write(STDERR_FILENO, buffer.data(), told) < 0) room_ = 0;
+        return true;
+    }
+    /// When the child is no more.
+    void pass_on_rest() {
+        while (pass_on()) {
+        }
+    }
+    int number() const { return in_; }
+
+private:
+    int in_;
+    std::size_t room_ = std::size_t{64} << 10;
+};
+
+// Reads to the end of the answer, or until the time or the size is over. False: the time is over.
+bool receive(int file, Said& said, const Budget& budget, std::string& text) {
     const auto end = Clock::now() + std::chrono::duration<double>(budget.wall_seconds);
     std::array<char, 65536> buffer;
+    std::array<pollfd, 2> ready{pollfd{file, POLLIN, 0}, pollfd{said.number(), POLLIN, 0}};
     while (text.size() <= budget.output + sizeof(Length)) {
         const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now()).count();
         if (left <= 0) return false;
-        pollfd ready{file, POLLIN, 0};
-        if (::poll(&ready, 1, static_cast<int>(left)) <= 0) continue;
+        if (::poll(ready.data(), ready.size(), static_cast<int>(left)) <= 0) continue;
+        if (ready[1].revents && !said.pass_on()) ready[1].fd = -1;  // poll() looks at it no more
+        if (!ready[0].revents) continue;
         const ssize_t size = ::read(file, buffer.data(), buffer.size());
         if (size == 0) return true;
         if (size > 0)
@@ -150,24 +200,32 @@ bool receive(int file, const Budget& budget, std::string& text) {
     }
     if (WIFEXITED(status) && WEXITSTATUS(status) == 2)
         throw Error("gives more than " + std::to_string(budget.output >> 20) + " MiB");
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 3)
+        throw Error("needs more than " + std::to_string(budget.memory >> 20) + " MiB of memory");
     throw Error("its evaluation ended without an answer");
 }
 
 }  // namespace
 
 std::string in_child(const Budget& budget, const std::function<std::string()>& work) {
-    std::array<int, 2> ends{};
-    if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw Error("pipe", std::strerror(errno));
-    Descriptor in(ends[0]), out(ends[1]);
+    std::array<int, 2> answer{}, said{};
+    if (::pipe2(answer.data(), O_CLOEXEC) != 0) throw Error("pipe", std::strerror(errno));
+    Descriptor in(answer[0]), out(answer[1]);
+    if (::pipe2(said.data(), O_CLOEXEC) != 0) throw Error("pipe", std::strerror(errno));
+    Descriptor said_in(said[0]), said_out(said[1]);
     const pid_t parent = ::getpid();
     const pid_t id = ::fork();
     if (id < 0) throw Error("fork", std::strerror(errno));
-    if (id == 0) be_child(parent, out.number(), budget, work);
+    if (id == 0) be_child(parent, {out.number(), said_out.number()}, budget, work);
     Process child(id);
     out.close();
+    said_out.close();
     std::string text;
-    if (!receive(in.number(), budget, text)) throw Error("takes more than " + number_text(budget.wall_seconds) + " s");
+    Said words(said_in.number());
+    const bool in_time = receive(in.number(), words, budget, text);
     const int status = child.end();
+    words.pass_on_rest();
+    if (!in_time) throw Error("takes more than " + number_text(budget.wall_seconds) + " s");
     Length length = 0;
     if (text.size() < sizeof length) no_answer(status, budget);
     std::memcpy(&length, text.data(), sizeof length);

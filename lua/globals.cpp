@@ -14,7 +14,8 @@ namespace {
 constexpr const char* unknown_type = "lightnet.unknown";
 constexpr const char* store = "lightnet.globals";  // where the globals really are, in the registry
 constexpr const char* owner = "lightnet.owner";
-constexpr std::size_t most_unknowns = 100000;
+constexpr std::size_t most_remembered = std::size_t{8} << 20;  // bytes of names and the like
+constexpr std::size_t bytes_of_entry = 128;                    // about, beside its text
 
 bool push_number(lua_State* L, const std::string& text) {
     return lua_stringtonumber(L, text.c_str()) == text.size() + 1;
@@ -136,6 +137,11 @@ Globals::Unknown* Globals::unknown_at(int index) {
     return number ? &unknowns_.at(*number) : nullptr;
 }
 
+void Globals::remember(const std::string& text) {
+    remembered_ += text.size() + bytes_of_entry;
+    if (remembered_ > most_remembered) throw Error("a file has too many names, or too long ones: at most 8 MiB in all");
+}
+
 int Globals::read(lua_State* L) {
     if (lua_type(L, 2) != LUA_TSTRING) return 0;
     const std::string name = lua_tostring(L, 2);
@@ -147,7 +153,7 @@ int Globals::read(lua_State* L) {
         push_by_look(L, constant->second);
         return 1;
     }
-    if (unknowns_.size() >= most_unknowns) throw Error("too many names are used that nobody gives");
+    remember(name);
     unknowns_.push_back({name, sandbox_.caller(), false});
     auto* number = static_cast<std::size_t*>(lua_newuserdatauv(L, sizeof(std::size_t), 0));
     *number = unknowns_.size() - 1;
@@ -159,7 +165,10 @@ int Globals::write(lua_State* L) {
     if (lua_type(L, 2) != LUA_TSTRING) throw Error("a global goes by a name");
     const std::string name = lua_tostring(L, 2);
     if (constants_.contains(name)) override_constant(L, name);
-    if (plain_type(lua_type(L, 3))) plain_.emplace(name, sandbox_.caller());
+    if (plain_type(lua_type(L, 3)) && !plain_.contains(name)) {
+        remember(name);
+        plain_.emplace(name, sandbox_.caller());
+    }
     assigned(L, name);
     lua_getfield(L, LUA_REGISTRYINDEX, store);
     lua_insert(L, 2);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/problem_list.hpp"
 #include "lua/sandbox.hpp"
 
 namespace lightnet::lua {
@@ -21,7 +22,8 @@ public:
     Globals& operator=(const Globals&) = delete;
     virtual ~Globals() = default;
 
-    const std::vector<Problem>& problems() const { return problems_; }
+    /// Complete when all is finished; a hundred at most are told.
+    std::vector<Problem> take_problems() { return problems_.take(); }
 
 protected:
     /// A name that was read before anybody gave it.
@@ -42,10 +44,14 @@ protected:
     /// Complains of all that was read in vain, and of overrides that met nothing. `named`: other names one may have
     /// meant.
     void finish(const std::vector<std::string>& named);
-    void complain(SourceLine where, std::string what) { problems_.push_back({std::move(where), std::move(what)}); }
+    void complain(SourceLine where, std::string what) { problems_.add(std::move(where), std::move(what)); }
+    /// To be called with the text of every entry that outlives the call, whatever holds it: Lua's own limit doesn't
+    /// count those. Throws Error when there are too many.
+    void remember(const std::string& text);
 
     Sandbox& sandbox_;
     lua_State* const L_;
+    ProblemList problems_;
 
 private:
     static Globals& self(lua_State* L);
@@ -62,7 +68,7 @@ private:
     std::map<std::string, bool> met_;                     // overrides that the file reads or gives
     std::map<std::string, SourceLine> plain_;             // constants of the file
     std::vector<Unknown> unknowns_;
-    std::vector<Problem> problems_;
+    std::size_t remembered_ = 0;  // bytes
 };
 
 }  // namespace lightnet::lua

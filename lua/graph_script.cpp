@@ -48,6 +48,7 @@ int GraphScript::call(lua_State* L, Unknown& callee) {
 
 int GraphScript::make_node(lua_State* L, const std::string& kind) {
     count(kind.size());
+    if (made_.size() >= most_nodes) throw Error("a graph has at most " + std::to_string(most_nodes) + " nodes");
     Made made;
     made.node.kind = kind;
     made.node.where = sandbox_.caller();
@@ -64,12 +65,12 @@ void GraphScript::take_entries(lua_State* L, Made& made) {
     const auto size = lua_rawlen(L, 2);
     for (lua_Unsigned i = 1; i <= size; ++i) {
         if (lua_rawgeti(L, 2, static_cast<lua_Integer>(i)) == LUA_TNIL)
-            made.complaints.push_back("entry " + std::to_string(i) + " is nil");
+            note(made, "entry " + std::to_string(i) + " is nil");
         else
             try {
                 made.node.entries.push_back(value_at(L, -1, 0));
             } catch (const UserError& error) {
-                made.complaints.push_back("entry " + std::to_string(i) + " " + error.what());
+                note(made, "entry " + std::to_string(i) + " " + error.what());
             }
         lua_settop(L, 2);
     }
@@ -80,15 +81,15 @@ void GraphScript::take_params(lua_State* L, Made& made) {
     for (lua_pushnil(L); lua_next(L, 2); lua_settop(L, 3)) {
         if (lua_isinteger(L, 3) && lua_tointeger(L, 3) >= 1 && lua_tointeger(L, 3) <= size) continue;
         if (lua_isinteger(L, 3)) {
-            made.complaints.push_back("an entry before the one at " + std::to_string(lua_tointeger(L, 3)) + " is nil");
+            note(made, "an entry before the one at " + std::to_string(lua_tointeger(L, 3)) + " is nil");
         } else if (lua_type(L, 3) != LUA_TSTRING) {
-            made.complaints.push_back("a parameter goes by a name");
+            note(made, "a parameter goes by a name");
         } else
             try {
                 const std::string key = text_at(L, 3);
                 made.node.params.emplace(key, value_at(L, 4, 0));
             } catch (const UserError& error) {
-                made.complaints.push_back("parameter " + quoted(lua_tostring(L, 3)) + " " + error.what());
+                note(made, "parameter " + quoted(lua_tostring(L, 3)) + " " + error.what());
             }
     }
 }
@@ -151,10 +152,16 @@ void GraphScript::count(std::size_t bytes) {
     if (bytes_ > most_bytes) throw Error("the texts of a graph have at most 4 MiB");
 }
 
+// Told when the node's name is known. What would not be told is not kept.
+void GraphScript::note(Made& made, const std::string& complaint) {
+    if (++noted_ <= ProblemList::most) made.complaints.push_back(shortened(complaint, ProblemList::longest));
+}
+
 void GraphScript::assigned(lua_State* L, const std::string& name) {
     const auto* number = node_at(L, 3);
     if (!number) return;
     Node& node = made_[*number].node;
+    if (!named_.contains(name)) remember(name);
     named_.emplace(name, *number);
     if (!node.name.empty()) return;
     node.name = is_utf8(name) ? name : "?";
@@ -190,6 +197,7 @@ Graph GraphScript::finish() {
             complain(node.where, node.kind + ": the node has no name; write name = " + node.kind +
                                      " { … }, without local and not inside another table");
     }
+    if (noted_ > ProblemList::most) problems_.leave_out(noted_ - ProblemList::most);
     Globals::finish(names);
     return graph;
 }

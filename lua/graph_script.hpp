@@ -35,6 +35,7 @@ private:
     Table table_at(lua_State* L, int index, int depth);
     std::string text_at(lua_State* L, int index);
     void count(std::size_t bytes);
+    void note(Made& made, const std::string& complaint);
     const std::size_t* node_at(lua_State* L, int index) const;
     void resolve(Value& value) const;
 
@@ -42,6 +43,7 @@ private:
     std::vector<std::size_t> order_;            // indices into made_, as they were named
     std::map<std::string, std::size_t> named_;  // all names of nodes, second ones too
     std::size_t values_ = 0, bytes_ = 0;        // of all that was taken so far
+    std::size_t noted_ = 0;                     // complaints of nodes
 };
 
 }  // namespace lightnet::lua

@@ -3,12 +3,15 @@
 #include <lua.hpp>
 
 #include <exception>
+#include <new>
 
 namespace lightnet::lua {
 
 int guarded(lua_State* L, const std::function<int()>& function) {
     try {
         return function();
+    } catch (const std::bad_alloc&) {
+        return luaL_error(L, "not enough memory");
     } catch (const std::exception& error) {
         luaL_where(L, 1);
         lua_pushstring(L, error.what());

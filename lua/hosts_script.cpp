@@ -34,6 +34,7 @@ void HostsScript::assigned(lua_State* L, const std::string& name) {
     const bool strategies = name == "strategy";
     if (!strategies && name != "layout") return;
     const auto where = sandbox_.caller();
+    if (lua_type(L, -1) == LUA_TSTRING) remember(lua_tostring(L, -1));
     if (lua_type(L, -1) == LUA_TSTRING && is_utf8(lua_tostring(L, -1)))
         (strategies ? hosts_.strategies : hosts_.layouts).push_back({"", lua_tostring(L, -1), where});
     else
@@ -75,7 +76,10 @@ void HostsScript::take_choices(lua_State* L, const std::string& word, const std:
         else
             named.emplace(lua_tostring(L, 2), lua_tostring(L, 3));
     }
-    for (auto& [node, name] : named) choices.push_back({node, std::move(name), where});
+    for (auto& [node, name] : named) {
+        remember(node + name);
+        choices.push_back({node, std::move(name), where});
+    }
 }
 
 // place "endpoint" gives the function that takes the table.
@@ -86,6 +90,7 @@ int HostsScript::place(lua_State* L) {
             throw Error("place takes the host first: place \"tcp://host:port\" { node = replicas }");
         auto& hosts = script.hosts_.hosts;
         if (hosts.size() >= most_hosts) throw Error("too many hosts");
+        script.remember(lua_tostring(L, 1));
         hosts.push_back({lua_tostring(L, 1), {}, 0, script.sandbox_.caller()});
         lua_pushvalue(L, lua_upvalueindex(1));
         lua_pushinteger(L, static_cast<lua_Integer>(hosts.size() - 1));
@@ -119,8 +124,10 @@ void HostsScript::take_replicas(lua_State* L, HostEntry& entry) {
             complain(entry.where, who + "how many " + quoted(name) + "? A positive integer is wanted");
         else if (name == "places")
             entry.places = static_cast<int>(count);
-        else
+        else {
+            if (!entry.replicas.contains(name)) remember(name);
             entry.replicas[name] = static_cast<int>(count);
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 #include "lua/load_graph.hpp"
 
 #include <functional>
+#include <new>
 #include <utility>
 
 #include "core/graph/check.hpp"
@@ -19,6 +20,8 @@ struct Answer {
     std::string value;
     std::vector<Problem> problems;
 };
+
+constexpr std::size_t beside_lua = std::size_t{256} << 20;  // bytes for what a file's values become
 
 using Text = std::function<std::string()>;  // read in the child, so that an endless file costs only the child
 
@@ -39,9 +42,11 @@ Answer run_script(const std::string& file, const Text& text, const LuaOptions& o
         Script script(sandbox, options.constants);
         sandbox.run(text());
         answer.value = to_json(script.finish());
-        answer.problems = script.problems();
+        answer.problems = script.take_problems();
     } catch (const UserError& error) {
         answer.problems = error.problems();
+    } catch (const std::bad_alloc&) {
+        throw;  // there may be no room to say it
     } catch (const std::exception& error) {
         answer.problems = {{{file, 0}, error.what()}};
     }
@@ -50,7 +55,7 @@ Answer run_script(const std::string& file, const Text& text, const LuaOptions& o
 
 template <class Script>
 Answer evaluate(const std::string& file, const Text& text, const LuaOptions& options) {
-    const lua::Budget budget{options.cpu_seconds, options.wall_seconds};
+    const lua::Budget budget{options.cpu_seconds, options.wall_seconds, options.memory + beside_lua};
     Answer answer;
     try {
         answer = unpack(lua::in_child(budget, [&] { return pack(run_script<Script>(file, text, options)); }));

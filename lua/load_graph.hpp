@@ -27,7 +27,7 @@ namespace lightnet {
 /// What a file may cost, and which of its constants are overridden.
 struct LuaOptions {
     std::map<std::string, std::string> constants = {};  // -D name=value; the type is that of the file's own value
-    double cpu_seconds = 5;                             // processor time
+    double cpu_seconds = 2;                             // processor time
     double wall_seconds = 10;
     std::size_t memory = std::size_t{256} << 20;  // bytes of Lua values
 };

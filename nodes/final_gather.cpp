@@ -31,7 +31,7 @@ public:
 
 private:
     void gather(std::span<const Query> questions, std::span<Rgb> answers) const {
-        std::vector<Look> looks;
+        std::vector<SurfaceLook> looks;
         std::vector<Rgb> weights;
         std::vector<std::size_t> askers;
         for (std::size_t q = 0; q < questions.size(); ++q) {

@@ -176,7 +176,7 @@ private:
 
     std::vector<IrradianceRecord> compute(std::span<const Query> questions, std::span<const Wanted> wanted,
                                           const Hemisphere& hemisphere) const {
-        std::vector<Look> looks;
+        std::vector<SurfaceLook> looks;
         looks.reserve(wanted.size() * hemisphere.size());
         for (std::size_t i = 0; i < wanted.size(); ++i) {
             const Query& question = questions[wanted[i].question];
@@ -204,7 +204,7 @@ private:
     }
 
     void add_glossy(std::span<const Query> questions, std::span<Rgb> answers) const {
-        std::vector<Look> looks;
+        std::vector<SurfaceLook> looks;
         std::vector<Rgb> weights;
         std::vector<std::size_t> askers;
         for (std::size_t q = 0; q < questions.size(); ++q) {

@@ -133,6 +133,7 @@ int Launcher::perform_run(const Options& options) const {
 }
 
 int Launcher::perform_render(Options options) const {
+    Written written = read_render(options);
     auto read = std::make_shared<ReadScene>();
     const bool own_graph = !options.lighting.ends_with(".lua");  // else the constants are the graph's
     read->scene =
@@ -140,7 +141,7 @@ int Launcher::perform_render(Options options) const {
     if (!options.size) options.size = PictureSize{read->scene.film.width, read->scene.film.height};
     if (!options.crop) options.crop = crop_in_pixels(read->scene.film.crop, *options.size);
     if (options.output.empty()) options.output = picture_of(options.scene);
-    Loaded loaded = load_render(options, registry);
+    Loaded loaded = load_render(std::move(written), options, registry);
     warn(loaded.warnings, err);
     RunRequest request = request_of(options, registry, std::move(loaded));
     request.read = std::move(read);

@@ -47,15 +47,20 @@ void check_names(const Hosts& hosts, std::vector<Problem>& problems) {
                 {entry.where, "place '" + entry.endpoint + "': no host is called '" + address->host + "'"});
 }
 
-/// A graph as it was written, made sound. Throws UserError with its problems and those found before.
-Loaded finish(Graph graph, std::vector<Problem> problems, const Options& options, const Registry& registry,
-              bool names_of_hosts) {
-    Hosts hosts;
+/// A graph as it was found, and what the hosts file says.
+Written with_hosts(Graph graph, std::vector<Problem> problems, const Options& options) {
+    Written written{std::move(graph), {}, std::move(problems)};
     try {
-        if (!options.hosts.empty()) hosts = load_hosts(options.hosts);
+        if (!options.hosts.empty()) written.hosts = load_hosts(options.hosts);
     } catch (const UserError& error) {
-        problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+        written.problems.insert(written.problems.end(), error.problems().begin(), error.problems().end());
     }
+    return written;
+}
+
+/// What was written, made sound. Throws UserError with its problems and those found before.
+Loaded finish(Written written, const Options& options, const Registry& registry, bool names_of_hosts) {
+    auto& [graph, hosts, problems] = written;
     override_picture(graph, registry, options);
     Examined found = examine(graph, registry, hosts);
     problems.insert(problems.end(), found.problems.begin(), found.problems.end());
@@ -70,12 +75,17 @@ Loaded finish(Graph graph, std::vector<Problem> problems, const Options& options
 
 Loaded load(const Options& options, const Registry& registry, bool names_of_hosts) {
     GraphFile file = read_graph(options.graph, {.constants = options.constants});
-    return finish(std::move(file.graph), std::move(file.problems), options, registry, names_of_hosts);
+    return finish(with_hosts(std::move(file.graph), std::move(file.problems), options), options, registry,
+                  names_of_hosts);
 }
 
-Loaded load_render(const Options& options, const Registry& registry) {
+Written read_render(const Options& options) {
     RenderGraph made = render_graph(options);
-    return finish(std::move(made.graph), std::move(made.problems), options, registry, true);
+    return with_hosts(std::move(made.graph), std::move(made.problems), options);
+}
+
+Loaded load_render(Written written, const Options& options, const Registry& registry) {
+    return finish(std::move(written), options, registry, true);
 }
 
 }  // namespace lightnet

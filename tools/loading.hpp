@@ -22,7 +22,17 @@ struct Loaded {
 /// names all problems of the graph, of the hosts and of the way to the scene. `names_of_hosts`: look hosts up, too.
 Loaded load(const Options& options, const Registry& registry, bool names_of_hosts);
 
-/// The same for the graph that `lightnet render` makes. The scene itself has been read already.
-Loaded load_render(const Options& options, const Registry& registry);
+/// What the files of a `lightnet render` say, before its scene is read.
+struct Written {
+    Graph graph;
+    Hosts hosts;
+    std::vector<Problem> problems;  // on the way to them
+};
+
+/// Reads a graph for `lightnet render`, and its hosts. Evaluates Lua, so call it before the scene is read: reading
+/// starts threads, and Lua runs in a child, which would have nothing of them but their locks.
+Written read_render(const Options& options);
+/// Makes it sound, as load() does. The scene itself has been read by now.
+Loaded load_render(Written written, const Options& options, const Registry& registry);
 
 }  // namespace lightnet

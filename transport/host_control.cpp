@@ -91,8 +91,11 @@ void Host::Service::begin(const std::string& route, std::uint64_t id, const Fiel
         return door.send(route, Type::refuse, id, Fields{}.set("text", busy_with()).set("busy", 1));
     if (const auto size = fields.text("job").size() + fields.text("plan").size(); size > most_job_bytes)
         return refuse(route, id, "a job of " + std::to_string(size) + " bytes is larger than any that is taken");
-    auto read = beside.start(
-        [job = fields.text("job"), plan = fields.text("plan"), this] { return read_arrival(job, plan, registry); });
+    auto read = beside.start([job = fields.text("job"), plan = fields.text("plan"), this] {
+        Arrival arrival{read_job(job, registry), plan_from_json(plan)};
+        if (!fits(arrival.plan, arrival.job.graph)) throw Error("the plan does not fit the graph");
+        return arrival;
+    });
     arriving = Arriving{id, route, fields.text("you"), fields.text("who"), std::move(read)};
 }
 

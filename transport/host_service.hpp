@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "transport/arrival.hpp"
 #include "transport/beside.hpp"
 #include "transport/blob_cache.hpp"
 #include "transport/host.hpp"
@@ -38,6 +37,10 @@ struct Host::Service {
     HostDoor door;
     std::uint64_t broken_packets = 0;
     // A job that is being read, beside the thread that serves: whoever sent it may be nobody's friend.
+    struct Arrival {
+        Job job;
+        Plan plan;
+    };
     struct Arriving {
         std::uint64_t id = 0;
         std::string route;

@@ -20,7 +20,7 @@ struct Met {
     std::vector<Rgb> weights;
 };
 
-Query question_about(const Look& look, const MirrorWay& way, const Hit& hit, std::uint8_t lobes,
+Query question_about(const SurfaceLook& look, const MirrorWay& way, const Hit& hit, std::uint8_t lobes,
                      std::uint32_t mirrors) {
     Query question = way.question_about(hit, lobes, look.depth + 1u + mirrors);
     question.stream = mirrors ? child(look.stream, chain_key, mirrors) : look.stream;
@@ -28,7 +28,7 @@ Query question_about(const Look& look, const MirrorWay& way, const Hit& hit, std
     return question;
 }
 
-void follow(const Scene& scene, const Look& look, std::optional<Hit> hit, std::size_t index, Met& met) {
+void follow(const Scene& scene, const SurfaceLook& look, std::optional<Hit> hit, std::size_t index, Met& met) {
     MirrorWay way(look.ray);
     for (std::uint32_t mirrors = 0; hit; ++mirrors) {
         way.arrive(hit->distance);
@@ -48,11 +48,11 @@ void follow(const Scene& scene, const Look& look, std::optional<Hit> hit, std::s
 
 }  // namespace
 
-void look_around(const Scene& scene, const Inputs& inputs, std::size_t index, std::span<const Look> looks,
+void look_around(const Scene& scene, const Inputs& inputs, std::size_t index, std::span<const SurfaceLook> looks,
                  std::span<Seen> seen) {
     std::vector<Ray> rays;
     rays.reserve(looks.size());
-    for (const Look& look : looks) rays.push_back(look.ray);
+    for (const SurfaceLook& look : looks) rays.push_back(look.ray);
     std::vector<std::optional<Hit>> hits(rays.size());
     scene.intersect(rays, hits);
     Met met;

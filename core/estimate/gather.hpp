@@ -14,7 +14,7 @@
 namespace lightnet {
 
 /// A look from a surface to others.
-struct Look {
+struct SurfaceLook {
     Ray ray;
     Key stream = 0;            // of its own random numbers, and of the questions about what it meets
     std::uint32_t sample = 0;  // index within the stream
@@ -29,7 +29,7 @@ struct Seen {
 
 /// Follows looks, through mirrors and glass, to surfaces that scatter in other ways too, and asks input `index` about
 /// all of these at once; nobody else's rays decide what a look finds.
-void look_around(const Scene& scene, const Inputs& inputs, std::size_t index, std::span<const Look> looks,
+void look_around(const Scene& scene, const Inputs& inputs, std::size_t index, std::span<const SurfaceLook> looks,
                  std::span<Seen> seen);
 
 }  // namespace lightnet

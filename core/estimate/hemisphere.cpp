@@ -45,7 +45,8 @@ Hemisphere::Hemisphere(std::size_t rays)
     }
 }
 
-void Hemisphere::add_looks(Vec3 origin, Vec3 normal, Key stream, std::uint8_t depth, std::vector<Look>& looks) const {
+void Hemisphere::add_looks(Vec3 origin, Vec3 normal, Key stream, std::uint8_t depth,
+                           std::vector<SurfaceLook>& looks) const {
     const Frame frame = Frame::around(normal);
     for (std::size_t j = 0; j < rings_; ++j)
         for (std::size_t k = 0; k < sectors_; ++k) {

@@ -36,7 +36,7 @@ public:
 
     std::size_t size() const { return rings_ * sectors_; }
     /// Appends the looks of one point, ring by ring. `origin`: off the surface.
-    void add_looks(Vec3 origin, Vec3 normal, Key stream, std::uint8_t depth, std::vector<Look>& looks) const;
+    void add_looks(Vec3 origin, Vec3 normal, Key stream, std::uint8_t depth, std::vector<SurfaceLook>& looks) const;
     /// What they saw, as a record. Gradients: Ward & Heckbert 1992, in the form of Krivanek et al. 2005, equation 14.
     IrradianceRecord record(Vec3 position, Vec3 normal, std::span<const Seen> seen) const;
 

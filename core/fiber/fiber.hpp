@@ -13,13 +13,19 @@ namespace lightnet {
 /// Thrown out of a wait when the work is no longer wanted. Nothing but the fiber's own end should catch it.
 struct Cancelled {};
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr std::size_t usual_stack_size = 1024 * 1024;  // what a sanitizer puts around each variable takes room
+#else
+inline constexpr std::size_t usual_stack_size = 256 * 1024;
+#endif
+
 /// All fibers of one thread. Fibers never change threads. Work runs until it parks or ends; then another may run.
 class Fibers {
 public:
     class Fiber;
 
     /// Stacks are `stack_size` bytes each, mapped when first used and kept for the next fiber.
-    explicit Fibers(std::size_t stack_size = 256 * 1024);
+    explicit Fibers(std::size_t stack_size = usual_stack_size);
     /// Cancels what still waits.
     ~Fibers();
     Fibers(const Fibers&) = delete;

@@ -4,12 +4,14 @@
 #include <cctype>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <tuple>
 
 #include "core/graph/check_hosts.hpp"
 #include "core/graph/check_params.hpp"
 #include "core/graph/layout.hpp"
 #include "core/graph/light_paths.hpp"
+#include "core/problem_list.hpp"
 
 namespace lightnet {
 namespace {
@@ -27,23 +29,27 @@ bool identifier(const std::string& name) {
 /// Looks at one graph, and collects what is wrong with it.
 class Examination {
 public:
-    Examination(const Graph& graph, const Registry& registry) : given_(graph), registry_(registry) {
+    Examination(const Graph& graph, const Registry& registry)
+        : given_(graph), registry_(registry), edges_(edges_of(graph)) {
         for (const auto& node : graph.nodes) names_.push_back(node.name);
         for (const auto& kind : registry.kinds()) kinds_.push_back(kind.name);
     }
 
+    /// The graph with defaults, and what is wrong with it.
     Examined run() {
         found_.graph = given_;
         check_names();
         for (std::size_t node = 0; node < given_.nodes.size(); ++node) check_node(node);
         check_cycles();
+        check_ranks();
         check_renderers();
+        found_.problems = problems_.take();
         return std::move(found_);
     }
 
 private:
     void complain(const Node& node, const std::string& what) {
-        found_.problems.push_back({node.where, node.kind + " " + quoted(node.name) + ": " + what});
+        problems_.add(node.where, node.kind + " " + quoted(node.name) + ": " + what);
     }
 
     void check_names() {
@@ -150,7 +156,7 @@ private:
         std::vector<std::pair<std::size_t, std::vector<std::size_t>>> path;
         const auto enter = [&](std::size_t node) {
             state_[node] = State::open;
-            path.emplace_back(node, given_.needed_by(node));
+            path.emplace_back(node, edges_.needed[node]);
             std::reverse(path.back().second.begin(), path.back().second.end());
         };
         enter(start);
@@ -174,8 +180,20 @@ private:
         const auto first =
             std::find_if(path.begin(), path.end(), [&](const auto& step) { return step.first == closing; });
         std::string names;
-        for (auto step = first; step != path.end(); ++step) names += given_.nodes[step->first].name + " → ";
+        for (auto step = first; step != path.end() && names.size() < ProblemList::longest; ++step)
+            names += given_.nodes[step->first].name + " → ";
         complain(given_.nodes[closing], "asks itself: " + names + given_.nodes[closing].name);
+    }
+
+    // Of the nodes that stand too high the lowest is named, not all above it.
+    void check_ranks() {
+        std::vector<unsigned> ranks(given_.nodes.size(), 0);
+        for (const auto node : leaves_first(edges_)) {
+            for (const auto needed : edges_.needed[node]) ranks[node] = std::max(ranks[node], ranks[needed] + 1);
+            if (ranks[node] == most_rank + 1)
+                return complain(given_.nodes[node], "too many nodes ask each other in a row below it: at most " +
+                                                        std::to_string(most_rank) + " can");
+        }
     }
 
     void check_renderers() {
@@ -189,7 +207,7 @@ private:
             if (!first) first = &node;
         }
         // an unknown kind may well be the renderer, misspelt
-        if (!first && !unknown) found_.problems.push_back({{given_.file, 0}, "no renderer" + renderers_text()});
+        if (!first && !unknown) problems_.add({given_.file, 0}, "no renderer" + renderers_text());
     }
 
     std::string renderers_text() const {
@@ -203,8 +221,10 @@ private:
 
     const Graph& given_;
     const Registry& registry_;
+    const Edges edges_;
     std::vector<std::string> names_, kinds_;
     std::vector<State> state_;
+    ProblemList problems_;
     Examined found_;
 };
 
@@ -240,19 +260,45 @@ void sort_by_line(std::vector<Problem>& problems, const std::string& first_file)
                      [&](const Problem& a, const Problem& b) { return key(a) < key(b); });
 }
 
-Examined examine(const Graph& graph, const Registry& registry, const Hosts& hosts) {
+namespace {
+
+// First of all, as everything else takes the longer the more there is.
+std::optional<Problem> too_large(const Graph& graph) {
+    const auto at_most = [&](std::size_t most, const std::string& what, std::size_t count) {
+        return Problem{
+            {graph.file, 0},
+            "a graph has at most " + std::to_string(most) + what + ", this one has " + std::to_string(count)};
+    };
+    if (const auto count = written_nodes(graph); count > most_nodes) return at_most(most_nodes, " nodes", count);
+    if (!graph.sectors.empty()) return std::nullopt;  // those are copies; the graph as it was written comes next
+    if (const auto count = references_in(graph); count > most_references)
+        return at_most(most_references, " places where a node names another", count);
+    return std::nullopt;
+}
+
+// What is wrong, without what is only worth knowing.
+Examined problems_of(const Graph& graph, const Registry& registry, const Hosts& hosts) {
+    if (auto problem = too_large(graph)) return {graph, {std::move(*problem)}, {}, {}};
     if (!graph.sectors.empty()) {
-        Examined found = examine(written(graph), registry, hosts);
+        Examined found = problems_of(written(graph), registry, hosts);
         if (found.problems.empty()) found.graph = sharded(std::move(found.graph), shards_in(graph));
         return found;
     }
     Examined found = Examination(graph, registry).run();
     check_hosts(hosts, graph, registry, found.problems);
     sort_by_line(found.problems, graph.file);
+    return found;
+}
+
+}  // namespace
+
+Examined examine(const Graph& graph, const Registry& registry, const Hosts& hosts) {
+    Examined found = problems_of(graph, registry, hosts);
     if (!found.problems.empty()) return found;
-    found.warnings = unused_nodes(graph, registry);
-    std::ranges::move(irreproducible_nodes(graph, registry), std::back_inserter(found.warnings));
-    PathReport paths = report_paths(found.graph, registry);
+    const Graph sound = written(found.graph);
+    found.warnings = unused_nodes(sound, registry);
+    std::ranges::move(irreproducible_nodes(sound, registry), std::back_inserter(found.warnings));
+    PathReport paths = report_paths(sound, registry);
     found.warnings.insert(found.warnings.end(), paths.doubles.begin(), paths.doubles.end());
     sort_by_line(found.warnings, graph.file);
     found.notes = std::move(paths.missing);
@@ -260,7 +306,7 @@ Examined examine(const Graph& graph, const Registry& registry, const Hosts& host
 }
 
 Graph check(const Graph& graph, const Registry& registry, const Hosts& hosts) {
-    Examined found = examine(graph, registry, hosts);
+    Examined found = problems_of(graph, registry, hosts);
     if (!found.problems.empty()) throw UserError(std::move(found.problems));
     return std::move(found.graph);
 }

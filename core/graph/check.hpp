@@ -20,9 +20,10 @@ struct Examined {
     std::vector<Problem> notes;     // what is often meant, and good to know: light that no node counts
 };
 
-/// Finds everything that is wrong: unknown kind or parameter, wrong type or range, missing input, wrong role of an
-/// input, duplicate name, cycle, no or several renderers, and what `hosts` says of nodes that the graph doesn't have.
-/// Opens no file.
+/// Finds everything that is wrong: more of it than a graph may have (see graph.hpp), unknown kind or parameter, wrong
+/// type or range, missing input, wrong role of an input, duplicate name, cycle, no or several renderers, and what
+/// `hosts` says of nodes that the graph doesn't have. Opens no file. A graph may come from a stranger: nothing here
+/// recurses over it, and of its problems a hundred are told.
 Examined examine(const Graph& graph, const Registry& registry, const Hosts& hosts = {});
 
 /// The graph with defaults filled in. Throws UserError that names *all* problems of examine(), each with file, line,

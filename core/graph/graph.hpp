@@ -51,6 +51,28 @@ struct Graph {
     std::vector<std::size_t> needed_by(std::size_t node) const;
 };
 
+/// How large a graph may be: far more than anybody draws, and little enough that nobody has to fear it. check() refuses
+/// what is larger.
+inline constexpr std::size_t most_nodes = 4096;
+inline constexpr std::size_t most_references = 16384;  // by which nodes name each other
+inline constexpr unsigned most_rank = 64;              // each level takes some of a fiber's stack when nodes ask
+
+/// Whom all nodes of a graph name, found at once: asking each node for itself takes time with the square of their
+/// number.
+struct Edges {
+    std::vector<std::vector<std::size_t>> inputs;  // per node, as Graph::inputs_of()
+    std::vector<std::vector<std::size_t>> taken;   // as Graph::taken_by()
+    std::vector<std::vector<std::size_t>> needed;  // as Graph::needed_by()
+    std::vector<std::vector<std::size_t>> scenes;  // that its parameters name
+};
+Edges edges_of(const Graph& graph);
+
+/// How many references its nodes have.
+std::size_t references_in(const Graph& graph);
+
+/// All nodes, each behind those that it needs. Nodes on a cycle, and those that need them, are left out.
+std::vector<std::size_t> leaves_first(const Edges& edges);
+
 /// Per node, how far it is above the leaves: 0 without inputs, else one more than its highest input. Throws Error on
 /// a cycle, which check() would have named.
 std::vector<unsigned> ranks_of(const Graph& graph);
@@ -61,7 +83,7 @@ std::vector<bool> used_nodes(const Graph& graph, std::size_t renderer);
 /// Canonical text (JSON) of a graph: the same graph gives the same bytes. For pipes, plans and hashes. Throws Error
 /// when a text in it isn't UTF-8.
 std::string to_json(const Graph& graph);
-/// Reads it back. Throws Error on anything else, and on more than 16 MiB or 32 levels of nesting.
+/// Reads it back. Throws Error on anything else, and on more than a graph or a JsonLimits allows.
 Graph graph_from_json(std::string_view text);
 
 }  // namespace lightnet

@@ -1,4 +1,4 @@
-// Texts of small values, for pipes between processes.
+// Texts of small values, for pipes between processes, and what reads them.
 #pragma once
 
 #include <string>
@@ -6,8 +6,13 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/graph/graph.hpp"
+#include "core/json.hpp"
 
 namespace lightnet {
+
+/// A graph that is part of a larger text: see graph_from_json() of a text.
+Graph graph_from_json(const Json& json);
 
 /// Canonical text of a list of problems. Bytes that aren't UTF-8 are replaced.
 std::string to_json(const std::vector<Problem>& problems);

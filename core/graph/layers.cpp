@@ -14,36 +14,38 @@ std::size_t renderer_of(const Graph& graph, const Registry& registry) {
 
 namespace {
 
-/// Collects terminals from the leaves up, for the nodes on additive paths only.
-class Terminals {
-public:
-    Terminals(const Graph& graph, const Registry& registry)
-        : graph_(graph), registry_(registry), of_(graph.nodes.size()) {}
+using Nodes = std::vector<std::size_t>;
 
-    /// In graph order; every node comes here once.
-    const std::vector<std::size_t>& below(std::size_t node) {
-        auto& terminals = of_[node];
-        if (!terminals.empty()) return terminals;
-        const Kind* kind = registry_.find(graph_.nodes[node].kind);
+// Linear nodes and the renderer pass on what their inputs keep apart; all others are terminals themselves.
+bool is_terminal(const Kind& kind) { return !kind.linear && kind.role == Role::light; }
+
+/// Per node, the terminals below it, in graph order: for the nodes on additive paths from `top` only.
+std::vector<Nodes> terminals_below(std::size_t top, const Graph& graph, const Registry& registry) {
+    const Edges edges = edges_of(graph);
+    const auto kind_of = [&](std::size_t node) -> const Kind& {
+        const Kind* kind = registry.find(graph.nodes[node].kind);
         assert(kind && "only checked graphs have layers");
-        if (!kind->linear && kind->role == Role::light) return terminals = {node};
-        std::vector<std::size_t> all;
-        for (const std::size_t input : graph_.inputs_of(node)) {
-            const auto& part = below(input);
-            all.insert(all.end(), part.begin(), part.end());
-        }
+        return *kind;
+    };
+    std::vector<bool> additive(graph.nodes.size(), false);
+    additive[top] = true;
+    const auto order = leaves_first(edges);
+    for (auto node = order.rbegin(); node != order.rend(); ++node)
+        if (additive[*node] && !is_terminal(kind_of(*node)))
+            for (const auto input : edges.inputs[*node]) additive[input] = true;
+    std::vector<Nodes> below(graph.nodes.size());
+    for (const auto node : order) {
+        if (!additive[node]) continue;
+        Nodes& all = below[node];
+        if (is_terminal(kind_of(node)))
+            all = {node};
+        else
+            for (const auto input : edges.inputs[node]) all.insert(all.end(), below[input].begin(), below[input].end());
         std::sort(all.begin(), all.end());
         all.erase(std::unique(all.begin(), all.end()), all.end());
-        return of_[node] = std::move(all);
     }
-
-    std::vector<std::vector<std::size_t>> take() { return std::move(of_); }
-
-private:
-    const Graph& graph_;
-    const Registry& registry_;
-    std::vector<std::vector<std::size_t>> of_;
-};
+    return below;
+}
 
 }  // namespace
 
@@ -55,12 +57,14 @@ std::vector<std::string> shown_names(const Layers& layers, const Graph& graph) {
 
 Layers layers_of(const Graph& graph, const Registry& registry) {
     const std::size_t renderer = renderer_of(graph, registry);
-    Terminals terminals(graph, registry);
     Layers layers{{"emission"}, {}, {}};
-    if (registry.find(graph.nodes[renderer].kind)->merges)
+    if (registry.find(graph.nodes[renderer].kind)->merges) {
         layers.film = {graph.nodes[renderer].name};
-    else
-        for (const std::size_t terminal : terminals.below(renderer)) layers.film.push_back(graph.nodes[terminal].name);
+        layers.of_node.resize(graph.nodes.size());
+    } else {
+        layers.of_node = terminals_below(renderer, graph, registry);
+        for (const auto terminal : layers.of_node[renderer]) layers.film.push_back(graph.nodes[terminal].name);
+    }
     for (const std::size_t shown : graph.shown_by(renderer)) {
         const auto is_there = [&](const auto& all, const auto& one) {
             return std::find(all.begin(), all.end(), one) != all.end();
@@ -68,7 +72,6 @@ Layers layers_of(const Graph& graph, const Registry& registry) {
         if (!is_there(layers.film, graph.nodes[shown].name) && !is_there(layers.shown, shown))
             layers.shown.push_back(shown);
     }
-    layers.of_node = terminals.take();
     // whoever is on no additive path answers with one colour of its own
     for (std::size_t node = 0; node < graph.nodes.size(); ++node) {
         const Kind* kind = registry.find(graph.nodes[node].kind);

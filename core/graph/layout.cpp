@@ -19,6 +19,37 @@ std::optional<Layout> layout_of(const Hosts& hosts, const std::string& node) {
     return layout;
 }
 
+std::size_t bytes_of(const Value& value);
+
+std::size_t bytes_of(const List& list) {
+    std::size_t sum = 0;
+    for (const auto& value : list) sum += bytes_of(value);
+    return sum;
+}
+
+std::size_t bytes_of(const std::map<std::string, Value>& named) {
+    std::size_t sum = 0;
+    for (const auto& [name, value] : named) sum += name.size() + bytes_of(value);
+    return sum;
+}
+
+// About what a value takes. Tables stand in tables some levels deep at most.
+std::size_t bytes_of(const Value& value) {
+    std::size_t sum = sizeof(Value);
+    if (const auto* text = std::get_if<std::string>(&value.data)) sum += text->size();
+    if (const auto* ref = std::get_if<NodeRef>(&value.data)) sum += ref->name.size();
+    if (const auto* table = std::get_if<Table>(&value.data)) sum += bytes_of(table->list) + bytes_of(table->named);
+    return sum;
+}
+
+// Each sector is a copy of its node. A stranger may have written both.
+constexpr std::size_t most_bytes_of_sectors = std::size_t{128} << 20;
+
+std::size_t bytes_of(const Node& node) {
+    return sizeof(Node) + node.name.size() + node.kind.size() + node.where.file.size() + bytes_of(node.entries) +
+           bytes_of(node.params);
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> sectors_by_host(const Hosts& hosts, const std::string& node) {
@@ -55,11 +86,16 @@ std::map<std::string, std::uint32_t> shards_of(const Graph& graph, const Registr
 
 Graph sharded(Graph graph, const std::map<std::string, std::uint32_t>& shards) {
     if (!graph.sectors.empty()) throw Error(graph.file, "a graph is sharded once");
+    std::size_t bytes = 0;
     for (const auto& [name, count] : shards) {
         const auto whole = graph.find(name);
         if (!whole) throw Error(graph.file, "'" + name + "' is to be sharded, but there is no such node");
         if (count < 2 || count > most_sectors || graph.sectors.size() + count > 16 * most_sectors)
             throw Error(graph.file, "'" + name + "' can't have " + std::to_string(count) + " sectors");
+        bytes += count * bytes_of(graph.nodes[*whole]);
+        if (bytes > most_bytes_of_sectors)
+            throw Error(graph.file, "'" + name + "' has too many parameters to be sharded " + std::to_string(count) +
+                                        " times: its sectors would take " + std::to_string(bytes >> 20) + " MiB");
         for (std::uint32_t index = 0; index < count; ++index) {
             Node node = graph.nodes[*whole];
             node.name += "#" + std::to_string(index + 1);

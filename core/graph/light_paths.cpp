@@ -22,48 +22,76 @@ using Shares = std::vector<Share>;
 
 constexpr std::size_t many_shares = 64;  // of one node; a graph with more is past being told in pairs
 
+/// What arrives at one node. What comes by several ways from the same node in the same manner is one share that is
+/// there several times.
+class Gathered {
+public:
+    void add(Share share) {
+        const auto [known, added] = at_.emplace(std::pair(share.who, share.part), all_.size());
+        if (!added)
+            all_[known->second].times = 2;
+        else if (all_.size() < many_shares)
+            all_.push_back(std::move(share));
+        else
+            at_.erase(known);
+    }
+    Shares take() { return std::move(all_); }
+
+private:
+    std::map<std::pair<std::string, bool>, std::size_t> at_;  // in all_, by who and part
+    Shares all_;
+};
+
 class Book {
 public:
     Book(const Graph& graph, const Registry& registry)
-        : graph_(graph), registry_(registry), of_(graph.nodes.size()), done_(graph.nodes.size()) {}
+        : graph_(graph), registry_(registry), edges_(edges_of(graph)), of_(graph.nodes.size()) {}
 
-    const Shares& of(std::size_t node) {
-        if (!done_[node]) {
-            of_[node] = together(own_and_inputs(node));
-            done_[node] = true;
-        }
-        return of_[node];
+    /// Node by node from the leaves up, so that a long chain of nodes doesn't cost the stack.
+    const Shares& of(std::size_t top) {
+        const auto used = used_nodes(graph_, top);
+        for (const std::size_t node : leaves_first(edges_))
+            if (used[node] && kind_of(node).role != Role::scene) of_[node] = own_and_inputs(node);
+        return of_[top];
     }
 
 private:
-    Shares own_and_inputs(std::size_t index) {
+    const Kind& kind_of(std::size_t node) const { return *registry_.find(graph_.nodes[node].kind); }
+
+    Shares own_and_inputs(std::size_t index) const {
         const Node& node = graph_.nodes[index];
-        const Kind& kind = *registry_.find(node.kind);
-        const auto inputs = graph_.inputs_of(index);
+        const Kind& kind = kind_of(index);
+        const auto& inputs = edges_.inputs[index];
         const bool passes = kind.linear || kind.onward;
-        Shares shares;
+        Gathered shares;
         if (kind.paths)
             for (const auto& text = kind.paths(node); const auto& own : text)
-                shares.push_back({PathSet::parse(own), quoted(node.name), 1, false, true, index});
+                shares.add({PathSet::parse(own), quoted(node.name), 1, false, true, index});
         if ((!kind.paths && !passes && !kind.converts) || (!inputs.empty() && !passes))
-            shares.push_back({{}, quoted(node.name), 1, false, false, index});
+            shares.add({{}, quoted(node.name), 1, false, false, index});
         if (kind.converts)
-            for (const std::size_t taken : graph_.taken_by(index))
-                for (Share share : of(taken)) {
+            for (const std::size_t taken : edges_.taken[index])
+                for (Share share : of_[taken]) {
                     share.who = quoted(node.name) + " from " + share.who;
-                    shares.push_back(std::move(share));
+                    shares.add(std::move(share));
                 }
-        if (!passes) return shares;
+        if (passes) add_inputs(index, shares);
+        return shares.take();
+    }
+
+    void add_inputs(std::size_t index, Gathered& shares) const {
+        const Node& node = graph_.nodes[index];
+        const Kind& kind = kind_of(index);
         const PathSet onward = PathSet::parse(kind.onward.value_or(""));
+        const auto& inputs = edges_.inputs[index];
         for (std::size_t i = 0; i < inputs.size(); ++i)
-            for (Share share : of(inputs[i])) {
+            for (Share share : of_[inputs[i]]) {
                 share.paths = share.paths.then(onward);
                 share.part = share.part || kind.partial || weighted(node, kind, i);
                 if (kind.onward && !kind.onward->empty() && kind.role == Role::light)
                     share.who = quoted(node.name) + " of " + share.who;
-                shares.push_back(std::move(share));
+                shares.add(std::move(share));
             }
-        return shares;
     }
 
     // Has the input a weight of its own?
@@ -78,26 +106,12 @@ private:
         return false;
     }
 
-    // What arrives by several ways from the same node in the same manner is one share that is there several times.
-    static Shares together(Shares shares) {
-        std::map<std::pair<std::string, bool>, std::size_t> at;
-        Shares all;
-        for (Share& share : shares) {
-            const auto [known, added] = at.emplace(std::pair(share.who, share.part), all.size());
-            if (added && all.size() < many_shares)
-                all.push_back(std::move(share));
-            else if (!added && known->second < all.size())
-                all[known->second].times = 2;
-        }
-        return all;
-    }
-
     static std::string quoted(const std::string& text) { return "'" + text + "'"; }
 
     const Graph& graph_;
     const Registry& registry_;
+    const Edges edges_;
     std::vector<Shares> of_;
-    std::vector<bool> done_;
 };
 
 // The first share that a later one has a path in common with is named with it, and no third one: one mistake, one line.

@@ -11,8 +11,8 @@ namespace lightnet {
 /// One thing that a place is asked to do for a node. Travels as a question; bytes answer it.
 struct Step {
     enum class Kind : std::uint32_t {
-        prepare,  // begin prepare(); answered by a Report when it first waits, or ends
-        go_on,    // the result of call `call` is there: `data` names it. Answered by the next Report
+        prepare,  // begin prepare(); answered by a StepReport when it first waits, or ends
+        go_on,    // the result of call `call` is there: `data` names it. Answered by the next StepReport
         shards,   // do `count` shards of call `call`, from `first` on; answered by join_shards() of their results
         collect,  // answered by what the node has noted in the rehearsal that is call `call`; `first` is the asker's
         attend,   // answered by LockWords as soon as there are some; `call` 1: by all that holds now, once more
@@ -27,7 +27,7 @@ struct Step {
 };
 
 /// Where a node's prepare() is at one place. On the wire, lines that the node says to the user follow it.
-struct Report {
+struct StepReport {
     enum class Kind : std::uint32_t {
         map,       // waits for the result of `count` shards
         sectors,   // the same for what lies in its sector alone: every shard gives a list for each sector
@@ -38,10 +38,10 @@ struct Report {
     Kind kind = Kind::done;
     std::uint32_t call = 0;
     std::uint32_t count = 0;
-    friend bool operator==(const Report&, const Report&) = default;
+    friend bool operator==(const StepReport&, const StepReport&) = default;
 };
 
 static_assert(std::is_trivially_copyable_v<Step> && sizeof(Step) == 48);
-static_assert(std::is_trivially_copyable_v<Report> && sizeof(Report) == 12);
+static_assert(std::is_trivially_copyable_v<StepReport> && sizeof(StepReport) == 12);
 
 }  // namespace lightnet

@@ -20,7 +20,7 @@ constexpr double patience_at_first = 1;  // seconds, as long as nobody has answe
 
 }  // namespace
 
-Call::Call(const Report& what, bool rehearsed, std::uint32_t parts)
+Call::Call(const StepReport& what, bool rehearsed, std::uint32_t parts)
     : what_(what), rehearsed_(rehearsed), kept_(parts), lent_(parts) {
     begin_again();
 }
@@ -92,7 +92,7 @@ bool Call::answer(const Shards& shards, const Bytes& joined, double now) {
 
 void Call::take(const Results& results, std::uint32_t shard, double now) {
     if (answered_[shard]) return;
-    if (what_.kind == Report::Kind::sectors && split_shards(results.own).size() != parts())
+    if (what_.kind == StepReport::Kind::sectors && split_shards(results.own).size() != parts())
         throw Error("results of preparing", "they are not for as many sectors as there are");
     answered_[shard] = true;
     seconds_ += now - begun_[shard];
@@ -101,7 +101,7 @@ void Call::take(const Results& results, std::uint32_t shard, double now) {
 }
 
 std::vector<std::span<const std::byte>> Call::parts_of(const Results& shard) const {
-    if (what_.kind == Report::Kind::sectors) return split_shards(shard.own);
+    if (what_.kind == StepReport::Kind::sectors) return split_shards(shard.own);
     return {shard.own};
 }
 
@@ -144,7 +144,7 @@ bool Call::restore(std::uint32_t part, const Result& result) {
     return true;
 }
 
-Call& Calls::reported(std::size_t node, const Report& at) {
+Call& Calls::reported(std::size_t node, const StepReport& at) {
     const std::size_t whole = whole_of(graph_, node);
     if (const auto known = calls_.find({whole, at.call}); known != calls_.end()) {
         if (known->second.what() != at)
@@ -153,10 +153,11 @@ Call& Calls::reported(std::size_t node, const Report& at) {
         return known->second;
     }
     const auto* sector = sector_at(graph_, node);
-    if (at.kind == Report::Kind::sectors && !sector)
+    if (at.kind == StepReport::Kind::sectors && !sector)
         throw Error("'" + graph_.nodes[whole].name + "' prepares for sectors, but has none");
-    const bool rehearsed = at.kind == Report::Kind::rehearse || (at.call > 0 && of(whole, at.call - 1).rehearsed());
-    auto& call = calls_[{whole, at.call}] = Call(at, rehearsed, at.kind == Report::Kind::sectors ? sector->count : 1);
+    const bool rehearsed = at.kind == StepReport::Kind::rehearse || (at.call > 0 && of(whole, at.call - 1).rehearsed());
+    auto& call = calls_[{whole, at.call}] =
+        Call(at, rehearsed, at.kind == StepReport::Kind::sectors ? sector->count : 1);
     if (!cache_ || call.done()) return call;
     std::vector<Result> parts;
     for (std::uint32_t part = 0; part < call.parts(); ++part) {
@@ -168,7 +169,7 @@ Call& Calls::reported(std::size_t node, const Report& at) {
 }
 
 Hash Calls::recipe_of(std::size_t whole, std::uint32_t number, const Call& call, std::uint32_t part) const {
-    const std::string which = call.what().kind == Report::Kind::sectors
+    const std::string which = call.what().kind == StepReport::Kind::sectors
                                   ? "\nsector " + std::to_string(part + 1) + " of " + std::to_string(call.parts())
                                   : std::string();
     return recipes_.of(whole, number, call.rehearsed(), which);
@@ -176,7 +177,7 @@ Hash Calls::recipe_of(std::size_t whole, std::uint32_t number, const Call& call,
 
 std::uint32_t Calls::part_of(std::size_t node, const Call& call) const {
     const auto* sector = sector_at(graph_, node);
-    return sector && call.what().kind == Report::Kind::sectors ? sector->index : 0;
+    return sector && call.what().kind == StepReport::Kind::sectors ? sector->index : 0;
 }
 
 Bytes Calls::result(std::size_t node, std::uint32_t number) {
@@ -198,7 +199,7 @@ void Calls::keep(std::size_t node, std::uint32_t number) {
 
 void Calls::all_have(std::size_t node, std::uint32_t number) {
     auto& call = of(node, number);
-    if (cache_ && call.done() && call.what().kind == Report::Kind::sectors) call.let_go();
+    if (cache_ && call.done() && call.what().kind == StepReport::Kind::sectors) call.let_go();
 }
 
 std::map<std::string, Hash> Calls::hashes() const {

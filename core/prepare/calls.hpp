@@ -30,9 +30,9 @@ class Call {
 public:
     Call() = default;
     /// `parts`: how many results it has; more than one where each sector of a node gets its own.
-    Call(const Report& what, bool rehearsed, std::uint32_t parts = 1);
+    Call(const StepReport& what, bool rehearsed, std::uint32_t parts = 1);
 
-    const Report& what() const { return what_; }
+    const StepReport& what() const { return what_; }
     /// It is a rehearsal, or comes after one.
     bool rehearsed() const { return rehearsed_; }
     std::uint32_t parts() const { return static_cast<std::uint32_t>(kept_.size()); }
@@ -42,7 +42,7 @@ public:
     const Hash& name(std::uint32_t part = 0) const { return names_[part]; }
     std::size_t missing() const { return missing_; }
     /// Does it take shards?
-    bool shared_out() const { return what_.kind == Report::Kind::map || what_.kind == Report::Kind::sectors; }
+    bool shared_out() const { return what_.kind == StepReport::Kind::map || what_.kind == StepReport::Kind::sectors; }
 
     /// A place that wants shards.
     struct Asker {
@@ -79,7 +79,7 @@ private:
     void join_what_is_next();
     bool is_late(std::uint32_t shard, double now) const;
 
-    Report what_;
+    StepReport what_;
     bool rehearsed_ = false;
     std::vector<Bytes> kept_ = std::vector<Bytes>(1);  // results, by part
     std::vector<std::weak_ptr<const std::vector<std::byte>>> lent_ =
@@ -110,7 +110,7 @@ public:
 
     /// The call that a place reports; begun, or found in the cache, when nobody has reported it before. Throws Error
     /// when another place has reported something else.
-    Call& reported(std::size_t node, const Report& at);
+    Call& reported(std::size_t node, const StepReport& at);
     /// One that has been reported.
     Call& of(std::size_t node, std::uint32_t number) { return calls_.at({whole_of(graph_, node), number}); }
     /// The result for a node that has a sector or is whole. Null when there is none, so far or any more: then its

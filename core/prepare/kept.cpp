@@ -13,58 +13,6 @@ namespace {
 constexpr std::string_view first_line = "lightnet kept 1";
 constexpr std::size_t longest_head = 1024;
 
-/// Texts and numbers of a scene, one after the other.
-class Sum {
-public:
-    template <class T>
-    void add(const T& value) {
-        static_assert(std::is_trivially_copyable_v<T>);
-        text_.append(reinterpret_cast<const char*>(&value), sizeof value);
-    }
-    template <class T>
-    void add_all(const std::vector<T>& values) {
-        add(values.size());
-        if (!values.empty())
-            add(content_hash(
-                std::string_view(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T))));
-    }
-    Hash hash() const { return content_hash(text_); }
-
-private:
-    std::string text_;
-};
-
-void add_shape(Sum& sum, const Shape& shape) {
-    if (const auto* mesh = std::get_if<Mesh>(&shape.geometry)) {
-        sum.add_all(mesh->positions);
-        sum.add_all(mesh->triangles);
-    } else {
-        const auto& ball = std::get<Sphere>(shape.geometry);
-        sum.add(ball.center);
-        sum.add(ball.radius);
-    }
-    sum.add(shape.material);
-    if (shape.emission) sum.add(shape.emission->radiance);
-}
-
-void add_picture(Sum& sum, const Image& image) {
-    sum.add(image.width);
-    sum.add(image.height);
-    if (image.empty()) return;
-    constexpr std::uint32_t looks = 16;  // along a side
-    for (std::uint32_t y = 0; y < looks; ++y)
-        for (std::uint32_t x = 0; x < looks; ++x)
-            sum.add(image.colour(std::uint32_t(std::uint64_t{image.width} * x / looks),
-                                 std::uint32_t(std::uint64_t{image.height} * y / looks)));
-}
-
-void add_texture(Sum& sum, const Texture& texture) {
-    sum.add(texture.scale);
-    sum.add(texture.pattern.index());
-    if (const auto* picture = std::get_if<ImageTexture>(&texture.pattern); picture && picture->image)
-        add_picture(sum, *picture->image);
-}
-
 template <class T>
 const T* param_of(const Node& node, const char* name) {
     const auto found = node.params.find(name);
@@ -89,27 +37,6 @@ std::string after(const std::string& head, const std::string& word) {
 }
 
 }  // namespace
-
-Hash identity_of(const SceneData& scene) {
-    Sum sum;
-    for (const auto& shape : scene.shapes) add_shape(sum, shape);
-    for (const auto& instance : scene.instances) {
-        sum.add(instance.object);
-        sum.add(instance.to_world.m);
-    }
-    for (const auto& material : scene.materials) {
-        sum.add(material.model.index());
-        sum.add(material.absorption);
-    }
-    for (const auto& texture : scene.textures) add_texture(sum, texture);
-    for (const auto& light : scene.lights) std::visit([&](const auto& one) { sum.add(one); }, light);
-    for (const auto& sky : scene.environments) {
-        sum.add(sky.radiance);
-        sum.add(sky.to_world.m);
-        if (sky.image) add_picture(sum, *sky.image);
-    }
-    return sum.hash();
-}
 
 std::string kept_text(const Kind& kind, const Hash& scene, std::span<const std::byte> results) {
     return std::string(first_line) + "\nwhat " + kind.freezes + "\nscene " + to_hex(scene) + "\nsum " +

@@ -11,13 +11,10 @@
 #include "core/graph/kind.hpp"
 #include "core/hash.hpp"
 #include "core/readers/files.hpp"
+#include "core/scene/identity.hpp"
 #include "core/scene/scene_data.hpp"
 
 namespace lightnet {
-
-/// Names what light meets in a scene: surfaces, where they stand, what they are made of, and what shines. Camera, film
-/// and the places of files don't count: another view of a room is the same room.
-Hash identity_of(const SceneData& scene);
 
 /// The content of a file that keeps what a node of that kind has learnt: some lines of text, then the results.
 std::string kept_text(const Kind& kind, const Hash& scene, std::span<const std::byte> results);

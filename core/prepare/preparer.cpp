@@ -44,7 +44,7 @@ public:
             failure_ = error.what();
         }
         if (failure_.empty() && sectors_) say_what_it_has();
-        at_ = {Report::Kind::done, call_, 0};
+        at_ = {StepReport::Kind::done, call_, 0};
         waiting_ = true;
         report();
     }
@@ -57,7 +57,7 @@ public:
 
     void go_on(Message ask) {
         const Step step = step_of(ask);
-        if (!waiting_ || at_.call != step.call || at_.kind == Report::Kind::done) return this->ask(std::move(ask));
+        if (!waiting_ || at_.call != step.call || at_.kind == StepReport::Kind::done) return this->ask(std::move(ask));
         result_ = ask.data ? ask.data : preparer_.network_.results ? preparer_.network_.results(step.data) : nullptr;
         if (!result_) return fail(ask, "the result of a preparing step is not here");
         preparer_.result_bytes_ += result_->size();
@@ -76,7 +76,7 @@ public:
     }
 
     Bytes shards(const Step& step) {
-        if (!waiting_ || (at_.kind != Report::Kind::map && at_.kind != Report::Kind::sectors) ||
+        if (!waiting_ || (at_.kind != StepReport::Kind::map && at_.kind != StepReport::Kind::sectors) ||
             at_.call != step.call || step.first >= at_.count || step.count < 1 || step.count > at_.count - step.first)
             throw Error("it does not wait for these shards");
         // prepare() must stay where it is while its work is done: work looks at what lies on its stack.
@@ -104,7 +104,7 @@ public:
     std::vector<Query> rehearse(std::uint32_t stride) override {
         auto& rehearsal = preparer_.assembly_.rehearsal(index_);
         rehearsal.begin();
-        const Mapped<Query> noted(wait(Report::Kind::rehearse, stride));
+        const Mapped<Query> noted(wait(StepReport::Kind::rehearse, stride));
         rehearsal.end();
         return {noted.begin(), noted.end()};
     }
@@ -114,7 +114,7 @@ public:
 protected:
     Bytes map_bytes(std::size_t count, const Shard& work) override {
         work_ = &work;
-        return wait(Report::Kind::map, static_cast<std::uint32_t>(count));
+        return wait(StepReport::Kind::map, static_cast<std::uint32_t>(count));
     }
     const Sectors* sectors() override {
         if (!sectors_ && sector_at(preparer_.network_.graph, index_)) sectors_ = preparer_.network_.sectors(index_);
@@ -122,7 +122,7 @@ protected:
     }
     Bytes map_sectors(std::size_t count, const Shard& work) override {
         work_ = &work;
-        auto near = wait(Report::Kind::sectors, static_cast<std::uint32_t>(count));
+        auto near = wait(StepReport::Kind::sectors, static_cast<std::uint32_t>(count));
         near_bytes_ += near->size();
         return near;
     }
@@ -138,7 +138,7 @@ private:
             std::to_string(sector->index + 1) + " of " + std::to_string(sector->count));
     }
 
-    Bytes wait(Report::Kind kind, std::uint32_t count) {
+    Bytes wait(StepReport::Kind kind, std::uint32_t count) {
         at_ = {kind, call_++, count};
         waiting_ = true;
         report();
@@ -174,7 +174,7 @@ private:
     std::size_t index_;
     Fibers::Fiber* fiber_ = nullptr;
     std::optional<Message> asked_;  // the step that the next report answers
-    Report at_;
+    StepReport at_;
     bool waiting_ = false;  // at at_, for a result, or for nothing more
     std::string failure_, said_;
     const Shard* work_ = nullptr;

@@ -10,10 +10,7 @@
 namespace lightnet {
 namespace {
 
-// The channels of a master are told apart from those of the one before it, whose late replies mean something else.
-constexpr unsigned epoch_bits = 20;
-constexpr std::uint32_t channel_mask = (1u << epoch_bits) - 1;
-constexpr std::uint32_t own_channel = 0xffffffff;
+constexpr std::uint32_t own_channel = 0xffffffff;  // no master's: see Epoch::most_channels
 
 template <class T>
 std::vector<T> values_of(const Bytes& data) {
@@ -267,15 +264,15 @@ void Conductor::failed(const Sent& sent, const std::string& why) {
 }
 
 void Conductor::reported(const Sent& sent, const Bytes& data) {
-    Report report;
+    StepReport report;
     if (data && data->size() >= sizeof report) std::memcpy(&report, data->data(), sizeof report);
-    if (!data || data->size() < sizeof report || report.kind > Report::Kind::last)
+    if (!data || data->size() < sizeof report || report.kind > StepReport::Kind::last)
         return failed(
             sent, "'" + name_of(sent.position) + "' on " + sent.to.place.first + ": a report of preparing is damaged");
     say(sent.to.node, {reinterpret_cast<const char*>(data->data()) + sizeof report, data->size() - sizeof report});
     auto& follower = followers_[sent.to];
     follower.at = report;
-    follower.state = follower.at.kind == Report::Kind::done ? Follower::State::done : Follower::State::waiting;
+    follower.state = follower.at.kind == StepReport::Kind::done ? Follower::State::done : Follower::State::waiting;
     let_go_of_taken(sent.position, report.call);
     advance();
 }
@@ -343,13 +340,15 @@ bool Conductor::prepare(std::chrono::nanoseconds most) {
 
 bool Conductor::ask(const PlaceAt& to, Message& message) {
     const auto channel = message.channel;
-    message.channel |= epoch_ << epoch_bits;
+    message.channel = epoch_.marked(channel);
     if (carrier_.ask(to, message)) return true;
     message.channel = channel;
     return false;
 }
 
-void Conductor::give_up(std::uint32_t channel) { carrier_.give_up(channel | epoch_ << epoch_bits); }
+void Conductor::give_up(std::uint32_t channel) {
+    if (channel < Epoch::most_channels) carrier_.give_up(epoch_.marked(channel));  // else nothing was ever asked by it
+}
 
 std::optional<Message> Conductor::receive() {
     while (true) {
@@ -365,8 +364,8 @@ std::optional<Message> Conductor::receive() {
             if (message->plan) propose(*message->plan);
         } else if (message->channel == own_channel) {
             take(std::move(*message));
-        } else if (message->channel >> epoch_bits == epoch_) {
-            message->channel &= channel_mask;
+        } else if (epoch_.has(message->channel)) {
+            message->channel = Epoch::channel_of(message->channel);
             return message;
         }
     }
@@ -388,7 +387,7 @@ std::string Conductor::progress() const {
     std::string text = name_of(done_);
     const auto* call = calls_.unfinished(order_[done_]);
     if (!call) return text;
-    if (call->what().kind == Report::Kind::rehearse) return text + ": rehearsal";
+    if (call->what().kind == StepReport::Kind::rehearse) return text + ": rehearsal";
     return text + ": " + std::to_string(call->what().count - call->missing()) + "/" +
            std::to_string(call->what().count);
 }

@@ -19,6 +19,7 @@
 #include "core/prepare/calls.hpp"
 #include "core/prepare/lock_desk.hpp"
 #include "core/prepare/prepared.hpp"
+#include "core/runtime/epoch.hpp"
 #include "core/runtime/master_renderer.hpp"
 
 namespace lightnet {
@@ -84,7 +85,7 @@ private:
     struct Follower {
         enum class State { idle, asked, waiting, done };
         State state = State::idle;
-        Report at;
+        StepReport at;
         std::size_t asks = 0;  // for shards, handed out and not answered
     };
     /// A step that was sent and not answered.
@@ -154,7 +155,7 @@ private:
     std::set<PlaceKey> known_prepared_;  // have caught up once
     std::optional<Rehearsing> rehearsing_;
     std::set<std::string> said_;
-    std::uint32_t epoch_ = 0;  // of the master whose replies count
+    Epoch epoch_;  // of the master whose replies count
 };
 
 }  // namespace lightnet

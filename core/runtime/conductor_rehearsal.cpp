@@ -23,7 +23,7 @@ void Conductor::collect() {
         const auto call = followers_[all[0]].at.call;
         for (const auto& copy : all) {
             const auto& follower = followers_[copy];
-            if (follower.state != Follower::State::waiting || follower.at.kind != Report::Kind::rehearse ||
+            if (follower.state != Follower::State::waiting || follower.at.kind != StepReport::Kind::rehearse ||
                 follower.at.call != call || calls_.reported(copy.node, follower.at).done())
                 return;
         }
@@ -32,7 +32,7 @@ void Conductor::collect() {
     if (!rehearsing_->rendered || rehearsing_->broken) return;
     for (const auto& copy : rehearsing_->copies)
         if (!rehearsing_->collecting.contains(copy) &&
-            send(copy, done_, {.kind = Step::Kind::collect, .call = rehearsing_->call, .first = epoch_}))
+            send(copy, done_, {.kind = Step::Kind::collect, .call = rehearsing_->call, .first = epoch_.number()}))
             rehearsing_->collecting.insert(copy);
 }
 
@@ -44,18 +44,19 @@ void Conductor::begin_rehearsal(std::uint32_t call) {
     job.tiles = rehearsal_tiles(*options_.graph, *options_.registry, calls_.of(order_[done_], call).what().count);
     job.credit = {tiles_per_place, tiles_per_place * MasterRenderer::most_together};
     job.double_tail = false;  // what is still under way at its end would note questions in the next rehearsal
-    ++epoch_;
+    epoch_.begin_next();
     rehearsing_.emplace();
     rehearsing_->call = call;
     for (const auto& copy : copies(done_)) rehearsing_->copies.insert(copy);
     rehearsing_->master =
         std::make_unique<MasterRenderer>(std::move(job), *this, [](const Tile&, std::span<const Rgb>) {});
+    enforce();  // who could not be asked because of the rehearsal before can be now
     rehearsing_->master->use(in_force_);
 }
 
 void Conductor::noted(const Sent& sent, const Bytes& data) {
     // What was noted in one that was broken off, perhaps of the same call, does not count.
-    if (!rehearsing_ || rehearsing_->broken || sent.step.first != epoch_) return;
+    if (!rehearsing_ || rehearsing_->broken || sent.step.first != epoch_.number()) return;
     auto& all = rehearsing_->noted;
     const std::size_t before = all.size();
     all.resize(before + (data ? data->size() / sizeof(Query) : 0));
@@ -72,7 +73,7 @@ void Conductor::noted(const Sent& sent, const Bytes& data) {
 
 void Conductor::end_rehearsal() {
     rehearsing_.reset();
-    ++epoch_;
+    epoch_.begin_next();
 }
 
 }  // namespace lightnet

@@ -2,6 +2,8 @@
 
 #include <bit>
 #include <cmath>
+#include <map>
+#include <mutex>
 
 #include "core/error.hpp"
 #include "core/math/random.hpp"
@@ -77,13 +79,32 @@ void calculate(Digest& digest) {
     }
 }
 
-}  // namespace
-
-std::uint64_t fingerprint(const std::string& isa) {
+std::uint64_t computed(const std::string& isa) {
     Digest digest;
     trace(digest, isa);
     calculate(digest);
     return digest.value();
+}
+
+/// What was computed stays true as long as the process lives. Names that are no instruction set are not kept.
+class Known {
+public:
+    std::uint64_t of(const std::string& isa) {
+        const std::lock_guard lock(known_mutex_);
+        if (const auto found = known_.find(isa); found != known_.end()) return found->second;
+        return known_[isa] = computed(isa);
+    }
+
+private:
+    std::mutex known_mutex_;
+    std::map<std::string, std::uint64_t> known_;
+};
+
+}  // namespace
+
+std::uint64_t fingerprint(const std::string& isa) {
+    static Known known;
+    return known.of(isa);
 }
 
 std::string usual_isa() {

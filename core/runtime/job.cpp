@@ -1,96 +1,107 @@
 #include "core/runtime/job.hpp"
 
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/build_info.hpp"
 #include "core/error.hpp"
+#include "core/graph/check.hpp"
+#include "core/graph/graph_film.hpp"
+#include "core/graph/json.hpp"
 #include "core/prepare/load_scene.hpp"
 
 namespace lightnet {
 
-using Json = nlohmann::json;
-
 namespace {
 
-// A graph's own 32 levels, and those around it: what is nested deeper can't be told apart from an attack on the stack.
-constexpr int most_depth = 40;
+// Around the graph's own levels.
+constexpr JsonLimits job_limits{.bytes = most_job_bytes, .depth = JsonLimits{}.depth + 4};
 
-Json parse(std::string_view text) {
-    return Json::parse(text, [](int depth, Json::parse_event_t, const Json&) {
-        if (depth > most_depth) throw Error("not a job", "nested too deeply");
-        return true;
-    });
-}
+[[noreturn]] void not_a_job(const std::string& what) { throw Error("not a job", what); }
 
 template <class Integer>
 Integer count_of(const Json& object, const char* key) {
-    const auto& number = object.at(key);
-    if (!number.is_number_unsigned() || number.get<std::uint64_t>() > std::numeric_limits<Integer>::max())
-        throw Error("not a job", std::string("'") + key + "' is no count");
-    return number.get<Integer>();
+    try {
+        return object.at(key).whole<Integer>();
+    } catch (const Error& error) {
+        not_a_job(std::string("'") + key + "' is no count: " + error.what());
+    }
+}
+
+PlaceRules rules_of(const Json& json) {
+    PlaceRules rules;
+    rules.bundles.questions = count_of<std::size_t>(json, "questions");
+    rules.bundles.oldest = std::chrono::microseconds(count_of<std::uint32_t>(json, "oldest_us"));
+    rules.bundles.eager = count_of<std::size_t>(json, "eager");
+    rules.credit.bundles = count_of<std::size_t>(json, "credit_bundles");
+    rules.credit.questions = count_of<std::size_t>(json, "credit_questions");
+    rules.credit.bytes = count_of<std::size_t>(json, "credit_bytes");
+    rules.spare_fibers = count_of<std::size_t>(json, "spare_fibers");
+    rules.side_fibers = count_of<std::size_t>(json, "side_fibers");
+    rules.check = json.at("check").flag();
+    rules.call_own_nodes = json.at("call_own_nodes").flag();
+    return rules;
+}
+
+JobFile file_of(const Json& json) {
+    const auto hash = hash_from_hex(json.at("hash").text());
+    if (!hash) not_a_job("a file of it has no proper hash");
+    return {json.at("path").text(), *hash, count_of<std::uint64_t>(json, "size")};
 }
 
 }  // namespace
 
 std::string to_json(const Job& job) {
-    Json files = Json::array();
+    nlohmann::json files = nlohmann::json::array();
     for (const auto& file : job.files)
         files.push_back({{"path", file.path}, {"hash", to_hex(file.hash)}, {"size", file.size}});
     const auto& rules = job.rules;
-    return Json{{"graph", Json::parse(to_json(job.graph))},
-                {"scene", job.scene},
-                {"files", std::move(files)},
-                {"seed", job.seed},
-                {"isa", job.isa},
-                {"width", job.width},
-                {"height", job.height},
-                {"rules",
-                 {{"questions", rules.bundles.questions},
-                  {"oldest_us", rules.bundles.oldest.count()},
-                  {"eager", rules.bundles.eager},
-                  {"credit_bundles", rules.credit.bundles},
-                  {"credit_questions", rules.credit.questions},
-                  {"credit_bytes", rules.credit.bytes},
-                  {"spare_fibers", rules.spare_fibers},
-                  {"side_fibers", rules.side_fibers},
-                  {"check", rules.check},
-                  {"call_own_nodes", rules.call_own_nodes}}},
-                {"checking", job.checking}}
+    return nlohmann::json{{"graph", nlohmann::json::parse(to_json(job.graph))},
+                          {"scene", job.scene},
+                          {"files", std::move(files)},
+                          {"seed", job.seed},
+                          {"isa", job.isa},
+                          {"width", job.width},
+                          {"height", job.height},
+                          {"rules",
+                           {{"questions", rules.bundles.questions},
+                            {"oldest_us", rules.bundles.oldest.count()},
+                            {"eager", rules.bundles.eager},
+                            {"credit_bundles", rules.credit.bundles},
+                            {"credit_questions", rules.credit.questions},
+                            {"credit_bytes", rules.credit.bytes},
+                            {"spare_fibers", rules.spare_fibers},
+                            {"side_fibers", rules.side_fibers},
+                            {"check", rules.check},
+                            {"call_own_nodes", rules.call_own_nodes}}},
+                          {"checking", job.checking}}
         .dump();
 }
 
 Job job_from_json(std::string_view text) {
+    const Json json = parse_json(text, job_limits);
+    Job job;
+    job.graph = graph_from_json(json.at("graph"));
+    job.scene = json.at("scene").text();
+    for (const auto& file : json.at("files").list()) job.files.push_back(file_of(file));
+    job.seed = count_of<std::uint64_t>(json, "seed");
+    job.isa = json.at("isa").text();
+    job.width = count_of<std::uint32_t>(json, "width");
+    job.height = count_of<std::uint32_t>(json, "height");
+    job.rules = rules_of(json.at("rules"));
+    job.checking = json.at("checking").flag();
+    return job;
+}
+
+Job read_job(std::string_view text, const Registry& registry) {
+    Job job = job_from_json(text);
+    const auto is_side = [](std::uint32_t pixels) { return 1 <= pixels && pixels <= longest_side; };
+    if (!is_side(job.width) || !is_side(job.height)) not_a_job("its picture has a side that no picture has");
     try {
-        const auto json = parse(text);
-        Job job;
-        job.graph = graph_from_json(json.at("graph").dump());
-        job.scene = json.at("scene");
-        for (const auto& file : json.at("files")) {
-            const auto hash = hash_from_hex(file.at("hash").get<std::string>());
-            if (!hash) throw Error("a file of the job has no proper hash");
-            job.files.push_back({file.at("path"), *hash, count_of<std::uint64_t>(file, "size")});
-        }
-        job.seed = count_of<std::uint64_t>(json, "seed");
-        job.isa = json.at("isa");
-        job.width = count_of<std::uint32_t>(json, "width");
-        job.height = count_of<std::uint32_t>(json, "height");
-        const auto& rules = json.at("rules");
-        job.rules.bundles.questions = count_of<std::size_t>(rules, "questions");
-        job.rules.bundles.oldest = std::chrono::microseconds(count_of<std::uint32_t>(rules, "oldest_us"));
-        job.rules.bundles.eager = count_of<std::size_t>(rules, "eager");
-        job.rules.credit.bundles = count_of<std::size_t>(rules, "credit_bundles");
-        job.rules.credit.questions = count_of<std::size_t>(rules, "credit_questions");
-        job.rules.credit.bytes = count_of<std::size_t>(rules, "credit_bytes");
-        job.rules.spare_fibers = count_of<std::size_t>(rules, "spare_fibers");
-        job.rules.side_fibers = count_of<std::size_t>(rules, "side_fibers");
-        job.rules.check = rules.at("check");
-        job.rules.call_own_nodes = rules.at("call_own_nodes");
-        job.checking = json.at("checking");
-        return job;
-    } catch (const Json::exception& error) {
-        throw Error("not a job", error.what());
+        job.graph = check(job.graph, registry);
+    } catch (const UserError& error) {
+        throw Error("the job's graph is not sound", error.what());
     }
+    return job;
 }
 
 std::shared_ptr<const Network> build_network(const Job& job, const Registry& registry, Files& files,

@@ -1,6 +1,7 @@
 // What is to be computed: all that a host must know to take part in a run, and nothing of who else does.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -38,9 +39,16 @@ struct Job {
     friend bool operator==(const Job&, const Job&) = default;
 };
 
+/// A job's text is no longer than this: what is longer need not even be taken in.
+inline constexpr std::size_t most_job_bytes = std::size_t{32} << 20;
+
 std::string to_json(const Job& job);
 /// Throws Error on anything but a job.
 Job job_from_json(std::string_view text);
+/// A job from elsewhere, with all that has to be looked at before it can be trusted: the graph is sound, as check() has
+/// it. Throws Error that says what is wrong. Takes up to some seconds for a text that means ill; touches nothing but
+/// what it is given, so any thread may call it.
+Job read_job(std::string_view text, const Registry& registry);
 
 /// Reads the scene, changes what the graph overrides, and builds everything that the places of a process share.
 std::shared_ptr<const Network> build_network(const Job& job, const Registry& registry, Files& files,

@@ -1,6 +1,8 @@
 #include "core/scene/image.hpp"
 
+#include <array>
 #include <cassert>
+#include <span>
 #include <utility>
 
 namespace lightnet {
@@ -48,6 +50,20 @@ Rgb Image::colour(std::uint32_t x, std::uint32_t y) const {
 float Image::alpha(std::uint32_t x, std::uint32_t y) const {
     if (!has_alpha()) return 1;
     return number((std::size_t{y} * width + x) * channels_ + channels_ - 1, alpha_curve_);
+}
+
+Hash Image::content() const {
+    const auto& [wide, high, channels, numbers, curve, alpha_curve] = *this;  // all of them
+    Hasher hasher;
+    const std::array<std::uint64_t, 4> shape{wide, high, channels, numbers.index()};
+    hasher.add(std::as_bytes(std::span(shape)));
+    std::visit([&](const auto& values) { hasher.add(std::as_bytes(std::span(values))); }, numbers);
+    for (const auto& one : {curve, alpha_curve}) {
+        const std::uint64_t size = one ? one->size() : 0;
+        hasher.add(std::as_bytes(std::span(&size, 1)));
+        if (one) hasher.add(std::as_bytes(std::span(*one)));
+    }
+    return hasher.finish();
 }
 
 std::size_t Image::memory() const {

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/hash.hpp"
 #include "core/math/rgb.hpp"
 
 namespace lightnet {
@@ -35,6 +36,8 @@ public:
     Rgb colour(std::uint32_t x, std::uint32_t y) const;
     /// How opaque that pixel is: 1 where nothing else is said.
     float alpha(std::uint32_t x, std::uint32_t y) const;
+    /// Names what it shows. Another file, or another way to keep the same colours, may be another picture.
+    Hash content() const;
     /// Bytes of its numbers.
     std::size_t memory() const;
 

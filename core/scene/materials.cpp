@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "core/bsdf/albedos.hpp"
@@ -183,13 +184,14 @@ public:
         return CoatedConductorBsdf{metal, coat_, coat, coated_metal_, below};
     }
     Bsdf::Model operator()(const PrincipledMaterial& m) const;
-    // Blends are made of whole Bsdfs; nothing is what a pane of air is.
-    template <class Other>
-    Bsdf::Model operator()(const Other&) const {
-        return ThinDielectricBsdf{1, {}};
-    }
+    Bsdf::Model operator()(const NoMaterial&) const { return air(); }
+    // Blends are made of whole Bsdfs, and nobody asks for the model of one.
+    Bsdf::Model operator()(const MixtureMaterial&) const { return air(); }
+    Bsdf::Model operator()(const TwoFacedMaterial&) const { return air(); }
 
 private:
+    /// A pane of it, which does nothing.
+    static Bsdf::Model air() { return ThinDielectricBsdf{1, {}}; }
     Rgb colour(TextureId texture) const { return look_up(data_.textures, texture, place_); }
     Rgb albedo(TextureId texture) const { return limited(colour(texture)); }
     float times(float value, std::optional<TextureId> texture) const {
@@ -209,6 +211,11 @@ private:
     const Coat* coat_;
     const CoatedMetal* coated_metal_;
 };
+
+// A material that nobody thought of here must not compile: it would be seen as a pane of air.
+struct ForgottenMaterial {};
+static_assert(std::is_invocable_v<const Mixer&, const NoMaterial&> &&
+              !std::is_invocable_v<const Mixer&, const ForgottenMaterial&>);
 
 Bsdf::Model Mixer::operator()(const PrincipledMaterial& m) const {
     PrincipledBsdf model;

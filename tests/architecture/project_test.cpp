@@ -66,6 +66,14 @@ TEST(Project, HasHeadersThatGuardThemselves) { EXPECT_THAT(all_complaints(all_fi
 
 TEST(Project, HasNoFoldersThatIncludeEachOther) { EXPECT_THAT(folder_circles(files_of("core"), "core"), IsEmpty()); }
 
+TEST(Project, HasOneTypeOfEachName) {
+    std::vector<SourceFile> product;
+    for (const char* room : {"core", "nodes", "transport", "lua", "tools"})
+        std::ranges::move(files_of(room), std::back_inserter(product));
+    std::erase_if(product, [](const SourceFile& file) { return file.path.ends_with(".lua"); });
+    EXPECT_THAT(repeated_types(product), IsEmpty());
+}
+
 TEST(Project, HasDocumentsThatShowItsCode) {
     for (const char* document : {"README.md", "CONTRIBUTING.md"})
         EXPECT_THAT(stale_cuts(read(std::filesystem::path(LIGHTNET_SOURCE_DIR) / document), all_files()), IsEmpty());

@@ -35,6 +35,10 @@ Complaints folder_circles(const std::vector<SourceFile>& files, std::string_view
 /// Code blocks of a document that are not, word for word, in the file that they say they are `<!-- cut from -->`.
 Complaints stale_cuts(const SourceFile& document, const std::vector<SourceFile>& files);
 
+/// Types that two files define under one name: two that differ break each other wherever both are linked. Those in
+/// nameless namespaces are each file's own.
+Complaints repeated_types(const std::vector<SourceFile>& files);
+
 /// `text` with its comments and the contents of its string literals blanked; lines stay where they are.
 std::string code_only(std::string_view text);
 

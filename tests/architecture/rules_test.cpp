@@ -87,6 +87,27 @@ TEST(Headers, GuardThemselvesAndOpenNoNamespace) {
     EXPECT_THAT(bad_header({"core/x.cpp", "int x;\n"}), IsEmpty());
 }
 
+TEST(Types, HaveNamesOfTheirOwn) {
+    const SourceFile one{"core/a.hpp", "namespace lightnet {\nstruct Look {\n};\n}\n"};
+    const auto other = [](const std::string& text) { return SourceFile{"core/b.hpp", text}; };
+    for (const std::string same : {"namespace lightnet {\nclass Look final : public Other {};\n}",
+                                   "namespace lightnet { enum class Look : int { a }; }",
+                                   "namespace lightnet { namespace { int x; } struct [[nodiscard]] Look {}; }",
+                                   "namespace lightnet { template <class T> struct Look { }; }"})
+        EXPECT_THAT(repeated_types({one, other(same)}),
+                    ElementsAre(HasSubstr("lightnet::Look is defined in core/a.hpp")))
+            << same;
+    for (const std::string another :
+         {"namespace lightnet { struct Look; class Looks {}; }", "namespace lightnet::gltf { struct Look {}; }",
+          "namespace lightnet { namespace { struct Look {}; } }",
+          "namespace lightnet { struct Eye { struct Look {}; }; }",
+          "namespace lightnet { void f() { struct Look {}; } }", "namespace lightnet { // struct Look {\n}",
+          "namespace lightnet { struct Eye::Look {}; template <class Look> struct Sight {}; enum class Look : int; }"})
+        EXPECT_THAT(repeated_types({one, other(another)}), IsEmpty()) << another;
+    EXPECT_THAT(repeated_types({other("namespace lightnet { struct Look {};")}),
+                ElementsAre(HasSubstr("braces do not pair")));
+}
+
 TEST(Files, AreShort) {
     EXPECT_THAT(too_long({"core/x.cpp", "1\n2\n3\n"}, 3), IsEmpty());
     EXPECT_THAT(too_long({"core/x.cpp", "1\n2\n3\n4\n"}, 3), SizeIs(1));

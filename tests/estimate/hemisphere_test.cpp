@@ -14,10 +14,10 @@ using Sky = std::function<Seen(Vec3 origin, Vec3 direction)>;
 
 IrradianceRecord record_of(Vec3 position, Vec3 normal, std::size_t rays, const Sky& sky, Key key = 1) {
     const Hemisphere hemisphere(rays);
-    std::vector<Look> looks;
+    std::vector<SurfaceLook> looks;
     hemisphere.add_looks(position, normal, key, 0, looks);
     std::vector<Seen> seen;
-    for (const Look& look : looks) seen.push_back(sky(look.ray.origin, look.ray.direction));
+    for (const SurfaceLook& look : looks) seen.push_back(sky(look.ray.origin, look.ray.direction));
     return hemisphere.record(position, normal, seen);
 }
 

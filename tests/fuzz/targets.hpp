@@ -37,8 +37,17 @@ Target serialized();
 /// Pictures of any kind.
 Target pictures();
 
+/// Jobs, as a launcher that nobody knows sends them: read, checked, and laid out. What is accepted must come back the
+/// same.
+Target jobs();
+/// Checkpoints, whose hash is put right, taken up by a film.
+Target checkpoints();
+/// Graph files and hosts files in Lua, and what check() says to them.
+Target graphs();
+
 inline std::vector<Target> all_targets() {
-    return {packets(), scenes(), meshes(), texts(), mitsuba(), gltf(), obj(), serialized(), pictures()};
+    return {packets(), scenes(),     meshes(),   texts(), mitsuba(),     gltf(),
+            obj(),     serialized(), pictures(), jobs(),  checkpoints(), graphs()};
 }
 
 }  // namespace lightnet::fuzz

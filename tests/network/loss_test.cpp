@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <nlohmann/json.hpp>
 
 #include "tests/network/daemons.hpp"
 #include "tests/network/stranger.hpp"
@@ -16,6 +17,16 @@ using Clock = std::chrono::steady_clock;
 // Long enough that something can happen in the middle.
 const std::vector<std::string> some_seconds{"--size",     "128x128", "--samples", std::to_string(256 / slowdown),
                                             "--progress", "json",    "--tile",    "16"};
+
+// Who held a node at the end, as run.json has it.
+std::vector<std::string> holders_of(const std::string& node, const std::string& report) {
+    std::vector<std::string> holders;
+    const auto all = nlohmann::json::parse(report);
+    for (const auto& place : all.at("places"))
+        for (const auto& held : place.at("nodes"))
+            if (held == node) holders.push_back(place.at("host"));
+    return holders;
+}
 
 class Loss : public ::testing::Test {
 protected:
@@ -99,7 +110,10 @@ TEST_F(Loss, OfTheOnlyHostOfAnOperatorMovesItElsewhere) {
                             "\"" + two.endpoint + "\" { bounce = 1 }"});
     ASSERT_TRUE(in_the_middle(*run));
     two.process->signal(SIGKILL);
-    expect_same(*run);
+    const auto end = expect_same(*run);
+    EXPECT_NE(end.said.find(two.endpoint + " is lost"), std::string::npos) << end.said;
+    EXPECT_EQ(holders_of("bounce", end.report), std::vector{one.endpoint}) << end.report;
+    EXPECT_GT(counter(end.report, "asked_again"), 0) << "it should have had work";
 }
 
 TEST_F(Loss, OfAllHostsEndsTheRunWithTheNameOfWhatHasNoPlace) {

@@ -23,7 +23,7 @@ Bytes results(const std::vector<int>& values) {
 constexpr Shards only(std::uint32_t shard) { return {shard, 1}; }
 
 TEST(Call, HandsEachShardOutOnceAndTheLastOnesToThoseWhoAreIdle) {
-    Call call({Report::Kind::map, 0, 5}, false);
+    Call call({StepReport::Kind::map, 0, 5}, false);
     EXPECT_EQ(call.hand_out({0, 2}), only(0));
     EXPECT_EQ(call.hand_out({1, 2}), only(1));
     EXPECT_EQ(call.hand_out({2, 2}), std::nullopt) << "two at a time";
@@ -35,7 +35,7 @@ TEST(Call, HandsEachShardOutOnceAndTheLastOnesToThoseWhoAreIdle) {
 }
 
 TEST(Call, HandsOutOnceMoreWhatSomebodyIsLateWith) {
-    Call call({Report::Kind::map, 0, 3}, false);
+    Call call({StepReport::Kind::map, 0, 3}, false);
     for (std::uint32_t shard = 0; shard < 3; ++shard) EXPECT_EQ(call.hand_out({0, 3, 10}), only(shard));
     call.answer(only(0), results({0}), 10.1);
     EXPECT_EQ(call.hand_out({0, 3, 10.15}), std::nullopt) << "it takes as long as the first, and half as long again";
@@ -46,14 +46,14 @@ TEST(Call, HandsOutOnceMoreWhatSomebodyIsLateWith) {
 }
 
 TEST(Call, WaitsForTheFirstShardsWithPatience) {
-    Call call({Report::Kind::map, 0, 1}, false);
+    Call call({StepReport::Kind::map, 0, 1}, false);
     EXPECT_EQ(call.hand_out({0, 2, 10}), only(0));
     EXPECT_EQ(call.hand_out({0, 2, 10.9}), std::nullopt);
     EXPECT_EQ(call.hand_out({0, 2, 11.1}), only(0));
 }
 
 TEST(Call, PutsShardsTogetherInTheirOrderAndCountsTheFirstAnswerOnly) {
-    Call call({Report::Kind::map, 0, 2}, false);
+    Call call({StepReport::Kind::map, 0, 2}, false);
     call.hand_out({0}), call.hand_out({0}), call.hand_out({0, 1, 100});
     EXPECT_FALSE(call.answer(only(1), results({1})));
     EXPECT_FALSE(call.answer(only(1), results({9})));
@@ -65,7 +65,7 @@ TEST(Call, PutsShardsTogetherInTheirOrderAndCountsTheFirstAnswerOnly) {
 }
 
 TEST(Call, HandsOutAgainWhatALostPlaceHad) {
-    Call call({Report::Kind::map, 0, 2}, false);
+    Call call({StepReport::Kind::map, 0, 2}, false);
     call.hand_out({0}), call.hand_out({0});
     call.take_back(only(1));
     EXPECT_EQ(call.hand_out({0}), only(1));
@@ -76,7 +76,7 @@ TEST(Call, HandsOutAgainWhatALostPlaceHad) {
 
 // Fewer towards the end; what is not answered goes to somebody else.
 TEST(Call, HandsOutSeveralShardsTogetherWhileThereAreMany) {
-    Call call({Report::Kind::map, 0, 20}, false);
+    Call call({StepReport::Kind::map, 0, 20}, false);
     EXPECT_EQ(call.hand_out({0, 2}), (Shards{0, 3}));
     EXPECT_EQ(call.hand_out({1, 2}), (Shards{3, 2}));
     EXPECT_FALSE(call.answer({0, 3}, results({0, 1})));
@@ -104,10 +104,10 @@ TEST(Calls, NamesANodeThatDoesNotPrepareAlikeEverywhere) {
     Graph graph;
     graph.nodes.push_back({"photons", "PhotonMap", {}, {}, {}});
     Calls calls(graph, "", nullptr);
-    calls.reported(0, {Report::Kind::map, 0, 4});
-    EXPECT_NO_THROW(calls.reported(0, {Report::Kind::map, 0, 4}));
+    calls.reported(0, {StepReport::Kind::map, 0, 4});
+    EXPECT_NO_THROW(calls.reported(0, {StepReport::Kind::map, 0, 4}));
     try {
-        calls.reported(0, {Report::Kind::map, 0, 8});
+        calls.reported(0, {StepReport::Kind::map, 0, 8});
         FAIL();
     } catch (const Error& error) {
         EXPECT_THAT(error.what(), testing::HasSubstr("'photons' does not prepare alike"));
@@ -134,7 +134,7 @@ std::vector<int> values(const Bytes& result) {
 }
 
 TEST(Call, GivesEachSectorItsOwnPartInTheOrderOfShards) {
-    Call call({Report::Kind::sectors, 0, 2}, false, 2);
+    Call call({StepReport::Kind::sectors, 0, 2}, false, 2);
     call.hand_out({0}), call.hand_out({0});
     EXPECT_THROW(call.answer(only(0), results({})), Error);
     EXPECT_THROW(call.answer(only(0), done({results({})})), Error) << "of no sector";
@@ -182,7 +182,7 @@ protected:
             }
         }
     }
-    const Report at{Report::Kind::sectors, 0, 3};
+    const StepReport at{StepReport::Kind::sectors, 0, 3};
     Graph graph;
     KeepingCache cache;
     std::optional<Calls> calls;
@@ -215,7 +215,7 @@ TEST_F(SectorCalls, StayInMemoryWhereNothingElseKeepsThem) {
     call.complete_from_shards();
     alone.all_have(0, 0);
     EXPECT_NE(alone.result(2, 0), nullptr);
-    EXPECT_THROW(alone.reported(0, {Report::Kind::sectors, 1, 3}), Error) << "the written node has no sector";
+    EXPECT_THROW(alone.reported(0, {StepReport::Kind::sectors, 1, 3}), Error) << "the written node has no sector";
 }
 
 }  // namespace

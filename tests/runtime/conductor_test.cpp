@@ -120,7 +120,7 @@ TEST(Conductor, PreparesNodesThatDoNotAskEachOtherAtTheSameTime) {
     auto first = next(Step::Kind::prepare, caustics), second = next(Step::Kind::prepare, global);
     EXPECT_TRUE(places.asked.empty());
     // The later one has shards to do while the first still thinks, and is done before it.
-    places.answer(std::move(second), Report{Report::Kind::map, 0, 1});
+    places.answer(std::move(second), StepReport{StepReport::Kind::map, 0, 1});
     lead();
     auto shards = next(Step::Kind::shards, global);
     Message results = reply_to(shards.message);
@@ -128,20 +128,20 @@ TEST(Conductor, PreparesNodesThatDoNotAskEachOtherAtTheSameTime) {
     results.data = join_shards(std::span(&none, 1));
     places.arrived.push_back(results);
     lead();
-    places.answer(next(Step::Kind::go_on, global), Report{Report::Kind::done, 1, 0});
+    places.answer(next(Step::Kind::go_on, global), StepReport{StepReport::Kind::done, 1, 0});
     lead();
     EXPECT_TRUE(places.asked.empty()) << "not before both are done";
     // Who comes now is led through both, too.
     conductor.propose({{{"a", 0}, {"b", 0}}, std::vector<std::vector<std::uint32_t>>(graph.nodes.size(), {0, 1})});
     const auto late_first = next(Step::Kind::prepare, caustics), late_second = next(Step::Kind::prepare, global);
     EXPECT_EQ(late_first.place.host, "b");
-    places.answer(late_first, Report{Report::Kind::done, 0, 0});
-    places.answer(late_second, Report{Report::Kind::map, 0, 1});
+    places.answer(late_first, StepReport{StepReport::Kind::done, 0, 0});
+    places.answer(late_second, StepReport{StepReport::Kind::map, 0, 1});
     lead();
-    places.answer(next(Step::Kind::go_on, global), Report{Report::Kind::done, 1, 0});
+    places.answer(next(Step::Kind::go_on, global), StepReport{StepReport::Kind::done, 1, 0});
     lead();
     EXPECT_TRUE(places.asked.empty());
-    places.answer(std::move(first), Report{Report::Kind::done, 0, 0});
+    places.answer(std::move(first), StepReport{StepReport::Kind::done, 0, 0});
     lead();
     next(Step::Kind::prepare, learned);
     next(Step::Kind::prepare, learned);
@@ -170,7 +170,7 @@ TEST(Conductor, TakesNoNotesOfARehearsalThatWasBrokenOff) {
     const auto lead = [&] { EXPECT_FALSE(conductor.prepare(std::chrono::milliseconds(2))); };
 
     conductor.propose(both);
-    const Report rehearses{Report::Kind::rehearse, 0, 4};
+    const StepReport rehearses{StepReport::Kind::rehearse, 0, 4};
     for (int i = 0; i < 2; ++i) {
         auto prepare = places.take();
         ASSERT_TRUE(prepare.of_kind(Step::Kind::prepare));
@@ -251,13 +251,49 @@ TEST_F(ConductorTrouble, OfTwoHostsWithTheSamePartIsTheRunsOwn) {
 
 TEST_F(ConductorTrouble, OfAHostThatSaysNonsenseIsThatHosts) {
     places.answer(places.take(), char{7});  // no report
-    places.answer(places.take(), Report{Report::Kind::map, 0, 4});
+    places.answer(places.take(), StepReport{StepReport::Kind::map, 0, 4});
     lead();
     ASSERT_EQ(places.taken_out.size(), 1u);
     EXPECT_EQ(places.taken_out[0].substr(0, 2), "a:");
     auto shards = places.take();
     ASSERT_TRUE(shards.of_kind(Step::Kind::shards));
     EXPECT_EQ(shards.place.host, "b") << "which goes on alone";
+}
+
+// Two epochs for each rehearsal: one of it, and one of what follows it.
+TEST(Conductor, TakesRepliesAfterMoreRehearsalsThanThereAreEpochs) {
+    const Registry kinds = test::with_learner();
+    const Graph graph = check(
+        {"test.lua",
+         Nodes{node("scene", "Scene", {Value{std::string("none.pbrt")}}), node("direct", "DirectLighting", {}),
+               node("learned", "Learner", {Value{NodeRef{"direct"}}}),
+               node("image", "RayTracer", {Value{NodeRef{"learned"}}},
+                    {{"scene", Value{NodeRef{"scene"}}}, {"film", Value{Table{{Value{24.0}, Value{16.0}}, {}}}}})}},
+        kinds);
+    ByHand places;
+    Conductor::Options options;
+    options.run = 1;
+    options.graph = &graph;
+    options.registry = &kinds;
+    Conductor conductor(options, places);
+    const auto lead = [&] { EXPECT_FALSE(conductor.prepare(std::chrono::microseconds(50))); };
+    for (std::uint32_t rehearsal = 0; rehearsal < Epoch::count / 2 + 2; ++rehearsal) {
+        // Each host stays for one rehearsal, which is broken off when the next one has taken its place.
+        conductor.propose(
+            {{{std::to_string(rehearsal), 0}}, std::vector<std::vector<std::uint32_t>>(graph.nodes.size(), {0})});
+        auto prepare = places.take();
+        ASSERT_TRUE(prepare.of_kind(Step::Kind::prepare)) << rehearsal;
+        places.answer(std::move(prepare), StepReport{StepReport::Kind::rehearse, 0, 4});
+        for (int patience = 0; places.asked.empty() && patience < 1000; ++patience) lead();
+        ASSERT_FALSE(places.asked.empty()) << "nobody is asked for the tiles of rehearsal " << rehearsal;
+        auto tiles = places.take();
+        ASSERT_TRUE(tiles.of_tiles()) << rehearsal;
+        if (rehearsal % 64 && rehearsal + 4 < Epoch::count / 2) continue;
+        places.answer_tiles(std::move(tiles));
+        for (int patience = 0; places.asked.empty() && patience < 1000; ++patience) lead();
+        ASSERT_TRUE(!places.asked.empty() && places.take().of_kind(Step::Kind::collect))
+            << "the reply to rehearsal " << rehearsal << " was not taken";
+    }
 }
 
 }  // namespace

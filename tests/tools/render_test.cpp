@@ -113,6 +113,24 @@ TEST(Render, LightsByAnyGraph) {
     EXPECT_EQ(lightnet.overrides().exposure, 3);
 }
 
+// Reading a scene starts threads, of which a child that runs Lua would have nothing but their locks.
+TEST(Render, RunsItsGraphBeforeItReadsTheScene) {
+    Bench lightnet;
+    const std::string graph = lightnet.write("broken.lua", "this is no Lua");
+    EXPECT_EQ(lightnet({"render", "no.pbrt", "--lighting", graph}), 2);
+    EXPECT_THAT(lightnet.err, HasSubstr("broken.lua:1: "));
+    EXPECT_THAT(lightnet.err, testing::Not(HasSubstr("no.pbrt")));
+}
+
+TEST(Render, RunsItsHostsBeforeItReadsTheScene) {
+    Bench lightnet;
+    const std::string hosts = lightnet.write("hosts.lua", "print('hosts') place 'tcp://127.0.0.1:1' {}");
+    const std::string scene = lightnet.write("slow.pbrt", "WorldBegin Shape \"sphere\" Nonsense\n");
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(lightnet({"render", scene, "--hosts", hosts}), 2) << "the scene is no scene";
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "hosts\n") << "hosts were not read yet";
+}
+
 TEST(Render, KeepsTheCropOfTheScene) {
     Bench lightnet;
     const std::string scene = lightnet.write("part.pbrt",

@@ -65,11 +65,11 @@ Document::Document(Assets& assets, const std::string& path) : assets_(assets), p
     assets.report().check();
     bytes_ = *bytes;
     try {
-        json_ = parse_json(text_of(json_chunk()));
+        json_ = parse_json(text_of(json_chunk()), document_limits);
     } catch (const Error& problem) {
         throw UserError({path, 0}, problem.what());
     }
-    if (json_.kind != Json::Kind::object) throw UserError({path, 0}, "a glTF file is one JSON object");
+    if (!json_.is_object()) throw UserError({path, 0}, "a glTF file is one JSON object");
     const std::string version = root()["asset"]["version"].text("");
     if (!version.starts_with("2."))
         throw UserError({path, 0}, version.empty() ? "asset.version is missing: only glTF 2.0 is read"

@@ -4,27 +4,19 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <map>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/json.hpp"
 #include "core/readers/report.hpp"
 
 namespace lightnet::gltf {
 
-/// A value.
-struct Json {
-    enum class Kind { null, boolean, number, text, list, object } kind = Kind::null;
-    double number = 0;  // of numbers and booleans
-    std::string text;
-    std::vector<Json> items;
-    std::map<std::string, Json, std::less<>> members;
-};
-
-/// Throws Error (without a file name) when the text is no JSON, is nested too deeply or has too many values.
-Json parse_json(std::string_view text);
+/// What a document may hold: scenes are large.
+inline constexpr JsonLimits document_limits{std::numeric_limits<std::size_t>::max(), 20'000'000, 64};
 
 /// A place in a document, there or not. What has the wrong type is reported with its path ("nodes[3].mesh"), and the
 /// fallback taken. The document and the report must outlive it.
@@ -63,7 +55,9 @@ public:
     Report& report() const { return *report_; }
 
 private:
-    bool is(Json::Kind kind, const char* name) const;
+    template <class T>
+    const T* as(const char* name) const;
+    std::optional<double> any_number() const;
     void read(double* into, std::size_t count) const;
 
     const Json* json_ = nullptr;

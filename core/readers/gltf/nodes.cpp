@@ -128,9 +128,7 @@ private:
         // an index that the file does not hold itself
         for (std::size_t i = nodes_.size(); i-- > 0;) {
             if (child[i]) continue;
-            Json index;
-            index.kind = Json::Kind::number;
-            index.number = static_cast<double>(i);
+            const Json index{std::uint64_t{i}};
             add(At(index, document_.path(), assets_.report()), Matrix{});
         }
     }

@@ -1,0 +1,36 @@
+// Tells the replies to one asker from those to the one before it.
+#pragma once
+
+#include <cstdint>
+
+#include "core/error.hpp"
+
+namespace lightnet {
+
+/// Which of the masters that follow each other on one carrier is at work. Its channels carry the epoch in their upper
+/// bits, so that a late reply to an earlier master, whose channels had the same numbers, is not taken for one to it.
+/// After the last epoch comes the first again: by then no reply is as late as that.
+class Epoch {
+public:
+    static constexpr unsigned channel_bits = 20;  // of a marked channel; the bits above them are the epoch's
+    static constexpr std::uint32_t count = 1u << (32 - channel_bits);
+    static constexpr std::uint32_t most_channels =
+        (1u << channel_bits) - 1;  // one number is left to who asks for itself
+
+    /// The number of the epoch, below `count`.
+    std::uint32_t number() const { return number_; }
+    void begin_next() { number_ = (number_ + 1) % count; }
+
+    /// Throws Error when a master has opened more channels than can be told apart.
+    std::uint32_t marked(std::uint32_t channel) const {
+        if (channel >= most_channels) throw Error("a master has too many channels: places came and went too often");
+        return channel | number_ << channel_bits;
+    }
+    bool has(std::uint32_t marked) const { return marked >> channel_bits == number_; }
+    static std::uint32_t channel_of(std::uint32_t marked) { return marked & ((1u << channel_bits) - 1); }
+
+private:
+    std::uint32_t number_ = 0;
+};
+
+}  // namespace lightnet

@@ -1,0 +1,33 @@
+#include "core/runtime/epoch.hpp"
+
+#include <gtest/gtest.h>
+
+namespace lightnet {
+namespace {
+
+TEST(Epoch, KnowsItsRepliesFromThoseToTheOneBefore) {
+    Epoch epoch;
+    for (std::uint32_t i = 0; i < 2 * Epoch::count + 1; ++i) {
+        const auto first = epoch.marked(0), last = epoch.marked(Epoch::most_channels - 1);
+        ASSERT_TRUE(epoch.has(first) && epoch.has(last)) << i;
+        EXPECT_EQ(Epoch::channel_of(first), 0u);
+        EXPECT_EQ(Epoch::channel_of(last), Epoch::most_channels - 1);
+        epoch.begin_next();
+        ASSERT_FALSE(epoch.has(first) || epoch.has(last)) << i;
+    }
+}
+
+TEST(Epoch, RefusesAChannelThatWouldBeTakenForAnotherEpochs) {
+    const Epoch epoch;
+    EXPECT_THROW(epoch.marked(Epoch::most_channels), Error);
+    EXPECT_THROW(epoch.marked(1u << Epoch::channel_bits), Error);
+}
+
+TEST(Epoch, LeavesTheLastNumberOfAllToTheConductor) {
+    Epoch epoch;
+    for (std::uint32_t i = 1; i < Epoch::count; ++i) epoch.begin_next();
+    EXPECT_EQ(epoch.marked(Epoch::most_channels - 1), 0xfffffffeu);
+}
+
+}  // namespace
+}  // namespace lightnet

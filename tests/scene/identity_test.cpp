@@ -1,0 +1,209 @@
+// What makes another scene of a scene: everything that light meets, and nothing else.
+#include "core/scene/identity.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "core/scene/members.hpp"
+
+namespace lightnet {
+namespace {
+
+std::shared_ptr<const Image> picture(float grey) {
+    return std::make_shared<const Image>(2, 1, std::vector<Rgb>{{grey, 0, 0}, {0, 0, 1}}, std::vector<float>{1, 0.5f});
+}
+
+ImageTexture image_texture() { return {picture(0.5f), Wrap::repeat, Wrap::repeat, {}, {}, false}; }
+Roughness rough() { return {0.1f, 0.2f, TextureId{1}, Roughness::Means::alpha}; }
+
+// One of each kind, with everything that may be left out.
+std::vector<Material> all_materials() {
+    std::vector<Material> materials;
+    const auto add = [&](auto model) {
+        Material& material = materials.emplace_back();
+        material.name = "named";
+        material.model = std::move(model);
+        material.opacity = material.normal_map = material.bump_map = TextureId{0};
+    };
+    add(DiffuseMaterial{1, 0.1f, TextureId{1}});
+    add(ConductorMaterial{{1, 1, TextureId{1}}, rough(), TextureId{1}});
+    add(DielectricMaterial{1.5f, rough(), TextureId{1}, TextureId{1}, false});
+    add(CoatedDiffuseMaterial{1, 1.5f, rough(), TextureId{1}, true, {}});
+    add(CoatedConductorMaterial{{1, 1, TextureId{1}}, rough(), 1.5f, rough(), {}});
+    PrincipledMaterial all;
+    all.metallic_texture = all.transmission_texture = all.specular_texture = all.specular_colour_texture =
+        all.sheen_texture = all.sheen_roughness_texture = all.clearcoat_texture = TextureId{1};
+    all.roughness = all.clearcoat_roughness = rough();
+    add(all);
+    add(MixtureMaterial{0, 1, 1});
+    add(TwoFacedMaterial{0, 1});
+    add(NoMaterial{});
+    return materials;
+}
+
+std::vector<Texture> all_textures() {
+    return {{{1, 1, 1}, {}, false},
+            {{1, 1, 1}, image_texture(), false},
+            {{1, 1, 1}, CheckerTexture{0, 1, {}}, false},
+            {{1, 1, 1}, ProductTexture{0, 1}, false},
+            {{1, 1, 1}, MixTexture{0, 1, 2}, false},
+            {{1, 1, 1}, VertexColour{}, false}};
+}
+
+SceneData room() {
+    SceneData scene;
+    const Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
+                    {{0, 0, 1}, {0, 0, 1}, {0, 1, 1}},
+                    {{0, 0}, {1, 0}, {0, 1}},
+                    {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                    {{0, 1, 2}},
+                    false};
+    scene.shapes.push_back({mesh, 1, AreaEmission{{1, 2, 3}, false, TextureId{1}}, {"room.pbrt", 7}, "lamp"});
+    scene.shapes.push_back({Sphere{{1, 2, 3}, 2, false, {}}, 0, {}, {"room.pbrt", 8}, "ball"});
+    scene.objects.push_back({"chair", {1}});
+    scene.instances.push_back({0, {}});
+    scene.materials = all_materials();
+    scene.textures = all_textures();
+    scene.environments.push_back({{1, 1, 1}, picture(0.25f), {}, {}});
+    scene.lights = {PointLight{{0, 0, 1}, {1, 1, 1}}, SpotLight{{}, {0, 0, 1}, {1, 1, 1}, 0.1f, 0.2f, {}},
+                    DirectionalLight{{0, 0, -1}, {1, 1, 1}}};
+    return scene;
+}
+
+/// Walks through all numbers of a scene, and changes the one with a given index.
+class Change {
+public:
+    explicit Change(std::size_t which) : left_(which) {}
+    bool done() const { return done_; }
+
+    template <class T>
+    void operator()(T& value) {
+        if constexpr (std::is_same_v<T, bool>)
+            here([&] { value = !value; });
+        else if constexpr (std::is_enum_v<T>)
+            here([&] { value = static_cast<T>(static_cast<int>(value) + 1); });
+        else if constexpr (std::is_arithmetic_v<T>)
+            here([&] { value += 1; });
+        else if constexpr (requires { value.m; })
+            (*this)(value.m);
+        else if constexpr (requires { value.r; })
+            each(value.r, value.g, value.b);
+        else if constexpr (requires { value.z; })
+            each(value.x, value.y, value.z);
+        else if constexpr (requires { value.x; })
+            each(value.x, value.y);
+        else
+            visit_members(value, [this](auto&... members) { each(members...); });
+    }
+    template <class T>
+    void operator()(std::optional<T>& value) {
+        if (value) (*this)(*value);
+        here([&] { value = value ? std::nullopt : std::optional(T{}); });
+    }
+    template <class... T>
+    void operator()(std::variant<T...>& value) {
+        std::visit([this](auto& one) { (*this)(one); }, value);
+        here([&] {
+            if (value.index() == 0)
+                value.template emplace<1>();
+            else
+                value.template emplace<0>();
+        });
+    }
+    template <class T>
+    void operator()(std::vector<T>& values) {
+        for (T& value : values) (*this)(value);
+        here([&] { values.emplace_back(); });
+        here([&] { values.pop_back(); });
+    }
+    template <class T, std::size_t n>
+    void operator()(std::array<T, n>& values) {
+        for (T& value : values) (*this)(value);
+    }
+    void operator()(std::shared_ptr<const Image>& image) {
+        here([&] { image = picture(0.75f); });
+        here([&] { image = nullptr; });
+        here([&] { image = std::make_shared<const Image>(1, 2, std::vector<Rgb>(2), std::vector<float>{1, 1}); });
+    }
+    void operator()(std::monostate&) {}
+
+private:
+    template <class... T>
+    void each(T&... members) {
+        ((*this)(members), ...);
+    }
+    template <class Act>
+    void here(const Act& act) {
+        if (left_-- != 0) return;
+        act();
+        done_ = true;
+    }
+
+    std::size_t left_;
+    bool done_ = false;
+};
+
+TEST(Identity, IsAnotherWheneverAnyNumberThatLightMeetsIs) {
+    std::map<Hash, std::size_t> seen{{identity_of(room()), 0}};
+    std::size_t changes = 0;
+    for (;; ++changes) {
+        SceneData scene = room();
+        Change change(changes);
+        visit_members(scene, [&](auto&... members) { (change(members), ...); });
+        if (!change.done()) break;
+        const auto [other, added] = seen.emplace(identity_of(scene), changes);
+        EXPECT_TRUE(added) << "change " << changes << " looks like change " << other->second << " or like none";
+    }
+    EXPECT_GT(changes, 400u) << "the walk came to an early end";
+}
+
+void expect_another(const char* what, void (*change)(SceneData&)) {
+    SceneData scene = room();
+    change(scene);
+    EXPECT_NE(identity_of(scene), identity_of(room())) << what;
+}
+
+template <class Model>
+Model& first(SceneData& scene) {
+    for (auto& material : scene.materials)
+        if (auto* model = std::get_if<Model>(&material.model)) return *model;
+    throw std::logic_error("there is none of that kind");
+}
+
+TEST(Identity, KnowsGlassRoughnessMetalsCutOutsBumpsAndTheSidesOfLamps) {
+    expect_another("eta", [](SceneData& scene) { first<DielectricMaterial>(scene).eta = 1.33f; });
+    expect_another("roughness", [](SceneData& scene) { first<ConductorMaterial>(scene).roughness.v = 0.9f; });
+    expect_another("metalness", [](SceneData& scene) { first<PrincipledMaterial>(scene).metallic = 1; });
+    expect_another("which texture", [](SceneData& scene) { first<DiffuseMaterial>(scene).reflectance = 0; });
+    expect_another("opacity", [](SceneData& scene) { scene.materials[0].opacity = std::nullopt; });
+    expect_another("bumps", [](SceneData& scene) { scene.materials[0].normal_scale = 2; });
+    expect_another("normals", [](SceneData& scene) { std::get<Mesh>(scene.shapes[0].geometry).normals[1].x = 1; });
+    expect_another("uv", [](SceneData& scene) { std::get<Mesh>(scene.shapes[0].geometry).uvs[2].y = 0.5f; });
+    expect_another("sides", [](SceneData& scene) { scene.shapes[0].emission->two_sided = true; });
+    expect_another("lamp's picture", [](SceneData& scene) { scene.shapes[0].emission->texture = 0; });
+    expect_another("repeated picture",
+                   [](SceneData& scene) { std::get<ImageTexture>(scene.textures[1].pattern).wrap_u = Wrap::black; });
+    expect_another("one pixel", [](SceneData& scene) {
+        std::get<ImageTexture>(scene.textures[1].pattern).image = std::make_shared<const Image>(
+            2, 1, std::vector<Rgb>{{0.5f, 0, 0}, {0, 0, 0.999f}}, std::vector<float>{1, 0.5f});
+    });
+    expect_another("spot", [](SceneData& scene) { std::get<SpotLight>(scene.lights[1]).inner = 0.15f; });
+    expect_another("which shapes a chair has", [](SceneData& scene) { scene.objects[0].shapes = {0}; });
+}
+
+TEST(Identity, IsTheSameForAnotherViewOfTheSameRoom) {
+    SceneData scene = room();
+    scene.camera.fov = 30;
+    scene.camera_given = true;
+    scene.film.width = 7;
+    scene.warnings.push_back({{"room.pbrt", 1}, "something"});
+    scene.kept["bounce"] = nullptr;
+    scene.materials[0].name = scene.shapes[0].name = scene.objects[0].name = "other";
+    scene.shapes[0].where = {"elsewhere.pbrt", 9};
+    std::get<ImageTexture>(scene.textures[1].pattern).image = picture(0.5f);  // the same, read again
+    EXPECT_EQ(identity_of(scene), identity_of(room()));
+}
+
+}  // namespace
+}  // namespace lightnet
