@@ -50,6 +50,10 @@ int main(int argc, char** argv) {
     app.add_option("--single", single, "wait until no other daemon of this user on this machine has this name");
     app.add_option("--places", options.places, "threads that render; 0: one per core")->capture_default_str();
     app.add_option("--cache", options.cache, "folder for files of scenes (default: ~/.cache/lightnet)");
+    app.add_option("--cache-size", options.cache_size, "bytes that the cache may keep, like 500M")
+        ->type_name("SIZE")
+        ->default_str("4G")
+        ->transform(CLI::AsSizeValue(false));
     app.add_flag("--insecure", insecure, "listen beyond this machine: whoever reaches the port can have it render");
     app.add_flag("--quiet", quiet, "say nothing but where it listens");
     app.add_option("--parent", parent, "end when this process ends")->group("");

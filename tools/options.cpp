@@ -263,6 +263,11 @@ private:
         verb.add_option("--cache", tuning.cache, "where what nodes prepare is kept from run to run; 'none': nowhere")
             ->type_name("FOLDER")
             ->group("Tuning");
+        verb.add_option("--cache-size", tuning.cache_size, "bytes that the cache may keep, like 500M")
+            ->type_name("SIZE")
+            ->default_str("4G")
+            ->transform(CLI::AsSizeValue(false))
+            ->group("Tuning");
         add("--spare-fibers", tuning.spare_fibers, 0, 4096, "fibers of a place beside one per node");
         add("--side-fibers", tuning.side_fibers, 0, 8192, "fibers of a place for questions that wrapped code asks");
     }

@@ -283,7 +283,8 @@ std::uint32_t Run::tiles_per_place(const Plan& plan) const {
 ResultCache* Run::cache() {
     if (request_.tuning.cache == "none" || preparing_nodes(job_.graph, registry_).empty()) return nullptr;
     try {
-        cache_.emplace(request_.tuning.cache.empty() ? default_cache_folder() : request_.tuning.cache);
+        cache_.emplace(request_.tuning.cache.empty() ? default_cache_folder() : request_.tuning.cache,
+                       request_.tuning.cache_size);
         return &*cache_;
     } catch (const Error& error) {
         book_.warn(std::string("what nodes prepare is not kept: ") + error.what());

@@ -23,7 +23,7 @@ constexpr auto goodbye_deadline = std::chrono::milliseconds(500);
 Host::Service::Service(Options given_options, const Registry& kinds)
     : options(std::move(given_options)),
       registry(kinds),
-      cache(options.cache.empty() ? default_cache_folder() : options.cache),
+      cache(options.cache.empty() ? default_cache_folder() : options.cache, options.cache_size),
       context(std::make_unique<zmq::context_t>(1)),
       door(*context, {options.listen, options.join, options.name.empty() ? machine.name : options.name, process}) {
     if (!options.places) options.places = static_cast<std::uint32_t>(machine.cores);

@@ -132,6 +132,7 @@ Counters Host::Service::stop_run() {
     counters.broken_packets += std::exchange(broken_packets, 0);
     relay.reset();
     run.reset();
+    cache.trim();
     return counters;
 }
 
