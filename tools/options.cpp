@@ -225,7 +225,11 @@ private:
         verb.add_option("--preview", options_.preview, "write the picture so far from time to time")
             ->type_name("SECONDS")
             ->check(CLI::PositiveNumber);
-        verb.add_flag("--resume", options_.resume, "go on from the checkpoint beside the picture, if there is one");
+        verb.add_flag("--resume", options_.resume,
+                      "go on from the checkpoint beside the picture, if there is one; of a finished picture, to more "
+                      "samples");
+        verb.add_flag("--forget", options_.forget,
+                      "leave no checkpoint beside a finished picture, so that no samples can be added to it");
         verb.add_flag("--check-answers", options_.check_answers,
                       "ask wrapped classes some questions twice, and compare all that is answered twice, bit by bit");
         add_tuning(verb);

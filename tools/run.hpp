@@ -56,6 +56,7 @@ struct RunRequest {
     SlurmRequest slurm;               // mode network
     std::chrono::seconds wait{30};    // for a host when a node has no place any more
     bool resume = false;              // from the checkpoint beside the output, if there is one
+    bool forget = false;              // leave no checkpoint beside a finished picture
     Tuning tuning;
     std::string scene;                // file, as seen from here
     std::shared_ptr<ReadScene> read;  // it, read already; the run takes it away. None: still to be read

@@ -28,13 +28,23 @@ Film::Film(FilmFormat format)
     if (const auto& crop = format_.crop)
         if (!lies_within(crop->x, crop->width, format_.width) || !lies_within(crop->y, crop->height, format_.height))
             throw Error("film", "the crop is not inside of the picture");
-    const std::size_t pixels = window_.pixels();
-    all_ = std::uint64_t{blocks_} * pixels;
+    all_ = std::uint64_t{blocks_} * window_.pixels();
+    lost_.resize(format_.colours());
+    try {
+        take_room(window_.pixels());
+    } catch (const std::bad_alloc&) {
+        const auto bytes = double(window_.pixels()) * double(format_.colours()) * sizeof(Rgb);
+        throw Error("film",
+                    fmt::format("{}x{} pixels of {} layers take {:.0f} MB, which is more than there is memory for",
+                                window_.width, window_.height, format_.colours(), bytes / 1e6));
+    }
+}
+
+void Film::take_room(std::size_t pixels) {
     if (format_.adaptive()) spreads_.resize(pixels);
     sums_.resize(pixels * format_.colours());
     block_of_.resize(pixels);
     taken_.resize(pixels);
-    lost_.resize(format_.colours());
 }
 
 bool Film::add(const Tile& tile, std::span<const Rgb> pixels) {

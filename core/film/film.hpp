@@ -175,6 +175,7 @@ private:
     using Spread = FilmState::Spread;
     using Area = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>;  // x, y, width, height
 
+    void take_room(std::size_t pixels);
     void expect_valid(const Tile& tile, std::size_t colours) const;
     bool has_area(const Tile& tile) const;
     std::optional<Tile> next_of(const Tile& place) const;

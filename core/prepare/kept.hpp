@@ -3,6 +3,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,9 @@
 #include "core/scene/scene_data.hpp"
 
 namespace lightnet {
+
+/// All files that keep something begin with this.
+inline constexpr std::string_view kept_beginning = "lightnet kept ";
 
 /// Names what light meets in a scene: surfaces, where they stand, what they are made of, and what shines. Camera, film
 /// and the places of files don't count: another view of a room is the same room.
