@@ -53,7 +53,7 @@ int main(int argc, char** argv) {
     app.add_option("--cache-size", options.cache_size, "bytes that the cache may keep, like 500M")
         ->type_name("SIZE")
         ->default_str("4G")
-        ->transform(CLI::AsSizeValue(false));
+        ->transform(CLI::AsSizeValue(false).description(""));
     app.add_flag("--insecure", insecure, "listen beyond this machine: whoever reaches the port can have it render");
     app.add_flag("--quiet", quiet, "say nothing but where it listens");
     app.add_option("--parent", parent, "end when this process ends")->group("");

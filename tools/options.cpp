@@ -270,7 +270,7 @@ private:
         verb.add_option("--cache-size", tuning.cache_size, "bytes that the cache may keep, like 500M")
             ->type_name("SIZE")
             ->default_str("4G")
-            ->transform(CLI::AsSizeValue(false))
+            ->transform(CLI::AsSizeValue(false).description(""))
             ->group("Tuning");
         add("--spare-fibers", tuning.spare_fibers, 0, 4096, "fibers of a place beside one per node");
         add("--side-fibers", tuning.side_fibers, 0, 8192, "fibers of a place for questions that wrapped code asks");

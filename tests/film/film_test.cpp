@@ -13,6 +13,7 @@
 #include "core/error.hpp"
 #include "core/light/renderer.hpp"
 #include "tests/film/pictures.hpp"
+#include "tests/support/slowdown.hpp"
 
 namespace lightnet {
 namespace {
@@ -228,6 +229,16 @@ TEST(Film, RefusesToBeNothing) {
     EXPECT_THROW(Film({1, 1, {}, 1}), Error);
     EXPECT_THROW(Film({1, 1, {"emission"}, 0}), Error);
     EXPECT_THROW(Film({1, 1, {"emission", "emission"}, 1}), Error);
+}
+
+TEST(Film, SaysWhatIsTooLargeForTheMemory) {
+    if (test::slowdown > 1) GTEST_SKIP() << "a sanitizer ends the process instead";
+    try {
+        const Film film({1u << 22, 1u << 22, {"emission"}, 16});
+        FAIL() << "200 TB were there";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), ::testing::HasSubstr("4194304x4194304 pixels of 1 layers take"));
+    }
 }
 
 }  // namespace
