@@ -9,7 +9,7 @@ find_package(JPEG REQUIRED)                                # textures in
 find_package(pugixml REQUIRED)                             # scenes in XML (core/readers/mitsuba)
 find_package(Boost 1.74 REQUIRED COMPONENTS context)       # fibers (core/fiber)
 find_package(fmt REQUIRED)                                 # text: g++ 12 has no std::format
-find_package(nlohmann_json REQUIRED)                       # canonical text of graphs and plans, run.json
+find_package(nlohmann_json REQUIRED)                       # canonical text of graphs and plans, reports of runs
 find_package(CLI11 REQUIRED)                               # command lines (tools)
 find_package(cppzmq REQUIRED)                              # sockets (transport)
 pkg_check_modules(crypto REQUIRED IMPORTED_TARGET libcrypto)   # SHA-256 content hashes (core)

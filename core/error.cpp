@@ -1,5 +1,7 @@
 #include "core/error.hpp"
 
+#include "core/printable.hpp"
+
 namespace lightnet {
 namespace {
 
@@ -13,11 +15,14 @@ std::string lines(const std::vector<Problem>& problems) {
 
 std::string to_string(const Problem& problem) {
     const auto& [file, line] = problem.where;
-    if (file.empty()) return problem.what;
-    return line ? file + ":" + std::to_string(line) + ": " + problem.what : file + ": " + problem.what;
+    const std::string what = printable(problem.what, true);
+    if (file.empty()) return what;
+    return printable(file) + (line ? ":" + std::to_string(line) : "") + ": " + what;
 }
 
 UserError::UserError(std::vector<Problem> problems)
     : std::runtime_error(lines(problems)), problems_(std::move(problems)) {}
+
+Error::Error(const std::string& what) : std::runtime_error(printable(what, true)) {}
 
 }  // namespace lightnet

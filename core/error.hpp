@@ -23,7 +23,7 @@ struct Problem {
     friend bool operator==(const Problem&, const Problem&) = default;
 };
 
-/// "cornell.lua:7: what"
+/// "cornell.lua:7: what", with nothing that would command a terminal.
 std::string to_string(const Problem& problem);
 
 /// The user's mistake (exit code 2): all that is wrong, at once.
@@ -38,11 +38,12 @@ private:
     std::vector<Problem> problems_;
 };
 
-/// The run failed (exit code 1): what went wrong, and where ("bounce on onyx2").
+/// The run failed (exit code 1): what went wrong, and where ("bounce on onyx2"). What it quotes of files commands no
+/// terminal.
 class Error : public std::runtime_error {
 public:
-    Error(const std::string& where, const std::string& what) : std::runtime_error(where + ": " + what) {}
-    explicit Error(const std::string& what) : std::runtime_error(what) {}
+    Error(const std::string& where, const std::string& what) : Error(where + ": " + what) {}
+    explicit Error(const std::string& what);
 };
 
 /// An Error that names the node and the question already, and the host on which it happened; "": this one.

@@ -61,6 +61,7 @@ RunRequest request_of(const Options& options, const Registry& registry, Loaded l
     request.slurm = {options.slurm.value_or(0), options.partition, words_of(options.slurm_arguments)};
     request.wait = std::chrono::seconds(options.wait);
     request.resume = options.resume;
+    request.forget = options.forget;
     if (!options.hosts.empty() || !options.listen.empty() || options.local_workers)
         request.mode = Mode::network;
     else if (options.threads)

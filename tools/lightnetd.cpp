@@ -57,6 +57,10 @@ int main(int argc, char** argv) {
                    "file with what it must know to join (default: ~/.config/lightnet/pass, made when missing)");
     app.add_flag("--insecure", insecure,
                  "reach beyond this machine, unencrypted: whoever reaches the port can have it render");
+    app.add_option("--cache-size", options.cache_size, "bytes that the cache may keep, like 500M")
+        ->type_name("SIZE")
+        ->default_str("4G")
+        ->transform(CLI::AsSizeValue(false).description(""));
     app.add_flag("--quiet", quiet, "say nothing but where it listens");
     app.add_option("--parent", parent, "end when this process ends")->group("");
     app.set_version_flag("--version", "lightnetd " + lightnet::build_id());

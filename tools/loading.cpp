@@ -9,6 +9,7 @@
 #include "core/graph/check_hosts.hpp"
 #include "core/graph/graph_film.hpp"
 #include "lua/load_graph.hpp"
+#include "tools/output_file.hpp"
 #include "tools/overrides.hpp"
 #include "tools/render.hpp"
 
@@ -30,6 +31,17 @@ void check_scene_files(const Graph& graph, std::vector<Problem>& problems) {
         check(node.entries[0]);
         if (const auto around = node.params.find("environment"); around != node.params.end()) check(around->second);
     }
+}
+
+// What a graph wants to be written. Where the user said where the picture goes, the graph has no say.
+void check_written_files(const Graph& graph, const Registry& registry, const Options& options,
+                         std::vector<Problem>& problems) {
+    const auto add = [&](const std::vector<Problem>& more) {
+        problems.insert(problems.end(), more.begin(), more.end());
+    };
+    add(problems_of_kept_files(graph, registry));
+    if (problems.empty() && options.output.empty())
+        add(problems_of_picture(graph, output_file(graph, registry, options)));
 }
 
 // A name server that doesn't answer proves nothing.
@@ -65,6 +77,7 @@ Loaded finish(Written written, const Options& options, const Registry& registry,
     Examined found = examine(graph, registry, hosts);
     problems.insert(problems.end(), found.problems.begin(), found.problems.end());
     check_scene_files(graph, problems);
+    check_written_files(graph, registry, options, problems);
     if (names_of_hosts) check_names(hosts, problems);
     sort_by_line(problems, graph.file);
     if (!problems.empty()) throw UserError(std::move(problems));

@@ -5,7 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/film/exr.hpp"
+#include "core/film/own_files.hpp"
 #include "core/film/png.hpp"
 #include "core/graph/plan.hpp"
 
@@ -54,6 +56,7 @@ std::map<std::string, std::string> write_node_pictures(const Graph& graph, const
         own.width = picture.width, own.height = picture.height;
         own.beauty = std::move(found->second);
         const auto file = std::filesystem::path(exr).replace_extension("." + node.name + ".png");
+        if (const auto why = why_not_replaced(file, png_beginning); !why.empty()) throw Error(file, why);
         write_png(file, own);
         files[node.name] = file.string();
     }

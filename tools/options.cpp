@@ -225,7 +225,11 @@ private:
         verb.add_option("--preview", options_.preview, "write the picture so far from time to time")
             ->type_name("SECONDS")
             ->check(CLI::PositiveNumber);
-        verb.add_flag("--resume", options_.resume, "go on from the checkpoint beside the picture, if there is one");
+        verb.add_flag("--resume", options_.resume,
+                      "go on from the checkpoint beside the picture, if there is one; of a finished picture, to more "
+                      "samples");
+        verb.add_flag("--forget", options_.forget,
+                      "leave no checkpoint beside a finished picture, so that no samples can be added to it");
         verb.add_flag("--check-answers", options_.check_answers,
                       "ask wrapped classes some questions twice, and compare all that is answered twice, bit by bit");
         add_tuning(verb);
@@ -266,6 +270,11 @@ private:
         add("--checkpoint", tuning.checkpoint, 1, 86400, "seconds between two checkpoints");
         verb.add_option("--cache", tuning.cache, "where what nodes prepare is kept from run to run; 'none': nowhere")
             ->type_name("FOLDER")
+            ->group("Tuning");
+        verb.add_option("--cache-size", tuning.cache_size, "bytes that the cache may keep, like 500M")
+            ->type_name("SIZE")
+            ->default_str("4G")
+            ->transform(CLI::AsSizeValue(false).description(""))
             ->group("Tuning");
         add("--spare-fibers", tuning.spare_fibers, 0, 4096, "fibers of a place beside one per node");
         add("--side-fibers", tuning.side_fibers, 0, 8192, "fibers of a place for questions that wrapped code asks");

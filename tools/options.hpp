@@ -54,6 +54,7 @@ struct Options {
     std::optional<std::uint32_t> slurm;  // daemons to start as a job array
     std::string partition, slurm_arguments;
     bool resume = false;  // from a checkpoint
+    bool forget = false;  // it, when the picture is finished
     Tuning tuning;
     bool check_answers = false;
     std::string kind;               // for describe; "": all

@@ -13,12 +13,12 @@
 #include <random>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "core/build_info.hpp"
 #include "core/error.hpp"
 #include "core/graph/check.hpp"
 #include "core/graph/graph_film.hpp"
-#include "core/graph/layout.hpp"
 #include "core/hash.hpp"
 #include "core/prepare/load_scene.hpp"
 #include "core/readers/read_scene.hpp"
@@ -28,8 +28,11 @@
 #include "core/runtime/master_renderer.hpp"
 #include "core/runtime/serial.hpp"
 #include "tools/crew.hpp"
+#include "tools/delivery.hpp"
 #include "tools/exit_code.hpp"
 #include "tools/output_file.hpp"
+#include "tools/picture_lock.hpp"
+#include "tools/picture_recipe.hpp"
 #include "tools/run_book.hpp"
 #include "tools/signals.hpp"
 #include "transport/cluster.hpp"
@@ -99,7 +102,6 @@ public:
 private:
     FilmFormat format() const;
     Job make_job(DiskFiles& files) const;
-    std::map<std::string, std::string> recipe() const;
     void take_up_checkpoint();
     void report_failure();
     void render_serially(SceneData scene);
@@ -159,33 +161,22 @@ Job Run::make_job(DiskFiles& files) const {
     return job;
 }
 
-// What a picture depends on. Tiles don't change it, but a film is cut in one way.
-std::map<std::string, std::string> Run::recipe() const {
-    std::string files = job_.scene;
-    for (const auto& file : job_.files) files += "\n" + file.path + " " + to_hex(file.hash);
-    return {{"graph", to_hex(content_hash(to_json(written(job_.graph))))},
-            {"scene", to_hex(content_hash(files))},
-            {"seed", std::to_string(job_.seed)},
-            {"size", fmt::format("{}x{}", format_.width, format_.height)},
-            {"samples", std::to_string(format_.samples)},
-            {"error", fmt::format("{}", format_.refinement.error)},
-            {"tile", std::to_string(request_.tuning.tile)},
-            {"build", build_id()},
-            {"arithmetic", std::to_string(fingerprint(job_.isa))}};
-}
-
 void Run::take_up_checkpoint() {
-    book_.keep_checkpoint(request_.output, recipe(), std::chrono::seconds(request_.tuning.checkpoint));
-    if (request_.resume) book_.take_up_checkpoint();
+    book_.keep_checkpoint(request_.output, picture_recipe(job_, registry_, format_, request_.tuning.tile),
+                          std::chrono::seconds(request_.tuning.checkpoint));
+    if (!request_.resume) return;
+    book_.take_up_checkpoint();
+    std::vector<Tile> left = book_.going_on();
     const auto all = work_in(tiles_);
-    std::erase_if(tiles_, [this](const Tile& tile) { return book_.has(tile); });
+    for (const auto& tile : std::exchange(tiles_, {}))
+        for (const auto& lacking : book_.lacking(tile)) tiles_.push_back(lacking);
     book_.found(all - work_in(tiles_));
-    const auto more = book_.going_on();
-    tiles_.insert(tiles_.end(), more.begin(), more.end());
+    tiles_.insert(tiles_.end(), left.begin(), left.end());
 }
 
 int Run::perform() {
     check_output(request_.output);
+    const PictureLock lock(request_.output);
     try {
         book_.phase("load");
         const auto read = request_.read ? request_.read : std::make_shared<ReadScene>();
@@ -200,7 +191,13 @@ int Run::perform() {
         book_.expose(scale);
         if (request_.preview > 0) book_.preview(request_.output, request_.preview);
         take_up_checkpoint();
-        if (request_.mode == Mode::serial)
+        if (book_.complete() && book_.is_written(request_.output)) {
+            book_.say(request_.output + " is finished: nothing to do; ask for more with --samples");
+            return exit_code::done;
+        }
+        if (book_.complete())
+            book_.say(request_.output + " is finished but for its file");
+        else if (request_.mode == Mode::serial)
             render_serially(std::move(scene));
         else if (request_.mode == Mode::threads)
             render_in_threads(std::move(scene));
@@ -216,10 +213,7 @@ int Run::perform() {
         }
         book_.phase("write");
         book_.name_not_finite(job_.graph);
-        book_.write_picture(request_.output);
-        book_.remove_checkpoint();
-        book_.write_report(request_.output, "done");
-        return exit_code::done;
+        return finish_run(book_, request_, signals_.any);
     } catch (const UserError&) {
         throw;
     } catch (const NoWorker& error) {
@@ -286,7 +280,8 @@ std::uint32_t Run::tiles_per_place(const Plan& plan) const {
 ResultCache* Run::cache() {
     if (request_.tuning.cache == "none" || preparing_nodes(job_.graph, registry_).empty()) return nullptr;
     try {
-        cache_.emplace(request_.tuning.cache.empty() ? default_cache_folder() : request_.tuning.cache);
+        cache_.emplace(request_.tuning.cache.empty() ? default_cache_folder() : request_.tuning.cache,
+                       request_.tuning.cache_size);
         return &*cache_;
     } catch (const Error& error) {
         book_.warn(std::string("what nodes prepare is not kept: ") + error.what());
@@ -414,6 +409,13 @@ void Run::render_on_hosts(const DiskFiles& files, SceneData scene) {
 
 }  // namespace
 
-int run(const RunRequest& request, const Registry& registry) { return Run(request, registry).perform(); }
+int run(const RunRequest& request, const Registry& registry) try {
+    return Run(request, registry).perform();
+} catch (const std::bad_alloc&) {  // whose own words are none
+    const auto film = film_of(request.graph, registry);
+    throw Error(
+        fmt::format("there is not enough memory for {}x{} pixels of '{}'; a smaller --size or --crop takes less",
+                    film.width, film.height, request.scene));
+}
 
 }  // namespace lightnet

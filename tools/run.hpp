@@ -13,6 +13,7 @@
 #include "core/graph/kind.hpp"
 #include "core/readers/files.hpp"
 #include "core/scene/scene_data.hpp"
+#include "transport/cache_folder.hpp"
 
 namespace lightnet {
 
@@ -21,10 +22,11 @@ enum class Mode { serial, threads, network };
 
 /// Sizes that decide how fast a run is, and never what it computes.
 struct Tuning {
-    std::uint32_t tile = 32;           // pixels along a side of a tile
-    std::uint32_t bundle = 512;        // questions in a full bundle
-    std::uint32_t credit = 8;          // bundles under way to one place, for each node that is asked
-    std::string cache;                 // folder for what nodes prepare; "": the usual one, "none": nowhere
+    std::uint32_t tile = 32;     // pixels along a side of a tile
+    std::uint32_t bundle = 512;  // questions in a full bundle
+    std::uint32_t credit = 8;    // bundles under way to one place, for each node that is asked
+    std::string cache;           // folder for what nodes prepare; "": the usual one, "none": nowhere
+    std::uint64_t cache_size = usual_cache_size;
     std::uint32_t spare_fibers = 16;   // of a place, beside the one that each node has for itself
     std::uint32_t side_fibers = 2048;  // of a place, for questions that wrapped code waits for one by one
     std::uint32_t checkpoint = 5;      // seconds between two checkpoints
@@ -55,6 +57,7 @@ struct RunRequest {
     SlurmRequest slurm;               // mode network
     std::chrono::seconds wait{30};    // for a host when a node has no place any more
     bool resume = false;              // from the checkpoint beside the output, if there is one
+    bool forget = false;              // leave no checkpoint beside a finished picture
     Tuning tuning;
     std::string scene;                // file, as seen from here
     std::shared_ptr<ReadScene> read;  // it, read already; the run takes it away. None: still to be read

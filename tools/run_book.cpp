@@ -4,13 +4,16 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <iterator>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/film/atomic_file.hpp"
 #include "core/film/checkpoint.hpp"
 #include "core/film/exr.hpp"
+#include "core/film/own_files.hpp"
 #include "core/film/png.hpp"
 #include "core/graph/layout.hpp"
 #include "core/prepare/kept.hpp"
@@ -20,8 +23,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-std::filesystem::path next_to(const std::string& exr, const std::string& name) {
-    return std::filesystem::path(exr).replace_filename(name);
+void expect_ours(const std::filesystem::path& file, std::string_view beginning) {
+    if (const auto why = why_not_replaced(file, beginning); !why.empty()) throw Error(file.string(), why);
 }
 
 }  // namespace
@@ -84,7 +87,7 @@ void RunBook::write_preview() {
         report.outcome = "preview";
         report.settings["done"] = fmt::format("{:.4f}", film_.done());
         report.settings["mean_samples"] = fmt::format("{:.2f}", film_.mean_samples());
-        lightnet::write_report(beside(preview_->exr, "run.json"), report);
+        lightnet::write_report(report_beside(preview_->exr), report);
         if (!std::exchange(preview_->said, true)) say(preview_->exr + " shows the picture so far");
     } catch (const Error& error) {
         warn(std::string("no preview: ") + error.what());
@@ -96,8 +99,10 @@ void RunBook::write_preview() {
 }
 
 void RunBook::write_files(const std::string& exr) {
+    const auto png = png_beside(exr);
+    expect_ours(exr, exr_beginning);
+    expect_ours(png, png_beginning);
     const auto picture = film_.picture(scale_);
-    const auto png = std::filesystem::path(exr).replace_extension(".png");
     write_exr(exr, picture);
     write_png(png, picture);
     report_.outputs = {exr, png.string()};
@@ -110,13 +115,23 @@ void RunBook::keep_checkpoint(const std::string& exr, std::map<std::string, std:
 }
 
 void RunBook::take_up_checkpoint() {
-    const auto& file = keeping_->file;
-    auto found = read_checkpoint(file);
-    if (!found) return say("there is no " + file.string() + "; beginning at the beginning");
-    if (const auto other = differences(found->of, keeping_->last.of); !other.empty())
-        throw UserError({file.string(), 0}, "is the checkpoint of another picture (" + other + ")");
-    film_.restore(std::move(found->film));
-    say(fmt::format("going on from {}", file.string()));
+    const auto file = keeping_->file.string();
+    const auto refuse = [&](const std::string& why) { throw UserError({file, 0}, why); };
+    try {
+        auto found = read_checkpoint(file);
+        if (!found) return say("there is no " + file + "; beginning at the beginning");
+        if (const auto other = differences(found->of, keeping_->last.of); !other.empty())
+            refuse("is the checkpoint of another picture (" + other + ")");
+        if (const auto theirs = found->film.samples, ours = film_.format().samples; theirs > ours)
+            refuse(
+                fmt::format("is of {} samples per pixel, and only {} are asked for: ask for as many or more with "
+                            "--samples, or leave --resume out to begin anew",
+                            theirs, ours));
+        film_.restore(std::move(found->film));
+    } catch (const Error& error) {
+        refuse(std::string("can't be gone on from: ") + error.what());
+    }
+    say(fmt::format("going on from {}", file));
 }
 
 void RunBook::found(std::uint64_t blocks) {
@@ -157,11 +172,18 @@ bool RunBook::save_checkpoint() {
     return true;
 }
 
-void RunBook::remove_checkpoint() {
+void RunBook::end_checkpoint(bool stays) {
     if (!keeping_) return;
-    if (keeping_->saving.valid()) keeping_->saving.wait();
+    try {
+        if (stays)
+            save_checkpoint();
+        else if (keeping_->saving.valid())
+            keeping_->saving.wait();
+    } catch (const std::exception& error) {
+        warn(std::string("samples can't be added to the picture later: ") + error.what());
+    }
     std::error_code ignored;
-    std::filesystem::remove(keeping_->file, ignored);
+    if (!stays) std::filesystem::remove(keeping_->file, ignored);
     keeping_.reset();
 }
 
@@ -182,6 +204,11 @@ void RunBook::name_not_finite(const Graph& graph) {
             warn(fmt::format("{} '{}' gave {} answers that are not finite", graph.nodes[node].kind,
                              graph.nodes[node].name, count->second));
     }
+    const auto lost = film_.lost();
+    for (std::size_t layer = 0; layer < lost.size(); ++layer)
+        if (lost[layer])
+            warn(fmt::format("{} colours of layer '{}' were not finite and count as black", lost[layer],
+                             film_.format().name_of(layer)));
 }
 
 void RunBook::use(const Plan& plan, const Graph& graph) {
@@ -207,6 +234,7 @@ void RunBook::write_kept(const std::function<Bytes(std::size_t node)>& result_of
     for (const auto& [node, name, file, kind] : to_keep_) {
         const Bytes result = result_of(node);
         if (!result) continue;
+        expect_ours(file, kept_beginning);
         write_file(file, kept_text(*kind, scene_, *result));
         set("kept." + name, file);
         say(fmt::format("{}: kept in {}", name, file));
@@ -214,13 +242,14 @@ void RunBook::write_kept(const std::function<Bytes(std::size_t node)>& result_of
 }
 
 void RunBook::write_picture(const std::string& exr) {
-    for (std::size_t layer = 0; layer < film_.lost().size(); ++layer)
-        if (const auto lost = film_.lost()[layer])
-            warn(fmt::format("{} colours of layer '{}' were not finite and count as black", lost,
-                             film_.format().name_of(layer)));
     write_files(exr);
     previewed_ = false;
     if (film_.format().adaptive()) report_.settings["mean_samples"] = fmt::format("{:.2f}", film_.mean_samples());
+}
+
+bool RunBook::is_written(const std::string& exr) const {
+    std::ifstream file(exr, std::ios::binary);
+    return std::string{std::istreambuf_iterator<char>(file), {}} == exr_of(film_.picture(scale_));
 }
 
 void RunBook::write_report(const std::string& exr, const std::string& outcome) {
@@ -230,7 +259,7 @@ void RunBook::write_report(const std::string& exr, const std::string& outcome) {
     report_.outcome = outcome;
     report_.counters = counters_.named();
     report_.counters["repeated_tiles"] = repeated_;
-    lightnet::write_report(next_to(exr, "run.json"), report_);
+    lightnet::write_report(report_beside(exr), report_);
 }
 
 }  // namespace lightnet

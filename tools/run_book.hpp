@@ -1,4 +1,4 @@
-// Keeps the books of a run: the film, the progress, and what goes into run.json.
+// Keeps the books of a run: the film, the progress, and the report.
 #pragma once
 
 #include <chrono>
@@ -44,10 +44,11 @@ public:
     std::vector<Tile> take(const Tile& tile, std::span<const Rgb> pixels);
     /// Who holds what, from now on.
     void use(const Plan& plan, const Graph& graph);
-    /// A line of run.json's settings.
+    /// A line of the report's settings.
     void set(const std::string& name, const std::string& value) { report_.settings[name] = value; }
     void count(const Counters& counters) { counters_ += counters; }
-    /// Warns of the nodes that made what is not finite: those that answered so, while none that they ask did.
+    /// Warns of the nodes that made what is not finite: those that answered so, while none that they ask did; and of
+    /// the layers that lack it.
     void name_not_finite(const Graph& graph);
     /// Who took part.
     void use(const HostState& host);
@@ -58,24 +59,30 @@ public:
                          std::chrono::seconds period);
     /// Takes up what an earlier run left there, if anything. Throws UserError when that was another picture's.
     void take_up_checkpoint();
-    /// Is all of this tile there already?
-    bool has(const Tile& tile) const { return film_.has(tile); }
+    /// Nothing is wanted any more.
+    bool complete() const { return film_.complete(); }
+    /// What of this tile is not there yet.
+    std::vector<Tile> lacking(const Tile& tile) const { return film_.lacking(tile); }
     /// What else is wanted, of cells that need more.
     std::vector<Tile> going_on() const { return film_.going_on(); }
     /// So many blocks of tiles were there already.
     void found(std::uint64_t blocks);
     /// Saves what is there now; false: nothing was worth it.
     bool save_checkpoint();
-    void remove_checkpoint();
+    /// Of a picture that is finished: the checkpoint stays, so that a later run may add samples, or is removed. A disk
+    /// that refuses it only costs a warning.
+    void end_checkpoint(bool stays);
 
     /// Nodes of the graph want what they learn kept in files: `scene` is what they learn it of.
     void will_keep(const Graph& graph, const Registry& registry, const SceneData& scene);
     /// Writes these files; `result_of` gives what a node has learnt.
     void write_kept(const std::function<Bytes(std::size_t node)>& result_of);
 
-    /// Writes x.exr, x.png and run.json beside them, each whole or not at all. Says what was written.
+    /// Writes x.exr, and x.png beside it, each whole or not at all. Throws Error, also when files of others are there.
     void write_picture(const std::string& exr);
-    /// Writes run.json beside `exr`.
+    /// Is the file there, and what write_picture() would write?
+    bool is_written(const std::string& exr) const;
+    /// Writes the report beside `exr`.
     void write_report(const std::string& exr, const std::string& outcome);
 
 private:

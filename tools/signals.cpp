@@ -10,8 +10,14 @@ namespace {
 Signals signals;  // a handler can reach nothing else
 
 void on_signal(int signal) {
-    if (signals.any.exchange(true)) _exit(130);
+    const bool again = signals.any.exchange(true);
+    if (again && signal != SIGHUP) _exit(130);
     (signal == SIGINT ? signals.interrupted : signals.terminated) = true;
+}
+
+bool is_ignored(int signal) {
+    struct sigaction action {};
+    return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
 }  // namespace
@@ -21,6 +27,7 @@ const Signals& watch_signals() {
     action.sa_handler = on_signal;
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
+    if (!is_ignored(SIGHUP)) sigaction(SIGHUP, &action, nullptr);
     std::signal(SIGPIPE, SIG_IGN);
     return signals;
 }

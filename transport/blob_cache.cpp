@@ -1,8 +1,9 @@
 #include "transport/blob_cache.hpp"
 
 #include <unistd.h>
+
 #include <algorithm>
-#include <cstdlib>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -10,13 +11,19 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "transport/recipes.hpp"
 
 namespace lightnet {
 namespace {
 
 namespace fs = std::filesystem;
 
+constexpr auto given_up = std::chrono::hours(24);  // what was not written to for so long comes no more
+
+// Null: there is no such file, or something else, such as a pipe that would never end.
 Bytes read_file(const std::string& path) {
+    std::error_code ignored;
+    if (!fs::is_regular_file(path, ignored)) return nullptr;
     std::ifstream in(path, std::ios::binary | std::ios::ate);
     if (!in) return nullptr;
     auto bytes = std::make_shared<std::vector<std::byte>>(static_cast<std::size_t>(in.tellg()));
@@ -25,14 +32,16 @@ Bytes read_file(const std::string& path) {
     return in ? bytes : nullptr;
 }
 
+void remove(const CacheFile& file) {
+    std::error_code ignored;
+    fs::remove(file.path, ignored);
+}
+
 }  // namespace
 
 BlobCache::BlobCache(std::string folder, std::uint64_t most_bytes)
     : folder_(std::move(folder)), most_bytes_(most_bytes) {
-    std::error_code error;
-    fs::create_directories(folder_, error);
-    if (error) throw Error(folder_, "no folder for the cache can be made: " + error.message());
-    fs::permissions(folder_, fs::perms::owner_all, error);
+    open_cache_folder(folder_);
 }
 
 std::string BlobCache::path_of(const Hash& hash) const { return folder_ + "/" + to_hex(hash); }
@@ -106,31 +115,21 @@ void BlobCache::Incoming::appear() {
 }
 
 void BlobCache::trim() const {
-    struct Entry {
-        fs::path path;
-        std::uint64_t size;
-        fs::file_time_type used;
-    };
-    std::vector<Entry> entries;
+    auto files = files_of_ours(folder_);
+    const auto recipes = recipes_in(folder_);
+    for (auto& file : files_of_ours(recipes)) files.push_back(std::move(file));
+    const auto now = fs::file_time_type::clock::now();
+    for (const auto& file : files)
+        if (file.partial && now - file.used > given_up) remove(file);
+    std::erase_if(files, [](const auto& file) { return file.partial; });
     std::uint64_t sum = 0;
-    std::error_code error;
-    for (const auto& file : fs::directory_iterator(folder_, error)) {
-        const auto size = file.file_size(error);
-        if (error) continue;
-        entries.push_back({file.path(), size, file.last_write_time(error)});
-        sum += size;
-    }
-    std::sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) { return a.used < b.used; });
-    for (const auto& entry : entries) {
-        if (sum <= most_bytes_) return;
-        if (fs::remove(entry.path, error)) sum -= entry.size;
-    }
-}
-
-std::string default_cache_folder() {
-    if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache) return std::string(cache) + "/lightnet";
-    if (const char* home = std::getenv("HOME"); home && *home) return std::string(home) + "/.cache/lightnet";
-    return "/tmp/lightnet-cache-" + std::to_string(getuid());
+    for (const auto& file : files) sum += file.size;
+    std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) { return a.used < b.used; });
+    for (auto file = files.begin(); file != files.end() && sum > most_bytes_; sum -= file++->size) remove(*file);
+    trim_recipes(recipes, [this](const Hash& blob) {
+        std::error_code ignored;
+        return fs::exists(path_of(blob), ignored);
+    });
 }
 
 Bytes BlobFiles::read(const std::string& path) {

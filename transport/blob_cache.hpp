@@ -11,6 +11,7 @@
 #include "core/hash.hpp"
 #include "core/readers/files.hpp"
 #include "core/runtime/job.hpp"
+#include "transport/cache_folder.hpp"
 
 namespace lightnet {
 
@@ -41,8 +42,8 @@ public:
         std::ofstream file_;
     };
 
-    /// Makes the folder (mode 0700) if need be. Throws Error when that can't be.
-    explicit BlobCache(std::string folder, std::uint64_t most_bytes = std::uint64_t{4} << 30);
+    /// Opens the folder: see open_cache_folder().
+    explicit BlobCache(std::string folder, std::uint64_t most_bytes = usual_cache_size);
 
     bool has(const Hash& hash) const;
     /// The blob, verified: a damaged one is removed and none is given.
@@ -51,7 +52,8 @@ public:
     Incoming receive(const Hash& hash) const;
     /// The same at once, for a blob that is what its name says. Throws Error when the disk refuses.
     void store(const Hash& hash, std::span<const std::byte> blob) const;
-    /// Removes the blobs that were not read for the longest time until the folder is within its limit.
+    /// Removes the blobs and recipes that were not read for the longest time until the folder is within its limit, and
+    /// recipes of blobs that are gone. Other files stay. Throws nothing.
     void trim() const;
 
 private:
@@ -59,9 +61,6 @@ private:
     std::string folder_;
     std::uint64_t most_bytes_;
 };
-
-/// Where blobs are kept when nothing else is said: $XDG_CACHE_HOME/lightnet, or ~/.cache/lightnet.
-std::string default_cache_folder();
 
 /// The files of a job, read from a cache instead of the user's disk.
 class BlobFiles final : public Files {

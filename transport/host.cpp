@@ -30,7 +30,7 @@ HostDoor::Ends ends_of(const Host::Options& options, const Machine& machine, std
 Host::Service::Service(Options given_options, const Registry& kinds)
     : options(std::move(given_options)),
       registry(kinds),
-      cache(options.cache.empty() ? default_cache_folder() : options.cache),
+      cache(options.cache.empty() ? default_cache_folder() : options.cache, options.cache_size),
       context(make_context()),
       door(*context, ends_of(options, machine, process)) {
     if (!options.places) options.places = static_cast<std::uint32_t>(machine.cores);

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "core/graph/kind.hpp"
+#include "transport/cache_folder.hpp"
 
 namespace lightnet {
 
@@ -25,7 +26,8 @@ public:
         std::string pass;                          // file with what it must know to join; empty: Pass::usual_file()
         std::uint32_t places = 0;                  // 0: one per core
         std::string cache;                         // folder for blobs; empty: default_cache_folder()
-        std::chrono::milliseconds drain{20'000};   // to answer what it has when it is told to stop
+        std::uint64_t cache_size = usual_cache_size;
+        std::chrono::milliseconds drain{20'000};            // to answer what it has when it is told to stop
         std::optional<std::chrono::milliseconds> patience;  // it leaves when nobody needs it for so long
         std::function<void(const std::string&)> log = [](const std::string&) {};
     };

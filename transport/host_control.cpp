@@ -194,9 +194,11 @@ void Host::Service::stop_run(const std::string& route) {
     way_out.reset();
     run->begin_to_stop();
     const auto over = std::make_shared<std::unique_ptr<HostedRun>>(std::move(run));
-    const auto stop = [over] {
+    const auto stop = [over, this] {
         const auto last = std::move(*over);
-        return last->stop();
+        const auto counters = last->stop();
+        cache.trim();
+        return counters;
     };
     try {
         ending = Ending{id, route, beside.start(stop)};

@@ -1,32 +1,40 @@
 #include "transport/result_cache.hpp"
 
 #include <filesystem>
-#include <fstream>
 
 #include "core/error.hpp"
-#include "core/film/atomic_file.hpp"
+#include "transport/recipes.hpp"
 
 namespace lightnet {
 
-DiskResultCache::DiskResultCache(const std::string& folder) : blobs_(folder), recipes_(folder + "/recipes") {
+namespace fs = std::filesystem;
+
+DiskResultCache::DiskResultCache(const std::string& folder, std::uint64_t most_bytes)
+    : blobs_(folder, most_bytes), recipes_(recipes_in(folder)) {
     std::error_code error;
-    std::filesystem::create_directories(recipes_, error);
+    fs::create_directories(recipes_, error);
     if (error) throw Error(recipes_, "no folder for the cache can be made: " + error.message());
     blobs_.trim();
 }
 
+DiskResultCache::~DiskResultCache() {
+    keeping_.clear();
+    blobs_.trim();
+}
+
 Result DiskResultCache::find(const Hash& recipe) const {
-    std::ifstream in(recipes_ + "/" + to_hex(recipe));
-    std::string name;
-    const auto hash = in >> name ? hash_from_hex(name) : std::nullopt;
-    return hash ? Result{*hash, blobs_.read(*hash)} : Result{};
+    const auto blob = read_recipe(recipes_, recipe);
+    if (!blob) return {};
+    std::error_code ignored;
+    fs::last_write_time(recipes_ + "/" + to_hex(recipe), fs::file_time_type::clock::now(), ignored);
+    return {*blob, blobs_.read(*blob)};
 }
 
 void DiskResultCache::keep(const Hash& recipe, const Result& result) {
     keeping_.emplace_back([this, recipe, result] {
         try {
             blobs_.store(result.name, *result.bytes);
-            write_file(recipes_ + "/" + to_hex(recipe), to_hex(result.name) + "\n");
+            write_recipe(recipes_, recipe, result.name);
         } catch (const std::exception&) {
             // Not kept: the next run computes it again.
         }

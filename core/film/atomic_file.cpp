@@ -2,10 +2,10 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <random>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -23,8 +23,13 @@ namespace {
 /// A temporary file that is gone at the end of its scope unless it was renamed.
 class TemporaryFile {
 public:
-    explicit TemporaryFile(const std::filesystem::path& target)
-        : target_(target), name_(target.string() + ".XXXXXX"), file_(::mkostemp(name_.data(), O_CLOEXEC)) {
+    explicit TemporaryFile(const std::filesystem::path& target) : target_(target) {
+        std::random_device random;  // a name, and nothing else
+        do {
+            name_ = fmt::format("{}.{:08x}", target.string(), random());
+            // With the rights of any other new file: the system knows the mask, which no thread may look at.
+            file_ = ::open(name_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+        } while (file_ < 0 && errno == EEXIST);
         if (file_ < 0) fail(target_, "can't be written");
     }
     TemporaryFile(const TemporaryFile&) = delete;
@@ -44,10 +49,6 @@ public:
     }
 
     void become_target() {
-        // mkostemp makes files that only their owner reads; give the picture the rights of any other new file.
-        const mode_t mask = ::umask(0);
-        ::umask(mask);
-        ::fchmod(file_, 0666 & ~mask);
         if (::fsync(file_) != 0) fail(target_, "could not be synced to the disk");
         if (::close(std::exchange(file_, -1)) != 0) fail(target_, "could not be written");
         if (::rename(name_.c_str(), target_.c_str()) != 0) fail(target_, "could not be renamed to its name");
@@ -57,7 +58,7 @@ public:
 private:
     std::filesystem::path target_;
     std::string name_;
-    int file_;
+    int file_ = -1;
 };
 
 // Without this a power cut may undo the rename. Not every file system can do it, and the file itself is whole anyhow.

@@ -12,12 +12,15 @@
 #include "core/error.hpp"
 #include "core/film/atomic_file.hpp"
 #include "core/hash.hpp"
+#include "core/printable.hpp"
 
 namespace lightnet {
 namespace {
 
 // magic, size of the text, text (JSON), sums, blocks that wait, hash of all before it. Little-endian, as in memory.
-constexpr std::string_view magic = "lightnet checkpoint 3\n";
+constexpr std::string_view magic = "lightnet checkpoint 4\n";
+
+using Json = nlohmann::json;
 
 template <class T>
 std::string_view bytes_of(std::span<const T> values) {
@@ -48,18 +51,16 @@ private:
 
 std::string text_of(const Checkpoint& checkpoint) {
     const auto& film = checkpoint.film;
-    nlohmann::json parts = nlohmann::json::array();
+    Json parts = Json::array();
     for (const auto& part : film.parts) {
-        nlohmann::json waiting = nlohmann::json::array();
+        Json waiting = Json::array();
         for (const auto& [block, sum] : part.waiting) waiting.push_back({block, sum.blocks, sum.pixels.size()});
         parts.push_back({part.x, part.y, part.width, part.height, part.next_block, std::move(waiting)});
     }
-    return nlohmann::json{{"of", checkpoint.of},
-                          {"sums", film.sums.size()},
-                          {"spreads", film.spreads.size()},
-                          {"lost", film.lost},
-                          {"parts", parts}}
-        .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    return Json{{"of", checkpoint.of},      {"samples", film.samples},
+                {"sums", film.sums.size()}, {"spreads", film.spreads.size()},
+                {"lost", film.lost},        {"parts", parts}}
+        .dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::vector<Rgb> colours(Reader& reader, std::size_t count) {
@@ -69,8 +70,48 @@ std::vector<Rgb> colours(Reader& reader, std::size_t count) {
     return colours;
 }
 
+// The library would take -1 for a large number.
+std::uint32_t number(const Json& value) {
+    if (!value.is_number_unsigned() || value > std::numeric_limits<std::uint32_t>::max()) throw Error("it is damaged");
+    return value;
+}
+
+// Lists of the text have so many entries, or are no lists of ours.
+const Json& list(const Json& value, std::size_t entries) {
+    if (!value.is_array() || value.size() != entries) throw Error("a part of it is damaged");
+    return value;
+}
+
+FilmState::Part part_of(const Json& text, Reader& reader) {
+    const Json& values = list(text, 6);
+    FilmState::Part part{number(values[0]), number(values[1]), number(values[2]),
+                         number(values[3]), number(values[4]), {}};
+    if (!values[5].is_array()) throw Error("a part of it is damaged");
+    for (const auto& waits : values[5]) {
+        const Json& sum = list(waits, 3);
+        FilmState::Sum made{number(sum[1]), colours(reader, number(sum[2]))};
+        if (!part.waiting.emplace(number(sum[0]), std::move(made)).second) throw Error("it has a block twice");
+    }
+    return part;
+}
+
+FilmState film_of(const Json& text, Reader& reader) {
+    FilmState film;
+    film.samples = number(text.at("samples"));
+    film.sums = colours(reader, text.at("sums"));
+    const std::size_t spreads = text.at("spreads");
+    if (spreads > reader.left() / sizeof(FilmState::Spread)) throw Error("it is damaged");
+    film.spreads.resize(spreads);
+    reader.get(film.spreads.data(), spreads);
+    film.lost = text.at("lost").get<std::vector<std::uint64_t>>();
+    for (const auto& part : text.at("parts")) film.parts.push_back(part_of(part, reader));
+    if (reader.left() > 0) throw Error("it holds more than it says");
+    return film;
+}
+
 Checkpoint from_bytes(std::string_view bytes) {
-    if (!bytes.starts_with(magic)) throw Error("it is no checkpoint");
+    if (!bytes.starts_with(checkpoint_beginning)) throw Error("it is no checkpoint");
+    if (!bytes.starts_with(magic)) throw Error("it is the checkpoint of another version of lightnet");
     Hash hash;
     if (bytes.size() < magic.size() + sizeof hash.bytes) throw Error("it is damaged");
     const auto content = bytes.substr(0, bytes.size() - sizeof hash.bytes);
@@ -79,21 +120,12 @@ Checkpoint from_bytes(std::string_view bytes) {
     Reader reader(content.substr(magic.size()));
     std::uint64_t size = 0;
     reader.get(&size, 1);
-    const auto text = nlohmann::json::parse(reader.text(size));
-    Checkpoint checkpoint;
-    checkpoint.of = text.at("of");
-    auto& film = checkpoint.film;
-    film.sums = colours(reader, text.at("sums"));
-    const std::size_t spreads = text.at("spreads");
-    if (spreads > reader.left() / sizeof(FilmState::Spread)) throw Error("it is damaged");
-    film.spreads.resize(spreads);
-    reader.get(film.spreads.data(), spreads);
-    film.lost = text.at("lost").get<std::vector<std::uint64_t>>();
-    for (const auto& part : text.at("parts")) {
-        auto& made = film.parts.emplace_back(FilmState::Part{part[0], part[1], part[2], part[3], part[4], {}});
-        for (const auto& one : part[5]) made.waiting.emplace(one[0], FilmState::Sum{one[1], colours(reader, one[2])});
+    try {
+        const auto text = Json::parse(reader.text(size));
+        return {text.at("of"), film_of(text, reader)};
+    } catch (const Json::exception&) {  // its words quote the file
+        throw Error("it is damaged");
     }
-    return checkpoint;
 }
 
 }  // namespace
@@ -140,7 +172,8 @@ std::string differences(const std::map<std::string, std::string>& theirs,
         if (other == value) continue;
         constexpr std::size_t longest = 40;  // hashes say little
         text += (text.empty() ? "" : "; ") + name;
-        if (other.size() < longest && value.size() < longest) text += " " + other + " there, " + value + " here";
+        if (other.size() < longest && value.size() < longest)
+            text += " " + printable(other) + " there, " + value + " here";
     }
     return text;
 }

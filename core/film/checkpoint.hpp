@@ -11,8 +11,11 @@
 
 namespace lightnet {
 
+/// All checkpoints begin with this.
+inline constexpr std::string_view checkpoint_beginning = "lightnet checkpoint ";
+
 /// What a film holds, and what it is a picture of: names and values ("seed" → "7") that must all be the same for a run
-/// that goes on with it. A value.
+/// that goes on with it; it may want more samples. A value.
 struct Checkpoint {
     std::map<std::string, std::string> of;
     FilmState film;

@@ -28,13 +28,23 @@ Film::Film(FilmFormat format)
     if (const auto& crop = format_.crop)
         if (!lies_within(crop->x, crop->width, format_.width) || !lies_within(crop->y, crop->height, format_.height))
             throw Error("film", "the crop is not inside of the picture");
-    const std::size_t pixels = window_.pixels();
-    all_ = std::uint64_t{blocks_} * pixels;
+    all_ = std::uint64_t{blocks_} * window_.pixels();
+    lost_.resize(format_.colours());
+    try {
+        take_room(window_.pixels());
+    } catch (const std::bad_alloc&) {
+        const auto bytes = double(window_.pixels()) * double(format_.colours()) * sizeof(Rgb);
+        throw Error("film",
+                    fmt::format("{}x{} pixels of {} layers take {:.0f} MB, which is more than there is memory for",
+                                window_.width, window_.height, format_.colours(), bytes / 1e6));
+    }
+}
+
+void Film::take_room(std::size_t pixels) {
     if (format_.adaptive()) spreads_.resize(pixels);
     sums_.resize(pixels * format_.colours());
     block_of_.resize(pixels);
     taken_.resize(pixels);
-    lost_.resize(format_.colours());
 }
 
 bool Film::add(const Tile& tile, std::span<const Rgb> pixels) {
@@ -61,9 +71,13 @@ Blocks Film::group_of(std::uint32_t block) const {
     return {group.first, std::min(group.count, blocks_ - group.first)};
 }
 
+Blocks Film::handed_out(std::uint32_t block) const {
+    return format_.adaptive() ? Blocks{block, 1} : lightnet::handed_out(block, format_.samples);
+}
+
 bool Film::is_whole(const Tile& tile) const {
-    const Blocks group = group_of(tile.block());
-    return tile.block() == group.first && tile.blocks() == group.count;
+    const Blocks together = handed_out(tile.block());
+    return tile.block() == together.first && tile.blocks() == together.count;
 }
 
 bool Film::Rectangle::has(std::uint32_t block) const {
@@ -76,16 +90,18 @@ bool Film::add_area(const Tile& tile, std::span<const Rgb> pixels) {
     auto& rectangle = rectangle_of(tile);
     if (has_area(tile)) return false;
     if (tile.blocks() > 1 && !std::all_of(pixels.begin(), pixels.end(), finite)) return false;
-    if (is_whole(tile) && tile.block() == rectangle.next_block)
+    if (is_whole(tile) && tile.block() == rectangle.next_block && !is_open(group_of(tile.block())))
         fold_next(rectangle, tile, pixels);
     else
         keep(rectangle, tile, pixels);
     auto& waiting = rectangle.waiting;
     const auto comes_next = [&](const auto& sum) {
-        return sum.first == rectangle.next_block && sum.second.blocks == group_of(sum.first).count;
+        const Blocks group = group_of(sum.first);
+        return sum.first == rectangle.next_block && sum.second.blocks == group.count && !is_open(group);
     };
     while (!waiting.empty() && comes_next(*waiting.begin()))
         fold_next(rectangle, tile, waiting.extract(waiting.begin()).mapped().pixels);
+    end_if_open_group_is_there(rectangle, tile);
     return true;
 }
 
@@ -102,16 +118,17 @@ void Film::fold_next(Rectangle& rectangle, const Tile& tile, std::span<const Rgb
 // Until its turn comes. Blocks of a group are added up as soon as those before them are there.
 void Film::keep(Rectangle& rectangle, const Tile& tile, std::span<const Rgb> pixels) {
     auto& waiting = rectangle.waiting;
-    const Blocks group = group_of(tile.block());
-    const std::uint32_t end = group.first + group.count;
-    if (is_whole(tile)) waiting.erase(waiting.lower_bound(group.first), waiting.lower_bound(end));
+    const Blocks together = handed_out(tile.block());
+    const std::uint32_t end = together.first + together.count;
+    if (is_whole(tile)) waiting.erase(waiting.lower_bound(together.first), waiting.lower_bound(end));
     auto& kept = waiting[tile.block()] = {tile.blocks(), {pixels.begin(), pixels.end()}};
     if (is_whole(tile)) return;
     blacken(kept.pixels);
-    const auto sum = waiting.find(group.first);
+    const auto sum = waiting.find(together.first);
     if (sum == waiting.end()) return;
     auto& [blocks, colours] = sum->second;
-    for (auto next = std::next(sum); next != waiting.end() && next->first == group.first + blocks && next->first < end;
+    for (auto next = std::next(sum);
+         next != waiting.end() && next->first == together.first + blocks && next->first < end;
          next = waiting.erase(next)) {
         std::transform(colours.begin(), colours.end(), next->second.pixels.begin(), colours.begin(), std::plus<>());
         blocks += next->second.blocks;
@@ -223,7 +240,7 @@ void Film::expect_valid(const Tile& tile, std::size_t colours) const {
                         of_cells(tile.y, tile.height, window_.y + window_.height);
     const bool of_blocks = tile.first_sample % samples_per_block == 0 && tile.first_sample < format_.samples &&
                            (tile.samples == samples_of(tile.block(), format_.samples) ||
-                            tile.samples == samples_of(group_of(tile.block()), format_.samples));
+                            (is_whole(tile) && tile.samples == samples_of(handed_out(tile.block()), format_.samples)));
     if (!inside || !of_blocks)
         throw Error("film", fmt::format("no tile of this picture: {}x{} pixels at {},{}, {} samples from {}",
                                         tile.width, tile.height, tile.x, tile.y, tile.samples, tile.first_sample));
@@ -316,12 +333,16 @@ Picture Film::picture(float scale) const {
     };
     if (format_.adaptive())
         for (std::size_t i = 0; i < pixels; ++i) picture.samples.push_back(float(samples_of_pixel(i)));
+    const bool some_open = std::any_of(rectangles_.begin(), rectangles_.end(),
+                                       [this](const auto& rectangle) { return ends_open(rectangle.second); });
+    const auto with_open = some_open ? sums_with_open_groups() : std::vector<Rgb>{};
+    const auto& sums = some_open ? with_open : sums_;
     for (std::size_t k = 0; k < layers; ++k) {
         auto& among = k < format_.layers.size() ? picture.layers : picture.shown;
         auto& layer = among.emplace_back(PictureLayer{format_.name_of(k), std::vector<Rgb>(pixels)});
         for (std::size_t i = 0; i < pixels; ++i) {
             const std::uint32_t samples = samples_of_pixel(i);
-            if (samples) layer.pixels[i] = sums_[from[i] * layers + k] / static_cast<float>(samples) * scale;
+            if (samples) layer.pixels[i] = sums[from[i] * layers + k] / static_cast<float>(samples) * scale;
         }
     }
     picture.beauty = sum_of(picture.layers);

@@ -28,6 +28,11 @@ inline std::uint32_t samples_of(const Blocks& blocks, std::uint32_t samples) {
     return std::min(blocks.count * samples_per_block, samples - blocks.first * samples_per_block);
 }
 
+/// The blocks that are handed out together with block `block` of so many samples: its group, as far as the picture has
+/// it. A last block that is short goes alone, so that what the others of its group add up to serves a picture of more
+/// samples as well.
+Blocks handed_out(std::uint32_t block, std::uint32_t samples);
+
 /// The tiles of a part of a picture in the order in which they are handed out: one group of blocks of the whole picture
 /// after the other, and within it along a Hilbert curve, so that neighbours in time are neighbours in the scene.
 std::vector<Tile> tiles_of(const Window& window, std::uint32_t tile_size, std::uint32_t samples);
@@ -73,7 +78,7 @@ struct FilmFormat {
 /// Film::more() gives the others.
 std::vector<Tile> tiles_of(const FilmFormat& format, std::uint32_t tile_size);
 
-/// What a film holds, to be kept and taken up again. A value.
+/// What a film holds, to be kept and taken up again, by a film of as many samples or more. A value.
 struct FilmState {
     /// What came before its turn, or before all of its group.
     struct Sum {
@@ -94,6 +99,7 @@ struct FilmState {
         double mean[3] = {}, squares[3] = {};
         friend bool operator==(const Spread&, const Spread&) = default;
     };
+    std::uint32_t samples = 0;    // of its film
     std::vector<Rgb> sums;        // pixel × layer
     std::vector<Spread> spreads;  // per pixel, where cells decide
     std::vector<std::uint64_t> lost;
@@ -107,6 +113,9 @@ struct FilmState {
 ///
 /// What is not finite of a block counts as black. A group with such a colour is not taken: its blocks are wanted one by
 /// one, so that no more is lost than if it had never been added up elsewhere. Where cells decide, a group is one block.
+///
+/// The last group may be one to which a picture of more samples would add. It is kept beside the sums of the others and
+/// added for the picture only, so that such a picture can go on from what this film holds.
 ///
 /// With a refinement, a cell is done when sqrt(mean(v / (m² + 0.01))) over its pixels and channels is at most the
 /// error, or when it has all samples. m is the mean of a pixel's k blocks as the picture shows it, v = Σ(b - m)² / (k
@@ -133,10 +142,13 @@ public:
 
     /// Is all of this tile there already?
     bool has(const Tile& tile) const;
+    /// What of this tile is not: all of it, nothing, or those of its blocks that are wanted one by one.
+    std::vector<Tile> lacking(const Tile& tile) const;
     FilmState state() const;
     /// The same, into room that is there already.
     void state(FilmState& into) const;
-    /// Takes up what another film of this format held. This one must be empty. Throws Error when it does not fit.
+    /// Takes up what another film of this format held, or one of fewer samples. This one must be empty. Throws Error
+    /// when it does not fit.
     void restore(FilmState state);
 
     /// Every block that is wanted of every pixel is there.
@@ -146,7 +158,7 @@ public:
     /// Samples per pixel so far, on average.
     double mean_samples() const;
     /// Colours that were not finite and count as black, per layer.
-    const std::vector<std::uint64_t>& lost() const { return lost_; }
+    std::vector<std::uint64_t> lost() const;
     const FilmFormat& format() const { return format_; }
 
     /// The mean over all samples, times `scale`. Of an incomplete film: what is there, over the samples of the blocks
@@ -163,11 +175,21 @@ private:
     using Spread = FilmState::Spread;
     using Area = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>;  // x, y, width, height
 
+    void take_room(std::size_t pixels);
     void expect_valid(const Tile& tile, std::size_t colours) const;
     bool has_area(const Tile& tile) const;
     std::optional<Tile> next_of(const Tile& place) const;
     void end_if_enough(Rectangle& rectangle, const Tile& tile);
     Blocks group_of(std::uint32_t block) const;
+    Blocks handed_out(std::uint32_t block) const;
+    bool is_open(const Blocks& group) const;
+    bool ends_open(const Rectangle& rectangle) const;
+    void end_if_open_group_is_there(Rectangle& rectangle, const Tile& tile);
+    std::vector<Rgb> sum_of_open_group(const Rectangle& rectangle) const;
+    std::vector<Rgb> sums_with_open_groups() const;
+    void expect_can_wait(const FilmState::Part& part) const;
+    void expect_nothing_elsewhere() const;
+    void take_up(FilmState::Part part);
     bool is_whole(const Tile& tile) const;
     bool add_area(const Tile& tile, std::span<const Rgb> pixels);
     void keep(Rectangle& rectangle, const Tile& tile, std::span<const Rgb> pixels);
@@ -186,7 +208,7 @@ private:
     Window window_;
     float scale_ = 1;
     std::uint32_t blocks_ = 0;
-    std::vector<Rgb> sums_;                // pixel × layer
+    std::vector<Rgb> sums_;                // pixel × layer; without groups that are open
     std::vector<std::uint32_t> block_of_;  // per pixel: how many blocks are in its sums
     std::vector<Spread> spreads_;          // per pixel, where cells decide
     std::vector<bool> taken_;              // per pixel: it lies in a rectangle that was seen

@@ -13,6 +13,7 @@ FilmState Film::state() const {
 }
 
 void Film::state(FilmState& into) const {
+    into.samples = format_.samples;
     into.sums = sums_;
     into.spreads = spreads_;
     into.lost = lost_;
@@ -23,41 +24,80 @@ void Film::state(FilmState& into) const {
     }
 }
 
+void Film::expect_can_wait(const FilmState::Part& part) const {
+    const std::size_t colours = std::size_t{part.width} * part.height * format_.colours();
+    std::uint32_t free = part.next_block;
+    for (const auto& [block, sum] : part.waiting) {
+        const Blocks together = handed_out(block), group = group_of(block);
+        const std::uint32_t left = block < blocks_ ? together.first + together.count - block : 0;
+        const bool is_next = block == part.next_block && sum.blocks == group.count && !is_open(group);
+        if (block < free || sum.blocks < 1 || sum.blocks > left || is_next || sum.pixels.size() != colours)
+            throw Error("film", "what is taken up has a block that can't wait");
+        free = block + sum.blocks;
+    }
+}
+
+void Film::take_up(FilmState::Part part) {
+    const Tile tile{part.x, part.y, part.width, part.height, 0, samples_of(0, format_.samples)};
+    expect_valid(tile, tile.pixels() * format_.colours());
+    const Area area{part.x, part.y, part.width, part.height};
+    if (rectangles_.contains(area)) throw Error("film", "what is taken up has a part twice");
+    if (part.next_block > blocks_) throw Error("film", "what is taken up has more samples");
+    if (part.next_block < blocks_ && group_of(part.next_block).first != part.next_block)
+        throw Error("film", "what is taken up has a part of a group");
+    if (part.next_block == blocks_ && is_open(group_of(blocks_ - 1)))
+        throw Error("film", "what is taken up has a group that should be apart");
+    expect_can_wait(part);
+    auto& rectangle = rectangle_of(tile);
+    rectangle.next_block = part.next_block;
+    for (auto& [block, sum] : part.waiting)
+        if (const Blocks together = handed_out(block); block != together.first || sum.blocks != together.count)
+            blacken(sum.pixels);
+    rectangle.waiting = std::move(part.waiting);
+    for (std::uint32_t y = part.y; y < part.y + part.height; ++y)
+        for (std::uint32_t x = part.x; x < part.x + part.width; ++x) block_of_[index(x, y)] = part.next_block;
+    folded_ += tile.pixels() * part.next_block;
+}
+
+// A part that was left out would be added a second time.
+void Film::expect_nothing_elsewhere() const {
+    const std::size_t layers = format_.colours();
+    for (std::size_t pixel = 0; pixel < block_of_.size(); ++pixel) {
+        if (block_of_[pixel] > 0) continue;
+        bool nothing = spreads_.empty() || spreads_[pixel] == Spread{};
+        for (std::size_t k = 0; k < layers; ++k) nothing = nothing && sums_[pixel * layers + k] == Rgb{};
+        if (!nothing) throw Error("film", "what is taken up lacks a part that its sums have");
+    }
+}
+
 void Film::restore(FilmState state) {
     if (!rectangles_.empty()) throw Error("film", "only an empty film can take up another");
     if (state.sums.size() != sums_.size() || state.spreads.size() != spreads_.size() ||
         state.lost.size() != lost_.size())
         throw Error("film", "what is taken up is of another size");
-    for (auto& part : state.parts) {
-        Tile tile{part.x, part.y, part.width, part.height, 0, samples_of(0, format_.samples)};
-        expect_valid(tile, tile.pixels() * format_.colours());
-        if (part.next_block > blocks_) throw Error("film", "what is taken up has more samples");
-        if (part.next_block < blocks_ && group_of(part.next_block).first != part.next_block)
-            throw Error("film", "what is taken up has a part of a group");
-        std::uint32_t free = part.next_block;
-        for (const auto& [block, sum] : part.waiting) {
-            const Blocks group = group_of(block);
-            const std::uint32_t left = block < blocks_ ? group.first + group.count - block : 0;
-            const bool is_next = block == part.next_block && sum.blocks == group.count;
-            if (block < free || sum.blocks < 1 || sum.blocks > left || is_next ||
-                sum.pixels.size() != tile.pixels() * format_.colours())
-                throw Error("film", "what is taken up has a block that can't wait");
-            free = block + sum.blocks;
-        }
-        auto& rectangle = rectangle_of(tile);
-        rectangle.next_block = part.next_block;
-        rectangle.waiting = std::move(part.waiting);
-        for (std::uint32_t y = part.y; y < part.y + part.height; ++y)
-            for (std::uint32_t x = part.x; x < part.x + part.width; ++x) block_of_[index(x, y)] = part.next_block;
-        folded_ += tile.pixels() * part.next_block;
-    }
+    if (state.samples > format_.samples) throw Error("film", "what is taken up is of more samples");
     sums_ = std::move(state.sums);
     spreads_ = std::move(state.spreads);
+    lost_ = std::move(state.lost);
+    const bool grows = state.samples < format_.samples && state.samples % samples_per_block > 0;
+    for (auto& part : state.parts) {
+        // The block that was short is longer here, and the others must be as they are.
+        if (grows) part.waiting.erase(state.samples / samples_per_block);
+        take_up(std::move(part));
+    }
+    expect_nothing_elsewhere();
     for (auto& [area, rectangle] : rectangles_) {
         const auto& [x, y, width, height] = area;
         end_if_enough(rectangle, {x, y, width, height});
+        end_if_open_group_is_there(rectangle, {x, y, width, height});
     }
-    lost_ = std::move(state.lost);
+}
+
+std::vector<Tile> Film::lacking(const Tile& tile) const {
+    if (has(tile)) return {};
+    auto blocks = one_by_one(tile);
+    const auto there = std::erase_if(blocks, [this](const Tile& block) { return has(block); });
+    return there == 0 ? std::vector<Tile>{tile} : blocks;
 }
 
 }  // namespace lightnet

@@ -9,7 +9,7 @@
 
 namespace lightnet {
 
-/// How linear radiance becomes 8 bits: for run.json and for the user to read.
+/// How linear radiance becomes 8 bits: for reports and for the user to read.
 inline constexpr std::string_view png_tone = "exposure 1, clipped to 0..1, sRGB transfer curve, 8 bits";
 
 /// The bytes of an 8 bit sRGB PNG of the beauty, toned as png_tone says. NaN is black.

@@ -41,6 +41,10 @@ std::string to_json(const RunReport& report) {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+std::filesystem::path report_beside(const std::filesystem::path& picture) {
+    return std::filesystem::path(picture).replace_extension(".run.json");
+}
+
 void write_report(const std::filesystem::path& path, const RunReport& report) { write_file(path, to_json(report)); }
 
 }  // namespace lightnet

@@ -1,10 +1,11 @@
-// What a run did, for people and scripts: run.json.
+// What a run did, for people and scripts: x.run.json.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lightnet {
@@ -47,7 +48,13 @@ struct RunReport {
     std::vector<std::string> warnings;
 };
 
-/// The text of run.json. Key order is fixed.
+/// All reports begin with this.
+inline constexpr std::string_view report_beginning = "{\n  \"format\": \"lightnet run ";
+
+/// x.exr → x.run.json
+std::filesystem::path report_beside(const std::filesystem::path& picture);
+
+/// The text of such a file. Key order is fixed.
 std::string to_json(const RunReport& report);
 
 /// Writes it, whole or not at all. Throws Error.

@@ -39,6 +39,13 @@ std::vector<Tile> one_by_one(const Tile& tile) {
     return blocks;
 }
 
+Blocks handed_out(std::uint32_t block, std::uint32_t samples) {
+    const std::uint32_t full = samples / samples_per_block;
+    if (block >= full) return {block, 1};
+    const Blocks group = group_of(block);
+    return {group.first, std::min(group.count, full - group.first)};
+}
+
 std::vector<Tile> tiles_of(std::uint32_t width, std::uint32_t height, std::uint32_t tile_size, std::uint32_t samples) {
     return tiles_of(Window{0, 0, width, height}, tile_size, samples);
 }
@@ -59,12 +66,12 @@ std::vector<Tile> tiles_of(const Window& window, std::uint32_t tile_size, std::u
     }
     const std::size_t per_group = tiles.size(), blocks = blocks_in(samples);
     if (blocks == 0) return {};
-    for (std::uint32_t block = 0, group = 0; block < blocks; block += group_of(block).count, ++group)
+    for (std::uint32_t block = 0, group = 0; block < blocks; block += handed_out(block, samples).count, ++group)
         for (std::size_t i = 0; i < per_group; ++i) {
             if (block > 0) tiles.push_back(tiles[i]);
             Tile& tile = tiles[group * per_group + i];
             tile.first_sample = block * samples_per_block;
-            tile.samples = samples_of(group_of(block), samples);
+            tile.samples = samples_of(handed_out(block, samples), samples);
         }
     return tiles;
 }

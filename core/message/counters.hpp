@@ -59,7 +59,7 @@ struct Counters {
     /// Stands before the name of a node.
     static inline const std::string not_finite_of = "not_finite.";
 
-    /// Every other count and its name, as in run.json and on the wire.
+    /// Every other count and its name, as in x.run.json and on the wire.
     static const std::array<std::pair<const char*, std::uint64_t Counters::*>, 22> all;
     friend bool operator==(const Counters&, const Counters&) = default;
 };

@@ -3,6 +3,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,9 @@
 #include "core/scene/scene_data.hpp"
 
 namespace lightnet {
+
+/// All files that keep something begin with this.
+inline constexpr std::string_view kept_beginning = "lightnet kept ";
 
 /// The content of a file that keeps what a node of that kind has learnt: some lines of text, then the results.
 std::string kept_text(const Kind& kind, const Hash& scene, std::span<const std::byte> results);

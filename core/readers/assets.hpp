@@ -24,6 +24,10 @@ public:
     /// The bytes of the file at `path`. None: reported.
     std::optional<Bytes> read(const std::string& path, const SourceLine& where);
     bool exists(const std::string& path);
+    /// See lightnet::stays_beside().
+    bool stays_beside(const std::string& from, const std::string& path) const {
+        return lightnet::stays_beside(files_, from, path);
+    }
     /// The picture at `path`. Null: reported.
     std::shared_ptr<const Image> picture(const std::string& path, const Encoding& encoding, const SourceLine& where);
     /// A picture inside another file; `name` tells it from all others.

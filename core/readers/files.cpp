@@ -15,6 +15,12 @@ namespace {
 
 constexpr std::uintmax_t largest_file = std::uintmax_t{8} << 30;
 
+std::vector<std::byte> room_for(std::uintmax_t size, const std::string& path) try {
+    return std::vector<std::byte>(size);
+} catch (const std::bad_alloc&) {
+    throw Error(path, "has " + std::to_string(size >> 20) + " MiB, which is more than there is memory for");
+}
+
 std::vector<std::byte> read_disk(const std::string& path) {
     std::error_code problem;
     const auto status = std::filesystem::status(path, problem);
@@ -27,7 +33,7 @@ std::vector<std::byte> read_disk(const std::string& path) {
 
     std::ifstream stream(path, std::ios::binary);
     if (!stream) throw Error(path, std::strerror(errno));
-    std::vector<std::byte> bytes(size);
+    auto bytes = room_for(size, path);
     stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
     if (static_cast<std::uintmax_t>(stream.gcount()) != size) throw Error(path, "ends early while being read");
     return bytes;
@@ -46,6 +52,12 @@ Bytes DiskFiles::read(const std::string& path) {
     return bytes;
 }
 
+std::string DiskFiles::real_path(const std::string& path) const {
+    std::error_code problem;
+    const auto real = std::filesystem::weakly_canonical(std::filesystem::absolute(path), problem);
+    return problem ? path : real.string();
+}
+
 std::map<std::string, Hash> DiskFiles::hashes() {
     workshop_->finish();
     return hashes_;
@@ -55,6 +67,18 @@ std::string beside(const std::string& from, const std::string& path) {
     const std::filesystem::path written(path);
     if (written.is_absolute()) return written.lexically_normal().string();
     return (std::filesystem::path(from).parent_path() / written).lexically_normal().string();
+}
+
+bool lies_within(const std::string& folder, const std::string& path) {
+    const auto within = std::filesystem::path(folder.empty() ? "." : folder).lexically_normal();
+    const auto way = std::filesystem::path(path).lexically_normal().lexically_relative(within);
+    return !way.empty() && *way.begin() != "..";
+}
+
+bool stays_beside(const Files& files, const std::string& from, const std::string& path) {
+    const std::filesystem::path parent = std::filesystem::path(from).parent_path();
+    const std::string folder = parent.empty() ? "." : parent.string();
+    return lies_within(folder, path) && lies_within(files.real_path(folder), files.real_path(path));
 }
 
 std::string stem_of(const std::string& path) { return std::filesystem::path(path).stem().string(); }

@@ -19,6 +19,8 @@ public:
     virtual ~Files() = default;
     /// The whole file. Throws Error when there is none or it can't be read.
     virtual Bytes read(const std::string& path) = 0;
+    /// Where a file really lies: as it is named, or, on a disk, where links lead.
+    virtual std::string real_path(const std::string& path) const { return path; }
 };
 
 /// The disk. Remembers what was read, so that it can be sent: path → bytes.
@@ -27,6 +29,7 @@ public:
     DiskFiles();
     ~DiskFiles() override;
     Bytes read(const std::string& path) override;
+    std::string real_path(const std::string& path) const override;
     const std::map<std::string, Bytes>& seen() const { return seen_; }
     /// Of all that was read: computed on the side while the reader went on.
     std::map<std::string, Hash> hashes();
@@ -39,6 +42,10 @@ private:
 
 /// `path` as written inside the file `from`: relative to the folder of `from`, unless absolute. Without "." and "..".
 std::string beside(const std::string& from, const std::string& path);
+/// Does `path` lie in `folder`, or below? By their names alone.
+bool lies_within(const std::string& folder, const std::string& path);
+/// Does the file at `path` lie in the folder of the file `from`, or below, as it is named and really?
+bool stays_beside(const Files& files, const std::string& from, const std::string& path);
 /// The name of a file without its folder and its ending: what a shape goes by that has a file of its own.
 std::string stem_of(const std::string& path);
 

@@ -11,7 +11,28 @@
 
 namespace lightnet {
 
-SceneData read_scene(Files& files, const std::string& path, const std::map<std::string, std::string>& constants) {
+namespace {
+
+/// Files of one scene, and the first that lies elsewhere.
+class Watched final : public Files {
+public:
+    Watched(Files& files, const std::string& scene) : files_(files), scene_(scene) {}
+    Bytes read(const std::string& path) override {
+        auto bytes = files_.read(path);
+        if (outside_.empty() && path != scene_ && !stays_beside(files_, scene_, path)) outside_ = path;
+        return bytes;
+    }
+    std::string real_path(const std::string& path) const override { return files_.real_path(path); }
+    /// "": all of them are where the scene is, or below.
+    const std::string& outside() const { return outside_; }
+
+private:
+    Files& files_;
+    const std::string& scene_;
+    std::string outside_;
+};
+
+SceneData read(Files& files, const std::string& path, const std::map<std::string, std::string>& constants) {
     std::string ending = path.substr(std::min(path.rfind('.'), path.size()));
     std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
     if (ending == ".xml") return mitsuba::read(files, path, constants);
@@ -23,6 +44,18 @@ SceneData read_scene(Files& files, const std::string& path, const std::map<std::
     if (ending == ".obj") return obj::read(files, path);
     if (ending == ".ply") return read_ply_scene(files, path);
     throw UserError({path, 0}, "a scene must be a '.pbrt', '.xml' (Mitsuba), '.gltf', '.glb', '.obj' or '.ply' file");
+}
+
+}  // namespace
+
+SceneData read_scene(Files& files, const std::string& path, const std::map<std::string, std::string>& constants) {
+    Watched watched(files, path);
+    SceneData scene = read(watched, path, constants);
+    if (!watched.outside().empty())
+        scene.warnings.push_back(
+            {{path, 0},
+             "reads files outside of its folder, such as '" + watched.outside() + "': hosts are sent them as well"});
+    return scene;
 }
 
 }  // namespace lightnet

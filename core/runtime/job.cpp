@@ -115,10 +115,14 @@ std::shared_ptr<const Network> build_network(const Job& job, const Registry& reg
     options.isa = job.isa;
     options.width = job.width;
     options.height = job.height;
-    Network network{job.graph, registry, std::make_shared<const Scene>(std::move(scene), options), job.seed};
-    network.results = std::move(results);
-    network.checking = job.checking;
-    return std::make_shared<const Network>(std::move(network));
+    try {
+        Network network{job.graph, registry, std::make_shared<const Scene>(std::move(scene), options), job.seed};
+        network.results = std::move(results);
+        network.checking = job.checking;
+        return std::make_shared<const Network>(std::move(network));
+    } catch (const std::bad_alloc&) {
+        throw Error(job.scene, "is too large for the memory of this machine, with what finds its surfaces");
+    }
 }
 
 std::string made_from(const Job& job) {

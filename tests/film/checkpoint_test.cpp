@@ -2,9 +2,11 @@
 
 #include <gmock/gmock.h>
 
+#include <cstring>
 #include <fstream>
 
 #include "core/error.hpp"
+#include "core/hash.hpp"
 #include "tests/film/pictures.hpp"
 #include "tests/support/folder.hpp"
 
@@ -77,6 +79,74 @@ TEST(Checkpoint, ThatIsDamagedAnywhereIsRefused) {
         std::ofstream(path, std::ios::binary) << bytes.substr(0, i);
         EXPECT_THROW(read_checkpoint(path), Error) << i;
     }
+}
+
+// The text of a checkpoint changed, and its hash made right again.
+void rewrite(const std::filesystem::path& path, const std::string& before, const std::string& after) {
+    std::string bytes = content_of(path);
+    constexpr std::size_t hash_size = sizeof(Hash::bytes);
+    const auto at = bytes.find(before), size_at = bytes.find('\n') + 1;
+    ASSERT_NE(at, std::string::npos) << before;
+    std::uint64_t size = 0;
+    std::memcpy(&size, &bytes[size_at], sizeof size);
+    size += after.size() - before.size();
+    std::memcpy(&bytes[size_at], &size, sizeof size);
+    bytes.replace(at, before.size(), after);
+    bytes.resize(bytes.size() - hash_size);
+    const Hash hash = content_hash(bytes);
+    std::ofstream(path, std::ios::binary) << bytes << std::string(hash.bytes.begin(), hash.bytes.end());
+}
+
+std::string refusal_of(const std::filesystem::path& path) {
+    try {
+        Film(format).restore(read_checkpoint(path).value().film);
+        return "";
+    } catch (const Error& error) {
+        return error.what();
+    }
+}
+
+TEST(Checkpoint, WhosePartsAreNoneOfOursIsRefusedInASentence) {
+    const test::Folder folder;
+    const auto path = folder / "x.checkpoint";
+    const auto refused = [&](const std::string& before, const std::string& after, const char* why) {
+        Film film(format);
+        const Tile first = all_tiles()[0];
+        film.add(first, rendered(first));
+        write_checkpoint(path, {{{"seed", "7"}}, film.state()});
+        rewrite(path, before, after);
+        EXPECT_THAT(refusal_of(path), testing::HasSubstr(why)) << before << " -> " << after;
+    };
+    const std::string part = "[0,0,3,3,1,[]]";
+    refused("[" + part + "]", "[]", "lacks a part");
+    refused(part, "[]", "a part of it is damaged");
+    refused(part, "[0,0,3,3,1]", "a part of it is damaged");
+    refused(part, "[0,0,3,3,1,7]", "a part of it is damaged");
+    refused(part, "[0,0,3,3,1,[[]]]", "a part of it is damaged");
+    refused(part, "null", "a part of it is damaged");
+    refused(part, "[0,0,3,3,-1,[]]", "damaged");
+    refused(part, "[0,0,3,3,1.5,[]]", "damaged");
+    refused(part, "[0,0,4294967299,3,1,[]]", "damaged");
+    refused(part, "[0,0,0,3,1,[]]", "no tile of this picture");
+    refused(part, part + "," + part, "a part twice");
+    refused(part, part + ",[1,0,3,3,1,[]]", "overlap");
+    refused(part, "[0,0,3,3,0,[]]", "lacks a part");
+    refused(part, "[0,0,3,3,1,[[5,1,0],[5,1,0]]]", "a block twice");
+    refused("\"parts\"", "\"pants\"", "damaged");
+    refused("\"of\":{", "\"of\":[{", "damaged");
+    refused("\"lost\":[0,0]", "\"lost\":[0]", "another size");
+    refused("\"sums\":64", "\"sums\":63", "holds more than it says");
+    refused("\"samples\":300", "\"samples\":301", "of more samples");
+}
+
+TEST(Checkpoint, QuotesNothingThatCommandsATerminal) {
+    EXPECT_EQ(differences({{"seed", "7\x1b[2J\n\x07"}}, {{"seed", "8"}}), "seed 7\\x1b[2J\\x0a\\x07 there, 8 here");
+}
+
+TEST(Checkpoint, OfAnotherVersionSaysSo) {
+    const test::Folder folder;
+    folder.write("x.checkpoint", "lightnet checkpoint 3\nand more");
+    EXPECT_THAT(refusal_of(folder / "x.checkpoint"), testing::HasSubstr("another version"));
 }
 
 TEST(Checkpoint, WithBlocksThatCantWaitDoesNotFit) {

@@ -6,9 +6,11 @@
 #include <png.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 #include <cstring>
 #include <functional>
@@ -19,6 +21,16 @@
 #include "core/film/exr.hpp"
 #include "core/film/png.hpp"
 #include "tests/film/pictures.hpp"
+
+namespace {
+std::atomic<int> looks_at_the_mask{0};
+}
+
+// In place of the system's, so that calls are seen.
+extern "C" mode_t umask(mode_t mask) noexcept {
+    ++looks_at_the_mask;
+    return static_cast<mode_t>(::syscall(SYS_umask, mask));
+}
 
 namespace lightnet {
 namespace {
@@ -158,6 +170,14 @@ TEST(WriteFile, GivesTheFileTheRightsOfAnyOther) {
     struct stat about {};
     ASSERT_EQ(::stat((folder / "x").c_str(), &about), 0);
     EXPECT_EQ(about.st_mode & 0777, 0644u);
+}
+
+// A mask that is set to be looked at would let files that other threads make meanwhile have any rights.
+TEST(WriteFile, LeavesTheMaskOfOtherThreadsAlone) {
+    const Folder folder;
+    const int before = looks_at_the_mask;
+    write_file(folder / "x", "new");
+    EXPECT_EQ(looks_at_the_mask, before);
 }
 
 // Runs `act` in a child whose files may have at most `limit` bytes: a disk that is full. 0: it threw Error.

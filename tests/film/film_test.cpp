@@ -13,11 +13,12 @@
 #include "core/error.hpp"
 #include "core/light/renderer.hpp"
 #include "tests/film/pictures.hpp"
+#include "tests/support/slowdown.hpp"
 
 namespace lightnet {
 namespace {
 
-// 19 blocks, the last one of 4 samples: groups of 1, 1, 2, 4, 8 and 3.
+// 19 blocks, the last one of 4 samples: groups of 1, 1, 2, 4, 8 and 3, the short block of which goes alone.
 const FilmFormat format{37, 21, {"emission", "direct", "bounce"}, 292};
 
 // Makes noise that depends on pixel, block and layer alone.
@@ -61,14 +62,16 @@ TEST(Tiles, AreHandedOutGroupByGroup) {
     const auto all = tiles(8);
     EXPECT_TRUE(std::is_sorted(all.begin(), all.end(),
                                [](const Tile& a, const Tile& b) { return a.first_sample < b.first_sample; }));
-    EXPECT_EQ(all.size(), 6u * 5 * 3);
+    EXPECT_EQ(all.size(), 7u * 5 * 3);
     std::vector<std::uint32_t> blocks;
     for (std::size_t i = 0; i < all.size(); i += 15) blocks.push_back(all[i].blocks());
-    EXPECT_THAT(blocks, ::testing::ElementsAre(1, 1, 2, 4, 8, 3));
+    EXPECT_THAT(blocks, ::testing::ElementsAre(1, 1, 2, 4, 8, 2, 1));
 }
 
 TEST(Tiles, CanBeDoneBlockByBlock) {
-    const Tile last = tiles(8).back();
+    Tile last = tiles(8).back();
+    last.first_sample = 256;
+    last.samples = 36;
     const auto blocks = one_by_one(last);
     ASSERT_EQ(blocks.size(), 3u);
     EXPECT_EQ(blocks[0].first_sample, 256u);
@@ -226,6 +229,16 @@ TEST(Film, RefusesToBeNothing) {
     EXPECT_THROW(Film({1, 1, {}, 1}), Error);
     EXPECT_THROW(Film({1, 1, {"emission"}, 0}), Error);
     EXPECT_THROW(Film({1, 1, {"emission", "emission"}, 1}), Error);
+}
+
+TEST(Film, SaysWhatIsTooLargeForTheMemory) {
+    if (test::slowdown > 1) GTEST_SKIP() << "a sanitizer ends the process instead";
+    try {
+        const Film film({1u << 22, 1u << 22, {"emission"}, 16});
+        FAIL() << "200 TB were there";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), ::testing::HasSubstr("4194304x4194304 pixels of 1 layers take"));
+    }
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// run.json holds what the run did.
+// The report holds what the run did.
 #include "core/film/run_report.hpp"
 
 #include <gtest/gtest.h>
@@ -48,8 +48,8 @@ TEST(RunReport, SurvivesNamesInNoKnownEncoding) {
 
 TEST(RunReport, IsWrittenToAFile) {
     const Folder folder;
-    write_report(folder / "run.json", small_report());
-    EXPECT_EQ(content_of(folder / "run.json"), to_json(small_report()));
+    write_report(folder / "x.run.json", small_report());
+    EXPECT_EQ(content_of(folder / "x.run.json"), to_json(small_report()));
 }
 
 }  // namespace

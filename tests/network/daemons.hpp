@@ -72,7 +72,7 @@ inline Launch finish(Process& process, const std::filesystem::path& out,
     launch.said = process.output();
     if (launch.code != 0) return launch;
     launch.picture = bytes_of(out);
-    launch.report = bytes_of(std::filesystem::path(out).replace_filename("run.json"));
+    launch.report = bytes_of(std::filesystem::path(out).replace_extension(".run.json"));
     return launch;
 }
 
@@ -83,7 +83,7 @@ inline Launch launch(const std::string& graph, const Folder& folder, const std::
     return finish(process, out, patience);
 }
 
-/// The number behind `"name": ` in a run.json.
+/// The number behind `"name": ` in a report.
 inline double counter(const std::string& report, const std::string& name) {
     const auto at = report.find("\"" + name + "\": ");
     EXPECT_NE(at, std::string::npos) << name;

@@ -46,7 +46,7 @@ TEST_F(Join, NeedsNoPortThatIsOpen) {
     const auto inside = joining_daemon(folder, join_endpoint(*run), "inside");
     const auto end = expect_same(*run);
     EXPECT_NE(end.said.find("inside is ready"), std::string::npos) << end.said;
-    EXPECT_NE(end.report.find("\"machine\": "), std::string::npos) << "machine facts stand in run.json";
+    EXPECT_NE(end.report.find("\"machine\": "), std::string::npos) << "machine facts stand in the report";
 }
 
 TEST_F(Join, OfTwoThatCannotReachEachOtherIsRelayed) {

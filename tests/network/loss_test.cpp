@@ -196,7 +196,7 @@ TEST_F(Loss, OfPatienceEndsEverythingWithinASecond) {
     EXPECT_LT(Clock::now() - begun, slowdown * seconds(1));
     EXPECT_TRUE(processes_with(mark).empty()) << "no process may stay behind";
     EXPECT_FALSE(std::filesystem::exists(out)) << "no half picture";
-    EXPECT_NE(bytes_of(folder / "run.json").find("cancelled"), std::string::npos);
+    EXPECT_NE(bytes_of(folder / "picture.run.json").find("cancelled"), std::string::npos);
 }
 
 TEST_F(Loss, OfTimeDrainsTheRunWithinItsDeadline) {
@@ -206,7 +206,7 @@ TEST_F(Loss, OfTimeDrainsTheRunWithinItsDeadline) {
     run->signal(SIGTERM);
     EXPECT_EQ(run->wait(seconds(8)), 130) << run->output();
     EXPECT_FALSE(std::filesystem::exists(out));
-    EXPECT_NE(bytes_of(folder / "run.json").find("\"late_replies\": 0"), std::string::npos)
+    EXPECT_NE(bytes_of(folder / "picture.run.json").find("\"late_replies\": 0"), std::string::npos)
         << "all that was out came in";
     EXPECT_EQ(
         launch(graph_file("direct.lua"), folder, {"--size", "8x8", "--hosts", hosts_file({whole(one.endpoint)})}).code,

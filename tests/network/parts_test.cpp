@@ -82,7 +82,7 @@ TEST(Preview, IsWhatIsLeftOfACancelledRun) {
     Process run(launch_words(graph_file("cornell.lua"), folder / "picture.exr",
                              {"--size", "64x64", "--samples", "1000000", "--preview", "0.05", "--progress", "json"}));
     ASSERT_TRUE(run.wait_for("shows the picture so far")) << run.output();
-    EXPECT_NE(bytes_of(folder / "run.json").find("\"preview\""), std::string::npos);
+    EXPECT_NE(bytes_of(folder / "picture.run.json").find("\"preview\""), std::string::npos);
     run.signal(SIGINT);
     EXPECT_EQ(run.wait(), 130);
     const Picture picture = read_exr(folder / "picture.exr");

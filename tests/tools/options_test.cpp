@@ -51,6 +51,13 @@ TEST(Options, TakeACrop) {
     EXPECT_EQ(options_of({"run", "g.lua", "--preview", "0.5"}).preview, 0.5);
 }
 
+TEST(Options, TakeSizesOfCachesInUnits) {
+    EXPECT_EQ(options_of({"run", "g.lua"}).tuning.cache_size, std::uint64_t{4} << 30);
+    EXPECT_EQ(options_of({"run", "g.lua", "--cache-size", "500M"}).tuning.cache_size, std::uint64_t{500} << 20);
+    EXPECT_EQ(options_of({"run", "g.lua", "--cache-size", "12345"}).tuning.cache_size, 12345u);
+    EXPECT_THAT(usage_error({"run", "g.lua", "--cache-size", "much"}), HasSubstr("--cache-size"));
+}
+
 TEST(Options, StandInAnyOrder) {
     for (const Words& words :
          {Words{"run", "g.lua", "--threads", "4", "-o", "x.exr", "--samples", "9", "--size", "64x48", "--seed", "7"},

@@ -24,7 +24,7 @@ TEST(RunBook, NamesTheNodeThatMadeWhatIsNotFinite) {
     book.name_not_finite(graph);
     const test::Folder folder;
     book.write_report(folder / "x.exr", "done");
-    std::ifstream file(folder / "run.json");
+    std::ifstream file(folder / "x.run.json");
     const std::string json{std::istreambuf_iterator<char>(file), {}};
     EXPECT_THAT(json, testing::HasSubstr("PathTracing 'bounce' gave 2 answers that are not finite"));
     EXPECT_THAT(json, testing::Not(testing::HasSubstr("'light'")));

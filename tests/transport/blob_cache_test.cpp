@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -27,6 +28,11 @@ protected:
             incoming.add(std::span(blob).subspan(at, std::min<std::size_t>(3, blob.size() - at)));
         incoming.finish();
     }
+    static bool holds_nothing(const fs::path& folder) {
+        const fs::directory_iterator files(folder);
+        return std::all_of(begin(files), end(files),
+                           [](const auto& file) { return file.path().filename() == "CACHEDIR.TAG"; });
+    }
     test::Folder home;
     fs::path folder = home.path();
 };
@@ -39,7 +45,7 @@ TEST_F(BlobCacheTest, RefusesWhatIsNotWhatItsNameSaysAndLeavesNothing) {
         EXPECT_THROW(incoming.finish(), Error);
     }
     cache.receive(content_hash(bytes("half"))).add(bytes("ha"));
-    EXPECT_TRUE(fs::is_empty(folder));
+    EXPECT_TRUE(holds_nothing(folder));
 }
 
 TEST_F(BlobCacheTest, KeepsBytesByTheirHash) {
@@ -79,7 +85,7 @@ TEST_F(BlobCacheTest, GivesNoDamagedBytesAndRemovesThem) {
     keep(cache, blob);
     std::ofstream(folder / to_hex(content_hash(blob))) << "something else";
     EXPECT_FALSE(cache.has(content_hash(blob)));
-    EXPECT_TRUE(fs::is_empty(folder));
+    EXPECT_TRUE(holds_nothing(folder));
 }
 
 TEST_F(BlobCacheTest, RemovesWhatWasNotReadForTheLongestTime) {

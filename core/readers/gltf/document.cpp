@@ -102,7 +102,13 @@ std::optional<Bytes> Document::resource(const At& uri) const {
         uri.error("names nothing");
         return std::nullopt;
     }
-    if (!text.starts_with("data:")) return assets_.read(beside(path_, from_uri(text)), {path_, 0});
+    if (!text.starts_with("data:")) {
+        const auto file = beside(path_, from_uri(text));
+        if (assets_.stays_beside(path_, file)) return assets_.read(file, {path_, 0});
+        // What a scene names is sent to all hosts, and scenes come from anywhere.
+        uri.error(fmt::format("names '{}', which is outside of the scene's folder", text.substr(0, 256)));
+        return std::nullopt;
+    }
     const auto comma = text.find(";base64,");
     auto decoded = comma == text.npos ? std::nullopt : from_base64(std::string_view(text).substr(comma + 8));
     if (!decoded) {

@@ -1,0 +1,28 @@
+#include "core/film/own_files.hpp"
+
+#include <fstream>
+#include <system_error>
+
+namespace lightnet {
+
+namespace fs = std::filesystem;
+
+fs::path png_beside(const fs::path& picture) { return fs::path(picture).replace_extension(".png"); }
+
+std::string why_not_replaced(const fs::path& path, std::string_view beginning) {
+    std::error_code error;
+    const auto status = fs::status(path, error);  // of what a link leads to
+    if (!fs::exists(status)) return "";
+    if (fs::is_directory(status)) return "is a folder";
+    if (!fs::is_regular_file(status)) return "is no file, but a pipe or a device";
+    if (fs::file_size(path, error) == 0 && !error) return "";
+    std::ifstream in(path, std::ios::binary);
+    std::string text(beginning.size(), '\0');
+    if (!in) return "is there already, and can't be read: it may be somebody else's";
+    in.read(text.data(), static_cast<std::streamsize>(text.size()));
+    if (in && text == beginning) return "";
+    return "is there already, and is nothing that lightnet has written: it is left alone (move it, or choose another "
+           "name)";
+}
+
+}  // namespace lightnet

@@ -1,0 +1,20 @@
+// Files that runs write, and files of others in their places.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace lightnet {
+
+/// How all files of a kind begin.
+inline constexpr std::string_view exr_beginning{"\x76\x2f\x31\x01", 4};
+inline constexpr std::string_view png_beginning{"\x89PNG\r\n\x1a\n", 8};
+
+/// x.exr → x.png
+std::filesystem::path png_beside(const std::filesystem::path& picture);
+
+/// Why nothing may be written at `path`: what is there is not of the kind that begins so, and not empty. "": it may.
+std::string why_not_replaced(const std::filesystem::path& path, std::string_view beginning);
+
+}  // namespace lightnet

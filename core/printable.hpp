@@ -1,0 +1,13 @@
+// Text from files, for a terminal.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace lightnet {
+
+/// The text, with what would command a terminal, and what is no UTF-8, as \xNN. Ends of lines and tabs stay where
+/// `lines` is set; else they are written out, too.
+std::string printable(std::string_view text, bool lines = false);
+
+}  // namespace lightnet

@@ -1,0 +1,151 @@
+// What runs leave on disks: nothing of others is lost, and no finished picture either.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <cstdlib>
+
+#include "tests/network/daemons.hpp"
+
+namespace lightnet::test {
+namespace {
+
+namespace fs = std::filesystem;
+using std::chrono::seconds;
+using testing::HasSubstr;
+
+using Words = std::vector<std::string>;
+
+class Outputs : public ::testing::Test {
+protected:
+    std::string keeping_graph(const std::string& keep) const {
+        for (const char* scene : {"glass_ball.pbrt", "cornell_box.pbrt"})
+            folder.write(std::string("graphs/") + scene, bytes_of(graph_file(scene)));
+        auto text = bytes_of(graph_file("figure5.lua"));
+        text.insert(text.find("rays = rays") + 11, ", keep = '" + keep + "'");
+        return folder.write("graphs/keeps.lua", text);
+    }
+    const Words small{"--size", "16x16", "--samples", "1"};
+    const Folder folder;
+};
+
+TEST_F(Outputs, OfAGraphStayInItsFolder) {
+    const auto mine = folder.write("home/.bashrc", "alias ll='ls -l'");
+    auto words = small;
+    words.insert(words.end(), {"-D", "photons=1000", "-D", "rays=16", "--cache", "none"});
+    const auto out = launch(keeping_graph("../home/.bashrc"), folder, words);
+    EXPECT_EQ(out.code, 2);
+    EXPECT_THAT(out.said, HasSubstr("home/.bashrc' is outside of the graph's folder"));
+    folder.write("graphs/notes", "mine");
+    const auto in_place = launch(keeping_graph("notes"), folder, words);
+    EXPECT_EQ(in_place.code, 2);
+    EXPECT_THAT(in_place.said, HasSubstr("notes' is there already, and is nothing that lightnet has written"));
+    EXPECT_EQ(bytes_of(mine), "alias ll='ls -l'");
+    EXPECT_EQ(bytes_of(folder / "graphs" / "notes"), "mine");
+}
+
+TEST_F(Outputs, TakeThePlaceOfNoFileOfOthers) {
+    for (const std::string name : {"picture.exr", "picture.png", "picture.run.json", "picture.exr.checkpoint"}) {
+        const auto mine = folder.write(name, "my notes");
+        const auto refused = launch(graph_file("direct.lua"), folder, small);
+        EXPECT_EQ(refused.code, 2) << refused.said;
+        EXPECT_THAT(refused.said, HasSubstr(name + ": is there already, and is nothing that lightnet has written"));
+        EXPECT_EQ(bytes_of(mine), "my notes");
+        fs::remove(mine);
+    }
+    folder.write("run.json", "my notes");
+    EXPECT_EQ(launch(graph_file("direct.lua"), folder, small).code, 0);
+    EXPECT_EQ(launch(graph_file("direct.lua"), folder, small).code, 0) << "its own picture may be replaced";
+    EXPECT_EQ(bytes_of(folder / "run.json"), "my notes");
+}
+
+TEST_F(Outputs, OfTwoPicturesInAFolderHaveReportsOfTheirOwn) {
+    for (const std::string name : {"one", "two"}) {
+        Process run(launch_words(graph_file("direct.lua"), folder / (name + ".exr"), small));
+        EXPECT_EQ(run.wait(), 0) << run.output();
+    }
+    for (const std::string name : {"one", "two"})
+        EXPECT_THAT(bytes_of(folder / (name + ".run.json")), HasSubstr(name + ".exr\""));
+}
+
+TEST_F(Outputs, AreOfOneRunAtATime) {
+    const Words long_run{"--size", "64x64", "--samples", "100000", "--progress", "json"};
+    Process first(launch_words(graph_file("cornell.lua"), folder / "picture.exr", long_run));
+    ASSERT_TRUE(first.wait_for("\"event\":\"progress\"")) << first.output();
+    const auto second = launch(graph_file("cornell.lua"), folder, small);
+    EXPECT_EQ(second.code, 2);
+    EXPECT_THAT(second.said, HasSubstr("another run is writing this picture (process " + std::to_string(first.id())));
+    first.signal(SIGKILL);
+    first.wait();
+    const auto third = launch(graph_file("cornell.lua"), folder, small);
+    EXPECT_EQ(third.code, 0) << third.said;
+}
+
+/// A run into a folder that is taken away while it renders.
+class Gone : public Outputs {
+protected:
+    Gone() {
+        fs::create_directory(folder / "out");
+        fs::create_directory(folder / "tmp");
+        if (const char* value = std::getenv("TMPDIR")) before = value;
+        ::setenv("TMPDIR", (folder / "tmp").c_str(), 1);
+        const auto samples = std::to_string(256 / slowdown);
+        run = std::make_unique<Process>(
+            launch_words(graph_file("cornell.lua"), picture,
+                         {"--size", "64x64", "--samples", samples, "--wait", "2", "--progress", "json"}));
+        ::unsetenv("TMPDIR");
+        if (!before.empty()) ::setenv("TMPDIR", before.c_str(), 1);
+        EXPECT_TRUE(run->wait_for("\"event\":\"progress\"")) << run->output();
+        fs::remove_all(folder / "out");
+    }
+    std::string before;
+    fs::path picture = folder / "out" / "picture.exr";
+    std::unique_ptr<Process> run;
+};
+
+TEST_F(Gone, LosesNoPictureButPutsItElsewhere) {
+    EXPECT_EQ(run->wait(), 1) << run->output();
+    EXPECT_THAT(run->output(), HasSubstr("trying again for 2 s"));
+    ASSERT_THAT(run->output(), HasSubstr("it is in " + (folder / "tmp" / "lightnet-").string()));
+    const auto at = run->output().find("it is in ") + 9;
+    const auto there = fs::path(run->output().substr(at, run->output().find("picture.exr", at) - at));
+    EXPECT_THAT(bytes_of(there / "picture.exr"), testing::StartsWith("\x76\x2f\x31\x01"));
+    EXPECT_THAT(bytes_of(there / "picture.run.json"), HasSubstr("\"outcome\": \"failed\""));
+    EXPECT_TRUE(fs::exists(there / "picture.png"));
+}
+
+TEST_F(Gone, WritesThePictureWhereItBelongsWhenTheFolderComesBack) {
+    ASSERT_TRUE(run->wait_for("trying again for 2 s")) << run->output();
+    fs::create_directory(folder / "out");
+    EXPECT_EQ(run->wait(), 0) << run->output();
+    EXPECT_TRUE(fs::exists(picture));
+    EXPECT_THAT(run->output(), testing::Not(HasSubstr("it is in ")));
+}
+
+// Of a cache: entries that are no marks.
+std::size_t entries_of(const fs::path& cache) {
+    const fs::directory_iterator files(cache);
+    return static_cast<std::size_t>(std::count_if(
+        begin(files), end(files), [](const auto& file) { return file.path().filename().string().size() == 64; }));
+}
+
+TEST_F(Outputs, OfADaemonsCacheAreWithinItsSizeAfterEachRun) {
+    const Daemon small_one(folder, 1, "tcp://127.0.0.1:*", {"--cache-size", "100"});
+    const auto hosts = folder.write("hosts.lua", "place '" + small_one.endpoint + "' {}");
+    auto words = small;
+    words.insert(words.end(), {"--hosts", hosts});
+    ASSERT_EQ(launch(graph_file("direct.lua"), folder, words).code, 0);
+    EXPECT_EQ(entries_of(folder / "cache"), 0u);
+    EXPECT_EQ(launch(graph_file("direct.lua"), folder, words).code, 0);
+}
+
+TEST_F(Outputs, OfADaemonLieInNoFolderOfOthers) {
+    const auto mine = folder.write("papers/thesis.tex", "text");
+    Process daemon({program("lightnetd"), "--listen", "tcp://127.0.0.1:*", "--cache", folder / "papers"});
+    EXPECT_EQ(daemon.wait(), 1);
+    EXPECT_THAT(daemon.output(), HasSubstr("is no cache of lightnet's: it holds 'thesis.tex'"));
+    EXPECT_EQ(bytes_of(mine), "text");
+}
+
+}  // namespace
+}  // namespace lightnet::test

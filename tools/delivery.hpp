@@ -1,0 +1,34 @@
+// Brings what took hours to a disk, whatever has become of its folder meanwhile.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tools/run.hpp"
+#include "tools/run_book.hpp"
+
+namespace lightnet {
+
+/// How a finished picture is written, and what is done when it can't be.
+struct Delivery {
+    std::function<void(const std::string& picture)> write;  // with all that belongs to it; throws what is wrong
+    std::chrono::seconds patience{30};                      // as long as this, it is tried again and again
+    std::function<bool()> hurried = [] { return false; };   // true: no patience any more
+    std::function<void(const std::string&)> say = [](const std::string&) {};
+    std::vector<std::string> elsewhere;  // folders for a last resort, in this order
+};
+
+/// Where people look for what could not be put where it belongs: $TMPDIR or else /tmp, then the home folder.
+std::vector<std::string> folders_of_last_resort();
+
+/// Where it is now: `picture`, or a file of that name in a new folder elsewhere. Throws Error when it is nowhere.
+std::string deliver(const Delivery& delivery, const std::string& picture);
+
+/// Writes the picture of a run whose film is complete, and what belongs to it; `hurried` ends patience. Returns an exit
+/// code. Throws Error when it is nowhere.
+int finish_run(RunBook& book, const RunRequest& request, const std::atomic<bool>& hurried);
+
+}  // namespace lightnet

@@ -1,0 +1,34 @@
+// The folder of a cache: whose it is, and which of its files are ours.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lightnet {
+
+/// Bytes that a cache may keep, when nothing else is said.
+inline constexpr std::uint64_t usual_cache_size = std::uint64_t{4} << 30;
+
+/// Makes the folder (mode 0700) and marks it as a cache, or takes one that is marked or empty, as it is. Throws Error:
+/// it holds other things, as files of a cache are removed when it is full, or it can't be made.
+void open_cache_folder(const std::string& folder);
+
+/// Where blobs are kept when nothing else is said: $XDG_CACHE_HOME/lightnet, or ~/.cache/lightnet. Without HOME a
+/// folder in /tmp stands in; throws Error when that is not this user's alone.
+std::string default_cache_folder();
+
+/// A file of ours in a cache.
+struct CacheFile {
+    std::filesystem::path path;
+    std::uint64_t size = 0;
+    std::filesystem::file_time_type used;
+    bool partial = false;  // on its way in, or left behind on it
+};
+
+/// Regular files in `folder` that bear names that we give: 64 hexadecimal digits, and parts of such.
+std::vector<CacheFile> files_of_ours(const std::filesystem::path& folder);
+
+}  // namespace lightnet
