@@ -5,6 +5,7 @@
 #include <iterator>
 #include <ostream>
 #include <sstream>
+#include <thread>
 
 #include "core/graph/check_hosts.hpp"
 #include "core/graph/check_params.hpp"
@@ -44,15 +45,13 @@ RunRequest request_of(const Options& options, const Registry& registry, Loaded l
     request.listen = options.listen;
     request.tuning = options.tuning;
     request.check_answers = options.check_answers;
-    request.threads = options.threads.value_or(0);
     request.local_workers = options.local_workers.value_or(0);
     request.slurm = {options.slurm.value_or(0), options.partition, words_of(options.slurm_arguments)};
     request.wait = std::chrono::seconds(options.wait);
     request.resume = options.resume;
-    if (!options.hosts.empty() || !options.listen.empty() || options.local_workers)
-        request.mode = Mode::network;
-    else if (options.threads)
-        request.mode = Mode::threads;
+    const bool network = !options.hosts.empty() || !options.listen.empty() || options.local_workers;
+    request.threads = options.threads.value_or(network ? 0 : std::max(1u, std::thread::hardware_concurrency()));
+    request.mode = network ? Mode::network : request.threads > 1 ? Mode::threads : Mode::serial;
     if (request.mode == Mode::network) {
         const auto shards = shards_of(request.graph, registry, request.hosts);
         request.graph = sharded(std::move(request.graph), shards);
@@ -110,6 +109,8 @@ int Launcher::perform(const Options& options) const {
             return perform_describe(options);
         case Verb::hosts:
             return perform_hosts(options);
+        case Verb::compare:
+            return compare_pictures(options.compare, out, err);
     }
     return exit_code::usage;
 }
