@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/graph/check_hosts.hpp"
+#include "tools/waiting.hpp"
 
 namespace lightnet {
 namespace {
@@ -60,7 +61,11 @@ Crew::Crew(const RunRequest& request, Cluster::Options cluster) : request_(reque
 void Crew::gather(const std::atomic<bool>& cancelled) {
     Cluster::Patience patience{host_patience, host_patience};
     if (!request_.listen.empty()) patience.nobody = join_patience;
-    cluster_->gather(patience, cancelled, [this] { look_after(); });
+    Waiting waiting(std::chrono::steady_clock::now());
+    cluster_->gather(patience, cancelled, [&] {
+        look_after();
+        if (const auto words = waiting.words(cluster_->hosts(), std::chrono::steady_clock::now())) say_(*words);
+    });
 }
 
 void Crew::look_after() {

@@ -216,6 +216,7 @@ int Run::perform() {
         book_.write_picture(request_.output);
         book_.remove_checkpoint();
         book_.write_report(request_.output, "done");
+        book_.conclude(request_.hosts, scene_overrides(request_.graph, registry_).exposure);
         return exit_code::done;
     } catch (const UserError&) {
         throw;
@@ -245,6 +246,7 @@ void Run::render_serially(SceneData scene) {
     SerialRun run(*network, [this] {
         if (stopped()) throw Cancelled{};
     });
+    run.watch([this](const PrepareProgress& progress) { book_.preparing(progress); });
     book_.use(Plan{{PlaceAt{}}, std::vector<std::vector<std::uint32_t>>(job_.graph.nodes.size(), {0})}, job_.graph);
     try {
         run.prepare(made_from(job_), cache(), [this](const std::string& text) { book_.say(text); });
@@ -293,13 +295,10 @@ ResultCache* Run::cache() {
 
 // True when all is prepared, false when the run was stopped.
 bool Run::prepare(Conductor& conductor, const LookAround& look_around) {
-    std::string said;
     while (!conductor.prepare(50ms)) {
         if (stopped()) return false;
         look_around(conductor.in_force().places_of[image_].size());
-        const auto progress = conductor.progress();
-        const auto node = progress.substr(0, progress.find(':'));
-        if (node != said) book_.say("preparing " + (said = node));
+        book_.preparing(conductor.progress());
     }
     for (const auto& [node, hash] : conductor.prepared()) book_.set("prepared." + node, to_hex(hash));
     return true;

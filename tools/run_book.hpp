@@ -16,9 +16,12 @@
 #include "core/film/film.hpp"
 #include "core/film/progress.hpp"
 #include "core/film/run_report.hpp"
+#include "core/film/tone.hpp"
+#include "core/graph/hosts.hpp"
 #include "core/graph/plan.hpp"
 #include "core/hash.hpp"
 #include "core/message/counters.hpp"
+#include "core/prepare/prepare_progress.hpp"
 #include "core/scene/scene_data.hpp"
 #include "transport/cluster.hpp"
 
@@ -33,6 +36,8 @@ public:
     /// Another part of the run begins; the one before has ended.
     void phase(const std::string& name);
     void say(const std::string& text) { progress_.say(text); }
+    /// How far preparing is.
+    void preparing(const PrepareProgress& progress);
     void warn(const std::string& text);
     /// What the scene's film makes of radiance. Before the first tile.
     void expose(float scale);
@@ -75,6 +80,8 @@ public:
 
     /// Writes x.exr, x.png and run.json beside them, each whole or not at all. Says what was written.
     void write_picture(const std::string& exr);
+    /// The last words of a run that is done. `asked`: hosts that were to take part; `exposure`: stops.
+    void conclude(const Hosts& asked, double exposure);
     /// Writes run.json beside `exr`.
     void write_report(const std::string& exr, const std::string& outcome);
 
@@ -92,6 +99,8 @@ private:
 
     Film film_;
     float scale_ = 1;
+    Brightness brightness_;      // of what was written last
+    std::string last_prepared_;  // node that was named
     /// What one node has learnt, to be kept.
     struct ToKeep {
         std::size_t node = 0;
