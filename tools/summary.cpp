@@ -33,11 +33,11 @@ std::string what(const Ending& ending) {
     const auto& report = ending.report;
     auto size = setting(report, "size");
     if (const auto crop = setting(report, "crop"); !crop.empty()) size += " (crop " + crop + ")";
-    const auto mean = setting(report, "mean_samples");
-    const auto samples = mean.empty() ? setting(report, "samples") + " samples"
-                                      : mean + " samples on average, of " + setting(report, "samples");
-    return fmt::format("wrote {}\n      {}, {} per pixel, layers: {}", joined(report.outputs), size, samples,
-                       joined(ending.layers));
+    const auto mean = setting(report, "mean_samples"), most = setting(report, "samples");
+    const auto samples =
+        mean.empty() ? most + (most == "1" ? " sample" : " samples") : mean + " of " + most + " samples";
+    return fmt::format("wrote {}\n      {}, {} per pixel{}, layers: {}", joined(report.outputs), size, samples,
+                       mean.empty() ? "" : " on average", joined(ending.layers));
 }
 
 std::string how_long(const RunReport& report) {

@@ -36,7 +36,7 @@ TEST_F(Summary, SaysWhatWasMadeAndWhereAndHowLongItTook) {
 
 TEST_F(Summary, SaysHowManySamplesThereAreWhereCellsDecide) {
     report.settings["mean_samples"] = "9.50";
-    EXPECT_THAT(text(), HasSubstr("9.50 samples on average, of 16 per pixel"));
+    EXPECT_THAT(text(), HasSubstr("9.50 of 16 samples per pixel on average, layers"));
 }
 
 TEST_F(Summary, NamesHostsThatTookPartWereLostOrNeverCame) {
