@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -99,6 +100,24 @@ TEST(Flip, LooksAtWhatAPngWouldShow) {
     EXPECT_EQ(flip_of(even({2, 3, 4}), even({1, 1, 1})), 0) << "both are clipped to white";
     EXPECT_EQ(flip_of(even({nan, -1, 0}), even({0, 0, 0})), 0) << "what is no light is black";
     EXPECT_GT(flip_of(even({2, 3, 4}), even({1, 1, 1}), {.exposure = -2}), 0.1) << "darker, they differ";
+}
+
+float linear_of(int shown) {
+    const float c = static_cast<float>(shown) / 255;
+    return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
+}
+
+// Worked out by formulas of the article as they stand there: filters in two dimensions, of double precision.
+TEST(Flip, IsThatOfAnImplementationWithoutShortcuts) {
+    constexpr int small = 24;
+    std::vector<Rgb> reference, picture;
+    for (int i = 0; i < small * small; ++i) {
+        const int x = i % small, y = i / small, shown[] = {x * 9, y * 9, x * y % 256};
+        const auto noisy = [&](int k) { return std::clamp(shown[k] + (i * 3 + k) * 7919 % 81 - 40, 0, 255); };
+        reference.push_back({linear_of(shown[0]), linear_of(shown[1]), linear_of(shown[2])});
+        picture.push_back({linear_of(noisy(0)), linear_of(noisy(1)), linear_of(noisy(2))});
+    }
+    EXPECT_NEAR(flip(small, reference, picture).mean, 0.13730953, 1e-5);
 }
 
 TEST(PerceivedColour, GoesToYCxCzAndBack) {
