@@ -22,7 +22,7 @@ for scene in $(find -L "$folder" -type f \( -name '*.pbrt' -o -name '*.xml' -o -
     if "$bin/lightnet" render "$scene" -o "$out" --samples "$samples" --size "$size" --progress none >"$work/log" 2>&1; then
         echo "$scene: beside $given"
     else
-        echo "$scene: not rendered: $(grep -v '^render' "$work/log" | head -1)"
+        echo "$scene: not rendered: $(head -1 "$work/log")"
         out=-
     fi
     set -- "$@" "$out" "$given"

@@ -65,6 +65,18 @@ void Crew::gather(const std::atomic<bool>& cancelled) {
     cluster_->gather(patience, cancelled, [this] { look_after(); });
 }
 
+std::vector<std::string> Crew::missing() const {
+    std::vector<std::string> hosts;
+    for (const auto& [name, why] : cluster_->missing()) {
+        std::string nodes;
+        for (const auto& entry : request_.hosts.hosts)
+            if (entry.endpoint == name)
+                for (const auto& [node, count] : entry.replicas) nodes += (nodes.empty() ? "" : ", ") + node;
+        hosts.push_back(name + ": " + why + "; it was to hold " + (nodes.empty() ? "the whole network" : nodes));
+    }
+    return hosts;
+}
+
 void Crew::look_after() {
     if (!local_) return;
     local_->look_after(std::chrono::steady_clock::now(),

@@ -6,6 +6,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
+#include <string>
 
 #include "tools/run.hpp"
 #include "transport/cluster.hpp"
@@ -23,6 +25,8 @@ public:
     Cluster& cluster() { return *cluster_; }
     /// Waits for those that are to be there from the beginning.
     void gather(const std::atomic<bool>& cancelled);
+    /// Hosts that the user named and that take no part: why, and what others have to do for them.
+    std::vector<std::string> missing() const;
     /// To be called several times a second: starts local workers anew.
     void look_after();
 

@@ -81,7 +81,7 @@ std::string deliver(const Delivery& delivery, const std::string& picture) {
     throw Error("the picture can't be written, nor anywhere else: " + why);
 }
 
-int finish_run(RunBook& book, const RunRequest& request, const std::atomic<bool>& hurried) {
+int finish_run(RunBook& book, const RunRequest& request, double exposure, const std::atomic<bool>& hurried) {
     Delivery delivery;
     delivery.write = [&](const std::string& picture) { book.write_picture(picture); };
     delivery.patience = request.wait;
@@ -92,6 +92,7 @@ int finish_run(RunBook& book, const RunRequest& request, const std::atomic<bool>
     const bool in_place = picture == request.output;
     if (in_place) book.end_checkpoint(!request.forget);
     book.write_report(picture, in_place ? "done" : "failed");
+    book.conclude(request.hosts, exposure);
     return in_place ? exit_code::done : exit_code::failed;
 }
 

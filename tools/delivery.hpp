@@ -27,8 +27,8 @@ std::vector<std::string> folders_of_last_resort();
 /// Where it is now: `picture`, or a file of that name in a new folder elsewhere. Throws Error when it is nowhere.
 std::string deliver(const Delivery& delivery, const std::string& picture);
 
-/// Writes the picture of a run whose film is complete, and what belongs to it; `hurried` ends patience. Returns an exit
-/// code. Throws Error when it is nowhere.
-int finish_run(RunBook& book, const RunRequest& request, const std::atomic<bool>& hurried);
+/// Writes the picture of a run whose film is complete, and what belongs to it, and sums up; `hurried` ends patience,
+/// `exposure` is that of the PNG, in stops. Returns an exit code. Throws Error when the picture is nowhere.
+int finish_run(RunBook& book, const RunRequest& request, double exposure, const std::atomic<bool>& hurried);
 
 }  // namespace lightnet

@@ -3,38 +3,78 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <set>
 
 namespace lightnet {
 namespace {
 
-std::string shown_name(const HostAnswer& host) { return host.name.empty() ? "(the launcher)" : host.name; }
+// Where it is: an endpoint, or the name under which it joined a launcher.
+std::string place_of(const HostAnswer& host) {
+    if (!host.of_launcher) return host.asked;
+    return host.name.empty() ? host.asked + " (the launcher)" : host.name;
+}
 
-std::string facts(const HostAnswer& host) {
+std::string state_of(const HostAnswer& host) { return host.who.empty() ? host.state : "is busy: " + host.state; }
+
+std::string places_of(const HostAnswer& host) {
+    if (!host.places) return {};
+    return fmt::format("{} place{}", host.places, host.places == 1 ? "" : "s");
+}
+
+std::string machine_of(const HostAnswer& host) {
     const auto& machine = host.machine;
     if (machine.name.empty()) return {};
     constexpr double gib = 1 << 30;
-    return fmt::format("{} places, {}: {} cores, {:.1f} GiB, {}, {}, {}", host.places, machine.name, machine.cores,
+    return fmt::format("{}: {} cores, {:.1f} GiB, {}, {}, {}", machine.name, machine.cores,
                        static_cast<double>(machine.memory) / gib, machine.cpu, machine.isa, machine.version);
+}
+
+using Row = std::array<std::string, 4>;
+
+Row row_of(const HostAnswer& host) { return {place_of(host), state_of(host), places_of(host), machine_of(host)}; }
+
+std::string line_of(const Row& row, const std::array<std::size_t, 4>& widths) {
+    std::string line;
+    for (std::size_t i = 0; i < row.size(); ++i) line += row[i] + std::string(widths[i] + 2 - row[i].size(), ' ');
+    return line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+}
+
+// What a host that serves a run is at.
+std::string work_of(const HostAnswer& host, const std::string& margin) {
+    std::string text;
+    if (!host.who.empty()) text += margin + "run of " + host.who + "\n";
+    if (!host.nodes.empty()) text += margin + "holds " + host.nodes + "\n";
+    if (host.progress || host.bundles || host.broken_packets)
+        text += margin + fmt::format("{} answered, {} bundles from other hosts, {} broken packets\n", host.progress,
+                                     host.bundles, host.broken_packets);
+    return text;
+}
+
+// What a host says itself is better than what a launcher says of it.
+void leave_out_what_is_told_twice(std::vector<HostAnswer>& hosts) {
+    std::set<std::string> told;
+    for (const auto& host : hosts)
+        if (!host.of_launcher) told.insert(host.asked);
+    std::erase_if(hosts, [&](const auto& host) { return host.of_launcher && !told.insert(place_of(host)).second; });
 }
 
 }  // namespace
 
-std::string host_table(const std::vector<HostAnswer>& hosts) {
-    std::size_t widest = 0, longest = 0;
+bool is_there(const HostAnswer& host) {
+    return !host.state.starts_with("does not answer") && !host.state.starts_with("is lost");
+}
+
+std::string host_table(std::vector<HostAnswer> hosts) {
+    leave_out_what_is_told_twice(hosts);
+    std::array<std::size_t, 4> widths{};
     for (const auto& host : hosts) {
-        widest = std::max(widest, shown_name(host).size());
-        longest = std::max(longest, host.state.size());
+        const Row row = row_of(host);
+        for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
     }
     std::string text;
-    for (const auto& host : hosts) {
-        auto line = fmt::format("{:<{}}  {:<{}}  {}", shown_name(host), widest, host.state, longest, facts(host));
-        text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-        if (!host.who.empty()) text += fmt::format("{:<{}}    run of {}\n", "", widest, host.who);
-        if (!host.nodes.empty()) text += fmt::format("{:<{}}    holds {}\n", "", widest, host.nodes);
-        if (host.progress || host.bundles || host.broken_packets)
-            text += fmt::format("{:<{}}    {} answered, {} bundles from other hosts, {} broken packets\n", "", widest,
-                                host.progress, host.bundles, host.broken_packets);
-    }
+    for (const auto& host : hosts)
+        text += line_of(row_of(host), widths) + work_of(host, std::string(widths[0] + 4, ' '));
     return text;
 }
 

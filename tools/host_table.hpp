@@ -8,7 +8,11 @@
 
 namespace lightnet {
 
-/// A line per host, in columns, and one more for each that serves a run.
-std::string host_table(const std::vector<HostAnswer>& hosts);
+/// A line per host, in columns: where it is, its state, its places and its machine; and more for each that serves a
+/// run. A host that was asked and that a launcher has told of, too, stands there once.
+std::string host_table(std::vector<HostAnswer> hosts);
+
+/// It answers, or its launcher is in touch with it.
+bool is_there(const HostAnswer& host);
 
 }  // namespace lightnet

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <ostream>
 #include <sstream>
+#include <thread>
 
 #include "core/graph/check_hosts.hpp"
 #include "core/graph/check_params.hpp"
@@ -56,16 +57,14 @@ RunRequest request_of(const Options& options, const Registry& registry, Loaded l
     request.pass = options.pass;
     request.tuning = options.tuning;
     request.check_answers = options.check_answers;
-    request.threads = options.threads.value_or(0);
     request.local_workers = options.local_workers.value_or(0);
     request.slurm = {options.slurm.value_or(0), options.partition, words_of(options.slurm_arguments)};
     request.wait = std::chrono::seconds(options.wait);
     request.resume = options.resume;
     request.forget = options.forget;
-    if (!options.hosts.empty() || !options.listen.empty() || options.local_workers)
-        request.mode = Mode::network;
-    else if (options.threads)
-        request.mode = Mode::threads;
+    const bool network = !options.hosts.empty() || !options.listen.empty() || options.local_workers;
+    request.threads = options.threads.value_or(network ? 0 : std::max(1u, std::thread::hardware_concurrency()));
+    request.mode = network ? Mode::network : request.threads > 1 ? Mode::threads : Mode::serial;
     if (request.mode == Mode::network) {
         const auto shards = shards_of(request.graph, registry, request.hosts);
         request.graph = sharded(std::move(request.graph), shards);
@@ -82,7 +81,8 @@ std::vector<HostOffer> likely_offers(const Options& options, const Hosts& hosts)
     return offers;
 }
 
-void warn(const std::vector<Problem>& warnings, std::ostream& err) {
+void warn(const std::vector<Problem>& warnings, const Options& options, std::ostream& err) {
+    if (options.progress == ProgressMode::none) return;
     for (const auto& warning : warnings) err << "warning: " << to_string(warning) << '\n';
 }
 
@@ -123,13 +123,15 @@ int Launcher::perform(const Options& options) const {
             return perform_describe(options);
         case Verb::hosts:
             return perform_hosts(options);
+        case Verb::compare:
+            return compare_pictures(options.compare, out, err);
     }
     return exit_code::usage;
 }
 
 int Launcher::perform_run(const Options& options) const {
     Loaded loaded = load(options, registry, true);
-    warn(loaded.warnings, err);
+    warn(loaded.warnings, options, err);
     return run(request_of(options, registry, std::move(loaded)));
 }
 
@@ -143,7 +145,7 @@ int Launcher::perform_render(Options options) const {
     if (!options.crop) options.crop = crop_in_pixels(read->scene.film.crop, *options.size);
     if (options.output.empty()) options.output = picture_of(options.scene);
     Loaded loaded = load_render(std::move(written), options, registry);
-    warn(loaded.warnings, err);
+    warn(loaded.warnings, options, err);
     RunRequest request = request_of(options, registry, std::move(loaded));
     request.read = std::move(read);
     return run(request);
@@ -151,9 +153,9 @@ int Launcher::perform_render(Options options) const {
 
 int Launcher::perform_check(const Options& options) const {
     const Loaded loaded = load(options, registry, true);
-    warn(loaded.warnings, err);
+    warn(loaded.warnings, options, err);
     DiskFiles files;
-    warn(load_scene(loaded.graph, registry, files, scene_file(loaded.graph, registry)).warnings, err);
+    warn(load_scene(loaded.graph, registry, files, scene_file(loaded.graph, registry)).warnings, options, err);
     for (const auto& note : loaded.notes) err << "note: " << to_string(note) << '\n';
     const auto format = film_of(loaded.graph, registry);
     out << options.graph << ": sound: " << loaded.graph.nodes.size() << " nodes, " << format.width << "x"
@@ -169,7 +171,7 @@ int Launcher::perform_check(const Options& options) const {
 
 int Launcher::perform_dot(const Options& options) const {
     const Loaded loaded = load(options, registry, false);
-    warn(loaded.warnings, err);
+    warn(loaded.warnings, options, err);
     const auto offers = likely_offers(options, loaded.hosts);
     std::map<std::string, std::string> pictures;
     if (!options.pictures.empty()) pictures = write_node_pictures(loaded.graph, registry, options.pictures);
@@ -199,20 +201,23 @@ int Launcher::perform_describe(const Options& options) const {
 }
 
 int Launcher::perform_hosts(const Options& options) const {
-    std::vector<std::string> endpoints;
+    std::vector<std::string> endpoints, joining;
     for (const auto& one : options.whom) {
         if (address_of(one)) {
             endpoints.push_back(one);
             continue;
         }
         for (const auto& host : load_hosts(one).hosts)
-            if (address_of(host.endpoint)) endpoints.push_back(host.endpoint);
+            (address_of(host.endpoint) ? endpoints : joining).push_back(host.endpoint);
     }
     const auto answers = ask_state(endpoints, std::chrono::seconds(2));
     out << host_table(answers);
-    const bool nobody =
-        std::all_of(answers.begin(), answers.end(), [](const auto& host) { return host.machine.name.empty(); });
-    return nobody ? exit_code::no_worker : exit_code::done;
+    for (const auto& name : joining)
+        err << "lightnet: '" << name << "' joins by itself: ask its launcher (the endpoint behind --listen)\n";
+    const auto absent = std::count_if(answers.begin(), answers.end(), [](const auto& host) { return !is_there(host); });
+    if (absent == 0) return exit_code::done;
+    err << "lightnet: " << absent << " of " << answers.size() << (absent == 1 ? " is" : " are") << " not there\n";
+    return exit_code::no_worker;
 }
 
 }  // namespace lightnet

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <sstream>
+#include <limits>
+#include <tuple>
 
 #include "core/build_info.hpp"
 #include "core/graph/graph_film.hpp"
+#include "core/readers/read_scene.hpp"
 #include "core/suggestion.hpp"
 #include "tools/exit_code.hpp"
 #include "transport/reach.hpp"
@@ -18,21 +20,25 @@ namespace {
 
 const std::vector<std::pair<std::string, Verb>> verbs{
     {"run", Verb::run},           {"render", Verb::render},    {"check", Verb::check}, {"dot", Verb::dot},
-    {"describe", Verb::describe}, {"scene", Verb::scene_info}, {"hosts", Verb::hosts}};
-
-std::optional<std::uint32_t> side_of(std::string_view text) {
-    std::uint32_t side = 0;
-    const auto [end, fault] = std::from_chars(text.begin(), text.end(), side);
-    if (fault != std::errc{} || end != text.end() || side < 1 || side > longest_side) return std::nullopt;
-    return side;
-}
+    {"describe", Verb::describe}, {"scene", Verb::scene_info}, {"hosts", Verb::hosts}, {"compare", Verb::compare}};
 
 std::optional<PictureSize> size_of(std::string_view text) {
+    PictureSize size;
     const auto cross = text.find('x');
-    if (cross == std::string_view::npos) return std::nullopt;
-    const auto width = side_of(text.substr(0, cross)), height = side_of(text.substr(cross + 1));
-    if (!width || !height) return std::nullopt;
-    return PictureSize{*width, *height};
+    for (auto [part, side] : {std::pair{text.substr(0, cross), &size.width},
+                              {text.substr(std::min(cross, text.size() - 1) + 1), &size.height}}) {
+        const auto [end, fault] = std::from_chars(part.begin(), part.end(), *side);
+        if (fault != std::errc{} || end != part.end() || *side < 1) return std::nullopt;
+    }
+    return size;
+}
+
+// What is wrong with a size; "": nothing.
+std::string mistake_in_size(const std::string& text) {
+    const auto size = size_of(text);
+    if (!size) return "a size is like 640x480, not " + text;
+    if (size->width <= longest_side && size->height <= longest_side) return {};
+    return "a picture has at most " + std::to_string(longest_side) + " pixels along each side, not " + text;
 }
 
 std::optional<PictureCrop> crop_of(std::string_view text) {
@@ -55,8 +61,9 @@ public:
         app_.set_version_flag("--version", "lightnet " + version());
         app_.require_subcommand(1);
         app_.footer(
-            "exit codes: 0 done, 1 the run failed, 2 usage, graph or scene error, 3 no worker reachable, "
-            "130 interrupted");
+            "exit codes: 0 done, 1 the run failed (or pictures are too far apart), 2 usage, graph or scene error,\n"
+            "3 no worker reachable, 130 interrupted\n\nExamples:\n  lightnet run graphs/cornell.lua\n"
+            "  lightnet help run");
         add_run();
         add_render();
         add_scene();
@@ -64,60 +71,61 @@ public:
         add_dot();
         add_describe();
         add_hosts_verb();
+        add_compare();
+        app_.add_subcommand("help", "tell how a verb is used: lightnet help run");
     }
 
-    std::variant<Options, Finished> parse(std::vector<std::string> arguments) {
-        if (auto unknown = unknown_verb(arguments)) return *unknown;
-        const std::vector<std::string> typed = arguments;
-        std::reverse(arguments.begin(), arguments.end());  // so the library wants them
-        try {
-            app_.parse(arguments);
-        } catch (const CLI::Success& done) {
-            std::ostringstream out, err;
-            app_.exit(done, out, err);
-            return Finished{exit_code::done, out.str(), err.str()};
-        } catch (const CLI::ExtrasError&) {
-            return usage(unknown_argument(typed));
-        } catch (const CLI::ParseError& error) {
-            return usage(error.what());
-        }
+    std::variant<Options, Finished> parse(std::vector<std::string> words) {
+        if (!words.empty() && words[0] == "help") words = help_words(words);
+        if (auto unknown = unknown_verb(words)) return *unknown;
+        if (auto finished = take_apart(app_, words)) return *finished;
         for (const auto& [name, verb] : verbs)
             if (app_.got_subcommand(name)) options_.verb = verb;
+        if (auto mistake = mistaken_file()) return usage_error(app_, *mistake);
         if (!options_.listen.empty() && !options_.insecure && !stays_on_this_machine(options_.listen))
-            return usage(beyond_this_machine("--listen " + options_.listen));
+            return usage_error(app_, beyond_this_machine("--listen " + options_.listen));
         if (options_.slurm && options_.listen.empty())
             options_.listen = options_.insecure ? "tcp://0.0.0.0:*" : "tcp://127.0.0.1:*";
         return options_;
     }
 
 private:
-    static Finished usage(const std::string& what) {
-        return {exit_code::usage, "", "lightnet: " + what + "\n" + "try: lightnet --help\n"};
+    // "help run" is "run --help".
+    static std::vector<std::string> help_words(std::vector<std::string> words) {
+        words.erase(words.begin());
+        if (!words.empty() && words[0] == "help") words.clear();
+        words.push_back("--help");
+        return words;
     }
 
     // The library would only say that a verb is missing.
-    std::optional<Finished> unknown_verb(const std::vector<std::string>& arguments) const {
-        if (arguments.empty()) return Finished{exit_code::usage, "", app_.help()};
-        if (arguments[0].starts_with('-')) return std::nullopt;
-        std::vector<std::string> known;
+    std::optional<Finished> unknown_verb(const std::vector<std::string>& words) const {
+        if (words.empty()) return Finished{exit_code::usage, "", app_.help()};
+        const auto& word = words[0];
+        if (word.starts_with('-')) return std::nullopt;
+        std::vector<std::string> known{"help"};
         for (const auto& [name, verb] : verbs) known.push_back(name);
-        if (std::find(known.begin(), known.end(), arguments[0]) != known.end()) return std::nullopt;
-        return usage("there is no verb '" + arguments[0] + "'" + did_you_mean(arguments[0], known));
+        if (std::find(known.begin(), known.end(), word) != known.end()) return std::nullopt;
+        if (word.ends_with(".lua"))
+            return usage_error(app_, "'" + word + "' is a graph file; to render it: lightnet run " + word);
+        if (is_named_like_a_scene(word))
+            return usage_error(app_, "'" + word + "' is a scene file; to render it: lightnet render " + word);
+        return usage_error(app_, "there is no verb '" + word + "'" + did_you_mean(word, known));
     }
 
-    std::string unknown_argument(const std::vector<std::string>& typed) const {
-        const auto chosen = app_.get_subcommands();
-        const CLI::App& verb = chosen.empty() ? app_ : *chosen.front();
-        std::vector<std::string> known;
-        for (const auto* option : verb.get_options())
-            for (const auto& name : option->get_lnames()) known.push_back("--" + name);
-        for (const auto& argument : typed) {
-            const std::string name = argument.substr(0, argument.find('='));
-            if (name.starts_with("--") && std::find(known.begin(), known.end(), name) == known.end())
-                return "there is no option '" + name + "'" + did_you_mean(name, known);
-        }
-        const auto left = app_.remaining(true);
-        return "what is '" + (left.empty() ? std::string() : left.front()) + "' for?";
+    // A scene file where a graph is wanted, or the other way round.
+    std::optional<std::string> mistaken_file() const {
+        const auto& [graph, scene] = std::tie(options_.graph, options_.scene);
+        if (is_named_like_a_scene(graph))
+            return "'" + graph + "' is a scene file, not a graph; " +
+                   (options_.verb == Verb::run ? "to render it: lightnet render "
+                                               : "to look at it: lightnet scene info ") +
+                   graph;
+        if (scene.ends_with(".lua"))
+            return "'" + scene + "' is a graph file, not a scene; " +
+                   (options_.verb == Verb::render ? "to render it: lightnet run " : "to look at it: lightnet check ") +
+                   scene;
+        return std::nullopt;
     }
 
     void add_graph(CLI::App& verb) {
@@ -149,21 +157,18 @@ private:
         return verb.add_option("--hosts", options_.hosts, "the hosts file: where nodes run")->type_name("FILE");
     }
 
-    CLI::Option* add_threads(CLI::App& verb) {
-        return verb.add_option("--threads", options_.threads, "places in this process")
-            ->type_name("N")
-            ->check(CLI::Range(1, 1024));
+    CLI::Option* add_threads(CLI::App& verb, const char* help) {
+        return takes_numbers(verb.add_option("--threads", options_.threads, help), "N", 1, 1024);
     }
 
     void add_picture(CLI::App& verb) {
-        verb.add_option("--samples", options_.samples, "samples per pixel, instead of the graph's")
-            ->type_name("N")
-            ->check(CLI::PositiveNumber);
+        takes_numbers(verb.add_option("--samples", options_.samples, "samples per pixel, instead of the graph's"), "N",
+                      1, std::numeric_limits<std::uint32_t>::max());
         verb.add_option_function<std::string>(
                 "--size", [this](const std::string& text) { options_.size = size_of(text); },
                 "size of the picture, instead of the graph's")
             ->type_name("WxH")
-            ->check([](const std::string& text) { return size_of(text) ? "" : "a size is like 640x480, not " + text; });
+            ->check(mistake_in_size);
         verb.add_option_function<std::string>(
                 "--crop", [this](const std::string& text) { options_.crop = crop_of(text); },
                 "only this part of the picture, instead of the graph's: edges in pixels, from the upper left corner")
@@ -178,6 +183,8 @@ private:
         add_graph(verb);
         add_running(verb);
         verb.add_option("-o,--output", options_.output, "the picture, instead of the graph's")->type_name("OUT.exr");
+        add_examples(verb, {"lightnet run graphs/cornell.lua --samples 16 -o cornell.exr",
+                            "lightnet run graphs/cornell.lua --local-workers 2"});
     }
 
     void add_render() {
@@ -191,13 +198,12 @@ private:
         verb.add_option("--env", options_.environment,
                         "what is around the scene: a picture, or a colour like 1,0.9,0.8")
             ->type_name("FILE|COLOUR");
-        verb.add_option("--exposure", options_.exposure, "how many times the picture becomes twice as bright")
-            ->type_name("STOPS");
         verb.add_flag("--two-sided", options_.two_sided, "no surface is black from behind, as Mitsuba's may be");
         add_constants_option(verb, "define a variable of the scene file, or a constant of GRAPH.lua (may be repeated)");
         add_running(verb);
         verb.add_option("-o,--output", options_.output, "the picture, instead of the scene's name with .exr here")
             ->type_name("OUT.exr");
+        add_examples(verb, {"lightnet render graphs/cornell_box.pbrt --size 256x256 --samples 16"});
     }
 
     void add_scene() {
@@ -206,25 +212,28 @@ private:
         CLI::App& info = *verb.add_subcommand("info", "tell what is in a scene file, and what of it is not supported");
         info.add_option("FILE", options_.scene, "the scene file")->required();
         add_constants_option(info, "define a variable of the scene file (may be repeated)");
+        for (auto* app : {&verb, &info}) add_examples(*app, {"lightnet scene info graphs/cornell_box.pbrt"});
     }
 
     // What all verbs that make a picture take.
     void add_running(CLI::App& verb) {
         add_picture(verb);
         add_hosts(verb);
-        add_threads(verb);
+        add_threads(verb, "places in this process; 1: serial (default: one per core, if no daemons are asked for)");
         add_helpers(verb);
-        verb.add_option("--seed", options_.seed, "root of all random numbers")
-            ->type_name("N")
-            ->check(CLI::NonNegativeNumber);  // or -1 would be a very large number
+        takes_numbers(verb.add_option("--seed", options_.seed, "root of all random numbers"), "N", 0,
+                      std::numeric_limits<std::uint64_t>::max());
+        verb.add_option("--exposure", options_.exposure, "exposure in stops: each makes the picture twice as bright")
+            ->type_name("STOPS");
         verb.add_option_function<std::string>(
                 "--progress", [this](const std::string& text) { options_.progress = *progress_mode(text); },
-                "how progress is shown")
+                "how progress is shown; none: nothing but errors")
             ->type_name("auto|bar|plain|json|none")
-            ->check(CLI::IsMember({"auto", "bar", "plain", "json", "none"}));
-        verb.add_option("--preview", options_.preview, "write the picture so far from time to time")
-            ->type_name("SECONDS")
-            ->check(CLI::PositiveNumber);
+            ->check([](const std::string& text) {
+                return progress_mode(text) ? "" : "must be auto, bar, plain, json or none, not '" + text + "'";
+            });
+        takes_amounts(verb.add_option("--preview", options_.preview, "write the picture so far from time to time"),
+                      "SECONDS", Least::above_zero);
         verb.add_flag("--resume", options_.resume,
                       "go on from the checkpoint beside the picture, if there is one; of a finished picture, to more "
                       "samples");
@@ -237,23 +246,22 @@ private:
 
     // Where the places come from; all of these go together.
     void add_helpers(CLI::App& verb) {
-        verb.add_option("--local-workers", options_.local_workers, "daemons to start on this machine")
-            ->type_name("N")
-            ->check(CLI::Range(1, 1024));
-        verb.add_option("--listen", options_.listen, "where lightnetd --join may join, even in the middle of the run")
-            ->type_name("tcp://HOST:PORT");
+        takes_numbers(verb.add_option("--local-workers", options_.local_workers, "daemons to start on this machine"),
+                      "N", 1, 1024);
+        takes_endpoint(verb.add_option("--listen", options_.listen,
+                                       "where lightnetd --join may join, even in the middle of the run"),
+                       true);
         verb.add_option("--pass", options_.pass,
                         "file with what a host must know to join (default: ~/.config/lightnet/pass, made when missing)")
             ->type_name("FILE");
         verb.add_flag("--insecure", options_.insecure,
                       "reach beyond this machine, unencrypted, on a network that is yours alone");
-        verb.add_option("--wait", options_.wait, "seconds to wait for a host when a node has no place any more")
-            ->type_name("SECONDS")
-            ->check(CLI::Range(0, 864000))
+        takes_numbers(
+            verb.add_option("--wait", options_.wait, "seconds to wait for a host to come, or for a disk to take the picture"),
+            "SECONDS", 0, 864000)
             ->capture_default_str();
-        auto* const slurm = verb.add_option("--slurm", options_.slurm, "daemons to start as a job array of Slurm")
-                                ->type_name("N")
-                                ->check(CLI::Range(1, 10000));
+        auto* const slurm = takes_numbers(
+            verb.add_option("--slurm", options_.slurm, "daemons to start as a job array of Slurm"), "N", 1, 10000);
         verb.add_option("--partition", options_.partition, "of Slurm")->type_name("P")->needs(slurm);
         verb.add_option("--slurm-args", options_.slurm_arguments, "more words for sbatch, in one")->needs(slurm);
     }
@@ -261,8 +269,9 @@ private:
     // The picture does not depend on any of these.
     void add_tuning(CLI::App& verb) {
         auto& tuning = options_.tuning;
-        const auto add = [&](const char* name, std::uint32_t& value, int least, int most, const char* help) {
-            verb.add_option(name, value, help)->type_name("N")->check(CLI::Range(least, most))->group("Tuning");
+        const auto add = [&](const char* name, std::uint32_t& value, std::uint64_t least, std::uint64_t most,
+                             const char* help) {
+            takes_numbers(verb.add_option(name, value, help), "N", least, most)->group("Tuning");
         };
         add("--tile", tuning.tile, 1, 256, "pixels along a side of a tile");
         add("--bundle", tuning.bundle, 1, 65536, "questions in a full bundle");
@@ -285,26 +294,36 @@ private:
         add_graph(verb);
         add_picture(verb);
         add_hosts(verb);
+        add_examples(verb, {"lightnet check graphs/figure5.lua"});
     }
 
     void add_dot() {
-        CLI::App& verb = *app_.add_subcommand("dot", "draw a graph, in the language of Graphviz");
+        CLI::App& verb = *app_.add_subcommand("dot", "print a graph as Graphviz DOT");
         add_graph(verb);
         auto* const hosts = add_hosts(verb);
-        add_threads(verb)->excludes(hosts);
+        add_threads(verb, "show what places of one process hold")->excludes(hosts);
         verb.add_option("--pictures", options_.pictures, "a picture of this graph: each node shows what it gave to it")
             ->type_name("PICTURE.exr");
+        add_examples(verb, {"lightnet dot graphs/figure8.lua | dot -Tsvg > figure8.svg"});
     }
 
     void add_describe() {
         CLI::App& verb = *app_.add_subcommand("describe", "list the kinds of nodes, or tell all of one");
         verb.add_option("KIND", options_.kind, "the kind to tell of");
+        add_examples(verb, {"lightnet describe PhotonMap"});
     }
 
     void add_hosts_verb() {
-        CLI::App& verb = *app_.add_subcommand("hosts", "tell how daemons are, and what their machines are like");
+        CLI::App& verb =
+            *app_.add_subcommand("hosts", "tell the state and load of daemons, and what their machines are like");
         verb.add_option("WHOM", options_.whom, "hosts files, endpoints of daemons, or that of a launcher (--listen)")
             ->required();
+        add_examples(verb, {"lightnet hosts tcp://127.0.0.1:7777"});
+    }
+
+    void add_compare() {
+        CLI::App& verb = *app_.add_subcommand("compare", "tell how far pictures are from a reference");
+        add_compare_options(verb, options_.compare);
     }
 
     CLI::App app_;

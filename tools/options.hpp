@@ -9,11 +9,13 @@
 #include <vector>
 
 #include "core/film/progress.hpp"
+#include "tools/command_line.hpp"
+#include "tools/compare.hpp"
 #include "tools/run.hpp"
 
 namespace lightnet {
 
-enum class Verb { run, render, check, dot, describe, scene_info, hosts };
+enum class Verb { run, render, check, dot, describe, scene_info, hosts, compare };
 
 /// Width and height, pixels.
 struct PictureSize {
@@ -34,10 +36,10 @@ struct Options {
     std::string scene;                           // file, for render and scene info
     std::string lighting = "path";               // for render: path, direct, ao or a graph file
     std::string environment;                     // for render: a picture's file or a colour; "": as the scene says
-    std::optional<double> exposure;              // for render: stops
+    std::optional<double> exposure;              // stops; none: as the scene says
     bool two_sided = false;                      // for render: no surface is black from behind
     std::string hosts;                           // file; "": none
-    std::optional<std::uint32_t> threads;        // places in this process
+    std::optional<std::uint32_t> threads;        // places in this process; 1: serial
     std::optional<std::uint32_t> local_workers;  // daemons to start here
     std::string output;                          // file; "": as the graph says
     std::optional<std::uint32_t> samples;        // per pixel
@@ -60,12 +62,7 @@ struct Options {
     std::string kind;               // for describe; "": all
     std::string pictures;           // for dot: the EXR that shows what each node gives; "": none
     std::vector<std::string> whom;  // for hosts: endpoints and hosts files
-};
-
-/// The command line leaves nothing to do: print, and exit with `code`.
-struct Finished {
-    int code = 0;
-    std::string out, err;
+    CompareRequest compare;
 };
 
 /// Takes a command line (without the program's name) apart. Flags may stand in any order after the verb.

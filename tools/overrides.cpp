@@ -19,11 +19,17 @@ void set_crop(Value& film, const PictureCrop& crop) {
             Table{{{double(crop.x0)}, {double(crop.y0)}, {double(crop.x1)}, {double(crop.y1)}}, {}}};
 }
 
+void set_exposure(Node& scene, const Kind& kind, const Options& options) {
+    for (const auto& param : kind.params)
+        if (options.exposure && param.name == "exposure") scene.params[param.name] = {*options.exposure};
+}
+
 }  // namespace
 
 void override_picture(Graph& graph, const Registry& registry, const Options& options) {
     for (auto& node : graph.nodes) {
         const Kind* kind = registry.find(node.kind);
+        if (kind && kind->role == Role::scene) set_exposure(node, *kind, options);
         if (!kind || kind->role != Role::image) continue;
         for (const auto& param : kind->params) {
             if (options.samples && param.name == "samples")

@@ -9,7 +9,7 @@
 
 namespace lightnet {
 
-/// Writes --samples, --size and --crop into the renderers of an unchecked graph.
+/// Writes --samples, --size and --crop into the renderers of an unchecked graph, and --exposure into its scenes.
 void override_picture(Graph& graph, const Registry& registry, const Options& options);
 
 /// Where the picture of a checked graph goes: -o, else the film's file, else the graph's name with .exr, here.

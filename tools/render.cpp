@@ -43,7 +43,6 @@ void override_scene(Node& scene, const Options& options) {
         else
             scene.params["environment"] = {from_anywhere(options.environment)};
     }
-    if (options.exposure) scene.params["exposure"] = {*options.exposure};
     if (options.two_sided) scene.params["two_sided"] = {true};
 }
 

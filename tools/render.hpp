@@ -19,7 +19,7 @@ struct RenderGraph {
 };
 
 /// The graph that lights the scene file of the options in the way of `--lighting`: "path", "direct", "ao", or a graph
-/// file whose scenes are replaced by this one. `--env` and `--exposure` become overrides of the scene.
+/// file whose scenes are replaced by this one. `--env` becomes an override of the scene.
 RenderGraph render_graph(const Options& options);
 
 /// What a film's crop, in parts of its sides, is in pixels of a picture of that size: those whose left and upper edges

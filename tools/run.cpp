@@ -11,8 +11,6 @@
 #include <iostream>
 #include <optional>
 #include <random>
-#include <set>
-#include <string>
 #include <utility>
 
 #include "core/build_info.hpp"
@@ -108,7 +106,6 @@ private:
     void render_in_threads(SceneData scene);
     void render_on_hosts(const DiskFiles& files, SceneData scene);
     Cluster::Options cluster_options(const DiskFiles& files);
-    std::set<std::string> without(const Cluster& cluster) const;
     /// Called several times a second with the number of places that render.
     using LookAround = std::function<void(std::size_t renderers)>;
     void hand_out(Carrier& carrier, const Plan& plan, const LookAround& look_around);
@@ -213,7 +210,7 @@ int Run::perform() {
         }
         book_.phase("write");
         book_.name_not_finite(job_.graph);
-        return finish_run(book_, request_, signals_.any);
+        return finish_run(book_, request_, scene_overrides(request_.graph, registry_).exposure, signals_.any);
     } catch (const UserError&) {
         throw;
     } catch (const NoWorker& error) {
@@ -242,6 +239,7 @@ void Run::render_serially(SceneData scene) {
     SerialRun run(*network, [this] {
         if (stopped()) throw Cancelled{};
     });
+    run.watch([this](const PrepareProgress& progress) { book_.preparing(progress); });
     book_.use(Plan{{PlaceAt{}}, std::vector<std::vector<std::uint32_t>>(job_.graph.nodes.size(), {0})}, job_.graph);
     try {
         run.prepare(made_from(job_), cache(), [this](const std::string& text) { book_.say(text); });
@@ -291,13 +289,10 @@ ResultCache* Run::cache() {
 
 // True when all is prepared, false when the run was stopped.
 bool Run::prepare(Conductor& conductor, const LookAround& look_around) {
-    std::string said;
     while (!conductor.prepare(50ms)) {
         if (stopped()) return false;
         look_around(conductor.in_force().places_of[image_].size());
-        const auto progress = conductor.progress();
-        const auto node = progress.substr(0, progress.find(':'));
-        if (node != said) book_.say("preparing " + (said = node));
+        book_.preparing(conductor.progress());
     }
     for (const auto& [node, hash] : conductor.prepared()) book_.set("prepared." + node, to_hex(hash));
     return true;
@@ -358,20 +353,6 @@ Cluster::Options Run::cluster_options(const DiskFiles& files) {
     return options;
 }
 
-// Hosts that the user named and that take no part: why, and what others have to do for them.
-std::set<std::string> Run::without(const Cluster& cluster) const {
-    std::set<std::string> hosts;
-    for (const auto& [name, why] : cluster.missing()) {
-        std::string nodes;
-        for (const auto& entry : request_.hosts.hosts)
-            if (entry.endpoint == name)
-                for (const auto& [node, count] : entry.replicas) nodes += (nodes.empty() ? "" : ", ") + node;
-        hosts.insert(name + ": " + why + "; " +
-                     (nodes.empty() ? "it was to hold the whole network" : "it was to hold " + nodes));
-    }
-    return hosts;
-}
-
 void Run::render_on_hosts(const DiskFiles& files, SceneData scene) {
     book_.phase("prepare");
     auto options = cluster_options(files);
@@ -384,8 +365,7 @@ void Run::render_on_hosts(const DiskFiles& files, SceneData scene) {
         return;
     }
     book_.use(cluster.plan(), job_.graph);
-    const auto absent = without(cluster);
-    for (const auto& host : absent) book_.warn(host);
+    for (const auto& host : crew.missing()) book_.warn(host);
     std::optional<Clock::time_point> homeless;
     hand_out(cluster, cluster.plan(), [&](std::size_t renderers) {
         crew.look_after();
@@ -402,8 +382,6 @@ void Run::render_on_hosts(const DiskFiles& files, SceneData scene) {
     });
     book_.use(cluster.plan(), job_.graph);
     for (const auto& host : cluster.hosts()) book_.use(host);
-    for (const auto& host : without(cluster))  // those that never came are in the report already
-        absent.contains(host) ? book_.say("warning: " + host) : book_.warn(host);
     book_.count(cluster.finish(stopped() ? 300ms : 1000ms));
 }
 

@@ -17,6 +17,7 @@
 #include "core/film/png.hpp"
 #include "core/graph/layout.hpp"
 #include "core/prepare/kept.hpp"
+#include "tools/summary.hpp"
 
 namespace lightnet {
 namespace {
@@ -51,6 +52,13 @@ void RunBook::phase(const std::string& name) {
 void RunBook::warn(const std::string& text) {
     report_.warnings.push_back(text);
     progress_.say("warning: " + text);
+}
+
+void RunBook::preparing(const PrepareProgress& progress) {
+    if (progress.node.empty()) return;
+    if (std::exchange(last_prepared_, progress.node) != progress.node) say("preparing " + progress.node);
+    progress_.step(fmt::format("{} {}/{}", progress.node, progress.position, progress.nodes), progress.done,
+                   progress.total, Clock::now());
 }
 
 void RunBook::expose(float scale) {
@@ -105,6 +113,7 @@ void RunBook::write_files(const std::string& exr) {
     const auto picture = film_.picture(scale_);
     write_exr(exr, picture);
     write_png(png, picture);
+    brightness_ = brightness_of(picture);
     report_.outputs = {exr, png.string()};
     report_.settings["tone of the PNG"] = std::string(png_tone);
 }
@@ -250,6 +259,12 @@ void RunBook::write_picture(const std::string& exr) {
 bool RunBook::is_written(const std::string& exr) const {
     std::ifstream file(exr, std::ios::binary);
     return std::string{std::istreambuf_iterator<char>(file), {}} == exr_of(film_.picture(scale_));
+}
+
+void RunBook::conclude(const Hosts& asked, double exposure) {
+    auto layers = film_.format().layers;
+    layers.insert(layers.end(), film_.format().shown.begin(), film_.format().shown.end());
+    say(summary_of({report_, layers, asked, brightness_, exposure}));
 }
 
 void RunBook::write_report(const std::string& exr, const std::string& outcome) {

@@ -16,9 +16,12 @@
 #include "core/film/film.hpp"
 #include "core/film/progress.hpp"
 #include "core/film/run_report.hpp"
+#include "core/film/tone.hpp"
+#include "core/graph/hosts.hpp"
 #include "core/graph/plan.hpp"
 #include "core/hash.hpp"
 #include "core/message/counters.hpp"
+#include "core/prepare/prepare_progress.hpp"
 #include "core/scene/scene_data.hpp"
 #include "transport/cluster.hpp"
 
@@ -33,6 +36,8 @@ public:
     /// Another part of the run begins; the one before has ended.
     void phase(const std::string& name);
     void say(const std::string& text) { progress_.say(text); }
+    /// How far preparing is.
+    void preparing(const PrepareProgress& progress);
     void warn(const std::string& text);
     /// What the scene's film makes of radiance. Before the first tile.
     void expose(float scale);
@@ -82,6 +87,8 @@ public:
     void write_picture(const std::string& exr);
     /// Is the file there, and what write_picture() would write?
     bool is_written(const std::string& exr) const;
+    /// The last words of a run that is done. `asked`: hosts that were to take part; `exposure`: stops.
+    void conclude(const Hosts& asked, double exposure);
     /// Writes the report beside `exr`.
     void write_report(const std::string& exr, const std::string& outcome);
 
@@ -99,6 +106,8 @@ private:
 
     Film film_;
     float scale_ = 1;
+    Brightness brightness_;      // of what was written last
+    std::string last_prepared_;  // node that was named
     /// What one node has learnt, to be kept.
     struct ToKeep {
         std::size_t node = 0;

@@ -19,6 +19,18 @@ struct Asked {
     bool sent = false, all = false;
     std::vector<HostAnswer> answers;
 
+    HostAnswer answer_in(const Fields& fields) const {
+        HostAnswer answer;
+        answer.asked = endpoint;
+        answer.of_launcher = !fields.numbers.contains("broken_packets");  // only daemons count them
+        answer.name = fields.text("name"), answer.state = fields.text("state");
+        answer.who = fields.text("who"), answer.nodes = fields.text("nodes");
+        answer.machine = machine_from(fields);
+        answer.places = fields.number("places"), answer.progress = fields.number("progress");
+        answer.bundles = fields.number("bundles"), answer.broken_packets = fields.number("broken_packets");
+        return answer;
+    }
+
     void look() {
         if (!sent) {
             Frames frames;
@@ -30,10 +42,7 @@ struct Asked {
             const auto header = packet::read_header(bytes_of((*frames)[0]), bytes_of((*frames)[1]));
             const auto fields = packet::unpack_fields(bytes_of((*frames)[1]));
             if (!header || header->type != Type::state || !fields) continue;
-            answers.push_back({endpoint, fields->text("name"), fields->text("state"), fields->text("who"),
-                               fields->text("nodes"), machine_from(*fields), fields->number("places"),
-                               fields->number("progress"), fields->number("bundles"),
-                               fields->number("broken_packets")});
+            answers.push_back(answer_in(*fields));
             all = fields->number("left") == 0;
         }
     }
@@ -46,6 +55,8 @@ std::vector<HostAnswer> ask_state(const std::vector<std::string>& endpoints, std
     auto& context = *its_context;
     std::vector<Asked> asked;
     for (const auto& endpoint : endpoints) {
+        if (std::any_of(asked.begin(), asked.end(), [&](const auto& one) { return one.endpoint == endpoint; }))
+            continue;
         try {
             asked.push_back({endpoint, asking_socket(context, endpoint), false, false, {}});
         } catch (const zmq::error_t& error) {
@@ -61,7 +72,8 @@ std::vector<HostAnswer> ask_state(const std::vector<std::string>& endpoints, std
     }
     std::vector<HostAnswer> answers;
     for (auto& one : asked) {
-        if (one.answers.empty()) one.answers.push_back({one.endpoint, one.endpoint, "does not answer", {}, {}, {}});
+        if (one.answers.empty())
+            one.answers.push_back({one.endpoint, false, one.endpoint, "does not answer", {}, {}, {}});
         answers.insert(answers.end(), one.answers.begin(), one.answers.end());
     }
     return answers;

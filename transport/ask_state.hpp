@@ -12,7 +12,8 @@ namespace lightnet {
 
 /// A host in words, as it (or the launcher that it serves) says.
 struct HostAnswer {
-    std::string asked;  // endpoint
+    std::string asked;         // endpoint
+    bool of_launcher = false;  // a launcher answers there, for a host of its run
     std::string name, state;
     std::string who;    // whose run it serves
     std::string nodes;  // that it holds
@@ -23,8 +24,8 @@ struct HostAnswer {
     std::uint64_t broken_packets = 0;  // dropped
 };
 
-/// Asks all endpoints together. One that does not answer within `patience` has the state "does not answer". A launcher
-/// answers for all its hosts.
+/// Asks all endpoints together, each once. One that does not answer within `patience` has the state "does not answer".
+/// A launcher answers for all its hosts.
 std::vector<HostAnswer> ask_state(const std::vector<std::string>& endpoints, std::chrono::milliseconds patience);
 
 }  // namespace lightnet

@@ -21,7 +21,7 @@ using Clock = std::chrono::steady_clock;
 using State = HostLink::State;
 
 constexpr std::size_t most_hosts = 4096;
-constexpr auto first_words_after = std::chrono::seconds(2), words_interval = std::chrono::seconds(5);
+constexpr auto first_words_after = std::chrono::seconds(2), shortest_pause = std::chrono::seconds(5), longest_pause = std::chrono::seconds(60);
 
 Told told_of(const Cluster::Options& options) {
     Told told{options.run, options.who, options.job.isa, fingerprint(options.job.isa), to_json(options.job), {}};
@@ -362,6 +362,7 @@ void Cluster::gather(Patience patience, const std::atomic<bool>& cancelled, cons
     links_->hold_until = begun + patience.absent;
     std::optional<Clock::time_point> first_ready;
     auto next_words = begun + first_words_after;
+    auto pause = shortest_pause;  // grows: who waits for an hour doesn't want a thousand lines
     while (!cancelled) {
         wait(std::chrono::milliseconds(20));
         look_around();
@@ -383,7 +384,8 @@ void Cluster::gather(Patience patience, const std::atomic<bool>& cancelled, cons
                 throw NoWorker("no worker can be reached:" + links_->reasons());
         }
         if (now < next_words) continue;
-        next_words = now + words_interval;
+        next_words = now + pause;
+        if (waited > 6 * pause) pause = std::min(2 * pause, longest_pause);
         links_->say_what_is_missing(waited);
     }
 }

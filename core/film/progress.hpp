@@ -2,7 +2,9 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <ostream>
 #include <string>
@@ -16,8 +18,9 @@ enum class ProgressMode { automatic, bar, plain, json, none };
 /// "auto", "bar", "plain", "json" or "none".
 std::optional<ProgressMode> progress_mode(std::string_view text);
 
-/// One bar for the whole run on a terminal; elsewhere a plain line every ten seconds or ten percent; or a JSON object
-/// per line. Time is an argument, so nothing here waits or looks at a clock. One thread.
+/// One bar for the whole run on a terminal, never longer than a line of it; elsewhere, from the third second on, a
+/// plain line every ten seconds or ten percent; or a JSON object per line. Time is an argument, so nothing here waits
+/// or looks at a clock. One thread.
 class Progress {
 public:
     using Time = std::chrono::steady_clock::time_point;
@@ -26,6 +29,8 @@ public:
         ProgressMode mode = ProgressMode::automatic;
         bool terminal = false;  // what `automatic` looks at
         bool colour = false;    // bar only
+        /// Letters in a line of the terminal, now: people change it while they wait.
+        std::function<int()> columns = [] { return 80; };
     };
 
     /// The style for standard error: looks at the terminal and at NO_COLOR.
@@ -36,33 +41,48 @@ public:
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    /// Another part of the run begins ("prepare", "render"). One line; the one before is said to have ended.
+    /// Another part of the run begins ("prepare", "render"). One line says how long the one before took, if that was a
+    /// second or more.
     void phase(std::string_view name, Time now);
     /// Work that was there before the run began (resumed): counts as done, but says nothing about speed.
     void found_done(std::uint64_t work, Time now);
     /// `done` is the whole work done so far.
     void update(std::uint64_t done, Time now);
-    /// Says something without tearing the bar apart. Said even where no progress is shown.
+    /// The phase is at a step of which so much is done: for phases before the work. `name` says what it does. Of 0: not
+    /// known.
+    void step(std::string_view name, std::uint64_t done, std::uint64_t total, Time now);
+    /// Says something without tearing the bar apart. Mode none: says nothing.
     void say(std::string_view message);
-    /// The last line. A bar stays where it is if the work was not finished.
+    /// The last line. A bar goes when the work is finished, and stays where it is when not.
     void finish(Time now);
 
-    /// Seconds until all is done, at the speed so far; none before the first work is done.
+    /// Seconds until all is done (or the step, if there is one), at the speed so far; none before its first part is.
     std::optional<double> seconds_left(Time now) const;
 
 private:
+    /// A part of a phase.
+    struct Step {
+        std::string name;
+        std::uint64_t done = 0, total = 0;
+        Time begun;
+    };
     void report(Time now);
+    bool due(Time now);
+    void plain_line(Time now);
     void draw_bar(Time now);
+    std::string bar_text(std::size_t columns, Time now) const;
+    std::string label() const;
     void clear_bar();
     void line_of_json(std::string_view event, Time now);
     double fraction() const;
 
     std::uint64_t total_, done_ = 0, found_ = 0;
     ProgressMode mode_;
-    bool colour_;
+    Style style_;
     std::ostream& out_;
     Time begun_, phase_begun_, work_begun_, reported_;
     std::string phase_;
+    std::optional<Step> step_;
     int tenths_ = 0;  // plain: the last tenth of the work that was said
     bool bar_shown_ = false;
 };

@@ -1,6 +1,7 @@
 #include "core/readers/read_scene.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 
 #include "core/readers/gltf/gltf.hpp"
@@ -10,7 +11,6 @@
 #include "core/readers/ply.hpp"
 
 namespace lightnet {
-
 namespace {
 
 /// Files of one scene, and the first that lies elsewhere.
@@ -32,9 +32,14 @@ private:
     std::string outside_;
 };
 
-SceneData read(Files& files, const std::string& path, const std::map<std::string, std::string>& constants) {
+std::string ending_of(const std::string& path) {
     std::string ending = path.substr(std::min(path.rfind('.'), path.size()));
     std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    return ending;
+}
+
+SceneData read(Files& files, const std::string& path, const std::map<std::string, std::string>& constants) {
+    const std::string ending = ending_of(path);
     if (ending == ".xml") return mitsuba::read(files, path, constants);
     if (!constants.empty())
         throw UserError({path, 0}, "only Mitsuba's scenes ('.xml') have variables: there is no '" +
@@ -47,6 +52,11 @@ SceneData read(Files& files, const std::string& path, const std::map<std::string
 }
 
 }  // namespace
+
+bool is_named_like_a_scene(const std::string& path) {
+    constexpr std::array endings{".pbrt", ".xml", ".gltf", ".glb", ".obj", ".ply"};
+    return std::find(endings.begin(), endings.end(), ending_of(path)) != endings.end();
+}
 
 SceneData read_scene(Files& files, const std::string& path, const std::map<std::string, std::string>& constants) {
     Watched watched(files, path);

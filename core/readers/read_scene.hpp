@@ -15,4 +15,7 @@ namespace lightnet {
 /// warnings.
 SceneData read_scene(Files& files, const std::string& path, const std::map<std::string, std::string>& constants = {});
 
+/// Its ending is one of those.
+bool is_named_like_a_scene(const std::string& path);
+
 }  // namespace lightnet

@@ -382,14 +382,18 @@ const std::string& Conductor::name_of(std::size_t position) const {
     return options_.graph->nodes[order_[position]].name;
 }
 
-std::string Conductor::progress() const {
-    if (done_ == order_.size()) return {};
-    std::string text = name_of(done_);
+PrepareProgress Conductor::progress() const {
+    PrepareProgress progress;
+    if (done_ == order_.size()) return progress;
+    progress.node = name_of(done_);
+    progress.position = done_ + 1, progress.nodes = order_.size();
     const auto* call = calls_.unfinished(order_[done_]);
-    if (!call) return text;
-    if (call->what().kind == StepReport::Kind::rehearse) return text + ": rehearsal";
-    return text + ": " + std::to_string(call->what().count - call->missing()) + "/" +
-           std::to_string(call->what().count);
+    if (!call) return progress;
+    if (call->shared_out())
+        progress.done = call->what().count - call->missing(), progress.total = call->what().count;
+    else if (rehearsing_)
+        progress.done = rehearsing_->blocks - rehearsing_->master->unanswered(), progress.total = rehearsing_->blocks;
+    return progress;
 }
 
 }  // namespace lightnet

@@ -18,6 +18,7 @@
 #include "core/message/carrier.hpp"
 #include "core/prepare/calls.hpp"
 #include "core/prepare/lock_desk.hpp"
+#include "core/prepare/prepare_progress.hpp"
 #include "core/prepare/prepared.hpp"
 #include "core/runtime/epoch.hpp"
 #include "core/runtime/master_renderer.hpp"
@@ -54,8 +55,8 @@ public:
     bool prepare(std::chrono::nanoseconds most);
     /// What can be asked now.
     const Plan& in_force() const { return in_force_; }
-    /// How far preparing is, for display: "caustics 34/256"; empty when nothing is being prepared.
-    std::string progress() const;
+    /// How far preparing is. Of nodes that prepare at the same time, the first one.
+    PrepareProgress progress() const;
     /// What was prepared: node → content hash of all its results.
     std::map<std::string, Hash> prepared() const { return calls_.hashes(); }
 
@@ -98,6 +99,7 @@ private:
     struct Rehearsing {
         Rehearsing() {}  // clang 14 can't make one inside an optional without
         std::uint32_t call = 0;
+        std::size_t blocks = 0;  // of tiles, in all
         std::unique_ptr<MasterRenderer> master;
         bool rendered = false;
         std::set<Copy> copies;      // that take part; who comes later does not

@@ -47,6 +47,7 @@ void Conductor::begin_rehearsal(std::uint32_t call) {
     epoch_.begin_next();
     rehearsing_.emplace();
     rehearsing_->call = call;
+    rehearsing_->blocks = work_in(job.tiles);
     for (const auto& copy : copies(done_)) rehearsing_->copies.insert(copy);
     rehearsing_->master =
         std::make_unique<MasterRenderer>(std::move(job), *this, [](const Tile&, std::span<const Rgb>) {});

@@ -46,6 +46,8 @@ public:
     void drain();
     /// Tiles that are handed out and not answered.
     std::size_t outstanding() const { return replicas_.outstanding(); }
+    /// Blocks of samples that are not there yet.
+    std::size_t unanswered() const { return unanswered_; }
     /// Places that render now.
     std::size_t renderers() const { return replicas_.size(); }
     /// Tiles that seem to kill hosts, and on which hosts they did: one sentence each.

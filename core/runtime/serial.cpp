@@ -21,7 +21,11 @@ public:
         const auto result = recall([&] {
             const auto& network = run_.network_;
             run_.assembly_.rehearsal(node_).begin();
-            for (const auto& tile : rehearsal_tiles(network.graph, network.registry, stride)) run_.render(tile);
+            const auto tiles = rehearsal_tiles(network.graph, network.registry, stride);
+            for (std::size_t i = 0; i < tiles.size(); ++i) {
+                run_.step(i, tiles.size());
+                run_.render(tiles[i]);
+            }
             const auto noted = run_.assembly_.rehearsal(node_).end();
             std::vector<std::byte> bytes(noted.size() * sizeof(Query));
             if (!noted.empty()) std::memcpy(bytes.data(), noted.data(), bytes.size());
@@ -41,6 +45,7 @@ protected:
             std::vector<std::vector<std::byte>> shards(count);
             for (std::size_t i = 0; i < count; ++i) {
                 if (run_.pause_) run_.pause_();
+                run_.step(i, count);
                 work(i, shards[i]);
             }
             return join_shards(shards);
@@ -94,11 +99,21 @@ SerialRun::SerialRun(const Network& network, std::function<void()> pause)
 void SerialRun::prepare(const std::string& made_from, ResultCache* cache,
                         const std::function<void(const std::string&)>& say) {
     const Recipes recipes(network_.graph, made_from);
-    for (const auto node : preparing_nodes(network_.graph, network_.registry)) {
+    const auto nodes = preparing_nodes(network_.graph, network_.registry);
+    progress_.nodes = nodes.size();
+    for (const auto node : nodes) {
+        progress_.node = network_.graph.nodes[node].name;
+        ++progress_.position;
+        step(0, 0);
         Preparing services(*this, node, recipes, cache, say);
         assembly_.prepare(node, services);
     }
     counters_.tiles = 0;  // those of rehearsals make no picture
+}
+
+void SerialRun::step(std::uint64_t done, std::uint64_t total) {
+    progress_.done = done, progress_.total = total;
+    if (watcher_) watcher_(progress_);
 }
 
 Bytes SerialRun::last_result(std::size_t node) const {

@@ -5,11 +5,13 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/message/counters.hpp"
 #include "core/prepare/assembly.hpp"
 #include "core/prepare/call_port.hpp"
+#include "core/prepare/prepare_progress.hpp"
 
 namespace lightnet {
 
@@ -23,6 +25,8 @@ public:
     /// lines for the user go to `say`.
     void prepare(const std::string& made_from, ResultCache* cache = nullptr,
                  const std::function<void(const std::string&)>& say = {});
+    /// Is told how far preparing is, from now on.
+    void watch(std::function<void(const PrepareProgress&)> watcher) { watcher_ = std::move(watcher); }
     /// The result of a node's last call while it prepared; null: it made none.
     Bytes last_result(std::size_t node) const;
     /// All samples of the tile's block: see Renderer::render.
@@ -32,8 +36,12 @@ public:
 private:
     class Preparing;
 
+    void step(std::uint64_t done, std::uint64_t total);
+
     const Network& network_;
     std::function<void()> pause_;
+    std::function<void(const PrepareProgress&)> watcher_;
+    PrepareProgress progress_;
     std::size_t image_;
     Counters counters_;
     std::uint64_t rays_before_;

@@ -18,7 +18,7 @@ using packet::Packet;
 using packet::Type;
 using std::chrono::seconds;
 
-const std::vector<std::string> tiny{"--size", "16x16", "--samples", "1", "--progress", "none"};
+const std::vector<std::string> tiny{"--size", "16x16", "--samples", "1", "--progress", "plain"};
 
 Packet hello(const std::string& build) {
     return packet::pack(Type::hello, 0, Fields{}.set("build", build).set("isa", "sse4.2"));
@@ -136,7 +136,7 @@ TEST_F(DaemonTest, WithNothingYetIsSentLargeFilesPieceByPiece) {
     const auto graph = folder / "large.lua";
     std::ofstream(graph) << "scene = Scene { 'large.pbrt' }\ndirect = DirectLighting {}\n"
                             "image = RayTracer { direct, scene = scene, film = { 16, 16 }, samples = 1 }\n";
-    const auto here = launch(graph, folder, {"--progress", "none"});
+    const auto here = launch(graph, folder, {"--progress", "none", "--threads", "1"});
     const auto there = launch(graph, folder, {"--progress", "none", "--hosts", hosts_file()});
     ASSERT_EQ(here.code, 0) << here.said;
     ASSERT_EQ(there.code, 0) << there.said;

@@ -16,7 +16,7 @@ TEST(Hosts, TellOfTheirMachineAndThatTheyAreFree) {
     const Folder folder;
     const Daemon daemon(folder, 3);
     const auto told = told_of(daemon.endpoint);
-    for (const auto* word : {"is free", "3 places", " cores", "GiB"})
+    for (const auto* word : {daemon.endpoint.c_str(), "is free", "3 places", " cores", "GiB"})
         EXPECT_NE(told.find(word), std::string::npos) << word << "\n" << told;
 }
 
@@ -31,6 +31,7 @@ TEST(Hosts, TellWhomTheyServeAndWithWhat) {
     const auto told = told_of(hosts);
     for (const auto* word : {"serves", "run of ", "cornell.lua", "holds ", "bounce", " answered"})
         EXPECT_NE(told.find(word), std::string::npos) << word << "\n" << told;
+    EXPECT_NE(told.find("is busy: serves"), std::string::npos) << told;
     const auto of_launcher = told_of(join_endpoint(run));
     EXPECT_NE(of_launcher.find(daemon.endpoint), std::string::npos) << of_launcher;
     EXPECT_NE(of_launcher.find("is ready"), std::string::npos) << of_launcher;
@@ -38,6 +39,22 @@ TEST(Hosts, TellWhomTheyServeAndWithWhat) {
 
 TEST(Hosts, ThatAreNotThereAreSaidToBe) {
     EXPECT_NE(told_of("tcp://127.0.0.1:1", 3).find("does not answer"), std::string::npos);
+    const Folder folder;
+    const Daemon daemon(folder);
+    const auto told =
+        told_of(folder.write("hosts.lua", "place '" + daemon.endpoint + "' {}\nplace 'tcp://127.0.0.1:1' {}"), 3);
+    EXPECT_NE(told.find("is free"), std::string::npos) << told;
+    EXPECT_NE(told.find("1 of 2 is not there"), std::string::npos) << told;
+}
+
+TEST(Hosts, StandInTheTableOnceWithTheirEndpoint) {
+    const Folder folder;
+    const Daemon daemon(folder);
+    Process ask({program("lightnet"), "hosts", daemon.endpoint, daemon.endpoint,
+                 folder.write("hosts.lua", "place '" + daemon.endpoint + "' {}")});
+    EXPECT_EQ(ask.wait(), 0) << ask.output();
+    EXPECT_EQ(ask.output().find(daemon.endpoint), 0u) << ask.output();
+    EXPECT_EQ(ask.output().find(daemon.endpoint, 1), std::string::npos) << ask.output();
 }
 
 }  // namespace

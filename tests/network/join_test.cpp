@@ -14,7 +14,9 @@ class Join : public ::testing::Test {
 protected:
     static void SetUpTestSuite() {
         const Folder folder;
-        reference = new std::string(launch(graph_file("cornell.lua"), folder, size).picture);
+        auto alone = size;
+        alone.insert(alone.end(), {"--threads", "1"});
+        reference = new std::string(launch(graph_file("cornell.lua"), folder, alone).picture);
         ASSERT_FALSE(reference->empty());
     }
     static void TearDownTestSuite() { delete reference; }

@@ -61,7 +61,7 @@ TEST_F(Keep, LetsAnotherViewOfASceneGoOnFromTheRecordsOfOne) {
 
     const auto alone = launch(graph("alone.lua", "", aside), folder, with({}));
     const auto second_graph = graph("second.lua", ", extend = 'room.records'", aside);
-    const auto second = launch(second_graph, folder, with({}));
+    const auto second = launch(second_graph, folder, with({"--threads", "1"}));
     ASSERT_EQ(second.code, 0) << second.said;
     EXPECT_FALSE(second.picture == alone.picture) << "the older records should count";
     const auto found = records(first.said);
@@ -81,7 +81,7 @@ TEST_F(Keep, LetsAnotherViewOfASceneGoOnFromTheRecordsOfOne) {
 
 TEST_F(Keep, KeepsTheSameInEveryMode) {
     const auto keeping = graph("keep.lua", ", keep = 'a.records'");
-    ASSERT_EQ(launch(keeping, folder, with({})).code, 0);
+    ASSERT_EQ(launch(keeping, folder, with({"--threads", "1"})).code, 0);
     const auto kept = bytes_of(folder / "a.records");
     for (const auto& mode : {std::vector<std::string>{"--threads", "2"}, {"--local-workers", "2"}}) {
         std::filesystem::remove(folder / "a.records");

@@ -43,5 +43,44 @@ TEST(Launch, WritesPictureTinyPictureAndReport) {
     EXPECT_NE(run.report.find("\"outcome\": \"done\""), std::string::npos);
 }
 
+TEST(Launch, EndsByTellingWhatItMade) {
+    const Folder folder;
+    const auto run = launch(graph_file("cornell.lua"), folder, {"--size", "16x16", "--samples", "1", "--threads", "2"});
+    ASSERT_EQ(run.code, 0) << run.said;
+    for (const auto& part : {"wrote " + (folder / "picture.exr").string() + ", " + (folder / "picture.png").string(),
+                             std::string("layers: emission, direct, bounce"), std::string("2 threads of this machine")})
+        EXPECT_NE(run.said.find(part), std::string::npos) << part << "\n" << run.said;
+    EXPECT_EQ(run.said.find(" %,"), std::string::npos) << "a run of a second needs no percentages\n" << run.said;
+}
+
+TEST(Launch, HintsAtAnExposureThatDoesShowThePicture) {
+    const Folder folder;
+    const std::vector<std::string> small{"--size", "32x32", "--samples", "4"};
+    const auto exposed = [&](const std::string& stops) {
+        auto words = small;
+        words.insert(words.end(), {"--exposure", stops});
+        return launch(graph_file("cornell.lua"), folder, words).said;
+    };
+    for (const char* stops : {"9", "-15"}) {
+        const auto said = exposed(stops);
+        const auto at = said.find("--exposure ");
+        ASSERT_NE(at, std::string::npos) << said;
+        const auto hinted = said.substr(at + 11, said.find(' ', at + 11) - at - 11);
+        EXPECT_EQ(exposed(hinted).find("hint:"), std::string::npos) << hinted;
+    }
+}
+
+TEST(Launch, SaysNothingButErrorsWhenNoProgressIsWanted) {
+    const Folder folder;
+    const std::vector<std::string> quiet{"--size", "16x16", "--samples", "1", "--progress", "none"};
+    for (const auto& mode : {std::vector<std::string>{}, {"--local-workers", "1"}}) {
+        auto words = quiet;
+        words.insert(words.end(), mode.begin(), mode.end());
+        const auto run = launch(graph_file("cornell.lua"), folder, words);
+        EXPECT_EQ(run.code, 0);
+        EXPECT_EQ(run.said, "");
+    }
+}
+
 }  // namespace
 }  // namespace lightnet::test

@@ -105,7 +105,7 @@ public:
         while (!conductor.prepare(std::chrono::milliseconds(2))) {
             if (meanwhile) meanwhile();
             if (std::chrono::steady_clock::now() > end) {
-                ADD_FAILURE() << "preparing hangs: " << conductor.progress();
+                ADD_FAILURE() << "preparing hangs: " << to_string(conductor.progress());
                 return {};
             }
         }
@@ -117,7 +117,7 @@ public:
         Conductor conductor(options(), run.carrier());
         conductor.propose(plan);
         EXPECT_TRUE(conductor.prepare(slowdown * std::chrono::seconds(30)))
-            << "preparing hangs: " << conductor.progress();
+            << "preparing hangs: " << to_string(conductor.progress());
         EXPECT_EQ(conductor.in_force(), plan);
         EXPECT_LE(said.size(), std::max<std::size_t>(2, 2 * job.graph.sectors.size()))
             << "each line once, however many places say it";

@@ -27,7 +27,7 @@ TEST(Crop, HasThePixelsOfTheWholePictureInEveryMode) {
     const Words small{"--size", "48x40", "--samples", "20", "--progress", "none"}, crop{"--crop", "7,5,30,21"};
     ASSERT_EQ(launch(graph, folder, small).code, 0);
     const Picture whole = read_exr(folder / "picture.exr");
-    const auto serial = launch(graph, folder, with(small, crop));
+    const auto serial = launch(graph, folder, with(with(small, crop), {"--threads", "1"}));
     ASSERT_EQ(serial.code, 0) << serial.said;
     const Picture part = read_exr(folder / "picture.exr");
     EXPECT_EQ(part.x, 7u);
@@ -53,7 +53,7 @@ TEST(Refinement, GivesTheSameBytesInEveryMode) {
     const Folder folder;
     const auto graph = adaptive_graph(folder);
     const Words quiet{"--progress", "none"};
-    const auto serial = launch(graph, folder, quiet);
+    const auto serial = launch(graph, folder, with(quiet, {"--threads", "1"}));
     ASSERT_EQ(serial.code, 0) << serial.said;
     const Picture picture = read_exr(folder / "picture.exr");
     ASSERT_EQ(picture.samples.size(), 44u * 36);

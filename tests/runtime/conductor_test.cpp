@@ -119,6 +119,7 @@ TEST(Conductor, PreparesNodesThatDoNotAskEachOtherAtTheSameTime) {
     conductor.propose({{{"a", 0}}, std::vector<std::vector<std::uint32_t>>(graph.nodes.size(), {0})});
     auto first = next(Step::Kind::prepare, caustics), second = next(Step::Kind::prepare, global);
     EXPECT_TRUE(places.asked.empty());
+    EXPECT_EQ(conductor.progress(), (PrepareProgress{"caustics", 1, 3, 0, 0}));
     // The later one has shards to do while the first still thinks, and is done before it.
     places.answer(std::move(second), StepReport{StepReport::Kind::map, 0, 1});
     lead();
@@ -179,8 +180,13 @@ TEST(Conductor, TakesNoNotesOfARehearsalThatWasBrokenOff) {
     lead();
     auto tiles = places.take();
     ASSERT_TRUE(tiles.of_tiles());
+    const auto before = conductor.progress();
+    EXPECT_EQ(before.node, "learned");
+    EXPECT_GT(before.total, 0u) << "how far a rehearsal is can be told";
+    EXPECT_EQ(before.done, 0u);
     places.answer_tiles(std::move(tiles));
     lead();
+    EXPECT_EQ(conductor.progress().done, before.total);
     auto collect = places.take();
     ASSERT_TRUE(collect.of_kind(Step::Kind::collect));
     ASSERT_EQ(collect.place.host, "a");

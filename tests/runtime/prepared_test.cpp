@@ -173,6 +173,14 @@ TEST(SerialRun, PreparesOnceAndTakesTheRestFromTheCache) {
     EXPECT_EQ(second.render(tile), picture);
     EXPECT_GT(questions, second.counters().local_questions);
 
+    SerialRun watched(*network);
+    std::vector<PrepareProgress> told;
+    watched.watch([&](const PrepareProgress& progress) { told.push_back(progress); });
+    watched.prepare("");
+    EXPECT_EQ(told.front(), (PrepareProgress{told[0].node, 1, 1, 0, 0}));
+    EXPECT_EQ(told.at(1).total, 9u) << "nine shards come first";
+    EXPECT_EQ(told.at(9).done, 8u);
+
     SerialRun unprepared(*network);
     EXPECT_NE(unprepared.render(tile), picture) << "what was prepared counts";
 }

@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <sstream>
+#include <thread>
 
 #include "core/film/exr.hpp"
 #include "core/graph/graph_film.hpp"
@@ -87,10 +89,33 @@ TEST(Launcher, RunsASoundGraph) {
     EXPECT_EQ(lightnet({"run", lightnet.graph}), 7) << "the run's own exit code";
     ASSERT_EQ(lightnet.runs.size(), 1u);
     const RunRequest& run = lightnet.runs[0];
-    EXPECT_EQ(run.mode, Mode::serial);
     EXPECT_EQ(run.output, "x.exr");
     EXPECT_THAT(run.scene, testing::EndsWith("/box.pbrt"));
     EXPECT_EQ(run.graph.nodes[2].params.at("samples"), Value{16.0}) << "defaults are filled in";
+}
+
+TEST(Launcher, UsesAllCoresUnlessToldOtherwise) {
+    Bench lightnet;
+    const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
+    lightnet({"run", lightnet.graph});
+    EXPECT_EQ(lightnet.runs.at(0).mode, cores > 1 ? Mode::threads : Mode::serial);
+    EXPECT_EQ(lightnet.runs.at(0).threads, cores);
+    lightnet({"run", lightnet.graph, "--threads", "1"});
+    EXPECT_EQ(lightnet.runs.at(1).mode, Mode::serial);
+    const std::vector<std::vector<std::string>> asked{
+        {"--hosts", lightnet.write("h.lua", "place 'tcp://127.0.0.1:7777' {}")},
+        {"--local-workers", "1"},
+        {"--listen", "tcp://127.0.0.1:*"},
+        {"--slurm", "2"}};
+    for (auto words : asked) {
+        words.insert(words.begin(), {"run", lightnet.graph});
+        lightnet(words);
+        EXPECT_EQ(lightnet.runs.back().mode, Mode::network) << words[2];
+        EXPECT_EQ(lightnet.runs.back().threads, 0u) << words[2] << ": the daemons do it";
+    }
+    lightnet({"run", lightnet.graph, "--local-workers", "1", "--threads", "1"});
+    EXPECT_EQ(lightnet.runs.back().mode, Mode::network);
+    EXPECT_EQ(lightnet.runs.back().threads, 1u) << "a place beside those of the daemon";
 }
 
 TEST(Launcher, OverridesWhatTheGraphSays) {

@@ -108,13 +108,60 @@ TEST(Options, SuggestTheOptionYouMeant) {
     EXPECT_THAT(usage_error({"run", "g.lua", "other.lua"}), HasSubstr("what is 'other.lua' for?"));
 }
 
+TEST(Options, SuggestTheVerbBelowAVerb) {
+    EXPECT_THAT(usage_error({"scene", "inf", "x.pbrt"}),
+                HasSubstr("there is no 'lightnet scene inf' (did you mean 'info'?)"));
+    EXPECT_THAT(usage_error({"scene"}), HasSubstr("'lightnet scene' wants one of these behind it: info"));
+}
+
+TEST(Options, PointToTheHelpOfTheirVerb) {
+    EXPECT_THAT(usage_error({"run", "g.lua", "--thread", "2"}), HasSubstr("\ntry: lightnet run --help\n"));
+    EXPECT_THAT(usage_error({"render", "--size", "3", "x.pbrt"}), HasSubstr("\ntry: lightnet render --help\n"));
+    EXPECT_THAT(usage_error({"scene", "info", "--deep", "x.pbrt"}), HasSubstr("\ntry: lightnet scene info --help\n"));
+    EXPECT_THAT(usage_error({"run", "--thread", "2"}), HasSubstr("did you mean '--threads'?"))
+        << "though the graph lacks as well";
+    EXPECT_THAT(usage_error({"--threads", "2", "run", "g.lua"}),
+                HasSubstr("stands after the verb: lightnet run --threads"));
+}
+
+TEST(Options, TellWhichVerbAFileIsFor) {
+    EXPECT_THAT(usage_error({"x.lua"}), HasSubstr("'x.lua' is a graph file; to render it: lightnet run x.lua"));
+    EXPECT_THAT(usage_error({"x.glb"}), HasSubstr("'x.glb' is a scene file; to render it: lightnet render x.glb"));
+    for (const char* scene : {"box.pbrt", "box.xml", "box.gltf", "box.GLB", "box.obj", "box.ply"})
+        EXPECT_THAT(usage_error({"run", scene}), HasSubstr(std::string("to render it: lightnet render ") + scene));
+    EXPECT_THAT(usage_error({"check", "box.pbrt"}), HasSubstr("to look at it: lightnet scene info box.pbrt"));
+    EXPECT_THAT(usage_error({"render", "x.lua"}), HasSubstr("to render it: lightnet run x.lua"));
+}
+
+TEST(Options, TellAPictureThatIsTooLargeFromASizeThatIsNone) {
+    EXPECT_THAT(usage_error({"run", "g.lua", "--size", "100000x100000"}),
+                HasSubstr("a picture has at most 16384 pixels along each side, not 100000x100000"));
+    for (const char* wrong : {"64", "x", "64x", "x64", "0x64", "64x48x3", "64x1e9", "-1x5"})
+        EXPECT_THAT(usage_error({"run", "g.lua", "--size", wrong}), HasSubstr("a size is like 640x480")) << wrong;
+}
+
+TEST(Options, HelpWithAVerbWhenAskedByAVerb) {
+    EXPECT_EQ(finished_of({"help"}).out, finished_of({"--help"}).out);
+    EXPECT_EQ(finished_of({"help", "run"}).out, finished_of({"run", "--help"}).out);
+    EXPECT_EQ(finished_of({"help", "scene", "info"}).out, finished_of({"scene", "info", "--help"}).out);
+    EXPECT_THAT(usage_error({"help", "rnu"}), HasSubstr("did you mean 'run'?"));
+}
+
+TEST(Options, WantEndpointsToListenAt) {
+    EXPECT_THAT(usage_error({"run", "g.lua", "--listen", "foo"}),
+                HasSubstr("--listen: must be like tcp://127.0.0.1:7777"));
+    EXPECT_EQ(options_of({"run", "g.lua", "--listen", "tcp://127.0.0.1:*"}).listen, "tcp://127.0.0.1:*");
+}
+
 TEST(Options, RefuseNumbersThatMakeNoSense) {
     for (const Words& words :
          {Words{"run", "g.lua", "--threads", "0"}, Words{"run", "g.lua", "--threads", "many"},
           Words{"run", "g.lua", "--samples", "-1"}, Words{"run", "g.lua", "--samples", "4294967297"},
           Words{"run", "g.lua", "--samples", "1.5"}, Words{"run", "g.lua", "--size", "64"},
           Words{"run", "g.lua", "--size", "0x64"}, Words{"run", "g.lua", "--size", "64x1e9"},
-          Words{"run", "g.lua", "--seed", "-1"}, Words{"run", "g.lua", "--local-workers", "0"}, Words{"run"}})
+          Words{"run", "g.lua", "--seed", "-1"}, Words{"run", "g.lua", "--preview", "0"},
+          Words{"run", "g.lua", "--preview", "soon"}, Words{"run", "g.lua", "--threads", "2", "--threads", "3"},
+          Words{"run", "g.lua", "--local-workers", "0"}, Words{"run"}})
         EXPECT_THAT(usage_error(words), StartsWith("lightnet: ")) << words.back();
 }
 

@@ -60,7 +60,6 @@ TEST(Render, MakesAGraphOfASceneFile) {
     EXPECT_EQ(scene_file(run.graph, lightnet.registry), run.scene);
     EXPECT_EQ(run.scene, lightnet.scene);
     EXPECT_EQ(run.output, "ball.exr");
-    EXPECT_EQ(run.mode, Mode::serial);
     EXPECT_EQ(layers_of(run.graph, lightnet.registry).film, (std::vector<std::string>{"emission", "direct", "bounce"}))
         << "all light, in layers";
     EXPECT_EQ(run.read->scene.shapes.size(), 1u) << "read once, for its size and for the run";
@@ -78,6 +77,15 @@ TEST(Render, TakesTheOptionsOfRun) {
     EXPECT_EQ(lightnet.overrides().environment, (std::variant<std::monostate, Rgb, std::string>(Rgb{1, 0.5f, 0.25f})));
     EXPECT_EQ(lightnet.overrides().exposure, 2);
     EXPECT_TRUE(lightnet.overrides().two_sided);
+}
+
+TEST(Render, ExposesGraphsToo) {
+    Bench lightnet;
+    const std::string graph = lightnet.write("own.lua",
+                                             "scene = Scene { 'ball.pbrt', exposure = 1 } light = DirectLighting {}\n"
+                                             "image = RayTracer { light, scene = scene, film = { 8, 8 } }");
+    EXPECT_EQ(lightnet({"run", graph, "--exposure", "-2.5"}), 7) << lightnet.err;
+    EXPECT_EQ(lightnet.overrides().exposure, -2.5);
 }
 
 TEST(Render, DefinesVariablesOfTheSceneFileOnAllHosts) {

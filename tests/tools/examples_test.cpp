@@ -1,0 +1,65 @@
+// Every help ends in examples, and they work.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <iterator>
+#include <sstream>
+
+#include "tools/options.hpp"
+
+namespace lightnet {
+namespace {
+
+using Words = std::vector<std::string>;
+
+// What stands behind "Example:" or "Examples:", line by line; what is behind a pipe is another program's.
+std::vector<Words> examples_in(const std::string& help) {
+    std::vector<Words> examples;
+    std::istringstream lines(help.substr(std::min(help.rfind("\nExample"), help.size())));
+    std::string line;
+    std::getline(lines, line);
+    std::getline(lines, line);
+    while (std::getline(lines, line)) {
+        std::istringstream in(line.substr(0, line.find('|')));
+        examples.emplace_back(std::istream_iterator<std::string>(in), std::istream_iterator<std::string>());
+    }
+    return examples;
+}
+
+void expect_to_work(Words words) {
+    ASSERT_FALSE(words.empty());
+    ASSERT_EQ(words[0], "lightnet");
+    words.erase(words.begin());
+    const auto parsed = parse_options(words);
+    const auto* finished = std::get_if<Finished>(&parsed);
+    EXPECT_TRUE(!finished || finished->code == 0) << words[0] << ": " << finished->err;
+    for (const auto& word : words) {
+        const bool ours = word.starts_with("graphs/");
+        EXPECT_TRUE(!ours || std::filesystem::exists(std::filesystem::path(LIGHTNET_SOURCE_DIR) / word)) << word;
+    }
+}
+
+class HelpOf : public testing::TestWithParam<Words> {};
+
+TEST_P(HelpOf, EndsInExamplesThatWork) {
+    Words words = GetParam();
+    words.push_back("--help");
+    const auto parsed = parse_options(words);
+    const auto& help = std::get<Finished>(parsed).out;
+    const auto examples = examples_in(help);
+    EXPECT_FALSE(examples.empty()) << help;
+    for (const auto& example : examples) expect_to_work(example);
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryVerb, HelpOf,
+                         testing::Values(Words{}, Words{"run"}, Words{"render"}, Words{"scene"}, Words{"scene", "info"},
+                                         Words{"check"}, Words{"dot"}, Words{"describe"}, Words{"hosts"},
+                                         Words{"compare"}),
+                         [](const auto& verb) {
+                             std::string name = "Lightnet";
+                             for (const auto& word : verb.param) name += "_" + word;
+                             return name;
+                         });
+
+}  // namespace
+}  // namespace lightnet

@@ -1,0 +1,34 @@
+// What `lightnet compare` does.
+#pragma once
+
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/film/flip.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace lightnet {
+
+/// Pictures to hold against a reference, and how far the beauty may be off.
+struct CompareRequest {
+    std::string reference;
+    std::vector<std::string> pictures;
+    std::optional<double> max_relmse, max_trimmed, max_blocks, max_bias, max_flip;
+    bool equal_bytes = false;  // of every pixel of every layer
+    bool json = false;
+    FlipView view;
+    std::string difference, flip_map;  // files to write; "": none
+};
+
+void add_compare_options(CLI::App& verb, CompareRequest& request);
+
+/// Writes what there is to say to `out`, and mistakes and what is too far off to `err`. An exit code: 0, 1 when a
+/// tolerance is passed, 2 when a picture can't be read or has another size.
+int compare_pictures(const CompareRequest& request, std::ostream& out, std::ostream& err);
+
+}  // namespace lightnet

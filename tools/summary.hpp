@@ -1,0 +1,25 @@
+// The last words of a run: what it made, where, how long it took and who took part.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/film/run_report.hpp"
+#include "core/film/tone.hpp"
+#include "core/graph/hosts.hpp"
+
+namespace lightnet {
+
+/// What there is to sum up. All of it outlives the summary.
+struct Ending {
+    const RunReport& report;                 // finished
+    const std::vector<std::string>& layers;  // of the picture
+    const Hosts& asked;                      // hosts that were to take part
+    Brightness brightness;
+    double exposure = 0;  // stops, as it was rendered
+};
+
+/// Some lines, without the last line break.
+std::string summary_of(const Ending& ending);
+
+}  // namespace lightnet
