@@ -41,7 +41,7 @@ void read(const std::string& line, Outcome& outcome) {
         outcome.why_not = why.front();
     } else if (line.starts_with("faults.")) {
         outcome.figures.push_back(line);
-    } else {
+    } else if (line.find("\"event\":\"progress\"") == std::string::npos) {
         outcome.complaints.push_back(line);
     }
 }

@@ -135,37 +135,52 @@ TEST_F(Faults, OfDamagedInputEndWithFileAndLine) {
     figure("memory", memory, "MB", 512, false);
 }
 
-// A lamp so bright that what is reflected from it is infinite.
-std::string scene_too_bright(const Folder& folder) {
-    auto text = bytes_of(graph_file("cornell_box.pbrt"));
-    const std::string lamp = "[ 17 12 4 ]";
-    text.replace(text.find(lamp), lamp.size(), "[ 3e38 3e38 3e38 ]");
-    return folder.write("bright.pbrt", text);
+// Light that a node makes too bright for a float here and there, of a lamp as bright as wanted.
+std::string graph_too_bright(const Folder& folder, const std::string& lamp, const std::string& factor) {
+    auto scene = bytes_of(graph_file("cornell_box.pbrt"));
+    const std::string before = "[ 17 12 4 ]";
+    scene.replace(scene.find(before), before.size(), "[ " + lamp + " ]");
+    folder.write("bright.pbrt", scene);
+    return folder.write("bright.lua",
+                        "scene = Scene { 'bright.pbrt' }\ndirect = DirectLighting {}\nbounce = PathTracing {}\n"
+                        "loud = Scale { direct, factor = " +
+                            factor +
+                            " }\nlighting = Combine { loud, bounce }\n"
+                            "image = RayTracer { lighting, scene = scene, samples = 32, film = { 48, 48 } }\n");
+}
+
+std::size_t not_finite_in(const std::filesystem::path& exr) {
+    std::size_t bad = 0;
+    for (const auto& pixel : read_exr(exr).beauty)
+        bad += !(std::isfinite(pixel.r) && std::isfinite(pixel.g) && std::isfinite(pixel.b));
+    return bad;
 }
 
 TEST_F(Faults, OfLightThatIsNotFiniteIsCounted) {
-    const auto scene = scene_too_bright(folder);
-    const Words words{"-D", "file=" + scene, "-D", "width=48", "-D", "height=48", "--samples", "32"};
     const Daemon one(folder), two(folder);
     const auto hosts = hosts_file({"'" + one.endpoint + "' { image = 1, direct = 1, lighting = 1 }",
-                                   "'" + two.endpoint + "' { image = 1, bounce = 1 }"});
+                                   "'" + two.endpoint + "' { image = 1, loud = 1, bounce = 1 }"});
+    const auto loud = graph_too_bright(folder, "17 12 4", "3e38");
     std::vector<std::string> pictures;
-    std::string said;
     for (const Words& mode : {Words{"--threads", "1"}, Words{"--threads", "2"}, Words{"--hosts", hosts}}) {
-        Process run(launch_words(graph_file("path.lua"), out, join(words, mode)));
-        EXPECT_EQ(run.wait(slowdown * seconds(60)), 0) << run.output();
-        said = run.output();
-        EXPECT_NE(said.find("were not finite and count as black"), std::string::npos) << said;
-        EXPECT_NE(said.find("answers that are not finite"), std::string::npos) << "it should name the node\n" << said;
+        Process run(launch_words(loud, out, mode));
+        const int code = run.wait(slowdown * seconds(60));
+        EXPECT_EQ(code, 0) << run.output();
+        EXPECT_NE(run.output().find("were not finite and count as black"), std::string::npos) << run.output();
+        EXPECT_NE(run.output().find("Scale 'loud' gave"), std::string::npos) << "it should name the node\n"
+                                                                             << run.output();
+        if (code != 0) return;
+        EXPECT_EQ(not_finite_in(out), 0u);
         pictures.push_back(bytes_of(out));
     }
-    std::size_t bad = 0;
-    for (const auto& pixel : read_exr(out).beauty)
-        bad += !(std::isfinite(pixel.r) && std::isfinite(pixel.g) && std::isfinite(pixel.b));
-    EXPECT_EQ(bad, 0u);
     EXPECT_TRUE(pictures[0] == pictures[1] && pictures[0] == pictures[2]) << "the bytes differ";
-    done("a lamp of 3e38: one thread, two, two hosts");
-    seen("the nodes are named, the colours counted, no pixel is NaN or infinite, the bytes are the same");
+    // Each layer is finite, and their sum is not.
+    Process run(launch_words(graph_too_bright(folder, "3e38 3e38 3e38", "1"), out, {"--threads", "2"}));
+    EXPECT_EQ(run.wait(slowdown * seconds(60)), 0) << run.output();
+    const auto bad = not_finite_in(out);
+    EXPECT_EQ(bad, 0u) << "of a lamp of 3e38";
+    done("a node that multiplies by 1e38 (one thread, two, two hosts), a lamp of 3e38");
+    seen(fmt::format("the node is named, the colours counted, the bytes the same; {} pixels NaN or infinite", bad));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "tests/bench/figure.hpp"
 #include "tests/faults/faults.hpp"
 #include "tests/support/bad_line.hpp"
 #include "tests/support/delaying_proxy.hpp"
@@ -63,8 +64,9 @@ TEST_F(Faults, OfALineThatIsBadChangeNothingButTheTime) {
     BadLine narrow(first.endpoint()), wide(second.endpoint());
     for (auto* line : {&narrow, &wide}) line->limit(20e6 / 8);
     const auto begun = Clock::now();
-    const auto run = start(usual, {"--hosts", hosts_file(between(narrow.endpoint(), wide.endpoint()))});
-    expect_same(*run, usual);
+    const Words picture{"--size", "64x64", "--samples", "128", "--tile", "16", "--progress", "json"};
+    const auto run = start(picture, {"--hosts", hosts_file(between(narrow.endpoint(), wide.endpoint()))});
+    expect_same(*run, picture);
     done(fmt::format("a run of {:.0f} s at 50 ms, 20 Mbit/s, {} pieces lost", seconds_since(begun),
                      first.losses() + second.losses()));
     const auto deaths = times(run->output(), "is lost");
@@ -83,7 +85,7 @@ TEST_F(Faults, OfLinesThatBreakAndDamageChangeNoByte) {
         BadLine first(one.endpoint), second(two.endpoint);
         const auto run =
             start_in_the_middle(usual, {"--hosts", hosts_file(between(first.endpoint(), second.endpoint()))});
-        for (auto* line : {&first, &second}) line->flip_every(flips < most_flips ? 200'000 : 0);
+        for (auto* line : {&first, &second}) line->flip_every(flips < most_flips ? 1'000'000 : 0);
         for (int i = 0; pause(*run, milliseconds(60)); ++i) {
             if (cuts + first.cuts() + second.cuts() >= most_cuts) continue;
             auto& line = i % 2 ? first : second;
@@ -127,21 +129,23 @@ TEST_F(Faults, OfAConsumerThatIsSlowFillNoMemory) {
         return std::array{memory_of(run->id()), memory_of(one.process->id()), memory_of(two.process->id())};
     };
     pause(*run, seconds(8));  // the first checkpoint is written after 5
-    auto early = all(), late = early;
-    for (int i = 0; i < 40; ++i) {
-        pause(*run, milliseconds(500));
+    std::array<std::vector<double>, 3> sizes;
+    for (int i = 0; i < 45; ++i) {
+        pause(*run, milliseconds(400));
         const auto now = all();
-        for (std::size_t k = 0; k < now.size(); ++k)
-            (i < 10 ? early : late)[k] = std::max((i < 10 ? early : late)[k], now[k]);
+        for (std::size_t k = 0; k < now.size(); ++k) sizes[k].push_back(now[k]);
     }
     double most = 0;
-    for (std::size_t k = 0; k < early.size(); ++k) {
-        EXPECT_GT(early[k], 0) << "a process is gone\n" << run->output();
-        most = std::max(most, late[k] / early[k] - 1);
+    std::array<double, 3> late{};
+    for (std::size_t k = 0; k < sizes.size(); ++k) {
+        const double early = bench::median({sizes[k].begin(), sizes[k].begin() + 15});
+        late[k] = bench::median({sizes[k].end() - 15, sizes[k].end()});
+        EXPECT_GT(late[k], 0) << "a process is gone\n" << run->output();
+        most = std::max(most, late[k] / early - 1);
     }
     run->signal(SIGINT);
     EXPECT_EQ(run->wait(slowdown * seconds(10)), 130) << run->output();
-    done("20 s behind a line of 100 kB/s, after 8 s of warming up");
+    done("18 s behind a line of 100 kB/s, after 8 s of warming up");
     seen(fmt::format("launcher {:.0f} MB, daemons {:.0f} and {:.0f} MB", late[0], late[1], late[2]));
     EXPECT_LT(most, 0.25);
     figure("growth", 100 * most, "%", 5, false);

@@ -87,26 +87,31 @@ std::string false_plan(const std::string& daemon, const std::string& liar) {
     return to_json(plan);
 }
 
-// All that a launcher may say to its daemon, said by somebody else.
+// So that what was sent has arrived.
+int send_all(Stranger& stranger, const std::vector<Packet>& packets) {
+    for (const auto& packet : packets) stranger.send(packet);
+    stranger.receive();
+    return static_cast<int>(packets.size());
+}
+
+int order_false_plan(const std::string& daemon, const std::string& liar, std::uint64_t run) {
+    Stranger stranger(daemon, 200);
+    return send_all(stranger, {packet::pack(Type::plan, run, Fields{}.set("plan", false_plan(daemon, liar)))});
+}
+
+// All else that a launcher may say to its daemon, said by somebody else.
 int order(const std::string& daemon, const std::string& liar, std::uint64_t run) {
     Stranger stranger(daemon, 200);
     const std::string junk(10'000, 'x');
     const auto scene = content_hash(bytes_of(graph_file("cornell_box.pbrt")));
-    const Packet orders[] = {
-        packet::pack(Type::plan, run, Fields{}.set("plan", false_plan(daemon, liar))),
-        packet::pack(Type::expect, run, Fields{}.set("hash", to_hex(scene)).set("size", 1 << 20)),
-        packet::pack(run, {scene, 0, std::as_bytes(std::span(junk))}),
-        packet::pack(Type::ping, run, Fields{}.set("sent", 1'000'000)),
-        packet::pack(Type::leaving, run, {}),
-        packet::pack(Type::ready, run, {}),
-        packet::pack(Type::ended, run, {}),
-        packet::pack(Type::begin, run,
-                     Fields{}.set("job", "{}").set("plan", false_plan(daemon, liar)).set("you", daemon)),
-        packet::pack(Type::end, run, {}),
-    };
-    for (const auto& packet : orders) stranger.send(packet);
-    stranger.receive();  // so that they have arrived
-    return static_cast<int>(std::size(orders));
+    const auto plan = false_plan(daemon, liar);
+    return send_all(
+        stranger, {packet::pack(Type::expect, run, Fields{}.set("hash", to_hex(scene)).set("size", 1 << 20)),
+                   packet::pack(run, {scene, 0, std::as_bytes(std::span(junk))}),
+                   packet::pack(Type::ping, run, Fields{}.set("sent", 1'000'000)), packet::pack(Type::leaving, run, {}),
+                   packet::pack(Type::ready, run, {}), packet::pack(Type::ended, run, {}),
+                   packet::pack(Type::begin, run, Fields{}.set("job", "{}").set("plan", plan).set("you", daemon)),
+                   packet::pack(Type::end, run, {})});
 }
 
 // All that a host may say to its launcher, said by somebody else.
@@ -122,9 +127,7 @@ int report(const std::string& launcher, std::uint64_t run) {
     for (int port = 1; port < 20; ++port) reports.push_back(join("tcp://127.0.0.1:" + std::to_string(port), 0));
     for (const auto type : {Type::ready, Type::broken, Type::leaving, Type::ended, Type::refuse, Type::failure})
         reports.push_back(packet::pack(type, run, Fields{}.set("text", "lies")));
-    for (const auto& packet : reports) stranger.send(packet);
-    stranger.receive();
-    return static_cast<int>(reports.size());
+    return send_all(stranger, reports);
 }
 
 TEST_F(Faults, OfStrangersOrdersAreObeyedByNobody) {
@@ -140,6 +143,10 @@ TEST_F(Faults, OfStrangersOrdersAreObeyedByNobody) {
         EXPECT_TRUE(run->wait_for("\"event\":\"progress\"")) << run->output();
         const auto found = learn_run(one.endpoint, launcher);
         learnt += found != 0;
+        for (const auto id : {found, std::uint64_t{0}})
+            said += order_false_plan(one.endpoint, liar.endpoint(), id) +
+                    order_false_plan(two.endpoint, liar.endpoint(), id);
+        pause(*run, milliseconds(300));
         for (int again = 0; again < 3 && pause(*run, milliseconds(50)); ++again) {
             for (const auto id : {found, std::uint64_t{0}, std::uint64_t{1}})
                 said += order(one.endpoint, liar.endpoint(), id);
