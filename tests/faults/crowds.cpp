@@ -57,7 +57,7 @@ public:
     ~SlurmLab() { Process({script(), "down", lab_.path().string()}).wait(seconds(30)); }
     bool there() const { return there_; }
     const std::string& words() const { return words_; }
-    void does(const std::string& what, const std::string& node) const {
+    void does(const std::string& what, const std::string& node = "") const {
         Process process({script(), what, lab_.path().string(), node});
         EXPECT_EQ(process.wait(seconds(20)), 0) << process.output();
     }
@@ -74,6 +74,16 @@ private:
     bool there_ = false;
     std::string words_;
 };
+
+bool no_jobs_within(seconds most) {
+    for (const auto begun = Clock::now(); Clock::now() - begun < most; std::this_thread::sleep_for(milliseconds(200))) {
+        Process queue({"/usr/bin/squeue", "--noheader", "--states=all", "--format=%T"});
+        if (queue.wait(seconds(10)) == 0 && queue.output().find("RUNNING") == std::string::npos &&
+            queue.output().find("PENDING") == std::string::npos)
+            return true;
+    }
+    return false;
+}
 
 TEST_F(Faults, OfSlurmsNodesAndControllerChangeNoByte) {
     const SlurmLab lab;
@@ -97,8 +107,11 @@ TEST_F(Faults, OfSlurmsNodesAndControllerChangeNoByte) {
     EXPECT_GT(times(run->output(), "is ready"), ready) << "the new node got no work\n" << run->output();
     const double grown = seconds_since(begun);
     lab.kill_controller();
+    EXPECT_TRUE(pause(*run, seconds(2))) << "the run should go on without a controller\n" << run->output();
+    lab.does("controller");
     expect_same(*run, lasting);
-    done("a node lost, a node more, the controller killed, in two runs");
+    EXPECT_TRUE(no_jobs_within(seconds(30))) << "Slurm still has jobs of the run";
+    done("a node lost, a node more, the controller killed and started anew, in two runs");
     seen(fmt::format("same bytes; the new node had work {:.1f} s after it came", grown));
     figure("grown", grown, "s", 5, false);
 }
