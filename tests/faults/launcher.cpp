@@ -28,8 +28,10 @@ TEST_F(Faults, OfALauncherThatIsKilledAndResumedChangeNoByte) {
         const auto point = std::uniform_real_distribution<>(0, lengths[mode])(random);
         for (const auto& entry : std::filesystem::directory_iterator(folder.path())) std::filesystem::remove(entry);
         const auto words = join(modes[mode], {"--checkpoint", "1"});
+        int killed = 0;
         {
             const auto run = start(some_seconds, words);
+            killed = run->id();
             if (!pause(*run, milliseconds(static_cast<int>(1000 * point)))) continue;
             run->signal(SIGKILL);
             EXPECT_EQ(run->wait(), 128 + SIGKILL);
@@ -43,7 +45,7 @@ TEST_F(Faults, OfALauncherThatIsKilledAndResumedChangeNoByte) {
         const auto run = start(some_seconds, join(other, {"--checkpoint", "1", "--resume"}));
         resumed += run->wait(slowdown * seconds(60)) == 0;
         EXPECT_TRUE(bytes_of(out) == picture) << "killed after " << point << " s\n" << run->output();
-        EXPECT_FALSE(std::filesystem::exists(out.string() + ".checkpoint.part"));
+        EXPECT_TRUE(processes_with("--parent " + std::to_string(killed)).empty()) << "a daemon without its launcher";
     }
     done(fmt::format("{} kills at random points (seed {}), each resumed, in threads and on workers", kills, seed));
     seen(fmt::format("{} pictures the same, {} from a checkpoint; {} were whole before", resumed, from_checkpoint,
