@@ -8,13 +8,17 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "tests/faults/memory_group.hpp"
 #include "tests/faults/rows.hpp"
+#include "tests/support/folder.hpp"
 
 namespace lightnet::test {
 namespace {
@@ -59,6 +63,18 @@ std::vector<std::string> left_behind() {
     return left;
 }
 
+// Where rows keep their files: it goes, however they end.
+class Shed {
+public:
+    Shed() {
+        std::filesystem::permissions(folder_.path(), std::filesystem::perms(0755));  // some rows are other users
+        ::setenv("TMPDIR", folder_.path().c_str(), 1);
+    }
+
+private:
+    Folder folder_;
+};
+
 int play(pid_t guard) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     return ::getppid() == guard ? RUN_ALL_TESTS() : 1;
@@ -66,14 +82,16 @@ int play(pid_t guard) {
 
 int guard() {
     ::prctl(PR_SET_CHILD_SUBREAPER, 1);
+    const Shed shed;
     const pid_t self = ::getpid();
     player = ::fork();
-    if (player == 0) return play(self);
+    if (player == 0) _exit(play(self));  // the shed is the guard's
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, stop_player);
     int status = 0;
     while (::waitpid(player, &status, 0) < 0 && errno == EINTR) {
     }
     const auto left = left_behind();
+    for (const auto& group : memory_groups(player)) ::rmdir(group.c_str());  // of a row that did not get so far
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) return 1;
     for (const auto& words : left) std::cout << "seen: left behind: " << words << std::endl;
     return left.empty() ? 0 : 1;
