@@ -47,7 +47,8 @@ TEST_F(ForeignPackets, DoNotPlanEndFeedOrQuestionARun) {
     ASSERT_EQ(type, Type::pong);
     EXPECT_EQ(pong.number("run"), 0u) << "a stranger is told no number of a run";
     stranger.send(packet::pack(Type::status, 0, {}));
-    EXPECT_EQ(stranger.receive_run(), 0u);
+    EXPECT_EQ(stranger.receive().first, Type::state);
+    EXPECT_EQ(stranger.run(), 0u);
 
     // A plan by which lights would be asked of somebody else, and whatever else only members may say.
     const Plan elsewhere{{{daemon.endpoint, 0}, {"tcp://127.0.0.1:9", 0}}, {{}, {1}, {1}, {1}, {0}}};

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# slurm_lab.sh up FOLDER NODES | node FOLDER NAME | lose FOLDER NAME | down FOLDER
+# slurm_lab.sh up FOLDER NODES | node FOLDER NAME | lose FOLDER NAME | controller FOLDER | down FOLDER
 # A Slurm of one's own on loopback, without systemd: a controller and as many nodes as wanted. Leaves the machine's own
-# Slurm alone, if there is one. `node` starts another node (s3 …); `lose` kills one with all that runs on it.
+# Slurm alone, if there is one. `node` starts another node (s3 …); `lose` kills one with all that runs on it;
+# `controller` starts another controller after the first has died.
 # Exit code 77: it can't be had here.
 set -euo pipefail
 export PATH=/usr/sbin:/usr/bin:/sbin:/bin
@@ -116,11 +117,17 @@ down() {
         done
         sleep 0.5
     done
+    local step  # those whose controller is gone would wait for it
+    for step in $(pgrep -f "slurmstepd: " || true); do
+        tr '\0' '\n' <"/proc/$step/environ" 2>/dev/null | grep -q "^SLURM_CONF=$folder/" || continue
+        kill -KILL $(below "$step") "$step" 2>/dev/null || true
+    done
 }
 
 case $command in
     up) up "$3" ;;
     node) start_node "$3" ;;
     lose) lose "$3" ;;
+    controller) start slurmctld slurmctld -D -i ;;
     down) down ;;
 esac

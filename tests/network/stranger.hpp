@@ -15,9 +15,10 @@ namespace lightnet::test {
 /// Speaks to a daemon as a launcher would, or worse.
 class Stranger {
 public:
-    explicit Stranger(const std::string& endpoint) : socket_(context_, zmq::socket_type::dealer) {
+    explicit Stranger(const std::string& endpoint, int patience_ms = 5000)
+        : socket_(context_, zmq::socket_type::dealer) {
         socket_.set(zmq::sockopt::linger, 0);
-        socket_.set(zmq::sockopt::rcvtimeo, slowdown * 5000);
+        socket_.set(zmq::sockopt::rcvtimeo, slowdown * patience_ms);
         socket_.connect(endpoint);
     }
     void send(const packet::Packet& packet) {
@@ -36,21 +37,15 @@ public:
         };
         const auto read = packet::read_header(view(header), view(body));
         const auto fields = packet::unpack_fields(view(body));
+        run_ = read ? read->run : 0;
         return {read ? read->type : packet::Type::ping, fields ? *fields : packet::Fields{}};
     }
 
-    /// The number of the run that the next packet names.
-    std::uint64_t receive_run() {
-        zmq::message_t header, body;
-        do {
-            if (!socket_.recv(header)) return ~std::uint64_t{0};
-        } while (header.size() == 0 && !header.more());
-        if (!socket_.recv(body)) return ~std::uint64_t{0};
-        const auto read = packet::peek_header({static_cast<const std::byte*>(header.data()), header.size()});
-        return read ? read->run : ~std::uint64_t{0};
-    }
+    /// The number of the run that the last packet received belongs to.
+    std::uint64_t run() const { return run_; }
 
 private:
+    std::uint64_t run_ = 0;
     zmq::context_t context_;
     zmq::socket_t socket_;
 };

@@ -66,7 +66,8 @@ void BadLine::serve(const std::stop_token& stop) {
         }
         std::vector<pollfd> items{{listener_, POLLIN, 0}};
         for (const auto& connection : connections_)
-            for (const int end : connection.ends) items.push_back({end, POLLIN, 0});
+            for (std::size_t from = 0; from < 2; ++from)
+                items.push_back({held_ways_[from] ? -1 : connection.ends[from], POLLIN, 0});
         ::poll(items.data(), items.size(), 5);
         std::size_t item = 1;
         for (auto connection = connections_.begin(); connection != connections_.end();) {

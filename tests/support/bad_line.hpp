@@ -1,6 +1,7 @@
 // A line to a tcp port that can be cut, held, damaged and slow.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -26,6 +27,9 @@ public:
     void truncate() { truncate_ = true; }
     /// Nothing passes, and nobody is told.
     void hold(bool on) { held_ = on; }
+    enum class Way { to_target, from_target };
+    /// Nothing passes this way, and nobody is told.
+    void hold(Way way, bool on) { held_ways_[static_cast<std::size_t>(way)] = on; }
     /// One bit is flipped after about so many bytes, again and again; 0: none.
     void flip_every(std::uint64_t bytes) { flip_every_ = bytes; }
     /// No more bytes pass in a second, both ways together; 0: as many as can.
@@ -46,6 +50,7 @@ private:
 
     int target_port_ = 0, listener_ = -1, port_ = 0;
     std::atomic<bool> cut_{false}, truncate_{false}, held_{false};
+    std::array<std::atomic<bool>, 2> held_ways_{};
     std::atomic<std::uint64_t> flip_every_{0}, cuts_{0}, flips_{0};
     std::atomic<double> limit_{0};
     std::uint64_t passed_ = 0;                         // since the last flip

@@ -104,9 +104,12 @@ void wait(int listener, const std::list<Connection>& connections) {
 
 }  // namespace
 
-DelayingProxy::DelayingProxy(const std::string& to, std::chrono::microseconds delay)
-    : delay_(delay), to_(static_cast<std::uint16_t>(std::stoi(to.substr(to.rfind(':') + 1)))) {
-    listener_ = socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK, 0);
+DelayingProxy::DelayingProxy(const std::string& to, std::chrono::microseconds delay, const LineLoss& loss)
+    : delay_(delay),
+      loss_(loss),
+      random_(loss.seed),
+      to_(static_cast<std::uint16_t>(std::stoi(to.substr(to.rfind(':') + 1)))) {
+    listener_ = socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
     auto address = loopback(0);
     socklen_t size = sizeof address;
     if (bind(listener_, reinterpret_cast<const sockaddr*>(&address), size) != 0 || listen(listener_, 64) != 0 ||
@@ -124,6 +127,12 @@ DelayingProxy::~DelayingProxy() {
 
 std::string DelayingProxy::endpoint() const { return "tcp://127.0.0.1:" + std::to_string(port_); }
 
+bool DelayingProxy::lose_one() {
+    const bool lost = std::uniform_real_distribution<>()(random_) < loss_.share;
+    losses_ += lost;
+    return lost;
+}
+
 void DelayingProxy::serve(const std::stop_token& stop) {
     std::list<Connection> connections;
     while (!stop.stop_requested()) {
@@ -131,12 +140,17 @@ void DelayingProxy::serve(const std::stop_token& stop) {
         const auto now = Clock::now();
         for (auto at = connections.begin(); at != connections.end();) {
             bool alive = true;
-            for (auto& way : at->ways) alive = alive && way.take(now + delay_) && way.pass_on(now, bytes_);
+            for (auto& way : at->ways) {
+                const auto before = way.under_way.size();
+                alive = alive && way.take(now + delay_);
+                if (way.under_way.size() > before && lose_one()) way.under_way.back().due += loss_.delay;
+                alive = alive && way.pass_on(now, bytes_);
+            }
             at = alive ? std::next(at) : connections.erase(at);
         }
-        const int came = accept(listener_, nullptr, nullptr);
+        const int came = accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC);
         if (came < 0) continue;
-        Socket near(came), far(socket(AF_INET, SOCK_STREAM, 0));
+        Socket near(came), far(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
         const auto address = loopback(to_);
         if (connect(far.handle(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0)
             connections.push_back({std::move(near), std::move(far)});

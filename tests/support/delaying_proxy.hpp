@@ -4,16 +4,25 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <random>
 #include <string>
 #include <thread>
 
 namespace lightnet::test {
 
+/// What a line loses is sent again by the system, and comes later: `share` of all pieces by `delay`, and all behind
+/// them.
+struct LineLoss {
+    double share = 0;
+    std::chrono::microseconds delay{0};
+    std::uint32_t seed = 1;
+};
+
 /// Passes on what comes, in both directions, `delay` after it came, on a thread of its own. Loopback only.
 class DelayingProxy {
 public:
     /// `to`: "tcp://127.0.0.1:port". Throws std::runtime_error when it can't listen.
-    DelayingProxy(const std::string& to, std::chrono::microseconds delay);
+    DelayingProxy(const std::string& to, std::chrono::microseconds delay, const LineLoss& loss = {});
     ~DelayingProxy();
     DelayingProxy(const DelayingProxy&) = delete;
     DelayingProxy& operator=(const DelayingProxy&) = delete;
@@ -22,11 +31,17 @@ public:
     std::string endpoint() const;
     /// Bytes passed on so far, both directions.
     std::uint64_t bytes() const { return bytes_; }
+    /// Pieces that were lost and sent again.
+    std::uint64_t losses() const { return losses_; }
 
 private:
     void serve(const std::stop_token& stop);
+    bool lose_one();
 
     std::chrono::microseconds delay_;
+    LineLoss loss_;
+    std::mt19937 random_;
+    std::atomic<std::uint64_t> losses_{0};
     std::uint16_t to_ = 0, port_ = 0;
     int listener_ = -1;
     std::atomic<std::uint64_t> bytes_{0};
