@@ -60,7 +60,7 @@ std::vector<std::string> seeds() {
     dark.type = Message::Type::reply;
     dark.answers = {{}, {}, {1, 2, 3}, {}, {}, {}, {}, {}, {}, {4, 5, 6}};
     failure.type = Message::Type::failure;
-    failure.text = "no photons";
+    failure.trouble.why = "no photons";
     std::vector<std::string> seeds;
     for (const auto& message :
          {ask(std::vector<Query>(3)), ask(std::vector<Tile>{{0, 16, 32, 16, 16, 16}}), reply, dark, failure})
