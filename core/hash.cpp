@@ -1,6 +1,7 @@
 #include "core/hash.hpp"
 
 #include <openssl/evp.h>
+#include <openssl/hmac.h>
 
 #include <cstring>
 #include <memory>
@@ -25,6 +26,15 @@ Hash content_hash(std::span<const std::byte> content) {
 }
 
 Hash content_hash(std::string_view text) { return content_hash(std::as_bytes(std::span{text})); }
+
+Hash keyed_hash(std::string_view secret, std::string_view text) {
+    Hash hash;
+    unsigned size = 0;
+    if (!HMAC(EVP_sha256(), secret.data(), static_cast<int>(secret.size()),
+              reinterpret_cast<const unsigned char*>(text.data()), text.size(), hash.bytes.data(), &size))
+        throw std::bad_alloc();
+    return hash;
+}
 
 struct Hasher::State {
     std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context{EVP_MD_CTX_new(), EVP_MD_CTX_free};

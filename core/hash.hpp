@@ -23,6 +23,9 @@ struct Hash {
 Hash content_hash(std::span<const std::byte> content);
 Hash content_hash(std::string_view text);
 
+/// HMAC-SHA-256 (RFC 2104): only who knows `secret` can say it of `text`.
+Hash keyed_hash(std::string_view secret, std::string_view text);
+
 /// Hashes content that comes in pieces.
 class Hasher {
 public:

@@ -111,6 +111,9 @@ void RunBook::write_files(const std::string& exr) {
     expect_ours(exr, exr_beginning);
     expect_ours(png, png_beginning);
     const auto picture = film_.picture(scale_);
+    if (picture.overflowed && !std::exchange(said_overflow_, true))
+        warn(fmt::format("{} pixels are brighter than the numbers of a picture can be, and count as black",
+                         picture.overflowed));
     write_exr(exr, picture);
     write_png(png, picture);
     brightness_ = brightness_of(picture);

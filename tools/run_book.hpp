@@ -108,6 +108,7 @@ private:
     float scale_ = 1;
     Brightness brightness_;      // of what was written last
     std::string last_prepared_;  // node that was named
+    bool said_overflow_ = false;
     /// What one node has learnt, to be kept.
     struct ToKeep {
         std::size_t node = 0;

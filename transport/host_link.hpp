@@ -64,6 +64,10 @@ public:
     std::uint32_t places() const { return places_; }
     /// Which process it is; 0 before it has said so.
     std::uint64_t process() const { return process_; }
+    /// The state, for display.
+    std::string words() const;
+    /// Why it is not ready, for display.
+    std::string trouble() const;
     /// Why it is refused or lost, or what it waits for.
     const std::string& reason() const { return reason_; }
     /// It says that it can't do its part of the job.

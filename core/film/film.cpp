@@ -346,6 +346,7 @@ Picture Film::picture(float scale) const {
         }
     }
     picture.beauty = sum_of(picture.layers);
+    blacken_overflow(picture);
     return picture;
 }
 

@@ -1,5 +1,6 @@
 #include "core/film/picture.hpp"
 
+#include <algorithm>
 #include <cassert>
 
 namespace lightnet {
@@ -12,6 +13,22 @@ std::vector<Rgb> sum_of(const std::vector<PictureLayer>& layers) {
         for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += layers[k].pixels[i];
     }
     return sum;
+}
+
+void blacken_overflow(Picture& picture) {
+    for (std::size_t i = 0; i < picture.beauty.size(); ++i) {
+        const bool sound = finite(picture.beauty[i]) &&
+                           std::all_of(picture.layers.begin(), picture.layers.end(),
+                                       [&](const PictureLayer& layer) { return finite(layer.pixels[i]); });
+        bool over = !sound;
+        if (!sound) {
+            picture.beauty[i] = {};
+            for (auto& layer : picture.layers) layer.pixels[i] = {};
+        }
+        for (auto& layer : picture.shown)
+            if (!finite(layer.pixels[i])) layer.pixels[i] = {}, over = true;
+        picture.overflowed += over;
+    }
 }
 
 }  // namespace lightnet

@@ -26,8 +26,13 @@ struct Picture {
     std::vector<float> samples{};                     // per pixel; empty: the same number everywhere
     std::vector<PictureLayer> shown{};                // beside the sum: what operators answer that others ask
     float done = 1;                                   // how much of the work is in it; below 1: a preview
+    std::uint64_t overflowed = 0;                     // pixels that are black as their sum is more than a float32 holds
     friend bool operator==(const Picture&, const Picture&) = default;
 };
+
+/// Makes pixels black, in all layers, whose beauty or a layer of it is not finite: many bright samples may add up to
+/// more than a float32 holds. Of what is shown beside the sum each layer stands for itself. Counts them.
+void blacken_overflow(Picture& picture);
 
 /// The float32 sum of the layers, from the left to the right: beauty, exactly.
 std::vector<Rgb> sum_of(const std::vector<PictureLayer>& layers);

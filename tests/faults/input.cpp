@@ -160,7 +160,7 @@ TEST_F(Faults, OfLightThatIsNotFiniteIsCounted) {
     const Daemon one(folder), two(folder);
     const auto hosts = hosts_file({"'" + one.endpoint + "' { image = 1, direct = 1, lighting = 1 }",
                                    "'" + two.endpoint + "' { image = 1, loud = 1, bounce = 1 }"});
-    const auto loud = graph_too_bright(folder, "17 12 4", "3e38");
+    const auto loud = graph_too_bright(folder, "1700 1200 400", "3e38");
     std::vector<std::string> pictures;
     for (const Words& mode : {Words{"--threads", "1"}, Words{"--threads", "2"}, Words{"--hosts", hosts}}) {
         Process run(launch_words(loud, out, mode));

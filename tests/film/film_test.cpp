@@ -224,6 +224,21 @@ TEST(Film, RefusesTilesThatAreNoneOfItsOwn) {
     EXPECT_TRUE(film.add({4, 4, 4, 4, 0, 16}, std::vector<Rgb>(16)));
 }
 
+// Each block is finite, and so is each layer; their sum is not.
+TEST(Film, HasNoPixelThatIsMoreThanAFloatHolds) {
+    Film film({2, 1, {"a", "b"}, 32});
+    const float much = 3e38f;
+    const std::vector<Rgb> block{{much, 1, 1}, {1, 1, 1}, {2, 2, 2}, {3, 3, 3}};  // by pixel, then by layer
+    film.add({0, 0, 2, 1, 0, 16}, block);
+    film.add({0, 0, 2, 1, 16, 16}, block);
+    const auto picture = film.picture();
+    EXPECT_EQ(picture.overflowed, 1u);
+    EXPECT_EQ(picture.beauty[0], Rgb{});
+    EXPECT_EQ(picture.layers[0].pixels[0], Rgb{});
+    EXPECT_EQ(picture.layers[1].pixels[0], Rgb{}) << "the layers add up to the whole";
+    EXPECT_GT(picture.beauty[1].r, 0);
+}
+
 TEST(Film, RefusesToBeNothing) {
     EXPECT_THROW(Film({0, 1, {"emission"}, 1}), Error);
     EXPECT_THROW(Film({1, 1, {}, 1}), Error);

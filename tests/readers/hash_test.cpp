@@ -37,5 +37,11 @@ TEST(Hash, IsAKeyOfMaps) {
     EXPECT_TRUE(content_hash("a") < content_hash("b") || content_hash("b") < content_hash("a"));
 }
 
+// RFC 4231, test case 2.
+TEST(KeyedHash, IsThatOfTheStandard) {
+    EXPECT_EQ(to_hex(keyed_hash("Jefe", "what do ya want for nothing?")),
+              "5bdcc146bf60754e6a042426089575c75a003f089d2739839dec58b964ec3843");
+}
+
 }  // namespace
 }  // namespace lightnet

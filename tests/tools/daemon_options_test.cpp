@@ -41,7 +41,8 @@ TEST(DaemonOptions, AreUsualWhereNothingIsSaid) {
 
 TEST(DaemonOptions, AreTaken) {
     const auto options = daemon_options_of({"--join", "tcp://onyx1:7000", "--name", "a", "--places", "3", "--drain",
-                                            "5", "--leave-after", "9", "--single", "one", "--quiet"});
+                                            "5", "--leave-after", "9", "--single", "one", "--quiet", "--insecure", "--pass",
+                                            "its.pass", "--cache-size", "500M"});
     EXPECT_EQ(options.host.join, "tcp://onyx1:7000");
     EXPECT_EQ(options.host.listen, "") << "who dials out lets nobody in";
     EXPECT_EQ(options.host.name, "a");
@@ -50,6 +51,8 @@ TEST(DaemonOptions, AreTaken) {
     EXPECT_EQ(options.host.patience, 9s);
     EXPECT_EQ(options.single, "one");
     EXPECT_TRUE(options.quiet);
+    EXPECT_EQ(options.host.pass, "its.pass");
+    EXPECT_EQ(options.host.cache_size, 500u << 20);
 }
 
 TEST(DaemonOptions, SuggestTheFlagYouMeant) {
@@ -67,7 +70,7 @@ TEST(DaemonOptions, ExplainWhatAnEndpointIs) {
     for (const char* right : {"tcp://127.0.0.1:*", "tcp://127.0.0.1:0", "tcp://localhost:7777", "tcp://[::1]:7777"})
         EXPECT_EQ(daemon_options_of({"--listen", right}).host.listen, right);
     EXPECT_EQ(daemon_options_of({"--listen", "tcp://*:7777", "--insecure"}).host.listen, "tcp://*:7777");
-    EXPECT_THAT(daemon_mistake({"--listen", "tcp://*:7777"}), HasSubstr("can be reached from other machines"));
+    EXPECT_THAT(daemon_mistake({"--listen", "tcp://*:7777"}), HasSubstr("goes beyond this machine"));
 }
 
 TEST(DaemonOptions, AreBounded) {

@@ -49,7 +49,6 @@ TEST(Pass, ThatIsNoFileOrTooShortIsRefused) {
     EXPECT_THROW(Pass::of(brief), Error);
 }
 
-// RFC 4231's HMAC-SHA-256 holds for what it is made over; here, that each part counts.
 TEST(Pass, ProvesOneClaimToOneChallengeOnly) {
     const Pass pass("a secret of thirty-two characters");
     const Pass::Claim claim{"onyx1", 7, "tcp://10.0.0.1:7777"};

@@ -1,0 +1,65 @@
+// How long a run waits for its hosts.
+#include "transport/host_wait.hpp"
+
+#include <gtest/gtest.h>
+
+namespace lightnet {
+namespace {
+
+using namespace std::chrono_literals;
+using Verdict = HostWait::Verdict;
+
+class HostWaitTest : public ::testing::Test {
+protected:
+    const HostWait::Time begun{};
+    Cluster::Patience patience{5s, 5s, 5s, 600s};
+    HostWait wait_for_hosts{patience, begun};
+    HostWait::Standing standing;
+};
+
+TEST_F(HostWaitTest, BeginsAtOnceWhenAllAreReady) {
+    standing.ready = true;
+    EXPECT_EQ(wait_for_hosts.look(standing, begun + 1ms), Verdict::begin);
+}
+
+TEST_F(HostWaitTest, GivesTheSlowAsLongAgainAsTheFirstTook) {
+    standing.pending = true;
+    EXPECT_EQ(wait_for_hosts.look(standing, begun + 99s), Verdict::wait);
+    standing.ready = true;
+    EXPECT_EQ(wait_for_hosts.look(standing, begun + 100s), Verdict::wait);
+    EXPECT_EQ(wait_for_hosts.look(standing, begun + 199s), Verdict::wait);
+    EXPECT_EQ(wait_for_hosts.look(standing, begun + 201s), Verdict::begin);
+}
+
+TEST_F(HostWaitTest, DoesNotWaitForEverForOneThatNeverGetsReady) {
+    standing.pending = true;
+    EXPECT_EQ(wait_for_hosts.look(standing, begun + 599s), Verdict::wait);
+    EXPECT_EQ(wait_for_hosts.look(standing, begun + 601s), Verdict::nobody);
+}
+
+TEST_F(HostWaitTest, WaitsForTheAbsentAndTheBusyButNotForLong) {
+    standing.ready = standing.absent = true;
+    EXPECT_EQ(wait_for_hosts.look(standing, begun + 4s), Verdict::wait);
+    EXPECT_EQ(wait_for_hosts.look(standing, begun + 6s), Verdict::begin);
+    standing = {};
+    standing.busy = true;
+    EXPECT_EQ(wait_for_hosts.look(standing, begun + 1h), Verdict::wait) << "when it is the only one there is";
+}
+
+TEST_F(HostWaitTest, GivesUpWhenNobodyIsThereAndNobodyMayCome) {
+    EXPECT_EQ(wait_for_hosts.look(standing, begun + 1s), Verdict::nobody);
+    standing.others_may_come = true;
+    EXPECT_EQ(wait_for_hosts.look(standing, begun + 4s), Verdict::wait);
+    EXPECT_EQ(wait_for_hosts.look(standing, begun + 5s), Verdict::nobody);
+}
+
+TEST_F(HostWaitTest, SpeaksEveryFewSecondsAndThenLessOften) {
+    int words = 0;
+    for (auto second = 0s; second < 20s; second += 1s) words += wait_for_hosts.should_speak(begun + second);
+    EXPECT_GE(words, 4);
+    for (auto second = 20s; second < 3600s; second += 1s) words += wait_for_hosts.should_speak(begun + second);
+    EXPECT_LT(words, 100);
+}
+
+}  // namespace
+}  // namespace lightnet
