@@ -29,6 +29,7 @@ const Signals& watch_signals() {
     sigaction(SIGTERM, &action, nullptr);
     if (!is_ignored(SIGHUP)) sigaction(SIGHUP, &action, nullptr);
     std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error like a full disk
     return signals;
 }
 
