@@ -57,13 +57,12 @@ public:
 
 private:
     void dial(Time now);
+    void take_challenge(const Frames& frames);
     std::optional<Frames> from_launcher(Time now);
     std::optional<Frames> from_anyone(Time now);
 
     zmq::context_t& context_;
     Ends ends_;
-    void take_challenge(const Frames& frames);
-
     std::optional<Doorkeeper> keeper_;
     std::unique_ptr<zmq::socket_t> port_, launcher_;
     std::string challenge_;  // of the launcher that was dialled
