@@ -44,3 +44,9 @@ function(lightnet_library name)
   target_sources(lightnet_${name} PUBLIC FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}" FILES ${LIB_HEADERS})
   target_link_libraries(lightnet_${name} PUBLIC ${LIB_NEEDS} PRIVATE ${LIB_HIDES} lightnet_warnings)
 endfunction()
+
+# lightnet_links_alone(NAME): the linker, too, holds that a library needs nothing but what it names.
+function(lightnet_links_alone name)
+  add_executable(${name}_alone "${PROJECT_SOURCE_DIR}/tests/architecture/alone.cpp")
+  target_link_libraries(${name}_alone PRIVATE "$<LINK_LIBRARY:WHOLE_ARCHIVE,lightnet_${name}>" lightnet_warnings)
+endfunction()

@@ -20,8 +20,8 @@
 #include <fstream>
 #include <new>
 
-#include "core/error.hpp"
-#include "core/graph/value.hpp"
+#include "core/base/error.hpp"
+#include "core/network/graph/value.hpp"
 
 namespace lightnet::lua {
 namespace {

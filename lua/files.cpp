@@ -9,7 +9,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace lightnet::lua {
 namespace {

@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "core/suggestion.hpp"
+#include "core/base/suggestion.hpp"
 #include "lua/guarded.hpp"
 
 namespace lightnet::lua {

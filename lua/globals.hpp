@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/problem_list.hpp"
+#include "core/base/error.hpp"
+#include "core/base/problem_list.hpp"
 #include "lua/sandbox.hpp"
 
 namespace lightnet::lua {

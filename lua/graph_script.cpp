@@ -5,8 +5,8 @@
 #include <cctype>
 #include <utility>
 
-#include "core/graph/json.hpp"
-#include "core/suggestion.hpp"
+#include "core/base/suggestion.hpp"
+#include "core/network/graph/json.hpp"
 
 namespace lightnet::lua {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/graph/graph.hpp"
+#include "core/network/graph/graph.hpp"
 #include "lua/globals.hpp"
 
 namespace lightnet::lua {

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "core/graph/json.hpp"
+#include "core/network/graph/json.hpp"
 #include "lua/guarded.hpp"
 
 namespace lightnet::lua {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/graph/hosts.hpp"
+#include "core/network/graph/hosts.hpp"
 #include "lua/globals.hpp"
 
 namespace lightnet::lua {

@@ -4,8 +4,8 @@
 #include <new>
 #include <utility>
 
-#include "core/graph/check.hpp"
-#include "core/graph/json.hpp"
+#include "core/network/graph/check.hpp"
+#include "core/network/graph/json.hpp"
 #include "lua/child.hpp"
 #include "lua/files.hpp"
 #include "lua/graph_script.hpp"

@@ -18,9 +18,9 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/graph/graph.hpp"
-#include "core/graph/hosts.hpp"
+#include "core/base/error.hpp"
+#include "core/network/graph/graph.hpp"
+#include "core/network/graph/hosts.hpp"
 
 namespace lightnet {
 

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "core/graph/value.hpp"
+#include "core/network/graph/value.hpp"
 #include "lua/files.hpp"
 
 namespace lightnet::lua {

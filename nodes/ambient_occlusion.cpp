@@ -1,11 +1,11 @@
 // How open the surroundings of a point are.
 #include <limits>
 
-#include "core/graph/kind.hpp"
-#include "core/light/light_op.hpp"
-#include "core/light/node_context.hpp"
-#include "core/math/samples.hpp"
-#include "core/math/sampling.hpp"
+#include "core/base/math/samples.hpp"
+#include "core/base/math/sampling.hpp"
+#include "core/network/graph/kind.hpp"
+#include "core/network/light/light_op.hpp"
+#include "core/network/light/node_context.hpp"
 #include "core/scene/scene.hpp"
 
 namespace lightnet {

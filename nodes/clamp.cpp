@@ -1,7 +1,7 @@
 // Light without its brightest sparks.
-#include "core/graph/kind.hpp"
-#include "core/light/light_op.hpp"
-#include "core/light/node_context.hpp"
+#include "core/network/graph/kind.hpp"
+#include "core/network/light/light_op.hpp"
+#include "core/network/light/node_context.hpp"
 
 namespace lightnet {
 namespace {

@@ -1,8 +1,8 @@
 // Adds up light.
-#include "core/error.hpp"
-#include "core/graph/kind.hpp"
-#include "core/light/light_op.hpp"
-#include "core/light/node_context.hpp"
+#include "core/base/error.hpp"
+#include "core/network/graph/kind.hpp"
+#include "core/network/light/light_op.hpp"
+#include "core/network/light/node_context.hpp"
 
 namespace lightnet {
 namespace {

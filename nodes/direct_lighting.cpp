@@ -5,11 +5,11 @@
 #include <span>
 #include <vector>
 
+#include "core/base/math/many_samples.hpp"
 #include "core/estimate/stops.hpp"
-#include "core/graph/kind.hpp"
-#include "core/light/light_op.hpp"
-#include "core/light/node_context.hpp"
-#include "core/math/many_samples.hpp"
+#include "core/network/graph/kind.hpp"
+#include "core/network/light/light_op.hpp"
+#include "core/network/light/node_context.hpp"
 #include "core/scene/direct_light.hpp"
 
 namespace lightnet {

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/graph/kind.hpp"
-#include "core/light/light_op.hpp"
-#include "core/light/node_context.hpp"
-#include "core/math/samples.hpp"
+#include "core/base/math/samples.hpp"
+#include "core/network/graph/kind.hpp"
+#include "core/network/light/light_op.hpp"
+#include "core/network/light/node_context.hpp"
 #include "core/scene/scene.hpp"
 
 namespace lightnet {

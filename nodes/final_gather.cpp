@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/base/math/samples.hpp"
 #include "core/estimate/gather.hpp"
-#include "core/graph/kind.hpp"
-#include "core/light/light_op.hpp"
-#include "core/light/node_context.hpp"
-#include "core/math/samples.hpp"
+#include "core/network/graph/kind.hpp"
+#include "core/network/light/light_op.hpp"
+#include "core/network/light/node_context.hpp"
 
 namespace lightnet {
 namespace {

@@ -8,16 +8,16 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/math/samples.hpp"
 #include "core/estimate/even_scattering.hpp"
 #include "core/estimate/gather.hpp"
 #include "core/estimate/hemisphere.hpp"
 #include "core/estimate/irradiance_octree.hpp"
-#include "core/graph/kind.hpp"
-#include "core/light/light_op.hpp"
-#include "core/light/node_context.hpp"
-#include "core/light/rehearsal.hpp"
-#include "core/light/services.hpp"
-#include "core/math/samples.hpp"
+#include "core/network/graph/kind.hpp"
+#include "core/network/light/light_op.hpp"
+#include "core/network/light/node_context.hpp"
+#include "core/network/light/rehearsal.hpp"
+#include "core/network/light/services.hpp"
 
 namespace lightnet {
 namespace {

@@ -3,13 +3,13 @@
 #include <memory>
 #include <vector>
 
+#include "core/base/math/sampling.hpp"
 #include "core/estimate/even_scattering.hpp"
 #include "core/estimate/photon_tree.hpp"
-#include "core/graph/kind.hpp"
-#include "core/light/light_op.hpp"
-#include "core/light/node_context.hpp"
-#include "core/light/services.hpp"
-#include "core/math/sampling.hpp"
+#include "core/network/graph/kind.hpp"
+#include "core/network/light/light_op.hpp"
+#include "core/network/light/node_context.hpp"
+#include "core/network/light/services.hpp"
 #include "core/scene/scene.hpp"
 
 namespace lightnet {

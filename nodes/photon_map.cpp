@@ -7,10 +7,10 @@
 #include "core/estimate/photon_tree.hpp"
 #include "core/estimate/shooting.hpp"
 #include "core/estimate/stops.hpp"
-#include "core/graph/kind.hpp"
-#include "core/light/light_op.hpp"
-#include "core/light/node_context.hpp"
-#include "core/light/services.hpp"
+#include "core/network/graph/kind.hpp"
+#include "core/network/light/light_op.hpp"
+#include "core/network/light/node_context.hpp"
+#include "core/network/light/services.hpp"
 
 namespace lightnet {
 namespace {

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "core/estimate/photon_tree.hpp"
-#include "core/graph/kind.hpp"
-#include "core/light/light_op.hpp"
-#include "core/light/node_context.hpp"
+#include "core/network/graph/kind.hpp"
+#include "core/network/light/light_op.hpp"
+#include "core/network/light/node_context.hpp"
 #include "core/scene/scene.hpp"
 
 namespace lightnet {

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "core/base/math/samples.hpp"
 #include "core/estimate/mirror_way.hpp"
-#include "core/graph/kind.hpp"
-#include "core/light/node_context.hpp"
-#include "core/light/renderer.hpp"
-#include "core/math/samples.hpp"
+#include "core/network/graph/kind.hpp"
+#include "core/network/light/node_context.hpp"
+#include "core/network/light/renderer.hpp"
 #include "core/scene/scene.hpp"
 
 namespace lightnet {

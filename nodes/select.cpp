@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "core/graph/check_params.hpp"
-#include "core/graph/graph.hpp"
-#include "core/graph/kind.hpp"
-#include "core/light/light_op.hpp"
-#include "core/light/node_context.hpp"
+#include "core/network/graph/check_params.hpp"
+#include "core/network/graph/graph.hpp"
+#include "core/network/graph/kind.hpp"
+#include "core/network/light/light_op.hpp"
+#include "core/network/light/node_context.hpp"
+#include "core/scene/data/scene_data.hpp"
 #include "core/scene/scene.hpp"
-#include "core/scene/scene_data.hpp"
 
 namespace lightnet {
 namespace {

@@ -9,8 +9,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "core/graph/check_hosts.hpp"
-#include "core/suggestion.hpp"
+#include "core/base/suggestion.hpp"
+#include "core/network/graph/check_hosts.hpp"
 #include "tools/exit_code.hpp"
 
 namespace lightnet {

@@ -10,7 +10,7 @@
 #include <ostream>
 #include <string_view>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "core/film/compare_layers.hpp"
 #include "core/film/exr.hpp"
 #include "core/film/png.hpp"

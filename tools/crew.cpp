@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <thread>
 
-#include "core/error.hpp"
-#include "core/graph/check_hosts.hpp"
+#include "core/base/error.hpp"
+#include "core/network/graph/check_hosts.hpp"
 
 namespace lightnet {
 namespace {

@@ -7,7 +7,6 @@
 #include <optional>
 #include <string>
 #include <vector>
-#include <string>
 
 #include "tools/run.hpp"
 #include "transport/cluster.hpp"

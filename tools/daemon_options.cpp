@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "core/build_info.hpp"
+#include "core/base/build_info.hpp"
 #include "transport/reach.hpp"
 
 namespace lightnet {

@@ -7,15 +7,15 @@
 #include <sstream>
 #include <thread>
 
-#include "core/graph/check_hosts.hpp"
-#include "core/graph/check_params.hpp"
-#include "core/graph/describe.hpp"
-#include "core/graph/dot.hpp"
-#include "core/graph/graph_film.hpp"
-#include "core/graph/layout.hpp"
-#include "core/graph/plan.hpp"
-#include "core/prepare/load_scene.hpp"
+#include "core/network/graph/check_hosts.hpp"
+#include "core/network/graph/check_params.hpp"
+#include "core/network/graph/describe.hpp"
+#include "core/network/graph/dot.hpp"
+#include "core/network/graph/graph_film.hpp"
+#include "core/network/graph/layout.hpp"
+#include "core/network/graph/plan.hpp"
 #include "core/readers/read_scene.hpp"
+#include "core/run/prepare/load_scene.hpp"
 #include "lua/load_graph.hpp"
 #include "tools/exit_code.hpp"
 #include "tools/host_table.hpp"

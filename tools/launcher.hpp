@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/graph/kind.hpp"
+#include "core/network/graph/kind.hpp"
 #include "tools/options.hpp"
 #include "tools/run.hpp"
 

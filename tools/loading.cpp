@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "core/graph/check.hpp"
-#include "core/graph/check_hosts.hpp"
-#include "core/graph/graph_film.hpp"
+#include "core/network/graph/check.hpp"
+#include "core/network/graph/check_hosts.hpp"
+#include "core/network/graph/graph_film.hpp"
 #include "lua/load_graph.hpp"
 #include "tools/output_file.hpp"
 #include "tools/overrides.hpp"

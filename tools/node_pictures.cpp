@@ -5,11 +5,11 @@
 #include <utility>
 #include <vector>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
+#include "core/base/own_files.hpp"
 #include "core/film/exr.hpp"
-#include "core/film/own_files.hpp"
 #include "core/film/png.hpp"
-#include "core/graph/plan.hpp"
+#include "core/network/graph/plan.hpp"
 
 namespace lightnet {
 namespace {

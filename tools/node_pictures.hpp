@@ -4,8 +4,8 @@
 #include <map>
 #include <string>
 
-#include "core/graph/graph.hpp"
-#include "core/graph/kind.hpp"
+#include "core/network/graph/graph.hpp"
+#include "core/network/graph/kind.hpp"
 
 namespace lightnet {
 

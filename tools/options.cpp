@@ -8,10 +8,10 @@
 #include <limits>
 #include <tuple>
 
-#include "core/build_info.hpp"
-#include "core/graph/graph_film.hpp"
+#include "core/base/build_info.hpp"
+#include "core/base/suggestion.hpp"
+#include "core/network/graph/graph_film.hpp"
 #include "core/readers/read_scene.hpp"
-#include "core/suggestion.hpp"
 #include "tools/exit_code.hpp"
 #include "transport/reach.hpp"
 
@@ -256,9 +256,9 @@ private:
             ->type_name("FILE");
         verb.add_flag("--insecure", options_.insecure,
                       "reach beyond this machine, unencrypted, on a network that is yours alone");
-        takes_numbers(
-            verb.add_option("--wait", options_.wait, "seconds to wait for a host to come, or for a disk to take the picture"),
-            "SECONDS", 0, 864000)
+        takes_numbers(verb.add_option("--wait", options_.wait,
+                                      "seconds to wait for a host to come, or for a disk to take the picture"),
+                      "SECONDS", 0, 864000)
             ->capture_default_str();
         auto* const slurm = takes_numbers(
             verb.add_option("--slurm", options_.slurm, "daemons to start as a job array of Slurm"), "N", 1, 10000);

@@ -4,12 +4,12 @@
 
 #include <filesystem>
 
+#include "core/base/own_files.hpp"
 #include "core/film/checkpoint.hpp"
-#include "core/film/own_files.hpp"
 #include "core/film/run_report.hpp"
-#include "core/graph/graph_film.hpp"
-#include "core/prepare/kept.hpp"
+#include "core/network/graph/graph_film.hpp"
 #include "core/readers/files.hpp"
+#include "core/run/prepare/kept.hpp"
 
 namespace lightnet {
 namespace {

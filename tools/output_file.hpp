@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/graph/graph.hpp"
-#include "core/graph/kind.hpp"
+#include "core/base/error.hpp"
+#include "core/network/graph/graph.hpp"
+#include "core/network/graph/kind.hpp"
 
 namespace lightnet {
 

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "core/graph/graph_film.hpp"
+#include "core/network/graph/graph_film.hpp"
 
 namespace lightnet {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "core/graph/graph.hpp"
-#include "core/graph/kind.hpp"
+#include "core/network/graph/graph.hpp"
+#include "core/network/graph/kind.hpp"
 #include "tools/options.hpp"
 
 namespace lightnet {

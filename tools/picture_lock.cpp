@@ -10,8 +10,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "core/error.hpp"
-#include "core/printable.hpp"
+#include "core/base/error.hpp"
+#include "core/base/printable.hpp"
 
 namespace lightnet {
 namespace {

@@ -4,10 +4,10 @@
 
 #include <utility>
 
-#include "core/build_info.hpp"
-#include "core/graph/layout.hpp"
-#include "core/hash.hpp"
-#include "core/runtime/fingerprint.hpp"
+#include "core/base/build_info.hpp"
+#include "core/base/hash.hpp"
+#include "core/network/graph/layout.hpp"
+#include "core/run/runtime/fingerprint.hpp"
 
 namespace lightnet {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "core/film/film.hpp"
-#include "core/graph/kind.hpp"
-#include "core/runtime/job.hpp"
+#include "core/network/graph/kind.hpp"
+#include "core/run/runtime/job.hpp"
 
 namespace lightnet {
 

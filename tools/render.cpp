@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/suggestion.hpp"
+#include "core/base/suggestion.hpp"
 #include "lua/load_graph.hpp"
 
 namespace lightnet {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/graph/graph.hpp"
+#include "core/base/error.hpp"
+#include "core/network/graph/graph.hpp"
 #include "tools/options.hpp"
 
 namespace lightnet {

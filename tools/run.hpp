@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "core/film/progress.hpp"
-#include "core/graph/graph.hpp"
-#include "core/graph/hosts.hpp"
-#include "core/graph/kind.hpp"
+#include "core/network/graph/graph.hpp"
+#include "core/network/graph/hosts.hpp"
+#include "core/network/graph/kind.hpp"
 #include "core/readers/files.hpp"
-#include "core/scene/scene_data.hpp"
+#include "core/scene/data/scene_data.hpp"
 #include "transport/cache_folder.hpp"
 
 namespace lightnet {

@@ -9,14 +9,14 @@
 #include <iterator>
 #include <utility>
 
-#include "core/error.hpp"
-#include "core/film/atomic_file.hpp"
+#include "core/base/atomic_file.hpp"
+#include "core/base/error.hpp"
+#include "core/base/own_files.hpp"
 #include "core/film/checkpoint.hpp"
 #include "core/film/exr.hpp"
-#include "core/film/own_files.hpp"
 #include "core/film/png.hpp"
-#include "core/graph/layout.hpp"
-#include "core/prepare/kept.hpp"
+#include "core/network/graph/layout.hpp"
+#include "core/run/prepare/kept.hpp"
 #include "tools/summary.hpp"
 
 namespace lightnet {

@@ -12,17 +12,17 @@
 #include <string>
 #include <vector>
 
+#include "core/base/hash.hpp"
 #include "core/film/checkpoint.hpp"
 #include "core/film/film.hpp"
 #include "core/film/progress.hpp"
 #include "core/film/run_report.hpp"
 #include "core/film/tone.hpp"
-#include "core/graph/hosts.hpp"
-#include "core/graph/plan.hpp"
-#include "core/hash.hpp"
-#include "core/message/counters.hpp"
-#include "core/prepare/prepare_progress.hpp"
-#include "core/scene/scene_data.hpp"
+#include "core/network/graph/hosts.hpp"
+#include "core/network/graph/plan.hpp"
+#include "core/run/message/counters.hpp"
+#include "core/run/prepare/prepare_progress.hpp"
+#include "core/scene/data/scene_data.hpp"
 #include "transport/cluster.hpp"
 
 namespace lightnet {

@@ -10,7 +10,7 @@
 
 #include "core/readers/read_scene.hpp"
 #include "core/readers/statistics.hpp"
-#include "core/runtime/fingerprint.hpp"
+#include "core/run/runtime/fingerprint.hpp"
 #include "core/scene/scene.hpp"
 
 namespace lightnet {

@@ -6,7 +6,7 @@
 
 #include "core/film/run_report.hpp"
 #include "core/film/tone.hpp"
-#include "core/graph/hosts.hpp"
+#include "core/network/graph/hosts.hpp"
 
 namespace lightnet {
 

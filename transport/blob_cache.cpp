@@ -10,7 +10,7 @@
 #include <random>
 #include <utility>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "transport/recipes.hpp"
 
 namespace lightnet {

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "core/hash.hpp"
+#include "core/base/hash.hpp"
 #include "core/readers/files.hpp"
-#include "core/runtime/job.hpp"
+#include "core/run/runtime/job.hpp"
 #include "transport/cache_folder.hpp"
 
 namespace lightnet {

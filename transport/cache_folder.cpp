@@ -10,8 +10,8 @@
 #include <optional>
 #include <system_error>
 
-#include "core/error.hpp"
-#include "core/film/atomic_file.hpp"
+#include "core/base/atomic_file.hpp"
+#include "core/base/error.hpp"
 
 namespace lightnet {
 namespace {

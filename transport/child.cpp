@@ -11,7 +11,7 @@
 #include <csignal>
 #include <cstring>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 extern char** environ;
 

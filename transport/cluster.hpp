@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "core/graph/plan.hpp"
-#include "core/message/carrier.hpp"
-#include "core/runtime/job.hpp"
+#include "core/network/graph/plan.hpp"
+#include "core/run/message/carrier.hpp"
+#include "core/run/runtime/job.hpp"
 #include "transport/machine.hpp"
 
 namespace lightnet {

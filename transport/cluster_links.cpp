@@ -2,8 +2,8 @@
 
 #include <zmq.hpp>
 
-#include "core/error.hpp"
-#include "core/runtime/fingerprint.hpp"
+#include "core/base/error.hpp"
+#include "core/run/runtime/fingerprint.hpp"
 #include "transport/descriptors.hpp"
 #include "transport/relay.hpp"
 

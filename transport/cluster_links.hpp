@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/runtime/fingerprint.hpp"
+#include "core/base/error.hpp"
+#include "core/run/runtime/fingerprint.hpp"
 #include "transport/cluster.hpp"
 #include "transport/descriptors.hpp"
 #include "transport/host_link.hpp"

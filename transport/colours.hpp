@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "core/math/rgb.hpp"
+#include "core/base/math/rgb.hpp"
 
 namespace lightnet::packet {
 

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "core/message/message.hpp"
+#include "core/run/message/message.hpp"
 
 namespace lightnet::packet {
 

@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "core/graph/kind.hpp"
+#include "core/network/graph/kind.hpp"
 #include "transport/cache_folder.hpp"
 
 namespace lightnet {

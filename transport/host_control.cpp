@@ -3,9 +3,9 @@
 #include <system_error>
 #include <utility>
 
-#include "core/build_info.hpp"
-#include "core/error.hpp"
-#include "core/runtime/fingerprint.hpp"
+#include "core/base/build_info.hpp"
+#include "core/base/error.hpp"
+#include "core/run/runtime/fingerprint.hpp"
 #include "transport/host_service.hpp"
 
 namespace lightnet {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "core/graph/plan.hpp"
+#include "core/network/graph/plan.hpp"
 #include "transport/sockets.hpp"
 
 namespace lightnet {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <zmq.hpp>
 
-#include "core/build_info.hpp"
+#include "core/base/build_info.hpp"
 
 namespace lightnet {
 namespace {

@@ -13,10 +13,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/hash.hpp"
-#include "core/message/counters.hpp"
-#include "core/message/message.hpp"
+#include "core/base/hash.hpp"
 #include "core/readers/files.hpp"
+#include "core/run/message/counters.hpp"
+#include "core/run/message/message.hpp"
 #include "transport/host_line.hpp"
 #include "transport/machine.hpp"
 #include "transport/packet.hpp"

@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "transport/host_link.hpp"
 
 namespace lightnet {

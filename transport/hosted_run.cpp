@@ -4,7 +4,7 @@
 #include <chrono>
 #include <zmq.hpp>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace lightnet {
 

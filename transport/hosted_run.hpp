@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "core/runtime/job.hpp"
+#include "core/run/runtime/job.hpp"
 #include "transport/beside.hpp"
 #include "transport/blob_cache.hpp"
 #include "transport/packet.hpp"

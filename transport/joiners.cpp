@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <zmq.hpp>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "transport/cluster.hpp"
 
 namespace lightnet {

@@ -8,7 +8,7 @@
 
 #include <poll.h>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "transport/child.hpp"
 
 namespace lightnet {

@@ -7,8 +7,8 @@
 #include <random>
 #include <thread>
 
-#include "core/build_info.hpp"
-#include "core/runtime/fingerprint.hpp"
+#include "core/base/build_info.hpp"
+#include "core/run/runtime/fingerprint.hpp"
 
 namespace lightnet {
 namespace {

@@ -3,7 +3,7 @@
 #include <deque>
 #include <utility>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "transport/packet.hpp"
 
 namespace lightnet {

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "core/prepare/assembly.hpp"
-#include "core/runtime/place.hpp"
+#include "core/run/prepare/assembly.hpp"
+#include "core/run/runtime/place.hpp"
 
 namespace lightnet {
 

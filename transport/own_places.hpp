@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
-#include "core/prepare/assembly.hpp"
-#include "core/runtime/place.hpp"
+#include "core/run/prepare/assembly.hpp"
+#include "core/run/runtime/place.hpp"
 #include "transport/sockets.hpp"
 
 namespace lightnet {

@@ -24,8 +24,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/hash.hpp"
-#include "core/message/message.hpp"
+#include "core/base/hash.hpp"
+#include "core/run/message/message.hpp"
 #include "transport/columns.hpp"
 
 namespace lightnet::packet {

@@ -11,8 +11,8 @@
 #include <cstring>
 #include <filesystem>
 
-#include "core/error.hpp"
-#include "core/hash.hpp"
+#include "core/base/error.hpp"
+#include "core/base/hash.hpp"
 
 namespace lightnet {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <zmq.hpp>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "transport/descriptors.hpp"
 #include "transport/sockets.hpp"
 #include "transport/wakeup.hpp"

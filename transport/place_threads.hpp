@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/prepare/assembly.hpp"
-#include "core/runtime/place.hpp"
+#include "core/run/prepare/assembly.hpp"
+#include "core/run/runtime/place.hpp"
 
 namespace zmq {
 class context_t;

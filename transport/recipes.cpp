@@ -4,7 +4,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "core/film/atomic_file.hpp"
+#include "core/base/atomic_file.hpp"
 #include "transport/cache_folder.hpp"
 
 namespace lightnet {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "core/hash.hpp"
+#include "core/base/hash.hpp"
 
 namespace lightnet {
 

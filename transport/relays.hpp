@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-#include "core/message/counters.hpp"
+#include "core/run/message/counters.hpp"
 #include "transport/relay.hpp"
 #include "transport/sockets.hpp"
 

@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/prepare/prepared.hpp"
+#include "core/run/prepare/prepared.hpp"
 #include "transport/blob_cache.hpp"
 
 namespace lightnet {

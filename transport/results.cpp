@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace lightnet {
 

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/bytes.hpp"
-#include "core/hash.hpp"
+#include "core/base/bytes.hpp"
+#include "core/base/hash.hpp"
 #include "transport/blob_cache.hpp"
 
 namespace lightnet {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "transport/child.hpp"
 #include "transport/reach.hpp"
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "core/message/message.hpp"
+#include "core/run/message/message.hpp"
 #include "transport/packet.hpp"
 
 namespace zmq {

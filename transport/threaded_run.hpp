@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <memory>
 
-#include "core/message/carrier.hpp"
-#include "core/prepare/assembly.hpp"
-#include "core/runtime/place.hpp"
+#include "core/run/message/carrier.hpp"
+#include "core/run/prepare/assembly.hpp"
+#include "core/run/runtime/place.hpp"
 
 namespace lightnet {
 

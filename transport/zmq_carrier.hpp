@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "core/message/carrier.hpp"
+#include "core/run/message/carrier.hpp"
 
 namespace zmq {
 class context_t;

@@ -1,6 +1,6 @@
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
-#include "core/printable.hpp"
+#include "core/base/printable.hpp"
 
 namespace lightnet {
 namespace {

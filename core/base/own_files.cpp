@@ -1,4 +1,4 @@
-#include "core/film/own_files.hpp"
+#include "core/base/own_files.hpp"
 
 #include <fstream>
 #include <system_error>

@@ -1,4 +1,4 @@
-#include "core/problem_list.hpp"
+#include "core/base/problem_list.hpp"
 
 #include <utility>
 

@@ -1,6 +1,6 @@
 #include "core/estimate/aim.hpp"
 
-#include "core/scene/shares.hpp"
+#include "core/scene/lamps/shares.hpp"
 
 #include <algorithm>
 #include <cmath>

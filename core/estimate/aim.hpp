@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/math/samples.hpp"
+#include "core/base/math/samples.hpp"
 
 namespace lightnet {
 

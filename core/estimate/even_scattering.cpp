@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "core/math/frame.hpp"
+#include "core/base/math/frame.hpp"
 
 namespace lightnet {
 

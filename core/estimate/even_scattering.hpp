@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
-#include "core/bsdf/bsdf.hpp"
-#include "core/math/rgb.hpp"
-#include "core/math/vec.hpp"
+#include "core/base/math/rgb.hpp"
+#include "core/base/math/vec.hpp"
+#include "core/scene/bsdf/bsdf.hpp"
 
 namespace lightnet {
 

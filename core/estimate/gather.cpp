@@ -1,7 +1,7 @@
 #include "core/estimate/gather.hpp"
 
+#include "core/base/math/samples.hpp"
 #include "core/estimate/mirror_way.hpp"
-#include "core/math/samples.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "core/light/inputs.hpp"
-#include "core/math/random.hpp"
+#include "core/base/math/random.hpp"
+#include "core/network/light/inputs.hpp"
 #include "core/scene/scene.hpp"
 
 namespace lightnet {

@@ -1,7 +1,7 @@
 #include "core/estimate/hemisphere.hpp"
 
-#include "core/math/samples.hpp"
-#include "core/math/sampling.hpp"
+#include "core/base/math/samples.hpp"
+#include "core/base/math/sampling.hpp"
 
 #include <algorithm>
 #include <cmath>

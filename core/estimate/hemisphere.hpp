@@ -7,11 +7,11 @@
 #include <span>
 #include <vector>
 
+#include "core/base/math/frame.hpp"
+#include "core/base/math/random.hpp"
+#include "core/base/math/rgb.hpp"
+#include "core/base/math/vec.hpp"
 #include "core/estimate/gather.hpp"
-#include "core/math/frame.hpp"
-#include "core/math/random.hpp"
-#include "core/math/rgb.hpp"
-#include "core/math/vec.hpp"
 
 namespace lightnet {
 

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <optional>
 
-#include "core/light/query.hpp"
-#include "core/math/rgb.hpp"
-#include "core/math/samples.hpp"
-#include "core/math/vec.hpp"
+#include "core/base/math/rgb.hpp"
+#include "core/base/math/samples.hpp"
+#include "core/base/math/vec.hpp"
+#include "core/base/query.hpp"
 #include "core/scene/scene.hpp"
 
 namespace lightnet {

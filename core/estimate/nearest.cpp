@@ -2,8 +2,8 @@
 
 #include <limits>
 
+#include "core/base/math/columns.hpp"
 #include "core/estimate/ranks.hpp"
-#include "core/math/columns.hpp"
 
 namespace lightnet {
 namespace {

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "core/math/columns.hpp"
+#include "core/base/math/columns.hpp"
 
 namespace lightnet {
 

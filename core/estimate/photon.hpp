@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "core/math/octahedral.hpp"
-#include "core/math/rgb.hpp"
-#include "core/math/vec.hpp"
+#include "core/base/math/octahedral.hpp"
+#include "core/base/math/rgb.hpp"
+#include "core/base/math/vec.hpp"
 
 namespace lightnet {
 

@@ -1,6 +1,6 @@
 #include "core/estimate/photon_shooter.hpp"
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "core/scene/direct_light.hpp"
 
 #include <algorithm>

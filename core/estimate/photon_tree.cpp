@@ -1,8 +1,8 @@
 #include "core/estimate/photon_tree.hpp"
 
+#include "core/base/math/columns.hpp"
+#include "core/base/math/sampling.hpp"
 #include "core/estimate/photon_order.hpp"
-#include "core/math/columns.hpp"
-#include "core/math/sampling.hpp"
 
 #include <algorithm>
 #include <cstring>

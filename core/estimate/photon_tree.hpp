@@ -6,12 +6,12 @@
 #include <span>
 #include <vector>
 
-#include "core/bsdf/bsdf.hpp"
+#include "core/base/math/columns.hpp"
+#include "core/base/query.hpp"
 #include "core/estimate/nearest.hpp"
 #include "core/estimate/photon.hpp"
-#include "core/light/query.hpp"
-#include "core/math/columns.hpp"
-#include "core/scene/surface.hpp"
+#include "core/scene/bsdf/bsdf.hpp"
+#include "core/scene/surfaces/surface.hpp"
 
 namespace lightnet {
 

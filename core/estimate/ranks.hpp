@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/math/columns.hpp"
+#include "core/base/math/columns.hpp"
 
 namespace lightnet {
 

@@ -1,6 +1,6 @@
 #include "core/estimate/shooting.hpp"
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 #include <algorithm>
 

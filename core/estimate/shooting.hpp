@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "core/estimate/photon_shooter.hpp"
-#include "core/graph/kind.hpp"
-#include "core/light/mapped.hpp"
-#include "core/light/node_context.hpp"
-#include "core/light/services.hpp"
+#include "core/network/graph/kind.hpp"
+#include "core/network/light/mapped.hpp"
+#include "core/network/light/node_context.hpp"
+#include "core/network/light/services.hpp"
 
 namespace lightnet {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/scene/direct_light.hpp"
-#include "core/scene/plain_surfaces.hpp"
 #include "core/scene/scene.hpp"
+#include "core/scene/surfaces/plain_surfaces.hpp"
 
 namespace lightnet {
 

@@ -9,10 +9,10 @@
 #include <sstream>
 #include <type_traits>
 
-#include "core/error.hpp"
-#include "core/film/atomic_file.hpp"
-#include "core/hash.hpp"
-#include "core/printable.hpp"
+#include "core/base/atomic_file.hpp"
+#include "core/base/error.hpp"
+#include "core/base/hash.hpp"
+#include "core/base/printable.hpp"
 
 namespace lightnet {
 namespace {

@@ -14,8 +14,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/film/atomic_file.hpp"
+#include "core/base/atomic_file.hpp"
+#include "core/base/error.hpp"
 
 namespace lightnet {
 namespace {

@@ -10,7 +10,7 @@
 #include <set>
 #include <utility>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace lightnet {
 Film::Film(FilmFormat format)

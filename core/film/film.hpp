@@ -11,10 +11,10 @@
 #include <tuple>
 #include <vector>
 
+#include "core/base/math/rgb.hpp"
 #include "core/film/picture.hpp"
 #include "core/film/tile.hpp"
 #include "core/film/window.hpp"
-#include "core/math/rgb.hpp"
 
 namespace lightnet {
 

@@ -1,7 +1,7 @@
 // A film is put down, and taken up again.
 #include <utility>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "core/film/film.hpp"
 
 namespace lightnet {

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "core/math/rgb.hpp"
+#include "core/base/math/rgb.hpp"
 
 namespace lightnet {
 

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/film/atomic_file.hpp"
+#include "core/base/atomic_file.hpp"
+#include "core/base/error.hpp"
 
 namespace lightnet {
 namespace {

@@ -12,7 +12,7 @@
 #include "core/readers/files.hpp"
 #include "core/readers/image_file.hpp"
 #include "core/readers/report.hpp"
-#include "core/scene/scene_data.hpp"
+#include "core/scene/data/scene_data.hpp"
 
 namespace lightnet {
 

@@ -7,7 +7,7 @@
 #include <system_error>
 #include <utility>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "core/readers/workshop.hpp"
 
 namespace lightnet {

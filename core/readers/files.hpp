@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "core/bytes.hpp"
-#include "core/hash.hpp"
+#include "core/base/bytes.hpp"
+#include "core/base/hash.hpp"
 
 namespace lightnet {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/scene/scene_data.hpp"
+#include "core/scene/data/scene_data.hpp"
 
 namespace lightnet::decoders {
 

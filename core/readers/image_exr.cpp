@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "core/readers/image_decoders.hpp"
 
 namespace lightnet::decoders {

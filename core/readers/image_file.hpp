@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "core/scene/scene_data.hpp"
+#include "core/scene/data/scene_data.hpp"
 
 namespace lightnet {
 

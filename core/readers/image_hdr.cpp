@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "core/readers/image_decoders.hpp"
 
 namespace lightnet::decoders {

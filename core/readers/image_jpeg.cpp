@@ -9,7 +9,7 @@
 #include <csetjmp>
 #include <string>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "core/readers/image_decoders.hpp"
 
 namespace lightnet::decoders {

@@ -5,8 +5,8 @@
 #include <functional>
 #include <span>
 
-#include "core/math/transform.hpp"
-#include "core/scene/scene_data.hpp"
+#include "core/base/math/transform.hpp"
+#include "core/scene/data/scene_data.hpp"
 
 namespace lightnet {
 

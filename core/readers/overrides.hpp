@@ -5,11 +5,11 @@
 #include <string>
 #include <variant>
 
-#include "core/error.hpp"
-#include "core/math/rgb.hpp"
-#include "core/math/vec.hpp"
+#include "core/base/error.hpp"
+#include "core/base/math/rgb.hpp"
+#include "core/base/math/vec.hpp"
 #include "core/readers/files.hpp"
-#include "core/scene/scene_data.hpp"
+#include "core/scene/data/scene_data.hpp"
 
 namespace lightnet {
 

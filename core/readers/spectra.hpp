@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/math/rgb.hpp"
+#include "core/base/math/rgb.hpp"
 
 namespace lightnet {
 

@@ -6,8 +6,8 @@
 #include <map>
 #include <string>
 
-#include "core/math/vec.hpp"
-#include "core/scene/scene_data.hpp"
+#include "core/base/math/vec.hpp"
+#include "core/scene/data/scene_data.hpp"
 
 namespace lightnet {
 

@@ -1,6 +1,6 @@
 #include "core/scene/camera.hpp"
 
-#include "core/math/sampling.hpp"
+#include "core/base/math/sampling.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
-#include "core/math/vec.hpp"
-#include "core/scene/ray.hpp"
-#include "core/scene/scene_data.hpp"
+#include "core/base/math/vec.hpp"
+#include "core/scene/data/scene_data.hpp"
+#include "core/scene/surfaces/ray.hpp"
 
 namespace lightnet {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/math/rgb.hpp"
+#include "core/base/math/rgb.hpp"
 #include "core/scene/scene.hpp"
 
 namespace lightnet {

@@ -1,11 +1,11 @@
 #include "core/scene/scene.hpp"
 
-#include "core/error.hpp"
-#include "core/scene/geometry.hpp"
-#include "core/scene/lights.hpp"
-#include "core/scene/placement.hpp"
+#include "core/base/error.hpp"
+#include "core/scene/geometry/geometry.hpp"
+#include "core/scene/lamps/lights.hpp"
 #include "core/scene/scene_size.hpp"
-#include "core/scene/shading.hpp"
+#include "core/scene/surfaces/placement.hpp"
+#include "core/scene/surfaces/shading.hpp"
 
 #include <algorithm>
 #include <cmath>

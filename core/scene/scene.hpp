@@ -9,15 +9,15 @@
 #include <string>
 #include <vector>
 
-#include "core/bsdf/bsdf.hpp"
-#include "core/light/query.hpp"
+#include "core/base/query.hpp"
+#include "core/scene/bsdf/bsdf.hpp"
 #include "core/scene/camera.hpp"
-#include "core/scene/flat_lamp.hpp"
-#include "core/scene/light_sample.hpp"
-#include "core/scene/plain_surfaces.hpp"
-#include "core/scene/ray.hpp"
-#include "core/scene/scene_data.hpp"
-#include "core/scene/surface.hpp"
+#include "core/scene/data/scene_data.hpp"
+#include "core/scene/lamps/light_sample.hpp"
+#include "core/scene/surfaces/flat_lamp.hpp"
+#include "core/scene/surfaces/plain_surfaces.hpp"
+#include "core/scene/surfaces/ray.hpp"
+#include "core/scene/surfaces/surface.hpp"
 
 namespace lightnet {
 

@@ -1,10 +1,10 @@
 // How large a scene is.
 #pragma once
 
-#include "core/scene/geometry.hpp"
-#include "core/scene/lights.hpp"
+#include "core/scene/data/scene_data.hpp"
+#include "core/scene/geometry/geometry.hpp"
+#include "core/scene/lamps/lights.hpp"
 #include "core/scene/scene.hpp"
-#include "core/scene/scene_data.hpp"
 
 namespace lightnet {
 

@@ -1,5 +1,5 @@
 // Introduces the library Candela, which stays as it is, to lightnet: once for all of its classes, then a line for each.
-#include "core/light/wrap.hpp"
+#include "core/network/light/wrap.hpp"
 #include "core/scene/scene.hpp"
 #include "nodes/traditional/candela.hpp"
 #include "nodes/traditional/candela_kinds.hpp"

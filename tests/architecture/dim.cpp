@@ -1,9 +1,9 @@
 // Dim: passes on a part of the light of its input. The example of CONTRIBUTING.md.
 #include <memory>
 
-#include "core/graph/kind.hpp"
-#include "core/light/light_op.hpp"
-#include "core/light/node_context.hpp"
+#include "core/network/graph/kind.hpp"
+#include "core/network/light/light_op.hpp"
+#include "core/network/light/node_context.hpp"
 
 namespace lightnet {
 namespace {

@@ -16,8 +16,8 @@
 #include <functional>
 #include <limits>
 
-#include "core/error.hpp"
-#include "core/film/atomic_file.hpp"
+#include "core/base/atomic_file.hpp"
+#include "core/base/error.hpp"
 #include "core/film/exr.hpp"
 #include "core/film/png.hpp"
 #include "tests/film/pictures.hpp"

@@ -1,8 +1,8 @@
-#include "core/printable.hpp"
+#include "core/base/printable.hpp"
 
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace lightnet {
 namespace {

@@ -1,12 +1,12 @@
-#include "core/math/random.hpp"
+#include "core/base/math/random.hpp"
 
 #include <gtest/gtest.h>
 
 #include <set>
 #include <vector>
 
-#include "core/math/samples.hpp"
-#include "core/math/sobol.hpp"
+#include "core/base/math/samples.hpp"
+#include "core/base/math/sobol.hpp"
 
 namespace lightnet {
 namespace {

@@ -1,10 +1,10 @@
-#include "core/math/sampling.hpp"
+#include "core/base/math/sampling.hpp"
 
 #include <gtest/gtest.h>
 
-#include "core/math/frame.hpp"
-#include "core/math/octahedral.hpp"
-#include "core/math/samples.hpp"
+#include "core/base/math/frame.hpp"
+#include "core/base/math/octahedral.hpp"
+#include "core/base/math/samples.hpp"
 
 namespace lightnet {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <exception>
 
-#include "core/runtime/fingerprint.hpp"
+#include "core/run/runtime/fingerprint.hpp"
 #include "tests/bench/emulated.hpp"
 #include "tests/bench/figure.hpp"
 #include "transport/threaded_run.hpp"

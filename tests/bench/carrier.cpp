@@ -16,10 +16,10 @@
 #include <thread>
 #include <zmq.hpp>
 
-#include "core/light/light_op.hpp"
-#include "core/light/node_context.hpp"
-#include "core/light/renderer.hpp"
-#include "core/runtime/master_renderer.hpp"
+#include "core/network/light/light_op.hpp"
+#include "core/network/light/node_context.hpp"
+#include "core/network/light/renderer.hpp"
+#include "core/run/runtime/master_renderer.hpp"
 #include "nodes/standard_nodes.hpp"
 #include "tests/bench/figure.hpp"
 #include "tests/bench/picture.hpp"

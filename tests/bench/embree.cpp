@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "core/film/film.hpp"
-#include "core/graph/check.hpp"
-#include "core/graph/graph_film.hpp"
+#include "core/network/graph/check.hpp"
+#include "core/network/graph/graph_film.hpp"
 #include "core/readers/read_scene.hpp"
-#include "core/runtime/fingerprint.hpp"
-#include "core/runtime/job.hpp"
-#include "core/runtime/serial.hpp"
+#include "core/run/runtime/fingerprint.hpp"
+#include "core/run/runtime/job.hpp"
+#include "core/run/runtime/serial.hpp"
 #include "core/scene/scene.hpp"
 #include "lua/load_graph.hpp"
 #include "nodes/standard_nodes.hpp"

@@ -3,11 +3,11 @@
 #include <stdexcept>
 #include <thread>
 
-#include "core/light/light_op.hpp"
-#include "core/light/node_context.hpp"
-#include "core/light/renderer.hpp"
-#include "core/runtime/fingerprint.hpp"
-#include "core/runtime/master_renderer.hpp"
+#include "core/network/light/light_op.hpp"
+#include "core/network/light/node_context.hpp"
+#include "core/network/light/renderer.hpp"
+#include "core/run/runtime/fingerprint.hpp"
+#include "core/run/runtime/master_renderer.hpp"
 #include "tests/bench/figure.hpp"
 #include "transport/threaded_run.hpp"
 

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "core/graph/kind.hpp"
-#include "core/message/carrier.hpp"
-#include "core/runtime/job.hpp"
+#include "core/network/graph/kind.hpp"
+#include "core/run/message/carrier.hpp"
+#include "core/run/runtime/job.hpp"
 
 namespace lightnet::bench {
 

@@ -9,9 +9,9 @@
 #include <limits>
 #include <thread>
 
-#include "core/math/frame.hpp"
-#include "core/math/random.hpp"
-#include "core/math/sampling.hpp"
+#include "core/base/math/frame.hpp"
+#include "core/base/math/random.hpp"
+#include "core/base/math/sampling.hpp"
 #include "core/readers/files.hpp"
 #include "core/readers/ply.hpp"
 

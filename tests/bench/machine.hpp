@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/math/vec.hpp"
+#include "core/base/math/vec.hpp"
 
 namespace lightnet::bench {
 

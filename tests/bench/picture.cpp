@@ -6,14 +6,14 @@
 #include <stdexcept>
 #include <thread>
 
+#include "core/base/hash.hpp"
 #include "core/film/film.hpp"
-#include "core/graph/check.hpp"
-#include "core/graph/graph_film.hpp"
-#include "core/hash.hpp"
+#include "core/network/graph/check.hpp"
+#include "core/network/graph/graph_film.hpp"
 #include "core/readers/read_scene.hpp"
-#include "core/runtime/fingerprint.hpp"
-#include "core/runtime/master_renderer.hpp"
-#include "core/runtime/serial.hpp"
+#include "core/run/runtime/fingerprint.hpp"
+#include "core/run/runtime/master_renderer.hpp"
+#include "core/run/runtime/serial.hpp"
 #include "lua/load_graph.hpp"
 #include "tests/bench/figure.hpp"
 

@@ -3,7 +3,7 @@
 #include <chrono>
 #include <thread>
 
-#include "core/runtime/place.hpp"
+#include "core/run/runtime/place.hpp"
 #include "tests/bench/figure.hpp"
 #include "tests/bench/overhead.hpp"
 #include "transport/cluster.hpp"

@@ -13,9 +13,9 @@
 #include <zmq.hpp>
 
 #include "core/estimate/photon.hpp"
-#include "core/light/light_op.hpp"
-#include "core/light/node_context.hpp"
-#include "core/light/services.hpp"
+#include "core/network/light/light_op.hpp"
+#include "core/network/light/node_context.hpp"
+#include "core/network/light/services.hpp"
 #include "lua/load_graph.hpp"
 #include "nodes/standard_nodes.hpp"
 #include "tests/bench/figure.hpp"

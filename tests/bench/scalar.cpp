@@ -4,10 +4,10 @@
 #include <chrono>
 #include <stdexcept>
 
-#include "core/light/light_op.hpp"
-#include "core/light/renderer.hpp"
-#include "core/light/wrap.hpp"
-#include "core/runtime/master_renderer.hpp"
+#include "core/network/light/light_op.hpp"
+#include "core/network/light/renderer.hpp"
+#include "core/network/light/wrap.hpp"
+#include "core/run/runtime/master_renderer.hpp"
 #include "tests/bench/figure.hpp"
 #include "tests/bench/two_hosts.hpp"
 #include "transport/threaded_run.hpp"

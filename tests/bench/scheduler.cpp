@@ -4,7 +4,7 @@
 #include <exception>
 
 #include "tests/bench/figure.hpp"
-#include "tests/runtime/simulator.hpp"
+#include "tests/run/simulator.hpp"
 
 namespace lightnet::bench {
 namespace {

@@ -4,12 +4,12 @@
 #include <ctime>
 #include <utility>
 
-#include "core/graph/check.hpp"
-#include "core/hash.hpp"
+#include "core/base/hash.hpp"
+#include "core/network/graph/check.hpp"
 #include "core/readers/read_scene.hpp"
-#include "core/runtime/conductor.hpp"
-#include "core/runtime/fingerprint.hpp"
-#include "core/runtime/master_renderer.hpp"
+#include "core/run/runtime/conductor.hpp"
+#include "core/run/runtime/fingerprint.hpp"
+#include "core/run/runtime/master_renderer.hpp"
 #include "lua/load_graph.hpp"
 #include "tests/bench/figure.hpp"
 #include "transport/threaded_run.hpp"

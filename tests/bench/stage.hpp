@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "core/film/film.hpp"
-#include "core/graph/graph_film.hpp"
-#include "core/graph/kind.hpp"
-#include "core/message/carrier.hpp"
-#include "core/prepare/prepared.hpp"
-#include "core/runtime/job.hpp"
+#include "core/network/graph/graph_film.hpp"
+#include "core/network/graph/kind.hpp"
+#include "core/run/message/carrier.hpp"
+#include "core/run/prepare/prepared.hpp"
+#include "core/run/runtime/job.hpp"
 #include "transport/cluster.hpp"
 
 namespace lightnet::bench {

@@ -9,12 +9,12 @@
 #include <stdexcept>
 
 #include "core/film/film.hpp"
-#include "core/graph/check.hpp"
-#include "core/graph/graph_film.hpp"
+#include "core/network/graph/check.hpp"
+#include "core/network/graph/graph_film.hpp"
 #include "core/readers/read_scene.hpp"
-#include "core/runtime/fingerprint.hpp"
-#include "core/runtime/job.hpp"
-#include "core/runtime/master_renderer.hpp"
+#include "core/run/runtime/fingerprint.hpp"
+#include "core/run/runtime/job.hpp"
+#include "core/run/runtime/master_renderer.hpp"
 #include "nodes/standard_nodes.hpp"
 #include "tests/bench/figure.hpp"
 #include "tests/support/delaying_proxy.hpp"

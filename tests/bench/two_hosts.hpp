@@ -6,7 +6,7 @@
 #include <functional>
 #include <utility>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "tests/bench/picture.hpp"
 #include "tests/support/host_thread.hpp"
 #include "transport/cluster.hpp"

@@ -1,9 +1,9 @@
 // Irradiance and its gradients, beside light that is known.
 #include <gtest/gtest.h>
 
+#include "core/base/math/sampling.hpp"
 #include "core/estimate/hemisphere.hpp"
 #include "core/estimate/irradiance_octree.hpp"
-#include "core/math/sampling.hpp"
 
 #include <functional>
 

@@ -1,8 +1,8 @@
 // Light that leaves lamps: where it goes to, and that none gets lost.
 #include <gtest/gtest.h>
 
+#include "core/base/math/sampling.hpp"
 #include "core/estimate/photon_shooter.hpp"
-#include "core/math/sampling.hpp"
 #include "tests/support/small_scenes.hpp"
 
 namespace lightnet {

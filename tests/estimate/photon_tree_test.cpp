@@ -6,9 +6,9 @@
 #include <limits>
 #include <tuple>
 
+#include "core/base/math/samples.hpp"
 #include "core/estimate/photon_tree.hpp"
 #include "core/estimate/ranks.hpp"
-#include "core/math/samples.hpp"
 
 namespace lightnet {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "tests/faults/faults.hpp"
-#include "tests/runtime/simulator.hpp"
+#include "tests/run/simulator.hpp"
 
 namespace lightnet::test {
 namespace {
@@ -69,7 +69,7 @@ public:
     }
 
 private:
-    static std::string script() { return LIGHTNET_SOURCE_DIR "/tests/network/slurm_lab.sh"; }
+    static std::string script() { return LIGHTNET_SOURCE_DIR "/tests/modes/slurm_lab.sh"; }
     Folder lab_;
     bool there_ = false;
     std::string words_;

@@ -4,7 +4,7 @@
 
 #include <csignal>
 
-#include "core/hash.hpp"
+#include "core/base/hash.hpp"
 #include "tests/faults/faults.hpp"
 #include "tests/faults/small_disk.hpp"
 

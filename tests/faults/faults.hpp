@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "tests/faults/rows.hpp"
-#include "tests/network/daemons.hpp"
+#include "tests/modes/daemons.hpp"
 
 namespace lightnet::test {
 

@@ -13,11 +13,11 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
-#include "core/build_info.hpp"
-#include "core/graph/json.hpp"
-#include "core/graph/plan.hpp"
+#include "core/base/build_info.hpp"
+#include "core/network/graph/json.hpp"
+#include "core/network/graph/plan.hpp"
 #include "tests/faults/faults.hpp"
-#include "tests/network/stranger.hpp"
+#include "tests/modes/stranger.hpp"
 #include "tests/support/liar.hpp"
 
 namespace lightnet::test {

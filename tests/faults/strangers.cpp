@@ -4,11 +4,11 @@
 #include <csignal>
 #include <random>
 
-#include "core/build_info.hpp"
-#include "core/graph/plan.hpp"
-#include "core/hash.hpp"
+#include "core/base/build_info.hpp"
+#include "core/base/hash.hpp"
+#include "core/network/graph/plan.hpp"
 #include "tests/faults/faults.hpp"
-#include "tests/network/stranger.hpp"
+#include "tests/modes/stranger.hpp"
 #include "tests/support/liar.hpp"
 
 namespace lightnet::test {

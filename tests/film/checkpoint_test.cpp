@@ -5,8 +5,8 @@
 #include <cstring>
 #include <fstream>
 
-#include "core/error.hpp"
-#include "core/hash.hpp"
+#include "core/base/error.hpp"
+#include "core/base/hash.hpp"
 #include "tests/film/pictures.hpp"
 #include "tests/support/folder.hpp"
 

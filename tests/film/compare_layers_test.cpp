@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "core/film/png.hpp"
 #include "tests/film/pictures.hpp"
 

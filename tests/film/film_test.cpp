@@ -10,8 +10,8 @@
 #include <random>
 #include <set>
 
-#include "core/error.hpp"
-#include "core/light/renderer.hpp"
+#include "core/base/error.hpp"
+#include "core/network/light/renderer.hpp"
 #include "tests/film/pictures.hpp"
 #include "tests/support/slowdown.hpp"
 

@@ -5,9 +5,9 @@
 #include <fstream>
 #include <iterator>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
+#include "core/base/hash.hpp"
 #include "core/film/checkpoint.hpp"
-#include "core/hash.hpp"
 #include "tests/fuzz/targets.hpp"
 
 namespace lightnet::fuzz {

@@ -1,6 +1,6 @@
 #include <zlib.h>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "core/readers/mitsuba/serialized.hpp"
 #include "core/readers/read_scene.hpp"
 #include "tests/fuzz/targets.hpp"

@@ -2,10 +2,10 @@
 
 #include <stdexcept>
 
-#include "core/error.hpp"
-#include "core/graph/check.hpp"
-#include "core/graph/light_paths.hpp"
-#include "core/graph/plan.hpp"
+#include "core/base/error.hpp"
+#include "core/network/graph/check.hpp"
+#include "core/network/graph/light_paths.hpp"
+#include "core/network/graph/plan.hpp"
 #include "lua/graph_script.hpp"
 #include "lua/hosts_script.hpp"
 #include "lua/sandbox.hpp"

@@ -1,9 +1,9 @@
 #include <stdexcept>
 
-#include "core/error.hpp"
-#include "core/graph/layout.hpp"
-#include "core/graph/plan.hpp"
-#include "core/runtime/job.hpp"
+#include "core/base/error.hpp"
+#include "core/network/graph/layout.hpp"
+#include "core/network/graph/plan.hpp"
+#include "core/run/runtime/job.hpp"
 #include "nodes/standard_nodes.hpp"
 #include "tests/fuzz/targets.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "core/readers/ply.hpp"
 #include "tests/fuzz/targets.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "core/readers/image_file.hpp"
 #include "tests/fuzz/targets.hpp"
 #include "tests/support/picture_bytes.hpp"

@@ -1,4 +1,4 @@
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "core/readers/read_scene.hpp"
 #include "tests/fuzz/targets.hpp"
 #include "tests/support/memory_files.hpp"

@@ -1,11 +1,11 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "core/error.hpp"
-#include "core/graph/graph.hpp"
-#include "core/graph/hosts.hpp"
-#include "core/graph/plan.hpp"
-#include "core/runtime/job.hpp"
+#include "core/base/error.hpp"
+#include "core/network/graph/graph.hpp"
+#include "core/network/graph/hosts.hpp"
+#include "core/network/graph/plan.hpp"
+#include "core/run/runtime/job.hpp"
 #include "tests/fuzz/targets.hpp"
 
 namespace lightnet::fuzz {

@@ -4,7 +4,7 @@
 
 #include <csignal>
 
-#include "tests/network/daemons.hpp"
+#include "tests/modes/daemons.hpp"
 #include "tests/support/bad_line.hpp"
 
 namespace lightnet::test {

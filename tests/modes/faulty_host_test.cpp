@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
-#include "tests/network/learning.hpp"
+#include "core/base/error.hpp"
+#include "tests/modes/learning.hpp"
 #include "tests/support/folder.hpp"
 
 namespace lightnet {

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "core/build_info.hpp"
-#include "core/graph/plan.hpp"
-#include "core/hash.hpp"
-#include "tests/network/daemons.hpp"
-#include "tests/network/stranger.hpp"
+#include "core/base/build_info.hpp"
+#include "core/base/hash.hpp"
+#include "core/network/graph/plan.hpp"
+#include "tests/modes/daemons.hpp"
+#include "tests/modes/stranger.hpp"
 #include "transport/packet.hpp"
 
 namespace lightnet::test {

@@ -1,7 +1,7 @@
 // What `lightnet hosts` tells of daemons and launchers.
 #include <gtest/gtest.h>
 
-#include "tests/network/daemons.hpp"
+#include "tests/modes/daemons.hpp"
 
 namespace lightnet::test {
 namespace {

@@ -1,7 +1,7 @@
 // What the launcher says of wrong launches, before work starts.
 #include <gtest/gtest.h>
 
-#include "tests/network/daemons.hpp"
+#include "tests/modes/daemons.hpp"
 
 namespace lightnet::test {
 namespace {

@@ -15,12 +15,12 @@
 #include <vector>
 
 #include "core/film/film.hpp"
-#include "core/graph/check.hpp"
-#include "core/graph/layout.hpp"
-#include "core/runtime/conductor.hpp"
-#include "core/runtime/fingerprint.hpp"
-#include "core/runtime/job.hpp"
-#include "core/runtime/serial.hpp"
+#include "core/network/graph/check.hpp"
+#include "core/network/graph/layout.hpp"
+#include "core/run/runtime/conductor.hpp"
+#include "core/run/runtime/fingerprint.hpp"
+#include "core/run/runtime/job.hpp"
+#include "core/run/runtime/serial.hpp"
 #include "nodes/standard_nodes.hpp"
 #include "tests/support/bad_line.hpp"
 #include "tests/support/host_thread.hpp"

@@ -7,12 +7,12 @@
 #include <fstream>
 #include <random>
 
-#include "core/fiber/fiber_stack.hpp"
-#include "core/light/light_op.hpp"
-#include "core/light/renderer.hpp"
-#include "core/light/wrap.hpp"
-#include "core/runtime/master_renderer.hpp"
-#include "core/runtime/serial.hpp"
+#include "core/network/light/light_op.hpp"
+#include "core/network/light/renderer.hpp"
+#include "core/network/light/wrap.hpp"
+#include "core/run/fiber/fiber_stack.hpp"
+#include "core/run/runtime/master_renderer.hpp"
+#include "core/run/runtime/serial.hpp"
 #include "tests/support/slowdown.hpp"
 #include "tests/support/small_scenes.hpp"
 #include "transport/threaded_run.hpp"

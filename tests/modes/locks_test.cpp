@@ -8,8 +8,8 @@
 #include <thread>
 #include <vector>
 
-#include "core/error.hpp"
-#include "tests/network/learning.hpp"
+#include "core/base/error.hpp"
+#include "tests/modes/learning.hpp"
 #include "tests/support/folder.hpp"
 
 namespace lightnet {

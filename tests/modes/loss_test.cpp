@@ -4,8 +4,8 @@
 #include <csignal>
 #include <nlohmann/json.hpp>
 
-#include "tests/network/daemons.hpp"
-#include "tests/network/stranger.hpp"
+#include "tests/modes/daemons.hpp"
+#include "tests/modes/stranger.hpp"
 
 namespace lightnet::test {
 namespace {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "tests/network/daemons.hpp"
+#include "tests/modes/daemons.hpp"
 
 namespace lightnet::test {
 namespace {

@@ -5,7 +5,7 @@
 #include <csignal>
 #include <cstdlib>
 
-#include "tests/network/daemons.hpp"
+#include "tests/modes/daemons.hpp"
 
 namespace lightnet::test {
 namespace {

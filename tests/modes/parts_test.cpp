@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "core/film/exr.hpp"
-#include "tests/network/daemons.hpp"
+#include "tests/modes/daemons.hpp"
 
 namespace lightnet::test {
 namespace {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "tests/network/learning.hpp"
+#include "tests/modes/learning.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/support/process.hpp"
 

@@ -5,12 +5,12 @@
 #include <random>
 
 #include "core/film/film.hpp"
-#include "core/graph/check.hpp"
-#include "core/graph/graph_film.hpp"
-#include "core/runtime/fingerprint.hpp"
-#include "core/runtime/job.hpp"
-#include "core/runtime/master_renderer.hpp"
-#include "core/runtime/serial.hpp"
+#include "core/network/graph/check.hpp"
+#include "core/network/graph/graph_film.hpp"
+#include "core/run/runtime/fingerprint.hpp"
+#include "core/run/runtime/job.hpp"
+#include "core/run/runtime/master_renderer.hpp"
+#include "core/run/runtime/serial.hpp"
 #include "nodes/standard_nodes.hpp"
 #include "tests/support/slowdown.hpp"
 #include "transport/oracle_run.hpp"

@@ -15,7 +15,7 @@
 
 #include "core/film/compare.hpp"
 #include "core/film/exr.hpp"
-#include "tests/network/daemons.hpp"
+#include "tests/modes/daemons.hpp"
 
 namespace lightnet::test {
 namespace {

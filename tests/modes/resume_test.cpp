@@ -3,7 +3,7 @@
 
 #include <csignal>
 
-#include "tests/network/daemons.hpp"
+#include "tests/modes/daemons.hpp"
 
 namespace lightnet::test {
 namespace {

@@ -4,7 +4,7 @@
 #include <atomic>
 #include <chrono>
 
-#include "tests/network/learning.hpp"
+#include "tests/modes/learning.hpp"
 #include "tests/support/folder.hpp"
 
 namespace lightnet {

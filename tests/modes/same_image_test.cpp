@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "tests/network/daemons.hpp"
+#include "tests/modes/daemons.hpp"
 
 namespace lightnet::test {
 namespace {

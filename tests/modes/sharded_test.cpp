@@ -8,10 +8,10 @@
 #include <optional>
 #include <string>
 
-#include "core/light/services.hpp"
+#include "core/network/light/services.hpp"
 #include "core/scene/scene.hpp"
-#include "tests/network/daemons.hpp"
-#include "tests/network/learning.hpp"
+#include "tests/modes/daemons.hpp"
+#include "tests/modes/learning.hpp"
 #include "tests/support/folder.hpp"
 
 namespace lightnet {

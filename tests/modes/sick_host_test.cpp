@@ -11,10 +11,10 @@
 #include <thread>
 #include <vector>
 
-#include "core/hash.hpp"
-#include "core/runtime/fingerprint.hpp"
-#include "tests/network/daemons.hpp"
-#include "tests/network/stranger.hpp"
+#include "core/base/hash.hpp"
+#include "core/run/runtime/fingerprint.hpp"
+#include "tests/modes/daemons.hpp"
+#include "tests/modes/stranger.hpp"
 
 namespace lightnet::test {
 namespace {

@@ -4,7 +4,7 @@
 #include <csignal>
 #include <cstdlib>
 
-#include "tests/network/daemons.hpp"
+#include "tests/modes/daemons.hpp"
 
 namespace lightnet::test {
 namespace {
@@ -72,7 +72,7 @@ protected:
         EXPECT_EQ(does.wait(seconds(20)), 0) << does.output();
     }
 
-    static inline const std::string script = LIGHTNET_SOURCE_DIR "/tests/network/slurm_lab.sh";
+    static inline const std::string script = LIGHTNET_SOURCE_DIR "/tests/modes/slurm_lab.sh";
     static inline Folder* lab = nullptr;
     static inline bool there = false;
     static inline std::string why;

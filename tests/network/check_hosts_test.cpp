@@ -1,4 +1,4 @@
-#include "core/graph/check_hosts.hpp"
+#include "core/network/graph/check_hosts.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/graph/check.hpp"
-#include "core/graph/describe.hpp"
+#include "core/network/graph/check.hpp"
+#include "core/network/graph/describe.hpp"
 #include "tests/support/fake_registry.hpp"
 #include "tests/support/parse.hpp"
 

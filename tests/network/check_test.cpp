@@ -1,11 +1,11 @@
-#include "core/graph/check.hpp"
+#include "core/network/graph/check.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "core/graph/graph_film.hpp"
+#include "core/network/graph/graph_film.hpp"
 #include "tests/support/parse.hpp"
 
 namespace lightnet {

@@ -1,4 +1,4 @@
-#include "core/graph/describe.hpp"
+#include "core/network/graph/describe.hpp"
 
 #include <gtest/gtest.h>
 

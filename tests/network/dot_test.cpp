@@ -1,4 +1,4 @@
-#include "core/graph/dot.hpp"
+#include "core/network/graph/dot.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

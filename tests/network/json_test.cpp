@@ -1,4 +1,4 @@
-#include "core/graph/json.hpp"
+#include "core/network/graph/json.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/graph/plan.hpp"
+#include "core/network/graph/plan.hpp"
 #include "tests/support/parse.hpp"
 
 namespace lightnet {

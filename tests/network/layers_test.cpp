@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/graph/plan.hpp"
+#include "core/network/graph/plan.hpp"
 #include "tests/support/parse.hpp"
 
 namespace lightnet {

@@ -1,10 +1,10 @@
-#include "core/graph/layout.hpp"
+#include "core/network/graph/layout.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/graph/dot.hpp"
-#include "core/graph/plan.hpp"
+#include "core/network/graph/dot.hpp"
+#include "core/network/graph/plan.hpp"
 #include "tests/support/parse.hpp"
 
 namespace lightnet {

@@ -1,10 +1,10 @@
-#include "core/graph/light_paths.hpp"
+#include "core/network/graph/light_paths.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/graph/describe.hpp"
-#include "core/graph/dot.hpp"
+#include "core/network/graph/describe.hpp"
+#include "core/network/graph/dot.hpp"
 #include "tests/support/parse.hpp"
 
 namespace lightnet {

@@ -5,11 +5,11 @@
 
 #include <chrono>
 
-#include "core/graph/dot.hpp"
-#include "core/graph/json.hpp"
-#include "core/graph/layout.hpp"
-#include "core/graph/light_paths.hpp"
-#include "core/graph/plan.hpp"
+#include "core/network/graph/dot.hpp"
+#include "core/network/graph/json.hpp"
+#include "core/network/graph/layout.hpp"
+#include "core/network/graph/light_paths.hpp"
+#include "core/network/graph/plan.hpp"
 #include "tests/support/parse.hpp"
 #include "tests/support/slowdown.hpp"
 
@@ -86,7 +86,8 @@ TEST(GraphLimits, AreFarAboveWhatIsTakenQuickly) {
     const auto begun = std::chrono::steady_clock::now();
     const Examined found = examine(graph, fake_registry());
     EXPECT_TRUE(found.problems.empty());
-    EXPECT_EQ(layers_of(found.graph, fake_registry()).film.size(), most_nodes - 3) << "emission, and all but four nodes";
+    EXPECT_EQ(layers_of(found.graph, fake_registry()).film.size(), most_nodes - 3)
+        << "emission, and all but four nodes";
     EXPECT_LT(std::chrono::steady_clock::now() - begun, test::slowdown * std::chrono::seconds(5));
 }
 

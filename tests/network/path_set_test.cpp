@@ -1,4 +1,4 @@
-#include "core/graph/path_set.hpp"
+#include "core/network/graph/path_set.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/graph/plan.hpp"
+#include "core/network/graph/plan.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

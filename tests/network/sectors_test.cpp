@@ -1,5 +1,5 @@
 // Sectors of space, and the port that sends questions to them.
-#include "core/light/sectors.hpp"
+#include "core/network/light/sectors.hpp"
 
 #include <gmock/gmock.h>
 
@@ -8,8 +8,8 @@
 #include <set>
 #include <stdexcept>
 
-#include "core/math/random.hpp"
-#include "core/schedule/sector_port.hpp"
+#include "core/base/math/random.hpp"
+#include "core/run/schedule/sector_port.hpp"
 
 namespace lightnet {
 namespace {

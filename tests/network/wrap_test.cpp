@@ -1,16 +1,16 @@
 // Classes that know nothing of lightnet, as nodes.
-#include "core/light/wrap.hpp"
+#include "core/network/light/wrap.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 
-#include "core/error.hpp"
-#include "core/fiber/fiber.hpp"
-#include "core/fiber/rounds.hpp"
-#include "core/light/light_op.hpp"
-#include "core/light/renderer.hpp"
+#include "core/base/error.hpp"
+#include "core/network/light/light_op.hpp"
+#include "core/network/light/renderer.hpp"
+#include "core/run/fiber/fiber.hpp"
+#include "core/run/fiber/rounds.hpp"
 #include "core/scene/scene.hpp"
 #include "tests/support/small_scenes.hpp"
 

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "core/math/samples.hpp"
+#include "core/base/math/samples.hpp"
 #include "tests/support/rig.hpp"
 #include "tests/support/small_scenes.hpp"
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "tests/support/rig.hpp"
 #include "tests/support/small_scenes.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/math/samples.hpp"
+#include "core/base/math/samples.hpp"
 #include "tests/support/rig.hpp"
 #include "tests/support/small_scenes.hpp"
 

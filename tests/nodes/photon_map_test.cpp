@@ -1,7 +1,7 @@
 // Maps of photons, and what is gathered from them, beside light that is known.
 #include <gmock/gmock.h>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "tests/support/small_network.hpp"
 #include "tests/support/small_scenes.hpp"
 

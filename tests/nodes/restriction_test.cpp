@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/graph/check_params.hpp"
-#include "core/graph/graph.hpp"
+#include "core/network/graph/check_params.hpp"
+#include "core/network/graph/graph.hpp"
 #include "tests/support/parse.hpp"
 #include "tests/support/rig.hpp"
 #include "tests/support/small_scenes.hpp"

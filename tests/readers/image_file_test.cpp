@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "tests/support/memory_files.hpp"
 #include "tests/support/picture_bytes.hpp"
 

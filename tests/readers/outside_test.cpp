@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "core/readers/read_scene.hpp"
 #include "tests/support/folder.hpp"
 

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <string>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "tests/support/memory_files.hpp"
 
 namespace lightnet {

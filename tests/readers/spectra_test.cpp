@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "core/bsdf/fresnel.hpp"
-#include "core/error.hpp"
+#include "core/base/error.hpp"
+#include "core/scene/bsdf/fresnel.hpp"
 
 namespace lightnet {
 namespace {

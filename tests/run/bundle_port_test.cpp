@@ -1,8 +1,8 @@
-#include "core/runtime/bundle_port.hpp"
+#include "core/run/runtime/bundle_port.hpp"
 
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "tests/support/fake_channel.hpp"
 
 namespace lightnet {

@@ -1,12 +1,12 @@
-#include "core/prepare/calls.hpp"
+#include "core/run/prepare/calls.hpp"
 
 #include <gmock/gmock.h>
 
 #include <map>
 #include <optional>
 
-#include "core/error.hpp"
-#include "core/light/mapped.hpp"
+#include "core/base/error.hpp"
+#include "core/network/light/mapped.hpp"
 
 namespace lightnet {
 namespace {

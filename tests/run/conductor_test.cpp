@@ -1,5 +1,5 @@
 // The conductor, with places that the test plays.
-#include "core/runtime/conductor.hpp"
+#include "core/run/runtime/conductor.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <optional>
 #include <string>
 
-#include "core/graph/check.hpp"
-#include "core/light/mapped.hpp"
+#include "core/network/graph/check.hpp"
+#include "core/network/light/mapped.hpp"
 #include "tests/support/learner.hpp"
 
 namespace lightnet {

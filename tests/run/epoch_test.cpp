@@ -1,4 +1,4 @@
-#include "core/runtime/epoch.hpp"
+#include "core/run/runtime/epoch.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/fiber/fiber.hpp"
+#include "core/run/fiber/fiber.hpp"
 
 #include <gtest/gtest.h>
 

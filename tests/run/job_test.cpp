@@ -1,4 +1,4 @@
-#include "core/runtime/job.hpp"
+#include "core/run/runtime/job.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,9 +7,9 @@
 #include <string>
 #include <thread>
 
-#include "core/error.hpp"
-#include "core/graph/check.hpp"
-#include "core/runtime/fingerprint.hpp"
+#include "core/base/error.hpp"
+#include "core/network/graph/check.hpp"
+#include "core/run/runtime/fingerprint.hpp"
 #include "nodes/standard_nodes.hpp"
 #include "tests/support/slowdown.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/prepare/lock_desk.hpp"
+#include "core/run/prepare/lock_desk.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "core/schedule/multiplexer.hpp"
+#include "core/run/schedule/multiplexer.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/message/counters.hpp"
-#include "core/prepare/call_port.hpp"
+#include "core/run/message/counters.hpp"
+#include "core/run/prepare/call_port.hpp"
 
 namespace lightnet {
 namespace {

@@ -1,11 +1,11 @@
-#include "core/prepare/prepared.hpp"
+#include "core/run/prepare/prepared.hpp"
 
 #include <gmock/gmock.h>
 
-#include "core/graph/check.hpp"
-#include "core/light/mapped.hpp"
-#include "core/light/rehearsal.hpp"
-#include "core/runtime/serial.hpp"
+#include "core/network/graph/check.hpp"
+#include "core/network/light/mapped.hpp"
+#include "core/network/light/rehearsal.hpp"
+#include "core/run/runtime/serial.hpp"
 #include "tests/support/learner.hpp"
 #include "tests/support/small_scenes.hpp"
 

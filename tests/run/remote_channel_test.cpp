@@ -1,4 +1,4 @@
-#include "core/schedule/remote_channels.hpp"
+#include "core/run/schedule/remote_channels.hpp"
 
 #include <gtest/gtest.h>
 

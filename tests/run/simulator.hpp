@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/runtime/master_renderer.hpp"
+#include "core/run/runtime/master_renderer.hpp"
 
 namespace lightnet::test {
 

@@ -1,5 +1,5 @@
 // Thousands of invented runs: whatever workers and network do, every tile comes once, and the run ends.
-#include "tests/runtime/simulator.hpp"
+#include "tests/run/simulator.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/math/samples.hpp"
-#include "core/math/sampling.hpp"
-#include "core/scene/bare_lights.hpp"
+#include "core/base/math/samples.hpp"
+#include "core/base/math/sampling.hpp"
 #include "core/scene/direct_light.hpp"
-#include "core/scene/light_tree.hpp"
+#include "core/scene/lamps/bare_lights.hpp"
+#include "core/scene/lamps/light_tree.hpp"
 #include "core/scene/scene.hpp"
 #include "tests/support/both_ways.hpp"
 #include "tests/support/small_scenes.hpp"

@@ -6,9 +6,9 @@
 #include <cstring>
 #include <vector>
 
-#include "core/math/samples.hpp"
-#include "core/math/sampling.hpp"
-#include "core/scene/ray.hpp"
+#include "core/base/math/samples.hpp"
+#include "core/base/math/sampling.hpp"
+#include "core/scene/surfaces/ray.hpp"
 
 namespace lightnet {
 namespace {

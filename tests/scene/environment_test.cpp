@@ -5,12 +5,12 @@
 #include <functional>
 #include <numbers>
 
-#include "core/math/samples.hpp"
-#include "core/math/sampling.hpp"
+#include "core/base/math/samples.hpp"
+#include "core/base/math/sampling.hpp"
 #include "core/scene/direct_light.hpp"
-#include "core/scene/environment.hpp"
+#include "core/scene/lamps/environment.hpp"
+#include "core/scene/lamps/sky_layout.hpp"
 #include "core/scene/scene.hpp"
-#include "core/scene/sky_layout.hpp"
 #include "tests/support/both_ways.hpp"
 #include "tests/support/small_scenes.hpp"
 

@@ -1,11 +1,11 @@
 // What makes another scene of a scene: everything that light meets, and nothing else.
-#include "core/scene/identity.hpp"
+#include "core/scene/data/identity.hpp"
 
 #include <gtest/gtest.h>
 
 #include <map>
 
-#include "core/scene/members.hpp"
+#include "core/scene/data/members.hpp"
 
 namespace lightnet {
 namespace {

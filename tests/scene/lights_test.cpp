@@ -3,8 +3,8 @@
 #include <array>
 #include <map>
 
-#include "core/math/samples.hpp"
-#include "core/math/sampling.hpp"
+#include "core/base/math/samples.hpp"
+#include "core/base/math/sampling.hpp"
 #include "core/scene/direct_light.hpp"
 #include "core/scene/scene.hpp"
 #include "tests/support/small_scenes.hpp"

@@ -1,13 +1,13 @@
 // From materials as data to scattering at a point.
-#include "core/scene/materials.hpp"
+#include "core/scene/surfaces/materials.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/math/samples.hpp"
-#include "core/math/sampling.hpp"
+#include "core/base/math/samples.hpp"
+#include "core/base/math/sampling.hpp"
 #include "core/scene/scene.hpp"
-#include "core/scene/shading.hpp"
+#include "core/scene/surfaces/shading.hpp"
 #include "tests/support/small_scenes.hpp"
 
 namespace lightnet {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "core/math/samples.hpp"
-#include "core/math/sampling.hpp"
+#include "core/base/math/samples.hpp"
+#include "core/base/math/sampling.hpp"
 #include "core/scene/scene.hpp"
 #include "tests/support/small_scenes.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/scene/textures.hpp"
+#include "core/scene/surfaces/textures.hpp"
 
 #include <gtest/gtest.h>
 

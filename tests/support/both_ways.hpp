@@ -1,7 +1,7 @@
 // One sample of direct light, for tests.
 #pragma once
 
-#include "core/math/samples.hpp"
+#include "core/base/math/samples.hpp"
 #include "core/scene/direct_light.hpp"
 
 namespace lightnet::test {

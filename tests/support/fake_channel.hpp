@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/message/channel.hpp"
+#include "core/run/message/channel.hpp"
 
 namespace lightnet::test {
 

@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "core/graph/kind.hpp"
-#include "core/light/light_op.hpp"
-#include "core/light/node_context.hpp"
-#include "core/light/rehearsal.hpp"
-#include "core/light/services.hpp"
+#include "core/network/graph/kind.hpp"
+#include "core/network/light/light_op.hpp"
+#include "core/network/light/node_context.hpp"
+#include "core/network/light/rehearsal.hpp"
+#include "core/network/light/services.hpp"
 #include "nodes/standard_nodes.hpp"
 
 namespace lightnet::test {

@@ -4,8 +4,8 @@
 #include <functional>
 #include <string>
 
-#include "core/error.hpp"
-#include "core/graph/check.hpp"
+#include "core/base/error.hpp"
+#include "core/network/graph/check.hpp"
 #include "lua/load_graph.hpp"
 #include "tests/support/fake_registry.hpp"
 

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "core/film/tile.hpp"
-#include "core/graph/kind.hpp"
-#include "core/light/light_op.hpp"
-#include "core/light/node_context.hpp"
-#include "core/light/renderer.hpp"
+#include "core/network/graph/kind.hpp"
+#include "core/network/light/light_op.hpp"
+#include "core/network/light/node_context.hpp"
+#include "core/network/light/renderer.hpp"
 #include "core/scene/scene.hpp"
 #include "nodes/standard_nodes.hpp"
 

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "core/film/tile.hpp"
-#include "core/graph/check.hpp"
-#include "core/graph/graph_film.hpp"
-#include "core/runtime/serial.hpp"
+#include "core/network/graph/check.hpp"
+#include "core/network/graph/graph_film.hpp"
+#include "core/run/runtime/serial.hpp"
 #include "core/scene/scene.hpp"
 #include "nodes/standard_nodes.hpp"
 

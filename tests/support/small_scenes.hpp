@@ -6,7 +6,7 @@
 #include <utility>
 #include <variant>
 
-#include "core/scene/scene_data.hpp"
+#include "core/scene/data/scene_data.hpp"
 
 namespace lightnet::test {
 

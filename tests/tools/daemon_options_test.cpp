@@ -41,8 +41,8 @@ TEST(DaemonOptions, AreUsualWhereNothingIsSaid) {
 
 TEST(DaemonOptions, AreTaken) {
     const auto options = daemon_options_of({"--join", "tcp://onyx1:7000", "--name", "a", "--places", "3", "--drain",
-                                            "5", "--leave-after", "9", "--single", "one", "--quiet", "--insecure", "--pass",
-                                            "its.pass", "--cache-size", "500M"});
+                                            "5", "--leave-after", "9", "--single", "one", "--quiet", "--insecure",
+                                            "--pass", "its.pass", "--cache-size", "500M"});
     EXPECT_EQ(options.host.join, "tcp://onyx1:7000");
     EXPECT_EQ(options.host.listen, "") << "who dials out lets nobody in";
     EXPECT_EQ(options.host.name, "a");

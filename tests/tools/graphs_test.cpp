@@ -4,9 +4,9 @@
 
 #include <filesystem>
 
-#include "core/graph/check.hpp"
-#include "core/graph/layout.hpp"
-#include "core/graph/plan.hpp"
+#include "core/network/graph/check.hpp"
+#include "core/network/graph/layout.hpp"
+#include "core/network/graph/plan.hpp"
 #include "lua/load_graph.hpp"
 #include "nodes/standard_nodes.hpp"
 

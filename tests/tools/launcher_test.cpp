@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "core/film/exr.hpp"
-#include "core/graph/graph_film.hpp"
+#include "core/network/graph/graph_film.hpp"
 #include "tests/support/fake_registry.hpp"
 #include "tests/support/folder.hpp"
 

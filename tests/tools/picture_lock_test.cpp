@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "tests/support/folder.hpp"
 
 namespace lightnet {

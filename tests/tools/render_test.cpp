@@ -6,9 +6,9 @@
 
 #include <sstream>
 
-#include "core/graph/graph_film.hpp"
-#include "core/graph/plan.hpp"
-#include "core/prepare/load_scene.hpp"
+#include "core/network/graph/graph_film.hpp"
+#include "core/network/graph/plan.hpp"
+#include "core/run/prepare/load_scene.hpp"
 #include "nodes/standard_nodes.hpp"
 #include "tests/support/folder.hpp"
 #include "tools/launcher.hpp"

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <optional>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "tests/support/folder.hpp"
 
 namespace lightnet {

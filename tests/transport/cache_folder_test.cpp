@@ -11,7 +11,7 @@
 #include <fstream>
 #include <optional>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "tests/support/folder.hpp"
 #include "transport/blob_cache.hpp"
 

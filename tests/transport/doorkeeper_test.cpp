@@ -11,7 +11,7 @@
 #include <vector>
 #include <zmq.hpp>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "tests/support/slowdown.hpp"
 #include "transport/descriptors.hpp"
 

@@ -7,7 +7,7 @@
 #include <vector>
 #include <zmq.hpp>
 
-#include "tests/network/stranger.hpp"
+#include "tests/modes/stranger.hpp"
 #include "transport/cluster.hpp"
 #include "transport/joiners.hpp"
 

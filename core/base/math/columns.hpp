@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <new>
 
-#include "core/math/vec.hpp"
+#include "core/base/math/vec.hpp"
 
 namespace lightnet {
 

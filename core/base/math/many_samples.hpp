@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/math/samples.hpp"
+#include "core/base/math/samples.hpp"
 
 namespace lightnet {
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/math/vec.hpp"
+#include "core/base/math/vec.hpp"
 
 namespace lightnet {
 

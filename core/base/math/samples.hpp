@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <span>
 
-#include "core/math/random.hpp"
-#include "core/math/sobol.hpp"
+#include "core/base/math/random.hpp"
+#include "core/base/math/sobol.hpp"
 
 namespace lightnet {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/math/vec.hpp"
+#include "core/base/math/vec.hpp"
 
 namespace lightnet {
 

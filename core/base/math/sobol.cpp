@@ -1,4 +1,4 @@
-#include "core/math/sobol.hpp"
+#include "core/base/math/sobol.hpp"
 
 #include <algorithm>
 #include <array>

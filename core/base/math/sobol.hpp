@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <span>
 
-#include "core/math/random.hpp"
-#include "core/math/vec.hpp"
+#include "core/base/math/random.hpp"
+#include "core/base/math/vec.hpp"
 
 namespace lightnet {
 

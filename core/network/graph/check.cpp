@@ -1,4 +1,4 @@
-#include "core/graph/check.hpp"
+#include "core/network/graph/check.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -7,11 +7,11 @@
 #include <optional>
 #include <tuple>
 
-#include "core/graph/check_hosts.hpp"
-#include "core/graph/check_params.hpp"
-#include "core/graph/layout.hpp"
-#include "core/graph/light_paths.hpp"
-#include "core/problem_list.hpp"
+#include "core/base/problem_list.hpp"
+#include "core/network/graph/check_hosts.hpp"
+#include "core/network/graph/check_params.hpp"
+#include "core/network/graph/layout.hpp"
+#include "core/network/graph/light_paths.hpp"
 
 namespace lightnet {
 namespace {

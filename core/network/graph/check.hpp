@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/graph/graph.hpp"
-#include "core/graph/hosts.hpp"
-#include "core/graph/kind.hpp"
+#include "core/base/error.hpp"
+#include "core/network/graph/graph.hpp"
+#include "core/network/graph/hosts.hpp"
+#include "core/network/graph/kind.hpp"
 
 namespace lightnet {
 

@@ -1,13 +1,13 @@
-#include "core/graph/check_hosts.hpp"
+#include "core/network/graph/check_hosts.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <numeric>
 #include <set>
 
-#include "core/graph/check_params.hpp"
-#include "core/graph/layout.hpp"
-#include "core/graph/strategy.hpp"
+#include "core/network/graph/check_params.hpp"
+#include "core/network/graph/layout.hpp"
+#include "core/network/graph/strategy.hpp"
 
 namespace lightnet {
 namespace {

@@ -1,11 +1,11 @@
-#include "core/graph/check_params.hpp"
+#include "core/network/graph/check_params.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "core/graph/graph_film.hpp"
-#include "core/suggestion.hpp"
+#include "core/base/suggestion.hpp"
+#include "core/network/graph/graph_film.hpp"
 
 namespace lightnet {
 namespace {

@@ -1,6 +1,6 @@
-#include "core/graph/describe.hpp"
+#include "core/network/graph/describe.hpp"
 
-#include "core/graph/light_paths.hpp"
+#include "core/network/graph/light_paths.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/graph/kind.hpp"
+#include "core/network/graph/kind.hpp"
 
 namespace lightnet {
 

@@ -1,7 +1,7 @@
-#include "core/graph/dot.hpp"
+#include "core/network/graph/dot.hpp"
 
-#include "core/graph/layout.hpp"
-#include "core/graph/light_paths.hpp"
+#include "core/network/graph/layout.hpp"
+#include "core/network/graph/light_paths.hpp"
 
 #include <algorithm>
 #include <string_view>

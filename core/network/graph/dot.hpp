@@ -4,9 +4,9 @@
 #include <map>
 #include <string>
 
-#include "core/graph/graph.hpp"
-#include "core/graph/kind.hpp"
-#include "core/graph/plan.hpp"
+#include "core/network/graph/graph.hpp"
+#include "core/network/graph/kind.hpp"
+#include "core/network/graph/plan.hpp"
 
 namespace lightnet {
 

@@ -2,11 +2,11 @@
 #include <charconv>
 #include <limits>
 
-#include "core/graph/graph.hpp"
-#include "core/graph/hosts.hpp"
-#include "core/graph/json.hpp"
-#include "core/graph/layout.hpp"
-#include "core/graph/plan.hpp"
+#include "core/network/graph/graph.hpp"
+#include "core/network/graph/hosts.hpp"
+#include "core/network/graph/json.hpp"
+#include "core/network/graph/layout.hpp"
+#include "core/network/graph/plan.hpp"
 
 namespace lightnet {
 namespace {

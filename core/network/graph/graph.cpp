@@ -1,4 +1,4 @@
-#include "core/graph/graph.hpp"
+#include "core/network/graph/graph.hpp"
 
 #include <algorithm>
 #include <functional>

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/graph/value.hpp"
+#include "core/base/error.hpp"
+#include "core/network/graph/value.hpp"
 
 namespace lightnet {
 

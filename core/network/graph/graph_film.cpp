@@ -1,9 +1,9 @@
-#include "core/graph/graph_film.hpp"
+#include "core/network/graph/graph_film.hpp"
 
 #include <algorithm>
 #include <filesystem>
 
-#include "core/graph/plan.hpp"
+#include "core/network/graph/plan.hpp"
 
 namespace lightnet {
 namespace {

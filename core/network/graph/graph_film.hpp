@@ -7,8 +7,8 @@
 #include <string>
 
 #include "core/film/window.hpp"
-#include "core/graph/graph.hpp"
-#include "core/graph/kind.hpp"
+#include "core/network/graph/graph.hpp"
+#include "core/network/graph/kind.hpp"
 
 namespace lightnet {
 

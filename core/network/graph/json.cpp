@@ -1,13 +1,13 @@
-#include "core/graph/json.hpp"
+#include "core/network/graph/json.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include <cmath>
 
-#include "core/graph/graph.hpp"
-#include "core/graph/hosts.hpp"
-#include "core/graph/layout.hpp"
-#include "core/graph/plan.hpp"
+#include "core/network/graph/graph.hpp"
+#include "core/network/graph/hosts.hpp"
+#include "core/network/graph/layout.hpp"
+#include "core/network/graph/plan.hpp"
 
 // How values become texts. from_json.cpp reads them.
 namespace lightnet {

@@ -1,10 +1,10 @@
-#include "core/graph/kind.hpp"
+#include "core/network/graph/kind.hpp"
 
 #include <algorithm>
 #include <cassert>
 
-#include "core/light/light_op.hpp"
-#include "core/light/renderer.hpp"
+#include "core/network/light/light_op.hpp"
+#include "core/network/light/renderer.hpp"
 
 namespace lightnet {
 namespace {

@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/graph/value.hpp"
-#include "core/math/vec.hpp"
+#include "core/base/math/vec.hpp"
+#include "core/network/graph/value.hpp"
 
 namespace lightnet {
 

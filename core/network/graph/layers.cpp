@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "core/graph/plan.hpp"
+#include "core/network/graph/plan.hpp"
 
 namespace lightnet {
 

@@ -1,10 +1,10 @@
-#include "core/graph/layout.hpp"
+#include "core/network/graph/layout.hpp"
 
 #include <algorithm>
 #include <numeric>
 
-#include "core/error.hpp"
-#include "core/graph/plan.hpp"
+#include "core/base/error.hpp"
+#include "core/network/graph/plan.hpp"
 
 namespace lightnet {
 namespace {

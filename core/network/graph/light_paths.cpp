@@ -1,10 +1,10 @@
-#include "core/graph/light_paths.hpp"
+#include "core/network/graph/light_paths.hpp"
 
 #include <algorithm>
 #include <map>
 #include <optional>
 
-#include "core/graph/plan.hpp"
+#include "core/network/graph/plan.hpp"
 
 namespace lightnet {
 namespace {

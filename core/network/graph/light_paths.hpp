@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "core/graph/graph.hpp"
-#include "core/graph/kind.hpp"
-#include "core/graph/path_set.hpp"
+#include "core/network/graph/graph.hpp"
+#include "core/network/graph/kind.hpp"
+#include "core/network/graph/path_set.hpp"
 
 namespace lightnet {
 

@@ -1,11 +1,11 @@
-#include "core/graph/path_set.hpp"
+#include "core/network/graph/path_set.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <deque>
 #include <set>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace lightnet {
 namespace {

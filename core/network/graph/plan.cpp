@@ -1,10 +1,10 @@
-#include "core/graph/plan.hpp"
+#include "core/network/graph/plan.hpp"
 
 #include <algorithm>
 #include <numeric>
 #include <set>
 
-#include "core/graph/layout.hpp"
+#include "core/network/graph/layout.hpp"
 
 namespace lightnet {
 namespace {

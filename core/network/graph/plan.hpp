@@ -8,10 +8,10 @@
 #include <string_view>
 #include <vector>
 
-#include "core/graph/graph.hpp"
-#include "core/graph/hosts.hpp"
-#include "core/graph/kind.hpp"
-#include "core/graph/strategy.hpp"
+#include "core/network/graph/graph.hpp"
+#include "core/network/graph/hosts.hpp"
+#include "core/network/graph/kind.hpp"
+#include "core/network/graph/strategy.hpp"
 
 namespace lightnet {
 

@@ -1,4 +1,4 @@
-#include "core/graph/value.hpp"
+#include "core/network/graph/value.hpp"
 
 #include <array>
 #include <charconv>

@@ -5,7 +5,7 @@
 #include <typeinfo>
 #include <utility>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace lightnet {
 

@@ -1,4 +1,4 @@
-#include "core/light/inputs.hpp"
+#include "core/network/light/inputs.hpp"
 
 #include <cassert>
 #include <utility>

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/light/port.hpp"
+#include "core/network/light/port.hpp"
 
 namespace lightnet {
 

@@ -3,9 +3,9 @@
 
 #include <span>
 
-#include "core/light/frozen.hpp"
-#include "core/light/query.hpp"
-#include "core/math/rgb.hpp"
+#include "core/base/math/rgb.hpp"
+#include "core/base/query.hpp"
+#include "core/network/light/frozen.hpp"
 
 namespace lightnet {
 

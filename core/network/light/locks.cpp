@@ -1,6 +1,6 @@
-#include "core/light/locks.hpp"
+#include "core/network/light/locks.hpp"
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace lightnet {
 

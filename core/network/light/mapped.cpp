@@ -1,10 +1,10 @@
-#include "core/light/mapped.hpp"
+#include "core/network/light/mapped.hpp"
 
 #include <algorithm>
 #include <cstring>
 #include <utility>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace lightnet {
 namespace {

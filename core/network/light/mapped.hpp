@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "core/bytes.hpp"
+#include "core/base/bytes.hpp"
 
 namespace lightnet {
 

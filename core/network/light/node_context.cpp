@@ -1,8 +1,8 @@
-#include "core/light/node_context.hpp"
+#include "core/network/light/node_context.hpp"
 
-#include "core/error.hpp"
-#include "core/light/locks.hpp"
-#include "core/light/rehearsal.hpp"
+#include "core/base/error.hpp"
+#include "core/network/light/locks.hpp"
+#include "core/network/light/rehearsal.hpp"
 
 #include <cmath>
 

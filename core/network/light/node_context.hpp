@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/graph/graph.hpp"
-#include "core/light/inputs.hpp"
-#include "core/light/side_by_side.hpp"
-#include "core/math/random.hpp"
+#include "core/base/math/random.hpp"
+#include "core/network/graph/graph.hpp"
+#include "core/network/light/inputs.hpp"
+#include "core/network/light/side_by_side.hpp"
 
 namespace lightnet {
 

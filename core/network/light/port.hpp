@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <span>
 
-#include "core/light/query.hpp"
-#include "core/math/rgb.hpp"
+#include "core/base/math/rgb.hpp"
+#include "core/base/query.hpp"
 
 namespace lightnet {
 

@@ -1,4 +1,4 @@
-#include "core/light/rehearsal.hpp"
+#include "core/network/light/rehearsal.hpp"
 
 #include <algorithm>
 #include <bit>

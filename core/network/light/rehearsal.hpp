@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/light/query.hpp"
+#include "core/base/query.hpp"
 
 namespace lightnet {
 

@@ -1,4 +1,4 @@
-#include "core/light/renderer.hpp"
+#include "core/network/light/renderer.hpp"
 
 #include <algorithm>
 #include <functional>

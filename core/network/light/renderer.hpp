@@ -3,8 +3,8 @@
 
 #include <span>
 
+#include "core/base/math/rgb.hpp"
 #include "core/film/tile.hpp"
-#include "core/math/rgb.hpp"
 
 namespace lightnet {
 

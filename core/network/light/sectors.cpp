@@ -1,4 +1,4 @@
-#include "core/light/sectors.hpp"
+#include "core/network/light/sectors.hpp"
 
 #include <algorithm>
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/math/vec.hpp"
+#include "core/base/math/vec.hpp"
 
 namespace lightnet {
 

@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/light/mapped.hpp"
-#include "core/light/query.hpp"
-#include "core/light/sectors.hpp"
+#include "core/base/query.hpp"
+#include "core/network/light/mapped.hpp"
+#include "core/network/light/sectors.hpp"
 
 namespace lightnet {
 

@@ -1,4 +1,4 @@
-#include "core/light/wrap.hpp"
+#include "core/network/light/wrap.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -6,11 +6,11 @@
 #include <functional>
 #include <span>
 
-#include "core/error.hpp"
-#include "core/fiber/fiber.hpp"
-#include "core/light/light_op.hpp"
-#include "core/light/renderer.hpp"
-#include "core/math/samples.hpp"
+#include "core/base/error.hpp"
+#include "core/base/math/samples.hpp"
+#include "core/network/light/cancelled.hpp"
+#include "core/network/light/light_op.hpp"
+#include "core/network/light/renderer.hpp"
 
 namespace lightnet {
 namespace {

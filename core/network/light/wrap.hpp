@@ -11,12 +11,12 @@
 #include <utility>
 #include <vector>
 
-#include "core/graph/kind.hpp"
-#include "core/light/inputs.hpp"
-#include "core/light/node_context.hpp"
-#include "core/light/query.hpp"
-#include "core/math/random.hpp"
-#include "core/math/rgb.hpp"
+#include "core/base/math/random.hpp"
+#include "core/base/math/rgb.hpp"
+#include "core/base/query.hpp"
+#include "core/network/graph/kind.hpp"
+#include "core/network/light/inputs.hpp"
+#include "core/network/light/node_context.hpp"
 
 namespace lightnet {
 

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/json.hpp"
+#include "core/base/json.hpp"
 #include "core/readers/report.hpp"
 
 namespace lightnet::gltf {

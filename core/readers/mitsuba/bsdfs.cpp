@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/suggestion.hpp"
 #include "core/readers/mitsuba/colours.hpp"
-#include "core/suggestion.hpp"
 
 namespace lightnet::mitsuba {
 namespace {

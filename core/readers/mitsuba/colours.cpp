@@ -8,8 +8,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "core/base/suggestion.hpp"
 #include "core/readers/spectra.hpp"
-#include "core/suggestion.hpp"
 
 namespace lightnet::mitsuba {
 namespace {

@@ -9,7 +9,7 @@
 #include <pugixml.hpp>
 #include <set>
 
-#include "core/suggestion.hpp"
+#include "core/base/suggestion.hpp"
 
 namespace lightnet::mitsuba {
 namespace {

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/suggestion.hpp"
 #include "core/readers/mitsuba/colours.hpp"
 #include "core/readers/mitsuba/sky.hpp"
 #include "core/readers/mitsuba/transforms.hpp"
-#include "core/suggestion.hpp"
 
 namespace lightnet::mitsuba {
 namespace {

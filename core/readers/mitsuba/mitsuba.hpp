@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/readers/files.hpp"
-#include "core/scene/scene_data.hpp"
+#include "core/scene/data/scene_data.hpp"
 
 namespace lightnet::mitsuba {
 

@@ -2,7 +2,7 @@
 // upwards.
 #pragma once
 
-#include "core/scene/scene_data.hpp"
+#include "core/scene/data/scene_data.hpp"
 
 namespace lightnet::mitsuba {
 

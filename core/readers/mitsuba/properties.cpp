@@ -6,7 +6,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "core/suggestion.hpp"
+#include "core/base/suggestion.hpp"
 
 namespace lightnet::mitsuba {
 namespace {

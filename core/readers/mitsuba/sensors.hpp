@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/readers/mitsuba/properties.hpp"
-#include "core/scene/scene_data.hpp"
+#include "core/scene/data/scene_data.hpp"
 
 namespace lightnet::mitsuba {
 

@@ -11,7 +11,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace lightnet::mitsuba {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <span>
 
-#include "core/scene/scene_data.hpp"
+#include "core/scene/data/scene_data.hpp"
 
 namespace lightnet::mitsuba {
 

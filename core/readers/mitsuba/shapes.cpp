@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/suggestion.hpp"
 #include "core/readers/files.hpp"
 #include "core/readers/mesh_tools.hpp"
 #include "core/readers/mitsuba/colours.hpp"
@@ -13,7 +14,6 @@
 #include "core/readers/mitsuba/transforms.hpp"
 #include "core/readers/obj/model.hpp"
 #include "core/readers/ply.hpp"
-#include "core/suggestion.hpp"
 
 namespace lightnet::mitsuba {
 namespace {

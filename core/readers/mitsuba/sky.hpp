@@ -1,7 +1,7 @@
 // A clear sky in daytime, and its sun.
 #pragma once
 
-#include "core/scene/scene_data.hpp"
+#include "core/scene/data/scene_data.hpp"
 
 namespace lightnet::mitsuba {
 

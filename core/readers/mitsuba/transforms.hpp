@@ -1,7 +1,7 @@
 // Mitsuba's <transform>.
 #pragma once
 
-#include "core/math/transform.hpp"
+#include "core/base/math/transform.hpp"
 #include "core/readers/mitsuba/properties.hpp"
 
 namespace lightnet::mitsuba {

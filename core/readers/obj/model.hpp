@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/readers/report.hpp"
-#include "core/scene/scene_data.hpp"
+#include "core/scene/data/scene_data.hpp"
 
 namespace lightnet::obj {
 

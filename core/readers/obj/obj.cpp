@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
+#include "core/base/suggestion.hpp"
 #include "core/readers/assets.hpp"
 #include "core/readers/mesh_tools.hpp"
 #include "core/readers/obj/materials.hpp"
 #include "core/readers/obj/model.hpp"
-#include "core/suggestion.hpp"
 
 namespace lightnet::obj {
 namespace {

@@ -6,8 +6,8 @@
 #include <span>
 #include <utility>
 
+#include "core/base/suggestion.hpp"
 #include "core/readers/pbrt/transforms.hpp"
-#include "core/suggestion.hpp"
 
 namespace lightnet::pbrt {
 namespace {

@@ -18,7 +18,7 @@
 #include "core/readers/pbrt/syntax.hpp"
 #include "core/readers/pbrt/textures.hpp"
 #include "core/readers/workshop.hpp"
-#include "core/scene/scene_data.hpp"
+#include "core/scene/data/scene_data.hpp"
 
 namespace lightnet::pbrt {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/base/suggestion.hpp"
 #include "core/readers/pbrt/builder.hpp"
-#include "core/suggestion.hpp"
 
 namespace lightnet::pbrt {
 namespace {

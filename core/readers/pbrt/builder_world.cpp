@@ -3,11 +3,11 @@
 
 #include <utility>
 
+#include "core/base/suggestion.hpp"
 #include "core/readers/files.hpp"
 #include "core/readers/pbrt/builder.hpp"
 #include "core/readers/pbrt/materials.hpp"
 #include "core/readers/pbrt/transforms.hpp"
-#include "core/suggestion.hpp"
 
 namespace lightnet::pbrt {
 

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <vector>
 
+#include "core/base/suggestion.hpp"
 #include "core/readers/pbrt/transforms.hpp"
 #include "core/readers/spectra.hpp"
-#include "core/suggestion.hpp"
 
 namespace lightnet::pbrt {
 namespace {

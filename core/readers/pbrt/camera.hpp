@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "core/math/transform.hpp"
+#include "core/base/math/transform.hpp"
 #include "core/readers/pbrt/parameters.hpp"
-#include "core/scene/scene_data.hpp"
+#include "core/scene/data/scene_data.hpp"
 
 namespace lightnet::pbrt {
 

@@ -7,9 +7,9 @@
 #include <numbers>
 #include <vector>
 
+#include "core/base/suggestion.hpp"
 #include "core/readers/pbrt/pictured_lights.hpp"
 #include "core/readers/pbrt/transforms.hpp"
-#include "core/suggestion.hpp"
 
 namespace lightnet::pbrt {
 namespace {

@@ -4,10 +4,10 @@
 #include <optional>
 #include <string>
 
-#include "core/math/transform.hpp"
+#include "core/base/math/transform.hpp"
 #include "core/readers/pbrt/parameters.hpp"
 #include "core/readers/pbrt/textures.hpp"
-#include "core/scene/scene_data.hpp"
+#include "core/scene/data/scene_data.hpp"
 
 namespace lightnet::pbrt {
 

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/suggestion.hpp"
 #include "core/readers/spectra.hpp"
-#include "core/suggestion.hpp"
 
 namespace lightnet::pbrt {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "core/readers/pbrt/parameters.hpp"
 #include "core/readers/pbrt/shapes.hpp"
-#include "core/scene/scene_data.hpp"
+#include "core/scene/data/scene_data.hpp"
 
 namespace lightnet::pbrt {
 

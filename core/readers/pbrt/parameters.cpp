@@ -6,7 +6,7 @@
 #include <array>
 #include <utility>
 
-#include "core/suggestion.hpp"
+#include "core/base/suggestion.hpp"
 
 namespace lightnet::pbrt {
 namespace {

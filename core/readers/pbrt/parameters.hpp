@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/math/vec.hpp"
+#include "core/base/error.hpp"
+#include "core/base/math/vec.hpp"
 #include "core/readers/pbrt/colour_space.hpp"
 #include "core/readers/report.hpp"
 

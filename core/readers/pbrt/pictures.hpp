@@ -12,7 +12,7 @@
 #include "core/readers/image_file.hpp"
 #include "core/readers/pbrt/sources.hpp"
 #include "core/readers/workshop.hpp"
-#include "core/scene/scene_data.hpp"
+#include "core/scene/data/scene_data.hpp"
 
 namespace lightnet::pbrt {
 

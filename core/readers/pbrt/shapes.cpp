@@ -9,12 +9,12 @@
 #include <numbers>
 #include <utility>
 
+#include "core/base/suggestion.hpp"
 #include "core/readers/gzip.hpp"
 #include "core/readers/pbrt/meshes.hpp"
 #include "core/readers/pbrt/quadrics.hpp"
 #include "core/readers/pbrt/transforms.hpp"
 #include "core/readers/ply.hpp"
-#include "core/suggestion.hpp"
 
 namespace lightnet::pbrt {
 namespace {

@@ -8,11 +8,11 @@
 #include <string>
 #include <variant>
 
-#include "core/math/transform.hpp"
+#include "core/base/math/transform.hpp"
 #include "core/readers/pbrt/parameters.hpp"
 #include "core/readers/pbrt/sources.hpp"
 #include "core/readers/workshop.hpp"
-#include "core/scene/scene_data.hpp"
+#include "core/scene/data/scene_data.hpp"
 
 namespace lightnet::pbrt {
 

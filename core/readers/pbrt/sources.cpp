@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/suggestion.hpp"
 #include "core/readers/spectra.hpp"
-#include "core/suggestion.hpp"
 
 namespace lightnet::pbrt {
 namespace {

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "core/error.hpp"
-#include "core/math/rgb.hpp"
+#include "core/base/error.hpp"
+#include "core/base/math/rgb.hpp"
 #include "core/readers/files.hpp"
 #include "core/readers/pbrt/parameters.hpp"
 #include "core/readers/report.hpp"

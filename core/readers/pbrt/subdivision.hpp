@@ -1,7 +1,7 @@
 // Surfaces by subdivision.
 #pragma once
 
-#include "core/scene/scene_data.hpp"
+#include "core/scene/data/scene_data.hpp"
 
 namespace lightnet::pbrt {
 

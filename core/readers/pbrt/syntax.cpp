@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "core/suggestion.hpp"
+#include "core/base/suggestion.hpp"
 
 namespace lightnet::pbrt {
 namespace {

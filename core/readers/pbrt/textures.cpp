@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/suggestion.hpp"
+#include "core/base/suggestion.hpp"
 
 namespace lightnet::pbrt {
 namespace {

@@ -10,7 +10,7 @@
 #include "core/readers/pbrt/parameters.hpp"
 #include "core/readers/pbrt/pictures.hpp"
 #include "core/readers/pbrt/sources.hpp"
-#include "core/scene/scene_data.hpp"
+#include "core/scene/data/scene_data.hpp"
 
 namespace lightnet::pbrt {
 

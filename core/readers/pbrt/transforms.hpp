@@ -4,8 +4,8 @@
 #include <optional>
 #include <span>
 
-#include "core/math/transform.hpp"
-#include "core/math/vec.hpp"
+#include "core/base/math/transform.hpp"
+#include "core/base/math/vec.hpp"
 
 namespace lightnet::pbrt {
 

@@ -1,4 +1,4 @@
-#include "core/fiber/fiber.hpp"
+#include "core/run/fiber/fiber.hpp"
 
 #include <boost/context/fiber.hpp>
 #include <boost/context/preallocated.hpp>
@@ -8,7 +8,7 @@
 #include <cassert>
 #include <utility>
 
-#include "core/fiber/fiber_stack.hpp"
+#include "core/run/fiber/fiber_stack.hpp"
 
 #if defined(__SANITIZE_ADDRESS__)
 #include <sanitizer/common_interface_defs.h>

@@ -8,10 +8,9 @@
 #include <memory>
 #include <vector>
 
-namespace lightnet {
+#include "core/network/light/cancelled.hpp"
 
-/// Thrown out of a wait when the work is no longer wanted. Nothing but the fiber's own end should catch it.
-struct Cancelled {};
+namespace lightnet {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr std::size_t usual_stack_size = 1024 * 1024;  // what a sanitizer puts around each variable takes room

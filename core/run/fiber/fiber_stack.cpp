@@ -1,4 +1,4 @@
-#include "core/fiber/fiber_stack.hpp"
+#include "core/run/fiber/fiber_stack.hpp"
 
 #include <atomic>
 #include <csignal>

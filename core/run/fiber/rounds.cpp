@@ -1,4 +1,4 @@
-#include "core/fiber/rounds.hpp"
+#include "core/run/fiber/rounds.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -7,8 +7,8 @@
 #include <memory>
 #include <vector>
 
-#include "core/fiber/fiber.hpp"
-#include "core/light/side_by_side.hpp"
+#include "core/network/light/side_by_side.hpp"
+#include "core/run/fiber/fiber.hpp"
 
 namespace lightnet {
 

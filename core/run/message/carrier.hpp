@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "core/message/counters.hpp"
-#include "core/message/message.hpp"
+#include "core/run/message/counters.hpp"
+#include "core/run/message/message.hpp"
 
 namespace lightnet {
 

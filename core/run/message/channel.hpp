@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/message/credit.hpp"
-#include "core/message/message.hpp"
+#include "core/run/message/credit.hpp"
+#include "core/run/message/message.hpp"
 
 namespace lightnet {
 

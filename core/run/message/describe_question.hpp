@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "core/base/query.hpp"
 #include "core/film/tile.hpp"
-#include "core/light/query.hpp"
 
 namespace lightnet {
 

@@ -9,12 +9,12 @@
 #include <variant>
 #include <vector>
 
-#include "core/bytes.hpp"
+#include "core/base/bytes.hpp"
+#include "core/base/math/rgb.hpp"
+#include "core/base/query.hpp"
 #include "core/film/tile.hpp"
-#include "core/graph/plan.hpp"
-#include "core/light/query.hpp"
-#include "core/math/rgb.hpp"
-#include "core/message/step.hpp"
+#include "core/network/graph/plan.hpp"
+#include "core/run/message/step.hpp"
 
 namespace lightnet {
 

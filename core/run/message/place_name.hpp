@@ -1,8 +1,8 @@
 // A short name for a place, the same on every host.
 #pragma once
 
-#include "core/graph/plan.hpp"
-#include "core/math/random.hpp"
+#include "core/base/math/random.hpp"
+#include "core/network/graph/plan.hpp"
 
 namespace lightnet {
 

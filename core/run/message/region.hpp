@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
+#include "core/base/query.hpp"
 #include "core/film/tile.hpp"
-#include "core/light/query.hpp"
 
 namespace lightnet {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "core/hash.hpp"
+#include "core/base/hash.hpp"
 
 namespace lightnet {
 

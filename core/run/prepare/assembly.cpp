@@ -1,9 +1,9 @@
-#include "core/prepare/assembly.hpp"
+#include "core/run/prepare/assembly.hpp"
 
 #include <algorithm>
 
-#include "core/error.hpp"
-#include "core/light/node_context.hpp"
+#include "core/base/error.hpp"
+#include "core/network/light/node_context.hpp"
 
 namespace lightnet {
 namespace {

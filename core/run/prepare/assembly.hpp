@@ -7,19 +7,19 @@
 #include <memory>
 #include <vector>
 
-#include "core/graph/graph.hpp"
-#include "core/graph/kind.hpp"
-#include "core/graph/layout.hpp"
-#include "core/graph/plan.hpp"
-#include "core/light/inputs.hpp"
-#include "core/light/light_op.hpp"
-#include "core/light/locks.hpp"
-#include "core/light/node_context.hpp"
-#include "core/light/rehearsal.hpp"
-#include "core/light/renderer.hpp"
-#include "core/light/sectors.hpp"
-#include "core/prepare/call_port.hpp"
-#include "core/prepare/prepared.hpp"
+#include "core/network/graph/graph.hpp"
+#include "core/network/graph/kind.hpp"
+#include "core/network/graph/layout.hpp"
+#include "core/network/graph/plan.hpp"
+#include "core/network/light/inputs.hpp"
+#include "core/network/light/light_op.hpp"
+#include "core/network/light/locks.hpp"
+#include "core/network/light/node_context.hpp"
+#include "core/network/light/rehearsal.hpp"
+#include "core/network/light/renderer.hpp"
+#include "core/network/light/sectors.hpp"
+#include "core/run/prepare/call_port.hpp"
+#include "core/run/prepare/prepared.hpp"
 #include "core/scene/scene.hpp"
 
 namespace lightnet {

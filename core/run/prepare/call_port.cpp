@@ -1,12 +1,12 @@
-#include "core/prepare/call_port.hpp"
+#include "core/run/prepare/call_port.hpp"
 
 #include <xmmintrin.h>
 #include <algorithm>
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/message/describe_question.hpp"
+#include "core/base/error.hpp"
+#include "core/run/message/describe_question.hpp"
 
 namespace lightnet {
 namespace {

@@ -5,8 +5,8 @@
 #include <functional>
 #include <string>
 
-#include "core/light/light_op.hpp"
-#include "core/light/port.hpp"
+#include "core/network/light/light_op.hpp"
+#include "core/network/light/port.hpp"
 
 namespace lightnet {
 

@@ -1,10 +1,10 @@
-#include "core/prepare/calls.hpp"
+#include "core/run/prepare/calls.hpp"
 
 #include <algorithm>
 #include <utility>
 
-#include "core/error.hpp"
-#include "core/light/mapped.hpp"
+#include "core/base/error.hpp"
+#include "core/network/light/mapped.hpp"
 
 namespace lightnet {
 namespace {

@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/graph/layout.hpp"
-#include "core/light/mapped.hpp"
-#include "core/message/step.hpp"
-#include "core/prepare/prepared.hpp"
+#include "core/network/graph/layout.hpp"
+#include "core/network/light/mapped.hpp"
+#include "core/run/message/step.hpp"
+#include "core/run/prepare/prepared.hpp"
 
 namespace lightnet {
 

@@ -1,11 +1,11 @@
-#include "core/prepare/kept.hpp"
+#include "core/run/prepare/kept.hpp"
 
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "core/graph/graph_film.hpp"
-#include "core/prepare/prepared.hpp"
+#include "core/network/graph/graph_film.hpp"
+#include "core/run/prepare/prepared.hpp"
 
 namespace lightnet {
 namespace {

@@ -7,13 +7,13 @@
 #include <utility>
 #include <vector>
 
-#include "core/bytes.hpp"
-#include "core/graph/graph.hpp"
-#include "core/graph/kind.hpp"
-#include "core/hash.hpp"
+#include "core/base/bytes.hpp"
+#include "core/base/hash.hpp"
+#include "core/network/graph/graph.hpp"
+#include "core/network/graph/kind.hpp"
 #include "core/readers/files.hpp"
-#include "core/scene/identity.hpp"
-#include "core/scene/scene_data.hpp"
+#include "core/scene/data/identity.hpp"
+#include "core/scene/data/scene_data.hpp"
 
 namespace lightnet {
 

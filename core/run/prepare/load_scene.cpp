@@ -1,12 +1,12 @@
-#include "core/prepare/load_scene.hpp"
+#include "core/run/prepare/load_scene.hpp"
 
 #include <map>
 #include <optional>
 #include <vector>
 
-#include "core/graph/graph_film.hpp"
-#include "core/prepare/kept.hpp"
+#include "core/network/graph/graph_film.hpp"
 #include "core/readers/read_scene.hpp"
+#include "core/run/prepare/kept.hpp"
 
 namespace lightnet {
 namespace {

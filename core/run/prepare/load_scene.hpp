@@ -4,11 +4,11 @@
 #include <map>
 #include <string>
 
-#include "core/graph/graph.hpp"
-#include "core/graph/kind.hpp"
+#include "core/network/graph/graph.hpp"
+#include "core/network/graph/kind.hpp"
 #include "core/readers/files.hpp"
 #include "core/readers/overrides.hpp"
-#include "core/scene/scene_data.hpp"
+#include "core/scene/data/scene_data.hpp"
 
 namespace lightnet {
 

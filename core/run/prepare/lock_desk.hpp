@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/fiber/fiber.hpp"
-#include "core/hash.hpp"
-#include "core/light/locks.hpp"
-#include "core/message/message.hpp"
+#include "core/base/hash.hpp"
+#include "core/network/light/locks.hpp"
+#include "core/run/fiber/fiber.hpp"
+#include "core/run/message/message.hpp"
 
 namespace lightnet {
 

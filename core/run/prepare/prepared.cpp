@@ -1,11 +1,11 @@
-#include "core/prepare/prepared.hpp"
+#include "core/run/prepare/prepared.hpp"
 
 #include <algorithm>
 
-#include "core/error.hpp"
-#include "core/graph/graph_film.hpp"
-#include "core/graph/layout.hpp"
-#include "core/graph/plan.hpp"
+#include "core/base/error.hpp"
+#include "core/network/graph/graph_film.hpp"
+#include "core/network/graph/layout.hpp"
+#include "core/network/graph/plan.hpp"
 
 namespace lightnet {
 

@@ -12,11 +12,11 @@
 #include <utility>
 #include <vector>
 
-#include "core/bytes.hpp"
+#include "core/base/bytes.hpp"
+#include "core/base/hash.hpp"
 #include "core/film/tile.hpp"
-#include "core/graph/graph.hpp"
-#include "core/graph/kind.hpp"
-#include "core/hash.hpp"
+#include "core/network/graph/graph.hpp"
+#include "core/network/graph/kind.hpp"
 
 namespace lightnet {
 

@@ -1,4 +1,4 @@
-#include "core/prepare/preparer.hpp"
+#include "core/run/prepare/preparer.hpp"
 
 #include <chrono>
 #include <cstring>
@@ -6,9 +6,9 @@
 #include <span>
 #include <utility>
 
-#include "core/error.hpp"
-#include "core/light/rehearsal.hpp"
-#include "core/light/services.hpp"
+#include "core/base/error.hpp"
+#include "core/network/light/rehearsal.hpp"
+#include "core/network/light/services.hpp"
 
 namespace lightnet {
 namespace {

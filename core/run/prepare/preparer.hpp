@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "core/fiber/fiber.hpp"
-#include "core/message/message.hpp"
-#include "core/prepare/assembly.hpp"
+#include "core/run/fiber/fiber.hpp"
+#include "core/run/message/message.hpp"
+#include "core/run/prepare/assembly.hpp"
 
 namespace lightnet {
 

@@ -1,10 +1,10 @@
-#include "core/runtime/bundle_port.hpp"
+#include "core/run/runtime/bundle_port.hpp"
 
 #include <algorithm>
 #include <cassert>
 #include <utility>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace lightnet {
 namespace {

@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "core/fiber/fiber.hpp"
-#include "core/light/port.hpp"
-#include "core/message/channel.hpp"
-#include "core/schedule/multiplexer.hpp"
+#include "core/network/light/port.hpp"
+#include "core/run/fiber/fiber.hpp"
+#include "core/run/message/channel.hpp"
+#include "core/run/schedule/multiplexer.hpp"
 
 namespace lightnet {
 

@@ -1,11 +1,11 @@
-#include "core/runtime/conductor.hpp"
+#include "core/run/runtime/conductor.hpp"
 
 #include <algorithm>
 #include <cstring>
 #include <span>
 
-#include "core/error.hpp"
-#include "core/graph/layout.hpp"
+#include "core/base/error.hpp"
+#include "core/network/graph/layout.hpp"
 
 namespace lightnet {
 namespace {

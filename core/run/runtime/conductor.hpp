@@ -15,13 +15,13 @@
 #include <utility>
 #include <vector>
 
-#include "core/message/carrier.hpp"
-#include "core/prepare/calls.hpp"
-#include "core/prepare/lock_desk.hpp"
-#include "core/prepare/prepare_progress.hpp"
-#include "core/prepare/prepared.hpp"
-#include "core/runtime/epoch.hpp"
-#include "core/runtime/master_renderer.hpp"
+#include "core/run/message/carrier.hpp"
+#include "core/run/prepare/calls.hpp"
+#include "core/run/prepare/lock_desk.hpp"
+#include "core/run/prepare/prepare_progress.hpp"
+#include "core/run/prepare/prepared.hpp"
+#include "core/run/runtime/epoch.hpp"
+#include "core/run/runtime/master_renderer.hpp"
 
 namespace lightnet {
 

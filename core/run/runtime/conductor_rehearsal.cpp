@@ -3,9 +3,9 @@
 #include <cstring>
 #include <span>
 
-#include "core/light/mapped.hpp"
-#include "core/light/rehearsal.hpp"
-#include "core/runtime/conductor.hpp"
+#include "core/network/light/mapped.hpp"
+#include "core/network/light/rehearsal.hpp"
+#include "core/run/runtime/conductor.hpp"
 
 namespace lightnet {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace lightnet {
 

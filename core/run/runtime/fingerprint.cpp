@@ -1,13 +1,13 @@
-#include "core/runtime/fingerprint.hpp"
+#include "core/run/runtime/fingerprint.hpp"
 
 #include <bit>
 #include <cmath>
 #include <map>
 #include <mutex>
 
-#include "core/error.hpp"
-#include "core/math/random.hpp"
-#include "core/math/samples.hpp"
+#include "core/base/error.hpp"
+#include "core/base/math/random.hpp"
+#include "core/base/math/samples.hpp"
 #include "core/scene/scene.hpp"
 
 namespace lightnet {

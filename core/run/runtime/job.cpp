@@ -1,13 +1,13 @@
-#include "core/runtime/job.hpp"
+#include "core/run/runtime/job.hpp"
 
 #include <nlohmann/json.hpp>
 
-#include "core/build_info.hpp"
-#include "core/error.hpp"
-#include "core/graph/check.hpp"
-#include "core/graph/graph_film.hpp"
-#include "core/graph/json.hpp"
-#include "core/prepare/load_scene.hpp"
+#include "core/base/build_info.hpp"
+#include "core/base/error.hpp"
+#include "core/network/graph/check.hpp"
+#include "core/network/graph/graph_film.hpp"
+#include "core/network/graph/json.hpp"
+#include "core/run/prepare/load_scene.hpp"
 
 namespace lightnet {
 

@@ -9,12 +9,12 @@
 #include <string_view>
 #include <vector>
 
-#include "core/graph/graph.hpp"
-#include "core/hash.hpp"
-#include "core/prepare/assembly.hpp"
+#include "core/base/hash.hpp"
+#include "core/network/graph/graph.hpp"
 #include "core/readers/files.hpp"
-#include "core/runtime/place.hpp"
-#include "core/scene/scene_data.hpp"
+#include "core/run/prepare/assembly.hpp"
+#include "core/run/runtime/place.hpp"
+#include "core/scene/data/scene_data.hpp"
 
 namespace lightnet {
 

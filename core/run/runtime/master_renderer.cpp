@@ -1,8 +1,8 @@
-#include "core/runtime/master_renderer.hpp"
+#include "core/run/runtime/master_renderer.hpp"
 
 #include <algorithm>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace lightnet {
 namespace {

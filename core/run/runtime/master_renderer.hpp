@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "core/message/carrier.hpp"
-#include "core/schedule/multiplexer.hpp"
-#include "core/schedule/remote_channels.hpp"
+#include "core/run/message/carrier.hpp"
+#include "core/run/schedule/multiplexer.hpp"
+#include "core/run/schedule/remote_channels.hpp"
 
 namespace lightnet {
 

@@ -1,12 +1,12 @@
-#include "core/runtime/place.hpp"
+#include "core/run/runtime/place.hpp"
 
 #include <algorithm>
 #include <numeric>
 #include <set>
 #include <utility>
 
-#include "core/error.hpp"
-#include "core/graph/layout.hpp"
+#include "core/base/error.hpp"
+#include "core/network/graph/layout.hpp"
 #include "core/scene/scene.hpp"
 
 namespace lightnet {

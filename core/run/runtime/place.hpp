@@ -12,17 +12,17 @@
 #include <utility>
 #include <vector>
 
-#include "core/fiber/fiber.hpp"
-#include "core/fiber/rounds.hpp"
-#include "core/message/carrier.hpp"
-#include "core/prepare/assembly.hpp"
-#include "core/prepare/call_port.hpp"
-#include "core/prepare/lock_desk.hpp"
-#include "core/prepare/preparer.hpp"
-#include "core/runtime/bundle_port.hpp"
-#include "core/schedule/planned_port.hpp"
-#include "core/schedule/remote_channels.hpp"
-#include "core/schedule/sector_port.hpp"
+#include "core/run/fiber/fiber.hpp"
+#include "core/run/fiber/rounds.hpp"
+#include "core/run/message/carrier.hpp"
+#include "core/run/prepare/assembly.hpp"
+#include "core/run/prepare/call_port.hpp"
+#include "core/run/prepare/lock_desk.hpp"
+#include "core/run/prepare/preparer.hpp"
+#include "core/run/runtime/bundle_port.hpp"
+#include "core/run/schedule/planned_port.hpp"
+#include "core/run/schedule/remote_channels.hpp"
+#include "core/run/schedule/sector_port.hpp"
 
 namespace lightnet {
 

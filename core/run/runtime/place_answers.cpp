@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <chrono>
 
-#include "core/error.hpp"
-#include "core/message/describe_question.hpp"
-#include "core/runtime/place.hpp"
+#include "core/base/error.hpp"
+#include "core/run/message/describe_question.hpp"
+#include "core/run/runtime/place.hpp"
 
 namespace lightnet {
 

@@ -1,9 +1,9 @@
-#include "core/runtime/serial.hpp"
+#include "core/run/runtime/serial.hpp"
 
 #include <cstring>
 #include <span>
 
-#include "core/light/services.hpp"
+#include "core/network/light/services.hpp"
 #include "core/scene/scene.hpp"
 
 namespace lightnet {

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/message/counters.hpp"
-#include "core/prepare/assembly.hpp"
-#include "core/prepare/call_port.hpp"
-#include "core/prepare/prepare_progress.hpp"
+#include "core/run/message/counters.hpp"
+#include "core/run/prepare/assembly.hpp"
+#include "core/run/prepare/call_port.hpp"
+#include "core/run/prepare/prepare_progress.hpp"
 
 namespace lightnet {
 

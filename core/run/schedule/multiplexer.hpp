@@ -15,13 +15,13 @@
 #include <utility>
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/hash.hpp"
-#include "core/message/channel.hpp"
-#include "core/message/counters.hpp"
-#include "core/message/describe_question.hpp"
-#include "core/message/region.hpp"
-#include "core/schedule/scheduler.hpp"
+#include "core/base/error.hpp"
+#include "core/base/hash.hpp"
+#include "core/run/message/channel.hpp"
+#include "core/run/message/counters.hpp"
+#include "core/run/message/describe_question.hpp"
+#include "core/run/message/region.hpp"
+#include "core/run/schedule/scheduler.hpp"
 
 namespace lightnet {
 
@@ -152,4 +152,4 @@ private:
 
 }  // namespace lightnet
 
-#include "core/schedule/multiplexer_parts.hpp"
+#include "core/run/schedule/multiplexer_parts.hpp"

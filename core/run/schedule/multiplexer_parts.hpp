@@ -1,7 +1,7 @@
 // What Multiplexer does; part of multiplexer.hpp.
 #pragma once
 
-#include "core/schedule/multiplexer.hpp"
+#include "core/run/schedule/multiplexer.hpp"
 
 namespace lightnet {
 

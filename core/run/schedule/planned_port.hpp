@@ -4,7 +4,7 @@
 #include <functional>
 #include <utility>
 
-#include "core/light/port.hpp"
+#include "core/network/light/port.hpp"
 
 namespace lightnet {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <utility>
 
-#include "core/message/carrier.hpp"
-#include "core/message/channel.hpp"
-#include "core/message/place_name.hpp"
+#include "core/run/message/carrier.hpp"
+#include "core/run/message/channel.hpp"
+#include "core/run/message/place_name.hpp"
 
 namespace lightnet {
 

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/schedule/multiplexer.hpp"
-#include "core/schedule/remote_channel.hpp"
+#include "core/run/schedule/multiplexer.hpp"
+#include "core/run/schedule/remote_channel.hpp"
 
 namespace lightnet {
 

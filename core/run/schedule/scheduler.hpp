@@ -11,9 +11,9 @@
 #include <variant>
 #include <vector>
 
-#include "core/graph/strategy.hpp"
-#include "core/message/credit.hpp"
-#include "core/schedule/lowest.hpp"
+#include "core/network/graph/strategy.hpp"
+#include "core/run/message/credit.hpp"
+#include "core/run/schedule/lowest.hpp"
 
 namespace lightnet {
 

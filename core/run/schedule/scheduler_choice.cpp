@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/math/random.hpp"
-#include "core/schedule/scheduler.hpp"
+#include "core/base/math/random.hpp"
+#include "core/run/schedule/scheduler.hpp"
 
 namespace lightnet {
 namespace {

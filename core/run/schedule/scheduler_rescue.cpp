@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <set>
 
-#include "core/schedule/scheduler.hpp"
+#include "core/run/schedule/scheduler.hpp"
 
 namespace lightnet {
 

@@ -1,4 +1,4 @@
-#include "core/schedule/sector_port.hpp"
+#include "core/run/schedule/sector_port.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "core/light/port.hpp"
+#include "core/network/light/port.hpp"
 
 namespace lightnet {
 

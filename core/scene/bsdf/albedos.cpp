@@ -1,12 +1,12 @@
-#include "core/bsdf/albedos.hpp"
+#include "core/scene/bsdf/albedos.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "core/bsdf/fresnel.hpp"
-#include "core/bsdf/ggx.hpp"
-#include "core/bsdf/scattering.hpp"
+#include "core/scene/bsdf/fresnel.hpp"
+#include "core/scene/bsdf/ggx.hpp"
+#include "core/scene/bsdf/scattering.hpp"
 
 namespace lightnet {
 namespace {

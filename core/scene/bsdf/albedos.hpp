@@ -1,7 +1,7 @@
 // How much single lobes reflect in all, from tables: what layered models share light by.
 #pragma once
 
-#include "core/math/vec.hpp"
+#include "core/base/math/vec.hpp"
 
 namespace lightnet {
 

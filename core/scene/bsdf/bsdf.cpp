@@ -1,4 +1,4 @@
-#include "core/bsdf/bsdf.hpp"
+#include "core/scene/bsdf/bsdf.hpp"
 
 #include <algorithm>
 #include <cmath>

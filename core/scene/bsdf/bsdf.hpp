@@ -9,19 +9,19 @@
 #include <variant>
 #include <vector>
 
-#include "core/bsdf/coated_conductor.hpp"
-#include "core/bsdf/coated_diffuse.hpp"
-#include "core/bsdf/conductor.hpp"
-#include "core/bsdf/dielectric.hpp"
-#include "core/bsdf/diffuse.hpp"
-#include "core/bsdf/diffuse_transmission.hpp"
-#include "core/bsdf/principled.hpp"
-#include "core/bsdf/rough_diffuse.hpp"
-#include "core/bsdf/scattering.hpp"
-#include "core/light/query.hpp"
-#include "core/math/frame.hpp"
-#include "core/math/rgb.hpp"
-#include "core/math/vec.hpp"
+#include "core/base/math/frame.hpp"
+#include "core/base/math/rgb.hpp"
+#include "core/base/math/vec.hpp"
+#include "core/base/query.hpp"
+#include "core/scene/bsdf/coated_conductor.hpp"
+#include "core/scene/bsdf/coated_diffuse.hpp"
+#include "core/scene/bsdf/conductor.hpp"
+#include "core/scene/bsdf/dielectric.hpp"
+#include "core/scene/bsdf/diffuse.hpp"
+#include "core/scene/bsdf/diffuse_transmission.hpp"
+#include "core/scene/bsdf/principled.hpp"
+#include "core/scene/bsdf/rough_diffuse.hpp"
+#include "core/scene/bsdf/scattering.hpp"
 
 namespace lightnet {
 

@@ -1,11 +1,11 @@
-#include "core/bsdf/coat.hpp"
+#include "core/scene/bsdf/coat.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/bsdf/fresnel.hpp"
-#include "core/bsdf/scattering.hpp"
-#include "core/math/samples.hpp"
+#include "core/base/math/samples.hpp"
+#include "core/scene/bsdf/fresnel.hpp"
+#include "core/scene/bsdf/scattering.hpp"
 
 namespace lightnet {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/bsdf/ggx.hpp"
+#include "core/scene/bsdf/ggx.hpp"
 
 namespace lightnet {
 

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/bsdf/coat.hpp"
-#include "core/bsdf/fresnel.hpp"
-#include "core/bsdf/scattering.hpp"
-#include "core/math/samples.hpp"
+#include "core/base/math/samples.hpp"
+#include "core/scene/bsdf/coat.hpp"
+#include "core/scene/bsdf/fresnel.hpp"
+#include "core/scene/bsdf/scattering.hpp"
 
 namespace lightnet {
 

@@ -1,10 +1,10 @@
-#include "core/bsdf/coated_conductor.hpp"
+#include "core/scene/bsdf/coated_conductor.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/bsdf/fresnel.hpp"
-#include "core/bsdf/microfacets.hpp"
+#include "core/scene/bsdf/fresnel.hpp"
+#include "core/scene/bsdf/microfacets.hpp"
 
 namespace lightnet {
 

@@ -1,10 +1,10 @@
 // Metal under a dielectric coat: lacquered brass, car paint, carbon fibre.
 #pragma once
 
-#include "core/bsdf/coat.hpp"
-#include "core/bsdf/coated_metal.hpp"
-#include "core/bsdf/conductor.hpp"
-#include "core/bsdf/scattering.hpp"
+#include "core/scene/bsdf/coat.hpp"
+#include "core/scene/bsdf/coated_metal.hpp"
+#include "core/scene/bsdf/conductor.hpp"
+#include "core/scene/bsdf/scattering.hpp"
 
 namespace lightnet {
 

@@ -1,8 +1,8 @@
 // A diffuse base under a dielectric coat: plastic, varnish, glazed clay.
 #pragma once
 
-#include "core/bsdf/coat.hpp"
-#include "core/bsdf/scattering.hpp"
+#include "core/scene/bsdf/coat.hpp"
+#include "core/scene/bsdf/scattering.hpp"
 
 namespace lightnet {
 

@@ -1,9 +1,9 @@
-#include "core/bsdf/coated_metal.hpp"
+#include "core/scene/bsdf/coated_metal.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/bsdf/coat_walk.hpp"
+#include "core/scene/bsdf/coat_walk.hpp"
 
 namespace lightnet {
 namespace {

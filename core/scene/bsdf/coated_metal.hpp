@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/bsdf/coat.hpp"
+#include "core/scene/bsdf/coat.hpp"
 
 namespace lightnet {
 

@@ -1,6 +1,6 @@
-#include "core/bsdf/coats.hpp"
+#include "core/scene/bsdf/coats.hpp"
 
-#include "core/bsdf/scattering.hpp"
+#include "core/scene/bsdf/scattering.hpp"
 
 namespace lightnet {
 namespace {

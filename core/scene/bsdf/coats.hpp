@@ -7,8 +7,8 @@
 #include <optional>
 #include <utility>
 
-#include "core/bsdf/coat.hpp"
-#include "core/bsdf/coated_metal.hpp"
+#include "core/scene/bsdf/coat.hpp"
+#include "core/scene/bsdf/coated_metal.hpp"
 
 namespace lightnet {
 

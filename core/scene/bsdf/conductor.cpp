@@ -1,7 +1,7 @@
-#include "core/bsdf/conductor.hpp"
+#include "core/scene/bsdf/conductor.hpp"
 
-#include "core/bsdf/fresnel.hpp"
-#include "core/bsdf/microfacets.hpp"
+#include "core/scene/bsdf/fresnel.hpp"
+#include "core/scene/bsdf/microfacets.hpp"
 
 namespace lightnet {
 

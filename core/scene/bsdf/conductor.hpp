@@ -1,8 +1,8 @@
 // Metal: a mirror, or GGX microfacets of mirror. Single scattering: rough metals lose some energy, as in pbrt.
 #pragma once
 
-#include "core/bsdf/ggx.hpp"
-#include "core/bsdf/scattering.hpp"
+#include "core/scene/bsdf/ggx.hpp"
+#include "core/scene/bsdf/scattering.hpp"
 
 namespace lightnet {
 

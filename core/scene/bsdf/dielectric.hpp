@@ -1,8 +1,8 @@
 // Glass: reflects and refracts, smooth or with GGX microfacets (Walter et al. 2007). The normal points outside.
 #pragma once
 
-#include "core/bsdf/ggx.hpp"
-#include "core/bsdf/scattering.hpp"
+#include "core/scene/bsdf/ggx.hpp"
+#include "core/scene/bsdf/scattering.hpp"
 
 namespace lightnet {
 

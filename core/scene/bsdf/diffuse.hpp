@@ -1,9 +1,9 @@
 // A perfectly diffuse reflector. All in the header: it is what most surfaces are.
 #pragma once
 
-#include "core/bsdf/scattering.hpp"
-#include "core/math/frame.hpp"
-#include "core/math/sampling.hpp"
+#include "core/base/math/frame.hpp"
+#include "core/base/math/sampling.hpp"
+#include "core/scene/bsdf/scattering.hpp"
 
 namespace lightnet {
 

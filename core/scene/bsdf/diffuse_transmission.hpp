@@ -1,8 +1,8 @@
 // A sheet that scatters light evenly to both sides: paper, leaves, lampshades.
 #pragma once
 
-#include "core/bsdf/scattering.hpp"
-#include "core/math/sampling.hpp"
+#include "core/base/math/sampling.hpp"
+#include "core/scene/bsdf/scattering.hpp"
 
 namespace lightnet {
 

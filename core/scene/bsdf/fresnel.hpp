@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/math/rgb.hpp"
-#include "core/math/vec.hpp"
+#include "core/base/math/rgb.hpp"
+#include "core/base/math/vec.hpp"
 
 namespace lightnet {
 

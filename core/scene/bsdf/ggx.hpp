@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/math/sampling.hpp"
-#include "core/math/vec.hpp"
+#include "core/base/math/sampling.hpp"
+#include "core/base/math/vec.hpp"
 
 namespace lightnet {
 

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "core/bsdf/fresnel.hpp"
-#include "core/bsdf/ggx.hpp"
+#include "core/scene/bsdf/fresnel.hpp"
+#include "core/scene/bsdf/ggx.hpp"
 
 namespace lightnet {
 

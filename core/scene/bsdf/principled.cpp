@@ -1,11 +1,11 @@
-#include "core/bsdf/principled.hpp"
+#include "core/scene/bsdf/principled.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/bsdf/albedos.hpp"
-#include "core/bsdf/fresnel.hpp"
-#include "core/bsdf/microfacets.hpp"
+#include "core/scene/bsdf/albedos.hpp"
+#include "core/scene/bsdf/fresnel.hpp"
+#include "core/scene/bsdf/microfacets.hpp"
 
 namespace lightnet {
 namespace {

@@ -1,8 +1,8 @@
 // The material of game engines and film studios: metal, plastic, glass and cloth by a few numbers.
 #pragma once
 
-#include "core/bsdf/ggx.hpp"
-#include "core/bsdf/scattering.hpp"
+#include "core/scene/bsdf/ggx.hpp"
+#include "core/scene/bsdf/scattering.hpp"
 
 namespace lightnet {
 

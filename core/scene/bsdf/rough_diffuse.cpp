@@ -1,9 +1,9 @@
-#include "core/bsdf/rough_diffuse.hpp"
+#include "core/scene/bsdf/rough_diffuse.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/math/sampling.hpp"
+#include "core/base/math/sampling.hpp"
 
 namespace lightnet {
 namespace {

@@ -1,7 +1,7 @@
 // Rough diffuse surfaces: clay, plaster, the moon.
 #pragma once
 
-#include "core/bsdf/scattering.hpp"
+#include "core/scene/bsdf/scattering.hpp"
 
 namespace lightnet {
 

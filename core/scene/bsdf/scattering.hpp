@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "core/light/query.hpp"
-#include "core/math/rgb.hpp"
-#include "core/math/vec.hpp"
+#include "core/base/math/rgb.hpp"
+#include "core/base/math/vec.hpp"
+#include "core/base/query.hpp"
 
 namespace lightnet {
 

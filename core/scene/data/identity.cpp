@@ -1,4 +1,4 @@
-#include "core/scene/identity.hpp"
+#include "core/scene/data/identity.hpp"
 
 #include <array>
 #include <cstring>
@@ -7,7 +7,7 @@
 #include <span>
 #include <variant>
 
-#include "core/scene/members.hpp"
+#include "core/scene/data/members.hpp"
 
 namespace lightnet {
 namespace {

@@ -1,8 +1,8 @@
 // Which scene is it, to the light in it?
 #pragma once
 
-#include "core/hash.hpp"
-#include "core/scene/scene_data.hpp"
+#include "core/base/hash.hpp"
+#include "core/scene/data/scene_data.hpp"
 
 namespace lightnet {
 

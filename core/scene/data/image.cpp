@@ -1,4 +1,4 @@
-#include "core/scene/image.hpp"
+#include "core/scene/data/image.hpp"
 
 #include <array>
 #include <cassert>

@@ -6,8 +6,8 @@
 #include <variant>
 #include <vector>
 
-#include "core/hash.hpp"
-#include "core/math/rgb.hpp"
+#include "core/base/hash.hpp"
+#include "core/base/math/rgb.hpp"
 
 namespace lightnet {
 

@@ -7,7 +7,7 @@
 #include <concepts>
 #include <type_traits>
 
-#include "core/scene/scene_data.hpp"
+#include "core/scene/data/scene_data.hpp"
 
 namespace lightnet {
 

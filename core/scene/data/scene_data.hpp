@@ -10,12 +10,12 @@
 #include <variant>
 #include <vector>
 
-#include "core/bytes.hpp"
-#include "core/error.hpp"
-#include "core/math/rgb.hpp"
-#include "core/math/transform.hpp"
-#include "core/math/vec.hpp"
-#include "core/scene/image.hpp"
+#include "core/base/bytes.hpp"
+#include "core/base/error.hpp"
+#include "core/base/math/rgb.hpp"
+#include "core/base/math/transform.hpp"
+#include "core/base/math/vec.hpp"
+#include "core/scene/data/image.hpp"
 
 namespace lightnet {
 

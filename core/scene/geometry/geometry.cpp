@@ -1,8 +1,8 @@
-#include "core/scene/geometry.hpp"
+#include "core/scene/geometry/geometry.hpp"
 
-#include "core/error.hpp"
-#include "core/scene/placement.hpp"
-#include "core/scene/sphere_hit.hpp"
+#include "core/base/error.hpp"
+#include "core/scene/geometry/sphere_hit.hpp"
+#include "core/scene/surfaces/placement.hpp"
 
 #include <embree3/rtcore.h>
 

@@ -8,9 +8,9 @@
 #include <span>
 #include <string>
 
-#include "core/scene/ray.hpp"
-#include "core/scene/scene_data.hpp"
-#include "core/scene/shading.hpp"
+#include "core/scene/data/scene_data.hpp"
+#include "core/scene/surfaces/ray.hpp"
+#include "core/scene/surfaces/shading.hpp"
 
 namespace lightnet {
 

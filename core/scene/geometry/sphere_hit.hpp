@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "core/math/octahedral.hpp"
-#include "core/math/vec.hpp"
-#include "core/scene/scene_data.hpp"
+#include "core/base/math/octahedral.hpp"
+#include "core/base/math/vec.hpp"
+#include "core/scene/data/scene_data.hpp"
 
 namespace lightnet {
 

@@ -1,11 +1,11 @@
-#include "core/scene/area_lamps.hpp"
+#include "core/scene/lamps/area_lamps.hpp"
 
-#include "core/math/frame.hpp"
-#include "core/math/octahedral.hpp"
-#include "core/math/sampling.hpp"
-#include "core/scene/shares.hpp"
-#include "core/scene/textures.hpp"
-#include "core/scene/triangle.hpp"
+#include "core/base/math/frame.hpp"
+#include "core/base/math/octahedral.hpp"
+#include "core/base/math/sampling.hpp"
+#include "core/scene/lamps/shares.hpp"
+#include "core/scene/surfaces/textures.hpp"
+#include "core/scene/surfaces/triangle.hpp"
 
 #include <algorithm>
 #include <array>

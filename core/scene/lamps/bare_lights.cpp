@@ -1,7 +1,7 @@
-#include "core/scene/bare_lights.hpp"
+#include "core/scene/lamps/bare_lights.hpp"
 
-#include "core/math/frame.hpp"
-#include "core/math/sampling.hpp"
+#include "core/base/math/frame.hpp"
+#include "core/base/math/sampling.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,11 +3,11 @@
 
 #include <optional>
 
-#include "core/math/rgb.hpp"
-#include "core/math/vec.hpp"
-#include "core/scene/light_sample.hpp"
-#include "core/scene/light_tree.hpp"
-#include "core/scene/scene_data.hpp"
+#include "core/base/math/rgb.hpp"
+#include "core/base/math/vec.hpp"
+#include "core/scene/data/scene_data.hpp"
+#include "core/scene/lamps/light_sample.hpp"
+#include "core/scene/lamps/light_tree.hpp"
 
 namespace lightnet {
 

@@ -1,8 +1,8 @@
-#include "core/scene/environment.hpp"
+#include "core/scene/lamps/environment.hpp"
 
-#include "core/math/sampling.hpp"
-#include "core/scene/shares.hpp"
-#include "core/scene/sky_layout.hpp"
+#include "core/base/math/sampling.hpp"
+#include "core/scene/lamps/shares.hpp"
+#include "core/scene/lamps/sky_layout.hpp"
 
 #include <algorithm>
 #include <cmath>

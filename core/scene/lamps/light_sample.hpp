@@ -1,8 +1,8 @@
 // A way in which light reaches a point, found by chance.
 #pragma once
 
-#include "core/math/rgb.hpp"
-#include "core/math/vec.hpp"
+#include "core/base/math/rgb.hpp"
+#include "core/base/math/vec.hpp"
 
 namespace lightnet {
 

@@ -1,6 +1,6 @@
-#include "core/scene/light_tree.hpp"
+#include "core/scene/lamps/light_tree.hpp"
 
-#include "core/math/sampling.hpp"
+#include "core/base/math/sampling.hpp"
 
 #include <algorithm>
 #include <array>

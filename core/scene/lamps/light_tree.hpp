@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/math/vec.hpp"
+#include "core/base/math/vec.hpp"
 
 namespace lightnet {
 

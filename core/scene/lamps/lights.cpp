@@ -1,9 +1,9 @@
-#include "core/scene/lights.hpp"
+#include "core/scene/lamps/lights.hpp"
 
-#include "core/math/frame.hpp"
-#include "core/math/sampling.hpp"
-#include "core/scene/bare_lights.hpp"
-#include "core/scene/shares.hpp"
+#include "core/base/math/frame.hpp"
+#include "core/base/math/sampling.hpp"
+#include "core/scene/lamps/bare_lights.hpp"
+#include "core/scene/lamps/shares.hpp"
 
 #include <algorithm>
 #include <cmath>

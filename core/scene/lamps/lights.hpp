@@ -6,16 +6,16 @@
 #include <optional>
 #include <vector>
 
-#include "core/math/rgb.hpp"
-#include "core/math/vec.hpp"
-#include "core/scene/area_lamps.hpp"
-#include "core/scene/environment.hpp"
-#include "core/scene/light_sample.hpp"
-#include "core/scene/light_tree.hpp"
-#include "core/scene/ray.hpp"
-#include "core/scene/scene_data.hpp"
-#include "core/scene/shading.hpp"
-#include "core/scene/surface.hpp"
+#include "core/base/math/rgb.hpp"
+#include "core/base/math/vec.hpp"
+#include "core/scene/data/scene_data.hpp"
+#include "core/scene/lamps/area_lamps.hpp"
+#include "core/scene/lamps/environment.hpp"
+#include "core/scene/lamps/light_sample.hpp"
+#include "core/scene/lamps/light_tree.hpp"
+#include "core/scene/surfaces/ray.hpp"
+#include "core/scene/surfaces/shading.hpp"
+#include "core/scene/surfaces/surface.hpp"
 
 namespace lightnet {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "core/math/sampling.hpp"
-#include "core/math/vec.hpp"
+#include "core/base/math/sampling.hpp"
+#include "core/base/math/vec.hpp"
 
 namespace lightnet {
 

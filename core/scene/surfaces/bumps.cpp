@@ -1,9 +1,9 @@
-#include "core/scene/bumps.hpp"
+#include "core/scene/surfaces/bumps.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/scene/textures.hpp"
+#include "core/scene/surfaces/textures.hpp"
 
 namespace lightnet {
 namespace {

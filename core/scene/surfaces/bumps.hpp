@@ -1,8 +1,8 @@
 // Small bumps of a surface, by turning its shading normal.
 #pragma once
 
-#include "core/scene/scene_data.hpp"
-#include "core/scene/surface.hpp"
+#include "core/scene/data/scene_data.hpp"
+#include "core/scene/surfaces/surface.hpp"
 
 namespace lightnet {
 

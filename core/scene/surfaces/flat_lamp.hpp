@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "core/math/rgb.hpp"
-#include "core/math/sampling.hpp"
-#include "core/math/vec.hpp"
+#include "core/base/math/rgb.hpp"
+#include "core/base/math/sampling.hpp"
+#include "core/base/math/vec.hpp"
 
 namespace lightnet {
 

@@ -1,4 +1,4 @@
-#include "core/scene/materials.hpp"
+#include "core/scene/surfaces/materials.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,10 +6,10 @@
 #include <type_traits>
 #include <utility>
 
-#include "core/bsdf/albedos.hpp"
-#include "core/bsdf/fresnel.hpp"
-#include "core/error.hpp"
-#include "core/scene/bumps.hpp"
+#include "core/base/error.hpp"
+#include "core/scene/bsdf/albedos.hpp"
+#include "core/scene/bsdf/fresnel.hpp"
+#include "core/scene/surfaces/bumps.hpp"
 
 namespace lightnet {
 namespace {

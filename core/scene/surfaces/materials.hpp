@@ -5,11 +5,11 @@
 #include <optional>
 #include <vector>
 
-#include "core/bsdf/bsdf.hpp"
-#include "core/bsdf/coats.hpp"
-#include "core/scene/scene_data.hpp"
-#include "core/scene/surface.hpp"
-#include "core/scene/textures.hpp"
+#include "core/scene/bsdf/bsdf.hpp"
+#include "core/scene/bsdf/coats.hpp"
+#include "core/scene/data/scene_data.hpp"
+#include "core/scene/surfaces/surface.hpp"
+#include "core/scene/surfaces/textures.hpp"
 
 namespace lightnet {
 

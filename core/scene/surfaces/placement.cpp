@@ -1,6 +1,6 @@
-#include "core/scene/placement.hpp"
+#include "core/scene/surfaces/placement.hpp"
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,9 +3,9 @@
 
 #include <array>
 
-#include "core/math/transform.hpp"
-#include "core/math/vec.hpp"
-#include "core/scene/surface.hpp"
+#include "core/base/math/transform.hpp"
+#include "core/base/math/vec.hpp"
+#include "core/scene/surfaces/surface.hpp"
 
 namespace lightnet {
 

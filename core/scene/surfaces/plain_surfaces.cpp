@@ -1,4 +1,4 @@
-#include "core/scene/plain_surfaces.hpp"
+#include "core/scene/surfaces/plain_surfaces.hpp"
 
 #include "core/scene/direct_light.hpp"
 

@@ -5,12 +5,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/bsdf/bsdf.hpp"
-#include "core/math/columns.hpp"
-#include "core/scene/flat_lamp.hpp"
-#include "core/scene/ray.hpp"
-#include "core/scene/surface.hpp"
-#include "core/scene/triangle.hpp"
+#include "core/base/math/columns.hpp"
+#include "core/scene/bsdf/bsdf.hpp"
+#include "core/scene/surfaces/flat_lamp.hpp"
+#include "core/scene/surfaces/ray.hpp"
+#include "core/scene/surfaces/surface.hpp"
+#include "core/scene/surfaces/triangle.hpp"
 
 namespace lightnet {
 

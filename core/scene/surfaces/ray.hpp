@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "core/math/vec.hpp"
+#include "core/base/math/vec.hpp"
 
 namespace lightnet {
 

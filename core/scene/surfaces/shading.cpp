@@ -1,10 +1,10 @@
-#include "core/scene/shading.hpp"
+#include "core/scene/surfaces/shading.hpp"
 
-#include "core/math/octahedral.hpp"
-#include "core/math/random.hpp"
-#include "core/math/sampling.hpp"
-#include "core/scene/bumps.hpp"
-#include "core/scene/triangle.hpp"
+#include "core/base/math/octahedral.hpp"
+#include "core/base/math/random.hpp"
+#include "core/base/math/sampling.hpp"
+#include "core/scene/surfaces/bumps.hpp"
+#include "core/scene/surfaces/triangle.hpp"
 
 #include <algorithm>
 #include <array>

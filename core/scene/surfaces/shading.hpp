@@ -5,13 +5,13 @@
 #include <span>
 #include <vector>
 
-#include "core/bsdf/bsdf.hpp"
-#include "core/scene/materials.hpp"
-#include "core/scene/plain_surfaces.hpp"
-#include "core/scene/ray.hpp"
-#include "core/scene/scene_data.hpp"
-#include "core/scene/surface.hpp"
-#include "core/scene/textures.hpp"
+#include "core/scene/bsdf/bsdf.hpp"
+#include "core/scene/data/scene_data.hpp"
+#include "core/scene/surfaces/materials.hpp"
+#include "core/scene/surfaces/plain_surfaces.hpp"
+#include "core/scene/surfaces/ray.hpp"
+#include "core/scene/surfaces/surface.hpp"
+#include "core/scene/surfaces/textures.hpp"
 
 namespace lightnet {
 

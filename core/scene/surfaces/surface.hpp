@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/math/frame.hpp"
-#include "core/math/rgb.hpp"
-#include "core/math/vec.hpp"
+#include "core/base/math/frame.hpp"
+#include "core/base/math/rgb.hpp"
+#include "core/base/math/vec.hpp"
 
 namespace lightnet {
 

@@ -1,11 +1,11 @@
-#include "core/scene/textures.hpp"
+#include "core/scene/surfaces/textures.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <string>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace lightnet {
 namespace {

@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "core/math/rgb.hpp"
-#include "core/math/vec.hpp"
-#include "core/scene/scene_data.hpp"
+#include "core/base/math/rgb.hpp"
+#include "core/base/math/vec.hpp"
+#include "core/scene/data/scene_data.hpp"
 
 namespace lightnet {
 

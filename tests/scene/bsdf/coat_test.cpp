@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "core/bsdf/bsdf.hpp"
-#include "core/bsdf/coats.hpp"
-#include "core/math/samples.hpp"
+#include "core/base/math/samples.hpp"
+#include "core/scene/bsdf/bsdf.hpp"
+#include "core/scene/bsdf/coats.hpp"
 
 namespace lightnet {
 namespace {

@@ -6,9 +6,9 @@
 #include <ostream>
 #include <vector>
 
-#include "core/bsdf/bsdf.hpp"
-#include "core/math/samples.hpp"
-#include "core/math/sampling.hpp"
+#include "core/base/math/samples.hpp"
+#include "core/base/math/sampling.hpp"
+#include "core/scene/bsdf/bsdf.hpp"
 
 namespace lightnet {
 namespace {

@@ -1,10 +1,10 @@
 // What single models promise.
 #include <gtest/gtest.h>
 
-#include "core/bsdf/bsdf.hpp"
-#include "core/bsdf/fresnel.hpp"
-#include "core/math/samples.hpp"
-#include "core/math/sampling.hpp"
+#include "core/base/math/samples.hpp"
+#include "core/base/math/sampling.hpp"
+#include "core/scene/bsdf/bsdf.hpp"
+#include "core/scene/bsdf/fresnel.hpp"
 
 namespace lightnet {
 namespace {
