@@ -9,7 +9,7 @@
 #include "core/scene/bsdf/coats.hpp"
 #include "core/scene/data/scene_data.hpp"
 #include "core/scene/surfaces/surface.hpp"
-#include "core/scene/surfaces/textures.hpp"
+#include "core/scene/textures/look_up.hpp"
 
 namespace lightnet {
 
