@@ -5,6 +5,8 @@
 #include <limits>
 #include <set>
 
+#include "core/scene/data/contents.hpp"
+
 namespace lightnet {
 namespace {
 
@@ -47,17 +49,8 @@ void add_shape(Box& box, const Shape& shape) {
     box.add(ball.center - r), box.add(ball.center + r);
 }
 
-std::uint64_t triangles_of(const Shape& shape) {
-    const auto* mesh = std::get_if<Mesh>(&shape.geometry);
-    return mesh ? mesh->triangles.size() : 0;
-}
-
 const char* name_of(const Material& material) {
-    // in the order of the variant
-    static constexpr std::array names{"diffuse",    "conductor", "dielectric", "coated diffuse", "coated conductor",
-                                      "principled", "mixture",   "two-faced",  "nothing"};
-    static_assert(names.size() == std::variant_size_v<decltype(Material::model)>);
-    return names[material.model.index()];
+    return std::visit([]<class M>(const M&) { return M::name; }, material.model);
 }
 
 void count_shapes(const SceneData& scene, SceneStatistics& found) {
@@ -111,16 +104,6 @@ void count_lights(const SceneData& scene, SceneStatistics& found) {
         ++found.lights[environment.image ? "environments with a picture" : "even environments"];
 }
 
-void count_pictures(const SceneData& scene, SceneStatistics& found) {
-    std::set<const Image*> pictures;
-    for (const auto& texture : scene.textures)
-        if (const auto* picture = std::get_if<ImageTexture>(&texture.pattern)) pictures.insert(picture->image.get());
-    for (const auto& environment : scene.environments) pictures.insert(environment.image.get());
-    pictures.erase(nullptr);
-    found.pictures = pictures.size();
-    for (const Image* picture : pictures) found.picture_bytes += picture->memory();
-}
-
 }  // namespace
 
 SceneStatistics statistics_of(const SceneData& scene) {
@@ -131,7 +114,9 @@ SceneStatistics statistics_of(const SceneData& scene) {
     count_shapes(scene, found);
     measure(scene, found);
     count_lights(scene, found);
-    count_pictures(scene, found);
+    const auto images = images_of(scene);
+    found.pictures = images.size();
+    for (const Image* image : images) found.picture_bytes += image->memory();
     return found;
 }
 

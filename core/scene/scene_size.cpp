@@ -1,6 +1,6 @@
 #include "core/scene/scene_size.hpp"
 
-#include <set>
+#include "core/scene/data/contents.hpp"
 
 namespace lightnet {
 namespace {
@@ -10,20 +10,9 @@ std::size_t bytes_of(const std::vector<T>& values) {
     return values.capacity() * sizeof(T);
 }
 
-std::size_t triangles_of(const Shape& shape) {
-    const auto* mesh = std::get_if<Mesh>(&shape.geometry);
-    return mesh ? mesh->triangles.size() : 0;
-}
-
-// Images are shared by textures.
 std::size_t texture_bytes(const SceneData& data) {
-    std::set<const Image*> images;
-    for (const auto& texture : data.textures)
-        if (const auto* image = std::get_if<ImageTexture>(&texture.pattern)) images.insert(image->image.get());
-    for (const auto& environment : data.environments) images.insert(environment.image.get());
     std::size_t bytes = bytes_of(data.textures);
-    for (const auto* image : images)
-        if (image) bytes += image->memory();
+    for (const Image* image : images_of(data)) bytes += image->memory();
     return bytes;
 }
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/scene/surfaces/textures.hpp"
+#include "core/scene/textures/look_up.hpp"
 #include "tests/support/scene_text.hpp"
 
 namespace lightnet::test {

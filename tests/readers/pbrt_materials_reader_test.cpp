@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/readers/spectra.hpp"
-#include "core/scene/surfaces/textures.hpp"
+#include "core/scene/textures/look_up.hpp"
 #include "tests/support/pbrt_text.hpp"
 
 namespace lightnet::test {

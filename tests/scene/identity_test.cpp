@@ -5,7 +5,6 @@
 
 #include <map>
 
-#include "core/scene/data/members.hpp"
 
 namespace lightnet {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/scene/surfaces/textures.hpp"
+#include "core/scene/textures/look_up.hpp"
 
 #include <gtest/gtest.h>
 

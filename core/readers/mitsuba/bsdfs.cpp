@@ -22,13 +22,7 @@ Material one_sided(Model model) {
 }
 
 /// Models that are black from behind unless they stand in a <twosided>.
-bool opaque(const Material& material) {
-    if (const auto* principled = std::get_if<PrincipledMaterial>(&material.model)) return principled->transmission == 0;
-    if (const auto* diffuse = std::get_if<DiffuseMaterial>(&material.model)) return !diffuse->transmittance;
-    return !std::holds_alternative<DielectricMaterial>(material.model) &&
-           !std::holds_alternative<MixtureMaterial>(material.model) &&
-           !std::holds_alternative<NoMaterial>(material.model);
-}
+bool opaque(const Material& material) { return transparency_of(material) == Transparency::opaque; }
 
 }  // namespace
 

@@ -76,7 +76,7 @@ std::optional<float> Bsdf::reflection_chance(Vec3 outgoing) const {
 // With which weight a part is sampled: 0 where it can't be seen, or has none of the lobes.
 float Bsdf::chance_of(const Part& part, Vec3 outgoing, std::uint8_t lobes) const {
     const bool front = dot(outgoing, normal_) > 0;
-    const bool seen = part.face == Part::Face::both || (part.face == Part::Face::front) == front;
+    const bool seen = part.from == SeenFrom::both || (part.from == SeenFrom::front) == front;
     return seen && (part.bsdf.lobes() & lobes) ? part.share : 0;
 }
 

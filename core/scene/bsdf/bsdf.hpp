@@ -1,6 +1,7 @@
 // How one point of a surface scatters light.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -13,26 +14,23 @@
 #include "core/base/math/rgb.hpp"
 #include "core/base/math/vec.hpp"
 #include "core/base/query.hpp"
-#include "core/scene/bsdf/coated_conductor.hpp"
-#include "core/scene/bsdf/coated_diffuse.hpp"
-#include "core/scene/bsdf/conductor.hpp"
-#include "core/scene/bsdf/dielectric.hpp"
-#include "core/scene/bsdf/diffuse.hpp"
-#include "core/scene/bsdf/diffuse_transmission.hpp"
-#include "core/scene/bsdf/principled.hpp"
-#include "core/scene/bsdf/rough_diffuse.hpp"
+#include "core/scene/bsdf/material.hpp"
 #include "core/scene/bsdf/scattering.hpp"
 
 namespace lightnet {
+
+/// Which of the models in a variant look at the `choice` of sample().
+template <class Models>
+inline constexpr bool choosing = false;
+template <class... Models>
+inline constexpr std::array<bool, sizeof...(Models)> choosing<std::variant<Models...>>{Models::chooses...};
 
 /// Scattering at one point, textures already looked up. A value: make it, use it, drop it. Both directions are unit,
 /// in world space and point away from the surface. Reflection stays on the geometric normal's side of the surface and
 /// transmission goes to the other one, whatever the shading normal says, so that no light leaks.
 class Bsdf {
 public:
-    /// The first three have nothing to choose from.
-    using Model = std::variant<DiffuseBsdf, RoughDiffuseBsdf, ConductorBsdf, DielectricBsdf, ThinDielectricBsdf,
-                               DiffuseTransmissionBsdf, CoatedDiffuseBsdf, CoatedConductorBsdf, PrincipledBsdf>;
+    using Model = ModelsOf<AnyMaterial>::type;
     /// Some share of a surface; seen from one of its sides only, or from both.
     struct Part;
 
@@ -48,14 +46,15 @@ public:
     /// Which lobes the surface has.
     std::uint8_t lobes() const { return diffuse() ? lobe::diffuse : lobes_of_any(); }
     /// Does sample() look at its `choice`?
-    bool chooses() const { return model_.index() > 2 || parts_; }
+    bool chooses() const { return parts_ || choosing<Model>[model_.index()]; }
     /// Of smooth glass: below which `choice` sample() reflects; what is not reflected is transmitted. None: of others.
     std::optional<float> reflection_chance(Vec3 outgoing) const;
     /// f × |cos incoming| for the non-specular lobes among `lobes`, sr⁻¹; and the density with which sample() with the
     /// same `lobes` finds `incoming`, per steradian. Both exactly 0 for specular lobes.
     BsdfValue value_and_pdf(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const {
-        const DiffuseBsdf* plain = diffuse();
-        return plain ? diffuse_value(*plain, outgoing, incoming, lobes) : value_of_any(outgoing, incoming, lobes);
+        const DiffuseBsdf* lambertian = diffuse();
+        return lambertian ? diffuse_value(*lambertian, outgoing, incoming, lobes)
+                          : value_of_any(outgoing, incoming, lobes);
     }
     Rgb evaluate(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const {
         return value_and_pdf(outgoing, incoming, lobes).value;
@@ -65,8 +64,8 @@ public:
     }
     /// One direction of light, by importance. None: absorbed.
     std::optional<BsdfSample> sample(Vec3 outgoing, float choice, Vec2 u, std::uint8_t lobes) const {
-        const DiffuseBsdf* plain = diffuse();
-        return plain ? diffuse_sample(*plain, outgoing, u, lobes) : sample_of_any(outgoing, choice, u, lobes);
+        const DiffuseBsdf* lambertian = diffuse();
+        return lambertian ? diffuse_sample(*lambertian, outgoing, u, lobes) : sample_of_any(outgoing, choice, u, lobes);
     }
     /// The colour of a diffuse reflector that fills nothing, alike on both sides or black from behind; null: another.
     const Rgb* diffuse_albedo() const { return diffuse() && !absorption_ ? &diffuse()->albedo : nullptr; }
@@ -89,8 +88,8 @@ private:
     }
     /// What most surfaces are: null if this one is anything else.
     const DiffuseBsdf* diffuse() const { return parts_ ? nullptr : std::get_if<DiffuseBsdf>(&model_); }
-    BsdfValue diffuse_value(const DiffuseBsdf& plain, Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const;
-    std::optional<BsdfSample> diffuse_sample(const DiffuseBsdf& plain, Vec3 outgoing, Vec2 u, std::uint8_t lobes) const;
+    BsdfValue diffuse_value(const DiffuseBsdf& model, Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const;
+    std::optional<BsdfSample> diffuse_sample(const DiffuseBsdf& model, Vec3 outgoing, Vec2 u, std::uint8_t lobes) const;
     std::uint8_t lobes_of_any() const;
     BsdfValue value_of_any(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const;
     std::optional<BsdfSample> sample_of_any(Vec3 outgoing, float choice, Vec2 u, std::uint8_t lobes) const;
@@ -106,24 +105,24 @@ private:
     std::shared_ptr<const std::vector<Part>> parts_;  // null but for blends
 };
 
-inline BsdfValue Bsdf::diffuse_value(const DiffuseBsdf& plain, Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const {
+inline BsdfValue Bsdf::diffuse_value(const DiffuseBsdf& model, Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const {
     if (!(lobes & lobe::diffuse)) return {};
     const float pdf = diffuse_pdf(shading_.z, normal_, one_sided_, outgoing, incoming);
-    return {plain.albedo * pdf, pdf};
+    return {model.albedo * pdf, pdf};
 }
 
-inline std::optional<BsdfSample> Bsdf::diffuse_sample(const DiffuseBsdf& plain, Vec3 outgoing, Vec2 u,
+inline std::optional<BsdfSample> Bsdf::diffuse_sample(const DiffuseBsdf& model, Vec3 outgoing, Vec2 u,
                                                       std::uint8_t lobes) const {
     if (!(lobes & lobe::diffuse) || (one_sided_ && dot(outgoing, normal_) <= 0)) return {};
     const auto [incoming, pdf] = diffuse_step(frame_for(outgoing), normal_, outgoing, u);
     if (pdf == 0) return {};
-    return BsdfSample{incoming, plain.albedo, pdf, lobe::diffuse};
+    return BsdfSample{incoming, model.albedo, pdf, lobe::diffuse};
 }
 
 struct Bsdf::Part {
     Bsdf bsdf;
     float share = 1;
-    enum class Face { both, front, back } face = Face::both;
+    SeenFrom from = SeenFrom::both;
 };
 
 }  // namespace lightnet

@@ -58,9 +58,9 @@ float inner_of(const Ggx& facets, float eta, float thickness, float cosine, Key 
 
 }  // namespace
 
-Coat::Coat(float eta, const Ggx& facets, Layer layer) : eta_(eta), layer_(layer), rows_{row_of(facets)} {}
+Coat::Coat(float eta, const Ggx& facets, CoatLayer layer) : eta_(eta), layer_(layer), rows_{row_of(facets)} {}
 
-Coat::Coat(float eta, Layer layer) : eta_(eta), layer_(layer) {
+Coat::Coat(float eta, CoatLayer layer) : eta_(eta), layer_(layer) {
     for (std::size_t i = 0; i < roughnesses; ++i) {
         const float root = float(i) / (roughnesses - 1), alpha = root * root;
         rows_.push_back(row_of({alpha, alpha}));

@@ -7,29 +7,34 @@
 #include <vector>
 
 #include "core/scene/bsdf/ggx.hpp"
+#include "core/scene/textures/members.hpp"
 
 namespace lightnet {
+
+/// What becomes of light within a coat. Clear and complete, if nothing else is said.
+struct CoatLayer {
+    float thickness = 0;        // of light straight through, exp(-thickness) is left
+    std::uint32_t bounces = 0;  // off the base: of light that meets it more often nothing is left; 0: all counts
+};
+void visit_members(Is<CoatLayer> auto& layer, const auto& visit) {
+    auto& [thickness, bounces] = layer;
+    visit(thickness, bounces);
+}
 
 /// How much light coats of one index reflect and let pass, by roughness and angle, over all directions to which they
 /// do. Rough ones scatter once, as in pbrt: what would meet their facets a second time is lost. Made once per material;
 /// any thread may ask.
 class Coat {
 public:
-    /// What becomes of light within: exp(-thickness) of what goes straight through is left, and of ways that meet the
-    /// base more than `bounces` times nothing (0: of any number). Clear and complete, if nothing else is said.
-    struct Layer {
-        float thickness = 0;
-        std::uint32_t bounces = 0;
-    };
     /// Of one roughness.
-    Coat(float eta, const Ggx& facets, Layer layer);
-    Coat(float eta, const Ggx& facets) : Coat(eta, facets, Layer{}) {}
+    Coat(float eta, const Ggx& facets, CoatLayer layer);
+    Coat(float eta, const Ggx& facets) : Coat(eta, facets, CoatLayer{}) {}
     /// Of any roughness (the same along both tangents), for those that change over a surface.
-    Coat(float eta, Layer layer);
-    explicit Coat(float eta) : Coat(eta, Layer{}) {}
+    Coat(float eta, CoatLayer layer);
+    explicit Coat(float eta) : Coat(eta, CoatLayer{}) {}
 
     float eta() const { return eta_; }
-    const Layer& layer() const { return layer_; }
+    const CoatLayer& layer() const { return layer_; }
     /// Share of light from direction `cosine` that the coat itself reflects.
     float reflectance(const Ggx& facets, float cosine) const;
     /// Share of light from direction `cosine` that reaches the base; also of diffuse light from the base that leaves
@@ -59,7 +64,7 @@ private:
     Between between(const Ggx& facets) const;
 
     float eta_;
-    Layer layer_;
+    CoatLayer layer_;
     std::vector<Row> rows_;  // one, or by the square root of α
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/scene/bsdf/coats.hpp"
 #include "core/scene/bsdf/fresnel.hpp"
 #include "core/scene/bsdf/microfacets.hpp"
 
@@ -88,6 +89,20 @@ std::optional<BsdfSample> CoatedConductorBsdf::sample(Vec3 outgoing, float choic
     const auto [value, pdf] = evaluate(outgoing, *incoming, lobes);
     if (!(pdf > 0)) return {};
     return BsdfSample{*incoming, value / pdf, pdf, lobe::glossy};
+}
+
+Coating CoatedConductorMaterial::coating(Coats& coats) const {
+    const auto above = only_facets_of(coat), below = only_facets_of(roughness);
+    const Coat& one = coats.coat(coat_eta, above, layer);
+    return {&one, coats.over_metal(one, above, below)};
+}
+
+CoatedConductorBsdf CoatedConductorMaterial::at(const MaterialInputs& inputs) const {
+    const Ggx above = inputs.facets(coat), below = inputs.facets(roughness);
+    ConductorBsdf under = metal.at(inputs, seen_through(below, above, coat_eta));
+    under.eta = under.eta / coat_eta;
+    under.k = under.k / coat_eta;
+    return {under, inputs.coating().coat, above, inputs.coating().over_metal, below};
 }
 
 }  // namespace lightnet

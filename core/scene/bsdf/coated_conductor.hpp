@@ -14,6 +14,7 @@ namespace lightnet {
 /// rougher by a rough coat that blurs what passes through it, however often the light met the metal.
 struct CoatedConductorBsdf {
     static constexpr bool two_sided = true;
+    static constexpr bool chooses = true;
     ConductorBsdf metal;                   // its index relative to the coat, its facets as they look through it
     const Coat* coat = nullptr;            // lives as long as the scene
     Ggx facets{};                          // of the coat
@@ -33,5 +34,25 @@ private:
     Rgb below_rough(Vec3 outgoing) const;
     BsdfValue metal_value(Vec3 outgoing, Vec3 incoming) const;
 };
+
+class Coats;
+
+/// A metal under a dielectric coat.
+struct CoatedConductorMaterial {
+    static constexpr const char* name = "coated conductor";
+    Metal metal{};
+    Roughness roughness{};  // of the metal
+    float coat_eta = 1.5f;  // over air; the metal's index is over air, too
+    Roughness coat{};
+    CoatLayer layer{};
+
+    Transparency transparency() const { return Transparency::opaque; }
+    Coating coating(Coats& coats) const;
+    CoatedConductorBsdf at(const MaterialInputs& inputs) const;
+};
+void visit_members(Is<CoatedConductorMaterial> auto& material, const auto& visit) {
+    auto& [metal, roughness, coat_eta, coat, layer] = material;
+    visit(metal, roughness, coat_eta, coat, layer);
+}
 
 }  // namespace lightnet

@@ -1,5 +1,6 @@
 #include "core/scene/bsdf/coated_diffuse.hpp"
 
+#include "core/scene/bsdf/coats.hpp"
 #include "core/scene/bsdf/fresnel.hpp"
 #include "core/scene/bsdf/microfacets.hpp"
 
@@ -50,6 +51,15 @@ std::optional<BsdfSample> CoatedDiffuseBsdf::sample(Vec3 outgoing, float choice,
     const auto [value, pdf] = evaluate(outgoing, incoming, lobes);
     if (!(pdf > 0)) return {};
     return BsdfSample{incoming, value / pdf, pdf, base ? lobe::diffuse : lobe::glossy};
+}
+
+Coating CoatedDiffuseMaterial::coating(Coats& coats) const {
+    return {&coats.coat(eta, only_facets_of(roughness), layer)};
+}
+
+CoatedDiffuseBsdf CoatedDiffuseMaterial::at(const MaterialInputs& inputs) const {
+    return {inputs.albedo(reflectance), inputs.coating().coat, inputs.facets(roughness), inputs.tint(tint),
+            base_colours_repeat};
 }
 
 }  // namespace lightnet

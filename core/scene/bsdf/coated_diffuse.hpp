@@ -1,7 +1,10 @@
 // A diffuse base under a dielectric coat: plastic, varnish, glazed clay.
 #pragma once
 
+#include <optional>
+
 #include "core/scene/bsdf/coat.hpp"
+#include "core/scene/bsdf/material_inputs.hpp"
 #include "core/scene/bsdf/scattering.hpp"
 
 namespace lightnet {
@@ -12,6 +15,7 @@ namespace lightnet {
 /// absorbs nothing reflects everything; rough coats lose what single scattering loses.
 struct CoatedDiffuseBsdf {
     static constexpr bool two_sided = true;
+    static constexpr bool chooses = true;
     Rgb albedo;                  // of the base
     const Coat* coat = nullptr;  // lives as long as the scene
     Ggx facets{};                // of the coat
@@ -28,5 +32,26 @@ private:
     float coat_chance(float reflectance, std::uint8_t lobes) const;
     Rgb base_value(Vec3 outgoing, Vec3 incoming) const;
 };
+
+class Coats;
+
+/// A diffuse base under a dielectric coat.
+struct CoatedDiffuseMaterial {
+    static constexpr const char* name = "coated diffuse";
+    TextureId reflectance = 0;  // of the base
+    float eta = 1.5f;
+    Roughness roughness{};            // of the coat
+    std::optional<TextureId> tint{};  // not physical, but in files: times the coat's reflection
+    bool base_colours_repeat = true;  // light that goes back and forth below the coat takes the base's colour each time
+    CoatLayer layer{};
+
+    Transparency transparency() const { return Transparency::opaque; }
+    Coating coating(Coats& coats) const;
+    CoatedDiffuseBsdf at(const MaterialInputs& inputs) const;
+};
+void visit_members(Is<CoatedDiffuseMaterial> auto& material, const auto& visit) {
+    auto& [reflectance, eta, roughness, tint, base_colours_repeat, layer] = material;
+    visit(reflectance, eta, roughness, tint, base_colours_repeat, layer);
+}
 
 }  // namespace lightnet

@@ -14,7 +14,7 @@ bool smooth(const std::optional<Ggx>& facets) { return facets && is_specular(fac
 
 }  // namespace
 
-const Coat& Coats::coat(float eta, const std::optional<Ggx>& facets, Coat::Layer layer) {
+const Coat& Coats::coat(float eta, const std::optional<Ggx>& facets, CoatLayer layer) {
     const auto [any, u, v] = key_of(facets);
     auto& made = coats_[{eta, layer.thickness, float(layer.bounces), any, u, v}];
     if (!made)

@@ -16,7 +16,7 @@ namespace lightnet {
 class Coats {
 public:
     /// Roughnesses: none where they change over a surface.
-    const Coat& coat(float eta, const std::optional<Ggx>& facets, Coat::Layer layer);
+    const Coat& coat(float eta, const std::optional<Ggx>& facets, CoatLayer layer);
     /// Null where both layers are smooth, and nothing has to be known.
     const CoatedMetal* over_metal(const Coat& coat, const std::optional<Ggx>& above, const std::optional<Ggx>& below);
 

@@ -33,4 +33,15 @@ Rgb absorption_for(Rgb reflectance) {
     return {of(reflectance.r), of(reflectance.g), of(reflectance.b)};
 }
 
+ConductorBsdf Metal::at(const MaterialInputs& inputs, const Ggx& facets) const {
+    if (reflectance) return {{1, 1, 1}, absorption_for(inputs.colour(*reflectance)), facets};
+    return {inputs.colour(eta), inputs.colour(k), facets};
+}
+
+ConductorBsdf ConductorMaterial::at(const MaterialInputs& inputs) const {
+    ConductorBsdf model = metal.at(inputs, inputs.facets(roughness));
+    model.tint = inputs.tint(tint);
+    return model;
+}
+
 }  // namespace lightnet

@@ -1,13 +1,17 @@
 // Metal: a mirror, or GGX microfacets of mirror. Single scattering: rough metals lose some energy, as in pbrt.
 #pragma once
 
+#include <optional>
+
 #include "core/scene/bsdf/ggx.hpp"
+#include "core/scene/bsdf/material_inputs.hpp"
 #include "core/scene/bsdf/scattering.hpp"
 
 namespace lightnet {
 
 struct ConductorBsdf {
     static constexpr bool two_sided = true;
+    static constexpr bool chooses = false;
     Rgb eta, k;  // complex index of refraction
     Ggx facets{};
     Rgb tint{1, 1, 1};
@@ -20,5 +24,37 @@ struct ConductorBsdf {
 
 /// k of a metal of index 1 + i k that reflects `reflectance` at normal incidence, as pbrt takes it.
 Rgb absorption_for(Rgb reflectance);
+
+/// Index of refraction of a metal per colour, or how much it reflects head-on.
+struct Metal {
+    TextureId eta = 0, k = 0;
+    std::optional<TextureId> reflectance{};  // given instead of eta and k
+
+    ConductorBsdf at(const MaterialInputs& inputs, const Ggx& facets) const;
+};
+void visit_members(Is<Metal> auto& metal, const auto& visit) {
+    auto& [eta, k, reflectance] = metal;
+    visit(eta, k, reflectance);
+}
+void visit_used(const Metal& metal, const auto& visit) {
+    if (metal.reflectance)
+        visit(*metal.reflectance);
+    else
+        visit(metal.eta, metal.k);
+}
+
+struct ConductorMaterial {
+    static constexpr const char* name = "conductor";
+    Metal metal{};
+    Roughness roughness{};
+    std::optional<TextureId> tint{};  // times this
+
+    Transparency transparency() const { return Transparency::opaque; }
+    ConductorBsdf at(const MaterialInputs& inputs) const;
+};
+void visit_members(Is<ConductorMaterial> auto& material, const auto& visit) {
+    auto& [metal, roughness, tint] = material;
+    visit(metal, roughness, tint);
+}
 
 }  // namespace lightnet

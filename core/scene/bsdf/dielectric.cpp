@@ -71,4 +71,10 @@ std::optional<BsdfSample> ThinDielectricBsdf::sample(Vec3 outgoing, float choice
     return BsdfSample{-outgoing, tints.transmitted * ((1 - reflectance) / (1 - chance)), 0, lobe::specular, true};
 }
 
+std::variant<DielectricBsdf, ThinDielectricBsdf> DielectricMaterial::at(const MaterialInputs& inputs) const {
+    const GlassTints tints{inputs.tint(reflected), inputs.tint(transmitted)};
+    if (thin) return ThinDielectricBsdf{eta, tints};
+    return DielectricBsdf{eta, inputs.facets(roughness), tints};
+}
+
 }  // namespace lightnet

@@ -1,7 +1,11 @@
 // Glass: reflects and refracts, smooth or with GGX microfacets (Walter et al. 2007). The normal points outside.
 #pragma once
 
+#include <optional>
+#include <variant>
+
 #include "core/scene/bsdf/ggx.hpp"
+#include "core/scene/bsdf/material_inputs.hpp"
 #include "core/scene/bsdf/scattering.hpp"
 
 namespace lightnet {
@@ -20,6 +24,7 @@ struct GlassTints {
 /// Transmitted radiance is scaled by the square of the ratio of indices, as radiance is.
 struct DielectricBsdf {
     static constexpr bool two_sided = false;
+    static constexpr bool chooses = true;
     float eta = 1.5f;  // inside over outside
     Ggx facets{};
     GlassTints tints{};
@@ -37,6 +42,7 @@ private:
 /// A pane of glass whose two sides are taken together: nothing is bent.
 struct ThinDielectricBsdf {
     static constexpr bool two_sided = true;
+    static constexpr bool chooses = true;
     float eta = 1.5f;
     GlassTints tints{};
 
@@ -48,5 +54,29 @@ struct ThinDielectricBsdf {
 private:
     float reflectance(Vec3 outgoing) const;
 };
+
+struct DielectricMaterial {
+    static constexpr const char* name = "dielectric";
+    float eta = 1.5f;  // inside over outside (outside: where the normal points)
+    Roughness roughness{};
+    std::optional<TextureId> reflected{}, transmitted{};  // not physical, but in files: tints
+    bool thin = false;                                    // a pane: what enters leaves on the other side, undeflected
+
+    Transparency transparency() const { return thin ? Transparency::sheet : Transparency::solid; }
+    std::variant<DielectricBsdf, ThinDielectricBsdf> at(const MaterialInputs& inputs) const;
+};
+void visit_members(Is<DielectricMaterial> auto& material, const auto& visit) {
+    auto& [eta, roughness, reflected, transmitted, thin] = material;
+    visit(eta, roughness, reflected, transmitted, thin);
+}
+
+/// Not there: light goes straight through (a border between media, say).
+struct NoMaterial {
+    static constexpr const char* name = "nothing";
+    Transparency transparency() const { return Transparency::sheet; }
+    /// A pane of air.
+    ThinDielectricBsdf at(const MaterialInputs&) const { return {1, {}}; }
+};
+void visit_members(Is<NoMaterial> auto&, const auto&) { static_assert(std::is_empty_v<NoMaterial>); }
 
 }  // namespace lightnet

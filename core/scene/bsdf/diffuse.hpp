@@ -9,6 +9,7 @@ namespace lightnet {
 
 struct DiffuseBsdf {
     static constexpr bool two_sided = true;
+    static constexpr bool chooses = false;
     Rgb albedo;
 
     std::uint8_t lobes() const { return lobe::diffuse; }

@@ -8,6 +8,7 @@ namespace lightnet {
 
 struct DiffuseTransmissionBsdf {
     static constexpr bool two_sided = true;
+    static constexpr bool chooses = true;
     Rgb reflected, transmitted;  // together at most 1
 
     std::uint8_t lobes() const { return lobe::diffuse; }

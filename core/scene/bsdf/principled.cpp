@@ -29,7 +29,7 @@ float PrincipledBsdf::alpha() const { return std::sqrt(facets.alpha_u * facets.a
 
 std::uint8_t PrincipledBsdf::lobes() const {
     std::uint8_t all = smooth() ? lobe::specular : lobe::glossy;
-    if (plain_share() > 0 || max_component(sheen) > 0) all |= lobe::diffuse;
+    if (plastic_share() > 0 || max_component(sheen) > 0) all |= lobe::diffuse;
     if (coat > 0) all |= smooth_coat() ? lobe::specular : lobe::glossy;
     return all;
 }
@@ -45,7 +45,7 @@ float PrincipledBsdf::glass_reflectance(float cosine) const { return fresnel_die
 
 /// Of a facet seen at `cosine`, which is below 0 from inside a solid.
 Rgb PrincipledBsdf::reflectance(float cosine) const {
-    Rgb sum = schlick(base, 1, cosine) * metallic + schlick(f0, f90, cosine) * plain_share();
+    Rgb sum = schlick(base, 1, cosine) * metallic + schlick(f0, f90, cosine) * plastic_share();
     if (glass_share() > 0) {
         const float glass = glass_reflectance(cosine);
         // what is reflected totally has nowhere else to go
@@ -67,7 +67,7 @@ float PrincipledBsdf::reflection_chance(float cosine) const {
 }
 
 /// Of the dielectric's reflection alone; what the diffuse part below it doesn't get.
-float PrincipledBsdf::plain_albedo(float cosine) const {
+float PrincipledBsdf::plastic_albedo(float cosine) const {
     return std::min(1.0f, ggx_albedo(alpha(), cosine)(max_component(f0), f90));
 }
 
@@ -95,14 +95,14 @@ PrincipledBsdf::Chances PrincipledBsdf::chances(Vec3 o, std::uint8_t lobes) cons
     if (coat > 0 && o.z > 0 && (lobes & (smooth_coat() ? lobe::specular : lobe::glossy))) result.coat = 1 - below_coat;
     if ((lobes & lobe::diffuse) && o.z > 0) result.sheen = rest * (1 - below_sheen);
     rest *= below_sheen;
-    const float plain = plain_share() > 0 ? plain_albedo(cosine) : 0;
-    if (lobes & lobe::diffuse) result.diffuse = rest * plain_share() * (1 - plain) * max_component(base);
+    const float plastic = plastic_share() > 0 ? plastic_albedo(cosine) : 0;
+    if (lobes & lobe::diffuse) result.diffuse = rest * plastic_share() * (1 - plastic) * max_component(base);
     if (lobes & own) {
         const GgxAlbedo metal = ggx_albedo(alpha(), cosine);
         const float glass = glass_reflectance(o.z);
         const float window = glass < 1 ? (1 - glass) * max_component(base) + glass * max_component(glass_tint()) : 1;
         result.facets =
-            rest * (metallic * metal(max_component(base), 1) + plain_share() * plain + glass_share() * window);
+            rest * (metallic * metal(max_component(base), 1) + plastic_share() * plastic + glass_share() * window);
     }
     const float sum = result.coat + result.sheen + result.diffuse + result.facets;
     if (!(sum > 0)) return {};
@@ -113,11 +113,11 @@ PrincipledBsdf::Chances PrincipledBsdf::chances(Vec3 o, std::uint8_t lobes) cons
 /// Both directions turned upwards: the diffuse base below the dielectric's reflection, and cloth.
 void PrincipledBsdf::add_diffuse(Vec3 o, Vec3 i, const Layers& layers, const Chances& chances, BsdfValue& sum) const {
     const float even = i.z * inverse_pi;
-    if (plain_share() > 0) {
+    if (plastic_share() > 0) {
         const float mean = ggx_mean_albedo(alpha())(max_component(f0), f90);
         // Kelemen and Szirmay-Kalos 2001: symmetric, and the base gets all that the reflection leaves
-        const float passes = (1 - plain_albedo(o.z)) * (1 - plain_albedo(i.z)) / std::max(1e-4f, 1 - mean);
-        sum.value += base * (plain_share() * layers.below_coat * layers.below_sheen * passes * even);
+        const float passes = (1 - plastic_albedo(o.z)) * (1 - plastic_albedo(i.z)) / std::max(1e-4f, 1 - mean);
+        sum.value += base * (plastic_share() * layers.below_coat * layers.below_sheen * passes * even);
         sum.pdf += chances.diffuse * even;
     }
     if (chances.sheen > 0) {
@@ -245,6 +245,31 @@ std::optional<BsdfSample> PrincipledBsdf::sample(Vec3 outgoing, float choice, Ve
     auto result = upright_sample(outgoing, choice, u, lobes);
     if (result && turn) result->incoming.z = -result->incoming.z;
     return result;
+}
+
+PrincipledBsdf PrincipledMaterial::at(const MaterialInputs& inputs) const {
+    PrincipledBsdf model;
+    model.base = inputs.albedo(base_colour);
+    model.metallic = inputs.share(metallic, metallic_texture);
+    model.transmission = inputs.share(transmission, transmission_texture);
+    model.facets = inputs.facets(roughness);
+    model.eta = eta;
+    model.thin = thin || eta == 1;
+    const float share = inputs.share(specular, specular_texture);
+    Rgb tint = specular_colour;
+    if (specular_colour_texture) tint *= inputs.colour(*specular_colour_texture);
+    model.f0 = limited(tint * fresnel_dielectric(1, eta)) * share;
+    model.f90 = share;
+    if (sheen > 0) {
+        model.sheen = sheen_colour * sheen;
+        if (sheen_texture) model.sheen *= inputs.colour(*sheen_texture);
+        model.sheen = limited(model.sheen);
+        const float rough = inputs.share(sheen_roughness, sheen_roughness_texture);
+        model.sheen_alpha = std::max(least_sheen_alpha, rough * rough);
+    }
+    model.coat = inputs.share(clearcoat, clearcoat_texture);
+    model.coat_alpha = inputs.facets(clearcoat_roughness).alpha_u;
+    return model;
 }
 
 }  // namespace lightnet

@@ -1,7 +1,10 @@
 // The material of game engines and film studios: metal, plastic, glass and cloth by a few numbers.
 #pragma once
 
+#include <optional>
+
 #include "core/scene/bsdf/ggx.hpp"
+#include "core/scene/bsdf/material_inputs.hpp"
 #include "core/scene/bsdf/scattering.hpp"
 
 namespace lightnet {
@@ -12,6 +15,7 @@ namespace lightnet {
 /// symmetric one by directional albedos stands here: never above 1, and reciprocal.
 struct PrincipledBsdf {
     static constexpr bool two_sided = false;  // but for solids that let light through, it is made so
+    static constexpr bool chooses = true;
     Rgb base;
     float metallic = 0, transmission = 0;
     Ggx facets{};
@@ -39,14 +43,14 @@ private:
     };
     bool turned(Vec3 outgoing) const { return outgoing.z < 0 && (thin || transmission == 0); }
     float alpha() const;
-    float plain_share() const { return (1 - metallic) * (1 - transmission); }
+    float plastic_share() const { return (1 - metallic) * (1 - transmission); }
     float glass_share() const { return (1 - metallic) * transmission; }
     Rgb glass_tint() const;
     float glass_reflectance(float cosine) const;
     Rgb reflectance(float cosine) const;
     Rgb transmittance(float cosine) const;
     float reflection_chance(float cosine) const;
-    float plain_albedo(float cosine) const;
+    float plastic_albedo(float cosine) const;
     Layers layers(Vec3 outgoing, Vec3 incoming) const;
     Chances chances(Vec3 outgoing, std::uint8_t lobes) const;
     void add_diffuse(Vec3 o, Vec3 i, const Layers& layers, const Chances& chances, BsdfValue& sum) const;
@@ -58,5 +62,40 @@ private:
     std::optional<BsdfSample> sample_smooth(Vec3 o, float choice, float chance) const;
     std::optional<BsdfSample> sample_facets(Vec3 o, float choice, Vec2 u) const;
 };
+
+/// The principled model of Burley (2012, 2015), of which glTF's metallic-roughness model with its extensions is a part.
+/// Numbers are 0 … 1 where nothing else is said; a texture multiplies.
+struct PrincipledMaterial {
+    static constexpr const char* name = "principled";
+    TextureId base_colour = 0;
+    float metallic = 0, transmission = 0;
+    std::optional<TextureId> metallic_texture{}, transmission_texture{};
+    Roughness roughness{0.5f, 0.5f, {}, Roughness::Means::square};
+    float eta = 1.5f;
+    float specular = 1;            // times the dielectric reflection
+    Rgb specular_colour{1, 1, 1};  // of it, head-on; may exceed 1
+    std::optional<TextureId> specular_texture{}, specular_colour_texture{};
+    float sheen = 0, sheen_roughness = 0.3f;
+    Rgb sheen_colour{1, 1, 1};
+    std::optional<TextureId> sheen_texture{}, sheen_roughness_texture{};  // the first has colours
+    float clearcoat = 0;
+    std::optional<TextureId> clearcoat_texture{};
+    Roughness clearcoat_roughness{0.03f, 0.03f, {}, Roughness::Means::square};
+    bool thin = true;  // of transmission: a pane rather than a solid
+
+    Transparency transparency() const {
+        if (!(transmission > 0)) return Transparency::opaque;
+        return thin ? Transparency::sheet : Transparency::solid;
+    }
+    PrincipledBsdf at(const MaterialInputs& inputs) const;
+};
+void visit_members(Is<PrincipledMaterial> auto& material, const auto& visit) {
+    auto& [base_colour, metallic, transmission, metallic_texture, transmission_texture, roughness, eta, specular,
+           specular_colour, specular_texture, specular_colour_texture, sheen, sheen_roughness, sheen_colour,
+           sheen_texture, sheen_roughness_texture, clearcoat, clearcoat_texture, clearcoat_roughness, thin] = material;
+    visit(base_colour, metallic, transmission, metallic_texture, transmission_texture, roughness, eta, specular,
+          specular_colour, specular_texture, specular_colour_texture, sheen, sheen_roughness, sheen_colour,
+          sheen_texture, sheen_roughness_texture, clearcoat, clearcoat_texture, clearcoat_roughness, thin);
+}
 
 }  // namespace lightnet

@@ -9,6 +9,7 @@ namespace lightnet {
 /// writes it, and what is scattered more often, so that a white surface loses nothing.
 struct RoughDiffuseBsdf {
     static constexpr bool two_sided = true;
+    static constexpr bool chooses = false;
     Rgb albedo;           // of the facets
     float roughness = 0;  // 0 … 1
 

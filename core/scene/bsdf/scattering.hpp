@@ -31,7 +31,8 @@ inline constexpr float specular_alpha = 1e-3f;
 
 inline bool is_specular(float alpha_u, float alpha_v) { return alpha_u < specular_alpha && alpha_v < specular_alpha; }
 
-// Each model is a value with the three members of Bsdf, in local coordinates: the shading normal is +z. For models
-// whose `two_sided` is true, outgoing.z > 0 always, and both sides of the surface look alike.
+// Each model is a value that has lobes(), evaluate() and sample() as Bsdf has, in local coordinates: the shading normal
+// is +z. For models whose `two_sided` is true, outgoing.z > 0 always, and both sides of the surface look alike. Models
+// whose `chooses` is false have one lobe, and sample() does not look at its `choice`.
 
 }  // namespace lightnet

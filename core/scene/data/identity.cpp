@@ -7,25 +7,23 @@
 #include <span>
 #include <variant>
 
-#include "core/scene/data/members.hpp"
-
 namespace lightnet {
 namespace {
 
 /// Of which equal values have equal bytes, as nothing lies between their numbers. (0 and -0 are told apart, which does
 /// no harm.)
 template <class T>
-constexpr bool plain = std::is_arithmetic_v<T> || std::is_enum_v<T>;
+constexpr bool as_bytes = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 template <>
-constexpr bool plain<Vec2> = sizeof(Vec2) == 2 * sizeof(float);
+constexpr bool as_bytes<Vec2> = sizeof(Vec2) == 2 * sizeof(float);
 template <>
-constexpr bool plain<Vec3> = sizeof(Vec3) == 3 * sizeof(float);
+constexpr bool as_bytes<Vec3> = sizeof(Vec3) == 3 * sizeof(float);
 template <>
-constexpr bool plain<Rgb> = sizeof(Rgb) == 3 * sizeof(float);
+constexpr bool as_bytes<Rgb> = sizeof(Rgb) == 3 * sizeof(float);
 template <>
-constexpr bool plain<Matrix> = sizeof(Matrix) == 16 * sizeof(double);
+constexpr bool as_bytes<Matrix> = sizeof(Matrix) == 16 * sizeof(double);
 template <class T, std::size_t n>
-constexpr bool plain<std::array<T, n>> = plain<T>;
+constexpr bool as_bytes<std::array<T, n>> = as_bytes<T>;
 
 /// Everything that it is shown, one after the other; whoever shows less than before must say so, or two scenes could
 /// look alike.
@@ -38,7 +36,7 @@ public:
 
     template <class T>
     void add(const T& value) {
-        if constexpr (plain<T>)
+        if constexpr (as_bytes<T>)
             add_bytes(std::as_bytes(std::span(&value, 1)));
         else
             visit_members(value, [this](const auto&... members) { (add(members), ...); });
@@ -56,7 +54,7 @@ public:
     template <class T>
     void add(const std::vector<T>& values) {
         add(values.size());
-        if constexpr (plain<T>)
+        if constexpr (as_bytes<T>)
             add_bytes(std::as_bytes(std::span(values)));
         else
             for (const T& value : values) add(value);

@@ -4,8 +4,8 @@
 #include "core/base/math/octahedral.hpp"
 #include "core/base/math/sampling.hpp"
 #include "core/scene/lamps/shares.hpp"
-#include "core/scene/surfaces/textures.hpp"
 #include "core/scene/surfaces/triangle.hpp"
+#include "core/scene/textures/look_up.hpp"
 
 #include <algorithm>
 #include <array>

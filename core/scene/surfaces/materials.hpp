@@ -3,13 +3,14 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/scene/bsdf/bsdf.hpp"
 #include "core/scene/bsdf/coats.hpp"
 #include "core/scene/data/scene_data.hpp"
 #include "core/scene/surfaces/surface.hpp"
-#include "core/scene/surfaces/textures.hpp"
+#include "core/scene/textures/look_up.hpp"
 
 namespace lightnet {
 
@@ -27,7 +28,7 @@ struct MaterialNeeds {
 /// The materials of a scene. Any thread may ask.
 class Materials {
 public:
-    /// Keeps looking at `data`. Throws Error where a material names what isn't there, or itself by way of others.
+    /// Keeps looking at `data`. Throws Error as check_textures() and check_materials() do.
     explicit Materials(const SceneData& data);
 
     const MaterialNeeds& needs(MaterialId material) const { return made_[material].needs; }
@@ -36,14 +37,14 @@ public:
     void add_bsdf(MaterialId material, const SurfacePoint& point, std::vector<Bsdf>& to) const {
         const Made& made = made_[material];
         if (made.simple)
-            to.emplace_back(point.shading, point.normal, *made.plain);
+            to.emplace_back(point.shading, point.normal, *made.constant);
         else
             to.push_back(bsdf(material, point));
     }
-    /// Is it diffuse and nothing else?
-    bool is_plain(MaterialId material) const;
-    /// Reflectance of a plain one; null: it depends on the place.
-    const Rgb* plain_albedo(MaterialId material) const;
+    /// Is it an ideal diffuse reflector, without bumps?
+    bool is_lambertian(MaterialId material) const;
+    /// Reflectance of a Lambertian one; null: it depends on the place.
+    const Rgb* constant_albedo(MaterialId material) const;
     Rgb albedo(MaterialId material, const TexturePlace& place) const;
     /// Share of the light that meets the surface.
     float opacity(MaterialId material, const TexturePlace& place) const;
@@ -51,18 +52,17 @@ public:
 private:
     struct Made {
         MaterialNeeds needs;
-        std::optional<Bsdf::Model> plain;  // the same everywhere
-        const Coat* coat = nullptr;        // of coated models
-        const CoatedMetal* coated_metal = nullptr;
-        bool simple = false;  // `plain` is all there is to it
+        std::optional<Bsdf::Model> constant;  // the same everywhere
+        Coating coating;                      // of coated models
+        bool done = false;
+        bool simple = false;  // `constant` is all there is to it
         bool bumpy = false;   // normal or bump map
         float step = 0;       // of texture coordinates, over which a bump map is taken to be straight
         bool filled = false;  // with what absorbs
     };
-    MaterialNeeds needs_of(MaterialId material) const;
-    Made made_of(MaterialId material);
-    Bsdf blend(MaterialId material, const SurfacePoint& point) const;
-    Bsdf::Model model_at(MaterialId material, const TexturePlace& place) const;
+    void make(MaterialId material);
+    MaterialNeeds needs_of(MaterialId material);
+    Bsdf blend(std::span<const BlendPart> parts, const SurfacePoint& point) const;
 
     const SceneData& data_;
     Coats coats_;

@@ -77,8 +77,8 @@ Shading::Shading(const SceneData& data) : data_(data), materials_(data) {
 
 PlainShape Shading::plain(const Shape& shape, const Needs& needs) const {
     const auto* mesh = std::get_if<Mesh>(&shape.geometry);
-    if (!mesh || shape.emission || !materials_.is_plain(shape.material)) return {};
-    const Rgb* albedo = materials_.plain_albedo(shape.material);
+    if (!mesh || shape.emission || !materials_.is_lambertian(shape.material)) return {};
+    const Rgb* albedo = materials_.constant_albedo(shape.material);
     return {mesh, albedo ? *albedo : Rgb{}, albedo ? nullptr : this, needs.offset,
             data_.materials[shape.material].one_sided};
 }

@@ -11,7 +11,7 @@
 #include "core/scene/surfaces/plain_surfaces.hpp"
 #include "core/scene/surfaces/ray.hpp"
 #include "core/scene/surfaces/surface.hpp"
-#include "core/scene/surfaces/textures.hpp"
+#include "core/scene/textures/look_up.hpp"
 
 namespace lightnet {
 

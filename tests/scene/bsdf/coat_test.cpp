@@ -16,7 +16,7 @@ Vec3 from_above(float cosine) { return {std::sqrt(1 - cosine * cosine), 0, cosin
 
 /// Light of one direction, in and out again. `Base` is any model that reflects only.
 template <class Base>
-float walk(const DielectricBsdf& coat, const Base& base, Coat::Layer layer, Vec3 outgoing, Samples samples) {
+float walk(const DielectricBsdf& coat, const Base& base, CoatLayer layer, Vec3 outgoing, Samples samples) {
     const auto next = [&](const auto& model, Vec3 from) {
         const float choice = samples.next();
         return model.sample(from, choice, samples.next_2d(), lobe::all);
@@ -41,7 +41,7 @@ float walk(const DielectricBsdf& coat, const Base& base, Coat::Layer layer, Vec3
 }
 
 template <class Base>
-double walked_albedo(const DielectricBsdf& coat, const Base& base, Coat::Layer layer, Vec3 outgoing) {
+double walked_albedo(const DielectricBsdf& coat, const Base& base, CoatLayer layer, Vec3 outgoing) {
     double sum = 0;
     for (std::uint32_t i = 0; i < tries; ++i) sum += walk(coat, base, layer, outgoing, Samples(7, i));
     return sum / tries;
@@ -60,7 +60,7 @@ double albedo(const Bsdf::Model& model, Vec3 outgoing) {
 
 struct Layers {
     float alpha, reflectance;
-    Coat::Layer layer{};
+    CoatLayer layer{};
     float of_diffuse = 0.01f, of_metal = 0.015f;  // tolerances of the albedo, as shares
 };
 class OfACoat : public testing::TestWithParam<Layers> {};

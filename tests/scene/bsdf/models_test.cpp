@@ -62,8 +62,7 @@ struct Case {
     Bsdf on(const Frame& frame) const {
         const Bsdf first(frame, frame.z, model);
         if (!second) return first;
-        using Face = Bsdf::Part::Face;
-        return {frame.z, {{first, 0.3f, Face::both}, {Bsdf(frame, frame.z, *second), 0.7f, Face::both}}};
+        return {frame.z, {{first, 0.3f}, {Bsdf(frame, frame.z, *second), 0.7f}}};
     }
 };
 

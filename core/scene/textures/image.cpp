@@ -1,4 +1,4 @@
-#include "core/scene/data/image.hpp"
+#include "core/scene/textures/image.hpp"
 
 #include <array>
 #include <cassert>

@@ -1,4 +1,4 @@
-#include "core/scene/surfaces/textures.hpp"
+#include "core/scene/textures/look_up.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -103,16 +103,6 @@ struct Pattern {
     Rgb operator()(VertexColour) const { return place.vertex_colour; }
 };
 
-struct Inputs {
-    std::vector<TextureId> operator()(const CheckerTexture& t) const { return {t.even, t.odd}; }
-    std::vector<TextureId> operator()(const ProductTexture& t) const { return {t.first, t.second}; }
-    std::vector<TextureId> operator()(const MixTexture& t) const { return {t.first, t.second, t.amount}; }
-    template <class Other>
-    std::vector<TextureId> operator()(const Other&) const {
-        return {};
-    }
-};
-
 }  // namespace
 
 Rgb look_up(std::span<const Texture> textures, TextureId texture, const TexturePlace& place) {
@@ -125,7 +115,11 @@ Rgb look_up(std::span<const Texture> textures, TextureId texture, const TextureP
 
 bool is_constant(const Texture& texture) { return std::holds_alternative<std::monostate>(texture.pattern); }
 
-std::vector<TextureId> inputs_of(const Texture& texture) { return std::visit(Inputs{}, texture.pattern); }
+std::vector<TextureId> inputs_of(const Texture& texture) {
+    std::vector<TextureId> inputs;
+    visit_each<TextureId>(texture, [&](TextureId input) { inputs.push_back(input); });
+    return inputs;
+}
 
 void check_textures(std::span<const Texture> textures) {
     for (std::size_t i = 0; i < textures.size(); ++i)

@@ -6,7 +6,7 @@
 
 #include "core/base/math/rgb.hpp"
 #include "core/base/math/vec.hpp"
-#include "core/scene/data/scene_data.hpp"
+#include "core/scene/textures/texture.hpp"
 
 namespace lightnet {
 

@@ -1,0 +1,104 @@
+// All materials there are, and what every one of them must be able to say.
+#pragma once
+
+#include <concepts>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+#include "core/base/math/rgb.hpp"
+#include "core/scene/bsdf/blends.hpp"
+#include "core/scene/bsdf/coated_conductor.hpp"
+#include "core/scene/bsdf/coated_diffuse.hpp"
+#include "core/scene/bsdf/conductor.hpp"
+#include "core/scene/bsdf/dielectric.hpp"
+#include "core/scene/bsdf/diffuse_material.hpp"
+#include "core/scene/bsdf/material_inputs.hpp"
+#include "core/scene/bsdf/principled.hpp"
+
+namespace lightnet {
+
+/// The list. A new one goes to its end: the number of a material in it is part of a scene's identity.
+using AnyMaterial =
+    std::variant<DiffuseMaterial, ConductorMaterial, DielectricMaterial, CoatedDiffuseMaterial, CoatedConductorMaterial,
+                 PrincipledMaterial, MixtureMaterial, TwoFacedMaterial, NoMaterial>;
+
+/// Is a model of scattering at each place: at() gives it, or one of several.
+template <class M>
+concept Scatters = requires(const M& material, const MaterialInputs& inputs) {
+    material.at(inputs);
+};
+/// Is made of others: parts_at() says of which.
+template <class M>
+concept Blends = requires(const M& material, const MaterialInputs& inputs) {
+    { *std::begin(material.parts_at(inputs)) } -> std::convertible_to<BlendPart>;
+};
+/// Has much to work out once per scene.
+template <class M>
+concept Coated = requires(const M& material, Coats& coats) {
+    { material.coating(coats) } -> std::same_as<Coating>;
+};
+/// What every material of the list is, beside a list of its own members.
+template <class M>
+concept IsMaterial = (Scatters<M> != Blends<M>)&&requires(M& material, const M& constant) {
+    { M::name } -> std::convertible_to<const char*>;
+    { constant.transparency() } -> std::same_as<Transparency>;
+    visit_members(material, [](auto&...) {});
+};
+
+/// Each model of scattering that materials can be, once.
+template <class Models, class... More>
+struct ModelsWith {
+    using type = Models;
+};
+template <class... Models, class Next, class... More>
+struct ModelsWith<std::variant<Models...>, Next, More...>
+    : ModelsWith<std::conditional_t<(std::same_as<Models, Next> || ...), std::variant<Models...>,
+                                    std::variant<Models..., Next>>,
+                 More...> {};
+template <class... Models, class... Next, class... More>
+struct ModelsWith<std::variant<Models...>, std::variant<Next...>, More...>
+    : ModelsWith<std::variant<Models...>, Next..., More...> {};
+
+/// What at() of a material gives: a model, a variant of some; blends have none.
+template <class M>
+struct ScatteringOf {
+    using type = std::variant<>;
+};
+template <Scatters M>
+struct ScatteringOf<M> {
+    using type = decltype(std::declval<const M&>().at(std::declval<const MaterialInputs&>()));
+};
+
+template <class Materials>
+struct ModelsOf;
+template <class... Materials>
+struct ModelsOf<std::variant<Materials...>> {
+    static_assert((IsMaterial<Materials> && ...), "a material must say what IsMaterial asks");
+    using type = typename ModelsWith<std::variant<>, typename ScatteringOf<Materials>::type...>::type;
+};
+
+struct Material {
+    std::string name;  // as in the file; may be empty
+    AnyMaterial model;
+    bool one_sided = false;                 // black from behind (opaque models only)
+    std::optional<TextureId> opacity{};     // share of the light that meets the surface at all; its red counts
+    float opacity_cutoff = 0;               // > 0: there where opacity ≥ this, else not
+    std::optional<TextureId> normal_map{};  // linear, 0.5 is 0; x along ∂p/∂u, y along ∂p/∂v, z along the normal
+    float normal_scale = 1;                 // of its x and y
+    std::optional<TextureId> bump_map{};    // height, metres, in the normal's direction; its red counts
+    Rgb absorption{};                       // per metre inside a solid (glTF's attenuation, Beer and Lambert's law)
+};
+void visit_members(Is<Material> auto& material, const auto& visit) {
+    auto& [name, model, one_sided, opacity, opacity_cutoff, normal_map, normal_scale, bump_map, absorption] = material;
+    visit(model, one_sided, opacity, opacity_cutoff, normal_map, normal_scale, bump_map, absorption);
+}
+
+inline Transparency transparency_of(const Material& material) {
+    return std::visit([](const auto& m) { return m.transparency(); }, material.model);
+}
+
+}  // namespace lightnet

@@ -1,0 +1,21 @@
+#include "core/scene/data/contents.hpp"
+
+namespace lightnet {
+
+std::uint64_t triangles_of(const Shape& shape) {
+    const auto* mesh = std::get_if<Mesh>(&shape.geometry);
+    return mesh ? mesh->triangles.size() : 0;
+}
+
+std::set<const Image*> images_of(const SceneData& scene) {
+    using Shared = std::shared_ptr<const Image>;
+    std::set<const Image*> images;
+    const auto add = [&](const Shared& image) {
+        if (image) images.insert(image.get());
+    };
+    for (const auto& texture : scene.textures) visit_each<Shared>(texture, add);
+    for (const auto& environment : scene.environments) visit_each<Shared>(environment, add);
+    return images;
+}
+
+}  // namespace lightnet

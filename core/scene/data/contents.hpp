@@ -1,0 +1,16 @@
+// What there is in a scene, once each.
+#pragma once
+
+#include <cstdint>
+#include <set>
+
+#include "core/scene/data/scene_data.hpp"
+
+namespace lightnet {
+
+/// 0 of spheres.
+std::uint64_t triangles_of(const Shape& shape);
+/// All images of textures and environments, which may share them.
+std::set<const Image*> images_of(const SceneData& scene);
+
+}  // namespace lightnet
