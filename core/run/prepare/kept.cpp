@@ -54,7 +54,7 @@ Bytes kept_results(const Kind& kind, const Hash& scene, std::span<const std::byt
         throw Error("belongs to another scene: its surfaces, materials or lights differ from those here");
     const auto results = file.subspan(end + 2);
     if (after(head, "sum") != to_hex(content_hash(results))) throw Error("is damaged");
-    return std::make_shared<const std::vector<std::byte>>(results.begin(), results.end());
+    return bytes_of(results);
 }
 
 void take_up_kept(const Graph& graph, const Registry& registry, Files& files, SceneData& scene,

@@ -1,8 +1,5 @@
 #include "core/run/runtime/serial.hpp"
 
-#include <cstring>
-#include <span>
-
 #include "core/network/light/services.hpp"
 #include "core/scene/scene.hpp"
 
@@ -26,10 +23,7 @@ public:
                 run_.step(i, tiles.size());
                 run_.render(tiles[i]);
             }
-            const auto noted = run_.assembly_.rehearsal(node_).end();
-            std::vector<std::byte> bytes(noted.size() * sizeof(Query));
-            if (!noted.empty()) std::memcpy(bytes.data(), noted.data(), bytes.size());
-            return join_shards(std::span(&bytes, 1));
+            return rehearsal_result(run_.assembly_.rehearsal(node_).end());
         });
         const Mapped<Query> noted(result);
         return {noted.begin(), noted.end()};
