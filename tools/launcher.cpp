@@ -56,7 +56,6 @@ RunRequest request_of(const Options& options, const Registry& registry, Loaded l
     request.listen = options.listen;
     request.pass = options.pass;
     request.tuning = options.tuning;
-    request.check_answers = options.check_answers;
     request.local_workers = options.local_workers.value_or(0);
     request.slurm = {options.slurm.value_or(0), options.partition, words_of(options.slurm_arguments)};
     request.wait = std::chrono::seconds(options.wait);
@@ -155,7 +154,7 @@ int Launcher::perform_check(const Options& options) const {
     const Loaded loaded = load(options, registry, true);
     warn(loaded.warnings, options, err);
     DiskFiles files;
-    warn(load_scene(loaded.graph, registry, files, scene_file(loaded.graph, registry)).warnings, options, err);
+    warn(load_scene(loaded.graph, registry, files, scene_file(loaded.graph, registry)).data.warnings, options, err);
     for (const auto& note : loaded.notes) err << "note: " << to_string(note) << '\n';
     const auto format = film_of(loaded.graph, registry);
     out << options.graph << ": sound: " << loaded.graph.nodes.size() << " nodes, " << format.width << "x"

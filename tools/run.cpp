@@ -75,8 +75,8 @@ RunReport first_page(const RunRequest& request, const Registry& registry, const 
             fmt::format("{},{},{},{}", crop->x, crop->y, crop->x + crop->width, crop->y + crop->height);
     if (film.adaptive()) report.settings["error"] = fmt::format("{}", film.refinement.error);
     report.settings["seed"] = std::to_string(request.seed);
-    report.settings["tile"] = std::to_string(request.tuning.tile);
-    report.settings["bundle"] = std::to_string(request.tuning.bundle);
+    for (const auto& knob : knobs)
+        if (knob.by == Knob::By::users) report.settings[knob.name] = text_of(request.tuning, knob);
     for (const auto& warning : irreproducible_nodes(request.graph, registry))  // said already, when it was checked
         report.warnings.push_back(to_string(warning));
     return report;
@@ -102,9 +102,9 @@ private:
     Job make_job(DiskFiles& files) const;
     void take_up_checkpoint();
     void report_failure();
-    void render_serially(SceneData scene);
-    void render_in_threads(SceneData scene);
-    void render_on_hosts(const DiskFiles& files, SceneData scene);
+    void render_serially(LoadedScene scene);
+    void render_in_threads(LoadedScene scene);
+    void render_on_hosts(const DiskFiles& files, LoadedScene scene);
     Cluster::Options cluster_options(const DiskFiles& files);
     /// Called several times a second with the number of places that render.
     using LookAround = std::function<void(std::size_t renderers)>;
@@ -150,11 +150,7 @@ Job Run::make_job(DiskFiles& files) const {
     job.seed = request_.seed;
     job.isa = usual_isa();
     job.width = format_.width, job.height = format_.height;
-    job.rules.bundles.questions = request_.tuning.bundle;
-    job.rules.credit.bundles = request_.tuning.credit;
-    job.rules.side_fibers = request_.tuning.side_fibers;
-    job.checking = job.rules.check = request_.check_answers;
-    job.rules.spare_fibers = request_.tuning.spare_fibers;
+    job.tuning = request_.tuning;
     return job;
 }
 
@@ -179,11 +175,10 @@ int Run::perform() {
         const auto read = request_.read ? request_.read : std::make_shared<ReadScene>();
         DiskFiles& files = read->files;
         if (!request_.read) read->scene = read_scene(files, request_.scene, scene_constants(request_.graph, registry_));
-        SceneData scene = std::move(read->scene);
-        override_scene(request_.graph, registry_, files, scene);
-        for (const auto& warning : scene.warnings) book_.warn(to_string(warning));
-        book_.will_keep(request_.graph, registry_, scene);
-        const float scale = scene.film.scale;
+        LoadedScene scene = override_scene(request_.graph, registry_, files, std::move(read->scene));
+        for (const auto& warning : scene.data.warnings) book_.warn(to_string(warning));
+        book_.will_keep(request_.graph, registry_, scene.data);
+        const float scale = scene.data.film.scale;
         job_ = make_job(files);
         book_.expose(scale);
         if (request_.preview > 0) book_.preview(request_.output, request_.preview);
@@ -233,7 +228,7 @@ void Run::report_failure() {
     }
 }
 
-void Run::render_serially(SceneData scene) {
+void Run::render_serially(LoadedScene scene) {
     book_.phase("prepare");
     const auto network = build_network(job_, registry_, std::move(scene));
     SerialRun run(*network, [this] {
@@ -255,11 +250,11 @@ void Run::render_serially(SceneData scene) {
     book_.count(run.counters());
 }
 
-void Run::render_in_threads(SceneData scene) {
+void Run::render_in_threads(LoadedScene scene) {
     book_.phase("prepare");
     const auto network = build_network(job_, registry_, std::move(scene));
     const Plan plan = lightnet::plan(job_.graph, registry_, {}, {{"", request_.threads}});
-    ThreadedRun run(network, id_, plan, job_.rules);
+    ThreadedRun run(network, id_, plan, job_.tuning);
     book_.use(plan, job_.graph);
     hand_out(run.carrier(), plan, [&](std::size_t) { run.check(); });
     book_.count(run.stop());
@@ -319,7 +314,7 @@ void Run::hand_out(Carrier& carrier, const Plan& plan, const LookAround& look_ar
     job.tiles = tiles_;
     const auto tiles = tiles_per_place(plan);
     job.credit = {tiles, tiles * MasterRenderer::most_together};
-    job.check = request_.check_answers;
+    job.check_answers = request_.tuning.check_answers;
     MasterRenderer* more = nullptr;
     MasterRenderer master(std::move(job), conductor, [this, &more](const Tile& tile, std::span<const Rgb> pixels) {
         more->append(book_.take(tile, pixels));
@@ -353,7 +348,7 @@ Cluster::Options Run::cluster_options(const DiskFiles& files) {
     return options;
 }
 
-void Run::render_on_hosts(const DiskFiles& files, SceneData scene) {
+void Run::render_on_hosts(const DiskFiles& files, LoadedScene scene) {
     book_.phase("prepare");
     auto options = cluster_options(files);
     if (request_.threads) options.network = build_network(job_, registry_, std::move(scene));

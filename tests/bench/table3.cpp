@@ -39,7 +39,7 @@ Job job_of(const Picture& picture) {
                        emulated_image(milliseconds, questions, {"direct", "caustics", "bounce"}),
                        {"scene", "Scene", {Value{job.scene}}, {}, {}}};
     job.graph.nodes[3].params["scene"] = Value{NodeRef{"scene"}};
-    job.rules.bundles.questions = 128;
+    job.tuning.bundle = 128;
     return job;
 }
 
@@ -60,7 +60,7 @@ void measure() {
     options.endpoints = {one.endpoint(), two.endpoint(), three.endpoint()};
     const Graph graph = options.job.graph;
     options.plan = [&](const std::vector<HostOffer>& offers) { return plan(graph, kinds, hosts, offers); };
-    const auto network = build_network(options.job, kinds, SceneData{});
+    const auto network = build_network(options.job, kinds, LoadedScene{});
     Cluster cluster(std::move(options));
     const std::atomic<bool> never{false};
     cluster.gather(10s, never);

@@ -36,7 +36,7 @@ TEST(Prepare, PassesOnWhatNodesSayOnce) {
 
 TEST(Prepare, GetsByWithOneFiberPerNodeAndBundlesOfOne) {
     const Learning learning;
-    PlaceRules narrow;
+    Tuning narrow;
     narrow.spare_fibers = 0;
     narrow.bundles.questions = 1;
     narrow.credit = {1, 1};

@@ -72,7 +72,7 @@ TEST(Sharded, GivesTheBytesOfAWholeMapInThreads) {
 }
 
 TEST(Sharded, GetsByWithOneFiberPerNodeAndBundlesOfOne) {
-    PlaceRules narrow;
+    Tuning narrow;
     narrow.spare_fibers = 0;
     narrow.bundles.questions = 1;
     narrow.credit = {1, 1};

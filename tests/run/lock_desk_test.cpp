@@ -11,7 +11,7 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::Pair;
 
-const LockDesk::PlaceKey first{"a", 0}, second{"b", 0}, third{"b", 1};
+const PlaceAt first{"a", 0}, second{"b", 0}, third{"b", 1};
 const Hash device = content_hash(std::string_view("device")), licence = content_hash(std::string_view("licence"));
 constexpr auto want = LockWord::Kind::want, release = LockWord::Kind::release, hold = LockWord::Kind::hold;
 

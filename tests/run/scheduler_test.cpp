@@ -295,24 +295,6 @@ TEST_F(SchedulerTest, MovesOnlyTheRegionsOfAReplicaThatGoes) {
     for (const auto& [region, home] : before) EXPECT_EQ(scheduler.home(region), home) << "and they come back with it";
 }
 
-TEST(Lowest, KnowsTheLowestKeyThroughAllChanges) {
-    Lowest lowest;
-    std::map<std::size_t, double> keys;
-    std::uint64_t random = 1;
-    for (int change = 0; change < 5000; ++change) {
-        random = random * 6364136223846793005ull + 1442695040888963407ull;
-        const std::size_t number = (random >> 33) % 37;
-        const double key = (random >> 40) % 5 == 0 ? Lowest::none : static_cast<double>((random >> 45) % 100);
-        lowest.set(number, key);
-        keys[number] = key;
-        auto first = keys.begin();
-        for (auto it = keys.begin(); it != keys.end(); ++it)
-            if (it->second < first->second) first = it;
-        ASSERT_EQ(lowest.least(), first->second);
-        ASSERT_TRUE(!lowest.any() || lowest.first() == first->first);
-    }
-}
-
 // ---- failures ----
 
 TEST_F(SchedulerTest, AsksAnotherHostWhatFailedAtOne) {

@@ -1,6 +1,7 @@
 // Who runs what: computed from a graph and from the hosts that are there. A plain value.
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -32,11 +33,11 @@ std::vector<std::string> shown_names(const Layers& layers, const Graph& graph);
 /// other node answers with one colour.
 Layers layers_of(const Graph& graph, const Registry& registry);
 
-/// Where one place is.
+/// Names one place: the same on every host, and in order.
 struct PlaceAt {
     std::string host;         // endpoint of its host; "" for places of this process
     std::uint32_t index = 0;  // among the places of its host
-    friend bool operator==(const PlaceAt&, const PlaceAt&) = default;
+    friend auto operator<=>(const PlaceAt&, const PlaceAt&) = default;
 };
 
 /// All places of a run, and which of them answer for each node. One that is there and holds no node any more answers

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/bytes.hpp"
 #include "core/base/math/random.hpp"
 #include "core/network/graph/graph.hpp"
 #include "core/network/light/concurrent.hpp"
@@ -27,6 +28,7 @@ struct NodeServices {
     Concurrent* concurrent = nullptr;
     bool checking = false;  // is this a run that looks for wrapped classes with a memory?
     std::function<const LightOp&(const std::string& node)> taken = {};  // a node of the same place
+    Bytes kept = nullptr;                                               // by an earlier run
 };
 
 /// Handed to a node's constructor. Parameters have passed the schema of the node's kind and defaults are filled in,
@@ -49,6 +51,9 @@ public:
     /// The node that a parameter of type node names, at the same place. It has prepared when this one prepares:
     /// frozen() gives what it has learnt.
     const LightOp& taken(const std::string& param) const;
+
+    /// What an earlier run has kept of this scene for the node to go on from; null: nothing.
+    const Bytes& kept() const { return services_.kept; }
 
     bool checking() const { return services_.checking; }
 

@@ -90,6 +90,8 @@ Inputs Assembly::inputs_of(std::size_t node) {
 NodeServices Assembly::services_of(std::size_t node) {
     NodeServices services = services_;
     services.rehearsal = &rehearsals_[node];
+    const auto kept = network_.kept.find(network_.graph.nodes[whole_of(network_.graph, node)].name);
+    if (kept != network_.kept.end()) services.kept = kept->second;
     return services;
 }
 

@@ -18,7 +18,8 @@
 #include "core/network/light/rehearsal.hpp"
 #include "core/network/light/renderer.hpp"
 #include "core/network/light/sectors.hpp"
-#include "core/run/prepare/call_port.hpp"
+#include "core/run/prepare/direct_port.hpp"
+#include "core/run/prepare/kept.hpp"
 #include "core/run/prepare/prepared.hpp"
 #include "core/run/prepare/shared_values.hpp"
 #include "core/scene/scene.hpp"
@@ -35,7 +36,8 @@ struct Network {
     Layers layers = layers_of(graph, registry);
     std::shared_ptr<SharedValues> shared = std::make_shared<SharedValues>();
     std::function<Bytes(const Hash&)> results = {};  // of preparing, that came by themselves; called from any place
-    bool checking = false;                           // wrapped classes are asked twice, to find those with a memory
+    bool check_answers = false;                      // wrapped classes are asked twice, to find those with a memory
+    KeptResults kept = {};                           // by earlier runs
 
     const Kind& kind_of(std::size_t node) const { return *registry.find(graph.nodes[node].kind); }
     /// Colours per answer when nothing is added up.
@@ -55,7 +57,7 @@ public:
     /// `services`: what the place gives all its nodes, locks among them.
     Assembly(const Network& network, PortTo port_to, NodeServices services)
         : network_(network), port_to_(std::move(port_to)), services_(std::move(services)) {
-        services_.checking = network.checking;
+        services_.checking = network.check_answers;
         services_.taken = [this](const std::string& name) -> const LightOp& {
             return light(network_.graph.find(name).value());
         };
@@ -65,7 +67,7 @@ public:
     /// Has the node prepare itself.
     void prepare(std::size_t node, Services& services);
     Rehearsal& rehearsal(std::size_t node);
-    Called called(std::size_t node) {
+    Callee callee(std::size_t node) {
         return {light(node), network_.graph.nodes[node].name, network_.width_of(node),
                 network_.kind_of(node).run.whole_calls, &not_finite_[node]};
     }

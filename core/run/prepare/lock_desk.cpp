@@ -1,11 +1,10 @@
 #include "core/run/prepare/lock_desk.hpp"
 
 #include <algorithm>
-#include <span>
 
 namespace lightnet {
 
-void LockDesk::hear(const PlaceKey& place, const LockWord& word) {
+void LockDesk::hear(const PlaceAt& place, const LockWord& word) {
     if (word.kind == LockWord::Kind::want) {
         auto& queue = queues_[word.lock];
         queue.push_back(place);
@@ -28,7 +27,7 @@ void LockDesk::release(const Hash& lock) {
         granted_.emplace_back(queue.front(), lock);
 }
 
-void LockDesk::lose(const PlaceKey& place) {
+void LockDesk::lose(const PlaceAt& place) {
     std::erase_if(granted_, [&](const auto& grant) { return grant.first == place; });
     std::vector<Hash> held;
     for (auto& [lock, queue] : queues_) {
@@ -40,7 +39,7 @@ void LockDesk::lose(const PlaceKey& place) {
     for (const auto& lock : held) release(lock);
 }
 
-std::vector<std::pair<LockDesk::PlaceKey, Hash>> LockDesk::granted() { return std::exchange(granted_, {}); }
+std::vector<std::pair<PlaceAt, Hash>> LockDesk::granted() { return std::exchange(granted_, {}); }
 
 void PlaceLocks::take(Message ask) {
     const Step step = std::get<Questions<Step>>(ask.questions)->front();
@@ -91,8 +90,7 @@ void PlaceLocks::say(LockWord::Kind kind, const Hash& lock) {
 void PlaceLocks::speak() {
     if (!attended_ || words_.empty()) return;
     auto reply = reply_to(*attended_);
-    const auto bytes = std::as_bytes(std::span(words_));
-    reply.data = std::make_shared<const std::vector<std::byte>>(bytes.begin(), bytes.end());
+    reply.data = bytes_of(words_);
     words_.clear();
     attended_.reset();
     reply_(std::move(reply));

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/base/hash.hpp"
+#include "core/network/graph/plan.hpp"
 #include "core/network/light/locks.hpp"
 #include "core/run/fiber/fiber.hpp"
 #include "core/run/message/message.hpp"
@@ -33,18 +34,16 @@ struct LockWord {
 /// Gives each lock to one place at a time, in the order in which they came.
 class LockDesk {
 public:
-    using PlaceKey = std::pair<std::string, std::uint32_t>;  // host, index
-
-    void hear(const PlaceKey& place, const LockWord& word);
+    void hear(const PlaceAt& place, const LockWord& word);
     /// The place is gone: what it held is free.
-    void lose(const PlaceKey& place);
+    void lose(const PlaceAt& place);
     /// Locks that have been granted since the last call.
-    std::vector<std::pair<PlaceKey, Hash>> granted();
+    std::vector<std::pair<PlaceAt, Hash>> granted();
 
 private:
     void release(const Hash& lock);
-    std::map<Hash, std::deque<PlaceKey>> queues_;  // the first holds it
-    std::vector<std::pair<PlaceKey, Hash>> granted_;
+    std::map<Hash, std::deque<PlaceAt>> queues_;  // the first holds it
+    std::vector<std::pair<PlaceAt, Hash>> granted_;
 };
 
 /// The locks of one place. The launcher keeps one step there, `attend`, which is answered when there is something to

@@ -1,11 +1,13 @@
 #include "core/run/prepare/prepared.hpp"
 
 #include <algorithm>
+#include <span>
 
 #include "core/base/error.hpp"
 #include "core/network/graph/graph_film.hpp"
 #include "core/network/graph/layout.hpp"
 #include "core/network/graph/plan.hpp"
+#include "core/network/light/mapped.hpp"
 
 namespace lightnet {
 
@@ -42,6 +44,12 @@ std::vector<Tile> rehearsal_tiles(const Graph& graph, const Registry& registry, 
         for (std::uint32_t x = 0; x < film.width; x += side)
             tiles.push_back({x, y, std::min(side, film.width - x), std::min(side, film.height - y), 0, 1, stride});
     return tiles;
+}
+
+Bytes rehearsal_result(const std::vector<Query>& noted) {
+    const auto bytes = std::as_bytes(std::span(noted));
+    const std::vector<std::byte> shard(bytes.begin(), bytes.end());
+    return join_shards(std::span(&shard, 1));
 }
 
 namespace {

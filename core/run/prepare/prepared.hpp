@@ -9,6 +9,7 @@
 
 #include "core/base/bytes.hpp"
 #include "core/base/hash.hpp"
+#include "core/base/query.hpp"
 #include "core/film/tile.hpp"
 #include "core/network/graph/graph.hpp"
 #include "core/network/graph/kind.hpp"
@@ -26,6 +27,9 @@ std::vector<std::size_t> stages_of(const std::vector<std::size_t>& nodes, const 
 /// The pixels of a rehearsal: every `stride`-th of every `stride`-th row of the graph's film. Throws Error when stride
 /// is 0.
 std::vector<Tile> rehearsal_tiles(const Graph& graph, const Registry& registry, std::uint32_t stride);
+
+/// What a rehearsal gives: the questions that were noted, sorted.
+Bytes rehearsal_result(const std::vector<Query>& noted);
 
 /// Names for results of preparing: equal recipes give equal results.
 class Recipes {

@@ -3,7 +3,6 @@
 #include <chrono>
 #include <cstring>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include "core/base/error.hpp"
@@ -12,12 +11,6 @@
 
 namespace lightnet {
 namespace {
-
-template <class T>
-Bytes bytes_of(std::span<const T> values) {
-    const auto bytes = std::as_bytes(values);
-    return std::make_shared<const std::vector<std::byte>>(bytes.begin(), bytes.end());
-}
 
 using Clock = std::chrono::steady_clock;
 
@@ -71,7 +64,7 @@ public:
         constexpr std::size_t most = (std::size_t{60} << 20) / sizeof(Query);
         if (noted.size() > most) return fail(ask, "a rehearsal noted too many questions");
         auto reply = reply_to(ask);
-        reply.data = bytes_of<Query>(noted);
+        reply.data = bytes_of(noted);
         preparer_.place_.reply(std::move(reply));
     }
 
@@ -185,7 +178,7 @@ private:
     std::size_t near_bytes_ = 0;  // of results of its sector
 };
 
-Preparer::Preparer(const Network& network, Assembly& assembly, Fibers& fibers, Place place)
+Preparer::Preparer(const Network& network, Assembly& assembly, Fibers& fibers, PlaceHooks place)
     : network_(network), assembly_(assembly), fibers_(fibers), place_(std::move(place)) {}
 
 Preparer::~Preparer() = default;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <span>
 
 #include "core/base/error.hpp"
 #include "core/network/graph/layout.hpp"
@@ -12,13 +11,6 @@ namespace {
 
 constexpr std::uint32_t own_channel = 0xffffffff;  // no master's: see Epoch::most_channels
 
-template <class T>
-std::vector<T> values_of(const Bytes& data) {
-    std::vector<T> values(data ? data->size() / sizeof(T) : 0);
-    if (!values.empty()) std::memcpy(values.data(), data->data(), values.size() * sizeof(T));
-    return values;
-}
-
 }  // namespace
 
 Conductor::Conductor(Options options, Carrier& carrier)
@@ -26,9 +18,11 @@ Conductor::Conductor(Options options, Carrier& carrier)
       carrier_(carrier),
       calls_(*options_.graph, options_.made_from, options_.cache),
       order_(preparing_nodes(*options_.graph, *options_.registry)),
-      stages_(stages_of(order_, *options_.graph, *options_.registry)),
-      locks_(std::any_of(options_.graph->nodes.begin(), options_.graph->nodes.end(),
-                         [&](const Node& node) { return options_.registry->find(node.kind)->run.locks; })) {
+      stages_(stages_of(order_, *options_.graph, *options_.registry)) {
+    const auto& nodes = options_.graph->nodes;
+    if (std::any_of(nodes.begin(), nodes.end(),
+                    [&](const Node& node) { return options_.registry->find(node.kind)->run.locks; }))
+        locks_.emplace([this](const PlaceAt& place, const Step& step) { return send({place, 0}, 0, step); });
     proposal_.places_of.resize(options_.graph->nodes.size());
     in_force_ = proposal_;
 }
@@ -38,20 +32,18 @@ Conductor::~Conductor() = default;
 // ---- plans ----------------------------------------------------------------------------------------------------------
 
 void Conductor::propose(const Plan& plan) {
-    std::set<PlaceKey> gone;
-    for (const auto& place : proposal_.places) gone.insert({place.host, place.index});
-    for (const auto& place : plan.places) gone.erase({place.host, place.index});
+    std::set<PlaceAt> gone(proposal_.places.begin(), proposal_.places.end());
+    for (const auto& place : plan.places) gone.erase(place);
     proposal_ = plan;
     lose(gone);
-    if (rehearsing_) {  // nobody will ask a place that holds the node no more what it has noted
-        rehearsing_->broken |= !std::all_of(rehearsing_->copies.begin(), rehearsing_->copies.end(),
-                                            [&](const auto& copy) { return is_there(copy, done_); });
-    }
+    if (rehearsal_ && !std::all_of(rehearsal_->copies().begin(), rehearsal_->copies().end(),
+                                   [&](const auto& copy) { return is_there(copy, done_); }))
+        rehearsal_->break_off();  // nobody will ask a place that holds the node no more what it has noted
     advance();
 }
 
 // What was asked of them is asked of others; what a rehearsal had noted there is lost, so it begins again.
-void Conductor::lose(const std::set<PlaceKey>& gone) {
+void Conductor::lose(const std::set<PlaceAt>& gone) {
     if (gone.empty()) return;
     for (auto sent = sent_.begin(); sent != sent_.end();) {
         if (!gone.contains(sent->second.to.place)) {
@@ -65,12 +57,9 @@ void Conductor::lose(const std::set<PlaceKey>& gone) {
     std::erase_if(followers_, [&](const auto& follower) { return gone.contains(follower.first.place); });
     for (const auto& place : gone) {
         known_prepared_.erase(place);
-        attended_.erase(place);
-        heard_of_.erase(place);
-        desk_.lose(place);
-        std::erase_if(grants_, [&](const auto& grant) { return grant.first == place; });
+        if (locks_) locks_->lose(place);
     }
-    if (rehearsing_) rehearsing_->broken = true;
+    if (rehearsal_) rehearsal_->break_off();
 }
 
 // The node itself, or those that stand for its sectors.
@@ -80,39 +69,39 @@ std::vector<std::size_t> Conductor::nodes_at(std::size_t position) const {
     return nodes;
 }
 
-std::vector<Conductor::Copy> Conductor::copies(std::size_t position) const {
-    std::vector<Copy> copies;
+std::vector<NodeCopy> Conductor::copies(std::size_t position) const {
+    std::vector<NodeCopy> copies;
     for (const auto node : nodes_at(position))
-        for (const auto place : proposal_.places_of[node]) copies.push_back({key_of(place), node});
+        for (const auto place : proposal_.places_of[node]) copies.push_back({proposal_.places[place], node});
     return copies;
 }
 
-bool Conductor::is_there(const Copy& copy, std::size_t position) const {
+bool Conductor::is_there(const NodeCopy& copy, std::size_t position) const {
     const auto all = copies(position);
     return std::find(all.begin(), all.end(), copy) != all.end();
 }
 
-bool Conductor::is_done(const Copy& copy) const {
+bool Conductor::is_done(const NodeCopy& copy) const {
     const auto found = followers_.find(copy);
     return found != followers_.end() && found->second.state == Follower::State::done;
 }
 
 Plan Conductor::restricted() {
-    std::set<PlaceKey> behind;
+    std::set<PlaceAt> behind;
     for (std::size_t position = 0; position < done_; ++position)
         for (const auto& copy : copies(position))
             if (!known_prepared_.contains(copy.place) && !is_done(copy)) behind.insert(copy.place);
-    if (rehearsing_)  // who came in its middle would not note what it is asked
+    if (rehearsal_)  // who came in its middle would not note what it is asked
         for (const auto& copy : copies(done_))
-            if (!rehearsing_->copies.contains(copy)) behind.insert(copy.place);
-    for (std::uint32_t place = 0; place < proposal_.places.size(); ++place)
-        if (!behind.contains(key_of(place))) known_prepared_.insert(key_of(place));
+            if (!rehearsal_->copies().contains(copy)) behind.insert(copy.place);
+    for (const auto& place : proposal_.places)
+        if (!behind.contains(place)) known_prepared_.insert(place);
     Plan plan = proposal_;
     for (auto& places : plan.places_of)
-        std::erase_if(places, [&](auto place) { return behind.contains(key_of(place)); });
+        std::erase_if(places, [&](auto place) { return behind.contains(plan.places[place]); });
     for (std::size_t position = 0; position < done_; ++position)
         for (const auto node : nodes_at(position))
-            std::erase_if(plan.places_of[node], [&](auto place) { return !is_done({key_of(place), node}); });
+            std::erase_if(plan.places_of[node], [&](auto place) { return !is_done({plan.places[place], node}); });
     return plan;
 }
 
@@ -154,32 +143,11 @@ void Conductor::advance() {
     attend();
 }
 
-// Keeps an ear at every place, and passes locks on.
 void Conductor::attend() {
-    if (!locks_) return;
-    for (const auto& place : proposal_.places) {
-        const PlaceKey key{place.host, place.index};
-        if (attended_.contains(key)) continue;
-        const bool anew = !heard_of_.contains(key);
-        if (!send({key, 0}, 0, {.kind = Step::Kind::attend, .call = anew})) continue;
-        attended_.insert(key);
-        heard_of_.insert(key);
-    }
-    for (auto& grant : desk_.granted()) grants_.push_back(std::move(grant));
-    std::erase_if(grants_, [&](const auto& grant) {
-        return send({grant.first, 0}, 0, {.kind = Step::Kind::grant, .data = grant.second});
-    });
+    if (locks_) locks_->attend(proposal_.places);
 }
 
-void Conductor::heard(const Sent& sent, const Bytes& data) {
-    if (sent.step.kind == Step::Kind::grant) return;
-    attended_.erase(sent.to.place);
-    for (const auto& word : values_of<LockWord>(data))
-        if (word.kind <= LockWord::Kind::last) desk_.hear(sent.to.place, word);
-    attend();
-}
-
-void Conductor::lead(const Copy& copy, std::size_t position) {
+void Conductor::lead(const NodeCopy& copy, std::size_t position) {
     auto& follower = followers_[copy];
     if (follower.state == Follower::State::idle) {
         // Inputs are prepared before those who ask them: at every place, in the order of all.
@@ -195,13 +163,13 @@ void Conductor::lead(const Copy& copy, std::size_t position) {
             return;
         }
         const Hash& name = call.name(calls_.part_of(copy.node, call));
-        if (carrier_.bring({copy.place.first, copy.place.second}, name, result) &&
+        if (carrier_.bring(copy.place, name, result) &&
             send(copy, position, {.kind = Step::Kind::go_on, .call = follower.at.call, .data = name}, result))
             follower.state = Follower::State::asked;
     }
 }
 
-void Conductor::hand_out(const Copy& copy, std::size_t position, Call& call) {
+void Conductor::hand_out(const NodeCopy& copy, std::size_t position, ServiceCall& call) {
     auto& follower = followers_[copy];
     const std::size_t places = copies(position).size();
     while (const auto shards = call.hand_out({follower.asks, places, steady_seconds()})) {
@@ -211,7 +179,7 @@ void Conductor::hand_out(const Copy& copy, std::size_t position, Call& call) {
     }
 }
 
-bool Conductor::send(const Copy& to, std::size_t position, Step step, const Bytes& data) {
+bool Conductor::send(const NodeCopy& to, std::size_t position, Step step, const Bytes& data) {
     Message message;
     message.run = options_.run;
     message.channel = own_channel;
@@ -220,7 +188,7 @@ bool Conductor::send(const Copy& to, std::size_t position, Step step, const Byte
     message.node = static_cast<std::uint32_t>(to.node);
     message.questions = std::make_shared<const std::vector<Step>>(1, step);
     message.data = data;
-    if (!carrier_.ask({to.place.first, to.place.second}, message)) return false;
+    if (!carrier_.ask(to.place, message)) return false;
     sent_[next_++] = {to, position, step};
     return true;
 }
@@ -238,8 +206,11 @@ void Conductor::take(Message message) {
         if (calls_.of(order_[sent.position], sent.step.call).done()) return;  // another place was first
     }
     if (message.type == Message::Type::failure) return failed(sent, message.trouble.why);
-    if (sent.step.kind >= Step::Kind::attend) {
-        heard(sent, message.data);
+    if (sent.step.kind == Step::Kind::attend) {
+        if (locks_) locks_->hear(sent.to.place, message.data);
+        attend();
+    } else if (sent.step.kind == Step::Kind::grant) {
+        return;
     } else if (shards) {
         shards_done(sent, message.data);
     } else if (sent.step.kind == Step::Kind::collect) {
@@ -252,12 +223,12 @@ void Conductor::take(Message message) {
 // A host that can't do its part of preparing is left out; what a second one can't do either is the run's own fault.
 void Conductor::failed(const Sent& sent, const std::string& why) {
     const auto& [to, position, step] = sent;
-    const auto& host = to.place.first;
+    const auto& host = to.place.host;
     auto& hosts = failed_at_[{position, step.kind, step.call, step.first}];
     hosts.insert(host);
     const auto all = copies(position);
     const bool others =
-        std::any_of(all.begin(), all.end(), [&](const Copy& copy) { return !hosts.contains(copy.place.first); });
+        std::any_of(all.begin(), all.end(), [&](const NodeCopy& copy) { return !hosts.contains(copy.place.host); });
     if (hosts.size() > 1 || !others) throw Error(why);
     if (step.kind == Step::Kind::shards) calls_.of(order_[position], step.call).take_back({step.first, step.count});
     if (!carrier_.take_out(host, why)) throw Error(why);
@@ -268,7 +239,7 @@ void Conductor::reported(const Sent& sent, const Bytes& data) {
     if (data && data->size() >= sizeof report) std::memcpy(&report, data->data(), sizeof report);
     if (!data || data->size() < sizeof report || report.kind > StepReport::Kind::last)
         return failed(
-            sent, "'" + name_of(sent.position) + "' on " + sent.to.place.first + ": a report of preparing is damaged");
+            sent, "'" + name_of(sent.position) + "' on " + sent.to.place.host + ": a report of preparing is damaged");
     say(sent.to.node, {reinterpret_cast<const char*>(data->data()) + sizeof report, data->size() - sizeof report});
     auto& follower = followers_[sent.to];
     follower.at = report;
@@ -281,7 +252,7 @@ void Conductor::reported(const Sent& sent, const Bytes& data) {
 void Conductor::let_go_of_taken(std::size_t position, std::uint32_t before) {
     if (before == 0) return;
     const auto all = copies(position);
-    const bool taken = std::all_of(all.begin(), all.end(), [&](const Copy& copy) {
+    const bool taken = std::all_of(all.begin(), all.end(), [&](const NodeCopy& copy) {
         const auto& follower = followers_[copy];
         return follower.state == Follower::State::done ||
                (follower.state != Follower::State::idle && follower.at.call >= before);
@@ -305,7 +276,7 @@ void Conductor::shards_done(const Sent& sent, const Bytes& data) {
     try {
         complete = call.answer({sent.step.first, sent.step.count}, data, steady_seconds());
     } catch (const Error& error) {
-        return failed(sent, "'" + name_of(sent.position) + "' on " + sent.to.place.first + ": " + error.what());
+        return failed(sent, "'" + name_of(sent.position) + "' on " + sent.to.place.host + ": " + error.what());
     }
     if (!complete) {
         if (is_there(sent.to, sent.position))
@@ -326,12 +297,12 @@ bool Conductor::prepare(std::chrono::nanoseconds most) {
         if (done_ == order_.size()) return true;
         const auto left = end - std::chrono::steady_clock::now();
         if (left.count() <= 0) return false;
-        if (rehearsing_ && !rehearsing_->rendered) {
-            rehearsing_->rendered = rehearsing_->master->work(left);
-            if (rehearsing_->broken) end_rehearsal();
+        if (rehearsal_ && !rehearsal_->rendered()) {
+            rehearsal_->render(left);
+            if (rehearsal_->broken()) end_rehearsal();
             continue;
         }
-        if (rehearsing_ && rehearsing_->broken) end_rehearsal();
+        if (rehearsal_ && rehearsal_->broken()) end_rehearsal();
         wait(std::min<std::chrono::nanoseconds>(left, std::chrono::milliseconds(20)));
         while (receive()) {
         }
@@ -391,8 +362,8 @@ PrepareProgress Conductor::progress() const {
     if (!call) return progress;
     if (call->shared_out())
         progress.done = call->what().count - call->missing(), progress.total = call->what().count;
-    else if (rehearsing_)
-        progress.done = rehearsing_->blocks - rehearsing_->master->unanswered(), progress.total = rehearsing_->blocks;
+    else if (rehearsal_)
+        progress.done = rehearsal_->blocks_done(), progress.total = rehearsal_->blocks();
     return progress;
 }
 

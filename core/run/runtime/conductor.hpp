@@ -16,12 +16,12 @@
 #include <vector>
 
 #include "core/run/message/carrier.hpp"
-#include "core/run/prepare/calls.hpp"
-#include "core/run/prepare/lock_desk.hpp"
 #include "core/run/prepare/prepare_progress.hpp"
 #include "core/run/prepare/prepared.hpp"
+#include "core/run/prepare/service_calls.hpp"
+#include "core/run/runtime/conducted_rehearsal.hpp"
 #include "core/run/runtime/epoch.hpp"
-#include "core/run/runtime/master_renderer.hpp"
+#include "core/run/runtime/lock_keeper.hpp"
 
 namespace lightnet {
 
@@ -74,14 +74,6 @@ public:
     const Counters& counters() const override { return carrier_.counters(); }
 
 private:
-    using PlaceKey = std::pair<std::string, std::uint32_t>;  // host, index
-
-    /// A node at one place; a place may hold several of those that stand for the sectors of one.
-    struct Copy {
-        PlaceKey place;
-        std::size_t node;
-        friend auto operator<=>(const Copy&, const Copy&) = default;
-    };
     /// A copy's prepare().
     struct Follower {
         enum class State { idle, asked, waiting, done };
@@ -91,38 +83,23 @@ private:
     };
     /// A step that was sent and not answered.
     struct Sent {
-        Copy to;
+        NodeCopy to;
         std::size_t position;
         Step step;
     };
-    /// The rehearsal that goes on.
-    struct Rehearsing {
-        Rehearsing() {}  // clang 14 can't make one inside an optional without
-        std::uint32_t call = 0;
-        std::size_t blocks = 0;  // of tiles, in all
-        std::unique_ptr<MasterRenderer> master;
-        bool rendered = false;
-        std::set<Copy> copies;      // that take part; who comes later does not
-        bool broken = false;        // a place was lost, and with it what it had noted
-        std::set<Copy> collecting;  // have been asked what they noted
-        std::size_t collected = 0;  // have said so
-        std::vector<Query> noted;
-    };
-
-    PlaceKey key_of(std::uint32_t place) const { return {proposal_.places[place].host, proposal_.places[place].index}; }
     std::vector<std::size_t> nodes_at(std::size_t position) const;
-    std::vector<Copy> copies(std::size_t position) const;
-    bool is_there(const Copy& copy, std::size_t position) const;
-    bool is_done(const Copy& copy) const;
+    std::vector<NodeCopy> copies(std::size_t position) const;
+    bool is_there(const NodeCopy& copy, std::size_t position) const;
+    bool is_done(const NodeCopy& copy) const;
     const std::string& name_of(std::size_t position) const;
     void advance();
     std::size_t led() const;
-    void lead(const Copy& copy, std::size_t position);
-    void hand_out(const Copy& copy, std::size_t position, Call& call);
+    void lead(const NodeCopy& copy, std::size_t position);
+    void hand_out(const NodeCopy& copy, std::size_t position, ServiceCall& call);
     void collect();
     void begin_rehearsal(std::uint32_t call);
     void end_rehearsal();
-    bool send(const Copy& to, std::size_t position, Step step, const Bytes& data = nullptr);
+    bool send(const NodeCopy& to, std::size_t position, Step step, const Bytes& data = nullptr);
     void take(Message message);
     void failed(const Sent& sent, const std::string& why);
     void reported(const Sent& sent, const Bytes& data);
@@ -130,32 +107,27 @@ private:
     void say(std::size_t node, std::string_view lines);
     void shards_done(const Sent& sent, const Bytes& data);
     void noted(const Sent& sent, const Bytes& data);
-    void lose(const std::set<PlaceKey>& gone);
+    void lose(const std::set<PlaceAt>& gone);
     void enforce();
     void attend();
-    void heard(const Sent& sent, const Bytes& data);
     Plan restricted();
 
     Options options_;
     Carrier& carrier_;
-    Calls calls_;
+    ServiceCalls calls_;
     std::vector<std::size_t> order_;  // nodes that prepare; what stands for their sectors is found by nodes_at()
     std::vector<std::size_t> stages_;
-    bool locks_;  // somebody in the graph does
-    LockDesk desk_;
-    std::set<PlaceKey> attended_;                    // have a step `attend` now
-    std::set<PlaceKey> heard_of_;                    // had one
-    std::vector<std::pair<PlaceKey, Hash>> grants_;  // to be passed on
+    std::optional<LockKeeper> locks_;  // none: nobody in the graph locks
     Plan proposal_, in_force_;
     std::deque<Message> arrived_;
-    std::map<Copy, Follower> followers_;
+    std::map<NodeCopy, Follower> followers_;
     std::map<std::uint64_t, Sent> sent_;
     using StepKey = std::tuple<std::size_t, Step::Kind, std::uint32_t, std::uint32_t>;  // position, kind, call, shard
     std::map<StepKey, std::set<std::string>> failed_at_;                                // hosts
     std::uint64_t next_ = 1;
-    std::size_t done_ = 0;               // positions of order_ that are prepared everywhere
-    std::set<PlaceKey> known_prepared_;  // have caught up once
-    std::optional<Rehearsing> rehearsing_;
+    std::size_t done_ = 0;                           // positions of order_ that are prepared everywhere
+    std::set<PlaceAt> known_prepared_;               // have caught up once
+    std::unique_ptr<ConductedRehearsal> rehearsal_;  // that goes on
     std::set<std::string> said_;
     Epoch epoch_;  // of the master whose replies count
 };

@@ -1,23 +1,20 @@
-// How a conductor leads rehearsals.
-#include <algorithm>
-#include <cstring>
-#include <span>
+// When a conductor begins a rehearsal, and when it ends.
+#include <set>
+#include <utility>
 
-#include "core/network/light/mapped.hpp"
-#include "core/network/light/rehearsal.hpp"
 #include "core/run/runtime/conductor.hpp"
 
 namespace lightnet {
 namespace {
 
-constexpr std::uint32_t tiles_per_place = 4;  // small ones, or bundles of them
+constexpr std::uint32_t tiles_per_place = 4;  // of a rehearsal: small ones, or bundles of them
 
 }  // namespace
 
 // Begins a rehearsal when all copies of the node wait for it, and gathers what they have noted when it is over.
 void Conductor::collect() {
     if (done_ == order_.size()) return;
-    if (!rehearsing_) {
+    if (!rehearsal_) {
         const auto all = copies(done_);
         if (all.empty()) return;
         const auto call = followers_[all[0]].at.call;
@@ -29,11 +26,10 @@ void Conductor::collect() {
         }
         return begin_rehearsal(call);
     }
-    if (!rehearsing_->rendered || rehearsing_->broken) return;
-    for (const auto& copy : rehearsing_->copies)
-        if (!rehearsing_->collecting.contains(copy) &&
-            send(copy, done_, {.kind = Step::Kind::collect, .call = rehearsing_->call, .first = epoch_.number()}))
-            rehearsing_->collecting.insert(copy);
+    for (const auto& copy : rehearsal_->copies())
+        if (rehearsal_->wants_notes_of(copy) &&
+            send(copy, done_, {.kind = Step::Kind::collect, .call = rehearsal_->call(), .first = epoch_.number()}))
+            rehearsal_->asked(copy);
 }
 
 void Conductor::begin_rehearsal(std::uint32_t call) {
@@ -45,35 +41,26 @@ void Conductor::begin_rehearsal(std::uint32_t call) {
     job.credit = {tiles_per_place, tiles_per_place * MasterRenderer::most_together};
     job.double_tail = false;  // what is still under way at its end would note questions in the next rehearsal
     epoch_.begin_next();
-    rehearsing_.emplace();
-    rehearsing_->call = call;
-    rehearsing_->blocks = work_in(job.tiles);
-    for (const auto& copy : copies(done_)) rehearsing_->copies.insert(copy);
-    rehearsing_->master =
-        std::make_unique<MasterRenderer>(std::move(job), *this, [](const Tile&, std::span<const Rgb>) {});
+    const auto all = copies(done_);
+    rehearsal_ =
+        std::make_unique<ConductedRehearsal>(call, std::set<NodeCopy>(all.begin(), all.end()), std::move(job), *this);
     enforce();  // who could not be asked because of the rehearsal before can be now
-    rehearsing_->master->use(in_force_);
+    rehearsal_->use(in_force_);
 }
 
 void Conductor::noted(const Sent& sent, const Bytes& data) {
     // What was noted in one that was broken off, perhaps of the same call, does not count.
-    if (!rehearsing_ || rehearsing_->broken || sent.step.first != epoch_.number()) return;
-    auto& all = rehearsing_->noted;
-    const std::size_t before = all.size();
-    all.resize(before + (data ? data->size() / sizeof(Query) : 0));
-    if (all.size() > before) std::memcpy(&all[before], data->data(), (all.size() - before) * sizeof(Query));
-    if (++rehearsing_->collected < rehearsing_->copies.size()) return;
-    sort_and_unite(rehearsing_->noted);
-    const auto bytes = std::as_bytes(std::span(rehearsing_->noted));
-    const std::vector<std::byte> shard(bytes.begin(), bytes.end());
+    if (!rehearsal_ || rehearsal_->broken() || sent.step.first != epoch_.number()) return;
+    if (!rehearsal_->collect(data)) return;
+    const auto result = rehearsal_->result();
     end_rehearsal();
-    calls_.of(order_[sent.position], sent.step.call).complete(join_shards(std::span(&shard, 1)));
+    calls_.of(order_[sent.position], sent.step.call).complete(result);
     calls_.keep(order_[sent.position], sent.step.call);
     advance();
 }
 
 void Conductor::end_rehearsal() {
-    rehearsing_.reset();
+    rehearsal_.reset();
     epoch_.begin_next();
 }
 

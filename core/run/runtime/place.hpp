@@ -15,8 +15,9 @@
 #include "core/run/fiber/fiber.hpp"
 #include "core/run/fiber/rounds.hpp"
 #include "core/run/message/carrier.hpp"
+#include "core/run/message/tuning.hpp"
 #include "core/run/prepare/assembly.hpp"
-#include "core/run/prepare/call_port.hpp"
+#include "core/run/prepare/direct_port.hpp"
 #include "core/run/prepare/lock_desk.hpp"
 #include "core/run/prepare/preparer.hpp"
 #include "core/run/runtime/bundle_port.hpp"
@@ -26,17 +27,6 @@
 
 namespace lightnet {
 
-/// Sizes that decide how fast a run is, and never what it computes.
-struct PlaceRules {
-    BundleRules bundles;
-    Credit credit;
-    std::size_t spare_fibers = 16;   // beside the one that each node has for itself
-    std::size_t side_fibers = 2048;  // of a place, for questions that wrapped code waits for one by one
-    bool check = false;              // what is answered twice must have the same bits
-    bool call_own_nodes = true;      // false: even a node of the same place is asked by bundles (for tests)
-    friend bool operator==(const PlaceRules&, const PlaceRules&) = default;
-};
-
 /// Answers for its nodes until it is told to stop. Nothing is shared between places but the network, which is constant.
 ///
 /// No graph can make places wait for each other for ever: a bundle whose node has no fiber running is always given
@@ -45,7 +35,7 @@ struct PlaceRules {
 /// see Rounds. So the nodes that ask nobody always finish, then those that ask only them, and so on.
 class Place {
 public:
-    Place(const Network& network, const PlaceAt& me, const Plan& plan, std::uint64_t run, PlaceRules rules,
+    Place(const Network& network, const PlaceAt& me, const Plan& plan, std::uint64_t run, const Tuning& tuning,
           Carrier& carrier);
     ~Place();
     Place(const Place&) = delete;
@@ -77,7 +67,7 @@ private:
     Port* port_to_one(std::size_t node, std::size_t width);
     Port* port_to_sectors(std::size_t node, std::size_t width);
     bool called_here(std::size_t node) const;
-    Port* call_port_to(std::size_t node, std::size_t width);
+    Port* direct_port_to(std::size_t node, std::size_t width);
     Port* bundle_port_to(std::size_t node, std::size_t width);
     void use(const Plan& plan);
     void cancel_asks_of_lost(const Plan& before);
@@ -104,7 +94,7 @@ private:
     PlaceAt me_;
     Plan plan_;
     std::uint64_t run_;
-    PlaceRules rules_;
+    Tuning tuning_;
     Carrier& carrier_;
     Counters counters_;
     std::uint64_t rays_before_;
@@ -122,7 +112,7 @@ private:
     std::vector<Inbox> inboxes_;                                                         // by node
     std::vector<std::size_t> by_rank_;                                                   // nodes, lowest rank first
     std::map<std::pair<std::size_t, std::size_t>, std::unique_ptr<PlannedPort>> ports_;  // by node and width
-    std::vector<std::unique_ptr<CallPort>> call_ports_;
+    std::vector<std::unique_ptr<DirectPort>> direct_ports_;
     std::vector<std::unique_ptr<SectorPort>> sector_ports_;
     std::map<std::pair<std::size_t, std::size_t>, Remote> remotes_;  // by node and width
     RemoteChannels<Query> channels_;

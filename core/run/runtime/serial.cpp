@@ -1,8 +1,5 @@
 #include "core/run/runtime/serial.hpp"
 
-#include <cstring>
-#include <span>
-
 #include "core/network/light/services.hpp"
 #include "core/scene/scene.hpp"
 
@@ -26,10 +23,7 @@ public:
                 run_.step(i, tiles.size());
                 run_.render(tiles[i]);
             }
-            const auto noted = run_.assembly_.rehearsal(node_).end();
-            std::vector<std::byte> bytes(noted.size() * sizeof(Query));
-            if (!noted.empty()) std::memcpy(bytes.data(), noted.data(), bytes.size());
-            return join_shards(std::span(&bytes, 1));
+            return rehearsal_result(run_.assembly_.rehearsal(node_).end());
         });
         const Mapped<Query> noted(result);
         return {noted.begin(), noted.end()};
@@ -86,14 +80,14 @@ SerialRun::SerialRun(const Network& network, std::function<void()> pause)
       pause_(std::move(pause)),
       image_(renderer_of(network.graph, network.registry)),
       rays_before_(Scene::rays_of_this_thread()),
-      assembly_(network,
-                [this](std::size_t node, std::size_t width) {
-                    const auto called = assembly_.called(node);
-                    return ports_
-                        .emplace_back(std::make_unique<CallPort>(called, width, counters_.local_questions, pause_))
-                        .get();
-                },
-                {.locks = &locks_}) {
+      assembly_(
+          network,
+          [this](std::size_t node, std::size_t width) {
+              const auto called = assembly_.callee(node);
+              return ports_.emplace_back(std::make_unique<DirectPort>(called, width, counters_.local_questions, pause_))
+                  .get();
+          },
+          {.locks = &locks_}) {
     assembly_.renderer(image_);
 }
 

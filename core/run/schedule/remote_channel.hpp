@@ -17,7 +17,8 @@ namespace lightnet {
 template <class Question>
 class RemoteChannel final : public Channel<Question> {
 public:
-    struct Ends {
+    /// From whom to whom.
+    struct Address {
         std::uint64_t run = 0;
         std::uint32_t channel = 0;  // number among the channels of this place
         std::uint32_t node = 0;     // who is asked
@@ -25,20 +26,20 @@ public:
         std::uint64_t process = 0;  // see Channel
         std::uint64_t asker = 0;    // name_of() the place that asks; 0: the launcher
     };
-    RemoteChannel(Carrier& carrier, Ends ends, Credit credit, Counters& counters)
-        : carrier_(carrier), ends_(std::move(ends)), credit_(credit), counters_(counters) {}
+    RemoteChannel(Carrier& carrier, Address address, Credit credit, Counters& counters)
+        : carrier_(carrier), address_(std::move(address)), credit_(credit), counters_(counters) {}
 
     bool send(const Bundle<Question>& bundle) override {
         Message message;
         message.type = Message::Type::ask;
-        message.run = ends_.run;
-        message.channel = ends_.channel;
+        message.run = address_.run;
+        message.channel = address_.channel;
         message.bundle = bundle.number;
-        message.node = ends_.node;
+        message.node = address_.node;
         message.width = bundle.width;
-        message.asker = ends_.asker;
+        message.asker = address_.asker;
         message.questions = bundle.questions;
-        if (!carrier_.ask(ends_.place, message)) return false;
+        if (!carrier_.ask(address_.place, message)) return false;
         owner_ = bundle.owner;
         counters_.bundles += 1;
         counters_.questions += bundle.questions->size();
@@ -47,9 +48,9 @@ public:
 
     Credit credit() const override { return credit_; }
     Load load() const override { return load_; }
-    std::string host() const override { return ends_.place.host; }
-    std::uint64_t process() const override { return ends_.process; }
-    std::uint64_t name() const override { return name_of(ends_.place); }
+    std::string host() const override { return address_.place.host; }
+    std::uint64_t process() const override { return address_.process; }
+    std::uint64_t name() const override { return name_of(address_.place); }
 
     /// A reply or a failure that names this channel.
     void arrived(Message& message) {
@@ -59,7 +60,7 @@ public:
         }
         const Bundle<Question> bundle{nullptr, owner_, message.bundle, message.width};
         if (message.type == Message::Type::failure) {
-            if (message.trouble.host.empty()) message.trouble.host = ends_.place.host;
+            if (message.trouble.host.empty()) message.trouble.host = address_.place.host;
             return owner_->failed(bundle, message.trouble);
         }
         load_ = message.load;
@@ -69,13 +70,13 @@ public:
     /// The place is gone: nothing more is sent, and what still comes from it is dropped.
     void close() {
         closed_ = true;
-        carrier_.give_up(ends_.channel);
-        carrier_.forget(ends_.place);
+        carrier_.give_up(address_.channel);
+        carrier_.forget(address_.place);
     }
 
 private:
     Carrier& carrier_;
-    Ends ends_;
+    Address address_;
     Credit credit_;
     Counters& counters_;
     Load load_;

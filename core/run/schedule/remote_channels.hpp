@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -18,8 +17,7 @@ namespace lightnet {
 template <class Question>
 class RemoteChannels {
 public:
-    using Key = std::pair<std::string, std::uint32_t>;  // host and index of a place
-    using Known = std::map<Key, std::uint32_t>;         // → channel
+    using Known = std::map<PlaceAt, std::uint32_t>;  // → channel
     /// The replicas of one node, as this asker knows them.
     struct Edge {
         std::uint32_t node = 0;
@@ -38,22 +36,21 @@ public:
         std::vector<Channel<Question>*> replicas, draining;
         for (const auto place : plan.places_of[edge.node]) {
             const auto& at = plan.places[place];
-            const Key key{at.host, at.index};
-            const auto before = edge.known.find(key);
+            const auto before = edge.known.find(at);
             const auto number = before == edge.known.end() ? open(edge, at, plan.process_of(at.host)) : before->second;
-            known.emplace(key, number);
+            known.emplace(at, number);
             replicas.push_back(channels_[number].get());
         }
         for (const auto& at : plan.places) {
-            const auto before = edge.known.find({at.host, at.index});
+            const auto before = edge.known.find(at);
             if (before == edge.known.end() || !known.insert(*before).second) continue;
             draining.push_back(channels_[before->second].get());
             replicas.push_back(draining.back());
         }
         const auto before = std::exchange(edge.known, std::move(known));
         multiplexer.use(std::move(replicas), draining);
-        for (const auto& [key, number] : before)
-            if (!edge.known.contains(key)) channels_[number]->close();
+        for (const auto& [place, number] : before)
+            if (!edge.known.contains(place)) channels_[number]->close();
     }
 
     /// A reply or a failure.
@@ -65,8 +62,8 @@ private:
     std::uint32_t open(const Edge& edge, const PlaceAt& at, std::uint64_t process) {
         const auto number = static_cast<std::uint32_t>(channels_.size());
         channels_.push_back(std::make_unique<RemoteChannel<Question>>(
-            carrier_, typename RemoteChannel<Question>::Ends{run_, number, edge.node, at, process, asker_}, edge.credit,
-            counters_));
+            carrier_, typename RemoteChannel<Question>::Address{run_, number, edge.node, at, process, asker_},
+            edge.credit, counters_));
         return number;
     }
 

@@ -13,7 +13,13 @@
 
 #include "core/network/graph/strategy.hpp"
 #include "core/run/message/credit.hpp"
+#include "core/run/schedule/hash_ring.hpp"
+#include "core/run/schedule/ledger.hpp"
 #include "core/run/schedule/lowest.hpp"
+#include "core/run/schedule/schedule_ids.hpp"
+#include "core/run/schedule/service_times.hpp"
+#include "core/run/schedule/stragglers.hpp"
+#include "core/run/schedule/suspects.hpp"
 
 namespace lightnet {
 
@@ -21,17 +27,18 @@ namespace lightnet {
 /// or random number, so the same events always give the same actions. Every decision takes O(log replicas).
 ///
 /// Work is a bundle or a tile, handed out in copies: one, as a rule. A second copy goes to another replica when the
-/// first is overdue (its place may hang, or the network has lost it), or when a phase ends and a replica is idle. The
-/// first answer counts. Work that fails at one host is asked of another, once. Copies on a host that dies make their
-/// work suspect: it is asked again alone, with nothing else on its host, and set aside after its third death alone. A
-/// host that comes back as the same process had not died: it was out of reach, and no work is to blame.
+/// first is overdue (its place may hang, or the network has lost it), or when a phase ends and a replica is idle
+/// (speculative execution, see Stragglers). The first answer counts. Work that fails at one host is asked of another,
+/// once. Copies on a host that dies make their work suspect: it is asked again alone, with nothing else on its host,
+/// and set aside after its third death alone, see Suspects. With affinity, a region of scene or picture has a home, by
+/// consistent hashing, see HashRing.
 class Scheduler {
 public:
-    using Time = double;  // seconds, on any clock that does not go back
-    using WorkId = std::uint64_t;
-    using CopyId = std::uint64_t;
-    using Replica = std::uint32_t;  // a number that the caller gives; small, and used again
-    using Host = std::uint32_t;     // likewise; the replicas of a host die together
+    using Time = ScheduleIds::Time;
+    using WorkId = ScheduleIds::WorkId;
+    using CopyId = ScheduleIds::CopyId;
+    using Replica = ScheduleIds::Replica;
+    using Host = ScheduleIds::Host;
 
     struct Rules {
         Strategy strategy = Strategy::fastest;
@@ -127,7 +134,7 @@ public:
         friend bool operator==(const Counts&, const Counts&) = default;
     };
 
-    explicit Scheduler(Rules rules) : rules_(rules) {}
+    explicit Scheduler(Rules rules) : rules_(rules), suspects_(static_cast<std::size_t>(rules.deaths_alone)) {}
 
     /// Appends to `actions`. Only a Tick sends.
     void on(const Event& event, Time now, std::vector<Action>& actions);
@@ -141,23 +148,23 @@ public:
     /// Something was refused, and is to be tried again soon.
     bool refused() const { return !refused_.empty(); }
     /// When a Tick is due though nothing else happens. Lowest::none: never.
-    Time next_tick() const { return overdue_.least(); }
+    Time next_tick() const { return stragglers_.next_overdue(); }
     /// Replicas that have not gone.
     std::size_t replicas() const { return present_; }
     /// Of them, those that are open and have nothing to do.
     std::size_t idle() const { return idle_; }
     /// Seconds per question that is answered by all together; 0: not known.
-    double service() const { return rate_ > 0 ? 1 / rate_ : 0; }
+    double service() const { return times_.any() ? 1 / times_.rate() : 0; }
     /// When `replica` would have answered `questions` more, in seconds from now, as far as is known.
     double completion_time(Replica replica, std::size_t questions) const;
     /// The replica to which a region belongs; only when there is one.
-    Replica home(std::uint64_t region) const;
-    std::size_t questions_out() const { return questions_out_; }
-    std::size_t copies_out() const { return copies_out_; }
+    Replica home(std::uint64_t region) const { return homes_.owner_of(region); }
+    std::size_t questions_out() const { return ledger_.questions(); }
+    std::size_t copies_out() const { return ledger_.copies(); }
     /// Where a copy is that is not forgotten.
-    std::optional<Replica> replica_of(CopyId copy) const;
+    std::optional<Replica> replica_of(CopyId copy) const { return ledger_.replica_of(copy); }
     /// What a copy is of, as long as it is not forgotten.
-    std::optional<WorkId> work_of(CopyId copy) const;
+    std::optional<WorkId> work_of(CopyId copy) const { return ledger_.work_of(copy); }
     /// Is this work wanted, and not done?
     bool knows(WorkId work) const { return items_.contains(work); }
     /// Work that is not done.
@@ -165,54 +172,25 @@ public:
     const Counts& counts() const { return counts_; }
 
 private:
-    struct Item;
-    struct Copy {
-        CopyId id;
-        Item* item;  // null: its work is done, and its credit is still out
-        std::size_t questions, bytes;
-        Time sent, expected, overdue;
-    };
-    struct Loss {  // of a host on which work was under way
-        Host host;
-        std::uint64_t process;
-        bool alone;  // nothing else was
-    };
     struct Item {
         Added work;
         std::vector<CopyId> copies{};       // under way
         std::vector<CopyId> written_off{};  // an answer would still be welcome
-        std::vector<Loss> losses{};         // that it may be to blame for
         std::set<Host> failed_at{};
         int failures = 0;
         bool waiting = false;
-        bool suspect() const { return !losses.empty(); }
     };
-    struct Place {
+    struct ReplicaState {
         bool present = false, draining = false, refused = false;
         bool silent = false;  // something is overdue, and no reply has come since it was sent
         Host host = 0;
         std::uint64_t name = 0, process = 0;
         Credit credit;
-        std::vector<Copy> copies;
-        std::vector<CopyId> strays;            // written off, and not answered so far
-        std::size_t questions = 0, bytes = 0;  // of the copies
-        std::size_t others = 0;                // questions that others have waiting there
-        double seconds = 0, answered = 0;      // recent time at work, and questions answered in it
-        double reported = 0;                   // seconds per question, by its own account
+        std::size_t others = 0;  // questions that others have waiting there
         double patience = 0;
         Time last_reply = 0;
         std::uint64_t turn = 0;
-        double counted_rate = 0;  // its part in rate_
         bool counted_idle = false;
-    };
-    struct Site {  // a host
-        std::set<Replica> replicas;
-        std::size_t copies = 0, strays = 0;
-    };
-    struct Out {  // where a copy is
-        Replica replica;
-        WorkId work;
-        bool written_off = false;
     };
 
     void happens(const Added& event, Time now);
@@ -227,61 +205,55 @@ private:
     void happens(const Tick& event, Time now);
 
     void send(Item& item, Replica replica, Time now);
-    void finish(Item& item);
+    void finish(WorkId work);
     void wait_again(Item& item);
     void go(Replica replica, bool died, bool alone);
     void ask_again(Item& item);
-    void blame(Item& item, const Loss& loss);
-    void acquit(Host host, std::uint64_t process);
-    Copy take_copy(Replica replica, CopyId copy);
-    Item* take_stray(const Out& out, CopyId copy);
-    void measure(Place& place, const Copy& copy, const Replied& reply, Time now);
+    void blame(Item& item, const Suspects::Loss& loss);
+    Item* item_of(const Ledger::Closed& closed);
+    Item* waiting_item(WorkId work);
+    std::size_t under_way(Host host) const;
+    bool is_busy(Host host) const;
+    void measure(Replica replica, const Ledger::Copy& copy, const Replied& reply, Time now);
     void write_off_overdue(Time now);
     void hand_out(Time now);
+    Item* first_suspect();
     void test_suspects(Time now);
     void fail(Item& item);
     bool can_be_retried(const Item& item) const;
     void retry(Time now);
-    void quarantine(Host host);
+    void put_in_quarantine(Host host);
     void release_hosts();
     void double_tail(Time now);
-    bool may_be_doubled(const Copy& copy) const;
-    const Copy* worth_doubling(Replica idle, Time now) const;
-    void give_home(Replica replica);
-    void take_home(Replica replica);
+    bool may_be_doubled(const Ledger::Copy& copy) const;
+    const Ledger::Copy* worth_doubling(Replica idle, Time now) const;
 
-    bool open(const Place& place) const;
-    double service_of(const Place& place) const;
-    double order(const Place& place) const;
+    bool open(Replica replica) const;
+    double order(Replica replica) const;
     std::optional<Replica> choose(const Item& item);
     Replica best_for(const Item& item);
     bool better_held_back(const Item& item, Replica replica) const;
     void refresh(Replica replica);
-    void refresh_tail(Place& place, Replica replica);
+    void refresh_due(Replica replica);
 
     Rules rules_;
     std::vector<Action>* actions_ = nullptr;
     std::unordered_map<WorkId, Item> items_;
-    std::unordered_map<CopyId, Out> out_;
-    std::deque<WorkId> waiting_, suspects_, retries_;
-    std::vector<Place> places_;  // by replica
-    std::map<Host, Site> sites_;
-    std::set<Host> quarantined_;
-    std::set<std::pair<Host, std::uint64_t>> lost_;  // processes, which may come back
+    std::deque<WorkId> waiting_, retries_;
+    std::vector<ReplicaState> replicas_;  // by number
+    std::map<Host, std::set<Replica>> hosts_;
     std::vector<Replica> refused_;
-    std::map<std::uint64_t, Replica> ring_;  // affinity: points of a circle → their replica
 
-    Lowest open_;      // that take more work, by the order of the strategy
-    Lowest all_;       // with known speed, open or not, by completion of usual work
-    Lowest overdue_;   // by when the first copy is overdue
-    Lowest early_;     // by when the first copy with no second is expected
-    Lowest late_;      // by when the last one is expected, backwards
-    double rate_ = 0;  // questions per second of all replicas with known speed
-    std::size_t measured_ = 0;
+    Ledger ledger_;
+    ServiceTimes times_;
+    Stragglers stragglers_;
+    Suspects suspects_;
+    HashRing homes_;  // affinity: to whom regions belong
+    Lowest open_;     // replicas that take more work, by the order of the strategy
+    Lowest all_;      // replicas with known speed, open or not, by completion of usual work
     std::size_t present_ = 0, idle_ = 0;
-    std::size_t questions_out_ = 0, copies_out_ = 0, questions_waiting_ = 0, foreseen_ = 0;
+    std::size_t questions_waiting_ = 0, foreseen_ = 0;
     std::uint64_t added_ = 0, turn_ = 0;
-    CopyId next_copy_ = 1;
     Counts counts_;
 };
 

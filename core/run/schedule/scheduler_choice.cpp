@@ -2,50 +2,41 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/base/math/random.hpp"
 #include "core/run/schedule/scheduler.hpp"
 
 namespace lightnet {
 namespace {
 
-constexpr double unknown_service = 1e-6;  // a new replica looks fast, so that it gets work, and is measured
-constexpr std::uint64_t points_per_replica = 32;
 constexpr double overloaded = 4;  // times the completion of the best: then work leaves its home
 
 }  // namespace
 
 // ---- what a replica is worth ----
 
-/// Seconds per question; 0: not known. What the asker sees of it, with all waiting of its own, or what it says of
-/// itself, whichever is more.
-double Scheduler::service_of(const Place& place) const {
-    return place.answered > 0 ? std::max(place.seconds / place.answered, place.reported) : place.reported;
-}
-
 double Scheduler::completion_time(Replica replica, std::size_t questions) const {
-    const auto& place = places_[replica];
-    double service = service_of(place);
-    if (service == 0) service = rate_ > 0 ? static_cast<double>(measured_) / rate_ : unknown_service;
-    return static_cast<double>(place.questions + place.others + questions) * service;
+    return static_cast<double>(ledger_.of(replica).questions + replicas_[replica].others + questions) *
+           times_.assumed(replica);
 }
 
-bool Scheduler::open(const Place& place) const {
-    if (!place.present || place.draining || place.refused || quarantined_.contains(place.host)) return false;
-    if (place.copies.empty()) return true;
-    return !place.silent && place.copies.size() < place.credit.bundles && place.questions < place.credit.questions &&
-           place.bytes < place.credit.bytes;
+bool Scheduler::open(Replica replica) const {
+    const auto& state = replicas_[replica];
+    const auto& account = ledger_.of(replica);
+    if (!state.present || state.draining || state.refused || suspects_.in_quarantine(state.host)) return false;
+    if (account.copies.empty()) return true;
+    return !state.silent && account.copies.size() < state.credit.bundles &&
+           account.questions < state.credit.questions && account.bytes < state.credit.bytes;
 }
 
-double Scheduler::order(const Place& place) const {
-    const auto ahead = static_cast<double>(place.questions + place.others);
+double Scheduler::order(Replica replica) const {
+    const auto ahead = static_cast<double>(ledger_.of(replica).questions + replicas_[replica].others);
     switch (rules_.strategy) {
         case Strategy::round_robin:
-            return static_cast<double>(place.turn);
+            return static_cast<double>(replicas_[replica].turn);
         case Strategy::least_loaded:
             return ahead;
         default: {
-            const double service = service_of(place);
-            return (ahead + static_cast<double>(rules_.usual)) * (service > 0 ? service : unknown_service);
+            const double service = times_.of(replica);
+            return (ahead + static_cast<double>(rules_.usual)) * (service > 0 ? service : ServiceTimes::unknown);
         }
     }
 }
@@ -53,35 +44,29 @@ double Scheduler::order(const Place& place) const {
 // ---- keeping the order ----
 
 void Scheduler::refresh(Replica replica) {
-    auto& place = places_[replica];
-    const bool is_open = open(place);
-    open_.set(replica, is_open ? order(place) : Lowest::none);
-    const bool idle = is_open && place.copies.empty();
-    idle_ = idle_ + idle - std::exchange(place.counted_idle, idle);
+    auto& state = replicas_[replica];
+    const bool is_open = open(replica);
+    open_.set(replica, is_open ? order(replica) : Lowest::none);
+    const bool idle = is_open && ledger_.of(replica).copies.empty();
+    idle_ = idle_ + idle - std::exchange(state.counted_idle, idle);
 
     const bool works =
-        place.present && !place.draining && !place.silent && !place.refused && !quarantined_.contains(place.host);
-    const double service = works ? service_of(place) : 0;
-    const double rate = service > 0 ? 1 / service : 0;
-    measured_ = measured_ + (rate > 0) - (place.counted_rate > 0);
-    rate_ = measured_ > 0 ? rate_ + rate - place.counted_rate : 0;
-    place.counted_rate = rate;
-    all_.set(replica, rate > 0 ? completion_time(replica, rules_.usual) : Lowest::none);
-    refresh_tail(place, replica);
+        state.present && !state.draining && !state.silent && !state.refused && !suspects_.in_quarantine(state.host);
+    times_.take_part(replica, works);
+    const bool known = works && times_.of(replica) > 0;
+    all_.set(replica, known ? completion_time(replica, rules_.usual) : Lowest::none);
+    refresh_due(replica);
 }
 
-void Scheduler::refresh_tail(Place& place, Replica replica) {
-    double overdue = Lowest::none, early = Lowest::none, late = -Lowest::none;
-    for (const auto& copy : place.copies) {
-        overdue = std::min(overdue, copy.overdue);
-        if (!may_be_doubled(copy)) continue;
-        early = std::min(early, copy.expected);
-        late = std::max(late, copy.expected);
+void Scheduler::refresh_due(Replica replica) {
+    Stragglers::Due due;
+    for (const auto& copy : ledger_.of(replica).copies) {
+        due.overdue = std::min(due.overdue, copy.overdue);
+        if (!rules_.double_tail || !may_be_doubled(copy)) continue;
+        due.first = std::min(due.first, copy.expected);
+        due.last = std::max(due.last, copy.expected);
     }
-    overdue_.set(replica, overdue);
-    if (!rules_.double_tail) return;
-    early_.set(replica, early);
-    late_.set(replica, -late);
+    stragglers_.set(replica, due);
 }
 
 // ---- choosing ----
@@ -89,7 +74,7 @@ void Scheduler::refresh_tail(Place& place, Replica replica) {
 std::optional<Scheduler::Replica> Scheduler::choose(const Item& item) {
     if (!open_.any()) return std::nullopt;
     const auto best = best_for(item);
-    if (rules_.strategy == Strategy::affinity && !ring_.empty()) {
+    if (rules_.strategy == Strategy::affinity && !homes_.empty()) {
         const auto at_home = home(item.work.region);
         const auto questions = item.work.questions;
         if (at_home == best) return best;
@@ -109,7 +94,7 @@ Scheduler::Replica Scheduler::best_for(const Item& item) {
     if (item.copies.empty() && item.written_off.empty()) return best;
     std::vector<Replica> holders;
     for (const auto* copies : {&item.copies, &item.written_off})
-        for (const auto copy : *copies) holders.push_back(out_.at(copy).replica);
+        for (const auto copy : *copies) holders.push_back(*ledger_.replica_of(copy));
     for (const auto holder : holders) open_.set(holder, Lowest::none);
     if (open_.any()) best = static_cast<Replica>(open_.first());
     for (const auto holder : holders) refresh(holder);
@@ -119,51 +104,50 @@ Scheduler::Replica Scheduler::best_for(const Item& item) {
 // A slow replica gets nothing that the others together would have answered sooner without it.
 bool Scheduler::better_held_back(const Item& item, Replica replica) const {
     if (!item.written_off.empty()) return false;  // the fast ones have had their chance
-    if (service_of(places_[replica]) == 0 || !all_.any() || all_.first() == replica) return false;
-    const auto left = static_cast<double>(questions_out_ + questions_waiting_ + foreseen_);
+    if (times_.of(replica) == 0 || !all_.any() || all_.first() == replica) return false;
+    const auto left = static_cast<double>(ledger_.questions() + questions_waiting_ + foreseen_);
     const auto questions = item.work.questions;
     const double sooner = completion_time(static_cast<Replica>(all_.first()), questions);
-    return completion_time(replica, questions) > std::max(left / rate_, sooner);
+    return completion_time(replica, questions) > std::max(left / times_.rate(), sooner);
 }
 
-bool Scheduler::may_be_doubled(const Copy& copy) const {
-    return copy.item && !copy.item->suspect() && copy.item->copies.size() == 1 && copy.expected < Lowest::none;
+// ---- speculative execution ----
+
+bool Scheduler::may_be_doubled(const Ledger::Copy& copy) const {
+    const auto found = items_.find(copy.work);
+    return found != items_.end() && !suspects_.is_suspect(copy.work) && found->second.copies.size() == 1 &&
+           copy.expected < Lowest::none;
 }
 
 // What `idle` could do: a copy that is late by half of its time, else the one that is expected last, if that is later
 // than `idle` would need.
-const Scheduler::Copy* Scheduler::worth_doubling(Replica idle, Time now) const {
-    const auto find = [&](Replica replica, double expected) -> const Copy* {
-        for (const auto& copy : places_[replica].copies)
-            if (may_be_doubled(copy) && copy.expected == expected && !copy.item->failed_at.contains(places_[idle].host))
+const Ledger::Copy* Scheduler::worth_doubling(Replica idle, Time now) const {
+    const auto find = [&](Replica replica, Time expected) -> const Ledger::Copy* {
+        for (const auto& copy : ledger_.of(replica).copies)
+            if (may_be_doubled(copy) && copy.expected == expected &&
+                !items_.at(copy.work).failed_at.contains(replicas_[idle].host))
                 return &copy;
         return nullptr;
     };
-    if (!early_.any()) return nullptr;
-    const Copy* first = find(static_cast<Replica>(early_.first()), early_.least());
+    if (!stragglers_.any()) return nullptr;
+    const auto* first = find(stragglers_.first_at(), stragglers_.first());
     if (first && now > first->expected + 0.5 * (first->expected - first->sent)) return first;
-    const Copy* last = find(static_cast<Replica>(late_.first()), -late_.least());
+    const auto* last = find(stragglers_.last_at(), stragglers_.last());
     return last && now + 1.1 * completion_time(idle, last->questions) < last->expected ? last : nullptr;
 }
 
-// ---- affinity ----
-
-// Points of a circle belong to replicas, and a region to the next point: when a replica goes, only its own regions move
-// (Karger et al. 1997).
-void Scheduler::give_home(Replica replica) {
-    for (std::uint64_t i = 0; i < points_per_replica; ++i) ring_.emplace(child(places_[replica].name, 0, i), replica);
-}
-
-void Scheduler::take_home(Replica replica) {
-    for (std::uint64_t i = 0; i < points_per_replica; ++i) {
-        const auto point = ring_.find(child(places_[replica].name, 0, i));
-        if (point != ring_.end() && point->second == replica) ring_.erase(point);
+// At the end of a phase idle replicas do once more what will otherwise come last.
+void Scheduler::double_tail(Time now) {
+    if (!waiting_.empty() || !suspects_.empty() || foreseen_ > 0) return;
+    const auto most = std::max(4.0, rules_.tail_part * static_cast<double>(added_));
+    while (open_.any() && static_cast<double>(counts_.doubled) < most) {
+        const auto idle = static_cast<Replica>(open_.first());
+        if (!ledger_.of(idle).copies.empty() || times_.of(idle) == 0) return;
+        const auto* copy = worth_doubling(idle, now);
+        if (!copy) return;
+        ++counts_.doubled;
+        send(items_.at(copy->work), idle, now);
     }
-}
-
-Scheduler::Replica Scheduler::home(std::uint64_t region) const {
-    const auto next = ring_.lower_bound(mix(region + 1));
-    return (next == ring_.end() ? ring_.begin() : next)->second;
 }
 
 }  // namespace lightnet

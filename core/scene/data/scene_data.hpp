@@ -3,14 +3,12 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
-#include "core/base/bytes.hpp"
 #include "core/base/error.hpp"
 #include "core/base/math/rgb.hpp"
 #include "core/base/math/transform.hpp"
@@ -162,13 +160,11 @@ struct SceneData {
     CameraData camera;
     bool camera_given = false;  // else Scene looks at everything from where all of it is seen
     FilmData film;
-    std::vector<Problem> warnings;        // what was read, but not taken literally
-    std::map<std::string, Bytes> kept{};  // by node of the graph: what earlier runs have kept, which it goes on from
+    std::vector<Problem> warnings;  // what was read, but not taken literally
 };
 /// Without those who look (camera, film), and without what was said or learnt of it.
 void visit_members(Is<SceneData> auto& scene, const auto& visit) {
-    auto& [shapes, objects, instances, materials, textures, environments, lights, camera, camera_given, film, warnings,
-           kept] = scene;
+    auto& [shapes, objects, instances, materials, textures, environments, lights, camera, camera_given, film, warnings] = scene;
     visit(shapes, objects, instances, materials, textures, environments, lights);
 }
 

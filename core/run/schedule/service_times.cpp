@@ -1,0 +1,51 @@
+#include "core/run/schedule/service_times.hpp"
+
+#include <algorithm>
+
+namespace lightnet {
+namespace {
+
+constexpr double fading = 0.8;  // how much of the past a measurement keeps with each new one
+
+}  // namespace
+
+ServiceTimes::Measured& ServiceTimes::at(Replica replica) {
+    if (replica >= measured_.size()) measured_.resize(replica + 1);
+    return measured_[replica];
+}
+
+void ServiceTimes::forget(Replica replica) {
+    take_part(replica, false);
+    at(replica) = {};
+}
+
+void ServiceTimes::measure(Replica replica, double seconds, std::size_t questions, double reported) {
+    auto& measured = at(replica);
+    measured.seconds = fading * measured.seconds + seconds;
+    measured.questions = fading * measured.questions + static_cast<double>(questions);
+    if (reported > 0) measured.reported = reported;
+}
+
+void ServiceTimes::take_part(Replica replica, bool works) {
+    auto& measured = at(replica);
+    const double service = works ? of(replica) : 0;
+    const double rate = service > 0 ? 1 / service : 0;
+    known_ = known_ + (rate > 0) - (measured.counted > 0);
+    rate_ = known_ > 0 ? rate_ + rate - measured.counted : 0;
+    measured.counted = rate;
+}
+
+double ServiceTimes::of(Replica replica) const {
+    if (replica >= measured_.size()) return 0;
+    const auto& measured = measured_[replica];
+    return measured.questions > 0 ? std::max(measured.seconds / measured.questions, measured.reported)
+                                  : measured.reported;
+}
+
+double ServiceTimes::assumed(Replica replica) const {
+    const double known = of(replica);
+    if (known != 0) return known;
+    return any() ? static_cast<double>(known_) / rate_ : unknown;
+}
+
+}  // namespace lightnet

@@ -1,0 +1,50 @@
+// How fast each replica answers, and all of them together.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/run/schedule/schedule_ids.hpp"
+
+namespace lightnet {
+
+/// Keeps a service time (seconds per question) for each replica, as a mean in which the past fades: what the asker sees
+/// of it, with all waiting of its own, or what it says of itself, whichever is more.
+class ServiceTimes {
+public:
+    using Replica = ScheduleIds::Replica;
+
+    /// What an unmeasured replica counts as: it looks fast, so that it gets work, and is measured.
+    static constexpr double unknown = 1e-6;
+
+    /// The number belongs to another replica from now on, of which nothing is known.
+    void forget(Replica replica);
+    /// It has spent so many seconds on so many questions; `reported`: seconds per question by its own account, 0: it
+    /// said nothing.
+    void measure(Replica replica, double seconds, std::size_t questions, double reported);
+    /// Whether its rate is a part of that of all.
+    void take_part(Replica replica, bool works);
+
+    /// Seconds per question; 0: not known.
+    double of(Replica replica) const;
+    /// The same, or the mean of the others where it is not known.
+    double assumed(Replica replica) const;
+    /// Does any replica that takes part have a known rate?
+    bool any() const { return rate_ > 0; }
+    /// Questions per second of all that take part; 0: not known.
+    double rate() const { return rate_; }
+
+private:
+    struct Measured {
+        double seconds = 0, questions = 0;  // recent ones
+        double reported = 0;
+        double counted = 0;  // its part in rate_
+    };
+    Measured& at(Replica replica);
+
+    std::vector<Measured> measured_;  // by replica
+    double rate_ = 0;
+    std::size_t known_ = 0;  // have a part in rate_
+};
+
+}  // namespace lightnet
