@@ -70,6 +70,7 @@ Graph own_graph(const RenderedScene& wanted, const std::vector<std::string>& kin
 
 }  // namespace
 
+// DECISIONS: render-is-a-graph
 RenderGraph render_graph(const RenderedScene& wanted) {
     static const std::map<std::string, std::vector<std::string>> kinds{
         {"ao", {"AmbientOcclusion"}}, {"direct", {"DirectLighting"}}, {"path", {"DirectLighting", "PathTracing"}}};

@@ -11,6 +11,7 @@ constexpr double fading = 0.8;  // how much of the past a measurement keeps with
 
 }  // namespace
 
+// DECISIONS: one-state-machine
 void Scheduler::on(const Event& event, Time now, std::vector<Action>& actions) {
     actions_ = &actions;
     std::visit([&](const auto& what) { happens(what, now); }, event);

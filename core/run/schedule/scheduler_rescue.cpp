@@ -8,6 +8,7 @@ namespace lightnet {
 
 // An overdue copy gives its credit back, and its work is asked again: its place may hang, or the network may have lost
 // it. If the answer comes after all, and first, it counts.
+// DECISIONS: overdue-is-written-off
 void Scheduler::write_off_overdue(Time now) {
     while (overdue_.least() <= now) {
         const auto replica = static_cast<Replica>(overdue_.first());
@@ -98,6 +99,7 @@ void Scheduler::retry(Time now) {
 // ---- suspects ----
 
 // Some hosts, at most half of them, get nothing else until they are empty; then suspects, one by one.
+// DECISIONS: suspects-alone
 void Scheduler::test_suspects(Time now) {
     const auto stale = [&](WorkId work) {
         const auto found = items_.find(work);
