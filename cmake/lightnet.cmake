@@ -8,8 +8,10 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
 set(CMAKE_VERIFY_INTERFACE_HEADER_SETS ON)
 
 # Same bytes everywhere: no fused multiply-add behind our back, no fast-math, one instruction set.
+# DECISIONS: instruction-set
 add_compile_options(-ffp-contract=off -march=${LIGHTNET_ARCH})
 # Else how fast a short loop is would depend on where the linker happens to put it: differently in each program.
+# DECISIONS: aligned-functions
 add_compile_options($<$<CONFIG:Release>:-falign-functions=64>)
 # For files that many roots are drawn in. Nobody asks for errno or for the flags of exceptions; a root is then one
 # instruction, and loops over roots become vectors, with the same bits.

@@ -69,6 +69,7 @@ private:
     int status_ = 0;
 };
 
+// DECISIONS: child-with-two-pipes
 void limit(__rlimit_resource what, rlim_t most) {
     const rlimit limits{most, most};
     ::setrlimit(what, &limits);

@@ -161,6 +161,7 @@ private:
 
     /// How many samples bring the root of the mean square error, relative to the answer, to what is wanted, as some
     /// trials tell. They have random numbers of their own and are no part of the answer, which stays without bias.
+    // DECISIONS: trials-decide-samples
     Wanted enough_for_error(Samplers& some, std::span<const Query> questions) const {
         struct Seen {
             double mean = 0, squares = 0;

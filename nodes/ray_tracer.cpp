@@ -183,6 +183,7 @@ private:
     }
 
     static constexpr std::size_t samples_at_once = 4096;
+    // DECISIONS: both-ways-of-glass
     static constexpr float both_carry = 0.01f;  // at least, where both ways of glass are followed
     static constexpr float keep = 25;           // what is fainter than its inverse is followed seldom
     static constexpr Key chain_key = key_of("chain of mirrors");

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "core/base/suggestion.hpp"
 #include "core/network/graph/check_hosts.hpp"
@@ -111,6 +112,12 @@ std::optional<Finished> take_apart(CLI::App& app, const std::vector<std::string>
     } catch (const CLI::ParseError& error) {
         return usage_error(app, error.what());
     }
+}
+
+void when_taken_apart(CLI::App& app, std::function<std::optional<std::string>()> mistake) {
+    app.callback([mistake = std::move(mistake)] {
+        if (const auto what = mistake()) throw CLI::ValidationError(*what);
+    });
 }
 
 void add_examples(CLI::App& app, const std::vector<std::string>& lines) {

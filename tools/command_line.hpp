@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +26,9 @@ Finished usage_error(const CLI::App& app, const std::string& what);
 /// Lets `app` take a command line (without the program's name) apart. Nothing: there is something left to do. Words
 /// that `app` does not know come with a suggestion.
 std::optional<Finished> take_apart(CLI::App& app, const std::vector<std::string>& arguments);
+
+/// Once a command line is taken apart, `mistake` says what is wrong with all of it, if anything. One for each app.
+void when_taken_apart(CLI::App& app, std::function<std::optional<std::string>()> mistake);
 
 /// The help of `app` ends in these command lines.
 void add_examples(CLI::App& app, const std::vector<std::string>& lines);

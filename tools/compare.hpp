@@ -8,10 +8,6 @@
 
 #include "core/film/flip.hpp"
 
-namespace CLI {
-class App;
-}
-
 namespace lightnet {
 
 /// Pictures to hold against a reference, and how far the beauty may be off.
@@ -24,8 +20,6 @@ struct CompareRequest {
     FlipView view;
     std::string difference, flip_map;  // files to write; "": none
 };
-
-void add_compare_options(CLI::App& verb, CompareRequest& request);
 
 /// Writes what there is to say to `out`, and mistakes and what is too far off to `err`. An exit code: 0, 1 when a
 /// tolerance is passed, 2 when a picture can't be read or has another size.

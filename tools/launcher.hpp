@@ -4,11 +4,13 @@
 #include <functional>
 #include <iosfwd>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/network/graph/kind.hpp"
-#include "tools/options.hpp"
+#include "tools/command_line.hpp"
 #include "tools/run.hpp"
+#include "tools/verbs/verb.hpp"
 
 namespace lightnet {
 
@@ -18,18 +20,13 @@ struct Launcher {
     std::function<int(const RunRequest&)> run;  // renders; an exit code
     std::ostream& out;                          // data
     std::ostream& err;                          // messages
+    std::vector<Verb> verbs = standard_verbs();
 
     /// Runs a command line (without the program's name) and returns the exit code; never throws.
     int operator()(const std::vector<std::string>& arguments) const;
-
-private:
-    int perform(const Options& options) const;
-    int perform_run(const Options& options) const;
-    int perform_render(Options options) const;
-    int perform_check(const Options& options) const;
-    int perform_dot(const Options& options) const;
-    int perform_describe(const Options& options) const;
-    int perform_hosts(const Options& options) const;
 };
+
+/// Takes a command line (without the program's name) apart. Flags may stand in any order after the verb.
+std::variant<Action, Finished> understand(const std::vector<std::string>& arguments, const std::vector<Verb>& verbs);
 
 }  // namespace lightnet

@@ -4,6 +4,8 @@
 
 #include <filesystem>
 #include <fstream>
+#include <ostream>
+#include <utility>
 
 #include "core/network/graph/check.hpp"
 #include "core/network/graph/check_hosts.hpp"
@@ -11,7 +13,6 @@
 #include "lua/load_graph.hpp"
 #include "tools/output_file.hpp"
 #include "tools/overrides.hpp"
-#include "tools/render.hpp"
 
 namespace lightnet {
 namespace {
@@ -34,14 +35,14 @@ void check_scene_files(const Graph& graph, std::vector<Problem>& problems) {
 }
 
 // What a graph wants to be written. Where the user said where the picture goes, the graph has no say.
-void check_written_files(const Graph& graph, const Registry& registry, const Options& options,
+void check_written_files(const Graph& graph, const Registry& registry, const PictureOptions& wanted,
                          std::vector<Problem>& problems) {
     const auto add = [&](const std::vector<Problem>& more) {
         problems.insert(problems.end(), more.begin(), more.end());
     };
     add(problems_of_kept_files(graph, registry));
-    if (problems.empty() && options.output.empty())
-        add(problems_of_picture(graph, output_file(graph, registry, options)));
+    if (problems.empty() && wanted.output.empty())
+        add(problems_of_picture(graph, output_file(graph, registry, wanted)));
 }
 
 // A name server that doesn't answer proves nothing.
@@ -60,45 +61,43 @@ void check_names(const Hosts& hosts, std::vector<Problem>& problems) {
 }
 
 /// A graph as it was found, and what the hosts file says.
-Written with_hosts(Graph graph, std::vector<Problem> problems, const Options& options) {
+Written with_hosts(Graph graph, std::vector<Problem> problems, const std::string& hosts) {
     Written written{std::move(graph), {}, std::move(problems)};
     try {
-        if (!options.hosts.empty()) written.hosts = load_hosts(options.hosts);
+        if (!hosts.empty()) written.hosts = load_hosts(hosts);
     } catch (const UserError& error) {
         written.problems.insert(written.problems.end(), error.problems().begin(), error.problems().end());
     }
     return written;
 }
 
-/// What was written, made sound. Throws UserError with its problems and those found before.
-Loaded finish(Written written, const Options& options, const Registry& registry, bool names_of_hosts) {
+}  // namespace
+
+Written read_files(const GraphOptions& graph, const std::string& hosts) {
+    GraphFile file = read_graph(graph.file, {.constants = graph.constants});
+    return with_hosts(std::move(file.graph), std::move(file.problems), hosts);
+}
+
+Written read_files(const RenderedScene& scene, const std::string& hosts) {
+    RenderGraph made = render_graph(scene);
+    return with_hosts(std::move(made.graph), std::move(made.problems), hosts);
+}
+
+Loaded make_sound(Written written, const PictureOptions& wanted, const Registry& registry, NamesOfHosts names) {
     auto& [graph, hosts, problems] = written;
-    override_picture(graph, registry, options);
+    override_picture(graph, registry, wanted);
     Examined found = examine(graph, registry, hosts);
     problems.insert(problems.end(), found.problems.begin(), found.problems.end());
     check_scene_files(graph, problems);
-    check_written_files(graph, registry, options, problems);
-    if (names_of_hosts) check_names(hosts, problems);
+    check_written_files(graph, registry, wanted, problems);
+    if (names == NamesOfHosts::looked_up) check_names(hosts, problems);
     sort_by_line(problems, graph.file);
     if (!problems.empty()) throw UserError(std::move(problems));
     return {std::move(found.graph), std::move(hosts), std::move(found.warnings), std::move(found.notes)};
 }
 
-}  // namespace
-
-Loaded load(const Options& options, const Registry& registry, bool names_of_hosts) {
-    GraphFile file = read_graph(options.graph, {.constants = options.constants});
-    return finish(with_hosts(std::move(file.graph), std::move(file.problems), options), options, registry,
-                  names_of_hosts);
-}
-
-Written read_render(const Options& options) {
-    RenderGraph made = render_graph(options);
-    return with_hosts(std::move(made.graph), std::move(made.problems), options);
-}
-
-Loaded load_render(Written written, const Options& options, const Registry& registry) {
-    return finish(std::move(written), options, registry, true);
+void warn(const std::vector<Problem>& warnings, std::ostream& err) {
+    for (const auto& warning : warnings) err << "warning: " << to_string(warning) << '\n';
 }
 
 }  // namespace lightnet

@@ -1,6 +1,8 @@
 // From the names of files to what may run.
 #pragma once
 
+#include <iosfwd>
+#include <string>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -8,31 +10,37 @@
 #include "core/network/graph/hosts.hpp"
 #include "core/network/graph/kind.hpp"
 #include "tools/options.hpp"
+#include "tools/render.hpp"
 
 namespace lightnet {
+
+/// What the files say that the user named, before anything is checked.
+struct Written {
+    Graph graph;
+    Hosts hosts;                    // empty without a hosts file
+    std::vector<Problem> problems;  // on the way to them
+};
+
+Written read_files(const GraphOptions& graph, const std::string& hosts);
+/// For `lightnet render`. Evaluates Lua, so call it before the scene is read: reading starts threads, and Lua runs in
+/// a child, which would have nothing of them but their locks.
+Written read_files(const RenderedScene& scene, const std::string& hosts);
 
 /// A sound graph, and where it runs.
 struct Loaded {
     Graph graph;  // checked
-    Hosts hosts;  // empty without a hosts file
+    Hosts hosts;
     std::vector<Problem> warnings, notes;
 };
 
-/// Reads the files that the options name, applies what they override, and checks all of it. Throws UserError that
-/// names all problems of the graph, of the hosts and of the way to the scene. `names_of_hosts`: look hosts up, too.
-Loaded load(const Options& options, const Registry& registry, bool names_of_hosts);
+/// Are names of hosts looked up?
+enum class NamesOfHosts { looked_up, believed };
 
-/// What the files of a `lightnet render` say, before its scene is read.
-struct Written {
-    Graph graph;
-    Hosts hosts;
-    std::vector<Problem> problems;  // on the way to them
-};
+/// Applies what the user wants otherwise, and checks all of it. Throws UserError that names all problems of the graph,
+/// of the hosts and of the way to the scene.
+Loaded make_sound(Written written, const PictureOptions& wanted, const Registry& registry,
+                  NamesOfHosts names = NamesOfHosts::looked_up);
 
-/// Reads a graph for `lightnet render`, and its hosts. Evaluates Lua, so call it before the scene is read: reading
-/// starts threads, and Lua runs in a child, which would have nothing of them but their locks.
-Written read_render(const Options& options);
-/// Makes it sound, as load() does. The scene itself has been read by now.
-Loaded load_render(Written written, const Options& options, const Registry& registry);
+void warn(const std::vector<Problem>& warnings, std::ostream& err);
 
 }  // namespace lightnet

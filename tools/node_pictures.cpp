@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/error.hpp"
 #include "core/base/own_files.hpp"
 #include "core/film/exr.hpp"
 #include "core/film/png.hpp"
@@ -58,7 +57,7 @@ std::map<std::string, std::string> write_node_pictures(const Graph& graph, const
         own.width = picture.width, own.height = picture.height;
         own.beauty = std::move(found->second);
         const auto file = std::filesystem::path(exr).replace_extension("." + node.name + ".png");
-        if (const auto why = why_not_replaced(file, png_beginning); !why.empty()) throw Error(file, why);
+        expect_ours(file, png_beginning);
         write_png(file, own);
         files[node.name] = file.string();
     }

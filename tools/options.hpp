@@ -1,21 +1,26 @@
-// What the user typed.
+// Groups of options that several verbs share: what they hold, and how they are described to the command line.
 #pragma once
 
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
-#include <variant>
-#include <vector>
 
 #include "core/film/progress.hpp"
-#include "tools/command_line.hpp"
-#include "tools/compare.hpp"
 #include "tools/run.hpp"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
 
 namespace lightnet {
 
-enum class Verb { run, render, check, dot, describe, scene_info, hosts, compare };
+/// A graph file.
+struct GraphOptions {
+    std::string file;
+    std::map<std::string, std::string> constants;  // -D
+};
 
 /// Width and height, pixels.
 struct PictureSize {
@@ -29,42 +34,49 @@ struct PictureCrop {
     friend bool operator==(const PictureCrop&, const PictureCrop&) = default;
 };
 
-/// The command line, taken apart. What wasn't given is absent.
-struct Options {
-    Verb verb = Verb::run;
-    std::string graph;                           // file
-    std::string scene;                           // file, for render and scene info
-    std::string lighting = "path";               // for render: path, direct, ao or a graph file
-    std::string environment;                     // for render: a picture's file or a colour; "": as the scene says
-    std::optional<double> exposure;              // stops; none: as the scene says
-    bool two_sided = false;                      // for render: no surface is black from behind
+/// What stands in place of what the graph says of its picture. What wasn't given is absent.
+struct PictureOptions {
+    std::optional<std::uint32_t> samples;  // per pixel
+    std::optional<PictureSize> size;
+    std::optional<PictureCrop> crop;
+    std::optional<double> exposure;  // stops
+    std::string output;              // file; "": as the graph says
+};
+
+/// What all verbs that make a picture take.
+struct RunningOptions {
+    PictureOptions picture;
     std::string hosts;                           // file; "": none
     std::optional<std::uint32_t> threads;        // places in this process; 1: serial
     std::optional<std::uint32_t> local_workers;  // daemons to start here
-    std::string output;                          // file; "": as the graph says
-    std::optional<std::uint32_t> samples;        // per pixel
-    std::optional<PictureSize> size;
-    std::optional<PictureCrop> crop;
-    double preview = 0;  // seconds between two pictures of what is there; 0: none
-    std::uint64_t seed = 0;
-    std::map<std::string, std::string> constants;  // -D
-    ProgressMode progress = ProgressMode::automatic;
-    std::string listen;                  // endpoint where hosts may join
-    bool insecure = false;               // even beyond this machine
-    std::string pass;                    // file with what hosts must know to join; "": the usual one
-    int wait = 30;                       // seconds for a host to come when a node has no place any more
-    std::optional<std::uint32_t> slurm;  // daemons to start as a job array
+    std::string listen;                          // endpoint where hosts may join
+    std::string pass;                            // file with what hosts must know to join; "": the usual one
+    bool insecure = false;                       // even beyond this machine
+    int wait = 30;                               // seconds for a host to come when a node has no place any more
+    std::optional<std::uint32_t> slurm;          // daemons to start as a job array
     std::string partition, slurm_arguments;
-    bool resume = false;  // from a checkpoint
-    bool forget = false;  // it, when the picture is finished
+    std::uint64_t seed = 0;
+    ProgressMode progress = ProgressMode::automatic;
+    double preview = 0;          // seconds between two pictures of what is there; 0: none
+    bool resume = false;         // from a checkpoint
+    bool forget = false;         // it, when the picture is finished
     Tuning tuning;
-    std::string kind;               // for describe; "": all
-    std::string pictures;           // for dot: the EXR that shows what each node gives; "": none
-    std::vector<std::string> whom;  // for hosts: endpoints and hosts files
-    CompareRequest compare;
 };
 
-/// Takes a command line (without the program's name) apart. Flags may stand in any order after the verb.
-std::variant<Options, Finished> parse_options(const std::vector<std::string>& arguments);
+void add_graph(CLI::App& verb, GraphOptions& graph);
+void add_constants(CLI::App& verb, std::map<std::string, std::string>& constants, const char* help);
+/// --samples, --size and --crop.
+void add_picture(CLI::App& verb, PictureOptions& picture);
+void add_output(CLI::App& verb, std::string& file, const char* help);
+CLI::Option* add_hosts(CLI::App& verb, std::string& file);
+CLI::Option* add_threads(CLI::App& verb, std::optional<std::uint32_t>& threads, const char* help);
+/// All of them but --output, whose help differs.
+void add_running(CLI::App& verb, RunningOptions& running);
+
+/// For `when_taken_apart()`: what is wrong with them together. `--slurm` wants a place where daemons can join.
+std::optional<std::string> settle(RunningOptions& running);
+/// The same: a scene where a graph is wanted, and the other way round. `instead`: "to render it: lightnet run".
+std::optional<std::string> mistaken_scene(const std::string& graph, const std::string& instead);
+std::optional<std::string> mistaken_graph(const std::string& scene, const std::string& instead);
 
 }  // namespace lightnet

@@ -45,6 +45,7 @@ void check_output(const std::string& output) {
     if (!problems.empty()) throw UserError(problems);
 }
 
+// DECISIONS: where-graphs-write
 std::vector<Problem> problems_of_kept_files(const Graph& graph, const Registry& registry) {
     std::vector<Problem> problems;
     for (const auto& node : graph.nodes) {

@@ -19,31 +19,31 @@ void set_crop(Value& film, const PictureCrop& crop) {
             Table{{{double(crop.x0)}, {double(crop.y0)}, {double(crop.x1)}, {double(crop.y1)}}, {}}};
 }
 
-void set_exposure(Node& scene, const Kind& kind, const Options& options) {
+void set_exposure(Node& scene, const Kind& kind, const PictureOptions& wanted) {
     for (const auto& param : kind.params)
-        if (options.exposure && param.name == "exposure") scene.params[param.name] = {*options.exposure};
+        if (wanted.exposure && param.name == "exposure") scene.params[param.name] = {*wanted.exposure};
 }
 
 }  // namespace
 
-void override_picture(Graph& graph, const Registry& registry, const Options& options) {
+void override_picture(Graph& graph, const Registry& registry, const PictureOptions& wanted) {
     for (auto& node : graph.nodes) {
         const Kind* kind = registry.find(node.kind);
-        if (kind && kind->role == Role::scene) set_exposure(node, *kind, options);
+        if (kind && kind->role == Role::scene) set_exposure(node, *kind, wanted);
         if (!kind || kind->role != Role::image) continue;
         for (const auto& param : kind->params) {
-            if (options.samples && param.name == "samples")
-                node.params[param.name] = {static_cast<double>(*options.samples)};
-            if (param.type != ParamType::film || !(options.size || options.crop)) continue;
+            if (wanted.samples && param.name == "samples")
+                node.params[param.name] = {static_cast<double>(*wanted.samples)};
+            if (param.type != ParamType::film || !(wanted.size || wanted.crop)) continue;
             Value& film = node.params.try_emplace(param.name, Value{Table{}}).first->second;
-            if (options.size) set_size(film, *options.size);
-            if (options.crop) set_crop(film, *options.crop);
+            if (wanted.size) set_size(film, *wanted.size);
+            if (wanted.crop) set_crop(film, *wanted.crop);
         }
     }
 }
 
-std::string output_file(const Graph& graph, const Registry& registry, const Options& options) {
-    if (!options.output.empty()) return options.output;
+std::string output_file(const Graph& graph, const Registry& registry, const PictureOptions& wanted) {
+    if (!wanted.output.empty()) return wanted.output;
     if (const auto file = film_of(graph, registry).file; !file.empty()) return file;
     return std::filesystem::path(graph.file).stem().string() + ".exr";
 }

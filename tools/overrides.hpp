@@ -10,9 +10,9 @@
 namespace lightnet {
 
 /// Writes --samples, --size and --crop into the renderers of an unchecked graph, and --exposure into its scenes.
-void override_picture(Graph& graph, const Registry& registry, const Options& options);
+void override_picture(Graph& graph, const Registry& registry, const PictureOptions& wanted);
 
 /// Where the picture of a checked graph goes: -o, else the film's file, else the graph's name with .exr, here.
-std::string output_file(const Graph& graph, const Registry& registry, const Options& options);
+std::string output_file(const Graph& graph, const Registry& registry, const PictureOptions& wanted);
 
 }  // namespace lightnet

@@ -43,6 +43,7 @@ PictureLock::PictureLock(const std::string& picture) {
     while (true) {
         file_ = open_lock(path_);
         if (file_ < 0) return;
+        // DECISIONS: lock-beside-the-picture
         if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {
             const bool taken = errno == EWOULDBLOCK;
             ::close(file_);

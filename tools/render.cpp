@@ -36,22 +36,22 @@ std::optional<Table> colour_of(std::string_view text) {
 /// Files in a graph are named from the graph's folder, wherever the user stands.
 std::string from_anywhere(const std::string& file) { return std::filesystem::absolute(file).lexically_normal(); }
 
-void override_scene(Node& scene, const Options& options) {
-    if (!options.environment.empty()) {
-        if (auto colour = colour_of(options.environment))
+void override_scene(Node& scene, const RenderedScene& wanted) {
+    if (!wanted.environment.empty()) {
+        if (auto colour = colour_of(wanted.environment))
             scene.params["environment"] = {std::move(*colour)};
         else
-            scene.params["environment"] = {from_anywhere(options.environment)};
+            scene.params["environment"] = {from_anywhere(wanted.environment)};
     }
-    if (options.two_sided) scene.params["two_sided"] = {true};
+    if (wanted.two_sided) scene.params["two_sided"] = {true};
 }
 
 /// `kinds`: what is added up.
-Graph own_graph(const Options& options, const std::vector<std::string>& kinds) {
-    const SourceLine where{options.scene, 0};
+Graph own_graph(const RenderedScene& wanted, const std::vector<std::string>& kinds) {
+    const SourceLine where{wanted.file, 0};
     Graph graph;
-    graph.file = options.scene;
-    const std::string file = std::filesystem::path(options.scene).filename().string();
+    graph.file = wanted.file;
+    const std::string file = std::filesystem::path(wanted.file).filename().string();
     graph.nodes.push_back({"scene", "Scene", {{file}}, {}, where});
     Node sum{"light", "Combine", {}, {}, where};
     for (const auto& kind : kinds) {
@@ -70,28 +70,29 @@ Graph own_graph(const Options& options, const std::vector<std::string>& kinds) {
 
 }  // namespace
 
-RenderGraph render_graph(const Options& options) {
+// DECISIONS: render-is-a-graph
+RenderGraph render_graph(const RenderedScene& wanted) {
     static const std::map<std::string, std::vector<std::string>> kinds{
         {"ao", {"AmbientOcclusion"}}, {"direct", {"DirectLighting"}}, {"path", {"DirectLighting", "PathTracing"}}};
     RenderGraph result;
-    if (const auto kind = kinds.find(options.lighting); kind != kinds.end()) {
-        result.graph = own_graph(options, kind->second);
-        if (!options.constants.empty()) {
+    if (const auto kind = kinds.find(wanted.lighting); kind != kinds.end()) {
+        result.graph = own_graph(wanted, kind->second);
+        if (!wanted.constants.empty()) {
             Table constants;
-            for (const auto& [name, value] : options.constants) constants.named[name] = {value};
+            for (const auto& [name, value] : wanted.constants) constants.named[name] = {value};
             result.graph.nodes.front().params["constants"] = {std::move(constants)};
         }
-    } else if (!options.lighting.ends_with(".lua")) {
-        throw UserError({"--lighting", 0}, "must be path, direct, ao or a graph file (.lua), not '" + options.lighting +
-                                               "'" + did_you_mean(options.lighting, {"path", "direct", "ao"}));
+    } else if (!wanted.lighting.ends_with(".lua")) {
+        throw UserError({"--lighting", 0}, "must be path, direct, ao or a graph file (.lua), not '" + wanted.lighting +
+                                               "'" + did_you_mean(wanted.lighting, {"path", "direct", "ao"}));
     } else {
-        GraphFile file = read_graph(options.lighting, {.constants = options.constants});
+        GraphFile file = read_graph(wanted.lighting, {.constants = wanted.constants});
         result = {std::move(file.graph), std::move(file.problems)};
         for (auto& node : result.graph.nodes)
-            if (node.kind == "Scene") node.entries = {{from_anywhere(options.scene)}};
+            if (node.kind == "Scene") node.entries = {{from_anywhere(wanted.file)}};
     }
     for (auto& node : result.graph.nodes)
-        if (node.kind == "Scene") override_scene(node, options);
+        if (node.kind == "Scene") override_scene(node, wanted);
     return result;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,9 +19,18 @@ struct RenderGraph {
     std::vector<Problem> problems;
 };
 
-/// The graph that lights the scene file of the options in the way of `--lighting`: "path", "direct", "ao", or a graph
-/// file whose scenes are replaced by this one. `--env` becomes an override of the scene.
-RenderGraph render_graph(const Options& options);
+/// A scene file, and what is asked of it.
+struct RenderedScene {
+    std::string file;
+    std::string lighting = "path";                 // path, direct, ao or a graph file
+    std::string environment;                       // a picture's file or a colour; "": as the scene says
+    bool two_sided = false;                        // no surface is black from behind
+    std::map<std::string, std::string> constants;  // -D: of the scene file, or of the graph file
+};
+
+/// The graph that lights the scene in the way of its `lighting`; the scenes of a graph file are replaced by this one.
+/// The environment becomes an override of the scene. Throws UserError.
+RenderGraph render_graph(const RenderedScene& wanted);
 
 /// What a film's crop, in parts of its sides, is in pixels of a picture of that size: those whose left and upper edges
 /// lie in it, as pbrt has it. None: all of them, or none.

@@ -3,30 +3,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
 #include <utility>
 
-#include "core/base/atomic_file.hpp"
 #include "core/base/error.hpp"
 #include "core/base/own_files.hpp"
-#include "core/film/checkpoint.hpp"
 #include "core/film/exr.hpp"
 #include "core/film/png.hpp"
 #include "core/network/graph/layout.hpp"
-#include "core/run/prepare/kept.hpp"
 #include "tools/summary.hpp"
 
 namespace lightnet {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-void expect_ours(const std::filesystem::path& file, std::string_view beginning) {
-    if (const auto why = why_not_replaced(file, beginning); !why.empty()) throw Error(file.string(), why);
-}
 
 }  // namespace
 
@@ -67,8 +59,7 @@ void RunBook::expose(float scale) {
 }
 
 void RunBook::preview(const std::string& exr, double seconds) {
-    const std::chrono::duration<double> period(seconds);
-    preview_ = Preview{exr, period, Clock::now() + std::chrono::ceil<Clock::duration>(period)};
+    preview_ = Preview{exr, Pace(std::chrono::duration<double>(seconds), Clock::now())};
 }
 
 std::vector<Tile> RunBook::take(const Tile& tile, std::span<const Rgb> pixels) {
@@ -79,9 +70,9 @@ std::vector<Tile> RunBook::take(const Tile& tile, std::span<const Rgb> pixels) {
     // Tiles differ in size where cells decide.
     const bool differ = film_.format().adaptive();
     progress_.update(differ ? static_cast<std::uint64_t>(film_.done() * double(all_blocks_)) : blocks_, Clock::now());
-    const auto now = Clock::now();
-    if (preview_ && now >= preview_->next && !film_.complete()) write_preview();
-    if (keeping_ && now >= keeping_->next) save_in_background(now);
+    if (preview_ && preview_->pace.due(Clock::now()) && !film_.complete()) write_preview();
+    if (checkpoint_)
+        if (const auto why = checkpoint_->save_if_due(blocks_); !why.empty()) warn("no checkpoint: " + why);
     return wanted ? film_.more(tile) : std::vector<Tile>{};
 }
 
@@ -102,8 +93,7 @@ void RunBook::write_preview() {
     }
     // Writing takes at most a tenth of the time, however large the picture.
     const auto now = Clock::now();
-    preview_->next =
-        now + std::max<Clock::duration>(std::chrono::ceil<Clock::duration>(preview_->period), 9 * (now - begun));
+    preview_->pace.put_off(now, 9 * (now - begun));
 }
 
 void RunBook::write_files(const std::string& exr) {
@@ -123,80 +113,37 @@ void RunBook::write_files(const std::string& exr) {
 
 void RunBook::keep_checkpoint(const std::string& exr, std::map<std::string, std::string> recipe,
                               std::chrono::seconds period) {
-    keeping_ = Keeping{checkpoint_beside(exr), {std::move(recipe), {}}, period, Clock::now() + period, {}, 0};
+    checkpoint_.emplace(film_, exr, std::move(recipe), period);
 }
 
 void RunBook::take_up_checkpoint() {
-    const auto file = keeping_->file.string();
-    const auto refuse = [&](const std::string& why) { throw UserError({file, 0}, why); };
-    try {
-        auto found = read_checkpoint(file);
-        if (!found) return say("there is no " + file + "; beginning at the beginning");
-        if (const auto other = differences(found->of, keeping_->last.of); !other.empty())
-            refuse("is the checkpoint of another picture (" + other + ")");
-        if (const auto theirs = found->film.samples, ours = film_.format().samples; theirs > ours)
-            refuse(
-                fmt::format("is of {} samples per pixel, and only {} are asked for: ask for as many or more with "
-                            "--samples, or leave --resume out to begin anew",
-                            theirs, ours));
-        film_.restore(std::move(found->film));
-    } catch (const Error& error) {
-        refuse(std::string("can't be gone on from: ") + error.what());
-    }
-    say(fmt::format("going on from {}", file));
+    const auto file = checkpoint_->file().string();
+    say(checkpoint_->take_up() ? "going on from " + file : "there is no " + file + "; beginning at the beginning");
 }
 
 void RunBook::found(std::uint64_t blocks) {
-    blocks_ = keeping_->saved = blocks;
+    blocks_ = blocks;
+    checkpoint_->found(blocks);
     if (blocks) progress_.found_done(blocks, Clock::now());
 }
 
-void RunBook::save_in_background(Clock::time_point now) {
-    keeping_->next = now + keeping_->period;
-    if (keeping_->saved == blocks_) return;
-    if (keeping_->saving.valid()) {
-        if (keeping_->saving.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
-        try {
-            // Saving takes at most a small part of the time.
-            const auto pause = std::chrono::duration<double>(20 * keeping_->saving.get());
-            keeping_->next =
-                now + std::max<Clock::duration>(keeping_->period, std::chrono::ceil<Clock::duration>(pause));
-        } catch (const std::exception& error) {
-            warn(std::string("no checkpoint: ") + error.what());
-        }
-    }
-    keeping_->saved = blocks_;
-    film_.state(keeping_->last.film);
-    keeping_->saving = std::async(std::launch::async, [&keeping = *keeping_] {
-        const auto begun = Clock::now();
-        write_checkpoint(keeping.file, keeping.last);
-        return std::chrono::duration<double>(Clock::now() - begun).count();
-    });
-}
-
 bool RunBook::save_checkpoint() {
-    if (!keeping_ || blocks_ == 0) return false;
-    if (keeping_->saving.valid()) keeping_->saving.wait();
-    if (keeping_->saved != blocks_ || !std::filesystem::exists(keeping_->file)) {
-        film_.state(keeping_->last.film);
-        write_checkpoint(keeping_->file, keeping_->last);
-    }
+    if (!checkpoint_ || blocks_ == 0) return false;
+    checkpoint_->save(blocks_);
     return true;
 }
 
 void RunBook::end_checkpoint(bool stays) {
-    if (!keeping_) return;
+    if (!checkpoint_) return;
     try {
         if (stays)
             save_checkpoint();
-        else if (keeping_->saving.valid())
-            keeping_->saving.wait();
+        else
+            checkpoint_->remove();
     } catch (const std::exception& error) {
         warn(std::string("samples can't be added to the picture later: ") + error.what());
     }
-    std::error_code ignored;
-    if (!stays) std::filesystem::remove(keeping_->file, ignored);
-    keeping_.reset();
+    checkpoint_.reset();
 }
 
 void RunBook::use(const HostState& host) {
@@ -233,23 +180,6 @@ void RunBook::use(const Plan& plan, const Graph& graph) {
             if (std::count(plan.places_of[node].begin(), plan.places_of[node].end(), place))
                 entry.nodes.push_back(graph.nodes[node].name);
         report_.places.push_back(std::move(entry));
-    }
-}
-
-void RunBook::will_keep(const Graph& graph, const Registry& registry, const SceneData& scene) {
-    for (const auto& [node, file] : files_to_keep(graph, registry))
-        to_keep_.push_back({node, graph.nodes[node].name, file, registry.find(graph.nodes[node].kind)});
-    if (!to_keep_.empty()) scene_ = identity_of(scene);
-}
-
-void RunBook::write_kept(const std::function<Bytes(std::size_t node)>& result_of) {
-    for (const auto& [node, name, file, kind] : to_keep_) {
-        const Bytes result = result_of(node);
-        if (!result) continue;
-        expect_ours(file, kept_beginning);
-        write_file(file, kept_text(*kind, scene_, *result));
-        set("kept." + name, file);
-        say(fmt::format("{}: kept in {}", name, file));
     }
 }
 

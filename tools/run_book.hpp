@@ -3,17 +3,12 @@
 
 #include <chrono>
 #include <cstdint>
-#include <filesystem>
-#include <functional>
-#include <future>
 #include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "core/base/hash.hpp"
-#include "core/film/checkpoint.hpp"
 #include "core/film/film.hpp"
 #include "core/film/progress.hpp"
 #include "core/film/run_report.hpp"
@@ -22,7 +17,8 @@
 #include "core/network/graph/plan.hpp"
 #include "core/run/message/counters.hpp"
 #include "core/run/prepare/prepare_progress.hpp"
-#include "core/scene/data/scene_data.hpp"
+#include "tools/checkpoint_keeper.hpp"
+#include "tools/pace.hpp"
 #include "transport/cluster.hpp"
 
 namespace lightnet {
@@ -32,6 +28,8 @@ class RunBook {
 public:
     /// `blocks`: of tiles, how many there are if all pixels get all samples.
     RunBook(FilmFormat format, ProgressMode progress, std::uint64_t blocks, RunReport report);
+    RunBook(const RunBook&) = delete;
+    RunBook& operator=(const RunBook&) = delete;
 
     /// Another part of the run begins; the one before has ended.
     void phase(const std::string& name);
@@ -78,11 +76,6 @@ public:
     /// that refuses it only costs a warning.
     void end_checkpoint(bool stays);
 
-    /// Nodes of the graph want what they learn kept in files: `scene` is what they learn it of.
-    void will_keep(const Graph& graph, const Registry& registry, const SceneData& scene);
-    /// Writes these files; `result_of` gives what a node has learnt.
-    void write_kept(const std::function<Bytes(std::size_t node)>& result_of);
-
     /// Writes x.exr, and x.png beside it, each whole or not at all. Throws Error, also when files of others are there.
     void write_picture(const std::string& exr);
     /// Is the file there, and what write_picture() would write?
@@ -95,45 +88,27 @@ public:
 private:
     struct Preview {
         std::string exr;
-        std::chrono::duration<double> period;
-        std::chrono::steady_clock::time_point next;
+        Pace pace;
         bool said = false;
     };
     void write_files(const std::string& exr);
     void write_preview();
-    void end_phase(std::chrono::steady_clock::time_point now);
-    void save_in_background(std::chrono::steady_clock::time_point now);
+    void end_phase(Pace::Clock::time_point now);
 
     Film film_;
     float scale_ = 1;
     Brightness brightness_;      // of what was written last
     std::string last_prepared_;  // node that was named
     bool said_overflow_ = false;
-    /// What one node has learnt, to be kept.
-    struct ToKeep {
-        std::size_t node = 0;
-        std::string name, file;
-        const Kind* kind = nullptr;
-    };
-    std::vector<ToKeep> to_keep_;
-    Hash scene_;  // whose
     std::optional<Preview> preview_;
     bool previewed_ = false;
+    std::optional<CheckpointKeeper> checkpoint_;
     RunReport report_;
     std::uint64_t all_blocks_;
     Progress progress_;
     Counters counters_;
     std::uint64_t blocks_ = 0, repeated_ = 0;  // of tiles
-    struct Keeping {
-        std::filesystem::path file;
-        Checkpoint last;  // being saved, or what was; its room is used again
-        std::chrono::seconds period;
-        std::chrono::steady_clock::time_point next;
-        std::future<double> saving;  // seconds that it took
-        std::uint64_t saved = 0;     // blocks
-    };
-    std::optional<Keeping> keeping_;
-    std::optional<std::chrono::steady_clock::time_point> phase_begun_;
+    std::optional<Pace::Clock::time_point> phase_begun_;
 };
 
 }  // namespace lightnet

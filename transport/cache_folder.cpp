@@ -19,6 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Of the Cache Directory Tagging Specification, so that programs that make backups leave it out.
+// DECISIONS: marked-caches
 constexpr std::string_view mark_name = "CACHEDIR.TAG";
 constexpr std::string_view mark =
     "Signature: 8a477f597d28d172789f06886806bc55\n"

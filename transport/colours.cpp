@@ -11,6 +11,7 @@
 namespace lightnet::packet {
 namespace {
 
+// DECISIONS: black-left-out
 using Lit = std::vector<std::uint8_t>;  // a bit per colour, the lowest first
 
 constexpr std::size_t bits = 8;  // of an entry

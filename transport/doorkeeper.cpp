@@ -10,6 +10,7 @@
 namespace lightnet {
 namespace {
 
+// DECISIONS: guarded-port
 constexpr const char* authentication = "inproc://zeromq.zap.01";  // the name is ZeroMQ's
 constexpr int enforce_domain = 93;  // ZMQ_ZAP_ENFORCE_DOMAIN: without a doorkeeper nobody gets in; not in all headers
 constexpr std::size_t for_own_work = 64, most = 4096, least = 8;

@@ -12,6 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// DECISIONS: recipes-say-what-of
 std::string text_of(const Hash& recipe, const Hash& blob) {
     const std::string text = "lightnet recipe 1\nrecipe " + to_hex(recipe) + "\nblob " + to_hex(blob) + "\n";
     return text + "sum " + to_hex(content_hash(text)) + "\n";

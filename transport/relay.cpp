@@ -35,6 +35,7 @@ std::optional<RelayAddress> unseal(std::span<const std::byte> frame) {
     return RelayAddress{std::string(all.substr(before, size)), std::string(all.substr(before + size))};
 }
 
+// DECISIONS: who-calls-whom
 bool calls_directly(std::string_view asker, std::string_view answerer) {
     if (!answerer.starts_with("tcp://")) return false;
     return asker.starts_with("tcp://") && (stays_on_this_machine(asker) || !stays_on_this_machine(answerer));

@@ -17,6 +17,7 @@ using Clock = std::chrono::steady_clock;
 constexpr auto look_interval = std::chrono::milliseconds(200);
 // After so long without any answer a host is asked again: a flipped bit can make a message vanish without a trace. The
 // next time it is given twice as long, since it may just be slow.
+// DECISIONS: say-it-again
 constexpr auto shortest_patience = std::chrono::milliseconds(3000);
 
 }  // namespace

@@ -71,6 +71,7 @@ void sync_folder(const std::filesystem::path& folder) {
 
 }  // namespace
 
+// DECISIONS: written-whole
 void write_file(const std::filesystem::path& path, std::string_view bytes) { write_file(path, std::span(&bytes, 1)); }
 
 void write_file(const std::filesystem::path& path, std::span<const std::string_view> pieces) {

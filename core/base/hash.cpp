@@ -37,6 +37,7 @@ Hash keyed_hash(std::string_view secret, std::string_view text) {
 }
 
 struct Hasher::State {
+    // DECISIONS: content-hash
     std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context{EVP_MD_CTX_new(), EVP_MD_CTX_free};
 };
 

@@ -121,6 +121,7 @@ std::uint64_t Json::whole_up_to(std::uint64_t most) const {
     return value;
 }
 
+// DECISIONS: json-as-events
 Json parse_json(std::string_view text, const JsonLimits& limits) {
     if (text.size() > limits.bytes) malformed(fmt::format("more than {} MiB", limits.bytes >> 20));
     Builder builder(limits);

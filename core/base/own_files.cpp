@@ -3,6 +3,8 @@
 #include <fstream>
 #include <system_error>
 
+#include "core/base/error.hpp"
+
 namespace lightnet {
 
 namespace fs = std::filesystem;
@@ -23,6 +25,10 @@ std::string why_not_replaced(const fs::path& path, std::string_view beginning) {
     if (in && text == beginning) return "";
     return "is there already, and is nothing that lightnet has written: it is left alone (move it, or choose another "
            "name)";
+}
+
+void expect_ours(const fs::path& path, std::string_view beginning) {
+    if (const auto why = why_not_replaced(path, beginning); !why.empty()) throw Error(path.string(), why);
 }
 
 }  // namespace lightnet

@@ -16,5 +16,7 @@ std::filesystem::path png_beside(const std::filesystem::path& picture);
 
 /// Why nothing may be written at `path`: what is there is not of the kind that begins so, and not empty. "": it may.
 std::string why_not_replaced(const std::filesystem::path& path, std::string_view beginning);
+/// Throws Error when nothing may be.
+void expect_ours(const std::filesystem::path& path, std::string_view beginning);
 
 }  // namespace lightnet

@@ -22,6 +22,7 @@ double Aim::Cell::volume() const {
     return volume;
 }
 
+// DECISIONS: aimed-photons
 Aim::Aim(std::span<const Trial> trials) {
     std::vector<Trial> all(trials.begin(), trials.end());
     divide(Cell{}, all, 0);

@@ -45,6 +45,7 @@ std::size_t Nearest::count_within(float distance2) {
 
 // Lowers the limit until hardly more than `most` are within it. Photons of an even surface are as many as the square of
 // the distance is great, so that a guess in proportion is good at once.
+// DECISIONS: photons-in-boxes
 void Nearest::sift() {
     float low = 0, high = limit_;
     std::size_t at_low = 0, at_high = count_;

@@ -136,6 +136,7 @@ void Film::keep(Rectangle& rectangle, const Tile& tile, std::span<const Rgb> pix
 }
 
 // What is not finite, and counts it.
+// DECISIONS: not-finite-is-black
 void Film::blacken(std::span<Rgb> pixels) {
     for (std::size_t i = 0; i < pixels.size(); ++i)
         if (!finite(pixels[i])) {
@@ -296,6 +297,7 @@ void Film::note(std::size_t pixel, std::span<const Rgb> layers, std::uint32_t sa
     }
 }
 
+// DECISIONS: samples-by-cell
 bool Film::enough(const Tile& cell) const {
     double sum = 0;
     for (std::uint32_t y = cell.y; y < cell.y + cell.height; ++y)
@@ -345,6 +347,7 @@ Picture Film::picture(float scale) const {
             if (samples) layer.pixels[i] = sums[from[i] * layers + k] / static_cast<float>(samples) * scale;
         }
     }
+    // DECISIONS: beauty-is-the-sum
     picture.beauty = sum_of(picture.layers);
     blacken_overflow(picture);
     return picture;

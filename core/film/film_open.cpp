@@ -7,6 +7,7 @@
 namespace lightnet {
 
 // It lacks blocks that it has in a picture of more samples, or its last block is short.
+// DECISIONS: last-group-apart
 bool Film::is_open(const Blocks& group) const {
     const std::uint32_t of_any_picture = format_.adaptive() ? 1 : lightnet::group_of(group.first).count;
     return group.first + of_any_picture > format_.samples / samples_per_block;

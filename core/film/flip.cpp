@@ -23,6 +23,7 @@ constexpr double feature_degrees = 0.082;  // w: how wide features are that the 
 
 using Planes = std::array<Plane, 3>;  // of YCxCz
 
+// DECISIONS: flip-as-shown
 float shown(float value, float scale) {
     const float exposed = value * scale;
     return exposed > 0 ? std::min(exposed, 1.0f) : 0;  // no number: 0, too

@@ -30,6 +30,7 @@ std::uint32_t up_to_whole(std::uint32_t number, std::uint32_t step) { return (nu
 
 }  // namespace
 
+// DECISIONS: block-groups
 std::vector<Tile> one_by_one(const Tile& tile) {
     std::vector<Tile> blocks(tile.blocks(), tile);
     for (std::uint32_t i = 0; i < blocks.size(); ++i) {

@@ -75,6 +75,7 @@ bool lies_within(const std::string& folder, const std::string& path) {
     return !way.empty() && *way.begin() != "..";
 }
 
+// DECISIONS: gltf-stays-in-its-folder
 bool stays_beside(const Files& files, const std::string& from, const std::string& path) {
     const std::filesystem::path parent = std::filesystem::path(from).parent_path();
     const std::string folder = parent.empty() ? "." : parent.string();

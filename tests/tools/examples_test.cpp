@@ -5,7 +5,7 @@
 #include <iterator>
 #include <sstream>
 
-#include "tools/options.hpp"
+#include "tools/launcher.hpp"
 
 namespace lightnet {
 namespace {
@@ -30,8 +30,8 @@ void expect_to_work(Words words) {
     ASSERT_FALSE(words.empty());
     ASSERT_EQ(words[0], "lightnet");
     words.erase(words.begin());
-    const auto parsed = parse_options(words);
-    const auto* finished = std::get_if<Finished>(&parsed);
+    const auto understood = understand(words, standard_verbs());
+    const auto* finished = std::get_if<Finished>(&understood);
     EXPECT_TRUE(!finished || finished->code == 0) << words[0] << ": " << finished->err;
     for (const auto& word : words) {
         const bool ours = word.starts_with("graphs/");
@@ -44,8 +44,8 @@ class HelpOf : public testing::TestWithParam<Words> {};
 TEST_P(HelpOf, EndsInExamplesThatWork) {
     Words words = GetParam();
     words.push_back("--help");
-    const auto parsed = parse_options(words);
-    const auto& help = std::get<Finished>(parsed).out;
+    const auto understood = understand(words, standard_verbs());
+    const auto& help = std::get<Finished>(understood).out;
     const auto examples = examples_in(help);
     EXPECT_FALSE(examples.empty()) << help;
     for (const auto& example : examples) expect_to_work(example);

@@ -12,6 +12,7 @@
 #include "core/network/graph/graph_film.hpp"
 #include "tests/support/fake_registry.hpp"
 #include "tests/support/folder.hpp"
+#include "tools/options.hpp"
 
 namespace lightnet {
 namespace {
@@ -230,6 +231,30 @@ TEST(Launcher, DescribesKinds) {
     EXPECT_THAT(lightnet.out, HasSubstr("rays   integer, in samples, default 4"));
     EXPECT_EQ(lightnet({"describe", "Ambeint"}), 2);
     EXPECT_EQ(lightnet.err, "lightnet: there is no kind 'Ambeint' (did you mean 'Ambient'?)\n");
+}
+
+struct Greeting {
+    std::string output;
+};
+
+TEST(Launcher, HasAnotherVerbByOneLineOfATable) {
+    const auto describe = [](CLI::App& app, Greeting& options) { add_output(app, options.output, "who is greeted"); };
+    const auto greet = [](const Greeting& options, const Launcher& launcher) {
+        launcher.out << "good morning, " << options.output << '\n';
+        return 5;
+    };
+    std::ostringstream out, err;
+    const Registry registry = test::fake_registry();
+    Launcher lightnet{registry, [](const RunRequest&) { return 7; }, out, err};
+    lightnet.verbs.push_back(verb<Greeting>("greet", "say good morning", describe, greet));
+    EXPECT_EQ(lightnet({"greet", "-o", "onyx"}), 5);
+    EXPECT_EQ(out.str(), "good morning, onyx\n");
+    EXPECT_EQ(lightnet({"help"}), 0);
+    EXPECT_THAT(out.str(), HasSubstr("say good morning"));
+    EXPECT_EQ(lightnet({"gret"}), 2);
+    EXPECT_THAT(err.str(), HasSubstr("(did you mean 'greet'?)"));
+    EXPECT_EQ(lightnet({"greet", "--outptu", "onyx"}), 2);
+    EXPECT_THAT(err.str(), HasSubstr("(did you mean '--output'?)\ntry: lightnet greet --help"));
 }
 
 TEST(Launcher, ToldOfARunThatFailsExitsWithOne) {

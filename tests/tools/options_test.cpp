@@ -3,6 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sstream>
+#include <utility>
+
+#include "tests/support/fake_registry.hpp"
+#include "tools/launcher.hpp"
+
 namespace lightnet {
 namespace {
 
@@ -13,16 +19,34 @@ using testing::StartsWith;
 using testing::UnorderedElementsAre;
 using Words = std::vector<std::string>;
 
-Options options_of(const Words& words) {
-    const auto parsed = parse_options(words);
-    if (const auto* finished = std::get_if<Finished>(&parsed)) ADD_FAILURE() << finished->out << finished->err;
-    const auto* options = std::get_if<Options>(&parsed);
-    return options ? *options : Options{};
+struct GraphRun {
+    GraphOptions graph;
+    RunningOptions running;
+};
+
+/// What the groups of options make of a command line: a verb of the test's own keeps it.
+GraphRun options_of(const Words& words) {
+    GraphRun seen;
+    const auto describe = [](CLI::App& app, GraphRun& options) {
+        add_graph(app, options.graph);
+        add_running(app, options.running);
+        add_output(app, options.running.picture.output, "the picture");
+    };
+    const auto keep = [&](const GraphRun& options, const Launcher&) {
+        seen = options;
+        return 0;
+    };
+    std::ostringstream out, err;
+    const Registry registry = test::fake_registry();
+    const auto never = [](const RunRequest&) { return 1; };
+    const Launcher launcher{registry, never, out, err, {verb<GraphRun>("run", "a test", describe, keep)}};
+    EXPECT_EQ(launcher(words), 0) << err.str();
+    return seen;
 }
 
 Finished finished_of(const Words& words) {
-    const auto parsed = parse_options(words);
-    const auto* finished = std::get_if<Finished>(&parsed);
+    const auto understood = understand(words, standard_verbs());
+    const auto* finished = std::get_if<Finished>(&understood);
     if (!finished) ADD_FAILURE() << "the command line was taken";
     return finished ? *finished : Finished{};
 }
@@ -36,25 +60,24 @@ std::string usage_error(const Words& words) {
 }
 
 TEST(Options, AreAbsentWhereNothingIsSaid) {
-    const Options options = options_of({"run", "g.lua"});
-    EXPECT_EQ(options.verb, Verb::run);
-    EXPECT_EQ(options.graph, "g.lua");
-    EXPECT_EQ(options.hosts, "");
-    EXPECT_FALSE(options.threads || options.local_workers || options.samples || options.size);
-    EXPECT_EQ(options.progress, ProgressMode::automatic);
+    const auto [graph, running] = options_of({"run", "g.lua"});
+    EXPECT_EQ(graph.file, "g.lua");
+    EXPECT_EQ(running.hosts, "");
+    EXPECT_FALSE(running.threads || running.local_workers || running.picture.samples || running.picture.size);
+    EXPECT_EQ(running.progress, ProgressMode::automatic);
 }
 
 TEST(Options, TakeACrop) {
-    EXPECT_EQ(options_of({"run", "g.lua", "--crop", "1,2,30,40"}).crop, (PictureCrop{1, 2, 30, 40}));
+    EXPECT_EQ(options_of({"run", "g.lua", "--crop", "1,2,30,40"}).running.picture.crop, (PictureCrop{1, 2, 30, 40}));
     for (const char* wrong : {"1,2,3", "1,2,3,4,5", "a,2,3,4", "1,2,3,-4", "1 2 3 4", ""})
         EXPECT_THAT(usage_error({"run", "g.lua", "--crop", wrong}), HasSubstr("a crop is like 10,20,110,80")) << wrong;
-    EXPECT_EQ(options_of({"run", "g.lua", "--preview", "0.5"}).preview, 0.5);
+    EXPECT_EQ(options_of({"run", "g.lua", "--preview", "0.5"}).running.preview, 0.5);
 }
 
 TEST(Options, TakeSizesOfCachesInUnits) {
-    EXPECT_EQ(options_of({"run", "g.lua"}).tuning.cache_size, std::uint64_t{4} << 30);
-    EXPECT_EQ(options_of({"run", "g.lua", "--cache-size", "500M"}).tuning.cache_size, std::uint64_t{500} << 20);
-    EXPECT_EQ(options_of({"run", "g.lua", "--cache-size", "12345"}).tuning.cache_size, 12345u);
+    EXPECT_EQ(options_of({"run", "g.lua"}).running.tuning.cache_size, std::uint64_t{4} << 30);
+    EXPECT_EQ(options_of({"run", "g.lua", "--cache-size", "500M"}).running.tuning.cache_size, std::uint64_t{500} << 20);
+    EXPECT_EQ(options_of({"run", "g.lua", "--cache-size", "12345"}).running.tuning.cache_size, 12345u);
     EXPECT_THAT(usage_error({"run", "g.lua", "--cache-size", "much"}), HasSubstr("--cache-size"));
 }
 
@@ -62,27 +85,28 @@ TEST(Options, StandInAnyOrder) {
     for (const Words& words :
          {Words{"run", "g.lua", "--threads", "4", "-o", "x.exr", "--samples", "9", "--size", "64x48", "--seed", "7"},
           Words{"run", "--size=64x48", "--seed", "7", "--samples=9", "-o", "x.exr", "--threads", "4", "g.lua"}}) {
-        const Options options = options_of(words);
-        EXPECT_EQ(options.graph, "g.lua");
-        EXPECT_EQ(options.threads, 4u);
-        EXPECT_EQ(options.output, "x.exr");
-        EXPECT_EQ(options.samples, 9u);
-        EXPECT_EQ(options.size, (PictureSize{64, 48}));
-        EXPECT_EQ(options.seed, 7u);
+        const auto [graph, running] = options_of(words);
+        EXPECT_EQ(graph.file, "g.lua");
+        EXPECT_EQ(running.threads, 4u);
+        EXPECT_EQ(running.picture.output, "x.exr");
+        EXPECT_EQ(running.picture.samples, 9u);
+        EXPECT_EQ(running.picture.size, (PictureSize{64, 48}));
+        EXPECT_EQ(running.seed, 7u);
     }
 }
 
 TEST(Options, TakeConstantsOneByOne) {
-    const Options options = options_of({"run", "-D", "a=1", "g.lua", "-Db=x=y", "-D", "c="});
-    EXPECT_EQ(options.graph, "g.lua");
-    EXPECT_THAT(options.constants, UnorderedElementsAre(Pair("a", "1"), Pair("b", "x=y"), Pair("c", "")));
+    const GraphOptions graph = options_of({"run", "-D", "a=1", "g.lua", "-Db=x=y", "-D", "c="}).graph;
+    EXPECT_EQ(graph.file, "g.lua");
+    EXPECT_THAT(graph.constants, UnorderedElementsAre(Pair("a", "1"), Pair("b", "x=y"), Pair("c", "")));
     EXPECT_THAT(usage_error({"run", "g.lua", "-D", "a"}), HasSubstr("wants NAME=VALUE"));
 }
 
 TEST(Options, MixAllWaysToRun) {
-    EXPECT_EQ(options_of({"run", "g.lua", "--hosts", "h.lua"}).hosts, "h.lua");
-    EXPECT_EQ(options_of({"run", "g.lua", "--local-workers", "2"}).local_workers, 2u);
-    const auto mixed = options_of({"run", "g.lua", "--hosts", "h.lua", "--threads", "2", "--local-workers", "1"});
+    EXPECT_EQ(options_of({"run", "g.lua", "--hosts", "h.lua"}).running.hosts, "h.lua");
+    EXPECT_EQ(options_of({"run", "g.lua", "--local-workers", "2"}).running.local_workers, 2u);
+    const auto mixed =
+        options_of({"run", "g.lua", "--hosts", "h.lua", "--threads", "2", "--local-workers", "1"}).running;
     EXPECT_EQ(mixed.hosts, "h.lua");
     EXPECT_EQ(mixed.threads, 2u);
     EXPECT_EQ(mixed.local_workers, 1u);
@@ -91,7 +115,7 @@ TEST(Options, MixAllWaysToRun) {
 }
 
 TEST(Options, ChooseHowProgressIsShown) {
-    EXPECT_EQ(options_of({"run", "g.lua", "--progress", "json"}).progress, ProgressMode::json);
+    EXPECT_EQ(options_of({"run", "g.lua", "--progress", "json"}).running.progress, ProgressMode::json);
     EXPECT_THAT(usage_error({"run", "g.lua", "--progress", "loud"}), HasSubstr("--progress"));
 }
 
@@ -150,7 +174,7 @@ TEST(Options, HelpWithAVerbWhenAskedByAVerb) {
 TEST(Options, WantEndpointsToListenAt) {
     EXPECT_THAT(usage_error({"run", "g.lua", "--listen", "foo"}),
                 HasSubstr("--listen: must be like tcp://127.0.0.1:7777"));
-    EXPECT_EQ(options_of({"run", "g.lua", "--listen", "tcp://127.0.0.1:*"}).listen, "tcp://127.0.0.1:*");
+    EXPECT_EQ(options_of({"run", "g.lua", "--listen", "tcp://127.0.0.1:*"}).running.listen, "tcp://127.0.0.1:*");
 }
 
 TEST(Options, RefuseNumbersThatMakeNoSense) {

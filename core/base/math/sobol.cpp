@@ -48,6 +48,7 @@ constexpr Seeds seeds_of(Key key) {
 
 constexpr float to_unit(std::uint32_t x) { return static_cast<float>(static_cast<std::int32_t>(x >> 8)) * 0x1p-24f; }
 
+// DECISIONS: sobol-pairs
 constexpr std::uint32_t shuffled(std::uint32_t index, std::uint32_t seed) {
     return reverse_bits(laine_karras(reverse_bits(index), seed));
 }
@@ -84,6 +85,7 @@ struct SeedColumns {
     }
 };
 
+// DECISIONS: numbers-in-columns
 [[gnu::always_inline]] inline void make_points(const Some& some, Key offset, Vec2* points) {
     SeedColumns seeds;
     seeds.fill(some, offset);

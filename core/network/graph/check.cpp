@@ -269,6 +269,7 @@ std::optional<Problem> too_large(const Graph& graph) {
             {graph.file, 0},
             "a graph has at most " + std::to_string(most) + what + ", this one has " + std::to_string(count)};
     };
+    // DECISIONS: graph-limits
     if (const auto count = written_nodes(graph); count > most_nodes) return at_most(most_nodes, " nodes", count);
     if (!graph.sectors.empty()) return std::nullopt;  // those are copies; the graph as it was written comes next
     if (const auto count = references_in(graph); count > most_references)

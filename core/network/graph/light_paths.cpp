@@ -139,6 +139,7 @@ void find_doubles(const Graph& graph, const Node& renderer, const Shares& shares
 
 }  // namespace
 
+// DECISIONS: light-paths-as-automata
 PathReport report_paths(const Graph& graph, const Registry& registry) {
     const std::size_t image = renderer_of(graph, registry);
     Book book(graph, registry);

@@ -25,6 +25,7 @@ Sectors::Sectors(std::vector<Vec3> landmarks, std::uint32_t count) : count_(coun
 }
 
 // Cuts so that both sides have landmarks in proportion to the sectors that they will become.
+// DECISIONS: sectors-by-landmarks
 std::int32_t Sectors::cut(std::vector<Vec3>& landmarks, Range range, std::uint32_t first, std::uint32_t count) {
     if (count <= 1) return -1 - static_cast<std::int32_t>(first);
     const std::uint32_t below = count / 2;

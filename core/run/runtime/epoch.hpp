@@ -10,6 +10,7 @@ namespace lightnet {
 /// Which of the masters that follow each other on one carrier is at work. Its channels carry the epoch in their upper
 /// bits, so that a late reply to an earlier master, whose channels had the same numbers, is not taken for one to it.
 /// After the last epoch comes the first again: by then no reply is as late as that.
+// DECISIONS: epochs-begin-again
 class Epoch {
 public:
     static constexpr unsigned channel_bits = 20;  // of a marked channel; the bits above them are the epoch's

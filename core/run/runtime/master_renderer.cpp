@@ -44,6 +44,7 @@ void MasterRenderer::append(const std::vector<Tile>& tiles) {
 }
 
 // How many blocks of samples go together: fewer towards the end (guided self-scheduling, Polychronopoulos & Kuck 1987).
+// DECISIONS: quick-tiles-together
 MasterRenderer::Together MasterRenderer::together() const {
     const double seconds = replicas_.scheduler().service() * double(replicas_.size());  // of one block at one place
     const auto most = std::min(job_.credit.questions / job_.credit.bundles, left_ / (shares * replicas_.size()));

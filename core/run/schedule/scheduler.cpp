@@ -6,6 +6,7 @@
 
 namespace lightnet {
 
+// DECISIONS: one-state-machine
 void Scheduler::on(const Event& event, Time now, std::vector<Action>& actions) {
     actions_ = &actions;
     std::visit([&](const auto& what) { happens(what, now); }, event);

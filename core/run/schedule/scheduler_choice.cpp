@@ -102,6 +102,7 @@ Scheduler::Replica Scheduler::best_for(const Item& item) {
 }
 
 // A slow replica gets nothing that the others together would have answered sooner without it.
+// DECISIONS: nothing-for-the-slowest
 bool Scheduler::better_held_back(const Item& item, Replica replica) const {
     if (!item.written_off.empty()) return false;  // the fast ones have had their chance
     if (times_.of(replica) == 0 || !all_.any() || all_.first() == replica) return false;

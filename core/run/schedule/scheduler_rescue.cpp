@@ -8,6 +8,7 @@ namespace lightnet {
 
 // An overdue copy gives its credit back, and its work is asked again: its place may hang, or the network may have lost
 // it. If the answer comes after all, and first, it counts.
+// DECISIONS: overdue-is-written-off
 void Scheduler::write_off_overdue(Time now) {
     while (stragglers_.next_overdue() <= now) {
         const auto replica = stragglers_.overdue_at();
@@ -86,6 +87,7 @@ Scheduler::Item* Scheduler::first_suspect() {
 }
 
 // Some hosts, at most half of them, get nothing else until they are empty; then suspects, one by one.
+// DECISIONS: suspects-alone
 void Scheduler::test_suspects(Time now) {
     if (!first_suspect()) return release_hosts();
     for (const auto host : std::set<Host>(suspects_.quarantine())) {

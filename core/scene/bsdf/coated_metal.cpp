@@ -81,6 +81,7 @@ CoatedMetal::Between CoatedMetal::between(float cosine) {
 
 // A factor per direction and order such that the lobe, times those of both its directions, gives each direction the
 // energy that its walks have: Sinkhorn's way of scaling a symmetric kernel to given sums.
+// DECISIONS: coats-from-tables
 CoatedMetal::ByCosine CoatedMetal::made(const Ggx& above, const Ggx& below, std::uint32_t walks) const {
     ByCosine result;
     walk(above, below, walks, result);

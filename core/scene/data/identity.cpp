@@ -86,6 +86,7 @@ private:
 
 }  // namespace
 
+// DECISIONS: identity-of-a-scene
 Hash identity_of(const SceneData& scene) {
     Sum sum;
     sum.add(scene);

@@ -213,6 +213,7 @@ RTCDevice device_for(const Geometry::Options& options) {
 #else
     const unsigned threads = options.threads;
 #endif
+    // DECISIONS: trees-by-all-cores
     const std::string config = "start_threads=0,threads=" + std::to_string(threads) + ",isa=" + isa;
     if (RTCDevice device = rtcNewDevice(config.c_str())) return device;
     throw Error("scene", "Embree gives no device for instruction set '" + isa + "'");

@@ -78,6 +78,7 @@ Rgb Environment::pixel(std::int64_t x, std::int64_t y) const {
 
 // The mean of a bilinear function over the pixel's square: (1 6 1)/8 of the neighbours along each axis. It is 0 only
 // where the function is, so that no light is out of reach.
+// DECISIONS: sky-by-pixels
 void Environment::weigh() {
     const std::size_t w = width_, h = height_;
     std::vector<float> light(w * h);

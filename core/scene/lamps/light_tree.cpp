@@ -17,6 +17,7 @@ Vec3 most(Vec3 a, Vec3 b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std:
 
 float angle_of(float cosine) { return std::acos(std::clamp(cosine, -1.0f, 1.0f)); }
 
+// DECISIONS: tree-of-lamps
 // The smallest cone around two cones. Conty Estévez & Kulla 2018, algorithm 1.
 struct Cone {
     Vec3 axis;

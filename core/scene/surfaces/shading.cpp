@@ -167,6 +167,7 @@ float Shading::opacity_at(std::uint32_t geometry, std::uint32_t primitive, float
     return materials_.opacity(data_.shapes[geometry].material, place(geometry, primitive, u, v));
 }
 
+// DECISIONS: masks-by-hash
 bool Shading::is_there(std::uint32_t geometry, std::uint32_t primitive, float u, float v) const {
     const float opacity = opacity_at(geometry, primitive, u, v);
     if (opacity >= 1) return true;

@@ -1,8 +1,10 @@
-// The options of `lightnet compare`.
+// lightnet compare: tells how far pictures are from a reference.
+#include "tools/compare.hpp"
+
 #include <CLI/CLI.hpp>
 
 #include "tools/command_line.hpp"
-#include "tools/compare.hpp"
+#include "tools/launcher.hpp"
 
 namespace lightnet {
 namespace {
@@ -20,9 +22,7 @@ void add_tolerances(CLI::App& verb, CompareRequest& request) {
         ->group("Tolerances");
 }
 
-}  // namespace
-
-void add_compare_options(CLI::App& verb, CompareRequest& request) {
+void describe_compare(CLI::App& verb, CompareRequest& request) {
     verb.add_option("REFERENCE", request.reference, "the picture to hold the others against")->required();
     verb.add_option("IMAGE", request.pictures, "pictures: EXR, or HDR, PNG and JPEG, which have no layers")->required();
     verb.add_flag("--json", request.json, "print JSON");
@@ -45,6 +45,16 @@ void add_compare_options(CLI::App& verb, CompareRequest& request) {
         "Examples:\n"
         "  lightnet compare reference.exr cornell.exr --max-relmse 0.01\n"
         "  lightnet compare reference.exr cornell.exr --flip-map flip.png --json");
+}
+
+int compare(const CompareRequest& request, const Launcher& launcher) {
+    return compare_pictures(request, launcher.out, launcher.err);
+}
+
+}  // namespace
+
+Verb compare_verb() {
+    return verb<CompareRequest>("compare", "tell how far pictures are from a reference", describe_compare, compare);
 }
 
 }  // namespace lightnet

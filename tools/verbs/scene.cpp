@@ -1,10 +1,12 @@
-#include "tools/scene_info.hpp"
-
+// lightnet scene info: tells what is in a scene file, and what of it is not supported.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <chrono>
 #include <fstream>
+#include <map>
 #include <ostream>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -12,6 +14,11 @@
 #include "core/readers/statistics.hpp"
 #include "core/run/runtime/fingerprint.hpp"
 #include "core/scene/scene.hpp"
+#include "tools/command_line.hpp"
+#include "tools/exit_code.hpp"
+#include "tools/launcher.hpp"
+#include "tools/options.hpp"
+#include "tools/render.hpp"
 
 namespace lightnet {
 namespace {
@@ -70,26 +77,39 @@ void print(const SceneData& scene, const SceneStatistics& found, std::ostream& o
          fmt::format("{} x {}, brightness times {:.4g}", scene.film.width, scene.film.height, scene.film.scale));
 }
 
-}  // namespace
+struct SceneInfoOptions {
+    std::string file;
+    std::map<std::string, std::string> constants;  // -D
+};
 
-void print_scene_info(const std::string& file, const std::map<std::string, std::string>& constants, std::ostream& out) {
+void describe_scene(CLI::App& app, SceneInfoOptions& options) {
+    app.require_subcommand(1);
+    CLI::App& info = *app.add_subcommand("info", "tell what is in a scene file, and what of it is not supported");
+    info.add_option("FILE", options.file, "the scene file")->required();
+    add_constants(info, options.constants, "define a variable of the scene file (may be repeated)");
+    when_taken_apart(info, [&options] { return mistaken_graph(options.file, "to look at it: lightnet check"); });
+    for (auto* one : {&app, &info}) add_examples(*one, {"lightnet scene info graphs/cornell_box.pbrt"});
+}
+
+int print_scene_info(const SceneInfoOptions& options, const Launcher& launcher) {
+    auto& out = launcher.out;
     const auto begin = Clock::now();
     SceneData scene;
     std::uint64_t file_bytes = 0;
     {
         DiskFiles files;
-        scene = read_scene(files, file, constants);
+        scene = read_scene(files, options.file, options.constants);
         for (const auto& [path, bytes] : files.seen()) file_bytes += bytes->size();
     }
     const double reading = seconds_since(begin);
     const SceneStatistics found = statistics_of(scene);
     const auto warnings = scene.warnings;
-    line(out, "file", fmt::format("{}, {} with all that it names", file, mebibytes(file_bytes)));
+    line(out, "file", fmt::format("{}, {} with all that it names", options.file, mebibytes(file_bytes)));
     print(scene, found, out);
-    SceneOptions options;
-    options.isa = usual_isa();
+    SceneOptions settings;
+    settings.isa = usual_isa();
     const auto middle = Clock::now();
-    const Scene built(std::move(scene), options);
+    const Scene built(std::move(scene), settings);
     line(out, "time", fmt::format("{:.3f} s to read, {:.3f} s to build", reading, seconds_since(middle)));
     const std::uint64_t resident = resident_memory();
     std::string memory = fmt::format("{} of shapes, {} in all", mebibytes(found.geometry_bytes), mebibytes(resident));
@@ -100,6 +120,11 @@ void print_scene_info(const std::string& file, const std::map<std::string, std::
     line(out, "memory", memory);
     if (warnings.empty()) line(out, "liberties", "none: all was taken literally");
     for (const auto& warning : warnings) line(out, "liberty", to_string(warning));
+    return exit_code::done;
 }
+
+}  // namespace
+
+Verb scene_verb() { return verb<SceneInfoOptions>("scene", "look at scene files", describe_scene, print_scene_info); }
 
 }  // namespace lightnet

@@ -1,0 +1,163 @@
+#include "tests/architecture/documents.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <utility>
+
+namespace lightnet::house {
+namespace {
+
+/// A decision as its heading and its text have it.
+struct Decision {
+    std::size_t line = 0;
+    std::string cited_in;  // folder; "": it doesn't say
+};
+
+std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream stream{text};
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    return lines;
+}
+
+std::string at_line(const SourceFile& file, std::size_t line, const std::string& why) {
+    return file.path + ":" + std::to_string(line) + ": " + why;
+}
+
+/// Keys with the lines in which a file cites them.
+std::vector<std::pair<std::string, std::size_t>> cited_in(const SourceFile& file) {
+    static const std::regex citation(R"((//|#) DECISIONS: ([a-z0-9-]+)\s*$)");
+    std::vector<std::pair<std::string, std::size_t>> found;
+    const auto lines = lines_of(file.text);
+    std::smatch match;
+    for (std::size_t i = 0; i < lines.size(); ++i)
+        if (lines[i].find("DECISIONS: ") != std::string::npos && std::regex_search(lines[i], match, citation))
+            found.push_back({match[2], i + 1});
+    return found;
+}
+
+std::map<std::string, Decision> decisions_in(const SourceFile& file, Complaints& complaints) {
+    static const std::regex heading("### ([a-z0-9-]+)"), claim(R"(\*Cited in\* `([\w/]+)`)");
+    std::map<std::string, Decision> decisions;
+    const auto lines = lines_of(file.text);
+    std::string key;
+    std::smatch match;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        const std::string two = lines[i] + (i + 1 < lines.size() ? " " + lines[i + 1] : "");  // claims may be wrapped
+        if (std::regex_match(lines[i], match, heading)) {
+            key = match[1];
+            if (!decisions.emplace(key, Decision{i + 1, {}}).second)
+                complaints.push_back(at_line(file, i + 1, "'" + key + "' is a key already"));
+        } else if (!key.empty() && std::regex_search(two, match, claim)) {
+            decisions[key].cited_in = match[1];
+        }
+    }
+    return decisions;
+}
+
+/// What the code defines, by name.
+struct Vocabulary {
+    std::set<std::string> paths, types, words;
+};
+
+bool in_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
+
+Vocabulary vocabulary_of(const std::vector<SourceFile>& files) {
+    static const std::set<std::string> introducing{"class", "struct", "union", "using", "concept"};
+    Vocabulary known;
+    for (const SourceFile& file : files) {
+        known.paths.insert(file.path);
+        const std::string code = code_only(file.text);
+        std::string before;
+        for (auto begin = code.begin(); begin != code.end();) {
+            begin = std::find_if(begin, code.end(), in_word);
+            const auto end = std::find_if_not(begin, code.end(), in_word);
+            std::string word(begin, end);
+            if (word == "nodiscard") word = before;  // [[nodiscard]] stands before the name of a type
+            if (introducing.contains(before)) known.types.insert(word);
+            known.words.insert(word);
+            before = std::move(word);
+            begin = end;
+        }
+    }
+    return known;
+}
+
+bool has_folder(const Vocabulary& known, const std::string& folder) {
+    const auto first = known.paths.lower_bound(folder);
+    return first != known.paths.end() && first->starts_with(folder);
+}
+
+// True for what is no name of the code at all.
+bool is_right(const Vocabulary& known, const std::string& name) {
+    static const std::regex path(R"([\w/]+/\w+\.(hpp|cpp|lua))"), folder(R"(([a-z]\w*/)+)"),
+        type(R"([A-Z]\w*[a-z]\w*(<[\w, ]*>)?)"), member(R"(([A-Z]\w*)::(\w+)(\(\))?)"), function(R"((\w+)\(\))");
+    std::smatch match;
+    if (std::regex_match(name, path)) return known.paths.contains(name);
+    if (std::regex_match(name, folder)) return has_folder(known, name);
+    if (std::regex_match(name, type)) return known.types.contains(name.substr(0, name.find('<')));
+    if (std::regex_match(name, match, member)) return known.types.contains(match[1]) && known.words.contains(match[2]);
+    if (std::regex_match(name, match, function)) return known.words.contains(match[1]);
+    return true;
+}
+
+}  // namespace
+
+Complaints unknown_decisions(const SourceFile& file, const SourceFile& decisions) {
+    const auto cited = cited_in(file);
+    if (cited.empty()) return {};
+    Complaints complaints;
+    const auto known = decisions_in(decisions, complaints);
+    complaints.clear();  // those are the decisions' own
+    for (const auto& [key, line] : cited)
+        if (!known.contains(key)) complaints.push_back(at_line(file, line, "there is no decision '" + key + "'"));
+    return complaints;
+}
+
+Complaints uncited_decisions(const SourceFile& decisions, const std::vector<SourceFile>& files) {
+    Complaints complaints;
+    std::map<std::string, std::set<std::string>> places;
+    for (const SourceFile& file : files)
+        for (const auto& [key, line] : cited_in(file)) places[key].insert(file.path);
+    for (const auto& [key, decision] : decisions_in(decisions, complaints)) {
+        const auto& paths = places[key];
+        const auto& folder = decision.cited_in;
+        if (folder.empty() && !paths.empty())
+            complaints.push_back(at_line(decisions, decision.line, "'" + key + "' is cited in " + *paths.begin()));
+        if (!folder.empty() &&
+            std::none_of(paths.begin(), paths.end(), [&](const auto& path) { return path.starts_with(folder + "/"); }))
+            complaints.push_back(at_line(decisions, decision.line, "'" + key + "' is not cited in " + folder));
+    }
+    return complaints;
+}
+
+Complaints unknown_names(const SourceFile& document, const std::vector<SourceFile>& files) {
+    static const std::regex quoted("`([^`]+)`");
+    const auto known = vocabulary_of(files);
+    Complaints complaints;
+    const auto lines = lines_of(document.text);
+    for (std::size_t i = 0; i < lines.size(); ++i)
+        for (std::sregex_iterator at(lines[i].begin(), lines[i].end(), quoted), end; at != end; ++at)
+            if (!is_right(known, (*at)[1]))
+                complaints.push_back(at_line(document, i + 1, "the code has no `" + (*at)[1].str() + "`"));
+    return complaints;
+}
+
+Complaints dead_links(const SourceFile& document, bool (*exists)(const std::string& path)) {
+    static const std::regex link(R"(\[[^\]]+\]\(([^)#: ]+)(#[^)]*)?\))");
+    const auto slash = document.path.rfind('/');
+    const std::string folder = slash == std::string::npos ? "" : document.path.substr(0, slash + 1);
+    Complaints complaints;
+    const auto lines = lines_of(document.text);
+    for (std::size_t i = 0; i < lines.size(); ++i)
+        for (std::sregex_iterator at(lines[i].begin(), lines[i].end(), link), end; at != end; ++at)
+            if (!exists(folder + (*at)[1].str()))
+                complaints.push_back(at_line(document, i + 1, "there is no " + (*at)[1].str()));
+    return complaints;
+}
+
+}  // namespace lightnet::house

@@ -1,0 +1,85 @@
+// Documents and code agree: each rule bites, and the project keeps it.
+#include "tests/architecture/documents.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "tests/architecture/project_files.hpp"
+
+namespace lightnet::house {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+const SourceFile some_decisions{"DECISIONS.md",
+                                "# Decisions\n\n### blocks-of-16\n\nBecause. *Cited in*\n`core/film`.\n\n"
+                                "### own-vectors\n\nBecause.\n"};
+
+TEST(Decisions, AreThereWhereCodeCitesThem) {
+    EXPECT_THAT(unknown_decisions({"core/x.cpp", "int a;\n// DECISIONS: blocks-of-16\n"}, some_decisions), IsEmpty());
+    EXPECT_THAT(unknown_decisions({"core/x.cpp", "int a;\n    // DECISIONS: blocks-of-17\n"}, some_decisions),
+                ElementsAre("core/x.cpp:2: there is no decision 'blocks-of-17'"));
+}
+
+TEST(Decisions, AreCitedWhereTheySayThatTheyAre) {
+    const SourceFile film{"core/film/x.cpp", "// DECISIONS: blocks-of-16\n"};
+    EXPECT_THAT(uncited_decisions(some_decisions, {film}), IsEmpty());
+    EXPECT_THAT(uncited_decisions(some_decisions, {}),
+                ElementsAre("DECISIONS.md:3: 'blocks-of-16' is not cited in core/film"));
+    EXPECT_THAT(uncited_decisions(some_decisions, {{"core/filmed/x.cpp", film.text}}), SizeIs(1)) << "another folder";
+    EXPECT_THAT(uncited_decisions(some_decisions, {film, {"core/base/x.hpp", "// DECISIONS: own-vectors\n"}}),
+                ElementsAre("DECISIONS.md:8: 'own-vectors' is cited in core/base/x.hpp"));
+    EXPECT_THAT(uncited_decisions({"DECISIONS.md", "### a\n### a\n"}, {}), SizeIs(1)) << "two of one key";
+}
+
+TEST(Documents, NameOnlyWhatTheCodeHas) {
+    const std::vector<SourceFile> files{
+        {"core/run/place.hpp",
+         "// Door\nclass Place final {\n    void look();\n};\ntemplate <class T> struct Bundle {};\n"}};
+    const auto complaints = [&](const std::string& text) { return unknown_names({"docs/x.md", text}, files); };
+    EXPECT_THAT(complaints("`Place`, `Place::look`, `Bundle<Query>`, `look()`, `core/run/place.hpp`, `core/run/`, "
+                           "`--wait`, `x.exr`, `image = 1`"),
+                IsEmpty());
+    for (const std::string wrong : {"`Door`", "`Place::open`", "`ask()`", "`core/run/door.hpp`", "`core/walk/`"})
+        EXPECT_THAT(complaints("fine\n" + wrong), SizeIs(1)) << wrong;
+}
+
+TEST(Documents, LinkToFilesThatAreThere) {
+    const auto exists = [](const std::string& path) { return path == "docs/words.md"; };
+    EXPECT_THAT(
+        dead_links({"README.md", "[a](docs/words.md) [b](https://x.org/y) [c](#d) [e](docs/words.md#f)"}, exists),
+        IsEmpty());
+    EXPECT_THAT(dead_links({"docs/x.md", "[a](words.md)\n[b](word.md)"}, exists),
+                ElementsAre("docs/x.md:2: there is no word.md"));
+}
+
+TEST(Project, CitesDecisionsThatAreThere) {
+    const SourceFile decisions = read("DECISIONS.md");
+    auto files = all_files();
+    std::ranges::move(files_of("cmake"), std::back_inserter(files));
+    Complaints all = uncited_decisions(decisions, files);
+    for (const SourceFile& file : files)
+        if (!file.path.starts_with("tests/"))
+            std::ranges::move(unknown_decisions(file, decisions), std::back_inserter(all));
+    EXPECT_THAT(all, IsEmpty());
+}
+
+TEST(Project, HasDocumentsThatNameWhatIsThere) {
+    auto files = all_files();
+    EXPECT_THAT(unknown_names(read("docs/engine.md"), files), IsEmpty());
+    EXPECT_THAT(unknown_names(read("docs/words.md"), files), IsEmpty());
+}
+
+TEST(Project, HasDocumentsWhoseLinksLead) {
+    const auto exists = [](const std::string& path) { return std::filesystem::exists(root() / path); };
+    for (const char* document : {"README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/engine.md", "docs/operators.md",
+                                 "docs/pbrt.md", "docs/scenes.md", "docs/trust.md", "docs/words.md"})
+        EXPECT_THAT(dead_links(read(document), exists), IsEmpty());
+}
+
+}  // namespace
+}  // namespace lightnet::house

@@ -1,0 +1,45 @@
+// Keeps the film of a run on disk, so that a later run can go on from it.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <future>
+#include <map>
+#include <string>
+
+#include "core/film/checkpoint.hpp"
+#include "core/film/film.hpp"
+#include "tools/pace.hpp"
+
+namespace lightnet {
+
+/// One thread's. `blocks`: how many the film has now.
+class CheckpointKeeper {
+public:
+    /// The file lies beside `exr`. `recipe` is what the picture depends on. The film outlives its keeper.
+    CheckpointKeeper(Film& film, const std::string& exr, std::map<std::string, std::string> recipe,
+                     std::chrono::seconds period);
+
+    const std::filesystem::path& file() const { return file_; }
+    /// Takes up what an earlier run left there; false: nothing. Throws UserError when that was another picture's.
+    bool take_up();
+    /// So many blocks are in the file already.
+    void found(std::uint64_t blocks) { saved_ = blocks; }
+    /// Saves in the background, when that is due. What was wrong with the last time; "": nothing.
+    std::string save_if_due(std::uint64_t blocks);
+    /// Saves now, unless that has been done. Throws Error.
+    void save(std::uint64_t blocks);
+    /// Waits for what is being saved, and removes the file.
+    void remove();
+
+private:
+    Film& film_;
+    std::filesystem::path file_;
+    Checkpoint last_;  // being saved, or what was; its room is used again
+    Pace pace_;
+    std::future<double> saving_;  // seconds that it took
+    std::uint64_t saved_ = 0;     // blocks
+};
+
+}  // namespace lightnet

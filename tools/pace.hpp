@@ -1,0 +1,30 @@
+// When something that takes time is due again.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+
+namespace lightnet {
+
+/// Once every period, or more seldom where it takes long.
+class Pace {
+public:
+    using Clock = std::chrono::steady_clock;
+
+    Pace(std::chrono::duration<double> period, Clock::time_point now)
+        : period_(std::chrono::ceil<Clock::duration>(period)) {
+        put_off(now);
+    }
+
+    bool due(Clock::time_point now) const { return now >= next_; }
+    /// By a period from now, and by `pause` at least.
+    void put_off(Clock::time_point now, std::chrono::duration<double> pause = {}) {
+        next_ = now + std::max(period_, std::chrono::ceil<Clock::duration>(pause));
+    }
+
+private:
+    Clock::duration period_;
+    Clock::time_point next_;
+};
+
+}  // namespace lightnet

@@ -1,0 +1,217 @@
+#include "tools/rendering.hpp"
+
+#include <fmt/format.h>
+#include <pwd.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <random>
+#include <string>
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "core/base/hash.hpp"
+#include "core/network/graph/check.hpp"
+#include "core/run/runtime/master_renderer.hpp"
+#include "core/run/runtime/serial.hpp"
+#include "tools/crew.hpp"
+#include "transport/threaded_run.hpp"
+
+namespace lightnet {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+
+constexpr auto drain_deadline = 5s;  // for tiles that are under way when the run is told to stop
+
+std::uint64_t random_number() {
+    std::random_device device;  // names a run; nothing that is computed depends on it
+    return (std::uint64_t{device()} << 32) | device();
+}
+
+// For those who have to wait for the hosts of this run.
+std::string who_runs(const Graph& graph) {
+    std::array<char, 256> machine{};
+    gethostname(machine.data(), machine.size() - 1);
+    const passwd* user = getpwuid(getuid());
+    return fmt::format("{}@{} ({})", user ? user->pw_name : std::to_string(getuid()), machine.data(), graph.file);
+}
+
+}  // namespace
+
+Rendering::Rendering(Assignment what, RunBook& book, const Signals& signals)
+    : what_(std::move(what)),
+      book_(book),
+      signals_(signals),
+      image_(renderer_of(what_.job.graph, what_.registry)),
+      id_(random_number()) {}
+
+void Rendering::perform(LoadedScene scene, const DiskFiles& files) {
+    switch (what_.request.mode) {
+        case Mode::serial:
+            return serially(std::move(scene));
+        case Mode::threads:
+            return in_threads(std::move(scene));
+        case Mode::network:
+            return on_hosts(std::move(scene), files);
+    }
+}
+
+void Rendering::serially(LoadedScene scene) {
+    book_.phase("prepare");
+    const auto network = build_network(what_.job, what_.registry, std::move(scene));
+    SerialRun run(*network, [this] {
+        if (stopped()) throw Cancelled{};
+    });
+    run.watch([this](const PrepareProgress& progress) { book_.preparing(progress); });
+    book_.use(Plan{{PlaceAt{}}, std::vector<std::vector<std::uint32_t>>(what_.job.graph.nodes.size(), {0})},
+              what_.job.graph);
+    try {
+        run.prepare(made_from(what_.job), cache(), [this](const std::string& text) { book_.say(text); });
+        what_.kept.write([&](std::size_t node) { return run.last_result(node); }, book_);
+        book_.phase("render");
+        for (std::size_t next = 0; next < what_.tiles.size() && !stopped(); ++next) {
+            const Tile tile = what_.tiles[next];
+            const auto more = book_.take(tile, run.render(tile));
+            what_.tiles.insert(what_.tiles.end(), more.begin(), more.end());
+        }
+    } catch (const Cancelled&) {
+    }
+    book_.count(run.counters());
+}
+
+void Rendering::in_threads(LoadedScene scene) {
+    book_.phase("prepare");
+    const auto network = build_network(what_.job, what_.registry, std::move(scene));
+    const Plan plan = lightnet::plan(what_.job.graph, what_.registry, {}, {{"", what_.request.threads}});
+    ThreadedRun run(network, id_, plan, what_.job.tuning);
+    book_.use(plan, what_.job.graph);
+    hand_out(run.carrier(), plan, [&](std::size_t) { run.check(); });
+    book_.count(run.stop());
+}
+
+// How many tiles are under way per place: one that renders and one that waits, or, where lighting is elsewhere, as many
+// as keep the questions of several together.
+std::uint32_t Rendering::tiles_per_place(const Plan& plan) const {
+    const auto& images = plan.places_of[image_];
+    const bool alone = std::all_of(plan.places_of.begin(), plan.places_of.end(),
+                                   [&](const auto& places) { return places.empty() || places == images; });
+    return alone ? 2 : 6;
+}
+
+// Where what nodes prepare is kept. Doing without is slower, and no error.
+ResultCache* Rendering::cache() {
+    if (what_.request.tuning.cache == "none" || preparing_nodes(what_.job.graph, what_.registry).empty())
+        return nullptr;
+    try {
+        cache_.emplace(what_.request.tuning.cache.empty() ? default_cache_folder() : what_.request.tuning.cache,
+                       what_.request.tuning.cache_size);
+        return &*cache_;
+    } catch (const Error& error) {
+        book_.warn(std::string("what nodes prepare is not kept: ") + error.what());
+        return nullptr;
+    }
+}
+
+// True when all is prepared, false when the run was stopped.
+bool Rendering::prepare(Conductor& conductor, const LookAround& look_around) {
+    while (!conductor.prepare(50ms)) {
+        if (stopped()) return false;
+        look_around(conductor.in_force().places_of[image_].size());
+        book_.preparing(conductor.progress());
+    }
+    for (const auto& [node, hash] : conductor.prepared()) book_.set("prepared." + node, to_hex(hash));
+    return true;
+}
+
+void Rendering::hand_out(Carrier& carrier, const Plan& plan, const LookAround& look_around) {
+    Conductor::Options options;
+    options.run = id_;
+    options.graph = &what_.job.graph;
+    options.registry = &what_.registry;
+    options.width = static_cast<std::uint32_t>(what_.format.colours());
+    options.made_from = made_from(what_.job);
+    options.cache = cache();
+    options.say = [this](const std::string& text) { book_.say(text); };
+    Conductor conductor(std::move(options), carrier);
+    conductor.propose(plan);
+    if (!prepare(conductor, look_around)) return;
+    what_.kept.write([&](std::size_t node) { return conductor.last_result(node); }, book_);
+    book_.phase("render");
+    MasterRenderer::Job job;
+    job.run = id_;
+    job.image = static_cast<std::uint32_t>(image_);
+    job.width = static_cast<std::uint32_t>(what_.format.colours());
+    job.tiles = what_.tiles;
+    const auto tiles = tiles_per_place(plan);
+    job.credit = {tiles, tiles * MasterRenderer::most_together};
+    job.check_answers = what_.request.tuning.check_answers;
+    MasterRenderer* more = nullptr;
+    MasterRenderer master(std::move(job), conductor, [this, &more](const Tile& tile, std::span<const Rgb> pixels) {
+        more->append(book_.take(tile, pixels));
+    });
+    more = &master;
+    master.use(conductor.in_force());
+    while (!stopped() && !master.work(50ms)) look_around(master.renderers());
+    if (signals_.terminated) {
+        master.drain();
+        const auto end = Clock::now() + drain_deadline;
+        while (master.outstanding() > 0 && Clock::now() < end && !signals_.interrupted) master.work(50ms);
+    }
+    book_.count(master.counters());
+    if (const auto& aside = master.set_aside_tiles(); !aside.empty()) {
+        std::string all = "the picture lacks some of its tiles, and is not written:";
+        for (const auto& tile : aside) all += "\n  " + tile;
+        throw Error("node '" + what_.job.graph.nodes[image_].name + "'", all);
+    }
+}
+
+Cluster::Options Rendering::cluster_options(const DiskFiles& files) {
+    Cluster::Options options;
+    options.run = id_;
+    options.who = who_runs(what_.job.graph);
+    options.job = what_.job;
+    options.files = files.seen();
+    options.plan = [this](const std::vector<HostOffer>& offers) {
+        return lightnet::plan(what_.job.graph, what_.registry, what_.request.hosts, offers);
+    };
+    options.say = [this](const std::string& text) { book_.say(text); };
+    return options;
+}
+
+void Rendering::on_hosts(LoadedScene scene, const DiskFiles& files) {
+    book_.phase("prepare");
+    auto options = cluster_options(files);
+    if (what_.request.threads) options.network = build_network(what_.job, what_.registry, std::move(scene));
+    Crew crew(what_.request, std::move(options));
+    auto& cluster = crew.cluster();
+    crew.gather(signals_.any);
+    if (stopped()) {
+        cluster.finish(300ms);
+        return;
+    }
+    book_.use(cluster.plan(), what_.job.graph);
+    for (const auto& host : crew.missing()) book_.warn(host);
+    std::optional<Clock::time_point> homeless;
+    hand_out(cluster, cluster.plan(), [&](std::size_t renderers) {
+        crew.look_after();
+        if (renderers > 0) return homeless.reset();
+        const auto& name = what_.job.graph.nodes[image_].name;
+        if (!homeless) {
+            book_.say(fmt::format("node '{}' has no place any more; waiting {} s for a host to come", name,
+                                  what_.request.wait.count()));
+            homeless = Clock::now();
+        }
+        if (Clock::now() - *homeless > what_.request.wait)
+            throw Error(fmt::format("node '{}' has no place any more, and no host came within {} s", name,
+                                    what_.request.wait.count()));
+    });
+    book_.use(cluster.plan(), what_.job.graph);
+    for (const auto& host : cluster.hosts()) book_.use(host);
+    book_.count(cluster.finish(stopped() ? 300ms : 1000ms));
+}
+
+}  // namespace lightnet

@@ -1,0 +1,66 @@
+// Has a job rendered: in one thread, in places of this process, or on hosts.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "core/film/film.hpp"
+#include "core/network/graph/kind.hpp"
+#include "core/network/graph/plan.hpp"
+#include "core/readers/files.hpp"
+#include "core/run/prepare/load_scene.hpp"
+#include "core/run/message/carrier.hpp"
+#include "core/run/runtime/conductor.hpp"
+#include "core/run/runtime/job.hpp"
+#include "tools/kept_files.hpp"
+#include "tools/run.hpp"
+#include "tools/run_book.hpp"
+#include "tools/signals.hpp"
+#include "transport/cluster.hpp"
+#include "transport/result_cache.hpp"
+
+namespace lightnet {
+
+/// What is to be rendered. All of it outlives the rendering.
+struct Assignment {
+    const RunRequest& request;
+    const Registry& registry;
+    const Job& job;
+    const FilmFormat& format;
+    const KeptFiles& kept;
+    std::vector<Tile> tiles;
+};
+
+/// One thread's. Tiles go into the book; a signal ends it early.
+class Rendering {
+public:
+    Rendering(Assignment what, RunBook& book, const Signals& signals);
+
+    /// `files`: what was read for the scene. Throws NoWorker or Error.
+    void perform(LoadedScene scene, const DiskFiles& files);
+
+private:
+    void serially(LoadedScene scene);
+    void in_threads(LoadedScene scene);
+    void on_hosts(LoadedScene scene, const DiskFiles& files);
+    Cluster::Options cluster_options(const DiskFiles& files);
+    /// Called several times a second with the number of places that render.
+    using LookAround = std::function<void(std::size_t renderers)>;
+    void hand_out(Carrier& carrier, const Plan& plan, const LookAround& look_around);
+    bool prepare(Conductor& conductor, const LookAround& look_around);
+    ResultCache* cache();
+    std::uint32_t tiles_per_place(const Plan& plan) const;
+    bool stopped() const { return signals_.any; }
+
+    Assignment what_;
+    RunBook& book_;
+    const Signals& signals_;
+    std::size_t image_;
+    std::optional<DiskResultCache> cache_;
+    const std::uint64_t id_;
+};
+
+}  // namespace lightnet

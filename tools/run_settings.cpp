@@ -1,0 +1,71 @@
+#include "tools/run_settings.hpp"
+
+#include <fmt/format.h>
+
+#include <variant>
+
+#include "core/base/build_info.hpp"
+#include "core/base/hash.hpp"
+#include "core/network/graph/check.hpp"
+#include "core/network/graph/graph_film.hpp"
+#include "core/network/graph/plan.hpp"
+#include "core/run/runtime/fingerprint.hpp"
+
+namespace lightnet {
+namespace {
+
+const char* name_of(Mode mode) {
+    return mode == Mode::serial ? "serial" : mode == Mode::threads ? "threads" : "network";
+}
+
+}  // namespace
+
+FilmFormat film_format(const RunRequest& request, const Registry& registry) {
+    const auto film = film_of(request.graph, registry);
+    const auto& params = request.graph.nodes[renderer_of(request.graph, registry)].params;
+    // Renderers other than our own may have no cells.
+    const auto number = [&](const char* name) {
+        const auto param = params.find(name);
+        return param == params.end() ? 0 : std::get<double>(param->second.data);
+    };
+    const auto count = [&](const char* name) { return static_cast<std::uint32_t>(number(name)); };
+    const auto layers = layers_of(request.graph, registry);
+    FilmFormat format{film.width, film.height, layers.film, count("samples"), film.crop};
+    format.refinement = {static_cast<float>(number("error")), count("least_samples")};
+    format.shown = shown_names(layers, request.graph);
+    return format;
+}
+
+Job make_job(const RunRequest& request, const FilmFormat& format, DiskFiles& files) {
+    Job job;
+    job.graph = request.graph;
+    job.scene = request.scene;
+    for (const auto& [path, hash] : files.hashes()) job.files.push_back({path, hash, files.seen().at(path)->size()});
+    job.seed = request.seed;
+    job.isa = usual_isa();
+    job.width = format.width, job.height = format.height;
+    job.tuning = request.tuning;
+    return job;
+}
+
+RunReport first_page(const RunRequest& request, const Registry& registry, const FilmFormat& film) {
+    RunReport report;
+    report.graph = request.graph.file;
+    report.graph_hash = to_hex(content_hash(to_json(request.graph)));
+    report.mode = name_of(request.mode);
+    report.versions["lightnet"] = build_id();
+    report.settings["samples"] = std::to_string(film.samples);
+    report.settings["size"] = fmt::format("{}x{}", film.width, film.height);
+    if (const auto& crop = film.crop)
+        report.settings["crop"] =
+            fmt::format("{},{},{},{}", crop->x, crop->y, crop->x + crop->width, crop->y + crop->height);
+    if (film.adaptive()) report.settings["error"] = fmt::format("{}", film.refinement.error);
+    report.settings["seed"] = std::to_string(request.seed);
+    for (const auto& knob : knobs)
+        if (knob.by == Knob::By::users) report.settings[knob.name] = text_of(request.tuning, knob);
+    for (const auto& warning : irreproducible_nodes(request.graph, registry))  // said already, when it was checked
+        report.warnings.push_back(to_string(warning));
+    return report;
+}
+
+}  // namespace lightnet

@@ -1,0 +1,73 @@
+// lightnet dot: draws a graph, and where its nodes run.
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "core/network/graph/dot.hpp"
+#include "core/network/graph/layout.hpp"
+#include "core/network/graph/plan.hpp"
+#include "tools/command_line.hpp"
+#include "tools/exit_code.hpp"
+#include "tools/launcher.hpp"
+#include "tools/loading.hpp"
+#include "tools/node_pictures.hpp"
+#include "tools/options.hpp"
+
+namespace lightnet {
+namespace {
+
+struct DotOptions {
+    GraphOptions graph;
+    std::string hosts;                     // file; "": none
+    std::optional<std::uint32_t> threads;  // places of one process
+    std::string pictures;                  // the EXR that shows what each node gives; "": none
+};
+
+void describe_dot(CLI::App& app, DotOptions& options) {
+    add_graph(app, options.graph);
+    auto* const hosts = add_hosts(app, options.hosts);
+    add_threads(app, options.threads, "show what places of one process hold")->excludes(hosts);
+    app.add_option("--pictures", options.pictures, "a picture of this graph: each node shows what it gave to it")
+        ->type_name("PICTURE.exr");
+    when_taken_apart(app,
+                     [&options] { return mistaken_scene(options.graph.file, "to look at it: lightnet scene info"); });
+    add_examples(app, {"lightnet dot graphs/figure8.lua | dot -Tsvg > figure8.svg"});
+}
+
+// What hosts will offer isn't known before they are asked: at least what the file says of them.
+std::vector<HostOffer> likely_offers(const DotOptions& options, const Hosts& hosts) {
+    if (options.threads) return {{"", *options.threads}};
+    std::vector<HostOffer> offers;
+    for (const auto& host : hosts.hosts)
+        offers.push_back({host.endpoint, static_cast<std::uint32_t>(std::max(host.places, 1))});
+    return offers;
+}
+
+int draw(const DotOptions& options, const Launcher& launcher) {
+    const auto& registry = launcher.registry;
+    const Loaded loaded = make_sound(read_files(options.graph, options.hosts), {}, registry, NamesOfHosts::believed);
+    warn(loaded.warnings, launcher.err);
+    const auto offers = likely_offers(options, loaded.hosts);
+    std::map<std::string, std::string> pictures;
+    if (!options.pictures.empty()) pictures = write_node_pictures(loaded.graph, registry, options.pictures);
+    if (offers.empty()) {
+        launcher.out << to_dot(loaded.graph, registry, nullptr, {}, pictures);
+        return exit_code::done;
+    }
+    const Graph graph = sharded(loaded.graph, shards_of(loaded.graph, registry, loaded.hosts));
+    const Plan where = plan(graph, registry, loaded.hosts, offers);
+    launcher.out << to_dot(graph, registry, &where, {}, pictures);
+    return exit_code::done;
+}
+
+}  // namespace
+
+Verb dot_verb() { return verb<DotOptions>("dot", "print a graph as Graphviz DOT", describe_dot, draw); }
+
+}  // namespace lightnet

@@ -1,0 +1,58 @@
+// lightnet hosts: tells the state of daemons.
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "core/network/graph/check_hosts.hpp"
+#include "lua/load_graph.hpp"
+#include "tools/command_line.hpp"
+#include "tools/exit_code.hpp"
+#include "tools/host_table.hpp"
+#include "tools/launcher.hpp"
+
+namespace lightnet {
+namespace {
+
+struct HostsOptions {
+    std::vector<std::string> whom;  // endpoints and hosts files
+};
+
+void describe_hosts(CLI::App& app, HostsOptions& options) {
+    app.add_option("WHOM", options.whom, "hosts files, endpoints of daemons, or that of a launcher (--listen)")
+        ->required();
+    add_examples(app, {"lightnet hosts tcp://127.0.0.1:7777"});
+}
+
+int print_hosts(const HostsOptions& options, const Launcher& launcher) {
+    std::vector<std::string> endpoints, joining;
+    for (const auto& one : options.whom) {
+        if (address_of(one)) {
+            endpoints.push_back(one);
+            continue;
+        }
+        for (const auto& host : load_hosts(one).hosts)
+            (address_of(host.endpoint) ? endpoints : joining).push_back(host.endpoint);
+    }
+    const auto answers = ask_state(endpoints, std::chrono::seconds(2));
+    launcher.out << host_table(answers);
+    for (const auto& name : joining)
+        launcher.err << "lightnet: '" << name << "' joins by itself: ask its launcher (the endpoint behind --listen)\n";
+    const auto absent = std::count_if(answers.begin(), answers.end(), [](const auto& host) { return !is_there(host); });
+    if (absent == 0) return exit_code::done;
+    launcher.err << "lightnet: " << absent << " of " << answers.size() << (absent == 1 ? " is" : " are")
+                 << " not there\n";
+    return exit_code::no_worker;
+}
+
+}  // namespace
+
+Verb hosts_verb() {
+    return verb<HostsOptions>("hosts", "tell the state and load of daemons, and what their machines are like",
+                              describe_hosts, print_hosts);
+}
+
+}  // namespace lightnet

@@ -1,0 +1,41 @@
+// lightnet run: renders a graph.
+#include <optional>
+#include <utility>
+
+#include "tools/command_line.hpp"
+#include "tools/launcher.hpp"
+#include "tools/loading.hpp"
+#include "tools/options.hpp"
+#include "tools/run_request.hpp"
+
+namespace lightnet {
+namespace {
+
+struct RunOptions {
+    GraphOptions graph;
+    RunningOptions running;
+};
+
+void describe_run(CLI::App& app, RunOptions& options) {
+    add_graph(app, options.graph);
+    add_running(app, options.running);
+    add_output(app, options.running.picture.output, "the picture, instead of the graph's");
+    when_taken_apart(app, [&options] {
+        const auto mistake = mistaken_scene(options.graph.file, "to render it: lightnet render");
+        return mistake ? mistake : settle(options.running);
+    });
+    add_examples(app, {"lightnet run graphs/cornell.lua --samples 16 -o cornell.exr",
+                       "lightnet run graphs/cornell.lua --local-workers 2"});
+}
+
+int run_graph(const RunOptions& options, const Launcher& launcher) {
+    const auto& running = options.running;
+    Loaded loaded = make_sound(read_files(options.graph, running.hosts), running.picture, launcher.registry);
+    return launcher.run(request_of(running, launcher, std::move(loaded)));
+}
+
+}  // namespace
+
+Verb run_verb() { return verb<RunOptions>("run", "render a graph", describe_run, run_graph); }
+
+}  // namespace lightnet
