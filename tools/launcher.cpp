@@ -24,7 +24,7 @@
 #include "tools/overrides.hpp"
 #include "tools/render.hpp"
 #include "tools/scene_info.hpp"
-#include "transport/reach.hpp"
+#include "transport/wire/loopback.hpp"
 
 namespace lightnet {
 namespace {

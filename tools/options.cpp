@@ -13,7 +13,7 @@
 #include "core/network/graph/graph_film.hpp"
 #include "core/readers/read_scene.hpp"
 #include "tools/exit_code.hpp"
-#include "transport/reach.hpp"
+#include "transport/wire/loopback.hpp"
 
 namespace lightnet {
 namespace {

@@ -33,9 +33,9 @@
 #include "tools/picture_recipe.hpp"
 #include "tools/run_book.hpp"
 #include "tools/signals.hpp"
-#include "transport/cluster.hpp"
-#include "transport/result_cache.hpp"
-#include "transport/threaded_run.hpp"
+#include "transport/launcher/cluster.hpp"
+#include "transport/launcher/threaded_run.hpp"
+#include "transport/store/result_cache.hpp"
 
 namespace lightnet {
 namespace {

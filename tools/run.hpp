@@ -13,7 +13,7 @@
 #include "core/network/graph/kind.hpp"
 #include "core/readers/files.hpp"
 #include "core/scene/data/scene_data.hpp"
-#include "transport/cache_folder.hpp"
+#include "transport/store/cache_folder.hpp"
 
 namespace lightnet {
 

@@ -23,7 +23,7 @@
 #include "core/run/message/counters.hpp"
 #include "core/run/prepare/prepare_progress.hpp"
 #include "core/scene/data/scene_data.hpp"
-#include "transport/cluster.hpp"
+#include "transport/launcher/cluster.hpp"
 
 namespace lightnet {
 

@@ -1,10 +1,10 @@
-#include "transport/oracle_run.hpp"
+#include "tests/support/oracle_run.hpp"
 
 #include <deque>
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "transport/packet.hpp"
+#include "transport/wire/packet.hpp"
 
 namespace lightnet {
 namespace {

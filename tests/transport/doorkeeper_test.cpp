@@ -1,5 +1,5 @@
 // Who comes in at a door.
-#include "transport/doorkeeper.hpp"
+#include "transport/zmq/doorkeeper.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -13,7 +13,7 @@
 
 #include "core/base/error.hpp"
 #include "tests/support/slowdown.hpp"
-#include "transport/descriptors.hpp"
+#include "transport/places/descriptors.hpp"
 
 namespace lightnet {
 namespace {

@@ -8,8 +8,8 @@
 #include <zmq.hpp>
 
 #include "tests/modes/stranger.hpp"
-#include "transport/cluster.hpp"
-#include "transport/joiners.hpp"
+#include "transport/launcher/cluster.hpp"
+#include "transport/launcher/joiners.hpp"
 
 namespace lightnet {
 namespace {

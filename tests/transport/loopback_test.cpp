@@ -1,5 +1,5 @@
 // What can only be reached from this machine.
-#include "transport/reach.hpp"
+#include "transport/wire/loopback.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include <vector>
 #include <zmq.hpp>
 
-#include "transport/relay.hpp"
-#include "transport/relays.hpp"
+#include "transport/launcher/relays.hpp"
+#include "transport/wire/relay_address.hpp"
 
 namespace lightnet {
 namespace {

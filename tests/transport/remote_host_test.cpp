@@ -7,8 +7,8 @@
 #include <vector>
 #include <zmq.hpp>
 
-#include "transport/host_link.hpp"
-#include "transport/sockets.hpp"
+#include "transport/launcher/remote_host.hpp"
+#include "transport/zmq/sockets.hpp"
 
 namespace lightnet {
 namespace {

@@ -1,4 +1,4 @@
-#include "transport/zmq_carrier.hpp"
+#include "transport/zmq/zmq_carrier.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <thread>
 #include <zmq.hpp>
 
-#include "transport/sockets.hpp"
+#include "transport/zmq/sockets.hpp"
 
 namespace lightnet {
 namespace {

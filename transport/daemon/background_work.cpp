@@ -1,4 +1,4 @@
-#include "transport/beside.hpp"
+#include "transport/daemon/background_work.hpp"
 
 #include <algorithm>
 #include <chrono>

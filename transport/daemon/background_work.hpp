@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "transport/wakeup.hpp"
+#include "transport/places/wakeup.hpp"
 
 namespace lightnet {
 

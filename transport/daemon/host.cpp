@@ -1,11 +1,11 @@
-#include "transport/host.hpp"
+#include "transport/daemon/host.hpp"
 
 #include <algorithm>
 #include <zmq.hpp>
 
 #include "core/base/error.hpp"
-#include "transport/host_service.hpp"
-#include "transport/relay.hpp"
+#include "transport/daemon/host_service.hpp"
+#include "transport/wire/relay_address.hpp"
 
 namespace lightnet {
 namespace {

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "core/network/graph/kind.hpp"
-#include "transport/cache_folder.hpp"
+#include "transport/store/cache_folder.hpp"
 
 namespace lightnet {
 

@@ -6,7 +6,7 @@
 #include "core/base/build_info.hpp"
 #include "core/base/error.hpp"
 #include "core/run/runtime/fingerprint.hpp"
-#include "transport/host_service.hpp"
+#include "transport/daemon/host_service.hpp"
 
 namespace lightnet {
 namespace {

@@ -1,4 +1,4 @@
-#include "transport/host_door.hpp"
+#include "transport/daemon/host_door.hpp"
 
 #include <algorithm>
 #include <zmq.hpp>

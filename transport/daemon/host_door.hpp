@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "transport/doorkeeper.hpp"
-#include "transport/packet.hpp"
-#include "transport/pass.hpp"
-#include "transport/sockets.hpp"
+#include "transport/wire/packet.hpp"
+#include "transport/wire/pass.hpp"
+#include "transport/zmq/doorkeeper.hpp"
+#include "transport/zmq/sockets.hpp"
 
 namespace lightnet {
 

@@ -9,15 +9,15 @@
 #include <string>
 #include <vector>
 
-#include "transport/beside.hpp"
-#include "transport/blob_cache.hpp"
-#include "transport/host.hpp"
-#include "transport/host_door.hpp"
-#include "transport/host_lines.hpp"
-#include "transport/hosted_run.hpp"
-#include "transport/machine.hpp"
-#include "transport/packet.hpp"
-#include "transport/way_out.hpp"
+#include "transport/daemon/background_work.hpp"
+#include "transport/daemon/host.hpp"
+#include "transport/daemon/host_door.hpp"
+#include "transport/daemon/hosted_run.hpp"
+#include "transport/daemon/peer_lines.hpp"
+#include "transport/store/blob_cache.hpp"
+#include "transport/wire/machine.hpp"
+#include "transport/wire/packet.hpp"
+#include "transport/zmq/gateway.hpp"
 
 namespace zmq {
 class context_t;

@@ -1,4 +1,4 @@
-#include "transport/hosted_run.hpp"
+#include "transport/daemon/hosted_run.hpp"
 
 #include <algorithm>
 #include <chrono>

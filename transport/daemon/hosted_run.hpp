@@ -12,11 +12,11 @@
 #include <vector>
 
 #include "core/run/runtime/job.hpp"
-#include "transport/beside.hpp"
-#include "transport/blob_cache.hpp"
-#include "transport/packet.hpp"
-#include "transport/place_threads.hpp"
-#include "transport/results.hpp"
+#include "transport/daemon/background_work.hpp"
+#include "transport/places/place_threads.hpp"
+#include "transport/store/blob_cache.hpp"
+#include "transport/store/results.hpp"
+#include "transport/wire/packet.hpp"
 
 namespace lightnet {
 

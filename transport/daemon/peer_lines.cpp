@@ -1,10 +1,10 @@
-#include "transport/host_lines.hpp"
+#include "transport/daemon/peer_lines.hpp"
 
 #include <algorithm>
 #include <utility>
 #include <zmq.hpp>
 
-#include "transport/relay.hpp"
+#include "transport/wire/relay_address.hpp"
 
 namespace lightnet {
 namespace {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/network/graph/plan.hpp"
-#include "transport/sockets.hpp"
+#include "transport/zmq/sockets.hpp"
 
 namespace lightnet {
 

@@ -1,10 +1,10 @@
-#include "transport/ask_state.hpp"
+#include "transport/launcher/ask_state.hpp"
 
 #include <algorithm>
 #include <zmq.hpp>
 
 #include "core/base/error.hpp"
-#include "transport/sockets.hpp"
+#include "transport/zmq/sockets.hpp"
 
 namespace lightnet {
 namespace {

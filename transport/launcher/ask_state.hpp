@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "transport/machine.hpp"
+#include "transport/wire/machine.hpp"
 
 namespace lightnet {
 

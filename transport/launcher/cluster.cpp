@@ -1,8 +1,8 @@
-#include "transport/cluster.hpp"
+#include "transport/launcher/cluster.hpp"
 
 #include <set>
 
-#include "transport/cluster_links.hpp"
+#include "transport/launcher/cluster_links.hpp"
 
 namespace lightnet {
 namespace {

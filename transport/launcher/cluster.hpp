@@ -13,7 +13,7 @@
 #include "core/network/graph/plan.hpp"
 #include "core/run/message/carrier.hpp"
 #include "core/run/runtime/job.hpp"
-#include "transport/machine.hpp"
+#include "transport/wire/machine.hpp"
 
 namespace lightnet {
 

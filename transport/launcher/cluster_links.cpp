@@ -1,11 +1,11 @@
-#include "transport/cluster_links.hpp"
+#include "transport/launcher/cluster_links.hpp"
 
 #include <zmq.hpp>
 
 #include "core/base/error.hpp"
 #include "core/run/runtime/fingerprint.hpp"
-#include "transport/descriptors.hpp"
-#include "transport/relay.hpp"
+#include "transport/places/descriptors.hpp"
+#include "transport/wire/relay_address.hpp"
 
 namespace lightnet {
 namespace {

@@ -14,14 +14,14 @@
 
 #include "core/base/error.hpp"
 #include "core/run/runtime/fingerprint.hpp"
-#include "transport/cluster.hpp"
-#include "transport/descriptors.hpp"
-#include "transport/host_link.hpp"
-#include "transport/host_wait.hpp"
-#include "transport/joiners.hpp"
-#include "transport/own_places.hpp"
-#include "transport/relays.hpp"
-#include "transport/sockets.hpp"
+#include "transport/launcher/cluster.hpp"
+#include "transport/launcher/host_wait.hpp"
+#include "transport/launcher/joiners.hpp"
+#include "transport/launcher/own_host.hpp"
+#include "transport/launcher/relays.hpp"
+#include "transport/launcher/remote_host.hpp"
+#include "transport/places/descriptors.hpp"
+#include "transport/zmq/sockets.hpp"
 
 namespace lightnet {
 

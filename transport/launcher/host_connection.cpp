@@ -1,4 +1,4 @@
-#include "transport/host_line.hpp"
+#include "transport/launcher/host_connection.hpp"
 
 #include <utility>
 #include <zmq.hpp>

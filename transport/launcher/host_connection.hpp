@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "transport/sockets.hpp"
+#include "transport/zmq/sockets.hpp"
 
 namespace lightnet {
 

@@ -1,11 +1,11 @@
-#include "transport/host_wait.hpp"
+#include "transport/launcher/host_wait.hpp"
 
 #include <algorithm>
 #include <map>
 #include <string>
 
 #include "core/base/error.hpp"
-#include "transport/host_link.hpp"
+#include "transport/launcher/remote_host.hpp"
 
 namespace lightnet {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "transport/cluster.hpp"
+#include "transport/launcher/cluster.hpp"
 
 namespace lightnet {
 

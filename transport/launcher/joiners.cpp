@@ -1,10 +1,10 @@
-#include "transport/joiners.hpp"
+#include "transport/launcher/joiners.hpp"
 
 #include <algorithm>
 #include <zmq.hpp>
 
 #include "core/base/error.hpp"
-#include "transport/cluster.hpp"
+#include "transport/launcher/cluster.hpp"
 
 namespace lightnet {
 namespace {

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "transport/doorkeeper.hpp"
-#include "transport/host_line.hpp"
-#include "transport/pass.hpp"
+#include "transport/launcher/host_connection.hpp"
+#include "transport/wire/pass.hpp"
+#include "transport/zmq/doorkeeper.hpp"
 
 namespace lightnet {
 

@@ -1,9 +1,9 @@
-#include "transport/own_places.hpp"
+#include "transport/launcher/own_host.hpp"
 
 #include <zmq.hpp>
 
-#include "transport/place_threads.hpp"
-#include "transport/way_out.hpp"
+#include "transport/places/place_threads.hpp"
+#include "transport/zmq/gateway.hpp"
 
 namespace lightnet {
 

@@ -8,7 +8,7 @@
 
 #include "core/run/prepare/assembly.hpp"
 #include "core/run/runtime/place.hpp"
-#include "transport/sockets.hpp"
+#include "transport/zmq/sockets.hpp"
 
 namespace lightnet {
 

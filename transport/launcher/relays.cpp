@@ -1,4 +1,4 @@
-#include "transport/relays.hpp"
+#include "transport/launcher/relays.hpp"
 
 #include <utility>
 #include <zmq.hpp>

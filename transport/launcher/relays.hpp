@@ -7,8 +7,8 @@
 #include <string>
 
 #include "core/run/message/counters.hpp"
-#include "transport/relay.hpp"
-#include "transport/sockets.hpp"
+#include "transport/wire/relay_address.hpp"
+#include "transport/zmq/sockets.hpp"
 
 namespace lightnet {
 

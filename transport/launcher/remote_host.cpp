@@ -1,4 +1,4 @@
-#include "transport/host_link.hpp"
+#include "transport/launcher/remote_host.hpp"
 
 #include <algorithm>
 #include <zmq.hpp>

@@ -17,9 +17,9 @@
 #include "core/readers/files.hpp"
 #include "core/run/message/counters.hpp"
 #include "core/run/message/message.hpp"
-#include "transport/host_line.hpp"
-#include "transport/machine.hpp"
-#include "transport/packet.hpp"
+#include "transport/launcher/host_connection.hpp"
+#include "transport/wire/machine.hpp"
+#include "transport/wire/packet.hpp"
 
 namespace lightnet {
 

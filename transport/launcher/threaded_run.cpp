@@ -1,10 +1,10 @@
-#include "transport/threaded_run.hpp"
+#include "transport/launcher/threaded_run.hpp"
 
 #include <zmq.hpp>
 
-#include "transport/place_threads.hpp"
-#include "transport/sockets.hpp"
-#include "transport/zmq_carrier.hpp"
+#include "transport/places/place_threads.hpp"
+#include "transport/zmq/sockets.hpp"
+#include "transport/zmq/zmq_carrier.hpp"
 
 namespace lightnet {
 

@@ -1,4 +1,4 @@
-#include "transport/descriptors.hpp"
+#include "transport/places/descriptors.hpp"
 
 #include <sys/resource.h>
 

@@ -1,4 +1,4 @@
-#include "transport/place_threads.hpp"
+#include "transport/places/place_threads.hpp"
 
 #include <atomic>
 #include <mutex>
@@ -8,10 +8,10 @@
 #include <zmq.hpp>
 
 #include "core/base/error.hpp"
-#include "transport/descriptors.hpp"
-#include "transport/sockets.hpp"
-#include "transport/wakeup.hpp"
-#include "transport/zmq_carrier.hpp"
+#include "transport/places/descriptors.hpp"
+#include "transport/places/wakeup.hpp"
+#include "transport/zmq/sockets.hpp"
+#include "transport/zmq/zmq_carrier.hpp"
 
 namespace lightnet {
 namespace {

@@ -1,4 +1,4 @@
-#include "transport/wakeup.hpp"
+#include "transport/places/wakeup.hpp"
 
 #include <sys/eventfd.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "transport/child.hpp"
+#include "transport/start/child.hpp"
 
 #include <fcntl.h>
 #include <poll.h>

@@ -1,4 +1,4 @@
-#include "transport/local_workers.hpp"
+#include "transport/start/local_workers.hpp"
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -9,7 +9,7 @@
 #include <poll.h>
 
 #include "core/base/error.hpp"
-#include "transport/child.hpp"
+#include "transport/start/child.hpp"
 
 namespace lightnet {
 namespace {

@@ -1,11 +1,11 @@
-#include "transport/slurm_workers.hpp"
+#include "transport/start/slurm_workers.hpp"
 
 #include <algorithm>
 #include <chrono>
 
 #include "core/base/error.hpp"
-#include "transport/child.hpp"
-#include "transport/reach.hpp"
+#include "transport/start/child.hpp"
+#include "transport/wire/loopback.hpp"
 
 namespace lightnet {
 namespace {

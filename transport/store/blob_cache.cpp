@@ -1,4 +1,4 @@
-#include "transport/blob_cache.hpp"
+#include "transport/store/blob_cache.hpp"
 
 #include <unistd.h>
 
@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "transport/recipes.hpp"
+#include "transport/store/recipes.hpp"
 
 namespace lightnet {
 namespace {

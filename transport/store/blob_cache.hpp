@@ -11,7 +11,7 @@
 #include "core/base/hash.hpp"
 #include "core/readers/files.hpp"
 #include "core/run/runtime/job.hpp"
-#include "transport/cache_folder.hpp"
+#include "transport/store/cache_folder.hpp"
 
 namespace lightnet {
 

@@ -1,4 +1,4 @@
-#include "transport/cache_folder.hpp"
+#include "transport/store/cache_folder.hpp"
 
 #include <sys/stat.h>
 #include <unistd.h>

@@ -1,11 +1,11 @@
-#include "transport/recipes.hpp"
+#include "transport/store/recipes.hpp"
 
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
 #include "core/base/atomic_file.hpp"
-#include "transport/cache_folder.hpp"
+#include "transport/store/cache_folder.hpp"
 
 namespace lightnet {
 namespace {

@@ -1,9 +1,9 @@
-#include "transport/result_cache.hpp"
+#include "transport/store/result_cache.hpp"
 
 #include <filesystem>
 
 #include "core/base/error.hpp"
-#include "transport/recipes.hpp"
+#include "transport/store/recipes.hpp"
 
 namespace lightnet {
 

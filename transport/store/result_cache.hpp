@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/run/prepare/prepared.hpp"
-#include "transport/blob_cache.hpp"
+#include "transport/store/blob_cache.hpp"
 
 namespace lightnet {
 

@@ -12,7 +12,7 @@
 
 #include "core/base/bytes.hpp"
 #include "core/base/hash.hpp"
-#include "transport/blob_cache.hpp"
+#include "transport/store/blob_cache.hpp"
 
 namespace lightnet {
 

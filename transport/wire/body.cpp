@@ -1,4 +1,4 @@
-#include "transport/body.hpp"
+#include "transport/wire/body.hpp"
 
 #include <cstring>
 #include <exception>

@@ -1,12 +1,12 @@
-#include "transport/colours.hpp"
+#include "transport/wire/colours.hpp"
 
 #include <array>
 #include <bit>
 #include <cstdint>
 #include <cstring>
 
-#include "transport/body.hpp"
-#include "transport/packet.hpp"
+#include "transport/wire/body.hpp"
+#include "transport/wire/packet.hpp"
 
 namespace lightnet::packet {
 namespace {

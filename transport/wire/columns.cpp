@@ -1,4 +1,4 @@
-#include "transport/columns.hpp"
+#include "transport/wire/columns.hpp"
 
 #include <array>
 #include <bit>
@@ -8,7 +8,7 @@
 #include <memory>
 #include <utility>
 
-#include "transport/body.hpp"
+#include "transport/wire/body.hpp"
 
 namespace lightnet::packet {
 namespace {

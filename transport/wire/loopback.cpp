@@ -1,4 +1,4 @@
-#include "transport/reach.hpp"
+#include "transport/wire/loopback.hpp"
 
 #include <arpa/inet.h>
 

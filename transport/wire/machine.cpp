@@ -1,4 +1,4 @@
-#include "transport/machine.hpp"
+#include "transport/wire/machine.hpp"
 
 #include <unistd.h>
 

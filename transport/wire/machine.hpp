@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "transport/packet.hpp"
+#include "transport/wire/packet.hpp"
 
 namespace lightnet {
 

@@ -1,4 +1,4 @@
-#include "transport/packet.hpp"
+#include "transport/wire/packet.hpp"
 
 #include <cstring>
 #include <memory>
@@ -6,9 +6,9 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
-#include "transport/body.hpp"
-#include "transport/colours.hpp"
-#include "transport/columns.hpp"
+#include "transport/wire/body.hpp"
+#include "transport/wire/colours.hpp"
+#include "transport/wire/columns.hpp"
 
 namespace lightnet::packet {
 namespace {

@@ -26,7 +26,7 @@
 
 #include "core/base/hash.hpp"
 #include "core/run/message/message.hpp"
-#include "transport/columns.hpp"
+#include "transport/wire/columns.hpp"
 
 namespace lightnet::packet {
 

@@ -1,4 +1,4 @@
-#include "transport/pass.hpp"
+#include "transport/wire/pass.hpp"
 
 #include <fcntl.h>
 #include <sys/random.h>

@@ -1,11 +1,11 @@
-#include "transport/relay.hpp"
+#include "transport/wire/relay_address.hpp"
 
 #include <cstdint>
 #include <cstring>
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
-#include "transport/reach.hpp"
+#include "transport/wire/loopback.hpp"
 
 namespace lightnet {
 namespace {

@@ -1,11 +1,11 @@
-#include "transport/doorkeeper.hpp"
+#include "transport/zmq/doorkeeper.hpp"
 
 #include <algorithm>
 #include <atomic>
 #include <cstring>
 #include <zmq.hpp>
 
-#include "transport/descriptors.hpp"
+#include "transport/places/descriptors.hpp"
 
 namespace lightnet {
 namespace {

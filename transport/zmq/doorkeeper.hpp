@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "transport/sockets.hpp"
+#include "transport/zmq/sockets.hpp"
 
 namespace lightnet {
 

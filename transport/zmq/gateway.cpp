@@ -1,4 +1,4 @@
-#include "transport/way_out.hpp"
+#include "transport/zmq/gateway.hpp"
 
 #include <zmq.hpp>
 

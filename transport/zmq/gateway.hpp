@@ -7,7 +7,7 @@
 #include <set>
 #include <string>
 
-#include "transport/sockets.hpp"
+#include "transport/zmq/sockets.hpp"
 
 namespace lightnet {
 

@@ -1,10 +1,10 @@
-#include "transport/sockets.hpp"
+#include "transport/zmq/sockets.hpp"
 
 #include <algorithm>
 #include <memory>
 #include <zmq.hpp>
 
-#include "transport/descriptors.hpp"
+#include "transport/places/descriptors.hpp"
 
 #if defined(__SANITIZE_THREAD__)
 extern "C" void __tsan_acquire(void*);

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/run/message/message.hpp"
-#include "transport/packet.hpp"
+#include "transport/wire/packet.hpp"
 
 namespace zmq {
 class context_t;

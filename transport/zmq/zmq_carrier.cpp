@@ -1,4 +1,4 @@
-#include "transport/zmq_carrier.hpp"
+#include "transport/zmq/zmq_carrier.hpp"
 
 #include <algorithm>
 #include <map>
@@ -6,8 +6,8 @@
 #include <vector>
 #include <zmq.hpp>
 
-#include "transport/sockets.hpp"
-#include "transport/way_out.hpp"
+#include "transport/zmq/gateway.hpp"
+#include "transport/zmq/sockets.hpp"
 
 namespace lightnet {
 namespace {
