@@ -56,7 +56,7 @@ pid_t start(std::vector<std::string>& words, int in, bool errors_too, int* out) 
 
 int spawn(std::vector<std::string> words, int* out) { return start(words, -1, false, out); }
 
-Spoken run_program(std::vector<std::string> words, const std::string& input, std::chrono::milliseconds most) {
+ProgramOutput run_program(std::vector<std::string> words, const std::string& input, std::chrono::milliseconds most) {
     const int in = file_of(input);
     int out = -1;
     pid_t process = 0;
@@ -67,7 +67,7 @@ Spoken run_program(std::vector<std::string> words, const std::string& input, std
         throw;
     }
     close(in);
-    Spoken spoken;
+    ProgramOutput said;
     const auto end = Clock::now() + most;
     while (Clock::now() < end) {
         pollfd item{out, POLLIN, 0};
@@ -75,15 +75,15 @@ Spoken run_program(std::vector<std::string> words, const std::string& input, std
         char buffer[4096];
         const auto n = read(out, buffer, sizeof buffer);
         if (n == 0 || (n < 0 && errno != EINTR)) break;
-        if (n > 0) spoken.text.append(buffer, static_cast<std::size_t>(n));
+        if (n > 0) said.text.append(buffer, static_cast<std::size_t>(n));
     }
     close(out);
     if (Clock::now() >= end) kill(process, SIGKILL);
     int status = 0;
     while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
     }
-    spoken.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    return spoken;
+    said.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    return said;
 }
 
 }  // namespace lightnet

@@ -12,12 +12,12 @@ namespace lightnet {
 int spawn(std::vector<std::string> words, int* out);
 
 /// What a program said, to both outputs, and how it ended.
-struct Spoken {
+struct ProgramOutput {
     int code = -1;  // 128 + signal if one ended it
     std::string text;
 };
 /// Runs a program to its end, with `input` as its standard input; kills it after `most`. Throws Error when it can't be
 /// started.
-Spoken run_program(std::vector<std::string> words, const std::string& input, std::chrono::milliseconds most);
+ProgramOutput run_program(std::vector<std::string> words, const std::string& input, std::chrono::milliseconds most);
 
 }  // namespace lightnet

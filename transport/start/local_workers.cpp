@@ -81,11 +81,11 @@ std::vector<std::string> LocalWorkers::endpoints() const {
     return endpoints;
 }
 
-void LocalWorkers::look_after(Time now, const Talk& talk) {
+void LocalWorkers::look_after(Time now, const Handlers& handlers) {
     for (auto& worker : workers_) {
         if (worker.process) {
-            worker.was_of_use |= talk.of_use(worker.endpoint);
-            if (waitpid(worker.process, nullptr, WNOHANG) == worker.process) died(worker, now, talk);
+            worker.was_of_use |= handlers.of_use(worker.endpoint);
+            if (waitpid(worker.process, nullptr, WNOHANG) == worker.process) died(worker, now, handlers);
         } else if (worker.useless_deaths < most_useless_deaths && now >= worker.next_start) {
             int out = -1;
             worker.process = start(worker.endpoint, &out);
@@ -95,16 +95,16 @@ void LocalWorkers::look_after(Time now, const Talk& talk) {
     }
 }
 
-void LocalWorkers::died(Worker& worker, Time now, const Talk& talk) {
+void LocalWorkers::died(Worker& worker, Time now, const Handlers& handlers) {
     worker.process = 0;
-    talk.ended(worker.endpoint);
+    handlers.ended(worker.endpoint);
     worker.useless_deaths = worker.was_of_use ? 0 : worker.useless_deaths + 1;
     worker.next_start = now + first_delay * (1 << worker.useless_deaths);
     if (worker.useless_deaths < most_useless_deaths)
-        talk.say("local worker " + worker.endpoint + " has died; it is started anew");
+        handlers.say("local worker " + worker.endpoint + " has died; it is started anew");
     else
-        talk.say("local worker " + worker.endpoint + " has died " + std::to_string(most_useless_deaths) +
-                 " times without being of use, and is given up");
+        handlers.say("local worker " + worker.endpoint + " has died " + std::to_string(most_useless_deaths) +
+                     " times without being of use, and is given up");
 }
 
 }  // namespace lightnet

@@ -27,13 +27,13 @@ public:
     std::vector<std::string> endpoints() const;
 
     /// What look_after() tells and asks.
-    struct Talk {
+    struct Handlers {
         std::function<void(const std::string& endpoint)> ended;   // its process has
         std::function<bool(const std::string& endpoint)> of_use;  // it serves the run
         std::function<void(const std::string& text)> say;
     };
     /// Starts those anew whose process has ended. Returns at once.
-    void look_after(Time now, const Talk& talk);
+    void look_after(Time now, const Handlers& handlers);
 
 private:
     struct Worker {
@@ -43,7 +43,7 @@ private:
         bool was_of_use = false;
         Time next_start{};
     };
-    void died(Worker& worker, Time now, const Talk& talk);
+    void died(Worker& worker, Time now, const Handlers& handlers);
     int start(const std::string& listen, int* out) const;
 
     std::string program_;

@@ -1,4 +1,4 @@
-// Bytes by their content hash, kept on the worker's disk from run to run.
+// Content-addressed storage: bytes named by their hash, kept on the worker's disk from run to run.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Which blob was made by which recipe, on disk.
+// Which blob was made by which recipe (the hash of all that it depends on), on disk.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
 // The protocol, on one page. ROUTER answers, DEALER asks. On the wire a packet is two frames, behind the route (and, on
-// its way through the launcher, behind the sealed address of relay.hpp):
+// its way through the launcher, behind the sealed address of relay_address.hpp):
 //
 //   header   64 bytes, little-endian, in the order of the members of Header
 //   body     a msgpack map. Asks: columns, see columns.hpp. Replies: colours, see colours.hpp. Control: small maps
@@ -53,7 +53,7 @@ enum class Type : std::uint8_t {
     blob_taken,  //                             hash, offset
     ready,       //                             all places are assembled
     broken,      //                             text: the run can't be served here
-    ping,        // sent: messages so far, see is_counted()
+    ping,        // heartbeat; sent: messages so far, see is_counted()
     pong,        //                          process, run, progress, sent (as in the ping), taken, told, line
     plan,        // who answers for which node from now on
     end,         // of the run
@@ -74,7 +74,7 @@ enum class Type : std::uint8_t {
 constexpr bool is_ask(Type type) {
     return type == Type::ask_light || type == Type::ask_pixels || type == Type::ask_step;
 }
-/// Both ends of a line between launcher and host count these, as nothing else would tell that one has vanished.
+/// Both ends of a connection between launcher and host count these, as nothing else would tell that one has vanished.
 constexpr bool is_counted(Type type) {
     switch (type) {
         case Type::need:
@@ -144,7 +144,7 @@ public:
 
 Packet pack(Type type, std::uint64_t run, const Fields& fields);
 
-/// A piece of a file or result; its bytes are a view.
+/// A piece of a blob (a file or a result, named by its content); its bytes are a view.
 struct Piece {
     Hash hash;  // of the whole
     std::uint64_t offset = 0;

@@ -7,8 +7,8 @@
 
 namespace lightnet {
 
-/// The secret lies in a file that only its user can read. It never travels: who joins proves that he knows it, for one
-/// challenge and one name. A value.
+/// A pre-shared key in a file that only its user can read. It never travels: who joins proves that he knows it, by the
+/// response to one challenge, under one name. A value.
 class Pass {
 public:
     /// From a file; made there, when it is missing, with 32 random bytes. Throws Error when others could read it, or it
