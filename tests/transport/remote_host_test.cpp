@@ -5,21 +5,20 @@
 #include <memory>
 #include <string>
 #include <vector>
-#include <zmq.hpp>
 
 #include "transport/launcher/remote_host.hpp"
-#include "transport/zmq/sockets.hpp"
+#include "transport/zmq/socket.hpp"
 
 namespace lightnet {
 namespace {
 
 using packet::Fields;
 using packet::Type;
-using State = HostLink::State;
+using State = RemoteHost::State;
 using std::chrono::milliseconds;
 
 /// What the launcher sends lies in `sent`; what `say` is given arrives.
-class FakeLine final : public HostLine {
+class FakeConnection final : public HostConnection {
 public:
     bool send(Frames& frames, bool) override {
         if (refuses) return false;
@@ -34,7 +33,7 @@ public:
         return frames;
     }
     void renew() override { ++renewed; }
-    std::vector<zmq::socket_t*> sockets() override { return {}; }
+    void watch(Poll&) const override {}
 
     void say(packet::Packet packet) { append(arriving.emplace_back(), std::move(packet)); }
 
@@ -45,12 +44,12 @@ public:
     bool refuses = false;
 };
 
-class HostLinkTest : public ::testing::Test {
+class RemoteHostTest : public ::testing::Test {
 protected:
-    HostLinkTest() {
-        auto made = std::make_unique<FakeLine>();
+    RemoteHostTest() {
+        auto made = std::make_unique<FakeConnection>();
         line = made.get();
-        link.emplace(told, counters, "host", std::move(made));
+        link.emplace(offer, counters, "host", std::move(made));
     }
     void pass(milliseconds time) {
         now += time;
@@ -94,22 +93,22 @@ protected:
         line->say(packet::pack(message, 0));
     }
 
-    Told told{1, "me", "isa", 0, "{}", {}};
+    RunOffer offer{1, "me", "isa", 0, "{}", {}};
     Counters counters;
-    FakeLine* line = nullptr;
-    std::optional<HostLink> link;
-    HostLink::Time now = HostLink::Time{} + std::chrono::hours(1);
+    FakeConnection* line = nullptr;
+    std::optional<RemoteHost> link;
+    RemoteHost::Time now = RemoteHost::Time{} + std::chrono::hours(1);
     std::uint64_t told_to_us = 0;
     int answers = 0;
 };
 
-TEST_F(HostLinkTest, GreetsBeginsAndIsReady) {
+TEST_F(RemoteHostTest, GreetsBeginsAndIsReady) {
     become_ready();
     EXPECT_THAT(line->sent, ::testing::IsSupersetOf({Type::hello, Type::begin}));
     EXPECT_EQ(link->places(), 2u);
 }
 
-TEST_F(HostLinkTest, CountsWhatAFullLineRefusesAndNotWhatACutOneDoes) {
+TEST_F(RemoteHostTest, CountsWhatAFullLineRefusesAndNotWhatACutOneDoes) {
     become_ready();
     line->refuses = true;
     EXPECT_FALSE(ask());
@@ -128,7 +127,7 @@ TEST_F(HostLinkTest, CountsWhatAFullLineRefusesAndNotWhatACutOneDoes) {
     EXPECT_EQ(counters.refused_sends, 1u) << "all that was sent has arrived";
 }
 
-TEST_F(HostLinkTest, LosesAHostThatDoesNotAnswerAndCallsItAnew) {
+TEST_F(RemoteHostTest, LosesAHostThatDoesNotAnswerAndCallsItAnew) {
     become_ready();
     for (int i = 0; i < 4; ++i) pass(milliseconds(400));
     EXPECT_EQ(link->state(), State::calling);
@@ -139,7 +138,7 @@ TEST_F(HostLinkTest, LosesAHostThatDoesNotAnswerAndCallsItAnew) {
     EXPECT_THAT(line->sent, ::testing::Contains(Type::hello));
 }
 
-TEST_F(HostLinkTest, KeepsAHostThatHasAllMessages) {
+TEST_F(RemoteHostTest, KeepsAHostThatHasAllMessages) {
     become_ready();
     beat(0);
     ASSERT_TRUE(ask() && ask());
@@ -151,7 +150,7 @@ TEST_F(HostLinkTest, KeepsAHostThatHasAllMessages) {
     EXPECT_EQ(answers, 1);
 }
 
-TEST_F(HostLinkTest, NoticesThatAnAskHasVanished) {
+TEST_F(RemoteHostTest, NoticesThatAnAskHasVanished) {
     become_ready();
     beat(0);
     ASSERT_TRUE(ask() && ask());
@@ -160,7 +159,7 @@ TEST_F(HostLinkTest, NoticesThatAnAskHasVanished) {
     EXPECT_EQ(link->reason(), "a message to or from it was lost");
 }
 
-TEST_F(HostLinkTest, NoticesThatAReplyHasVanished) {
+TEST_F(RemoteHostTest, NoticesThatAReplyHasVanished) {
     become_ready();
     beat(0);
     ASSERT_TRUE(ask());
@@ -169,7 +168,7 @@ TEST_F(HostLinkTest, NoticesThatAReplyHasVanished) {
     EXPECT_EQ(link->state(), State::calling);
 }
 
-TEST_F(HostLinkTest, CountsAnewAfterALoss) {
+TEST_F(RemoteHostTest, CountsAnewAfterALoss) {
     become_ready();
     beat(0);
     ASSERT_TRUE(ask());
@@ -182,7 +181,7 @@ TEST_F(HostLinkTest, CountsAnewAfterALoss) {
     EXPECT_EQ(link->state(), State::ready);
 }
 
-TEST_F(HostLinkTest, TakesAnEmptyMessageForACut) {
+TEST_F(RemoteHostTest, TakesAnEmptyMessageForACut) {
     become_ready();
     line->arriving.push_back(empty_message());
     pass({});
@@ -190,14 +189,14 @@ TEST_F(HostLinkTest, TakesAnEmptyMessageForACut) {
     EXPECT_EQ(link->reason(), "its connection was cut");
 }
 
-TEST_F(HostLinkTest, LosesAHostThatWasStartedAnew) {
+TEST_F(RemoteHostTest, LosesAHostThatWasStartedAnew) {
     become_ready();
     line->say(packet::pack(Type::pong, 1, Fields{}.set("process", 6)));
     pass({});
     EXPECT_EQ(link->reason(), "it was started anew");
 }
 
-TEST_F(HostLinkTest, LetsAHostLeaveWhenItHasAnsweredAll) {
+TEST_F(RemoteHostTest, LetsAHostLeaveWhenItHasAnsweredAll) {
     become_ready();
     line->say(packet::pack(Type::leaving, 1, {}));
     pass({});

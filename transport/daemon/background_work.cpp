@@ -5,21 +5,21 @@
 
 namespace lightnet {
 
-Beside::~Beside() { under_way_.clear(); }
+BackgroundWork::~BackgroundWork() { under_way_.clear(); }
 
-void Beside::clear() {
+void BackgroundWork::clear() {
     wakeup_.clear();
     std::erase_if(under_way_,
                   [](const auto& one) { return one.wait_for(std::chrono::seconds(0)) == std::future_status::ready; });
 }
 
-bool Beside::done_within(std::chrono::milliseconds most) const {
+bool BackgroundWork::done_within(std::chrono::milliseconds most) const {
     const auto end = std::chrono::steady_clock::now() + most;
     return std::all_of(under_way_.begin(), under_way_.end(),
                        [&](const auto& one) { return one.wait_until(end) == std::future_status::ready; });
 }
 
-void Beside::start_thread(std::function<void()> work) {
+void BackgroundWork::start_thread(std::function<void()> work) {
     under_way_.push_back(std::async(std::launch::async, [this, work = std::move(work)] {
         work();
         wakeup_.notify();

@@ -1,4 +1,4 @@
-// What takes time, done beside a thread that must stay free to listen.
+// What takes time, done in the background of a thread that must stay free to listen.
 #pragma once
 
 #include <chrono>
@@ -14,14 +14,14 @@
 namespace lightnet {
 
 /// Work in threads of its own, whose ends wake who polls. Used by one thread.
-class Beside {
+class BackgroundWork {
 public:
     /// Throws Error when the system has no more handles.
-    Beside() = default;
+    BackgroundWork() = default;
     /// Waits until all is done.
-    ~Beside();
-    Beside(const Beside&) = delete;
-    Beside& operator=(const Beside&) = delete;
+    ~BackgroundWork();
+    BackgroundWork(const BackgroundWork&) = delete;
+    BackgroundWork& operator=(const BackgroundWork&) = delete;
 
     /// To be polled: readable when a future has become ready since the last clear().
     int handle() const { return wakeup_.handle(); }

@@ -1,7 +1,6 @@
 #include "transport/daemon/host.hpp"
 
 #include <algorithm>
-#include <zmq.hpp>
 
 #include "core/base/error.hpp"
 #include "transport/daemon/host_service.hpp"
@@ -18,11 +17,11 @@ constexpr auto launcher_lease = std::chrono::seconds(4);               // withou
 constexpr auto quiet_before_leaving = std::chrono::milliseconds(300);  // askers may not know yet that it leaves
 constexpr auto goodbye_deadline = std::chrono::milliseconds(500);
 
-HostDoor::Ends ends_of(const Host::Options& options, const Machine& machine, std::uint64_t process) {
-    HostDoor::Ends ends{options.listen, options.join, options.name.empty() ? machine.name : options.name, process};
-    if (!options.join.empty()) ends.pass = Pass::of(options.pass.empty() ? Pass::usual_file() : options.pass);
-    ends.log = options.log;
-    return ends;
+HostDoor::Options door_options(const Host::Options& options, const Machine& machine, std::uint64_t process) {
+    HostDoor::Options door{options.listen, options.join, options.name.empty() ? machine.name : options.name, process};
+    if (!options.join.empty()) door.pass = Pass::of(options.pass.empty() ? Pass::usual_file() : options.pass);
+    door.log = options.log;
+    return door;
 }
 
 }  // namespace
@@ -31,13 +30,10 @@ Host::Service::Service(Options given_options, const Registry& kinds)
     : options(std::move(given_options)),
       registry(kinds),
       cache(options.cache.empty() ? default_cache_folder() : options.cache, options.cache_size),
-      context(make_context()),
-      door(*context, ends_of(options, machine, process)) {
+      door(*context, door_options(options, machine, process)) {
     if (!options.places) options.places = static_cast<std::uint32_t>(machine.cores);
     cache.trim();
 }
-
-Host::Service::~Service() = default;
 
 Host::Host(Options options, const Registry& registry)
     : service_(std::make_unique<Service>(std::move(options), registry)) {}
@@ -52,14 +48,14 @@ void Host::serve(const std::atomic<bool>& stop) {
         if (stop && !s.leaving) s.leave(now);
         if (s.leaving && s.gone(now)) break;
         const auto readable = s.wait();
-        for (const auto place : readable.places) s.pass_replies(place);
+        for (const auto place : readable.places) s.forward_replies(place);
         s.door.let_in();
         if (readable.door)
             while (auto frames = s.door.receive(Clock::now())) s.arrived(std::move(*frames));
         s.look_at_arriving();
         s.look_at_ending();
-        if (readable.way_out) s.pass_asks();
-        if (s.lines && (readable.lines || s.lines->due(now))) s.lines->tick(now);
+        if (readable.gateway) s.forward_asks();
+        if (s.peers && (readable.peers || s.peers->due(now))) s.peers->tick(now);
         if (readable.news || (s.run && !s.run->serving())) s.advance();
         if (readable.news) s.tell_found(), s.tell_failures();
         if (s.run && now - s.heard > launcher_lease) s.drop_run("its launcher is silent");
@@ -73,12 +69,12 @@ void Host::serve(const std::atomic<bool>& stop) {
     if (s.run) s.drop_run("this host is stopping");
 }
 
-bool Host::hangs() const { return !service_->beside.done_within(goodbye_deadline); }
+bool Host::hangs() const { return !service_->background.done_within(goodbye_deadline); }
 
 void Host::Service::arrived(Frames frames) {
     const auto route = text_of(frames[0]);
     if (frames.size() == 2 && frames[1].size() == 0) {  // what went through the launcher may be lost
-        if (way_out && route == launcher) way_out->say_again("");
+        if (gateway && route == launcher) gateway->request_resend("");
         return;
     }
     if (frames.size() < 3) return damaged(route);
@@ -111,21 +107,23 @@ void Host::Service::arrived(Frames frames) {
     }
 }
 
-// Whoever sent it must say it again.
+// Whoever sent it must send it again.
 void Host::Service::damaged(const std::string& route) {
     ++broken_packets;
-    auto again = empty_message();
-    door.send(route, again);
+    Frames resend;
+    resend.emplace_back(route);
+    resend.emplace_back();
+    door.send(resend);
 }
 
 // Not looked into: the place checks and decodes.
 void Host::Service::work(const packet::Header& header, Frames frames) {
     if (!run || header.run != run->id() || !run->serving()) return;
-    if (header.place >= run->places()->count() || !send_frames(run->places()->to(header.place), frames)) {
+    if (!run->transport()->forward(header.place, frames)) {
         frames.resize(frames.size() - 2);
         frames.emplace_back();
         frames.emplace_back();
-        door.send(frames);  // say it again
+        door.send(frames);  // to be sent again
         return;
     }
     given += header.width > 0;
@@ -138,7 +136,7 @@ void Host::Service::from_another(const packet::Header& header, Frames frames) {
     if (!run || header.run != run->id()) return;
     const auto address = unseal(bytes_of(frames[1]));
     frames.erase(frames.begin(), frames.begin() + 2);
-    if (!address || !way_out->pass(address->place, frames)) way_out->say_again("");
+    if (!address || !gateway->forward(address->place, frames)) gateway->request_resend("");
 }
 
 void Host::Service::advance() {
@@ -154,9 +152,9 @@ void Host::Service::advance() {
     }
 }
 
-void Host::Service::pass_replies(std::uint32_t place) {
+void Host::Service::forward_replies(std::uint32_t place) {
     if (!run || !run->serving()) return;
-    while (auto frames = receive_frames(run->places()->to(place))) {
+    while (auto frames = run->transport()->receive(place)) {
         if (frames->size() < 3) continue;
         const auto header = packet::peek_header(bytes_of((*frames)[frames->size() - 2]));
         answered += !header || header->width > 0;  // as in work()
@@ -164,17 +162,17 @@ void Host::Service::pass_replies(std::uint32_t place) {
     }
 }
 
-void Host::Service::pass_asks() {
-    if (!way_out) return;
-    while (auto frames = way_out->receive()) lines->ask(std::move(*frames));
+void Host::Service::forward_asks() {
+    if (!gateway) return;
+    while (auto frames = gateway->receive()) peers->ask(std::move(*frames));
 }
 
 // For hosts that we can't call: the launcher passes it on.
-void Host::Service::pass_to_launcher(Frames& frames) {
+void Host::Service::forward_to_launcher(Frames& frames) {
     const auto place = text_of(frames[0]), host = text_of(frames[1]);
-    frames[0] = frame_of(launcher);
-    frames[1] = frame_of(seal({host, place}));
-    door.send(frames);  // if it fails the launcher greets us anew, and all is said again
+    frames[0] = MessageFrame(launcher);
+    frames[1] = MessageFrame(seal({host, place}));
+    door.send(frames);  // if it fails the launcher greets us anew, and all is sent again
 }
 
 void Host::Service::tell_failures() {
@@ -207,35 +205,32 @@ bool Host::Service::gone(Clock::time_point now) {
 }
 
 Host::Service::Readable Host::Service::wait() {
-    std::vector<zmq_pollitem_t> items;
-    for (auto* socket : door.sockets()) items.push_back(lightnet::readable(*socket));
-    const std::size_t doors = items.size();
-    items.push_back(lightnet::readable(beside.handle()));
-    if (lines)
-        for (auto* socket : lines->sockets()) items.push_back(lightnet::readable(*socket));
-    const std::size_t way = items.size();
+    Poll poll;
+    door.watch(poll);
+    const std::size_t background_item = poll.size();
+    poll.add(background.handle());
+    if (peers) peers->watch(poll);
+    const std::size_t gateway_item = poll.size();
     auto* const places = run ? run->places() : nullptr;
     if (run) {
-        items.push_back(lightnet::readable(way_out->socket()));
-        items.push_back(lightnet::readable(run->news()));
+        gateway->watch(poll);
+        poll.add(run->news());
     }
-    if (places) items.push_back(lightnet::readable(places->news()));
-    const std::size_t others = items.size();
-    for (std::uint32_t place = 0; places && run->serving() && place < places->count(); ++place)
-        items.push_back(lightnet::readable(places->to(place)));
-    const bool soon = leaving || (lines && lines->waiting());
-    poll(items, std::chrono::milliseconds(soon ? 5 : 100));
-    const auto has_some = [&](std::size_t item) { return (items[item].revents & ZMQ_POLLIN) != 0; };
+    if (places) poll.add(places->news());
+    const std::size_t first_place = poll.size();
+    if (places && run->serving()) run->transport()->watch(poll);
+    const bool soon = leaving || (peers && peers->waiting());
+    poll.wait(std::chrono::milliseconds(soon ? 5 : 100));
     Readable readable;
-    for (std::size_t item = 0; item < doors; ++item) readable.door |= has_some(item);
-    if (has_some(doors)) beside.clear();
+    readable.door = poll.any_readable(0, background_item);
+    if (poll.readable(background_item)) background.clear();
     if (!run) return readable;
-    for (std::size_t item = doors + 1; item < way; ++item) readable.lines |= has_some(item);
-    readable.way_out = has_some(way);
-    readable.news = has_some(way + 1) || (places && has_some(way + 2));
+    readable.peers = poll.any_readable(background_item + 1, gateway_item);
+    readable.gateway = poll.readable(gateway_item);
+    readable.news = poll.any_readable(gateway_item + 1, first_place);
     if (readable.news) run->clear_news();
-    for (std::size_t item = others; item < items.size(); ++item)
-        if (has_some(item)) readable.places.push_back(static_cast<std::uint32_t>(item - others));
+    for (std::size_t item = first_place; item < poll.size(); ++item)
+        if (poll.readable(item)) readable.places.push_back(static_cast<std::uint32_t>(item - first_place));
     return readable;
 }
 

@@ -91,7 +91,7 @@ void Host::Service::begin(const std::string& route, std::uint64_t id, const Fiel
         return door.send(route, Type::refuse, id, Fields{}.set("text", busy_with()).set("busy", 1));
     if (const auto size = fields.text("job").size() + fields.text("plan").size(); size > most_job_bytes)
         return refuse(route, id, "a job of " + std::to_string(size) + " bytes is larger than any that is taken");
-    auto read = beside.start([job = fields.text("job"), plan = fields.text("plan"), this] {
+    auto read = background.start([job = fields.text("job"), plan = fields.text("plan"), this] {
         Arrival arrival{read_job(job, registry), plan_from_json(plan)};
         if (!fits(arrival.plan, arrival.job.graph)) throw Error("the plan does not fit the graph");
         return arrival;
@@ -120,14 +120,14 @@ void Host::Service::start(const Arriving& job, Arrival read) {
     if (mine > most)
         throw Error("the plan asks for " + std::to_string(mine) + " places of this host, which gives at most " +
                     std::to_string(most));
-    HostedRun::Given settled{job.id, job.you, std::max(options.places, mine), read.plan, std::move(read.job)};
-    run = std::make_unique<HostedRun>(*context, cache, registry, std::move(settled));
-    way_out = std::make_unique<WayOut>(*context, job.id);
-    lines = std::make_unique<HostLines>(
+    HostedRun::Assignment assignment{job.id, job.you, std::max(options.places, mine), read.plan, std::move(read.job)};
+    run = std::make_unique<HostedRun>(context, cache, registry, std::move(assignment));
+    gateway.emplace(*context, job.id);
+    peers.emplace(
         *context, job.you,
-        HostLines::Takers{[this](const std::string& place, Frames& frames) { way_out->pass(place, frames); },
-                          [this](const std::string& host) { way_out->say_again(host); },
-                          [this](Frames& frames) { pass_to_launcher(frames); }});
+        PeerConnections::Handlers{[this](const std::string& place, Frames& frames) { gateway->forward(place, frames); },
+                                  [this](const std::string& host) { gateway->request_resend(host); },
+                                  [this](Frames& frames) { forward_to_launcher(frames); }});
     who = job.who;
     given = answered = 0;
     options.log("serves a run" + (who.empty() ? "" : " of " + who));
@@ -136,7 +136,7 @@ void Host::Service::start(const Arriving& job, Arrival read) {
 
 void Host::Service::use(const Plan& plan) {
     run->use(plan);
-    lines->use(plan);
+    peers->use(plan);
 }
 
 // The launcher has begun it, or has found us again.
@@ -146,7 +146,7 @@ void Host::Service::go_on(const std::string& route, const Plan& plan) {
     heard = std::chrono::steady_clock::now();
     use(plan);
     run->expect_files_anew();
-    way_out->say_again("");
+    gateway->request_resend("");
     if (run->state() != HostedRun::State::looking) tell_needs();
     if (run->serving()) door.send(route, Type::ready, run->id(), {});  // the launcher had lost sight of us
 }
@@ -190,8 +190,8 @@ void Host::Service::take_blob(const std::string& route, std::uint64_t id, const 
 // Its threads end when they have done what they are at, which may take a while: somebody else waits for them.
 void Host::Service::stop_run(const std::string& route) {
     const auto id = run->id();
-    lines.reset();
-    way_out.reset();
+    peers.reset();
+    gateway.reset();
     run->begin_to_stop();
     const auto over = std::make_shared<std::unique_ptr<HostedRun>>(std::move(run));
     const auto stop = [over, this] {
@@ -201,7 +201,7 @@ void Host::Service::stop_run(const std::string& route) {
         return counters;
     };
     try {
-        ending = Ending{id, route, beside.start(stop)};
+        ending = Ending{id, route, background.start(stop)};
     } catch (const std::system_error&) {  // no thread is to be had
         std::promise<Counters> counters;
         counters.set_value(stop());

@@ -1,7 +1,6 @@
 #include "transport/daemon/host_door.hpp"
 
 #include <algorithm>
-#include <zmq.hpp>
 
 #include "core/base/error.hpp"
 
@@ -26,24 +25,22 @@ bool is_counted(const Frames& frames) {
 
 }  // namespace
 
-HostDoor::HostDoor(zmq::context_t& context, Ends ends)
-    : context_(context), ends_(std::move(ends)), silence_(shortest_silence) {
-    if (!ends_.listen.empty()) {
+HostDoor::HostDoor(const SocketContext& context, Options options)
+    : context_(context), options_(std::move(options)), silence_(shortest_silence) {
+    if (!options_.listen.empty()) {
         keeper_.emplace(context_);
-        port_ = std::make_unique<zmq::socket_t>(door_socket(context_));
+        port_.emplace(door_socket(context_));
         try {
             keeper_->guard(*port_);
-            port_->bind(ends_.listen);
-        } catch (const zmq::error_t& error) {
-            throw Error(ends_.listen, std::string("can't listen there: ") + error.what());
+            port_->bind(options_.listen);
+        } catch (const SocketError& error) {
+            throw Error(options_.listen, std::string("can't listen there: ") + error.what());
         }
     }
-    if (!ends_.join.empty()) dial(std::chrono::steady_clock::now());
+    if (!options_.join.empty()) dial(std::chrono::steady_clock::now());
 }
 
-HostDoor::~HostDoor() = default;
-
-std::string HostDoor::endpoint() const { return port_ ? port_->get(zmq::sockopt::last_endpoint) : std::string(); }
+std::string HostDoor::endpoint() const { return port_ ? port_->endpoint() : std::string(); }
 
 void HostDoor::dial(Time now) {
     launcher_.reset();  // first: there may be no descriptors for both
@@ -51,10 +48,10 @@ void HostDoor::dial(Time now) {
     heard_ = dialled_ = now;
     next_join_ = {};
     try {
-        launcher_ = std::make_unique<zmq::socket_t>(asking_socket(context_, ends_.join));
-    } catch (const zmq::error_t& error) {
-        if (error.num() == EMFILE || error.num() == ENFILE) return;  // later, then
-        throw Error(ends_.join, std::string("can't be dialled: ") + error.what());
+        launcher_.emplace(asking_socket(context_, options_.join));
+    } catch (const SocketError& error) {
+        if (error.out_of_descriptors()) return;  // later, then
+        throw Error(options_.join, std::string("can't be dialled: ") + error.what());
     }
 }
 
@@ -66,19 +63,19 @@ void HostDoor::take_challenge(const Frames& frames) {
     const auto fields = packet::unpack_fields(bytes_of(frames[2]));
     if (!fields || fields->text("challenge").empty()) return;
     if (fields->number("turned_down") && !std::exchange(turned_down_, true))
-        ends_.log("the launcher at " + ends_.join +
-                  " does not let this host in: its user has another pass (give both the same file, --pass)");
+        options_.log("the launcher at " + options_.join +
+                     " does not let this host in: its user has another pass (give both the same file, --pass)");
     if (challenge_ == fields->text("challenge")) return;
     challenge_ = fields->text("challenge");
     next_join_ = {};
 }
 
 std::optional<Frames> HostDoor::from_launcher(Time now) {
-    while (auto frames = receive_frames(*launcher_)) {
+    while (auto frames = launcher_->receive()) {
         heard_ = now;
         silence_ = shortest_silence;
         if (frames->size() == 1 && is_empty(*frames)) next_join_ = {};  // a new connection: it does not know us yet
-        frames->insert(frames->begin(), frame_of(launcher_route));
+        frames->emplace(frames->begin(), launcher_route);
         take_challenge(*frames);
         return frames;
     }
@@ -93,30 +90,26 @@ std::optional<Frames> HostDoor::receive(Time now) {
 
 std::optional<Frames> HostDoor::from_anyone(Time now) {
     if (port_)
-        if (auto frames = receive_frames(*port_)) return frames;
+        if (auto frames = port_->receive()) return frames;
     return launcher_ ? from_launcher(now) : std::nullopt;
 }
 
 bool HostDoor::send(Frames& frames) {
     if (text_of(frames.front()) == counted_ && is_counted(frames)) ++tally_.told;  // even if it is lost right here
-    if (text_of(frames.front()) != launcher_route) return port_ && send_frames(*port_, frames);
+    if (text_of(frames.front()) != launcher_route) return port_ && port_->send(frames);
     frames.erase(frames.begin());
-    return launcher_ && send_frames(*launcher_, frames);
-}
-
-bool HostDoor::send(const std::string& route, Frames& frames) {
-    frames.insert(frames.begin(), frame_of(route));
-    return send(frames);
+    return launcher_ && launcher_->send(frames);
 }
 
 void HostDoor::send(const std::string& route, Type type, std::uint64_t run, const Fields& fields) {
     Frames frames;
+    frames.emplace_back(route);
     append(frames, packet::pack(type, run, fields));
-    send(route, frames);
+    send(frames);
 }
 
 void HostDoor::keep_in_touch(Time now) {
-    if (ends_.join.empty()) return;
+    if (options_.join.empty()) return;
     if (now - heard_ > silence_) {
         // Half of the connection may be gone without a word.
         silence_ = std::min<std::chrono::milliseconds>(2 * silence_, longest_silence);
@@ -124,13 +117,12 @@ void HostDoor::keep_in_touch(Time now) {
     }
     if (!launcher_ || now < next_join_) return;
     next_join_ = now + join_interval;
-    const Pass::Claim claim{ends_.name, ends_.process, endpoint()};
+    const Pass::Claim claim{options_.name, options_.process, endpoint()};
     Fields fields;
     fields.set("name", claim.name).set("process", claim.process).set("endpoint", claim.endpoint);
-    if (!challenge_.empty() && ends_.pass) fields.set("proof", ends_.pass->proof(challenge_, claim));
-    Frames frames;
-    append(frames, packet::pack(Type::join, 0, fields));
-    if (!send_frames(*launcher_, frames)) next_join_ = now + 20ms;
+    if (!challenge_.empty() && options_.pass) fields.set("proof", options_.pass->proof(challenge_, claim));
+    auto frames = frames_of(packet::pack(Type::join, 0, fields));
+    if (!launcher_->send(frames)) next_join_ = now + 20ms;
 }
 
 void HostDoor::count(const std::string& route) {
@@ -143,11 +135,10 @@ void HostDoor::let_in() {
     if (keeper_) keeper_->tick();
 }
 
-std::vector<zmq::socket_t*> HostDoor::sockets() {
-    auto sockets = keeper_ ? keeper_->sockets() : std::vector<zmq::socket_t*>{};
-    for (auto* socket : {port_.get(), launcher_.get()})
-        if (socket) sockets.push_back(socket);
-    return sockets;
+void HostDoor::watch(Poll& poll) const {
+    if (keeper_) keeper_->watch(poll);
+    for (const auto* socket : {&port_, &launcher_})
+        if (*socket) poll.add(**socket);
 }
 
 }  // namespace lightnet

@@ -4,15 +4,13 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "transport/wire/packet.hpp"
 #include "transport/wire/pass.hpp"
 #include "transport/zmq/doorkeeper.hpp"
-#include "transport/zmq/sockets.hpp"
+#include "transport/zmq/socket.hpp"
 
 namespace lightnet {
 
@@ -20,7 +18,7 @@ namespace lightnet {
 class HostDoor {
 public:
     using Time = std::chrono::steady_clock::time_point;
-    struct Ends {
+    struct Options {
         std::string listen;  // empty: nobody can call this host
         std::string join;    // of a launcher; empty: none is dialled
         std::string name;    // under which it joins
@@ -29,14 +27,12 @@ public:
         std::function<void(const std::string&)> log = [](const std::string&) {};
     };
     /// Throws Error when the port can't be had.
-    HostDoor(zmq::context_t& context, Ends ends);
-    ~HostDoor();
+    HostDoor(const SocketContext& context, Options options);
 
     /// Where it listens, with the port that the system chose; empty: nowhere.
     std::string endpoint() const;
     /// What arrived, if anything.
     std::optional<Frames> receive(Time now);
-    bool send(const std::string& route, Frames& frames);
     void send(const std::string& route, packet::Type type, std::uint64_t run, const packet::Fields& fields);
     /// Route first.
     bool send(Frames& frames);
@@ -44,14 +40,14 @@ public:
     void keep_in_touch(Time now);
     /// Lets in who waits, as long as there is room for connections. To be called before receive().
     void let_in();
-    std::vector<zmq::socket_t*> sockets();
+    void watch(Poll& poll) const;
 
-    /// How many messages came and went on the line to the launcher of the run; see packet::is_counted().
+    /// How many messages came and went on the connection to the launcher of the run; see packet::is_counted().
     struct Tally {
-        std::uint64_t line = 0;  // another number: another line, counted from nothing
+        std::uint64_t line = 0;  // another number: another connection, counted from nothing
         std::uint64_t taken = 0, told = 0;
     };
-    /// From now on this is the line.
+    /// From now on this is that connection.
     void count(const std::string& route);
     const Tally& tally() const { return tally_; }
 
@@ -61,10 +57,10 @@ private:
     std::optional<Frames> from_launcher(Time now);
     std::optional<Frames> from_anyone(Time now);
 
-    zmq::context_t& context_;
-    Ends ends_;
+    const SocketContext& context_;
+    Options options_;
     std::optional<Doorkeeper> keeper_;
-    std::unique_ptr<zmq::socket_t> port_, launcher_;
+    std::optional<Socket> port_, launcher_;
     std::string challenge_;  // of the launcher that was dialled
     bool turned_down_ = false;
     Time heard_{}, dialled_{}, next_join_{};

@@ -13,15 +13,11 @@
 #include "transport/daemon/host.hpp"
 #include "transport/daemon/host_door.hpp"
 #include "transport/daemon/hosted_run.hpp"
-#include "transport/daemon/peer_lines.hpp"
+#include "transport/daemon/peer_connections.hpp"
 #include "transport/store/blob_cache.hpp"
 #include "transport/wire/machine.hpp"
 #include "transport/wire/packet.hpp"
 #include "transport/zmq/gateway.hpp"
-
-namespace zmq {
-class context_t;
-}
 
 namespace lightnet {
 
@@ -33,10 +29,10 @@ struct Host::Service {
     BlobCache cache;
     Machine machine = this_machine();
     std::uint64_t process = process_number();
-    std::unique_ptr<zmq::context_t> context;
+    std::shared_ptr<const SocketContext> context = std::make_shared<const SocketContext>();
     HostDoor door;
     std::uint64_t broken_packets = 0;
-    // A job that is being read, beside the thread that serves: whoever sent it may be nobody's friend.
+    // A job that is being read, in the background: whoever sent it may be nobody's friend.
     struct Arrival {
         Job job;
         Plan plan;
@@ -49,8 +45,8 @@ struct Host::Service {
     };
     std::optional<Arriving> arriving;
     std::unique_ptr<HostedRun> run;
-    std::unique_ptr<WayOut> way_out;   // of the run
-    std::unique_ptr<HostLines> lines;  // to the other hosts of the run
+    std::optional<Gateway> gateway;        // of the run
+    std::optional<PeerConnections> peers;  // to the other hosts of the run
     // A run that has ended, and whose threads may take a while to.
     struct Ending {
         std::uint64_t id = 0;
@@ -64,17 +60,16 @@ struct Host::Service {
     std::uint64_t given = 0, answered = 0;  // asks of others
     Time needed{};                          // last, by anyone
 
-    // On the way out: told to stop, the launcher gives no more work, what was given is answered, it says farewell.
+    // Leaving: told to stop, the launcher gives no more work, what was given is answered, it says farewell.
     struct Leaving {
         Time since, last_work;
         bool known = false;  // to the launcher
         std::optional<Time> farewell;
     };
     std::optional<Leaving> leaving;
-    Beside beside;  // last: what it does looks at the rest
+    BackgroundWork background;  // last: what it does looks at the rest
 
     Service(Options given, const Registry& kinds);
-    ~Service();
     void arrived(Frames frames);
     void damaged(const std::string& route);
     void work(const packet::Header& header, Frames frames);
@@ -100,14 +95,14 @@ struct Host::Service {
     void advance();
     // Who has something to be read. Looking at an empty socket costs a system call, so only these are looked at.
     struct Readable {
-        bool door = false, lines = false, way_out = false;
+        bool door = false, peers = false, gateway = false;
         bool news = false;  // of the run
         std::vector<std::uint32_t> places;
     };
     Readable wait();
-    void pass_replies(std::uint32_t place);
-    void pass_asks();
-    void pass_to_launcher(Frames& frames);
+    void forward_replies(std::uint32_t place);
+    void forward_asks();
+    void forward_to_launcher(Frames& frames);
     void leave(Time now);
     bool gone(Time now);
 };

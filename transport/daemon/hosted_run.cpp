@@ -2,27 +2,25 @@
 
 #include <algorithm>
 #include <chrono>
-#include <zmq.hpp>
 
 #include "core/base/error.hpp"
 
 namespace lightnet {
 
-HostedRun::HostedRun(zmq::context_t& context, BlobCache& cache, const Registry& registry, Given given)
-    : context_(context), cache_(cache), registry_(registry), given_(std::move(given)) {
-    use(given_.plan);
-    looking_ = beside_.start([this] {
+HostedRun::HostedRun(std::shared_ptr<const SocketContext> context, BlobCache& cache, const Registry& registry,
+                     Assignment assignment)
+    : context_(std::move(context)), cache_(cache), registry_(registry), assignment_(std::move(assignment)) {
+    use(assignment_.plan);
+    looking_ = background_.start([this] {
         std::set<Hash> missing;
-        for (const auto& file : given_.job.files)
+        for (const auto& file : assignment_.job.files)
             if (!cache_.has(file.hash)) missing.insert(file.hash);
         return missing;
     });
 }
 
-HostedRun::~HostedRun() = default;
-
 std::uint64_t HostedRun::size_of(const Hash& hash) const {
-    for (const auto& file : given_.job.files)
+    for (const auto& file : assignment_.job.files)
         if (file.hash == hash) return file.size;
     return 0;
 }
@@ -30,7 +28,7 @@ std::uint64_t HostedRun::size_of(const Hash& hash) const {
 void HostedRun::expect(const Hash& hash, std::uint64_t size) {
     if (results_->in_memory(hash)) return found_.push_back({hash, true});
     expected_[hash].size = size;
-    if (!looked_for_.contains(hash)) looked_for_[hash] = beside_.start([this, hash] { return cache_.read(hash); });
+    if (!looked_for_.contains(hash)) looked_for_[hash] = background_.start([this, hash] { return cache_.read(hash); });
 }
 
 std::vector<std::pair<Hash, bool>> HostedRun::found() {
@@ -77,7 +75,7 @@ bool HostedRun::take_blob(const packet::Piece& piece) {
     if (state_ == State::looking) return false;
     if (!missing_.contains(hash)) return true;
     auto found = incoming_.find(hash);
-    // a second one for the same file would take its first chunks away
+    // a second one for the same file would take its first pieces away
     if (found == incoming_.end()) found = incoming_.emplace(hash, cache_.receive(hash)).first;
     auto& blob = found->second;
     if (offset != blob.size()) return offset < blob.size();  // pieces come in order; some may come again
@@ -97,26 +95,28 @@ bool HostedRun::advance() {
         missing_ = looking_.get();
         state_ = State::fetching;
     } else if (state_ == State::fetching && missing_.empty()) {
-        building_ = beside_.start([this] {
-            BlobFiles files(cache_, given_.job.files);
-            return build_network(given_.job, registry_, files,
+        building_ = background_.start([this] {
+            BlobFiles files(cache_, assignment_.job.files);
+            return build_network(assignment_.job, registry_, files,
                                  [results = results_](const Hash& hash) { return results->find(hash); });
         });
         state_ = State::building;
     } else if (state_ == State::building && building_.wait_for(now) == std::future_status::ready) {
-        places_ = std::make_unique<PlaceThreads>(context_, building_.get(), given_.id, given_.me, given_.places,
-                                                 given_.plan, given_.job.rules);
+        auto network = building_.get();
+        const auto& [id, me, places, plan, job] = assignment_;
+        transport_ = std::make_unique<ZmqPlaceTransport>(context_, id, me, places);
+        places_ = std::make_unique<PlaceThreads>(*transport_, std::move(network), id, me, places, plan, job.rules);
         state_ = State::starting;
     } else if (places_ && places_->ready() && state_ == State::starting) {  // throws what a place has died of
-        places_->use(given_.plan);                                          // it may have changed meanwhile
+        places_->use(assignment_.plan);                                     // it may have changed meanwhile
         state_ = State::serving;
     }
     return state_ != before;
 }
 
 void HostedRun::use(const Plan& plan) {
-    if (!fits(plan, given_.job.graph)) throw Error("the plan does not fit the graph");
-    given_.plan = plan;
+    if (!fits(plan, assignment_.job.graph)) throw Error("the plan does not fit the graph");
+    assignment_.plan = plan;
     if (serving()) places_->use(plan);
 }
 
@@ -128,6 +128,7 @@ Counters HostedRun::stop() {
     if (!places_) return {};
     auto counters = places_->stop();
     places_.reset();
+    transport_.reset();
     state_ = State::fetching;
     return counters;
 }
@@ -150,11 +151,12 @@ const char* HostedRun::words() const {
 
 std::string HostedRun::nodes() const {
     std::string names;
-    for (std::size_t node = 0; node < given_.plan.places_of.size(); ++node) {
-        const auto& holders = given_.plan.places_of[node];
-        const auto here = std::count_if(holders.begin(), holders.end(),
-                                        [&](auto place) { return given_.plan.places[place].host == given_.me; });
-        if (here > 0) names += (names.empty() ? "" : " ") + given_.job.graph.nodes[node].name;
+    for (std::size_t node = 0; node < assignment_.plan.places_of.size(); ++node) {
+        const auto& holders = assignment_.plan.places_of[node];
+        const auto here = std::count_if(holders.begin(), holders.end(), [&](auto place) {
+            return assignment_.plan.places[place].host == assignment_.me;
+        });
+        if (here > 0) names += (names.empty() ? "" : " ") + assignment_.job.graph.nodes[node].name;
         if (here > 1) names += "×" + std::to_string(here);
     }
     return names;

@@ -17,26 +17,27 @@
 #include "transport/store/blob_cache.hpp"
 #include "transport/store/results.hpp"
 #include "transport/wire/packet.hpp"
+#include "transport/zmq/zmq_place_transport.hpp"
 
 namespace lightnet {
 
 /// Looks for the files of a job in the cache, takes in those that are missing, builds the network, and starts the
-/// places. Used by one thread, which must stay free for heartbeats: what takes time happens beside it.
+/// places. Used by one thread, which must stay free for heartbeats: what takes time happens in the background.
 class HostedRun {
 public:
-    struct Given {
+    struct Assignment {
         std::uint64_t id = 0;
         std::string me;  // this host, as the plan calls it
         std::uint32_t places = 1;
         Plan plan;
         Job job;
     };
-    HostedRun(zmq::context_t& context, BlobCache& cache, const Registry& registry, Given given);
-    ~HostedRun();
+    HostedRun(std::shared_ptr<const SocketContext> context, BlobCache& cache, const Registry& registry,
+              Assignment assignment);
 
     enum class State { looking, fetching, building, starting, serving };
 
-    std::uint64_t id() const { return given_.id; }
+    std::uint64_t id() const { return assignment_.id; }
     State state() const { return state_; }
     bool serving() const { return state_ == State::serving; }
     /// Files that the cache does not have; known when it no longer looks.
@@ -50,9 +51,9 @@ public:
     /// What has become of bytes that were expected, since the last call: here, or lacking.
     std::vector<std::pair<Hash, bool>> found();
     /// To be polled: readable when advance() or found() may have news.
-    int news() const { return beside_.handle(); }
+    int news() const { return background_.handle(); }
     void clear_news() {
-        beside_.clear();
+        background_.clear();
         if (places_) places_->clear_news();
     }
     /// Hosts that failed at what places of this run had asked them, since the last call.
@@ -62,6 +63,8 @@ public:
     bool advance();
     /// Null until the places have been started.
     PlaceThreads* places() { return places_.get(); }
+    /// The way to them; null as long.
+    ZmqPlaceTransport* transport() { return transport_.get(); }
     void use(const Plan& plan);
     /// Its threads end when they have done what they are at.
     void begin_to_stop();
@@ -82,10 +85,10 @@ private:
     std::uint64_t size_of(const Hash& hash) const;
     void take_result(const packet::Piece& piece, IncomingResult& result);
 
-    zmq::context_t& context_;
+    std::shared_ptr<const SocketContext> context_;
     BlobCache& cache_;
     const Registry& registry_;
-    Given given_;
+    Assignment assignment_;
     State state_ = State::looking;
     std::future<std::set<Hash>> looking_;
     std::set<Hash> missing_;
@@ -95,8 +98,9 @@ private:
     std::map<Hash, std::future<Bytes>> looked_for_;
     std::map<Hash, IncomingResult> expected_;
     std::vector<std::pair<Hash, bool>> found_;
+    std::unique_ptr<ZmqPlaceTransport> transport_;
     std::unique_ptr<PlaceThreads> places_;
-    Beside beside_;  // last: what it does looks at the rest
+    BackgroundWork background_;  // last: what it does looks at the rest
 };
 
 }  // namespace lightnet

@@ -1,8 +1,7 @@
-#include "transport/daemon/peer_lines.hpp"
+#include "transport/daemon/peer_connections.hpp"
 
 #include <algorithm>
 #include <utility>
-#include <zmq.hpp>
 
 #include "transport/wire/relay_address.hpp"
 
@@ -14,89 +13,85 @@ constexpr auto look_interval = std::chrono::milliseconds(200);
 
 }  // namespace
 
-HostLines::HostLines(zmq::context_t& context, std::string me, Takers takers)
-    : context_(context), me_(std::move(me)), takers_(std::move(takers)) {}
+PeerConnections::PeerConnections(const SocketContext& context, std::string me, Handlers handlers)
+    : context_(context), me_(std::move(me)), handlers_(std::move(handlers)) {}
 
-HostLines::~HostLines() = default;
-
-HostLines::Line& HostLines::line_to(const std::string& host) {
-    const auto [found, fresh] = lines_.try_emplace(host);
-    auto& line = found->second;
-    if (!fresh) return line;
+PeerConnections::Peer& PeerConnections::peer(const std::string& host) {
+    const auto [found, fresh] = peers_.try_emplace(host);
+    auto& to = found->second;
+    if (!fresh) return to;
     try {
-        if (calls_directly(me_, host)) line.socket = std::make_unique<zmq::socket_t>(asking_socket(context_, host));
-    } catch (const zmq::error_t&) {  // out of descriptors, say: the launcher has a line already
+        if (calls_directly(me_, host)) to.socket.emplace(asking_socket(context_, host));
+    } catch (const SocketError&) {  // out of descriptors, say: the launcher has a connection already
     }
-    line.relayed = !line.socket;
-    return line;
+    to.relayed = !to.socket;
+    return to;
 }
 
-bool HostLines::send(Line& line, Frames& frames) {
+bool PeerConnections::send(Peer& to, Frames& frames) {
     Frames packet;
-    packet.push_back(frame_of(seal({me_, text_of(frames[0])})));
-    for (const auto i : {2u, 3u}) packet.emplace_back().copy(frames[i]);
-    return send_frames(*line.socket, packet);
+    packet.emplace_back(seal({me_, text_of(frames[0])}));
+    for (const auto i : {2u, 3u}) packet.push_back(frames[i].shared());
+    return to.socket->send(packet);
 }
 
-void HostLines::ask(Frames frames) {
-    auto& line = line_to(text_of(frames[1]));
-    if (line.relayed) return takers_.launcher(frames);
-    if (!line.waiting.empty() || !send(line, frames)) line.waiting.push_back(std::move(frames));
+void PeerConnections::ask(Frames frames) {
+    auto& to = peer(text_of(frames[1]));
+    if (to.relayed) return handlers_.launcher(frames);
+    if (!to.waiting.empty() || !send(to, frames)) to.waiting.push_back(std::move(frames));
 }
 
-void HostLines::tick(Time now) {
+void PeerConnections::tick(Time now) {
     const bool look = now - looked_ >= look_interval;
     if (look) looked_ = now;
-    for (auto& [host, line] : lines_) {
-        if (!line.socket) continue;
-        while (auto frames = receive_frames(*line.socket)) take(host, line, *frames);
-        while (!line.relayed && !line.waiting.empty() && send(line, line.waiting.front())) line.waiting.pop_front();
-        if (look && !line.relayed) look_whether_reachable(host, line, now);
+    for (auto& [host, to] : peers_) {
+        if (!to.socket) continue;
+        while (auto frames = to.socket->receive()) take(host, to, *frames);
+        while (!to.relayed && !to.waiting.empty() && send(to, to.waiting.front())) to.waiting.pop_front();
+        if (look && !to.relayed) look_whether_reachable(host, to, now);
     }
 }
 
 // [address][header][body]: a reply. Empty ones: the ask arrived damaged, or this is a new connection.
-void HostLines::take(const std::string& host, Line& line, Frames& frames) {
+void PeerConnections::take(const std::string& host, Peer& to, Frames& frames) {
     if (is_empty(frames)) {
-        const bool expected = !std::exchange(line.greeted, true);
-        const bool was_relayed = std::exchange(line.relayed, false);
-        line.unreachable.reset();
-        if (!expected || was_relayed) takers_.say_again(host);
+        const bool expected = !std::exchange(to.greeted, true);
+        const bool was_relayed = std::exchange(to.relayed, false);
+        to.unreachable.reset();
+        if (!expected || was_relayed) handlers_.request_resend(host);
         return;
     }
     const auto address = frames.size() == 3 ? unseal(bytes_of(frames[0])) : std::nullopt;
-    if (!address || frames[1].size() == 0) return takers_.say_again(host);
+    if (!address || frames[1].size() == 0) return handlers_.request_resend(host);
     frames.erase(frames.begin());
-    takers_.reply(address->place, frames);
+    handlers_.reply(address->place, frames);
 }
 
-void HostLines::look_whether_reachable(const std::string& host, Line& line, Time now) {
-    if (line.socket->get(zmq::sockopt::events) & ZMQ_POLLOUT) return line.unreachable.reset();
-    if (!line.unreachable) line.unreachable = now;
-    if (now - *line.unreachable < unreachable_after) return;
-    line.relayed = true;
-    line.waiting.clear();  // places keep what is not answered
-    takers_.say_again(host);
+void PeerConnections::look_whether_reachable(const std::string& host, Peer& to, Time now) {
+    if (to.socket->can_send()) return to.unreachable.reset();
+    if (!to.unreachable) to.unreachable = now;
+    if (now - *to.unreachable < unreachable_after) return;
+    to.relayed = true;
+    to.waiting.clear();  // places keep what is not answered
+    handlers_.request_resend(host);
 }
 
-void HostLines::use(const Plan& plan) {
-    std::erase_if(lines_, [&](const auto& line) {
+void PeerConnections::use(const Plan& plan) {
+    std::erase_if(peers_, [&](const auto& peer) {
         return std::none_of(plan.places.begin(), plan.places.end(),
-                            [&](const PlaceAt& place) { return place.host == line.first; });
+                            [&](const PlaceAt& place) { return place.host == peer.first; });
     });
 }
 
-bool HostLines::due(Time now) const { return waiting() || now - looked_ >= look_interval; }
+bool PeerConnections::due(Time now) const { return waiting() || now - looked_ >= look_interval; }
 
-bool HostLines::waiting() const {
-    return std::any_of(lines_.begin(), lines_.end(), [](const auto& line) { return !line.second.waiting.empty(); });
+bool PeerConnections::waiting() const {
+    return std::any_of(peers_.begin(), peers_.end(), [](const auto& peer) { return !peer.second.waiting.empty(); });
 }
 
-std::vector<zmq::socket_t*> HostLines::sockets() {
-    std::vector<zmq::socket_t*> sockets;
-    for (auto& [host, line] : lines_)
-        if (line.socket) sockets.push_back(line.socket.get());
-    return sockets;
+void PeerConnections::watch(Poll& poll) const {
+    for (const auto& [host, to] : peers_)
+        if (to.socket) poll.add(*to.socket);
 }
 
 }  // namespace lightnet

@@ -1,10 +1,11 @@
 #include "transport/launcher/ask_state.hpp"
 
 #include <algorithm>
-#include <zmq.hpp>
 
 #include "core/base/error.hpp"
-#include "transport/zmq/sockets.hpp"
+#include "transport/wire/packet.hpp"
+#include "transport/zmq/poll.hpp"
+#include "transport/zmq/socket.hpp"
 
 namespace lightnet {
 namespace {
@@ -15,7 +16,7 @@ using packet::Type;
 
 struct Asked {
     std::string endpoint;
-    zmq::socket_t socket;
+    Socket socket;
     bool sent = false, all = false;
     std::vector<HostAnswer> answers;
 
@@ -33,11 +34,10 @@ struct Asked {
 
     void look() {
         if (!sent) {
-            Frames frames;
-            append(frames, packet::pack(Type::status, 0, {}));
-            sent = send_frames(socket, frames);
+            auto frames = frames_of(packet::pack(Type::status, 0, {}));
+            sent = socket.send(frames);
         }
-        while (auto frames = receive_frames(socket)) {
+        while (auto frames = socket.receive()) {
             if (frames->size() != 2) continue;  // the greeting
             const auto header = packet::read_header(bytes_of((*frames)[0]), bytes_of((*frames)[1]));
             const auto fields = packet::unpack_fields(bytes_of((*frames)[1]));
@@ -51,23 +51,22 @@ struct Asked {
 }  // namespace
 
 std::vector<HostAnswer> ask_state(const std::vector<std::string>& endpoints, std::chrono::milliseconds patience) {
-    const auto its_context = make_context();
-    auto& context = *its_context;
+    const SocketContext context;
     std::vector<Asked> asked;
     for (const auto& endpoint : endpoints) {
         if (std::any_of(asked.begin(), asked.end(), [&](const auto& one) { return one.endpoint == endpoint; }))
             continue;
         try {
             asked.push_back({endpoint, asking_socket(context, endpoint), false, false, {}});
-        } catch (const zmq::error_t& error) {
+        } catch (const SocketError& error) {
             throw Error(endpoint, std::string("can't be called: ") + error.what());
         }
     }
     const auto end = Clock::now() + patience;
     while (Clock::now() < end && !std::all_of(asked.begin(), asked.end(), [](const auto& one) { return one.all; })) {
-        std::vector<zmq_pollitem_t> items;
-        for (auto& one : asked) items.push_back(readable(one.socket));
-        poll(items, std::chrono::milliseconds(5));
+        Poll poll;
+        for (const auto& one : asked) poll.add(one.socket);
+        poll.wait(std::chrono::milliseconds(5));
         for (auto& one : asked) one.look();
     }
     std::vector<HostAnswer> answers;

@@ -56,7 +56,7 @@ std::map<std::string, std::string> Cluster::missing() const {
     for (const auto& name : s.options.expected)
         if (!s.find(name)) missing[name] = "has not joined";
     for (const auto& link : s.links)
-        if (!link->takes_part()) missing[link->name()] = link->trouble();
+        if (!link->takes_part()) missing[link->title()] = link->trouble();
     return missing;
 }
 
@@ -70,7 +70,7 @@ Counters Cluster::finish(std::chrono::milliseconds patience) {
             open.insert(link.get());
         }
     const auto end = Clock::now() + patience;
-    const HostLink::Takers nobody{[](Message) {}, [](HostLink&, Frames&) {}};
+    const HostLink::Handlers nobody{[](Message) {}, [](HostLink&, Frames&) {}};
     while (!open.empty() && Clock::now() < end) {
         links_->take_joiners(Clock::now());
         for (auto* link : std::set(open)) {
@@ -85,13 +85,11 @@ Counters Cluster::finish(std::chrono::milliseconds patience) {
     }
     Counters sum = links_->counters;
     sum += links_->ended;
-    if (links_->own) sum += links_->own->stop();
-    links_->own.reset();
+    for (auto* link : open) sum += link->wait_for_end();
     return sum;
 }
 
 bool Cluster::ask(const PlaceAt& to, Message& message) {
-    if (to.host.empty()) return links_->own && links_->own->ask(message, to.index);
     auto* link = links_->find(to.host);
     // A host that leaves gets no more work; but who waits there for a lock is to get it.
     const bool step = std::holds_alternative<Questions<Step>>(message.questions);
@@ -120,16 +118,15 @@ bool Cluster::take_out(const std::string& host, const std::string& why) {
 }
 
 bool Cluster::bring(const PlaceAt& to, const Hash& name, const Bytes& bytes) {
-    if (to.host.empty() || packet::goes_along(bytes)) return true;  // the former by pointer
+    if (packet::goes_along(bytes)) return true;
     auto* link = links_->find(to.host);
     return link && link->state() == State::ready && link->bring(name, bytes);
 }
 
 void Cluster::adopt(const Plan& plan) {
-    links_->in_force = to_json(plan);
+    links_->in_force = WrittenPlan{plan, to_json(plan)};
     for (auto& link : links_->links)
-        if (link->takes_part()) link->send_plan(links_->in_force);
-    if (links_->own_ready) links_->own->use(plan);
+        if (link->takes_part()) link->use(*links_->in_force);
 }
 
 const Counters& Cluster::counters() const { return links_->counters; }

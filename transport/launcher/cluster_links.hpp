@@ -12,43 +12,36 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/error.hpp"
-#include "core/run/runtime/fingerprint.hpp"
 #include "transport/launcher/cluster.hpp"
 #include "transport/launcher/host_wait.hpp"
 #include "transport/launcher/joiners.hpp"
-#include "transport/launcher/own_host.hpp"
 #include "transport/launcher/relays.hpp"
 #include "transport/launcher/remote_host.hpp"
-#include "transport/places/descriptors.hpp"
-#include "transport/zmq/sockets.hpp"
+#include "transport/zmq/socket.hpp"
 
 namespace lightnet {
 
-/// The lines to all hosts, and the places of this process; all of it belongs to the thread of the cluster.
+/// The links to all hosts, of which this process is the first if it has places; all of it belongs to the thread of the
+/// cluster.
 struct Cluster::Links {
     using Clock = std::chrono::steady_clock;
     using State = HostLink::State;
 
     Options options;
-    Told told;
-    std::unique_ptr<zmq::context_t> its_context;
-    zmq::context_t& context;
+    RunOffer offer;
+    std::shared_ptr<const SocketContext> context = std::make_shared<const SocketContext>();
     std::optional<Joiners> joiners;  // hosts that dial in
     std::vector<std::unique_ptr<HostLink>> links;
-    std::unique_ptr<OwnPlaces> own;
-    bool own_ready = false;
     std::map<std::string, State> states;  // as last told
     Plan plan;                            // proposed
-    std::string in_force;                 // the plan that hosts are to go by, as text
+    std::optional<WrittenPlan> in_force;  // that hosts are to go by
     std::deque<Message> arrived;
     std::set<std::string> turned_down;  // who wanted to join
     Counters counters, ended;
-    Relays relays{counters, ways()};
+    Relays relays{counters, relay_handlers()};
     Clock::time_point hold_until{};  // nobody begins before all are greeted: places make their nodes by the first plan
 
     explicit Links(Options given);
-    ~Links();
 
     HostLink* find(const std::string& name) const {
         for (auto& link : links)
@@ -56,10 +49,10 @@ struct Cluster::Links {
         return nullptr;
     }
     void call(const std::string& endpoint) {
-        if (!find(endpoint)) add(endpoint, std::make_unique<CalledLine>(context, endpoint));
+        if (!find(endpoint)) add(endpoint, std::make_unique<CalledConnection>(*context, endpoint));
     }
-    void add(const std::string& name, std::unique_ptr<HostLine> line) {
-        links.push_back(std::make_unique<HostLink>(told, counters, name, std::move(line)));
+    void add(const std::string& name, std::unique_ptr<HostConnection> connection) {
+        links.push_back(std::make_unique<RemoteHost>(offer, counters, name, std::move(connection)));
     }
 
     // Offers of all hosts that are at least so far, in the order in which they were named.
@@ -80,8 +73,7 @@ struct Cluster::Links {
     // Until something can be read.
     void wait(std::chrono::nanoseconds most);
     void take_joiners(Clock::time_point now);
-    Relays::Ways ways();
-    void look_at_own();
+    Relays::Handlers relay_handlers();
 
     // Hosts that became ready or are no more: a new plan is proposed, and a line said for the user.
     void tell_changes();

@@ -1,81 +1,72 @@
 #include "transport/launcher/host_connection.hpp"
 
 #include <utility>
-#include <zmq.hpp>
 
 namespace lightnet {
 
-CalledLine::CalledLine(zmq::context_t& context, std::string endpoint)
+CalledConnection::CalledConnection(const SocketContext& context, std::string endpoint)
     : context_(context), endpoint_(std::move(endpoint)) {
-    for (auto* lane : {&work_, &files_})
-        lane->socket = std::make_unique<zmq::socket_t>(asking_socket(context_, endpoint_));
+    for (auto* lane : {&work_, &files_}) lane->socket.emplace(asking_socket(context_, endpoint_));
 }
 
-CalledLine::~CalledLine() = default;
-
-bool CalledLine::open(Lane& lane) {
+bool CalledConnection::open(Lane& lane) {
     if (lane.socket) return true;
     try {
-        lane = Lane{std::make_unique<zmq::socket_t>(asking_socket(context_, endpoint_)), false};
+        lane = Lane{asking_socket(context_, endpoint_), false};
         return true;
-    } catch (const zmq::error_t&) {  // out of descriptors, say
+    } catch (const SocketError&) {  // out of descriptors, say
         return false;
     }
 }
 
-bool CalledLine::send(Frames& frames, bool files) {
+bool CalledConnection::send(Frames& frames, bool files) {
     auto& lane = files ? files_ : work_;
-    return open(lane) && send_frames(*lane.socket, frames);
+    return open(lane) && lane.socket->send(frames);
 }
 
-std::optional<Frames> CalledLine::Lane::receive() {
-    auto frames = socket ? receive_frames(*socket) : std::nullopt;
+std::optional<Frames> CalledConnection::Lane::receive() {
+    auto frames = socket ? socket->receive() : std::nullopt;
     if (frames && is_empty(*frames) && !std::exchange(greeted, true)) return receive();
     return frames;
 }
 
-std::optional<Frames> CalledLine::receive() {
+std::optional<Frames> CalledConnection::receive() {
     auto frames = work_.receive();
     return frames ? std::move(frames) : files_.receive();
 }
 
-void CalledLine::renew() {
+void CalledConnection::renew() {
     // The old ones go first: there may be no descriptors for both.
     for (auto* lane : {&work_, &files_}) *lane = {};
     for (auto* lane : {&work_, &files_}) open(*lane);
 }
 
-std::vector<zmq::socket_t*> CalledLine::sockets() {
-    std::vector<zmq::socket_t*> sockets;
-    for (auto* lane : {&work_, &files_})
-        if (lane->socket) sockets.push_back(lane->socket.get());
-    return sockets;
+void CalledConnection::watch(Poll& poll) const {
+    for (const auto* lane : {&work_, &files_})
+        if (lane->socket) poll.add(*lane->socket);
 }
 
-JoinedLine::JoinedLine(zmq::socket_t& door, std::string route) : door_(door), route_(std::move(route)) {}
-JoinedLine::~JoinedLine() = default;
-
-bool JoinedLine::send(Frames& frames, bool) {
-    frames.insert(frames.begin(), frame_of(route_));
-    if (send_frames(door_, frames)) return true;
+bool JoinedConnection::send(Frames& frames, bool) {
+    frames.emplace(frames.begin(), route_);
+    if (door_.send(frames)) return true;
     frames.erase(frames.begin());
     return false;
 }
 
-std::optional<Frames> JoinedLine::receive() {
+std::optional<Frames> JoinedConnection::receive() {
     if (arrived_.empty()) return std::nullopt;
     auto frames = std::move(arrived_.front());
     arrived_.pop_front();
     return frames;
 }
 
-void JoinedLine::renew() { arrived_.clear(); }
+void JoinedConnection::renew() { arrived_.clear(); }
 
-void JoinedLine::use(std::string route) {
+void JoinedConnection::use(std::string route) {
     route_ = std::move(route);
     arrived_.clear();
 }
 
-void JoinedLine::arrived(Frames frames) { arrived_.push_back(std::move(frames)); }
+void JoinedConnection::arrived(Frames frames) { arrived_.push_back(std::move(frames)); }
 
 }  // namespace lightnet

@@ -1,7 +1,6 @@
 #include "transport/launcher/joiners.hpp"
 
 #include <algorithm>
-#include <zmq.hpp>
 
 #include "core/base/error.hpp"
 #include "transport/launcher/cluster.hpp"
@@ -18,15 +17,9 @@ constexpr std::size_t most_joined = 4096;
 constexpr auto lease = std::chrono::milliseconds(1500);
 constexpr std::size_t longest_name = 200;
 
-std::string address_of(zmq::message_t& from) {
-    const char* address = from.gets("Peer-Address");
-    return address ? address : "";
-}
-
 // Where a host that listens on all its addresses can be called: at the one from which it dialled in.
-std::string callable(const std::string& endpoint, zmq::message_t& from) {
+std::string callable(const std::string& endpoint, const std::string& address) {
     const std::string all = "tcp://0.0.0.0:";
-    const auto address = address_of(from);
     if (!endpoint.starts_with(all) || address.empty()) return endpoint;
     return "tcp://" + address + ":" + endpoint.substr(all.size());
 }
@@ -39,31 +32,26 @@ bool is_name(const std::string& text) {
 
 }  // namespace
 
-Joiners::Joiners(zmq::context_t& context, const std::string& endpoint, Pass pass)
-    : keeper_(context), socket_(std::make_unique<zmq::socket_t>(door_socket(context))), pass_(std::move(pass)) {
+Joiners::Joiners(const SocketContext& context, const std::string& endpoint, Pass pass)
+    : keeper_(context), socket_(door_socket(context)), pass_(std::move(pass)) {
     try {
-        keeper_.guard(*socket_);
-        socket_->bind(endpoint);
-    } catch (const zmq::error_t& error) {
+        keeper_.guard(socket_);
+        socket_.bind(endpoint);
+    } catch (const SocketError& error) {
         throw Error(endpoint, std::string("can't listen there: ") + error.what());
     }
 }
 
-Joiners::~Joiners() = default;
-
-std::string Joiners::endpoint() const { return socket_->get(zmq::sockopt::last_endpoint); }
-
-std::vector<zmq::socket_t*> Joiners::sockets() {
-    auto sockets = keeper_.sockets();
-    sockets.push_back(socket_.get());
-    return sockets;
+void Joiners::watch(Poll& poll) const {
+    keeper_.watch(poll);
+    poll.add(socket_);
 }
 
-std::uint64_t Joiners::receive(const Takers& takers) {
+std::uint64_t Joiners::receive(const Handlers& handlers) {
     keeper_.tick();
     std::uint64_t broken = 0;
-    while (auto frames = receive_frames(*socket_)) {
-        if (frames->size() == 3 && control(*frames, takers)) continue;
+    while (auto frames = socket_.receive()) {
+        if (frames->size() == 3 && control(*frames, handlers)) continue;
         const auto from = by_route_.find(text_of(frames->front()));
         if (from == by_route_.end()) {
             ++broken;
@@ -72,13 +60,13 @@ std::uint64_t Joiners::receive(const Takers& takers) {
         auto& host = joined_.at(from->second);
         host.heard = Clock::now();
         frames->erase(frames->begin());
-        host.line->arrived(std::move(*frames));
+        host.connection->arrived(std::move(*frames));
     }
     return broken;
 }
 
-// What concerns the port itself. False: it is for a host's line.
-bool Joiners::control(Frames& frames, const Takers& takers) {
+// What concerns the port itself. False: it is for a host's connection.
+bool Joiners::control(Frames& frames, const Handlers& handlers) {
     const auto header = packet::peek_header(bytes_of(frames[1]));
     if (!header || (header->type != Type::join && header->type != Type::status)) return false;
     if (!packet::read_header(bytes_of(frames[1]), bytes_of(frames[2]))) return false;
@@ -86,23 +74,23 @@ bool Joiners::control(Frames& frames, const Takers& takers) {
     if (!fields) return false;
     const auto route = text_of(frames[0]);
     if (header->type == Type::status) {
-        tell_state(route, takers.hosts());
+        tell_state(route, handlers.hosts());
     } else if (const bool expected = is_expected(*fields); !expected) {
         const bool turned_down = !fields->text("proof").empty();
         send(route, Type::joined, Fields{}.set("challenge", challenge_).set("turned_down", turned_down));
         if (turned_down && is_name(fields->text("name")))
-            takers.turned_down(fields->text("name"), address_of(frames[2]));
+            handlers.turned_down(fields->text("name"), frames[2].peer_address());
         return fields->number("process") != 0;
     } else if (const auto& endpoint = fields->text("endpoint"); !endpoint.empty()) {
         if (!endpoint.starts_with("tcp://")) return false;
         try {
-            takers.call(callable(endpoint, frames[2]));
-        } catch (const zmq::error_t&) {  // not an endpoint at all
+            handlers.call(callable(endpoint, frames[2].peer_address()));
+        } catch (const SocketError&) {  // not an endpoint at all
             return false;
         }
         send(route, Type::joined, Fields{}.set("challenge", challenge_));
     } else if (fields->number("process")) {
-        join(route, *fields, takers);
+        join(route, *fields, handlers);
     } else {
         return false;
     }
@@ -114,20 +102,20 @@ bool Joiners::is_expected(const Fields& fields) const {
     return pass_.proves(challenge_, claim, fields.text("proof"));
 }
 
-void Joiners::join(const std::string& route, const Fields& fields, const Takers& takers) {
+void Joiners::join(const std::string& route, const Fields& fields, const Handlers& handlers) {
     const auto process = fields.number("process");
     send(route, Type::joined, Fields{}.set("challenge", challenge_));
     const auto name = name_for(fields.text("name"), process);
     if (!name || (!joined_.contains(*name) && joined_.size() >= most_joined)) return;
     auto& known = joined_[*name];
-    if (!known.line) {
-        auto line = std::make_unique<JoinedLine>(*socket_, route);
-        known.line = line.get();
-        takers.add(*name, std::move(line));
-    } else if (known.line->route() != route) {
-        by_route_.erase(known.line->route());
-        known.line->use(route);
-        takers.lost(*name, known.process == process ? "its connection was cut" : "it was started anew");
+    if (!known.connection) {
+        auto connection = std::make_unique<JoinedConnection>(socket_, route);
+        known.connection = connection.get();
+        handlers.add(*name, std::move(connection));
+    } else if (known.connection->route() != route) {
+        by_route_.erase(known.connection->route());
+        known.connection->use(route);
+        handlers.lost(*name, known.process == process ? "its connection was cut" : "it was started anew");
     }
     known.process = process;
     known.heard = Clock::now();
@@ -165,9 +153,9 @@ void Joiners::tell_state(const std::string& route, const std::vector<HostState>&
 
 void Joiners::send(const std::string& route, Type type, const Fields& fields) {
     Frames frames;
-    frames.push_back(frame_of(route));
+    frames.emplace_back(route);
     append(frames, packet::pack(type, 0, fields));
-    send_frames(*socket_, frames);
+    socket_.send(frames);
 }
 
 }  // namespace lightnet

@@ -23,39 +23,37 @@ struct HostState;
 /// anew from another one. One thread's.
 class Joiners {
 public:
-    struct Takers {
+    struct Handlers {
         std::function<void(const std::string& endpoint)> call;  // a host that wants to be called
-        std::function<void(const std::string& name, std::unique_ptr<JoinedLine>)> add;
+        std::function<void(const std::string& name, std::unique_ptr<JoinedConnection>)> add;
         std::function<void(const std::string& name, const std::string& why)> lost;  // what was under way to it
         std::function<std::vector<HostState>()> hosts;                              // for those who ask
         std::function<void(const std::string& name, const std::string& address)> turned_down;
     };
     /// Lets in who proves that he knows `pass`.
-    Joiners(zmq::context_t& context, const std::string& endpoint, Pass pass);
-    ~Joiners();
+    Joiners(const SocketContext& context, const std::string& endpoint, Pass pass);
 
-    std::string endpoint() const;
-    /// For polling.
-    std::vector<zmq::socket_t*> sockets();
-    /// Takes in what there is, and gives it to the lines. Returns how many packets were damaged.
-    std::uint64_t receive(const Takers& takers);
+    std::string endpoint() const { return socket_.endpoint(); }
+    void watch(Poll& poll) const;
+    /// Takes in what there is, and gives it to the connections. Returns how many packets were damaged.
+    std::uint64_t receive(const Handlers& handlers);
 
 private:
     using Time = std::chrono::steady_clock::time_point;
     struct Joined {
         std::uint64_t process = 0;
-        JoinedLine* line = nullptr;
+        JoinedConnection* connection = nullptr;
         Time heard{};
     };
-    bool control(Frames& frames, const Takers& takers);
-    void join(const std::string& route, const packet::Fields& fields, const Takers& takers);
+    bool control(Frames& frames, const Handlers& handlers);
+    void join(const std::string& route, const packet::Fields& fields, const Handlers& handlers);
     bool is_expected(const packet::Fields& fields) const;
     std::optional<std::string> name_for(std::string wanted, std::uint64_t process);
     void tell_state(const std::string& route, const std::vector<HostState>& hosts);
     void send(const std::string& route, packet::Type type, const packet::Fields& fields);
 
     Doorkeeper keeper_;
-    std::unique_ptr<zmq::socket_t> socket_;
+    Socket socket_;
     Pass pass_;
     std::string challenge_ = random_challenge();
     std::map<std::string, Joined> joined_;         // by name

@@ -1,77 +1,78 @@
 #include "transport/launcher/own_host.hpp"
 
-#include <zmq.hpp>
-
-#include "transport/places/place_threads.hpp"
-#include "transport/zmq/gateway.hpp"
+#include <utility>
 
 namespace lightnet {
 
-struct OwnPlaces::Parts {
-    WayOut door;
-    PlaceThreads places;
-    bool ready = false;
-};
-
-OwnPlaces::OwnPlaces(zmq::context_t& context, std::shared_ptr<const Network> network, std::uint64_t run,
-                     std::uint32_t count, const Plan& plan, PlaceRules rules)
-    : parts_(new Parts{{context, run}, {context, std::move(network), run, "", count, plan, rules}, false}) {}
-
-OwnPlaces::~OwnPlaces() = default;
-
-std::uint32_t OwnPlaces::count() const { return parts_->places.count(); }
-
-bool OwnPlaces::ready() {
-    parts_->places.clear_news();
-    return parts_->ready = parts_->places.ready();
+OwnHost::OwnHost(const std::shared_ptr<const SocketContext>& context, std::shared_ptr<const Network> network,
+                 std::uint64_t run, std::uint32_t places, const Plan& plan, PlaceRules rules)
+    : HostLink(""),
+      gateway_(*context, run),
+      transport_(context, run, "", places),
+      threads_(transport_, std::move(network), run, "", places, plan, rules) {
+    state_ = State::building;
+    places_ = places;
+    machine_ = this_machine();
 }
 
-void OwnPlaces::use(const Plan& plan) {
-    if (parts_->ready) parts_->places.use(plan);
+void OwnHost::watch(Poll& poll) {
+    poll.add(threads_.news());
+    gateway_.watch(poll);
+    if (state_ == State::ready) transport_.watch(poll);
 }
 
-void OwnPlaces::receive(const Takers& takers) {
-    if (!parts_->ready) return;
-    while (auto frames = parts_->door.receive()) takers.asked(*frames);
-    for (std::uint32_t place = 0; place < count(); ++place)
-        while (auto frames = receive_frames(parts_->places.to(place))) {
+bool OwnHost::receive(Time, const Handlers& handlers) {
+    threads_.clear_news();
+    if (ending_) {
+        if (threads_.over()) ended_ = threads_.stop();
+        return false;
+    }
+    for (auto& failure : threads_.failures()) failures_.push_back(std::move(failure));
+    if (!threads_.ready()) return false;
+    state_ = State::ready;
+    while (auto frames = gateway_.receive()) relay_ask(*frames, handlers);
+    for (std::uint32_t place = 0; place < places_; ++place)
+        while (auto frames = transport_.receive(place)) {
             if (frames->size() == 1)
-                takers.work(take_message(frames->front()));
-            else
-                takers.answered(*frames);
+                handlers.work(take_message(frames->front()));
+            else if (frames->size() == 3)
+                handlers.relay(*this, *frames);
         }
+    return false;
 }
 
-bool OwnPlaces::ask(Message& message, std::uint32_t place) {
-    if (!parts_->ready || place >= count()) return false;
-    Frames frames;
-    frames.push_back(frame_of(std::move(message)));
-    if (send_frames(parts_->places.to(place), frames)) return true;
+// [place][host][header][body], for another host.
+void OwnHost::relay_ask(Frames& frames, const Handlers& handlers) {
+    Frames relayed;
+    relayed.emplace_back(seal({text_of(frames[1]), text_of(frames[0])}));
+    for (const auto i : {2u, 3u}) relayed.push_back(std::move(frames[i]));
+    handlers.relay(*this, relayed);
+}
+
+bool OwnHost::send(Message& message, std::uint32_t place) {
+    if (state_ != State::ready || place >= places_) return false;
+    auto frames = frames_of(std::move(message));
+    if (transport_.forward(place, frames)) return true;
     message = take_message(frames[0]);
     return false;
 }
 
-bool OwnPlaces::pass_ask(Frames& frames, std::uint32_t place) {
-    return parts_->ready && place < count() && send_frames(parts_->places.to(place), frames);
+bool OwnHost::forward_ask(Frames& frames, std::uint32_t place) {
+    return state_ == State::ready && transport_.forward(place, frames);
 }
 
-bool OwnPlaces::pass_reply(const std::string& place, Frames& frames) { return parts_->door.pass(place, frames); }
+bool OwnHost::forward_reply(const RelayAddress& asker, Frames& frames) {
+    frames.erase(frames.begin());
+    return gateway_.forward(asker.place, frames);
+}
 
-void OwnPlaces::say_again(const std::string& host) { parts_->door.say_again(host); }
+void OwnHost::use(const WrittenPlan& plan) {
+    if (state_ == State::ready) threads_.use(plan.plan);
+}
 
-std::vector<Failure> OwnPlaces::failures() { return parts_->places.failures(); }
-
-int OwnPlaces::news() const { return parts_->places.news(); }
-
-Counters OwnPlaces::stop() { return parts_->places.stop(); }
-
-std::uint64_t OwnPlaces::progress() const { return parts_->places.progress(); }
-
-std::vector<zmq::socket_t*> OwnPlaces::sockets() {
-    std::vector<zmq::socket_t*> sockets{&parts_->door.socket()};
-    if (parts_->ready)
-        for (std::uint32_t place = 0; place < count(); ++place) sockets.push_back(&parts_->places.to(place));
-    return sockets;
+void OwnHost::send_end() {
+    ending_ = true;
+    threads_.begin_to_stop();
 }
 
 }  // namespace lightnet

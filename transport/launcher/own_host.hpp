@@ -2,52 +2,49 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
-#include <vector>
 
 #include "core/run/prepare/assembly.hpp"
 #include "core/run/runtime/place.hpp"
-#include "transport/zmq/sockets.hpp"
+#include "transport/launcher/host_link.hpp"
+#include "transport/places/place_threads.hpp"
+#include "transport/zmq/gateway.hpp"
+#include "transport/zmq/zmq_place_transport.hpp"
 
 namespace lightnet {
 
-/// They take part like a host, called "" in plans; what goes between them and other hosts goes over the lines that the
-/// launcher has to each. One thread's.
-class OwnPlaces {
+/// They take part like a host, called "" in plans; what goes between them and other hosts goes over the connections
+/// that the launcher has to each. They can't be lost, and end with the run.
+class OwnHost final : public HostLink {
 public:
-    struct Takers {
-        std::function<void(Message)> work;      // a reply to the master
-        std::function<void(Frames&)> asked;     // [place][host][header][body]: for another host
-        std::function<void(Frames&)> answered;  // [address][header][body]: to another host
-    };
-    OwnPlaces(zmq::context_t& context, std::shared_ptr<const Network> network, std::uint64_t run, std::uint32_t count,
-              const Plan& plan, PlaceRules rules);
-    ~OwnPlaces();
+    /// `plan`: that they assemble themselves by. Throws Error when there is no room for so many places.
+    OwnHost(const std::shared_ptr<const SocketContext>& context, std::shared_ptr<const Network> network,
+            std::uint64_t run, std::uint32_t places, const Plan& plan, PlaceRules rules);
 
-    std::uint32_t count() const;
-    /// True when they serve. Throws Error when one can't be assembled, or has died.
-    bool ready();
-    void use(const Plan& plan);
-    void receive(const Takers& takers);
-    /// From the master.
-    bool ask(Message& message, std::uint32_t place);
-    /// From another host: an ask, or a reply to a place.
-    bool pass_ask(Frames& frames, std::uint32_t place);
-    bool pass_reply(const std::string& place, Frames& frames);
-    /// What was under way to this host may be lost; "": to any.
-    void say_again(const std::string& host);
-    /// Hosts that failed at what these places had asked them, since the last call.
-    std::vector<Failure> failures();
-    Counters stop();
-    std::uint64_t progress() const;
-    /// For polling.
-    std::vector<zmq::socket_t*> sockets();
-    int news() const;
+    std::string title() const override { return "this process"; }
+    std::string ready_words() const override { return "places of this process are ready"; }
+    std::uint64_t progress() const override { return threads_.progress(); }
+    void watch(Poll& poll) override;
+    void tick(Time, const ExpectedPlan&) override {}
+    bool receive(Time now, const Handlers& handlers) override;
+    bool send(Message& message, std::uint32_t place) override;
+    bool forward_ask(Frames& frames, std::uint32_t place) override;
+    bool forward_reply(const RelayAddress& asker, Frames& frames) override;
+    void request_resend() override { gateway_.request_resend(""); }
+    void use(const WrittenPlan& plan) override;
+    bool bring(const Hash&, const Bytes&) override { return true; }  // by pointer
+    bool take_out(const std::string&) override { return false; }
+    void lose(Time, const std::string&) override {}
+    void send_end() override;
+    Counters wait_for_end() override { return threads_.stop(); }
 
 private:
-    struct Parts;
-    std::unique_ptr<Parts> parts_;
+    void relay_ask(Frames& frames, const Handlers& handlers);
+
+    Gateway gateway_;
+    ZmqPlaceTransport transport_;
+    PlaceThreads threads_;
+    bool ending_ = false;
 };
 
 }  // namespace lightnet

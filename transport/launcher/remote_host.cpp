@@ -1,7 +1,6 @@
 #include "transport/launcher/remote_host.hpp"
 
 #include <algorithm>
-#include <zmq.hpp>
 
 #include "core/base/build_info.hpp"
 
@@ -16,46 +15,44 @@ constexpr auto connect_interval = std::chrono::milliseconds(5);
 constexpr auto busy_interval = std::chrono::seconds(1);
 constexpr auto ping_interval = std::chrono::milliseconds(400);
 constexpr auto lease = std::chrono::milliseconds(1500);
-constexpr auto longest_chunk = std::chrono::seconds(15);  // for a piece of a file to be taken
-constexpr std::size_t chunk_size = 256 << 10;
-constexpr std::size_t chunks_under_way = 16;
+constexpr auto longest_piece = std::chrono::seconds(15);  // for a piece of a file to be taken
+constexpr std::size_t piece_size = 256 << 10;
+constexpr std::size_t pieces_under_way = 16;
 
 }  // namespace
 
-HostLink::HostLink(const Told& told, Counters& counters, std::string name, std::unique_ptr<HostLine> line)
-    : told_(told), counters_(counters), name_(std::move(name)), line_(std::move(line)) {}
+RemoteHost::RemoteHost(const RunOffer& offer, Counters& counters, std::string name,
+                       std::unique_ptr<HostConnection> connection)
+    : HostLink(std::move(name)), offer_(offer), counters_(counters), connection_(std::move(connection)) {}
 
-HostLink::~HostLink() = default;
-
-bool HostLink::send(Type type, const Fields& fields) {
-    Frames frames;
+bool RemoteHost::send(Type type, const Fields& fields) {
     // Before it takes part it need not know the number that members of the run are known by.
     const bool member =
         type == Type::begin || type == Type::end || (state_ != State::calling && state_ != State::greeted);
-    append(frames, packet::pack(type, member ? told_.run : 0, fields));
-    const bool sent = line_->send(frames, false);
+    auto frames = frames_of(packet::pack(type, member ? offer_.run : 0, fields));
+    const bool sent = connection_->send(frames, false);
     if (sent && packet::is_counted(type)) ++sent_;
     return sent;
 }
 
-void HostLink::tick(Time now, const ExpectedPlan& plan) {
+void RemoteHost::tick(Time now, const ExpectedPlan& plan) {
     if (state_ == State::refused) return;
     if (state_ != State::calling) heartbeat(now);
     if (now >= next_call_ && state_ == State::calling) {
-        const bool connected = send(Type::hello, Fields{}.set("build", build_id()).set("isa", told_.isa));
+        const bool connected = send(Type::hello, Fields{}.set("build", build_id()).set("isa", offer_.isa));
         next_call_ = now + (connected ? call_interval : connect_interval);
     } else if (now >= next_call_ && state_ == State::greeted) {
         const auto expected = plan();
         next_call_ = now + (expected ? std::chrono::milliseconds(busy_interval) : connect_interval);
         if (expected)
             send(Type::begin,
-                 Fields{}.set("job", told_.job).set("plan", *expected).set("you", name_).set("who", told_.who));
+                 Fields{}.set("job", offer_.job).set("plan", *expected).set("you", name_).set("who", offer_.who));
     }
-    if (chunks_out_ > 0 && now - chunk_taken_ > longest_chunk) return lose(now, "it takes no files");
-    if (!chunks_.empty()) send_blobs(now);
+    if (pieces_out_ > 0 && now - piece_taken_ > longest_piece) return lose(now, "it takes no files");
+    if (!pieces_.empty()) send_blobs(now);
 }
 
-void HostLink::heartbeat(Time now) {
+void RemoteHost::heartbeat(Time now) {
     if (now - heard_ > lease) return lose(now, "it does not answer");
     if (now < next_ping_) return;
     next_ping_ = now + ping_interval;
@@ -63,69 +60,35 @@ void HostLink::heartbeat(Time now) {
 }
 
 // A flipped bit can make a message vanish without a trace.
-bool HostLink::lacks_something(const Fields& pong) {
+bool RemoteHost::lacks_something(const Fields& pong) {
     const Between now{pong.number("line"), pong.number("taken") - pong.number("sent"), pong.number("told") - received_};
     if (!between_ || between_->line != now.line) between_ = now;
     return *between_ != now;
 }
 
-std::string HostLink::trouble() const {
-    if (busy()) return "is busy: " + reason_;
-    if (!reason_.empty()) return reason_;
-    switch (state_) {
-        case State::sending:
-            return "takes in files";
-        case State::building:
-            return "builds";
-        case State::greeted:
-            return "looks at the job";
-        default:
-            return "does not answer";
-    }
-}
-
-std::string HostLink::words() const {
-    switch (state_) {
-        case State::calling:
-            return reason_.empty() ? "does not answer" : "is lost: " + reason_;
-        case State::greeted:
-            return reason_.empty() ? "is greeted" : "is busy: " + reason_;
-        case State::sending:
-            return "takes in files";
-        case State::building:
-            return "builds";
-        case State::ready:
-            return "is ready";
-        case State::leaving:
-            return "leaves";
-        case State::refused:
-            return "takes no part: " + reason_;
-    }
-    return {};
-}
-
-void HostLink::take_out(const std::string& why) {
+bool RemoteHost::take_out(const std::string& why) {
     if (state_ != State::calling) send_end();
     state_ = State::refused;
     reason_ = why;
-    chunks_.clear();
+    pieces_.clear();
     brought_.clear();
+    return true;
 }
 
-void HostLink::lose(Time now, const std::string& why) {
+void RemoteHost::lose(Time now, const std::string& why) {
     state_ = State::calling;
     reason_ = why;
     next_call_ = now;
-    chunks_.clear();
-    chunks_out_ = 0;
+    pieces_.clear();
+    pieces_out_ = 0;
     brought_.clear();
     between_.reset();
     arrived_ = sent_;
-    line_->renew();
+    connection_->renew();
 }
 
-bool HostLink::receive(Time now, const Takers& takers) {
-    auto frames = line_->receive();
+bool RemoteHost::receive(Time now, const Handlers& handlers) {
+    auto frames = connection_->receive();
     if (!frames) return false;
     if (is_empty(*frames)) {
         if (state_ != State::calling && state_ != State::refused) lose(now, "its connection was cut");
@@ -135,7 +98,7 @@ bool HostLink::receive(Time now, const Takers& takers) {
         heard_ = now;
         const auto passing = packet::peek_header(bytes_of((*frames)[1]));
         received_ += passing && packet::is_counted(passing->type);
-        takers.passing_by(*this, *frames);
+        handlers.relay(*this, *frames);
         return true;
     }
     if (frames->size() != 2) {
@@ -152,14 +115,14 @@ bool HostLink::receive(Time now, const Takers& takers) {
     if (packet::is_counted(header->type)) ++received_;
     if (header->type < Type::hello) {
         counters_.bytes += header_bytes.size() + body.size();
-        if (auto message = packet::unpack(header_bytes, body)) takers.work(std::move(*message));
+        if (auto message = packet::unpack(header_bytes, body)) handlers.work(std::move(*message));
     } else if (const auto fields = packet::unpack_fields(body)) {
         control(header->type, *fields, now);
     }
     return true;
 }
 
-void HostLink::damaged(Time now, std::span<const std::byte> header) {
+void RemoteHost::damaged(Time now, std::span<const std::byte> header) {
     ++counters_.broken_packets;
     const auto theirs = packet::claimed_version(header);
     if (state_ == State::calling && theirs && *theirs != packet::version) {
@@ -171,7 +134,7 @@ void HostLink::damaged(Time now, std::span<const std::byte> header) {
     }
 }
 
-void HostLink::control(Type type, const Fields& fields, Time now) {
+void RemoteHost::control(Type type, const Fields& fields, Time now) {
     switch (type) {
         case Type::welcome:
             if (state_ == State::calling) welcome(fields);
@@ -185,12 +148,12 @@ void HostLink::control(Type type, const Fields& fields, Time now) {
             if (state_ != State::greeted) return;
             reason_.clear();
             queue_blobs(fields.text("hashes"));
-            state_ = chunks_.empty() ? State::building : State::sending;
+            state_ = pieces_.empty() ? State::building : State::sending;
             return;
         case Type::blob_taken:
-            if (chunks_out_ > 0) --chunks_out_;
-            chunk_taken_ = now;
-            if (state_ == State::sending && chunks_.empty() && chunks_out_ == 0) state_ = State::building;
+            if (pieces_out_ > 0) --pieces_out_;
+            piece_taken_ = now;
+            if (state_ == State::sending && pieces_.empty() && pieces_out_ == 0) state_ = State::building;
             return;
         case Type::lacks:
             if (const auto hash = hash_from_hex(fields.text("hash")); hash && brought_.contains(*hash))
@@ -209,16 +172,16 @@ void HostLink::control(Type type, const Fields& fields, Time now) {
             state_ = State::refused;
             return;
         case Type::fault:
-            failures_.push_back({fields.text("text"), fields.text("host")});
+            failures_.push_back({fields.text("text") + " (" + name_ + " had asked it)", fields.text("host")});
             return;
         case Type::pong:
             if (state_ == State::calling || state_ == State::refused) return;
             arrived_ = fields.number("sent");
             if (fields.number("process") != process_)
                 lose(now, "it was started anew");
-            else if (state_ != State::greeted && fields.number("run") != told_.run)
+            else if (state_ != State::greeted && fields.number("run") != offer_.run)
                 lose(now, "it gave the run up");
-            else if (fields.number("run") == told_.run && lacks_something(fields))
+            else if (fields.number("run") == offer_.run && lacks_something(fields))
                 lose(now, "a message to or from it was lost");
             progress_ = fields.number("progress");
             return;
@@ -241,8 +204,8 @@ void HostLink::control(Type type, const Fields& fields, Time now) {
     }
 }
 
-void HostLink::welcome(const Fields& fields) {
-    if (fields.number("fingerprint") != told_.fingerprint) {
+void RemoteHost::welcome(const Fields& fields) {
+    if (fields.number("fingerprint") != offer_.fingerprint) {
         state_ = State::refused;
         reason_ = "it computes differently (its rays or its mathematical library give other last bits)";
         return;
@@ -253,59 +216,57 @@ void HostLink::welcome(const Fields& fields) {
     state_ = State::greeted;
 }
 
-void HostLink::queue_blobs(const std::string& hashes) {
+void RemoteHost::queue_blobs(const std::string& hashes) {
     constexpr std::size_t digits = 64;
     for (std::size_t at = 0; at + digits <= hashes.size(); at += digits) {
         const auto hash = hash_from_hex(std::string_view(hashes).substr(at, digits));
-        if (hash && told_.blobs.contains(*hash)) queue_blob(*hash);
+        if (hash && offer_.blobs.contains(*hash)) queue_blob(*hash);
     }
 }
 
-Bytes HostLink::blob(const Hash& hash) const {
-    const auto told = told_.blobs.find(hash);
-    return told != told_.blobs.end() ? told->second : brought_.at(hash).bytes;
+Bytes RemoteHost::blob(const Hash& hash) const {
+    const auto offered = offer_.blobs.find(hash);
+    return offered != offer_.blobs.end() ? offered->second : brought_.at(hash).bytes;
 }
 
-void HostLink::queue_blob(const Hash& hash) {
+void RemoteHost::queue_blob(const Hash& hash) {
     const auto bytes = blob(hash);
     if (!bytes) return;
     std::uint64_t offset = 0;
     do {
-        chunks_.push_back({hash, offset});
-        offset += chunk_size;
+        pieces_.push_back({hash, offset});
+        offset += piece_size;
     } while (offset < bytes->size());
 }
 
-bool HostLink::bring(const Hash& name, const Bytes& bytes) {
+bool RemoteHost::bring(const Hash& name, const Bytes& bytes) {
     const auto [brought, first] = brought_.try_emplace(name, Brought{bytes, false});
     if (first && !send(Type::expect, Fields{}.set("hash", to_hex(name)).set("size", bytes->size())))
         brought_.erase(brought);
     return !first && brought->second.here;
 }
 
-void HostLink::send_blobs(Time now) {
-    while (!chunks_.empty() && chunks_out_ < chunks_under_way) {
-        const auto& [hash, offset] = chunks_.front();
+void RemoteHost::send_blobs(Time now) {
+    while (!pieces_.empty() && pieces_out_ < pieces_under_way) {
+        const auto& [hash, offset] = pieces_.front();
         const auto whole = blob(hash);
         if (!whole) {  // it is there already
-            chunks_.pop_front();
+            pieces_.pop_front();
             continue;
         }
-        const auto bytes = std::span(*whole).subspan(offset, std::min<std::size_t>(chunk_size, whole->size() - offset));
-        Frames frames;
-        append(frames, packet::pack(told_.run, {hash, offset, bytes}));
-        if (!line_->send(frames, true)) return;
+        const auto bytes = std::span(*whole).subspan(offset, std::min<std::size_t>(piece_size, whole->size() - offset));
+        auto frames = frames_of(packet::pack(offer_.run, {hash, offset, bytes}));
+        if (!connection_->send(frames, true)) return;
         counters_.file_bytes += bytes.size();
-        if (chunks_out_++ == 0) chunk_taken_ = now;
-        chunks_.pop_front();
+        if (pieces_out_++ == 0) piece_taken_ = now;
+        pieces_.pop_front();
     }
 }
 
-bool HostLink::send(Message& message, std::uint32_t place) {
-    Frames frames;
-    append(frames, packet::pack(message, place));
+bool RemoteHost::send(Message& message, std::uint32_t place) {
+    auto frames = frames_of(packet::pack(message, place));
     const std::size_t size = frames[0].size() + frames[1].size();
-    if (!line_->send(frames, false)) {
+    if (!connection_->send(frames, false)) {
         counters_.refused_sends += may_be_full(sent_ - arrived_);
         return false;
     }
@@ -314,9 +275,9 @@ bool HostLink::send(Message& message, std::uint32_t place) {
     return true;
 }
 
-bool HostLink::pass(Frames& frames) {
-    const bool work = frames.size() == 3;  // or that something is to be said again
-    if (line_->send(frames, false)) {
+bool RemoteHost::forward(Frames& frames) {
+    const bool work = frames.size() == 3;  // or that something is to be sent again
+    if (connection_->send(frames, false)) {
         sent_ += work;
         return true;
     }
@@ -324,8 +285,13 @@ bool HostLink::pass(Frames& frames) {
     return false;
 }
 
-void HostLink::send_plan(const std::string& plan) { send(Type::plan, Fields{}.set("plan", plan)); }
+void RemoteHost::request_resend() {
+    auto frames = empty_message();
+    forward(frames);
+}
 
-void HostLink::send_end() { send(Type::end, {}); }
+void RemoteHost::use(const WrittenPlan& plan) { send(Type::plan, Fields{}.set("plan", plan.text)); }
+
+void RemoteHost::send_end() { send(Type::end, {}); }
 
 }  // namespace lightnet

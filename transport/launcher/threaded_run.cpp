@@ -1,32 +1,30 @@
 #include "transport/launcher/threaded_run.hpp"
 
-#include <zmq.hpp>
+#include <utility>
 
 #include "transport/places/place_threads.hpp"
-#include "transport/zmq/sockets.hpp"
-#include "transport/zmq/zmq_carrier.hpp"
 
 namespace lightnet {
 
 struct ThreadedRun::Parts {
-    std::unique_ptr<zmq::context_t> its_context = make_context(0);  // inproc needs no thread of ZeroMQ's own
-    zmq::context_t& context = *its_context;
+    std::unique_ptr<PlaceTransport> transport;
     PlaceThreads places;
-    ZmqCarrier carrier;
-
-    Parts(std::shared_ptr<const Network> network, std::uint64_t run, Plan plan, PlaceRules rules)
-        : places(context, std::move(network), run, "", static_cast<std::uint32_t>(plan.places.size()), plan, rules),
-          carrier(context, {run, "", false, 0}) {
-        places.wait_until_ready();
-    }
+    std::unique_ptr<Carrier> carrier = transport->asking_carrier();
 };
 
-ThreadedRun::ThreadedRun(std::shared_ptr<const Network> network, std::uint64_t run, Plan plan, PlaceRules rules)
-    : parts_(std::make_unique<Parts>(std::move(network), run, std::move(plan), rules)) {}
+ThreadedRun::ThreadedRun(std::shared_ptr<const Network> network, std::uint64_t run, Plan plan, PlaceRules rules,
+                         const MakePlaceTransport& make_transport) {
+    const auto count = static_cast<std::uint32_t>(plan.places.size());
+    auto transport = make_transport(run, count);
+    auto& its_transport = *transport;
+    parts_.reset(
+        new Parts{std::move(transport), {its_transport, std::move(network), run, "", count, std::move(plan), rules}});
+    parts_->places.wait_until_ready();
+}
 
 ThreadedRun::~ThreadedRun() = default;
 
-Carrier& ThreadedRun::carrier() { return parts_->carrier; }
+Carrier& ThreadedRun::carrier() { return *parts_->carrier; }
 
 void ThreadedRun::check() { parts_->places.ready(); }
 

@@ -1,29 +1,20 @@
 #include "transport/places/place_threads.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <mutex>
 #include <system_error>
 #include <thread>
 #include <utility>
-#include <zmq.hpp>
 
 #include "core/base/error.hpp"
-#include "transport/places/descriptors.hpp"
 #include "transport/places/wakeup.hpp"
-#include "transport/zmq/sockets.hpp"
-#include "transport/zmq/zmq_carrier.hpp"
 
 namespace lightnet {
-namespace {
-
-constexpr std::size_t sockets_per_place = 3;  // where it answers, its way to other hosts, and ours to it
-constexpr std::size_t other_descriptors = 8;
-
-}  // namespace
 
 struct PlaceThreads::Threads {
     enum class State { starting, serving, died, ended };
-    // What a place tells this process, without a socket: it must be able to tell that there are none left.
+    // What a place tells this process, without a message: it must be able to tell that it has no descriptors left.
     struct Life {
         std::atomic<State> state{State::starting};
         std::atomic<std::uint64_t> progress{0};
@@ -31,7 +22,7 @@ struct PlaceThreads::Threads {
         std::string died_of;
     };
 
-    zmq::context_t& context;
+    PlaceTransport& transport;
     std::shared_ptr<const Network> network;
     std::uint64_t run;
     std::string host;
@@ -39,18 +30,19 @@ struct PlaceThreads::Threads {
     PlaceRules rules;
     std::vector<Life> lives;  // by place
     Wakeup news{};
-    std::vector<zmq::socket_t> to{};
+    bool all_serve = false;
     std::atomic<bool> stop{false};
     std::mutex failures_mutex{};
     std::vector<Failure> failures{};
     std::vector<std::jthread> threads{};
 
     void serve(std::uint32_t index);
-    void tell(Life& life, State state);
+    void change(Life& life, State state);
     void start(std::uint32_t count);
+    void tell_all(Message::Type type, std::shared_ptr<const Plan> plan);
 };
 
-void PlaceThreads::Threads::tell(Life& life, State state) {
+void PlaceThreads::Threads::change(Life& life, State state) {
     life.state = state;
     news.notify();
 }
@@ -63,15 +55,15 @@ void PlaceThreads::Threads::serve(std::uint32_t index) {
             failures.push_back(failure);
             news.notify();
         };
-        ZmqCarrier carrier(context, {run, host, true, index, at_fault});
-        Place place(*network, {host, index}, plan, run, rules, carrier);
-        tell(life, State::serving);
+        const auto carrier = transport.carrier_of(index, at_fault);
+        Place place(*network, {host, index}, plan, run, rules, *carrier);
+        change(life, State::serving);
         place.serve(stop, life.progress);
         life.counters = place.counters();
-        tell(life, State::ended);
+        change(life, State::ended);
     } catch (const std::exception& error) {
         life.died_of = "place " + std::to_string(index) + ": " + error.what();
-        tell(life, State::died);
+        change(life, State::died);
     }
 }
 
@@ -89,11 +81,20 @@ void PlaceThreads::Threads::start(std::uint32_t count) {
     }
 }
 
-PlaceThreads::PlaceThreads(zmq::context_t& context, std::shared_ptr<const Network> network, std::uint64_t run,
-                           std::string host, std::uint32_t count, Plan plan, PlaceRules rules) {
-    want_descriptors(sockets_per_place * count + other_descriptors, std::to_string(count) + " places");
-    threads_.reset(new Threads{context, std::move(network), run, std::move(host), std::move(plan), rules,
-                               std::vector<Threads::Life>(count)});
+void PlaceThreads::Threads::tell_all(Message::Type type, std::shared_ptr<const Plan> told_plan) {
+    for (std::uint32_t place = 0; all_serve && place < lives.size(); ++place) {
+        Message message;
+        message.type = type;
+        message.run = run;
+        message.plan = told_plan;
+        transport.tell(place, std::move(message));
+    }
+}
+
+PlaceThreads::PlaceThreads(PlaceTransport& transport, std::shared_ptr<const Network> network, std::uint64_t run,
+                           std::string host, std::uint32_t count, Plan plan, PlaceRules rules)
+    : threads_(new Threads{transport, std::move(network), run, std::move(host), std::move(plan), rules,
+                           std::vector<Threads::Life>(count)}) {
     threads_->start(count);
 }
 
@@ -111,52 +112,39 @@ bool PlaceThreads::ready() {
         serving += state == State::serving;
     }
     if (serving < t.lives.size()) return false;
-    // inproc sockets connect only to what is bound, and all places have bound by now.
-    while (t.to.size() < count())
-        t.to.push_back(asking_socket(t.context, inproc_endpoint(t.run, static_cast<std::uint32_t>(t.to.size()))));
+    t.all_serve = true;
     return true;
 }
 
 void PlaceThreads::wait_until_ready() {
     while (!ready()) {
-        std::vector<zmq_pollitem_t> items{readable(news())};
-        poll(items, std::chrono::milliseconds(100));
+        threads_->news.wait(std::chrono::milliseconds(100));
         clear_news();
     }
 }
 
 void PlaceThreads::use(const Plan& plan) {
-    const auto shared = std::make_shared<const Plan>(plan);
-    for (auto& socket : threads_->to) {
-        Message message;
-        message.type = Message::Type::plan;
-        message.run = threads_->run;
-        message.plan = shared;
-        Frames frames;
-        frames.push_back(frame_of(std::move(message)));
-        send_frames(socket, frames);
-    }
+    threads_->tell_all(Message::Type::plan, std::make_shared<const Plan>(plan));
 }
 
 void PlaceThreads::begin_to_stop() {
-    auto& t = *threads_;
-    if (t.stop.exchange(true)) return;
-    for (auto& socket : t.to) {  // wakes those that wait for messages
-        Message message;
-        message.type = Message::Type::stop;
-        message.run = t.run;
-        Frames frames;
-        frames.push_back(frame_of(std::move(message)));
-        send_frames(socket, frames);
-    }
+    if (threads_->stop.exchange(true)) return;
+    threads_->tell_all(Message::Type::stop, nullptr);  // wakes those that wait for messages
+}
+
+bool PlaceThreads::over() const {
+    using State = Threads::State;
+    return std::all_of(threads_->lives.begin(), threads_->lives.end(), [](const auto& life) {
+        const State state = life.state;
+        return state == State::ended || state == State::died;
+    });
 }
 
 Counters PlaceThreads::stop() {
     begin_to_stop();
-    auto& t = *threads_;
-    t.threads.clear();
+    threads_->threads.clear();
     Counters sum;
-    for (const auto& life : t.lives) sum += life.counters;
+    for (const auto& life : threads_->lives) sum += life.counters;
     return sum;
 }
 
@@ -172,8 +160,6 @@ std::uint64_t PlaceThreads::progress() const {
     for (const auto& life : threads_->lives) sum += life.progress.load(std::memory_order_relaxed);
     return sum;
 }
-
-zmq::socket_t& PlaceThreads::to(std::uint32_t place) { return threads_->to.at(place); }
 
 int PlaceThreads::news() const { return threads_->news.handle(); }
 

@@ -1,5 +1,6 @@
 #include "transport/places/wakeup.hpp"
 
+#include <poll.h>
 #include <sys/eventfd.h>
 #include <unistd.h>
 
@@ -21,6 +22,11 @@ Wakeup::~Wakeup() { close(handle_); }
 void Wakeup::notify() const noexcept {
     const std::uint64_t one = 1;
     [[maybe_unused]] const auto put = write(handle_, &one, sizeof one);  // can't fail before 2⁶⁴ of them
+}
+
+void Wakeup::wait(std::chrono::milliseconds most) const noexcept {
+    pollfd item{handle_, POLLIN, 0};
+    poll(&item, 1, static_cast<int>(most.count()));
 }
 
 void Wakeup::clear() const noexcept {

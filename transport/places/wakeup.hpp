@@ -1,6 +1,8 @@
 // Wakes a thread that waits at sockets.
 #pragma once
 
+#include <chrono>
+
 namespace lightnet {
 
 /// Any thread may call notify(); the one that polls handle() reads that there is something, and calls clear() first.
@@ -14,6 +16,8 @@ public:
 
     void notify() const noexcept;
     void clear() const noexcept;
+    /// Returns when there is something, or after `most`, or when the process was sent a signal.
+    void wait(std::chrono::milliseconds most) const noexcept;
     /// Readable since the first notify() after the last clear().
     int handle() const { return handle_; }
 

@@ -13,7 +13,7 @@ namespace lightnet {
 /// which passes on what hosts can't send to each other, `host` names the answerer; else the asker.
 struct RelayAddress {
     std::string host;   // as in PlaceAt
-    std::string place;  // how the way out of the asker calls the place that asked
+    std::string place;  // how the gateway of the asker calls the place that asked
     friend bool operator==(const RelayAddress&, const RelayAddress&) = default;
 };
 

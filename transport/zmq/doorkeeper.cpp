@@ -1,9 +1,10 @@
 #include "transport/zmq/doorkeeper.hpp"
 
+#include <zmq.h>
 #include <algorithm>
 #include <atomic>
 #include <cstring>
-#include <zmq.hpp>
+#include <utility>
 
 #include "transport/places/descriptors.hpp"
 
@@ -25,40 +26,33 @@ std::size_t most_peers(std::size_t left) {
     return std::clamp(left > for_own_work ? (left - for_own_work) / 2 : 0, least, most);
 }
 
-Doorkeeper::Doorkeeper(zmq::context_t& context)
-    : context_(context), requests_(std::make_unique<zmq::socket_t>(context, zmq::socket_type::rep)) {
-    requests_->set(zmq::sockopt::linger, 0);
-    requests_->bind(authentication);
+Doorkeeper::Doorkeeper(const SocketContext& context) : context_(context), requests_(context, ZMQ_REP) {
+    requests_.bind(authentication);
 }
 
-Doorkeeper::~Doorkeeper() = default;
-
-void Doorkeeper::guard(zmq::socket_t& door) {
-    door.set(zmq::sockopt::zap_domain, "lightnet");
+void Doorkeeper::guard(Socket& door) {
+    door.set(ZMQ_ZAP_DOMAIN, "lightnet");
     const int on = 1;
-    zmq_setsockopt(door.handle(), enforce_domain, &on, sizeof on);
+    zmq_setsockopt(door.library(), enforce_domain, &on, sizeof on);  // older libraries don't know it
     const auto endpoint = events_endpoint();
-    if (zmq_socket_monitor(door.handle(), endpoint.c_str(), ZMQ_EVENT_ACCEPTED | ZMQ_EVENT_DISCONNECTED) != 0)
-        throw zmq::error_t();
-    auto& events = *events_.emplace_back(std::make_unique<zmq::socket_t>(context_, zmq::socket_type::pair));
-    events.set(zmq::sockopt::linger, 0);
-    events.connect(endpoint);
+    if (zmq_socket_monitor(door.library(), endpoint.c_str(), ZMQ_EVENT_ACCEPTED | ZMQ_EVENT_DISCONNECTED) != 0)
+        throw SocketError();
+    events_.emplace_back(context_, ZMQ_PAIR).connect(endpoint);
 }
 
-std::vector<zmq::socket_t*> Doorkeeper::sockets() {
-    std::vector<zmq::socket_t*> sockets{requests_.get()};
-    for (const auto& events : events_) sockets.push_back(events.get());
-    return sockets;
+void Doorkeeper::watch(Poll& poll) const {
+    poll.add(requests_);
+    for (const auto& events : events_) poll.add(events);
 }
 
 void Doorkeeper::tick() {
-    for (auto& events : events_) note_events(*events);
-    while (auto request = receive_frames(*requests_)) answer(*request);
+    for (auto& events : events_) note_events(events);
+    while (auto request = requests_.receive()) answer(*request);
 }
 
 // An event is two frames: a number of 16 bits and a value of 32, then the address.
-void Doorkeeper::note_events(zmq::socket_t& events) {
-    while (auto frames = receive_frames(events)) {
+void Doorkeeper::note_events(Socket& events) {
+    while (auto frames = events.receive()) {
         std::uint16_t event = 0;
         std::int32_t descriptor = 0;
         if (frames->front().size() < sizeof event + sizeof descriptor) continue;
@@ -87,13 +81,13 @@ void Doorkeeper::answer(Frames& request) {
     const bool room = peers_.size() <= most_now();
     turned_away_ += !room;
     Frames reply;
-    reply.push_back(frame_of(std::string("1.0")));
-    reply.push_back(frame_of(sound ? text_of(request[1]) : std::string()));
-    reply.push_back(frame_of(std::string(sound && room ? "200" : "400")));
-    reply.push_back(frame_of(std::string(room ? "" : "too many connections")));
-    reply.push_back(frame_of(std::string()));
-    reply.push_back(frame_of(std::string()));
-    send_frames(*requests_, reply);
+    reply.emplace_back("1.0");
+    reply.push_back(sound ? std::move(request[1]) : MessageFrame());
+    reply.emplace_back(sound && room ? "200" : "400");
+    reply.emplace_back(room ? "" : "too many connections");
+    reply.emplace_back("");
+    reply.emplace_back("");
+    requests_.send(reply);
 }
 
 }  // namespace lightnet

@@ -1,25 +1,18 @@
 #include "transport/zmq/gateway.hpp"
 
-#include <zmq.hpp>
-
 namespace lightnet {
 
-std::string way_out_endpoint(std::uint64_t run) { return "inproc://run-" + std::to_string(run) + "/way-out"; }
+std::string gateway_endpoint(std::uint64_t run) { return "inproc://run-" + std::to_string(run) + "/gateway"; }
 
-WayOut::WayOut(zmq::context_t& context, std::uint64_t run)
-    : endpoint_(way_out_endpoint(run)), socket_(std::make_unique<zmq::socket_t>(answering_socket(context))) {
-    socket_->bind(endpoint_);
+Gateway::Gateway(const SocketContext& context, std::uint64_t run)
+    : endpoint_(gateway_endpoint(run)), socket_(answering_socket(context)) {
+    socket_.bind(endpoint_);
 }
 
-WayOut::~WayOut() {
-    try {
-        socket_->unbind(endpoint_);  // closing alone frees the name later
-    } catch (const zmq::error_t&) {
-    }
-}
+Gateway::~Gateway() { socket_.unbind(endpoint_); }
 
-std::optional<Frames> WayOut::receive() {
-    while (auto frames = receive_frames(*socket_)) {
+std::optional<Frames> Gateway::receive() {
+    while (auto frames = socket_.receive()) {
         if (frames->size() != 4) continue;
         places_.insert(text_of(frames->front()));
         return frames;
@@ -27,16 +20,16 @@ std::optional<Frames> WayOut::receive() {
     return std::nullopt;
 }
 
-bool WayOut::pass(const std::string& place, Frames& frames) {
-    frames.insert(frames.begin(), frame_of(place));
-    return send_frames(*socket_, frames);
+bool Gateway::forward(const std::string& place, Frames& frames) {
+    frames.emplace(frames.begin(), place);
+    return socket_.send(frames);
 }
 
-void WayOut::say_again(const std::string& host) {
+void Gateway::request_resend(const std::string& host) {
     for (const auto& place : places_) {
         Frames frames;
-        frames.push_back(frame_of(host));
-        pass(place, frames);
+        frames.emplace_back(host);
+        forward(place, frames);
     }
 }
 

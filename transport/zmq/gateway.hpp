@@ -1,39 +1,39 @@
-// The way out of a process: where its places hand in what is for other hosts, and get the replies.
+// The gateway of a process: where its places hand in what is for other hosts, and get the replies.
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <set>
 #include <string>
 
-#include "transport/zmq/sockets.hpp"
+#include "transport/zmq/poll.hpp"
+#include "transport/zmq/socket.hpp"
 
 namespace lightnet {
 
-/// Where the places of a run find the way out of their process.
-std::string way_out_endpoint(std::uint64_t run);
+/// Where the places of a run find the gateway of their process.
+std::string gateway_endpoint(std::uint64_t run);
 
 /// Open for one run. One thread's.
-class WayOut {
+class Gateway {
 public:
-    WayOut(zmq::context_t& context, std::uint64_t run);
+    Gateway(const SocketContext& context, std::uint64_t run);
     /// Free for the next at once.
-    ~WayOut();
-    WayOut(const WayOut&) = delete;
-    WayOut& operator=(const WayOut&) = delete;
+    ~Gateway();
+    Gateway(const Gateway&) = delete;
+    Gateway& operator=(const Gateway&) = delete;
 
     /// [place][host][header][body]
     std::optional<Frames> receive();
     /// A reply; false: there is no such place.
-    bool pass(const std::string& place, Frames& frames);
-    /// Tells all places that what was under way to a host may be lost; "": to any.
-    void say_again(const std::string& host);
-    zmq::socket_t& socket() { return *socket_; }
+    bool forward(const std::string& place, Frames& frames);
+    /// Has all places send again what was under way to a host, as it may be lost; "": to any.
+    void request_resend(const std::string& host);
+    void watch(Poll& poll) const { poll.add(socket_); }
 
 private:
     std::string endpoint_;
-    std::unique_ptr<zmq::socket_t> socket_;
+    Socket socket_;
     std::set<std::string> places_;  // that have asked
 };
 

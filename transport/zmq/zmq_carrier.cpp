@@ -4,10 +4,9 @@
 #include <map>
 #include <utility>
 #include <vector>
-#include <zmq.hpp>
 
 #include "transport/zmq/gateway.hpp"
-#include "transport/zmq/sockets.hpp"
+#include "transport/zmq/poll.hpp"
 
 namespace lightnet {
 namespace {
@@ -15,8 +14,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr auto look_interval = std::chrono::milliseconds(200);
-// After so long without any answer a host is asked again: a flipped bit can make a message vanish without a trace. The
-// next time it is given twice as long, since it may just be slow.
+// After so long without any answer packets are sent again: a flipped bit can make a message vanish without a trace. The
+// next time the host is given twice as long (exponential backoff), since it may just be slow.
 constexpr auto shortest_patience = std::chrono::milliseconds(3000);
 
 }  // namespace
@@ -29,7 +28,7 @@ struct ZmqCarrier::Sockets {
     // Looking into an empty socket costs a call of the system. So each is looked into until it is dry, and then not
     // again before all are, or before wait() has found something in it.
     struct Source {
-        zmq::socket_t socket;
+        Socket socket;
         bool dry = false;
     };
     // Another host.
@@ -40,12 +39,13 @@ struct ZmqCarrier::Sockets {
     // A packet whose reply is not there yet.
     struct Pending {
         std::string host;
-        zmq::message_t header, body;
+        MessageFrame header, body;
         bool sent = true;
     };
 
-    zmq::context_t& context;
-    Ends ends;
+    const SocketContext& context;
+    Address me;
+    PlaceTransport::AtFault at_fault;
     std::optional<Source> answering{};
     std::map<std::string, Source> asking{};  // by endpoint
     Counters counters{};
@@ -63,25 +63,25 @@ struct ZmqCarrier::Sockets {
         return sources;
     }
 
-    zmq::socket_t& to(const std::string& endpoint) {
+    Socket& to(const std::string& endpoint) {
         const auto found = asking.find(endpoint);
         if (found != asking.end()) return found->second.socket;
         return asking.emplace(endpoint, Source{asking_socket(context, endpoint)}).first->second.socket;
     }
 
-    // Hands a packet to the way out of this process.
+    // Hands a packet to the gateway of this process.
     bool send(Pending& packet) {
         Frames frames;
-        frames.push_back(frame_of(packet.host));
-        for (auto* frame : {&packet.header, &packet.body}) frames.emplace_back().copy(*frame);
-        if (!send_frames(to(way_out_endpoint(ends.run)), frames)) return false;
+        frames.emplace_back(packet.host);
+        for (auto* frame : {&packet.header, &packet.body}) frames.push_back(frame->shared());
+        if (!to(gateway_endpoint(me.run)).send(frames)) return false;
         peers[packet.host].asked = Clock::now();
         counters.bytes += packet.header.size() + packet.body.size();
         return true;
     }
 
     // What was under way to a host may be lost; "": to any.
-    void say_again(const std::string& host) {
+    void resend(const std::string& host) {
         for (auto& [key, packet] : pending)
             if (host.empty() || packet.host == host) packet.sent = false, unsent = true;
     }
@@ -94,7 +94,7 @@ struct ZmqCarrier::Sockets {
             for (auto& [host, peer] : peers) {
                 if (now - std::max(peer.asked, peer.answered) <= peer.patience || !has_pending(host)) continue;
                 peer.patience *= 2;
-                say_again(host);
+                resend(host);
             }
         }
         if (!std::exchange(unsent, false)) return;
@@ -135,43 +135,44 @@ struct ZmqCarrier::Sockets {
             for (std::size_t i = 0; i < hops; ++i) message->route.hops.push_back(text_of(frames[i]));
             return message;
         }
-        for (std::size_t i = hops; i < frames.size(); ++i) frames[i].rebuild();  // the asker must say it again
-        send_frames(answering->socket, frames);
+        for (std::size_t i = hops; i < frames.size(); ++i) frames[i] = MessageFrame();  // the asker must send it again
+        answering->socket.send(frames);
         return std::nullopt;
     }
 
     std::optional<Message> from_answerer(const std::string& endpoint, Frames frames) {
-        if (endpoint != way_out_endpoint(ends.run)) {
+        if (endpoint != gateway_endpoint(me.run)) {
             asked_here -= asked_here > 0;
             return take_message(frames[0]);
         }
         if (frames.size() == 1) {
-            say_again(text_of(frames[0]));
+            resend(text_of(frames[0]));
             return std::nullopt;
         }
         auto message = frames.size() == 2 ? from_packet(frames, 0) : std::nullopt;  // a flipped bit splits messages
         if (message)
             settle({message->channel, message->bundle});
         else
-            say_again("");
+            resend("");
         return message;
     }
 };
 
-ZmqCarrier::ZmqCarrier(zmq::context_t& context, Ends ends) : sockets_(new Sockets{context, std::move(ends)}) {
-    if (!sockets_->ends.answers) return;
+ZmqCarrier::ZmqCarrier(const SocketContext& context, Address me, PlaceTransport::AtFault at_fault)
+    : sockets_(new Sockets{context, std::move(me), std::move(at_fault)}) {
+    const auto& my = sockets_->me;
+    if (!my.place) return;
     sockets_->answering.emplace(Sockets::Source{answering_socket(context)});
-    sockets_->answering->socket.bind(inproc_endpoint(sockets_->ends.run, sockets_->ends.place));
+    sockets_->answering->socket.bind(inproc_endpoint(my.run, *my.place));
 }
 
 ZmqCarrier::~ZmqCarrier() = default;
 
 bool ZmqCarrier::ask(const PlaceAt& to, Message& message) {
     auto& s = *sockets_;
-    if (to.host == s.ends.host) {
-        Frames frames;
-        frames.push_back(frame_of(std::move(message)));
-        if (send_frames(s.to(inproc_endpoint(s.ends.run, to.index)), frames)) {
+    if (to.host == s.me.host) {
+        auto frames = frames_of(std::move(message));
+        if (s.to(inproc_endpoint(s.me.run, to.index)).send(frames)) {
             ++s.asked_here;
             return true;
         }
@@ -179,7 +180,8 @@ bool ZmqCarrier::ask(const PlaceAt& to, Message& message) {
         if (!may_be_full(s.asked_here)) return false;  // it has ended
     } else {
         auto packet = packet::pack(message, to.index);
-        Sockets::Pending kept{to.host, frame_of(std::move(packet.header)), frame_of(std::move(packet.body)), true};
+        Sockets::Pending kept{to.host, MessageFrame(std::move(packet.header)), MessageFrame(std::move(packet.body)),
+                              true};
         if (s.send(kept)) {
             s.pending.insert_or_assign({message.channel, message.bundle}, std::move(kept));
             return true;
@@ -192,22 +194,22 @@ bool ZmqCarrier::ask(const PlaceAt& to, Message& message) {
 
 void ZmqCarrier::reply(Message message) {
     Frames frames;
-    for (const auto& hop : message.route.hops) frames.push_back(frame_of(hop));
+    for (const auto& hop : message.route.hops) frames.emplace_back(hop);
     if (frames.size() > 1) {
         append(frames, packet::pack(message, 0));
         for (std::size_t i = message.route.hops.size(); i < frames.size(); ++i)
             sockets_->counters.bytes += frames[i].size();
     } else {
-        frames.push_back(frame_of(std::move(message)));
+        frames.emplace_back(std::move(message));
     }
-    if (!send_frames(sockets_->answering->socket, frames)) ++sockets_->counters.refused_sends;
+    if (!sockets_->answering->socket.send(frames)) ++sockets_->counters.refused_sends;
 }
 
 std::optional<Message> ZmqCarrier::receive() {
     auto& s = *sockets_;
     const auto take = [](Sockets::Source& source, const auto& read) -> std::optional<Message> {
         while (!source.dry) {
-            auto frames = receive_frames(source.socket);
+            auto frames = source.socket.receive();
             if (!frames)
                 source.dry = true;
             else if (auto message = read(std::move(*frames)))
@@ -231,11 +233,11 @@ std::optional<Message> ZmqCarrier::receive() {
 
 void ZmqCarrier::wait(std::chrono::nanoseconds most) {
     const auto sources = sockets_->all();
-    std::vector<zmq_pollitem_t> items;
-    for (auto* source : sources) items.push_back(readable(source->socket));
+    Poll poll;
+    for (const auto* source : sources) poll.add(source->socket);
     const auto ms = std::chrono::ceil<std::chrono::milliseconds>(most);
-    poll(items, std::max(ms, std::chrono::milliseconds(1)));
-    for (std::size_t i = 0; i < items.size(); ++i) sources[i]->dry = !(items[i].revents & ZMQ_POLLIN);
+    poll.wait(std::max(ms, std::chrono::milliseconds(1)));
+    for (std::size_t i = 0; i < sources.size(); ++i) sources[i]->dry = !poll.readable(i);
 }
 
 void ZmqCarrier::give_up(std::uint32_t channel) {
@@ -243,7 +245,7 @@ void ZmqCarrier::give_up(std::uint32_t channel) {
 }
 
 bool ZmqCarrier::take_out(const std::string& host, const std::string& why) {
-    sockets_->ends.at_fault({why, host});
+    sockets_->at_fault({why, host});
     return true;
 }
 

@@ -2,34 +2,32 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "core/run/message/carrier.hpp"
-
-namespace zmq {
-class context_t;
-}
+#include "transport/places/place_transport.hpp"
+#include "transport/zmq/socket.hpp"
 
 namespace lightnet {
 
 /// How the sockets of one run inside one process are called. `run` keeps runs apart.
 std::string inproc_endpoint(std::uint64_t run, std::uint32_t place);
 
-/// Within the process a message is handed over by pointer. To another host it goes as a packet, through the one way out
-/// that all places of the process share (see way_out.hpp). A packet is kept until its reply is there, and sent again
-/// whenever a connection was cut. Belongs to one thread.
+/// Within the process a message is handed over by pointer. To another host it goes as a packet, through the gateway
+/// that all places of the process share. A packet is kept until its reply is there, and sent again whenever a
+/// connection was cut. Belongs to one thread.
 class ZmqCarrier final : public Carrier {
 public:
-    struct Ends {
+    struct Address {
         std::uint64_t run = 0;
-        std::string host;                                                      // of this process, as in PlaceAt
-        bool answers = true;                                                   // false: only asks, as the master does
-        std::uint32_t place = 0;                                               // whose messages arrive here
-        std::function<void(const Failure&)> at_fault = [](const Failure&) {};  // told of hosts that failed
+        std::string host;                      // of this process, as in PlaceAt
+        std::optional<std::uint32_t> place{};  // whose messages arrive here; none: it only asks, as the master does
     };
-    ZmqCarrier(zmq::context_t& context, Ends ends);
+    /// `at_fault` is told of hosts that failed.
+    ZmqCarrier(
+        const SocketContext& context, Address me, PlaceTransport::AtFault at_fault = [](const Failure&) {});
     ~ZmqCarrier() override;
 
     bool ask(const PlaceAt& to, Message& message) override;
