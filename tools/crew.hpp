@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "tools/run.hpp"
-#include "transport/cluster.hpp"
-#include "transport/local_workers.hpp"
-#include "transport/slurm_workers.hpp"
+#include "transport/launcher/cluster.hpp"
+#include "transport/start/local_workers.hpp"
+#include "transport/start/slurm_workers.hpp"
 
 namespace lightnet {
 

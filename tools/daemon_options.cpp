@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/base/build_info.hpp"
-#include "transport/reach.hpp"
+#include "transport/wire/loopback.hpp"
 
 namespace lightnet {
 namespace {

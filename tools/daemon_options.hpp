@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tools/command_line.hpp"
-#include "transport/host.hpp"
+#include "transport/daemon/host.hpp"
 
 namespace lightnet {
 

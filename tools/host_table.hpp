@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "transport/ask_state.hpp"
+#include "transport/launcher/ask_state.hpp"
 
 namespace lightnet {
 

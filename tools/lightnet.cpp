@@ -3,7 +3,7 @@
 
 #include "nodes/standard_nodes.hpp"
 #include "tools/launcher.hpp"
-#include "transport/descriptors.hpp"
+#include "transport/places/descriptors.hpp"
 
 int main(int count, char** words) {
     lightnet::raise_descriptor_limit();

@@ -15,8 +15,8 @@
 #include "tools/log_line.hpp"
 #include "tools/signals.hpp"
 #include "tools/single_instance.hpp"
-#include "transport/descriptors.hpp"
-#include "transport/host.hpp"
+#include "transport/daemon/host.hpp"
+#include "transport/places/descriptors.hpp"
 
 namespace {
 

@@ -11,7 +11,7 @@
 #include "core/network/graph/graph_film.hpp"
 #include "core/readers/read_scene.hpp"
 #include "tools/command_line.hpp"
-#include "transport/reach.hpp"
+#include "transport/wire/loopback.hpp"
 
 namespace lightnet {
 namespace {

@@ -17,7 +17,7 @@
 #include "core/run/runtime/master_renderer.hpp"
 #include "core/run/runtime/serial.hpp"
 #include "tools/crew.hpp"
-#include "transport/threaded_run.hpp"
+#include "transport/launcher/threaded_run.hpp"
 
 namespace lightnet {
 namespace {

@@ -11,16 +11,16 @@
 #include "core/network/graph/kind.hpp"
 #include "core/network/graph/plan.hpp"
 #include "core/readers/files.hpp"
-#include "core/run/prepare/load_scene.hpp"
 #include "core/run/message/carrier.hpp"
+#include "core/run/prepare/load_scene.hpp"
 #include "core/run/runtime/conductor.hpp"
 #include "core/run/runtime/job.hpp"
 #include "tools/kept_files.hpp"
 #include "tools/run.hpp"
 #include "tools/run_book.hpp"
 #include "tools/signals.hpp"
-#include "transport/cluster.hpp"
-#include "transport/result_cache.hpp"
+#include "transport/launcher/cluster.hpp"
+#include "transport/store/result_cache.hpp"
 
 namespace lightnet {
 

@@ -19,7 +19,7 @@
 #include "core/run/prepare/prepare_progress.hpp"
 #include "tools/checkpoint_keeper.hpp"
 #include "tools/pace.hpp"
-#include "transport/cluster.hpp"
+#include "transport/launcher/cluster.hpp"
 
 namespace lightnet {
 

@@ -14,7 +14,7 @@
 #include "core/network/graph/layout.hpp"
 #include "core/run/prepare/load_scene.hpp"
 #include "tools/overrides.hpp"
-#include "transport/reach.hpp"
+#include "transport/wire/loopback.hpp"
 
 namespace lightnet {
 namespace {

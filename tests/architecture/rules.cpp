@@ -14,6 +14,12 @@ namespace {
 
 using Names = std::set<std::string, std::less<>>;
 
+// What the rooms of transport and the tools see of core, and `more`.
+Names transport_sees(Names more) {
+    more.merge(Names{"core/base", "core/film", "core/scene", "core/readers", "core/network", "core/run"});
+    return more;
+}
+
 // Who may include whom, beside itself. Tests may include all.
 const std::map<std::string, Names, std::less<>> may_include{
     {"core/base", {}},
@@ -24,10 +30,16 @@ const std::map<std::string, Names, std::less<>> may_include{
     {"core/estimate", {"core/base", "core/scene", "core/network"}},
     {"core/run", {"core/base", "core/film", "core/scene", "core/readers", "core/network"}},
     {"nodes", {"core/base", "core/film", "core/scene", "core/network", "core/estimate"}},
-    {"transport", {"core/base", "core/film", "core/scene", "core/readers", "core/network", "core/run"}},
+    {"transport/wire", transport_sees({})},
+    {"transport/places", transport_sees({})},
+    {"transport/zmq", transport_sees({"transport/wire", "transport/places"})},
+    {"transport/store", transport_sees({})},
+    {"transport/start", transport_sees({"transport/wire"})},
+    {"transport/launcher", transport_sees({"transport/wire", "transport/places", "transport/zmq"})},
+    {"transport/daemon", transport_sees({"transport/wire", "transport/places", "transport/zmq", "transport/store"})},
     {"lua", {"core/base", "core/network"}},
-    {"tools",
-     {"core/base", "core/film", "core/scene", "core/readers", "core/network", "core/run", "nodes", "transport", "lua"}},
+    {"tools", transport_sees({"nodes", "lua", "transport/wire", "transport/places", "transport/zmq", "transport/store",
+                              "transport/start", "transport/launcher", "transport/daemon"})},
 };
 
 /// A library, and the .cpp files that may include it.
@@ -38,8 +50,8 @@ struct Home {
 };
 
 const std::array homes{
-    Home{"ZeroMQ", std::regex("zmq.*"), std::regex("transport/.*")},
-    Home{"msgpack", std::regex("msgpack.*"), std::regex("transport/.*")},
+    Home{"ZeroMQ", std::regex("zmq.*"), std::regex("transport/zmq/.*")},
+    Home{"msgpack", std::regex("msgpack.*"), std::regex("transport/wire/.*")},
     Home{"Lua", std::regex("(lua5.4/)?(lua|lauxlib|lualib)\\.(h|hpp)"), std::regex("lua/.*")},
     Home{"Embree", std::regex("embree.*"), std::regex("core/scene/geometry/.*")},
     Home{"OpenEXR", std::regex("(OpenEXR/|Imath/)?(Imf|Iex|Imath|half).*"),
@@ -51,7 +63,7 @@ const std::array homes{
     Home{"Boost.Context", std::regex("boost/.*"), std::regex("core/run/fiber/.*")},
     Home{"libcrypto", std::regex("openssl/.*"), std::regex("core/base/hash\\.cpp")},
     Home{"CLI11", std::regex("CLI/.*"), std::regex("tools/.*")},
-    Home{"nlohmann JSON", std::regex("nlohmann/.*"), std::regex("(core|lua|tools|transport)/.*")},
+    Home{"nlohmann JSON", std::regex("nlohmann/.*"), std::regex("(core|lua|tools)/.*")},
 };
 
 std::string at_line(const SourceFile& file, std::size_t line, const std::string& why) {
@@ -62,9 +74,11 @@ bool ends_with(std::string_view text, std::string_view end) {
     return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
 }
 
-/// The first folder of a path; of core, which is a storey of rooms, the first two.
+/// The first folder of a path; of core and transport, which are storeys of rooms, the first two.
 std::string room_of(std::string_view path) {
-    const std::size_t storey = path.starts_with("core/") ? std::string_view("core/").size() : 0;
+    std::size_t storey = 0;
+    for (const std::string_view name : {"core/", "transport/"})
+        if (path.starts_with(name)) storey = name.size();
     return std::string(path.substr(0, path.find('/', storey)));
 }
 bool is_in(std::string_view room, std::string_view path) {

@@ -40,17 +40,35 @@ TEST(Rooms, OfCoreSeeOnlyWhatLiesBelow) {
 }
 
 TEST(Rooms, NodesTransportAndLuaNeverSeeEachOther) {
-    for (const std::string from : {"nodes", "transport", "lua"})
-        for (const std::string to : {"nodes", "transport", "lua", "tools", "tests"})
-            if (from != to) {
+    for (const std::string from : {"nodes", "transport/wire", "transport/launcher", "transport/daemon", "lua"})
+        for (const std::string to : {"nodes", "transport/wire", "lua", "tools", "tests"})
+            if (from.substr(0, 4) != to.substr(0, 4)) {
                 EXPECT_THAT(stray_includes({from + "/x.cpp", "#include \"" + to + "/y.hpp\""}), SizeIs(1));
             }
+}
+
+TEST(Rooms, OfTransportSeeOnlyWhatLiesBelow) {
+    const auto complaints = [](const std::string& room, const std::string& seen) {
+        return stray_includes({"transport/" + room + "/x.cpp", including("transport/" + seen + "/y.hpp")});
+    };
+    EXPECT_THAT(complaints("launcher", "daemon"), SizeIs(1)) << "the two sides never see each other";
+    EXPECT_THAT(complaints("daemon", "launcher"), SizeIs(1));
+    for (const std::string low : {"wire", "places", "store", "start"})
+        for (const std::string high : {"zmq", "launcher", "daemon"})
+            EXPECT_THAT(complaints(low, high), SizeIs(1)) << low << " " << high;
+    EXPECT_THAT(complaints("wire", "places"), SizeIs(1)) << "wire sees only core";
+    EXPECT_THAT(complaints("places", "wire"), SizeIs(1)) << "any transport will do for places";
+    EXPECT_THAT(complaints("zmq", "launcher"), SizeIs(1));
+    EXPECT_THAT(complaints("launcher", "store"), SizeIs(1));
+    EXPECT_THAT(complaints("launcher", "zmq"), IsEmpty());
+    EXPECT_THAT(complaints("daemon", "store"), IsEmpty());
+    EXPECT_THAT(complaints("zmq", "wire"), IsEmpty());
 }
 
 TEST(Rooms, ToolsSeeAll) {
     EXPECT_THAT(stray_includes({"tools/lightnet.cpp",
                                 "#include \"core/base/error.hpp\"\n#include \"nodes/standard.hpp\"\n"
-                                "#include \"transport/host.hpp\"\n#include \"lua/load.hpp\"\n"}),
+                                "#include \"transport/daemon/host.hpp\"\n#include \"lua/load.hpp\"\n"}),
                 IsEmpty());
 }
 
@@ -62,7 +80,11 @@ TEST(Rooms, KeepIncludesFromTheRoot) {
 
 TEST(Homes, KeepEachLibraryInOneRoom) {
     EXPECT_THAT(stray_includes({"core/run/runtime/place.cpp", "#include <zmq.hpp>"}), SizeIs(1));
-    EXPECT_THAT(stray_includes({"transport/sockets.cpp", "#include <zmq.hpp>\n#include <msgpack.hpp>"}), IsEmpty());
+    EXPECT_THAT(stray_includes({"transport/zmq/socket.cpp", "#include <zmq.h>"}), IsEmpty());
+    for (const std::string room : {"wire", "places", "store", "start", "launcher", "daemon"})
+        EXPECT_THAT(stray_includes({"transport/" + room + "/x.cpp", "#include <zmq.hpp>"}), SizeIs(1)) << room;
+    EXPECT_THAT(stray_includes({"transport/wire/body.cpp", "#include <msgpack.hpp>"}), IsEmpty());
+    EXPECT_THAT(stray_includes({"transport/zmq/socket.cpp", "#include <msgpack.hpp>"}), SizeIs(1));
     EXPECT_THAT(stray_includes({"tools/lightnet.cpp", "#include <lua5.4/lua.h>"}), SizeIs(1));
     EXPECT_THAT(stray_includes({"lua/load_graph.cpp", "#include <lua.hpp>\n#include <lauxlib.h>"}), IsEmpty());
     EXPECT_THAT(stray_includes({"nodes/ray_tracer.cpp", "#include <embree3/rtcore.h>"}), SizeIs(1));
@@ -74,8 +96,8 @@ TEST(Homes, KeepEachLibraryInOneRoom) {
 }
 
 TEST(Homes, KeepThirdPartiesOutOfHeaders) {
-    EXPECT_THAT(stray_includes({"transport/sockets.hpp", "#include <zmq.hpp>"}),
-                ElementsAre("transport/sockets.hpp:1: <zmq.hpp> in a header"));
+    EXPECT_THAT(stray_includes({"transport/zmq/socket.hpp", "#include <zmq.hpp>"}),
+                ElementsAre("transport/zmq/socket.hpp:1: <zmq.hpp> in a header"));
     EXPECT_THAT(stray_includes({"core/base/error.hpp", "#include <fmt/format.h>"}), SizeIs(1));
     EXPECT_THAT(stray_includes({"core/base/error.hpp", "#include <string>"}), IsEmpty());
 }

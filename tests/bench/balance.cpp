@@ -8,7 +8,7 @@
 #include "core/run/runtime/fingerprint.hpp"
 #include "tests/bench/emulated.hpp"
 #include "tests/bench/figure.hpp"
-#include "transport/threaded_run.hpp"
+#include "transport/launcher/threaded_run.hpp"
 
 namespace lightnet::bench {
 namespace {

@@ -25,7 +25,7 @@
 #include "tests/bench/picture.hpp"
 #include "tests/bench/scalar.hpp"
 #include "tests/bench/two_hosts.hpp"
-#include "transport/threaded_run.hpp"
+#include "transport/launcher/threaded_run.hpp"
 
 namespace lightnet::bench {
 namespace {

@@ -9,7 +9,7 @@
 #include "core/run/runtime/fingerprint.hpp"
 #include "core/run/runtime/master_renderer.hpp"
 #include "tests/bench/figure.hpp"
-#include "transport/threaded_run.hpp"
+#include "transport/launcher/threaded_run.hpp"
 
 namespace lightnet::bench {
 namespace {

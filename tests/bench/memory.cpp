@@ -17,8 +17,8 @@
 
 #include "tests/bench/figure.hpp"
 #include "tests/bench/judge.hpp"
-#include "transport/ask_state.hpp"
-#include "transport/child.hpp"
+#include "transport/launcher/ask_state.hpp"
+#include "transport/start/child.hpp"
 
 namespace {
 

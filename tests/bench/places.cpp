@@ -6,9 +6,9 @@
 #include "core/run/runtime/place.hpp"
 #include "tests/bench/figure.hpp"
 #include "tests/bench/overhead.hpp"
-#include "transport/cluster.hpp"
-#include "transport/local_workers.hpp"
-#include "transport/threaded_run.hpp"
+#include "transport/launcher/cluster.hpp"
+#include "transport/launcher/threaded_run.hpp"
+#include "transport/start/local_workers.hpp"
 
 namespace lightnet::bench {
 namespace {

@@ -20,7 +20,7 @@
 #include "tests/bench/figure.hpp"
 #include "tests/bench/machine.hpp"
 #include "tests/bench/stage.hpp"
-#include "transport/local_workers.hpp"
+#include "transport/start/local_workers.hpp"
 
 namespace lightnet::bench {
 namespace {

@@ -10,7 +10,7 @@
 #include "core/run/runtime/master_renderer.hpp"
 #include "tests/bench/figure.hpp"
 #include "tests/bench/two_hosts.hpp"
-#include "transport/threaded_run.hpp"
+#include "transport/launcher/threaded_run.hpp"
 
 namespace lightnet {
 namespace bench {

@@ -12,7 +12,7 @@
 #include "core/run/runtime/master_renderer.hpp"
 #include "lua/load_graph.hpp"
 #include "tests/bench/figure.hpp"
-#include "transport/threaded_run.hpp"
+#include "transport/launcher/threaded_run.hpp"
 
 namespace lightnet::bench {
 namespace {

@@ -15,7 +15,7 @@
 #include "core/run/message/carrier.hpp"
 #include "core/run/prepare/prepared.hpp"
 #include "core/run/runtime/job.hpp"
-#include "transport/cluster.hpp"
+#include "transport/launcher/cluster.hpp"
 
 namespace lightnet::bench {
 

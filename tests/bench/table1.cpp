@@ -19,7 +19,7 @@
 #include "tests/bench/figure.hpp"
 #include "tests/support/delaying_proxy.hpp"
 #include "tests/support/host_thread.hpp"
-#include "transport/cluster.hpp"
+#include "transport/launcher/cluster.hpp"
 
 namespace lightnet::bench {
 namespace {

@@ -11,8 +11,8 @@
 #include "tests/bench/emulated.hpp"
 #include "tests/bench/figure.hpp"
 #include "tests/bench/overhead.hpp"
-#include "transport/cluster.hpp"
-#include "transport/local_workers.hpp"
+#include "transport/launcher/cluster.hpp"
+#include "transport/start/local_workers.hpp"
 
 namespace lightnet::bench {
 namespace {

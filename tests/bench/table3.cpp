@@ -13,7 +13,7 @@
 #include "tests/bench/figure.hpp"
 #include "tests/bench/picture.hpp"
 #include "tests/support/host_thread.hpp"
-#include "transport/cluster.hpp"
+#include "transport/launcher/cluster.hpp"
 
 namespace lightnet::bench {
 namespace {

@@ -9,7 +9,7 @@
 #include "core/base/error.hpp"
 #include "tests/bench/picture.hpp"
 #include "tests/support/host_thread.hpp"
-#include "transport/cluster.hpp"
+#include "transport/launcher/cluster.hpp"
 
 namespace lightnet::bench {
 

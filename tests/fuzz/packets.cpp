@@ -3,7 +3,7 @@
 #include <xxhash.h>
 
 #include "tests/fuzz/targets.hpp"
-#include "transport/packet.hpp"
+#include "transport/wire/packet.hpp"
 
 namespace lightnet::fuzz {
 namespace {

@@ -8,7 +8,7 @@
 #include "core/network/graph/plan.hpp"
 #include "tests/modes/daemons.hpp"
 #include "tests/modes/stranger.hpp"
-#include "transport/packet.hpp"
+#include "transport/wire/packet.hpp"
 
 namespace lightnet::test {
 namespace {

@@ -13,9 +13,9 @@
 #include "core/run/runtime/serial.hpp"
 #include "lua/load_graph.hpp"
 #include "nodes/standard_nodes.hpp"
+#include "tests/support/oracle_run.hpp"
 #include "tests/support/slowdown.hpp"
-#include "transport/oracle_run.hpp"
-#include "transport/threaded_run.hpp"
+#include "transport/launcher/threaded_run.hpp"
 
 namespace lightnet {
 namespace {

@@ -26,8 +26,8 @@
 #include "tests/support/host_thread.hpp"
 #include "tests/support/learner.hpp"
 #include "tests/support/slowdown.hpp"
-#include "transport/cluster.hpp"
-#include "transport/threaded_run.hpp"
+#include "transport/launcher/cluster.hpp"
+#include "transport/launcher/threaded_run.hpp"
 
 namespace lightnet::test {
 

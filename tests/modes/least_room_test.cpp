@@ -15,7 +15,7 @@
 #include "core/run/runtime/serial.hpp"
 #include "tests/support/slowdown.hpp"
 #include "tests/support/small_scenes.hpp"
-#include "transport/threaded_run.hpp"
+#include "transport/launcher/threaded_run.hpp"
 
 namespace lightnet {
 namespace {

@@ -14,9 +14,10 @@
 #include "core/run/runtime/serial.hpp"
 #include "lua/load_graph.hpp"
 #include "nodes/standard_nodes.hpp"
+#include "tests/support/mailbox_transport.hpp"
+#include "tests/support/oracle_run.hpp"
 #include "tests/support/slowdown.hpp"
-#include "transport/oracle_run.hpp"
-#include "transport/threaded_run.hpp"
+#include "transport/launcher/threaded_run.hpp"
 
 namespace lightnet {
 namespace {
@@ -51,9 +52,10 @@ public:
         });
         return pixels;
     }
-    std::vector<Pixels> threaded(const Plan& plan, Tuning rules, Counters* counters = nullptr) const {
+    std::vector<Pixels> threaded(const Plan& plan, Tuning rules, Counters* counters = nullptr,
+                                 const MakePlaceTransport& make = zmq_within_process) const {
         std::vector<Pixels> pixels(tiles.size());
-        ThreadedRun run(network, 1, plan, rules);
+        ThreadedRun run(network, 1, plan, rules, make);
         MasterRenderer::Job job;
         job.run = 1;
         job.image = static_cast<std::uint32_t>(renderer_of(network->graph, registry));
@@ -121,6 +123,13 @@ TEST(Places, ThatServeEachOtherWithOneFiberPerNodeAndCreditOneDoNotHang) {
         EXPECT_GT(counters.questions, 0u);
         EXPECT_EQ(counters.bytes, 0u) << "within a process bundles are handed over by pointer";
     }
+}
+
+TEST(Places, MakeTheSamePictureOnATransportOfAnotherMake) {
+    const Shipped graph("cornell.lua");
+    Counters counters;
+    EXPECT_TRUE(graph.threaded(crossed(graph), {}, &counters, test::mailboxes) == graph.serial());
+    EXPECT_GT(counters.questions, 0u) << "they should have travelled";
 }
 
 TEST(Places, EndTheRunWithTheNameOfTheNodeThatThrew) {

@@ -8,7 +8,7 @@
 #include <zmq.hpp>
 
 #include "tests/support/slowdown.hpp"
-#include "transport/packet.hpp"
+#include "transport/wire/packet.hpp"
 
 namespace lightnet::test {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <thread>
 
-#include "transport/host.hpp"
+#include "transport/daemon/host.hpp"
 
 namespace lightnet::test {
 

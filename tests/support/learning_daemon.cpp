@@ -5,7 +5,7 @@
 #include <iostream>
 
 #include "tests/support/learner.hpp"
-#include "transport/host.hpp"
+#include "transport/daemon/host.hpp"
 
 int main(int, char** words) {
     const auto registry = lightnet::test::with_learner();

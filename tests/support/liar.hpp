@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "transport/packet.hpp"
+#include "transport/wire/packet.hpp"
 
 namespace lightnet::test {
 

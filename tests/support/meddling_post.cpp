@@ -9,7 +9,7 @@
 #include <vector>
 #include <zmq.hpp>
 
-#include "transport/packet.hpp"
+#include "transport/wire/packet.hpp"
 
 namespace lightnet::test {
 namespace {

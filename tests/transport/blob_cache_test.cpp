@@ -1,4 +1,4 @@
-#include "transport/blob_cache.hpp"
+#include "transport/store/blob_cache.hpp"
 
 #include <gtest/gtest.h>
 

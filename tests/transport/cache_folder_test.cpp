@@ -1,5 +1,5 @@
 // A cache removes files when it is full: only its own, and only where it may.
-#include "transport/cache_folder.hpp"
+#include "transport/store/cache_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 
 #include "core/base/error.hpp"
 #include "tests/support/folder.hpp"
-#include "transport/blob_cache.hpp"
+#include "transport/store/blob_cache.hpp"
 
 namespace lightnet {
 namespace {

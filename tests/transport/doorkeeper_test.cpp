@@ -1,5 +1,5 @@
 // Who comes in at a door.
-#include "transport/doorkeeper.hpp"
+#include "transport/zmq/doorkeeper.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -13,7 +13,7 @@
 
 #include "core/base/error.hpp"
 #include "tests/support/slowdown.hpp"
-#include "transport/descriptors.hpp"
+#include "transport/places/descriptors.hpp"
 
 namespace lightnet {
 namespace {
@@ -31,7 +31,7 @@ protected:
     std::unique_ptr<zmq::socket_t> caller() {
         auto socket = std::make_unique<zmq::socket_t>(outside, zmq::socket_type::dealer);
         socket->set(zmq::sockopt::linger, 0);
-        socket->connect(door->get(zmq::sockopt::last_endpoint));
+        socket->connect(door->endpoint());
         return socket;
     }
     // Is it greeted, as who was let in is?
@@ -39,16 +39,17 @@ protected:
         const auto end = std::chrono::steady_clock::now() + most;
         while (std::chrono::steady_clock::now() < end) {
             if (keeper) keeper->tick();
-            receive_frames(*door);  // a door takes connections up when it is looked at
-            if (receive_frames(socket)) return true;
+            door->receive();  // a door takes connections up when it is looked at
+            if (zmq::message_t greeting; socket.recv(greeting, zmq::recv_flags::dontwait)) return true;
             std::this_thread::sleep_for(2ms);
         }
         return false;
     }
 
-    zmq::context_t context, outside;
+    SocketContext context;
+    zmq::context_t outside;
     std::optional<Doorkeeper> keeper;
-    std::optional<zmq::socket_t> door;
+    std::optional<Socket> door;
 };
 
 TEST_F(DoorkeeperTest, LetsInWhoKnocksAndCountsThem) {

@@ -1,5 +1,5 @@
 // How long a run waits for its hosts.
-#include "transport/host_wait.hpp"
+#include "transport/launcher/host_wait.hpp"
 
 #include <gtest/gtest.h>
 

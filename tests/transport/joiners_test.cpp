@@ -5,11 +5,10 @@
 #include <memory>
 #include <string>
 #include <vector>
-#include <zmq.hpp>
 
 #include "tests/modes/stranger.hpp"
-#include "transport/cluster.hpp"
-#include "transport/joiners.hpp"
+#include "transport/launcher/cluster.hpp"
+#include "transport/launcher/joiners.hpp"
 
 namespace lightnet {
 namespace {
@@ -27,12 +26,14 @@ protected:
     bool wait_for(const Enough& enough) {
         const auto end = std::chrono::steady_clock::now() + test::slowdown * std::chrono::seconds(5);
         while (!enough() && std::chrono::steady_clock::now() < end) {
-            std::vector<zmq_pollitem_t> items;
-            for (auto* socket : joiners.sockets()) items.push_back(readable(*socket));
-            poll(items, std::chrono::milliseconds(20));
+            Poll poll;
+            joiners.watch(poll);
+            poll.wait(std::chrono::milliseconds(20));
             broken += joiners.receive(
                 {[this](const std::string& endpoint) { called.push_back(endpoint); },
-                 [this](const std::string& name, std::unique_ptr<JoinedLine> line) { lines[name] = std::move(line); },
+                 [this](const std::string& name, std::unique_ptr<JoinedConnection> made) {
+                     connections[name] = std::move(made);
+                 },
                  [this](const std::string& name, const std::string& why) { lost.push_back(name + ": " + why); },
                  [] {
                      return std::vector<HostState>{{"onyx1", "is ready", true, 2, 7, {}}};
@@ -57,64 +58,63 @@ protected:
         host.send(packet::pack(Type::join, 0, fields));
     }
 
-    zmq::context_t context;
+    SocketContext context;
     Joiners joiners{context, "tcp://127.0.0.1:*", Pass("the pass of this run's user")};
     std::string challenge;
     std::vector<std::string> called, lost, turned_down;
-    std::map<std::string, std::unique_ptr<JoinedLine>> lines;
+    std::map<std::string, std::unique_ptr<JoinedConnection>> connections;
     std::uint64_t broken = 0;
 };
 
-TEST_F(JoinersTest, GiveEachHostALineUnderItsName) {
+TEST_F(JoinersTest, GiveEachHostAConnectionUnderItsName) {
     Stranger host(joiners.endpoint());
     join(host, {"onyx1", 1, ""});
-    ASSERT_TRUE(wait_for([&] { return lines.contains("onyx1"); }));
+    ASSERT_TRUE(wait_for([&] { return connections.contains("onyx1"); }));
     EXPECT_EQ(host.receive().first, Type::joined);
-    Frames frames;
-    append(frames, packet::pack(Type::hello, 1, {}));
-    EXPECT_TRUE(lines["onyx1"]->send(frames, false));
+    auto frames = frames_of(packet::pack(Type::hello, 1, {}));
+    EXPECT_TRUE(connections["onyx1"]->send(frames, false));
     EXPECT_EQ(host.receive().first, Type::hello);
     host.send(packet::pack(Type::welcome, 1, {}));
     bool arrived = false;
-    EXPECT_TRUE(wait_for([&] { return arrived |= lines["onyx1"]->receive().has_value(); }));
+    EXPECT_TRUE(wait_for([&] { return arrived |= connections["onyx1"]->receive().has_value(); }));
 }
 
 TEST_F(JoinersTest, KnowAHostThatDialsInAgainAndSayThatItWasCut) {
     auto host = std::make_unique<Stranger>(joiners.endpoint());
     join(*host, {"onyx1", 1, ""});
-    ASSERT_TRUE(wait_for([&] { return lines.contains("onyx1"); }));
+    ASSERT_TRUE(wait_for([&] { return connections.contains("onyx1"); }));
     host = std::make_unique<Stranger>(joiners.endpoint());
     join(*host, {"onyx1", 1, ""});
     ASSERT_TRUE(wait_for([&] { return !lost.empty(); }));
     EXPECT_THAT(lost, ElementsAre("onyx1: its connection was cut"));
-    EXPECT_EQ(lines.size(), 1u);
+    EXPECT_EQ(connections.size(), 1u);
 }
 
 TEST_F(JoinersTest, TellTwoHostsOfOneNameApart) {
     Stranger one(joiners.endpoint()), two(joiners.endpoint());
     join(one, {"onyx1", 1, ""});
-    ASSERT_TRUE(wait_for([&] { return lines.contains("onyx1"); }));
+    ASSERT_TRUE(wait_for([&] { return connections.contains("onyx1"); }));
     // Both keep in touch; so the first is not the predecessor of the second.
     ASSERT_TRUE(wait_for([&] {
         join(one, {"onyx1", 1, ""});
         join(two, {"onyx1", 2, ""});
-        return lines.size() == 2;
+        return connections.size() == 2;
     }));
-    EXPECT_TRUE(lines.contains("onyx1-2"));
+    EXPECT_TRUE(connections.contains("onyx1-2"));
     EXPECT_THAT(lost, IsEmpty());
 }
 
 TEST_F(JoinersTest, GiveANewProcessTheNameOfItsDeadPredecessor) {
     auto host = std::make_unique<Stranger>(joiners.endpoint());
     join(*host, {"onyx1", 1, ""});
-    ASSERT_TRUE(wait_for([&] { return lines.contains("onyx1"); }));
+    ASSERT_TRUE(wait_for([&] { return connections.contains("onyx1"); }));
     host = std::make_unique<Stranger>(joiners.endpoint());
     ASSERT_TRUE(wait_for([&] {
         join(*host, {"onyx1", 2, ""});
         return !lost.empty();
     }));
     EXPECT_THAT(lost, ElementsAre("onyx1: it was started anew"));
-    EXPECT_EQ(lines.size(), 1u);
+    EXPECT_EQ(connections.size(), 1u);
 }
 
 TEST_F(JoinersTest, CallBackWhoHasAPort) {
@@ -122,7 +122,7 @@ TEST_F(JoinersTest, CallBackWhoHasAPort) {
     join(host, {"onyx1", 1, "tcp://0.0.0.0:7777"});
     ASSERT_TRUE(wait_for([&] { return !called.empty(); }));
     EXPECT_THAT(called, ElementsAre("tcp://127.0.0.1:7777")) << "at the address from which it came";
-    EXPECT_THAT(lines, IsEmpty());
+    EXPECT_THAT(connections, IsEmpty());
 }
 
 TEST_F(JoinersTest, LetNobodyInWhoDoesNotKnowThePass) {
@@ -142,7 +142,7 @@ TEST_F(JoinersTest, LetNobodyInWhoDoesNotKnowThePass) {
                                    .set("endpoint", claim.endpoint)
                                    .set("proof", proof)));
     ASSERT_TRUE(wait_for([&] { return turned_down.size() == 4; }));
-    EXPECT_THAT(lines, IsEmpty());
+    EXPECT_THAT(connections, IsEmpty());
     EXPECT_THAT(called, IsEmpty());
 }
 
@@ -185,7 +185,7 @@ TEST_F(JoinersTest, CountWhatStrangersSay) {
     anyone.send(packet::pack(Type::end, 1, {}));
     anyone.send(packet::pack(Type::join, 0, Fields{}.set("name", "no process")));
     ASSERT_TRUE(wait_for([&] { return broken == 3; }));
-    EXPECT_THAT(lines, IsEmpty());
+    EXPECT_THAT(connections, IsEmpty());
 }
 
 }  // namespace

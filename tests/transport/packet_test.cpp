@@ -1,4 +1,4 @@
-#include "transport/packet.hpp"
+#include "transport/wire/packet.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <cstring>
 #include <random>
 
-#include "transport/body.hpp"
-#include "transport/colours.hpp"
+#include "transport/wire/body.hpp"
+#include "transport/wire/colours.hpp"
 
 namespace lightnet {
 namespace {

@@ -1,5 +1,5 @@
 // The secret by which a host proves that it belongs to a run.
-#include "transport/pass.hpp"
+#include "transport/wire/pass.hpp"
 
 #include <gmock/gmock.h>
 #include <sys/stat.h>

@@ -3,10 +3,9 @@
 
 #include <string>
 #include <vector>
-#include <zmq.hpp>
 
-#include "transport/relay.hpp"
-#include "transport/relays.hpp"
+#include "transport/launcher/relays.hpp"
+#include "transport/wire/relay_address.hpp"
 
 namespace lightnet {
 namespace {
@@ -33,14 +32,14 @@ Message reply() {
 
 Frames frames_of(const RelayAddress& address, const Message& message, std::uint32_t place = 0) {
     Frames frames;
-    frames.push_back(frame_of(seal(address)));
+    frames.emplace_back(seal(address));
     append(frames, packet::pack(message, place));
     return frames;
 }
 
 class RelaysTest : public ::testing::Test {
 protected:
-    Relays::Ways ways() {
+    Relays::Handlers handlers() {
         return {[this](const std::string& host, Frames& frames, std::uint32_t place) {
                     if (host != "there") return false;
                     asked.push_back(unseal(bytes_of(frames[0]))->host + " asks place " + std::to_string(place));
@@ -51,25 +50,25 @@ protected:
                     answered.push_back(asker.place);
                     return true;
                 },
-                [this](const std::string& host) { said_again.push_back(host); }, [this] { ++damaged; }};
+                [this](const std::string& host) { told.push_back(host); }, [this] { ++damaged; }};
     }
     // All who are told by then.
     std::vector<std::string> told_by(std::chrono::milliseconds time) {
-        said_again.clear();
-        relays.say_again(begin + time);
-        return said_again;
+        told.clear();
+        relays.request_resends(begin + time);
+        return told;
     }
 
     Counters counters;
-    std::vector<std::string> asked, answered, said_again;
+    std::vector<std::string> asked, answered, told;
     int damaged = 0;
-    Relays relays{counters, ways()};
+    Relays relays{counters, handlers()};
     const Relays::Time begin = Relays::Time{} + std::chrono::hours(1);
 };
 
 TEST_F(RelaysTest, TellsTheAnswererWhoAsks) {
     auto frames = frames_of({"there", "p"}, ask(), 2);
-    relays.pass_on("here", frames);
+    relays.forward("here", frames);
     EXPECT_THAT(asked, ElementsAre("here asks place 2"));
     EXPECT_GT(counters.relayed_bytes, 64u);
     EXPECT_FALSE(relays.waiting());
@@ -77,31 +76,31 @@ TEST_F(RelaysTest, TellsTheAnswererWhoAsks) {
 
 TEST_F(RelaysTest, BringsAReplyToThePlaceThatAsked) {
     auto frames = frames_of({"here", "p"}, reply());
-    relays.pass_on("there", frames);
+    relays.forward("there", frames);
     EXPECT_THAT(answered, ElementsAre("p"));
     EXPECT_THAT(asked, IsEmpty());
 }
 
 TEST_F(RelaysTest, TellsTheAskerOfAHostThatIsGone) {
     auto frames = frames_of({"nowhere", "p"}, ask());
-    relays.pass_on("here", frames);
+    relays.forward("here", frames);
     EXPECT_THAT(told_by({}), ElementsAre("here"));
     EXPECT_THAT(told_by(std::chrono::seconds(1)), IsEmpty()) << "once is enough";
 }
 
 TEST_F(RelaysTest, TellsTheAskerWhenItsAskArrivedDamaged) {
     Frames frames;
-    frames.push_back(frame_of(seal({"here", "p"})));
+    frames.emplace_back(seal({"here", "p"}));
     frames.emplace_back();
     frames.emplace_back();
-    relays.pass_on("there", frames);
+    relays.forward("there", frames);
     EXPECT_THAT(told_by({}), ElementsAre("here"));
 }
 
 TEST_F(RelaysTest, DoesNotTrustADamagedAddress) {
     auto frames = frames_of({"there", "p"}, ask());
     static_cast<char*>(frames[0].data())[0] ^= 1;
-    relays.pass_on("here", frames);
+    relays.forward("here", frames);
     EXPECT_THAT(asked, IsEmpty());
     EXPECT_EQ(damaged, 1) << "it may have been the reply to anybody";
     EXPECT_EQ(counters.broken_packets, 1u);
@@ -110,9 +109,9 @@ TEST_F(RelaysTest, DoesNotTrustADamagedAddress) {
 
 TEST_F(RelaysTest, PassesNoControlMessagesOn) {
     Frames frames;
-    frames.push_back(frame_of(seal({"there", "p"})));
+    frames.emplace_back(seal({"there", "p"}));
     append(frames, packet::pack(Type::end, 1, {}));
-    relays.pass_on("here", frames);
+    relays.forward("here", frames);
     EXPECT_THAT(asked, IsEmpty());
     EXPECT_EQ(counters.broken_packets, 1u);
 }
@@ -120,11 +119,11 @@ TEST_F(RelaysTest, PassesNoControlMessagesOn) {
 TEST_F(RelaysTest, SaysItNoMoreOftenThanIsUseful) {
     for (int i = 0; i < 3; ++i) {
         auto frames = frames_of({"nowhere", "p"}, ask());
-        relays.pass_on("here", frames);
+        relays.forward("here", frames);
     }
     EXPECT_THAT(told_by({}), ElementsAre("here"));
     auto frames = frames_of({"nowhere", "p"}, ask());
-    relays.pass_on("here", frames);
+    relays.forward("here", frames);
     EXPECT_THAT(told_by(std::chrono::milliseconds(10)), IsEmpty());
     EXPECT_TRUE(relays.waiting());
     EXPECT_THAT(told_by(std::chrono::milliseconds(200)), ElementsAre("here"));

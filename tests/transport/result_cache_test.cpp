@@ -1,4 +1,4 @@
-#include "transport/result_cache.hpp"
+#include "transport/store/result_cache.hpp"
 
 #include <gtest/gtest.h>
 

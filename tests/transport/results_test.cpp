@@ -1,4 +1,4 @@
-#include "transport/results.hpp"
+#include "transport/store/results.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,20 +1,19 @@
-#include "transport/zmq_carrier.hpp"
+#include "transport/zmq/zmq_carrier.hpp"
 
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <memory>
 #include <thread>
-#include <zmq.hpp>
 
-#include "transport/sockets.hpp"
+#include "transport/zmq/socket.hpp"
 
 namespace lightnet {
 namespace {
 
 // At the end of a run a place may end before one that still asks it.
 TEST(ZmqCarrier, CountsWhatAFullPlaceRefusesAndNotWhatOneDoesThatIsNotThere) {
-    zmq::context_t context;
+    const SocketContext context;
     ZmqCarrier asker(context, {.run = 1, .host = "me", .place = 0});
     const auto ask = [&] {
         Message message;
@@ -22,7 +21,7 @@ TEST(ZmqCarrier, CountsWhatAFullPlaceRefusesAndNotWhatOneDoesThatIsNotThere) {
         message.questions = std::make_shared<const std::vector<Query>>(1);
         return asker.ask({"me", 1}, message);
     };
-    auto answerer = std::make_unique<ZmqCarrier>(context, ZmqCarrier::Ends{.run = 1, .host = "me", .place = 1});
+    auto answerer = std::make_unique<ZmqCarrier>(context, ZmqCarrier::Address{.run = 1, .host = "me", .place = 1});
     int sent = 0;
     while (ask()) ++sent;
     EXPECT_GE(sent, high_water_mark);

@@ -1,0 +1,237 @@
+#include "transport/daemon/host.hpp"
+
+#include <algorithm>
+
+#include "core/base/error.hpp"
+#include "transport/daemon/host_service.hpp"
+#include "transport/wire/relay_address.hpp"
+
+namespace lightnet {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using packet::Fields;
+using packet::Type;
+
+constexpr auto launcher_lease = std::chrono::seconds(4);               // without a word, its run is over
+constexpr auto quiet_before_leaving = std::chrono::milliseconds(300);  // askers may not know yet that it leaves
+constexpr auto goodbye_deadline = std::chrono::milliseconds(500);
+
+HostDoor::Options door_options(const Host::Options& options, const Machine& machine, std::uint64_t process) {
+    HostDoor::Options door{options.listen, options.join, options.name.empty() ? machine.name : options.name, process};
+    if (!options.join.empty()) door.pass = Pass::of(options.pass.empty() ? Pass::usual_file() : options.pass);
+    door.log = options.log;
+    return door;
+}
+
+}  // namespace
+
+Host::Service::Service(Options given_options, const Registry& kinds)
+    : options(std::move(given_options)),
+      registry(kinds),
+      cache(options.cache.empty() ? default_cache_folder() : options.cache, options.cache_size),
+      door(*context, door_options(options, machine, process)) {
+    if (!options.places) options.places = static_cast<std::uint32_t>(machine.cores);
+    cache.trim();
+}
+
+Host::Host(Options options, const Registry& registry)
+    : service_(std::make_unique<Service>(std::move(options), registry)) {}
+Host::~Host() = default;
+std::string Host::endpoint() const { return service_->door.endpoint(); }
+
+void Host::serve(const std::atomic<bool>& stop) {
+    auto& s = *service_;
+    s.needed = Clock::now();
+    while (true) {
+        const auto now = Clock::now();
+        if (stop && !s.leaving) s.leave(now);
+        if (s.leaving && s.gone(now)) break;
+        const auto readable = s.wait();
+        for (const auto place : readable.places) s.forward_replies(place);
+        s.door.let_in();
+        if (readable.door)
+            while (auto frames = s.door.receive(Clock::now())) s.arrived(std::move(*frames));
+        s.look_at_arriving();
+        s.look_at_ending();
+        if (readable.gateway) s.forward_asks();
+        if (s.peers && (readable.peers || s.peers->due(now))) s.peers->tick(now);
+        if (readable.news || (s.run && !s.run->serving())) s.advance();
+        if (readable.news) s.tell_found(), s.tell_failures();
+        if (s.run && now - s.heard > launcher_lease) s.drop_run("its launcher is silent");
+        if (!s.leaving) s.door.keep_in_touch(now);
+        if (s.run) s.needed = now;
+        if (s.options.patience && now - s.needed > *s.options.patience) {
+            s.options.log("nobody needs it any more");
+            break;
+        }
+    }
+    if (s.run) s.drop_run("this host is stopping");
+}
+
+bool Host::hangs() const { return !service_->background.done_within(goodbye_deadline); }
+
+void Host::Service::arrived(Frames frames) {
+    const auto route = text_of(frames[0]);
+    if (frames.size() == 2 && frames[1].size() == 0) {  // what went through the launcher may be lost
+        if (gateway && route == launcher) gateway->request_resend("");
+        return;
+    }
+    if (frames.size() < 3) return damaged(route);
+    const auto header_bytes = bytes_of(frames[frames.size() - 2]);
+    const auto header = packet::peek_header(header_bytes);
+    const bool plain = frames.size() == 3;
+    if (header && plain && packet::is_ask(header->type)) return work(*header, std::move(frames));
+    if (header && frames.size() == 4 && header->type < Type::hello) return from_another(*header, std::move(frames));
+    const auto body = bytes_of(frames.back());
+    const bool sound = header && plain && packet::read_header(header_bytes, body);
+    const auto piece = sound && header->type == Type::blob ? packet::unpack_piece(body) : std::nullopt;
+    const auto fields = sound && header->type != Type::blob ? packet::unpack_fields(body) : std::nullopt;
+    if (!piece && !fields) {
+        const auto theirs = packet::claimed_version(header_bytes);
+        if (theirs && *theirs != packet::version)
+            door.send(route, Type::refuse, 0,
+                      Fields{}.set("text", "protocol version " + std::to_string(packet::version) +
+                                               " is spoken here, not " + std::to_string(*theirs)));
+        return damaged(route);
+    }
+    try {
+        if (run && header->run == run->id()) heard = std::chrono::steady_clock::now();
+        if (piece)
+            take_blob(route, header->run, *piece);
+        else
+            control(route, *header, *fields);
+    } catch (const std::exception& error) {
+        door.send(route, Type::broken, header->run, Fields{}.set("text", error.what()));
+        if (run && run->id() == header->run) drop_run(error.what());
+    }
+}
+
+// Whoever sent it must send it again.
+void Host::Service::damaged(const std::string& route) {
+    ++broken_packets;
+    Frames resend;
+    resend.emplace_back(route);
+    resend.emplace_back();
+    door.send(resend);
+}
+
+// Not looked into: the place checks and decodes.
+void Host::Service::work(const packet::Header& header, Frames frames) {
+    if (!run || header.run != run->id() || !run->serving()) return;
+    if (!run->transport()->forward(header.place, frames)) {
+        frames.resize(frames.size() - 2);
+        frames.emplace_back();
+        frames.emplace_back();
+        door.send(frames);  // to be sent again
+        return;
+    }
+    given += header.width > 0;
+    if (leaving) leaving->last_work = Clock::now();
+}
+
+// [route][address][header][body], through the launcher: an ask, or the reply to one of ours.
+void Host::Service::from_another(const packet::Header& header, Frames frames) {
+    if (packet::is_ask(header.type)) return work(header, std::move(frames));
+    if (!run || header.run != run->id()) return;
+    const auto address = unseal(bytes_of(frames[1]));
+    frames.erase(frames.begin(), frames.begin() + 2);
+    if (!address || !gateway->forward(address->place, frames)) gateway->request_resend("");
+}
+
+void Host::Service::advance() {
+    if (!run) return;
+    try {
+        while (run->advance()) {
+            if (run->state() == HostedRun::State::fetching) tell_needs();
+            if (run->serving()) door.send(launcher, Type::ready, run->id(), {});
+        }
+    } catch (const std::exception& error) {
+        door.send(launcher, Type::broken, run->id(), Fields{}.set("text", error.what()));
+        drop_run(error.what());
+    }
+}
+
+void Host::Service::forward_replies(std::uint32_t place) {
+    if (!run || !run->serving()) return;
+    while (auto frames = run->transport()->receive(place)) {
+        if (frames->size() < 3) continue;
+        const auto header = packet::peek_header(bytes_of((*frames)[frames->size() - 2]));
+        answered += !header || header->width > 0;  // as in work()
+        door.send(*frames);
+    }
+}
+
+void Host::Service::forward_asks() {
+    if (!gateway) return;
+    while (auto frames = gateway->receive()) peers->ask(std::move(*frames));
+}
+
+// For hosts that we can't call: the launcher passes it on.
+void Host::Service::forward_to_launcher(Frames& frames) {
+    const auto place = text_of(frames[0]), host = text_of(frames[1]);
+    frames[0] = MessageFrame(launcher);
+    frames[1] = MessageFrame(seal({host, place}));
+    door.send(frames);  // if it fails the launcher greets us anew, and all is sent again
+}
+
+void Host::Service::tell_failures() {
+    if (!run) return;
+    for (const auto& [why, host] : run->failures()) {
+        options.log(host + " failed at what it was asked: " + why);
+        door.send(launcher, Type::fault, run->id(), Fields{}.set("host", host).set("text", why));
+    }
+}
+
+void Host::Service::leave(Clock::time_point now) {
+    leaving = Leaving{now, now, false, std::nullopt};
+    if (!run) return;
+    options.log("finishes what it has, then stops");
+    door.send(launcher, Type::leaving, run->id(), {});
+    if (run->serving()) return;
+    drop_run("this host is stopping");
+    leaving->farewell = now;
+}
+
+bool Host::Service::gone(Clock::time_point now) {
+    if (leaving->farewell) return !run && now - *leaving->farewell > goodbye_deadline;
+    if (!run) return !ending || now - leaving->since > goodbye_deadline;
+    if (now - leaving->since > options.drain) return true;
+    const bool idle = answered >= given && now - leaving->last_work > quiet_before_leaving;
+    if (!leaving->known || !idle) return false;
+    end(launcher, run->id());
+    leaving->farewell = now;
+    return false;
+}
+
+Host::Service::Readable Host::Service::wait() {
+    Poll poll;
+    door.watch(poll);
+    const std::size_t background_item = poll.size();
+    poll.add(background.handle());
+    if (peers) peers->watch(poll);
+    const std::size_t gateway_item = poll.size();
+    auto* const places = run ? run->places() : nullptr;
+    if (run) {
+        gateway->watch(poll);
+        poll.add(run->news());
+    }
+    if (places) poll.add(places->news());
+    const std::size_t first_place = poll.size();
+    if (places && run->serving()) run->transport()->watch(poll);
+    const bool soon = leaving || (peers && peers->waiting());
+    poll.wait(std::chrono::milliseconds(soon ? 5 : 100));
+    Readable readable;
+    readable.door = poll.any_readable(0, background_item);
+    if (poll.readable(background_item)) background.clear();
+    if (!run) return readable;
+    readable.peers = poll.any_readable(background_item + 1, gateway_item);
+    readable.gateway = poll.readable(gateway_item);
+    readable.news = poll.any_readable(gateway_item + 1, first_place);
+    if (readable.news) run->clear_news();
+    for (std::size_t item = first_place; item < poll.size(); ++item)
+        if (poll.readable(item)) readable.places.push_back(static_cast<std::uint32_t>(item - first_place));
+    return readable;
+}
+
+}  // namespace lightnet

@@ -1,0 +1,243 @@
+// What a host says to launchers, and does when they say something.
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+#include "core/base/build_info.hpp"
+#include "core/base/error.hpp"
+#include "core/run/runtime/fingerprint.hpp"
+#include "transport/daemon/host_service.hpp"
+
+namespace lightnet {
+namespace {
+
+constexpr std::uint32_t most_places = 256;  // that a hosts file may ask for, if this host does not offer more itself
+
+using packet::Fields;
+using packet::Type;
+
+}  // namespace
+
+void Host::Service::control(const std::string& route, const packet::Header& header, const Fields& fields) {
+    const bool ours = run && header.run == run->id();
+    switch (header.type) {
+        case Type::hello:
+            return greet(route, fields);
+        case Type::begin:
+            return begin(route, header.run, fields);
+        case Type::ping:
+            return door.send(route, Type::pong, header.run,
+                             Fields{}
+                                 .set("process", process)
+                                 .set("run", ours ? run->id() : 0)
+                                 .set("sent", fields.number("sent"))
+                                 .set("line", door.tally().line)
+                                 .set("taken", door.tally().taken)
+                                 .set("told", door.tally().told)
+                                 .set("progress", run && run->places() ? run->places()->progress() : 0));
+        case Type::plan:
+            if (ours) use(plan_from_json(fields.text("plan")));
+            if (ours && leaving) leaving->known = true;
+            return;
+        case Type::status:
+            return tell_state(route);
+        case Type::expect:
+            if (const auto hash = hash_from_hex(fields.text("hash")); ours && hash)
+                run->expect(*hash, fields.number("size"));
+            return tell_found();
+        case Type::end:
+            return end(route, header.run);
+        default:
+            return;
+    }
+}
+
+void Host::Service::greet(const std::string& route, const Fields& fields) {
+    if (leaving) return;  // whoever comes after it may serve
+    if (fields.text("build") != build_id())
+        return door.send(
+            route, Type::refuse, 0,
+            Fields{}.set("text", "builds differ: it runs " + build_id() + ", the launcher " + fields.text("build")));
+    try {
+        Fields answer;
+        set(answer, machine);
+        answer.set("places", options.places)
+            .set("process", process)
+            .set("fingerprint", fingerprint(fields.text("isa")));
+        door.send(route, Type::welcome, 0, answer);
+    } catch (const Error& error) {  // a processor without that instruction set
+        door.send(route, Type::refuse, 0, Fields{}.set("text", error.what()));
+    }
+}
+
+std::string Host::Service::busy_with() const {
+    if (!run && ending) return "it still ends the run before";
+    return "it serves another run" + (who.empty() ? "" : ", of " + who);
+}
+
+void Host::Service::refuse(const std::string& route, std::uint64_t id, const std::string& why) {
+    options.log("refuses a run: " + why);
+    door.send(route, Type::broken, id, Fields{}.set("text", why));
+}
+
+void Host::Service::begin(const std::string& route, std::uint64_t id, const Fields& fields) {
+    if (leaving) return;
+    if (run && run->id() == id) return go_on(route, plan_from_json(fields.text("plan")));
+    if (arriving && arriving->id == id) {
+        arriving->route = route;
+        return;
+    }
+    if (run || arriving || ending)
+        return door.send(route, Type::refuse, id, Fields{}.set("text", busy_with()).set("busy", 1));
+    if (const auto size = fields.text("job").size() + fields.text("plan").size(); size > most_job_bytes)
+        return refuse(route, id, "a job of " + std::to_string(size) + " bytes is larger than any that is taken");
+    auto read = background.start([job = fields.text("job"), plan = fields.text("plan"), this] {
+        Arrival arrival{read_job(job, registry), plan_from_json(plan)};
+        if (!fits(arrival.plan, arrival.job.graph)) throw Error("the plan does not fit the graph");
+        return arrival;
+    });
+    arriving = Arriving{id, route, fields.text("you"), fields.text("who"), std::move(read)};
+}
+
+void Host::Service::look_at_arriving() {
+    if (!arriving || arriving->read.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+    auto job = std::move(*arriving);
+    arriving.reset();
+    try {
+        start(job, job.read.get());
+    } catch (const std::exception& error) {
+        refuse(job.route, job.id, error.what());
+        if (run && run->id() == job.id) drop_run(error.what());
+    }
+}
+
+void Host::Service::start(const Arriving& job, Arrival read) {
+    if (leaving) return;
+    // a hosts file may ask for more places than there are cores
+    const auto mine = static_cast<std::uint32_t>(std::count_if(
+        read.plan.places.begin(), read.plan.places.end(), [&](const PlaceAt& place) { return place.host == job.you; }));
+    const auto most = std::max(options.places, most_places);
+    if (mine > most)
+        throw Error("the plan asks for " + std::to_string(mine) + " places of this host, which gives at most " +
+                    std::to_string(most));
+    HostedRun::Assignment assignment{job.id, job.you, std::max(options.places, mine), read.plan, std::move(read.job)};
+    run = std::make_unique<HostedRun>(context, cache, registry, std::move(assignment));
+    gateway.emplace(*context, job.id);
+    peers.emplace(
+        *context, job.you,
+        PeerConnections::Handlers{[this](const std::string& place, Frames& frames) { gateway->forward(place, frames); },
+                                  [this](const std::string& host) { gateway->request_resend(host); },
+                                  [this](Frames& frames) { forward_to_launcher(frames); }});
+    who = job.who;
+    given = answered = 0;
+    options.log("serves a run" + (who.empty() ? "" : " of " + who));
+    go_on(job.route, read.plan);
+}
+
+void Host::Service::use(const Plan& plan) {
+    run->use(plan);
+    peers->use(plan);
+}
+
+// The launcher has begun it, or has found us again.
+void Host::Service::go_on(const std::string& route, const Plan& plan) {
+    launcher = route;
+    door.count(route);
+    heard = std::chrono::steady_clock::now();
+    use(plan);
+    run->expect_files_anew();
+    gateway->request_resend("");
+    if (run->state() != HostedRun::State::looking) tell_needs();
+    if (run->serving()) door.send(route, Type::ready, run->id(), {});  // the launcher had lost sight of us
+}
+
+void Host::Service::tell_needs() {
+    std::string missing;
+    for (const auto& hash : run->missing()) missing += to_hex(hash);
+    door.send(launcher, Type::need, run->id(), Fields{}.set("hashes", missing));
+}
+
+void Host::Service::tell_found() {
+    if (!run) return;
+    for (const auto& [hash, here] : run->found())
+        door.send(launcher, here ? Type::here : Type::lacks, run->id(), Fields{}.set("hash", to_hex(hash)));
+}
+
+void Host::Service::tell_state(const std::string& route) {
+    Fields fields;
+    set(fields, machine);
+    fields.set("name", options.name.empty() ? machine.name : options.name).set("places", options.places);
+    fields.set("state", leaving  ? "leaves"
+                        : run    ? run->words()
+                        : ending ? "ends a run"
+                                 : "is free")
+        .set("who", run ? who : "");
+    fields.set("broken_packets", broken_packets);
+    if (run) {
+        fields.set("nodes", run->nodes()).set("bundles", given);
+        fields.set("progress", run->places() ? run->places()->progress() : 0);
+    }
+    door.send(route, Type::state, 0, fields);
+}
+
+void Host::Service::take_blob(const std::string& route, std::uint64_t id, const packet::Piece& piece) {
+    if (!run || run->id() != id) return;
+    if (run->take_blob(piece))
+        door.send(route, Type::blob_taken, id, Fields{}.set("hash", to_hex(piece.hash)).set("offset", piece.offset));
+    tell_found();
+}
+
+// Its threads end when they have done what they are at, which may take a while: somebody else waits for them.
+void Host::Service::stop_run(const std::string& route) {
+    const auto id = run->id();
+    peers.reset();
+    gateway.reset();
+    run->begin_to_stop();
+    const auto over = std::make_shared<std::unique_ptr<HostedRun>>(std::move(run));
+    const auto stop = [over, this] {
+        const auto last = std::move(*over);
+        const auto counters = last->stop();
+        cache.trim();
+        return counters;
+    };
+    try {
+        ending = Ending{id, route, background.start(stop)};
+    } catch (const std::system_error&) {  // no thread is to be had
+        std::promise<Counters> counters;
+        counters.set_value(stop());
+        ending = Ending{id, route, counters.get_future()};
+    }
+    look_at_ending();
+}
+
+void Host::Service::look_at_ending() {
+    if (!ending || ending->counters.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+    auto over = std::move(*ending);
+    ending.reset();
+    auto counters = over.counters.get();
+    counters.broken_packets += std::exchange(broken_packets, 0);
+    if (over.route.empty()) return;
+    Fields fields;
+    for (const auto& [name, count] : counters.named()) fields.set(name, count);
+    door.send(over.route, Type::ended, over.id, fields);
+}
+
+void Host::Service::end(const std::string& route, std::uint64_t id) {
+    if (run && run->id() == id) {
+        options.log("the run has ended");
+        return stop_run(route);
+    }
+    if (arriving && arriving->id == id) arriving.reset();
+    if (ending && ending->id == id) {
+        ending->route = route;
+        return;
+    }
+    door.send(route, Type::ended, id, {});
+}
+
+void Host::Service::drop_run(const std::string& why) {
+    options.log("the run is given up: " + why);
+    stop_run({});
+}
+
+}  // namespace lightnet

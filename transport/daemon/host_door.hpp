@@ -1,0 +1,72 @@
+// The sockets of a host: its port, if it has one, and its connection to a launcher that it dialled.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "transport/wire/packet.hpp"
+#include "transport/wire/pass.hpp"
+#include "transport/zmq/doorkeeper.hpp"
+#include "transport/zmq/socket.hpp"
+
+namespace lightnet {
+
+/// Whatever way a message comes, its first frame is the route on which answers go back. One thread's.
+class HostDoor {
+public:
+    using Time = std::chrono::steady_clock::time_point;
+    struct Options {
+        std::string listen;  // empty: nobody can call this host
+        std::string join;    // of a launcher; empty: none is dialled
+        std::string name;    // under which it joins
+        std::uint64_t process = 0;
+        std::optional<Pass> pass{};  // by which it proves that it belongs there; to be had when it joins
+        std::function<void(const std::string&)> log = [](const std::string&) {};
+    };
+    /// Throws Error when the port can't be had.
+    HostDoor(const SocketContext& context, Options options);
+
+    /// Where it listens, with the port that the system chose; empty: nowhere.
+    std::string endpoint() const;
+    /// What arrived, if anything.
+    std::optional<Frames> receive(Time now);
+    void send(const std::string& route, packet::Type type, std::uint64_t run, const packet::Fields& fields);
+    /// Route first.
+    bool send(Frames& frames);
+    /// Reports to the launcher that was dialled, until it answers and from time to time; dials anew when it is silent.
+    void keep_in_touch(Time now);
+    /// Lets in who waits, as long as there is room for connections. To be called before receive().
+    void let_in();
+    void watch(Poll& poll) const;
+
+    /// How many messages came and went on the connection to the launcher of the run; see packet::is_counted().
+    struct Tally {
+        std::uint64_t line = 0;  // another number: another connection, counted from nothing
+        std::uint64_t taken = 0, told = 0;
+    };
+    /// From now on this is that connection.
+    void count(const std::string& route);
+    const Tally& tally() const { return tally_; }
+
+private:
+    void dial(Time now);
+    void take_challenge(const Frames& frames);
+    std::optional<Frames> from_launcher(Time now);
+    std::optional<Frames> from_anyone(Time now);
+
+    const SocketContext& context_;
+    Options options_;
+    std::optional<Doorkeeper> keeper_;
+    std::optional<Socket> port_, launcher_;
+    std::string challenge_;  // of the launcher that was dialled
+    bool turned_down_ = false;
+    Time heard_{}, dialled_{}, next_join_{};
+    std::chrono::milliseconds silence_;  // after which it dials anew
+    std::string counted_;                // route
+    Tally tally_;
+};
+
+}  // namespace lightnet

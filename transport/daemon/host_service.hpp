@@ -1,0 +1,110 @@
+// What a host is made of. For the .cpp files of hosts.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "transport/daemon/background_work.hpp"
+#include "transport/daemon/host.hpp"
+#include "transport/daemon/host_door.hpp"
+#include "transport/daemon/hosted_run.hpp"
+#include "transport/daemon/peer_connections.hpp"
+#include "transport/store/blob_cache.hpp"
+#include "transport/wire/machine.hpp"
+#include "transport/wire/packet.hpp"
+#include "transport/zmq/gateway.hpp"
+
+namespace lightnet {
+
+/// The host itself. What it serves is one run at a time; all of it belongs to the thread of serve().
+struct Host::Service {
+    using Time = std::chrono::steady_clock::time_point;
+    Options options;
+    const Registry& registry;
+    BlobCache cache;
+    Machine machine = this_machine();
+    std::uint64_t process = process_number();
+    std::shared_ptr<const SocketContext> context = std::make_shared<const SocketContext>();
+    HostDoor door;
+    std::uint64_t broken_packets = 0;
+    // A job that is being read, in the background: whoever sent it may be nobody's friend.
+    struct Arrival {
+        Job job;
+        Plan plan;
+    };
+    struct Arriving {
+        std::uint64_t id = 0;
+        std::string route;
+        std::string you, who;  // as the launcher calls this host, and itself
+        std::future<Arrival> read;
+    };
+    std::optional<Arriving> arriving;
+    std::unique_ptr<HostedRun> run;
+    std::optional<Gateway> gateway;        // of the run
+    std::optional<PeerConnections> peers;  // to the other hosts of the run
+    // A run that has ended, and whose threads may take a while to.
+    struct Ending {
+        std::uint64_t id = 0;
+        std::string route;  // who wants its counters; empty: nobody
+        std::future<Counters> counters;
+    };
+    std::optional<Ending> ending;
+    std::string who;                        // began the run
+    std::string launcher;                   // route to it
+    Time heard{};                           // from it
+    std::uint64_t given = 0, answered = 0;  // asks of others
+    Time needed{};                          // last, by anyone
+
+    // Leaving: told to stop, the launcher gives no more work, what was given is answered, it says farewell.
+    struct Leaving {
+        Time since, last_work;
+        bool known = false;  // to the launcher
+        std::optional<Time> farewell;
+    };
+    std::optional<Leaving> leaving;
+    BackgroundWork background;  // last: what it does looks at the rest
+
+    Service(Options given, const Registry& kinds);
+    void arrived(Frames frames);
+    void damaged(const std::string& route);
+    void work(const packet::Header& header, Frames frames);
+    void from_another(const packet::Header& header, Frames frames);
+    void control(const std::string& route, const packet::Header& header, const packet::Fields& fields);
+    void greet(const std::string& route, const packet::Fields& fields);
+    void begin(const std::string& route, std::uint64_t id, const packet::Fields& fields);
+    void look_at_arriving();
+    void start(const Arriving& job, Arrival read);
+    void go_on(const std::string& route, const Plan& plan);
+    void use(const Plan& plan);
+    std::string busy_with() const;
+    void tell_needs();
+    void tell_state(const std::string& route);
+    void tell_found();
+    void take_blob(const std::string& route, std::uint64_t id, const packet::Piece& piece);
+    void stop_run(const std::string& route);
+    void look_at_ending();
+    void tell_failures();
+    void refuse(const std::string& route, std::uint64_t id, const std::string& why);
+    void end(const std::string& route, std::uint64_t id);
+    void drop_run(const std::string& why);
+    void advance();
+    // Who has something to be read. Looking at an empty socket costs a system call, so only these are looked at.
+    struct Readable {
+        bool door = false, peers = false, gateway = false;
+        bool news = false;  // of the run
+        std::vector<std::uint32_t> places;
+    };
+    Readable wait();
+    void forward_replies(std::uint32_t place);
+    void forward_asks();
+    void forward_to_launcher(Frames& frames);
+    void leave(Time now);
+    bool gone(Time now);
+};
+
+}  // namespace lightnet

@@ -1,0 +1,165 @@
+#include "transport/daemon/hosted_run.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "core/base/error.hpp"
+
+namespace lightnet {
+
+HostedRun::HostedRun(std::shared_ptr<const SocketContext> context, BlobCache& cache, const Registry& registry,
+                     Assignment assignment)
+    : context_(std::move(context)), cache_(cache), registry_(registry), assignment_(std::move(assignment)) {
+    use(assignment_.plan);
+    looking_ = background_.start([this] {
+        std::set<Hash> missing;
+        for (const auto& file : assignment_.job.files)
+            if (!cache_.has(file.hash)) missing.insert(file.hash);
+        return missing;
+    });
+}
+
+std::uint64_t HostedRun::size_of(const Hash& hash) const {
+    for (const auto& file : assignment_.job.files)
+        if (file.hash == hash) return file.size;
+    return 0;
+}
+
+void HostedRun::expect(const Hash& hash, std::uint64_t size) {
+    if (results_->in_memory(hash)) return found_.push_back({hash, true});
+    expected_[hash].size = size;
+    if (!looked_for_.contains(hash)) looked_for_[hash] = background_.start([this, hash] { return cache_.read(hash); });
+}
+
+std::vector<std::pair<Hash, bool>> HostedRun::found() {
+    for (auto look = looked_for_.begin(); look != looked_for_.end();) {
+        if (look->second.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+            ++look;
+            continue;
+        }
+        auto bytes = look->second.get();
+        found_.push_back({look->first, bytes != nullptr});
+        if (bytes) {
+            results_->take(look->first, std::move(bytes));
+            expected_.erase(look->first);
+        }
+        look = looked_for_.erase(look);
+    }
+    return std::exchange(found_, {});
+}
+
+void HostedRun::take_result(const packet::Piece& piece, IncomingResult& result) {
+    constexpr std::uint64_t believed = std::uint64_t{4} << 30;  // room is taken for so much before it is there
+    if (piece.offset == 0) {                                    // from the beginning, perhaps again
+        result.bytes = std::make_shared<std::vector<std::byte>>();
+        result.bytes->reserve(std::min(result.size, believed));
+        result.hasher.emplace();
+    }
+    if (!result.bytes || piece.offset != result.bytes->size()) return;
+    if (piece.bytes.size() > result.size - piece.offset) throw Error("a result is longer than it was said to be");
+    result.bytes->insert(result.bytes->end(), piece.bytes.begin(), piece.bytes.end());
+    result.hasher->add(piece.bytes);
+    if (result.bytes->size() < result.size) return;
+    if (result.hasher->finish() != piece.hash) throw Error("a result of preparing arrived damaged");
+    results_->keep(piece.hash, std::move(result.bytes));
+    expected_.erase(piece.hash);
+    found_.push_back({piece.hash, true});
+}
+
+bool HostedRun::take_blob(const packet::Piece& piece) {
+    const auto& [hash, offset, bytes] = piece;
+    if (const auto expected = expected_.find(hash); expected != expected_.end()) {
+        take_result(piece, expected->second);
+        return true;
+    }
+    if (state_ == State::looking) return false;
+    if (!missing_.contains(hash)) return true;
+    auto found = incoming_.find(hash);
+    // a second one for the same file would take its first pieces away
+    if (found == incoming_.end()) found = incoming_.emplace(hash, cache_.receive(hash)).first;
+    auto& blob = found->second;
+    if (offset != blob.size()) return offset < blob.size();  // pieces come in order; some may come again
+    if (bytes.size() > size_of(hash) - offset) throw Error("a file of the scene is longer than it was said to be");
+    blob.add(bytes);
+    if (blob.size() < size_of(hash)) return true;
+    blob.finish();
+    incoming_.erase(hash);
+    missing_.erase(hash);
+    return true;
+}
+
+bool HostedRun::advance() {
+    const auto before = state_;
+    constexpr auto now = std::chrono::seconds(0);
+    if (state_ == State::looking && looking_.wait_for(now) == std::future_status::ready) {
+        missing_ = looking_.get();
+        state_ = State::fetching;
+    } else if (state_ == State::fetching && missing_.empty()) {
+        building_ = background_.start([this] {
+            BlobFiles files(cache_, assignment_.job.files);
+            return build_network(assignment_.job, registry_, files,
+                                 [results = results_](const Hash& hash) { return results->find(hash); });
+        });
+        state_ = State::building;
+    } else if (state_ == State::building && building_.wait_for(now) == std::future_status::ready) {
+        auto network = building_.get();
+        const auto& [id, me, places, plan, job] = assignment_;
+        transport_ = std::make_unique<ZmqPlaceTransport>(context_, id, me, places);
+        places_ = std::make_unique<PlaceThreads>(*transport_, std::move(network), id, me, places, plan, job.tuning);
+        state_ = State::starting;
+    } else if (places_ && places_->ready() && state_ == State::starting) {  // throws what a place has died of
+        places_->use(assignment_.plan);                                     // it may have changed meanwhile
+        state_ = State::serving;
+    }
+    return state_ != before;
+}
+
+void HostedRun::use(const Plan& plan) {
+    if (!fits(plan, assignment_.job.graph)) throw Error("the plan does not fit the graph");
+    assignment_.plan = plan;
+    if (serving()) places_->use(plan);
+}
+
+void HostedRun::begin_to_stop() {
+    if (places_) places_->begin_to_stop();
+}
+
+Counters HostedRun::stop() {
+    if (!places_) return {};
+    auto counters = places_->stop();
+    places_.reset();
+    transport_.reset();
+    state_ = State::fetching;
+    return counters;
+}
+
+const char* HostedRun::words() const {
+    switch (state_) {
+        case State::looking:
+            return "looks for files";
+        case State::fetching:
+            return "takes in files";
+        case State::building:
+            return "builds";
+        case State::starting:
+            return "starts its places";
+        case State::serving:
+            return "serves";
+    }
+    return "";
+}
+
+std::string HostedRun::nodes() const {
+    std::string names;
+    for (std::size_t node = 0; node < assignment_.plan.places_of.size(); ++node) {
+        const auto& holders = assignment_.plan.places_of[node];
+        const auto here = std::count_if(holders.begin(), holders.end(), [&](auto place) {
+            return assignment_.plan.places[place].host == assignment_.me;
+        });
+        if (here > 0) names += (names.empty() ? "" : " ") + assignment_.job.graph.nodes[node].name;
+        if (here > 1) names += "×" + std::to_string(here);
+    }
+    return names;
+}
+
+}  // namespace lightnet

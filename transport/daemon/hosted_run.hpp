@@ -1,0 +1,106 @@
+// One run, as a host sees it: from the job's arrival to its end.
+#pragma once
+
+#include <cstdint>
+#include <future>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/run/runtime/job.hpp"
+#include "transport/daemon/background_work.hpp"
+#include "transport/places/place_threads.hpp"
+#include "transport/store/blob_cache.hpp"
+#include "transport/store/results.hpp"
+#include "transport/wire/packet.hpp"
+#include "transport/zmq/zmq_place_transport.hpp"
+
+namespace lightnet {
+
+/// Looks for the files of a job in the cache, takes in those that are missing, builds the network, and starts the
+/// places. Used by one thread, which must stay free for heartbeats: what takes time happens in the background.
+class HostedRun {
+public:
+    struct Assignment {
+        std::uint64_t id = 0;
+        std::string me;  // this host, as the plan calls it
+        std::uint32_t places = 1;
+        Plan plan;
+        Job job;
+    };
+    HostedRun(std::shared_ptr<const SocketContext> context, BlobCache& cache, const Registry& registry,
+              Assignment assignment);
+
+    enum class State { looking, fetching, building, starting, serving };
+
+    std::uint64_t id() const { return assignment_.id; }
+    State state() const { return state_; }
+    bool serving() const { return state_ == State::serving; }
+    /// Files that the cache does not have; known when it no longer looks.
+    const std::set<Hash>& missing() const { return missing_; }
+    /// The files will be sent from their beginnings.
+    void expect_files_anew() { incoming_.clear(); }
+    /// Takes a piece of a file. True: it is here now. Throws Error when a whole file is not what it was named.
+    bool take_blob(const packet::Piece& piece);
+    /// Bytes that a step will name are to come, unless the cache has them: see found().
+    void expect(const Hash& hash, std::uint64_t size);
+    /// What has become of bytes that were expected, since the last call: here, or lacking.
+    std::vector<std::pair<Hash, bool>> found();
+    /// To be polled: readable when advance() or found() may have news.
+    int news() const { return background_.handle(); }
+    void clear_news() {
+        background_.clear();
+        if (places_) places_->clear_news();
+    }
+    /// Hosts that failed at what places of this run had asked them, since the last call.
+    std::vector<Failure> failures() { return places_ ? places_->failures() : std::vector<Failure>{}; }
+    /// Goes on with what can go on. True when the state has changed. Throws Error when it can't go on, or a place has
+    /// died.
+    bool advance();
+    /// Null until the places have been started.
+    PlaceThreads* places() { return places_.get(); }
+    /// The way to them; null as long.
+    ZmqPlaceTransport* transport() { return transport_.get(); }
+    void use(const Plan& plan);
+    /// Its threads end when they have done what they are at.
+    void begin_to_stop();
+    /// Waits until they have. The only thing that another thread may do, and then nothing else.
+    Counters stop();
+    /// What it is at, and the nodes that this host holds now, by name, for display.
+    const char* words() const;
+    std::string nodes() const;
+
+private:
+    // One on its way in.
+    struct IncomingResult {
+        std::uint64_t size = 0;
+        std::shared_ptr<std::vector<std::byte>> bytes;  // null before it has begun
+        std::optional<Hasher> hasher;
+    };
+
+    std::uint64_t size_of(const Hash& hash) const;
+    void take_result(const packet::Piece& piece, IncomingResult& result);
+
+    std::shared_ptr<const SocketContext> context_;
+    BlobCache& cache_;
+    const Registry& registry_;
+    Assignment assignment_;
+    State state_ = State::looking;
+    std::future<std::set<Hash>> looking_;
+    std::set<Hash> missing_;
+    std::map<Hash, BlobCache::Incoming> incoming_;
+    std::future<std::shared_ptr<const Network>> building_;
+    std::shared_ptr<Results> results_ = std::make_shared<Results>(cache_);  // of preparing; places read them
+    std::map<Hash, std::future<Bytes>> looked_for_;
+    std::map<Hash, IncomingResult> expected_;
+    std::vector<std::pair<Hash, bool>> found_;
+    std::unique_ptr<ZmqPlaceTransport> transport_;
+    std::unique_ptr<PlaceThreads> places_;
+    BackgroundWork background_;  // last: what it does looks at the rest
+};
+
+}  // namespace lightnet

@@ -1,0 +1,97 @@
+#include "transport/daemon/peer_connections.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "transport/wire/relay_address.hpp"
+
+namespace lightnet {
+namespace {
+
+constexpr auto unreachable_after = std::chrono::seconds(1);  // then the launcher passes on what is for that host
+constexpr auto look_interval = std::chrono::milliseconds(200);
+
+}  // namespace
+
+PeerConnections::PeerConnections(const SocketContext& context, std::string me, Handlers handlers)
+    : context_(context), me_(std::move(me)), handlers_(std::move(handlers)) {}
+
+PeerConnections::Peer& PeerConnections::peer(const std::string& host) {
+    const auto [found, fresh] = peers_.try_emplace(host);
+    auto& to = found->second;
+    if (!fresh) return to;
+    try {
+        if (calls_directly(me_, host)) to.socket.emplace(asking_socket(context_, host));
+    } catch (const SocketError&) {  // out of descriptors, say: the launcher has a connection already
+    }
+    to.relayed = !to.socket;
+    return to;
+}
+
+bool PeerConnections::send(Peer& to, Frames& frames) {
+    Frames packet;
+    packet.emplace_back(seal({me_, text_of(frames[0])}));
+    for (const auto i : {2u, 3u}) packet.push_back(frames[i].shared());
+    return to.socket->send(packet);
+}
+
+void PeerConnections::ask(Frames frames) {
+    auto& to = peer(text_of(frames[1]));
+    if (to.relayed) return handlers_.launcher(frames);
+    if (!to.waiting.empty() || !send(to, frames)) to.waiting.push_back(std::move(frames));
+}
+
+void PeerConnections::tick(Time now) {
+    const bool look = now - looked_ >= look_interval;
+    if (look) looked_ = now;
+    for (auto& [host, to] : peers_) {
+        if (!to.socket) continue;
+        while (auto frames = to.socket->receive()) take(host, to, *frames);
+        while (!to.relayed && !to.waiting.empty() && send(to, to.waiting.front())) to.waiting.pop_front();
+        if (look && !to.relayed) look_whether_reachable(host, to, now);
+    }
+}
+
+// [address][header][body]: a reply. Empty ones: the ask arrived damaged, or this is a new connection.
+void PeerConnections::take(const std::string& host, Peer& to, Frames& frames) {
+    if (is_empty(frames)) {
+        const bool expected = !std::exchange(to.greeted, true);
+        const bool was_relayed = std::exchange(to.relayed, false);
+        to.unreachable.reset();
+        if (!expected || was_relayed) handlers_.request_resend(host);
+        return;
+    }
+    const auto address = frames.size() == 3 ? unseal(bytes_of(frames[0])) : std::nullopt;
+    if (!address || frames[1].size() == 0) return handlers_.request_resend(host);
+    frames.erase(frames.begin());
+    handlers_.reply(address->place, frames);
+}
+
+void PeerConnections::look_whether_reachable(const std::string& host, Peer& to, Time now) {
+    if (to.socket->can_send()) return to.unreachable.reset();
+    if (!to.unreachable) to.unreachable = now;
+    if (now - *to.unreachable < unreachable_after) return;
+    to.relayed = true;
+    to.waiting.clear();  // places keep what is not answered
+    handlers_.request_resend(host);
+}
+
+void PeerConnections::use(const Plan& plan) {
+    std::erase_if(peers_, [&](const auto& peer) {
+        return std::none_of(plan.places.begin(), plan.places.end(),
+                            [&](const PlaceAt& place) { return place.host == peer.first; });
+    });
+}
+
+bool PeerConnections::due(Time now) const { return waiting() || now - looked_ >= look_interval; }
+
+bool PeerConnections::waiting() const {
+    return std::any_of(peers_.begin(), peers_.end(), [](const auto& peer) { return !peer.second.waiting.empty(); });
+}
+
+void PeerConnections::watch(Poll& poll) const {
+    for (const auto& [host, to] : peers_)
+        if (to.socket) poll.add(*to.socket);
+}
+
+}  // namespace lightnet

@@ -1,0 +1,64 @@
+// The connections from one host to the others of a run.
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "core/network/graph/plan.hpp"
+#include "transport/zmq/poll.hpp"
+#include "transport/zmq/socket.hpp"
+
+namespace lightnet {
+
+/// One connection to each host that is asked, shared by all places of this one. Looks at nothing but addresses. What is
+/// for a host that can't be reached goes to the launcher instead, which passes it on. One thread's.
+class PeerConnections {
+public:
+    using Time = std::chrono::steady_clock::time_point;
+    struct Handlers {
+        std::function<void(const std::string& place, Frames& frames)> reply;  // [header][body], for a place of ours
+        std::function<void(const std::string& host)> request_resend;          // what was under way to it may be lost
+        std::function<void(Frames& frames)> launcher;                         // [place][host][header][body]
+    };
+    /// `me`: this host, as in plans.
+    PeerConnections(const SocketContext& context, std::string me, Handlers handlers);
+    PeerConnections(const PeerConnections&) = delete;
+    PeerConnections& operator=(const PeerConnections&) = delete;
+
+    /// [place][host][header][body]
+    void ask(Frames frames);
+    /// Takes in what has come, and sends what has waited for its connection.
+    void tick(Time now);
+    /// Connections to hosts that are no more are closed.
+    void use(const Plan& plan);
+    /// Should tick() be called though nothing has come?
+    bool due(Time now) const;
+    /// Something waits for its connection.
+    bool waiting() const;
+    void watch(Poll& poll) const;
+
+private:
+    struct Peer {
+        std::optional<Socket> socket{};     // none could be had, or may be
+        bool greeted = false;               // doors greet each connection with an empty message: the first is expected
+        bool relayed = false;               // its host can't be reached from here
+        std::optional<Time> unreachable{};  // since when
+        std::deque<Frames> waiting{};       // as for ask()
+    };
+    Peer& peer(const std::string& host);
+    bool send(Peer& to, Frames& frames);
+    void take(const std::string& host, Peer& to, Frames& frames);
+    void look_whether_reachable(const std::string& host, Peer& to, Time now);
+
+    const SocketContext& context_;
+    std::string me_;
+    Handlers handlers_;
+    std::map<std::string, Peer> peers_;  // by host
+    Time looked_{};
+};
+
+}  // namespace lightnet

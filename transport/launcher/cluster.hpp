@@ -1,0 +1,104 @@
+// The hosts of a run, as the launcher sees them.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/network/graph/plan.hpp"
+#include "core/run/message/carrier.hpp"
+#include "core/run/runtime/job.hpp"
+#include "transport/wire/machine.hpp"
+
+namespace lightnet {
+
+/// One host of a run, for display.
+struct HostState {
+    std::string name;    // as in plans
+    std::string state;   // "ready", "does not answer", …
+    bool there = false;  // it takes part, or did until it was told to stop
+    std::uint32_t places = 0;
+    std::uint64_t progress = 0;  // bundles and tiles answered, as of its last heartbeat
+    Machine machine;
+};
+
+/// Brings hosts into the run, keeps their leases, and carries the master's asks to them, and those that hosts can't
+/// send to each other. Hosts are called, or dial in, or are places of this process. A host that is lost, stops or comes
+/// late changes what is proposed: the new plan comes out of receive(), and goes to hosts when it is adopted. Used by
+/// one thread, which must look in (receive() or wait()) several times a second, as it also sends the heartbeats.
+class Cluster final : public Carrier {
+public:
+    struct Options {
+        std::uint64_t run = 0;
+        std::string who;                         // runs it, for those who have to wait
+        std::vector<std::string> endpoints;      // of hosts to call
+        std::string listen;                      // where hosts may join; empty: nowhere
+        std::string pass;                        // file with what they must know; empty: Pass::usual_file()
+        std::vector<std::string> expected;       // names of hosts that are to join before the work begins
+        std::uint32_t threads = 0;               // places of this process, called "" in plans
+        std::shared_ptr<const Network> network;  // for them
+        Job job;
+        std::map<std::string, Bytes> files;                       // the scene's, by path
+        std::function<Plan(const std::vector<HostOffer>&)> plan;  // for the hosts that are there
+        std::function<void(const std::string&)> say = [](const std::string&) {};
+    };
+    explicit Cluster(Options options);
+    ~Cluster() override;
+
+    /// How long to wait for hosts before the work begins.
+    struct Patience {
+        std::chrono::milliseconds absent{5000};   // with hosts that do not answer
+        std::chrono::milliseconds nobody{5000};   // when none is there at all
+        std::chrono::milliseconds slow{5000};     // with one that is still not ready when another is, at least
+        std::chrono::milliseconds build{600000};  // when some are there, but none gets ready
+    };
+    /// Returns when every host is ready, refused, or has been absent or slow for too long; at least one must be ready
+    /// by then, and others may still join later. Says from time to time what it waits for. Calls `look_around` several
+    /// times a second. Throws NoWorker when none is ready, Error when the job can't be served.
+    void gather(Patience patience, const std::atomic<bool>& cancelled, const std::function<void()>& look_around);
+    void gather(std::chrono::milliseconds patience, const std::atomic<bool>& cancelled) {
+        gather(Patience{patience, patience, patience}, cancelled, [] {});
+    }
+    /// What is proposed now.
+    const Plan& plan() const;
+    /// Calls another host.
+    void call(const std::string& endpoint);
+    /// A host whose process is known to have ended.
+    void lost(const std::string& name);
+    bool ready(const std::string& name) const;
+    std::vector<HostState> hosts() const;
+    /// Hosts that were named and take no part now → why.
+    std::map<std::string, std::string> missing() const;
+    /// Where hosts may join, with the port that the system chose.
+    std::string join_endpoint() const;
+    /// Ends the run on all hosts and returns what they counted, as far as they say so within `patience`.
+    Counters finish(std::chrono::milliseconds patience = std::chrono::seconds(1));
+
+    bool ask(const PlaceAt& to, Message& message) override;
+    void reply(Message message) override;
+    std::optional<Message> receive() override;
+    void wait(std::chrono::nanoseconds most) override;
+    bool take_out(const std::string& host, const std::string& why) override;
+    void forget(const PlaceAt&) override {}
+    bool bring(const PlaceAt& to, const Hash& name, const Bytes& bytes) override;
+    /// Every host asks by this plan from now on.
+    void adopt(const Plan& plan) override;
+    const Counters& counters() const override;
+
+private:
+    struct Links;
+    std::unique_ptr<Links> links_;
+};
+
+/// No host can be reached (exit code 3).
+class NoWorker : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+}  // namespace lightnet

@@ -1,0 +1,213 @@
+#include "transport/launcher/cluster_links.hpp"
+
+#include "core/base/error.hpp"
+#include "core/run/runtime/fingerprint.hpp"
+#include "transport/launcher/own_host.hpp"
+#include "transport/places/descriptors.hpp"
+#include "transport/zmq/poll.hpp"
+
+namespace lightnet {
+namespace {
+
+constexpr std::size_t most_hosts = 4096;
+
+RunOffer offer_of(const Cluster::Options& options) {
+    RunOffer offer{options.run, options.who, options.job.isa, fingerprint(options.job.isa), to_json(options.job), {}};
+    for (const auto& file : options.job.files) offer.blobs[file.hash] = options.files.at(file.path);
+    return offer;
+}
+
+}  // namespace
+
+Cluster::Links::Links(Options given) : options(std::move(given)), offer(offer_of(options)) {
+    plan.places_of.resize(options.job.graph.nodes.size());
+    constexpr std::size_t per_host = 4;  // two sockets with a connection each
+    want_descriptors(per_host * options.endpoints.size(),
+                     "a run on " + std::to_string(options.endpoints.size()) + " hosts");
+    if (!options.listen.empty())
+        joiners.emplace(*context, options.listen, Pass::of(options.pass.empty() ? Pass::usual_file() : options.pass));
+    for (const auto& endpoint : options.endpoints) call(endpoint);
+    if (options.threads)
+        links.insert(links.begin(),
+                     std::make_unique<OwnHost>(context, options.network, options.run, options.threads,
+                                               options.plan({{"", options.threads}}), options.job.tuning));
+}
+
+std::vector<HostOffer> Cluster::Links::offers(bool ready_only) const {
+    std::vector<HostOffer> offers;
+    for (const auto& link : links) {
+        const auto state = link->state();
+        const bool greeted = state == State::greeted || state == State::sending || state == State::building;
+        if (state == State::ready || (!ready_only && greeted)) offers.push_back({link->name(), link->places()});
+    }
+    return offers;
+}
+
+Plan Cluster::Links::plan_for(const std::vector<HostOffer>& there) const {
+    Plan made;
+    made.places_of.resize(options.job.graph.nodes.size());
+    if (!there.empty()) made = options.plan(there);
+    for (const auto& link : links)
+        for (std::uint32_t place = 0; link->state() == State::leaving && place < places_before(*link); ++place)
+            made.places.push_back({link->name(), place});
+    for (const auto& link : links)
+        if (link->process()) made.processes[link->name()] = link->process();
+    return made;
+}
+
+void Cluster::Links::look() {
+    const auto now = Clock::now();
+    take_joiners(now);
+    const auto expected_plan = [&]() -> std::optional<std::string> {
+        if (now < hold_until && absent()) return std::nullopt;
+        return to_json(plan_for(offers(false)));
+    };
+    const HostLink::Handlers handlers{[&](Message message) { arrived.push_back(std::move(message)); },
+                                      [&](HostLink& from, Frames& frames) { relays.forward(from.name(), frames); }};
+    for (auto& link : links) {
+        // What has come counts before the lease is looked at: we may have been busy ourselves.
+        while (link->receive(now, handlers)) {
+        }
+        link->tick(now, expected_plan);
+        if (const auto counted = link->take_ended()) ended += *counted;
+    }
+    relays.request_resends(now);
+    for (auto& link : links)
+        for (const auto& failure : link->take_failures()) take_out(failure.host, failure.why);
+    tell_changes();
+}
+
+bool Cluster::Links::take_out(const std::string& name, const std::string& why) {
+    auto* link = find(name);
+    if (!link) return false;
+    if (link->state() == State::refused) return true;
+    const auto ready = offers(true);
+    if (std::all_of(ready.begin(), ready.end(), [&](const auto& one) { return one.endpoint == name; })) return false;
+    return link->take_out(why);
+}
+
+void Cluster::Links::wait(std::chrono::nanoseconds most) {
+    Poll poll;
+    bool soon = relays.waiting();
+    for (auto& link : links) {
+        soon |= link->state() == State::sending;
+        link->watch(poll);
+    }
+    if (joiners) joiners->watch(poll);
+    poll.wait(std::clamp(std::chrono::ceil<std::chrono::milliseconds>(most), std::chrono::milliseconds(1),
+                         std::chrono::milliseconds(soon ? 5 : 100)));
+}
+
+void Cluster::Links::take_joiners(Clock::time_point now) {
+    if (!joiners) return;
+    const Joiners::Handlers handlers{
+        [&](const std::string& endpoint) {
+            if (links.size() < most_hosts) call(endpoint);
+        },
+        [&](const std::string& name, std::unique_ptr<JoinedConnection> connection) {
+            add(name, std::move(connection));
+        },
+        [&](const std::string& name, const std::string& why) {
+            if (auto* link = find(name)) link->lose(now, why);
+        },
+        [&] { return hosts(); },
+        [&](const std::string& name, const std::string& address) {
+            if (turned_down.size() < most_hosts && turned_down.insert(name + " " + address).second)
+                options.say(name + " (" + address +
+                            ") wants to join, but does not know the pass of this run's user (--pass)");
+        }};
+    counters.broken_packets += joiners->receive(handlers);
+}
+
+Relays::Handlers Cluster::Links::relay_handlers() {
+    const auto taking_part = [this](const std::string& name) {
+        auto* link = find(name);
+        return link && link->takes_part() ? link : nullptr;
+    };
+    return {[=](const std::string& to, Frames& frames, std::uint32_t place) {
+                auto* link = taking_part(to);
+                return link && link->forward_ask(frames, place);
+            },
+            [=](const RelayAddress& asker, Frames& frames) {
+                auto* link = taking_part(asker.host);
+                return !link || link->forward_reply(asker, frames);
+            },
+            [=](const std::string& host) {
+                if (auto* link = taking_part(host)) link->request_resend();
+            },
+            [this] {
+                for (const auto& link : links) relays.must_resend(link->name());
+            }};
+}
+
+void Cluster::Links::tell_changes() {
+    bool changed = false;
+    for (auto& link : links) {
+        const auto before = states.contains(link->name()) ? states[link->name()] : State::calling;
+        const auto state = states[link->name()] = link->state();
+        if (state == before) continue;
+        const bool was_there = before == State::ready || before == State::leaving;
+        if (state == State::ready) options.say(link->ready_words());
+        if (link->takes_part() && in_force) link->use(*in_force);
+        if (state == State::refused)
+            options.say(link->name() + (was_there ? " is taken out: " : " takes no part: ") + link->reason());
+        if (state == State::leaving) options.say(link->name() + " was told to stop: it finishes what it has");
+        if (before == State::leaving) options.say(link->name() + " has left");
+        if (before == State::ready && state == State::calling)
+            options.say(link->name() + " is lost: " + link->reason() + "; its work is asked again elsewhere");
+        changed |= state == State::ready || was_there;
+    }
+    if (!changed) return;
+    plan = plan_for(offers(true));
+    Message message;
+    message.type = Message::Type::plan;
+    message.run = options.run;
+    message.plan = std::make_shared<const Plan>(plan);
+    arrived.push_back(std::move(message));
+}
+
+std::vector<HostState> Cluster::Links::hosts() const {
+    std::vector<HostState> hosts;
+    for (const auto& link : links)
+        hosts.push_back(
+            {link->name(), link->words(), link->takes_part(), link->places(), link->progress(), link->machine()});
+    return hosts;
+}
+
+std::string Cluster::Links::reasons() const {
+    std::string text;
+    for (const auto& name : options.expected)
+        if (!find(name)) text += "\n  " + name + ": has not joined at " + joiners->endpoint();
+    for (const auto& link : links) text += "\n  " + link->title() + ": " + link->trouble();
+    return text.empty() && joiners ? "\n  nobody has joined at " + joiners->endpoint() : text;
+}
+
+void Cluster::Links::say_what_is_missing(Clock::duration waited) const {
+    const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(waited).count();
+    std::string whom;
+    for (const auto& name : options.expected)
+        if (!find(name)) whom += "\n  " + name + ": has not joined";
+    for (const auto& link : links)
+        if (link->state() == State::calling || link->busy() || link->pending())
+            whom += "\n  " + link->title() + ": " + link->trouble();
+    if (whom.empty() && links.empty() && joiners) whom = "\n  somebody to join";
+    if (!whom.empty()) options.say("waiting for " + std::to_string(seconds) + " s:" + whom);
+}
+
+bool Cluster::Links::absent() const {
+    return std::any_of(options.expected.begin(), options.expected.end(),
+                       [&](const auto& name) { return !find(name); }) ||
+           std::any_of(links.begin(), links.end(), [](const auto& link) { return link->state() == State::calling; });
+}
+
+HostWait::Standing Cluster::Links::standing() const {
+    HostWait::Standing all{false, false, absent(), false, links.empty() || joiners};
+    for (const auto& link : links) {
+        all.ready |= link->state() == State::ready;
+        all.busy |= link->busy();
+        all.pending |= link->pending();
+    }
+    return all;
+}
+
+}  // namespace lightnet

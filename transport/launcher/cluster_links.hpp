@@ -1,0 +1,90 @@
+// What a cluster is made of. For its .cpp files.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "transport/launcher/cluster.hpp"
+#include "transport/launcher/host_wait.hpp"
+#include "transport/launcher/joiners.hpp"
+#include "transport/launcher/relays.hpp"
+#include "transport/launcher/remote_host.hpp"
+#include "transport/zmq/socket.hpp"
+
+namespace lightnet {
+
+/// The links to all hosts, of which this process is the first if it has places; all of it belongs to the thread of the
+/// cluster.
+struct Cluster::Links {
+    using Clock = std::chrono::steady_clock;
+    using State = HostLink::State;
+
+    Options options;
+    RunOffer offer;
+    std::shared_ptr<const SocketContext> context = std::make_shared<const SocketContext>();
+    std::optional<Joiners> joiners;  // hosts that dial in
+    std::vector<std::unique_ptr<HostLink>> links;
+    std::map<std::string, State> states;  // as last told
+    Plan plan;                            // proposed
+    std::optional<WrittenPlan> in_force;  // that hosts are to go by
+    std::deque<Message> arrived;
+    std::set<std::string> turned_down;  // who wanted to join
+    Counters counters, ended;
+    Relays relays{counters, relay_handlers()};
+    Clock::time_point hold_until{};  // nobody begins before all are greeted: places make their nodes by the first plan
+
+    explicit Links(Options given);
+
+    HostLink* find(const std::string& name) const {
+        for (auto& link : links)
+            if (link->name() == name) return link.get();
+        return nullptr;
+    }
+    void call(const std::string& endpoint) {
+        if (!find(endpoint)) add(endpoint, std::make_unique<CalledConnection>(*context, endpoint));
+    }
+    void add(const std::string& name, std::unique_ptr<HostConnection> connection) {
+        links.push_back(std::make_unique<RemoteHost>(offer, counters, name, std::move(connection)));
+    }
+
+    // Offers of all hosts that are at least so far, in the order in which they were named.
+    std::vector<HostOffer> offers(bool ready_only) const;
+
+    // Hosts that leave hold no node any more, but are still there: their askers wait for what is under way.
+    Plan plan_for(const std::vector<HostOffer>& there) const;
+    std::uint32_t places_before(const HostLink& link) const {
+        return static_cast<std::uint32_t>(std::count_if(plan.places.begin(), plan.places.end(),
+                                                        [&](const auto& at) { return at.host == link.name(); }));
+    }
+
+    void look();
+
+    // The last one stays: its failures are the run's.
+    bool take_out(const std::string& name, const std::string& why);
+
+    // Until something can be read.
+    void wait(std::chrono::nanoseconds most);
+    void take_joiners(Clock::time_point now);
+    Relays::Handlers relay_handlers();
+
+    // Hosts that became ready or are no more: a new plan is proposed, and a line said for the user.
+    void tell_changes();
+    std::vector<HostState> hosts() const;
+    std::string reasons() const;
+    void say_what_is_missing(Clock::duration waited) const;
+
+    // Somebody who is to be there from the beginning is not.
+    bool absent() const;
+
+    HostWait::Standing standing() const;
+};
+
+}  // namespace lightnet

@@ -1,0 +1,73 @@
+// The connection between the launcher and one host, whoever opened it.
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "transport/zmq/poll.hpp"
+#include "transport/zmq/socket.hpp"
+
+namespace lightnet {
+
+/// Carries messages (frames without a route) to one host and back. One thread's.
+class HostConnection {
+public:
+    virtual ~HostConnection() = default;
+    /// `files`: may wait behind other files, and must not make anything else wait. False: can't be sent now.
+    virtual bool send(Frames& frames, bool files) = 0;
+    /// One message, if there is one. An empty one says that what was under way may be lost.
+    virtual std::optional<Frames> receive() = 0;
+    /// Nothing that was meant for the host before may reach it from now on.
+    virtual void renew() = 0;
+    /// Adds the sockets of its own.
+    virtual void watch(Poll& poll) const = 0;
+};
+
+/// The launcher calls the host at its endpoint.
+class CalledConnection final : public HostConnection {
+public:
+    /// Throws SocketError.
+    CalledConnection(const SocketContext& context, std::string endpoint);
+    bool send(Frames& frames, bool files) override;
+    std::optional<Frames> receive() override;
+    void renew() override;
+    void watch(Poll& poll) const override;
+
+private:
+    // Doors greet each connection with an empty message: the first is expected, others tell of a cut.
+    struct Lane {
+        std::optional<Socket> socket{};  // none: the system had none to give; tried again when it is needed
+        bool greeted = false;
+        std::optional<Frames> receive();
+    };
+    bool open(Lane& lane);
+    const SocketContext& context_;
+    std::string endpoint_;
+    Lane work_, files_;
+};
+
+/// The host has dialled in at the launcher's port, and everything goes over that one connection.
+class JoinedConnection final : public HostConnection {
+public:
+    /// `door` is the launcher's socket and must outlive it; `route` leads to the host.
+    JoinedConnection(Socket& door, std::string route) : door_(door), route_(std::move(route)) {}
+    bool send(Frames& frames, bool files) override;
+    std::optional<Frames> receive() override;
+    void renew() override;
+    void watch(Poll&) const override {}
+
+    const std::string& route() const { return route_; }
+    /// The host has dialled in anew.
+    void use(std::string route);
+    /// What came from the host, without the route.
+    void arrived(Frames frames);
+
+private:
+    Socket& door_;
+    std::string route_;
+    std::deque<Frames> arrived_;
+};
+
+}  // namespace lightnet

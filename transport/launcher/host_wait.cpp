@@ -1,0 +1,42 @@
+#include "transport/launcher/host_wait.hpp"
+
+#include <algorithm>
+#include <map>
+#include <string>
+
+#include "core/base/error.hpp"
+#include "transport/launcher/remote_host.hpp"
+
+namespace lightnet {
+
+HostWait::Verdict HostWait::look(const Standing& standing, Time now) {
+    const auto waited = now - begun_;
+    if (standing.ready && !first_ready_) first_ready_ = now;
+    // Machines differ: whoever is not ready gets as long again as the first one took.
+    const bool too_slow =
+        first_ready_ && now - *first_ready_ > std::max<Time::duration>(patience_.slow, *first_ready_ - begun_);
+    if (standing.pending && !too_slow && (standing.ready || waited < patience_.build)) return Verdict::wait;
+    if (waited < patience_.absent && (standing.absent || standing.busy)) return Verdict::wait;
+    if (standing.ready) return Verdict::begin;
+    if (standing.pending) return Verdict::nobody;
+    if (standing.busy) return Verdict::wait;  // it will be free at some time
+    return waited >= patience_.nobody || !standing.others_may_come ? Verdict::nobody : Verdict::wait;
+}
+
+bool HostWait::should_speak(Time now) {
+    if (now < next_words_) return false;
+    next_words_ = now + pause_;
+    if (now - begun_ > 6 * pause_) pause_ = std::min(2 * pause_, longest_);
+    return true;
+}
+
+void throw_if_broken(const std::vector<std::unique_ptr<HostLink>>& links, bool nobody_left) {
+    std::map<std::string, const HostLink*> reasons;
+    for (const auto& link : links) {
+        if (!link->broken() || link->state() != HostLink::State::refused) continue;
+        const bool fresh = reasons.emplace(link->reason(), link.get()).second;
+        if (!fresh || nobody_left) throw Error(link->name(), link->reason());
+    }
+}
+
+}  // namespace lightnet

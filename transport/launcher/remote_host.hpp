@@ -1,0 +1,94 @@
+// A host that the launcher reaches by a connection.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "core/base/hash.hpp"
+#include "core/readers/files.hpp"
+#include "core/run/message/counters.hpp"
+#include "core/run/message/message.hpp"
+#include "transport/launcher/host_connection.hpp"
+#include "transport/launcher/host_link.hpp"
+#include "transport/wire/packet.hpp"
+
+namespace lightnet {
+
+/// What every host is told of the run. Outlives the links.
+struct RunOffer {
+    std::uint64_t run = 0;
+    std::string who;  // runs it, for those who have to wait
+    std::string isa;
+    std::uint64_t fingerprint = 0;
+    std::string job;  // as text
+    std::map<Hash, Bytes> blobs;
+};
+
+/// Greets a host, sends it the job and the files that it lacks, waits until its places are ready, and keeps its lease:
+/// a host that does not answer three heartbeats in a row, or whose connection was cut, is lost, and greeted anew.
+class RemoteHost final : public HostLink {
+public:
+    /// Counts what it sends and receives in `counters`, which must outlive it. `name` is that of the host in plans.
+    RemoteHost(const RunOffer& offer, Counters& counters, std::string name, std::unique_ptr<HostConnection> connection);
+
+    std::uint64_t progress() const override { return progress_; }  // as of its last heartbeat
+    void watch(Poll& poll) override { connection_->watch(poll); }
+    void tick(Time now, const ExpectedPlan& plan) override;
+    bool receive(Time now, const Handlers& handlers) override;
+    bool send(Message& message, std::uint32_t place) override;
+    bool forward_ask(Frames& frames, std::uint32_t) override { return forward(frames); }
+    bool forward_reply(const RelayAddress&, Frames& frames) override { return forward(frames); }
+    void request_resend() override;
+    void use(const WrittenPlan& plan) override;
+    bool bring(const Hash& name, const Bytes& bytes) override;
+    bool take_out(const std::string& why) override;
+    void lose(Time now, const std::string& why) override;
+    void send_end() override;
+    Counters wait_for_end() override { return {}; }
+
+private:
+    bool forward(Frames& frames);
+    bool send(packet::Type type, const packet::Fields& fields);
+    void control(packet::Type type, const packet::Fields& fields, Time now);
+    void welcome(const packet::Fields& fields);
+    void queue_blobs(const std::string& hashes);
+    void queue_blob(const Hash& hash);
+    Bytes blob(const Hash& hash) const;
+    void send_blobs(Time now);
+    void heartbeat(Time now);
+    bool lacks_something(const packet::Fields& pong);
+    void damaged(Time now, std::span<const std::byte> header);
+
+    const RunOffer& offer_;
+    Counters& counters_;
+    std::unique_ptr<HostConnection> connection_;
+    std::uint64_t progress_ = 0;
+    Time heard_{}, next_call_{}, next_ping_{}, piece_taken_{};
+    // Messages that this end and the other have counted. What lies between their counts is the same on an undamaged
+    // connection at each heartbeat.
+    struct Between {
+        std::uint64_t line, asks, replies;
+        friend bool operator==(const Between&, const Between&) = default;
+    };
+    std::uint64_t sent_ = 0, received_ = 0;
+    std::uint64_t arrived_ = 0;  // of those sent, at least
+    std::optional<Between> between_;
+    struct PieceAt {
+        Hash hash;
+        std::uint64_t offset;
+    };
+    std::deque<PieceAt> pieces_;
+    struct Brought {
+        Bytes bytes;
+        bool here = false;
+    };
+    std::map<Hash, Brought> brought_;
+    std::size_t pieces_out_ = 0;
+};
+
+}  // namespace lightnet

@@ -1,0 +1,34 @@
+// The network on several threads of this process.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "core/run/message/carrier.hpp"
+#include "core/run/prepare/assembly.hpp"
+#include "core/run/runtime/place.hpp"
+#include "transport/places/place_transport.hpp"
+#include "transport/zmq/zmq_place_transport.hpp"
+
+namespace lightnet {
+
+/// N places in threads of this process, and the carrier with which the caller asks them. Used by one thread.
+class ThreadedRun {
+public:
+    /// Returns when all places are ready. `make_transport`: of what carries messages between them.
+    ThreadedRun(std::shared_ptr<const Network> network, std::uint64_t run, Plan plan, Tuning rules,
+                const MakePlaceTransport& make_transport = zmq_within_process);
+    ~ThreadedRun();
+
+    Carrier& carrier();
+    /// Throws Error when a place has died.
+    void check();
+    /// Stops all places and returns what they counted.
+    Counters stop();
+
+private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace lightnet

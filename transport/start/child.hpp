@@ -1,0 +1,23 @@
+// Programs that the launcher starts.
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+namespace lightnet {
+
+/// Starts a program (looked for in PATH when it has no slash) whose standard output comes back through `*out`. Returns
+/// its process. Throws Error.
+int spawn(std::vector<std::string> words, int* out);
+
+/// What a program said, to both outputs, and how it ended.
+struct ProgramOutput {
+    int code = -1;  // 128 + signal if one ended it
+    std::string text;
+};
+/// Runs a program to its end, with `input` as its standard input; kills it after `most`. Throws Error when it can't be
+/// started.
+ProgramOutput run_program(std::vector<std::string> words, const std::string& input, std::chrono::milliseconds most);
+
+}  // namespace lightnet

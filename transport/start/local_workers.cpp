@@ -1,0 +1,110 @@
+#include "transport/start/local_workers.hpp"
+
+#include <sys/wait.h>
+#include <unistd.h>
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include <poll.h>
+
+#include "core/base/error.hpp"
+#include "transport/start/child.hpp"
+
+namespace lightnet {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int most_useless_deaths = 5;
+constexpr auto first_delay = std::chrono::milliseconds(50);  // before a worker is started anew; doubles
+
+// The first line of a daemon: "listening on ENDPOINT".
+std::string read_endpoint(int in) {
+    std::string line;
+    const auto end = Clock::now() + std::chrono::seconds(20);
+    while (line.find('\n') == std::string::npos && Clock::now() < end) {
+        pollfd item{in, POLLIN, 0};
+        if (poll(&item, 1, 200) <= 0) continue;
+        char buffer[256];
+        const auto n = read(in, buffer, sizeof buffer);
+        if (n <= 0) break;
+        line.append(buffer, static_cast<std::size_t>(n));
+    }
+    const std::string before = "listening on ";
+    const auto at = line.find(before);
+    if (at == std::string::npos) throw Error("a local worker did not start");
+    return line.substr(at + before.size(), line.find('\n', at) - at - before.size());
+}
+
+}  // namespace
+
+int LocalWorkers::start(const std::string& listen, int* out) const {
+    return spawn(
+        {program_, "--listen", listen, "--places", std::to_string(places_), "--parent", std::to_string(getpid())}, out);
+}
+
+LocalWorkers::LocalWorkers(std::string program, std::uint32_t count, std::uint32_t places)
+    : program_(std::move(program)), places_(places) {
+    std::vector<int> outs;
+    try {
+        for (std::uint32_t i = 0; i < count; ++i) {  // all start together
+            int out = -1;
+            workers_.push_back({.endpoint = {}, .process = start("tcp://127.0.0.1:*", &out)});
+            outs.push_back(out);
+        }
+        for (std::uint32_t i = 0; i < count; ++i) workers_[i].endpoint = read_endpoint(outs[i]);
+    } catch (...) {
+        for (const auto out : outs) close(out);
+        for (const auto& worker : workers_) kill(worker.process, SIGKILL);
+        for (const auto& worker : workers_) waitpid(worker.process, nullptr, 0);
+        throw;
+    }
+    for (const auto out : outs) close(out);
+}
+
+LocalWorkers::~LocalWorkers() {
+    for (const auto& worker : workers_)
+        if (worker.process) kill(worker.process, SIGTERM);
+    const auto end = Clock::now() + std::chrono::seconds(1);
+    for (const auto& worker : workers_) {
+        while (worker.process && waitpid(worker.process, nullptr, WNOHANG) == 0) {
+            if (Clock::now() > end) kill(worker.process, SIGKILL);
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        }
+    }
+}
+
+std::vector<std::string> LocalWorkers::endpoints() const {
+    std::vector<std::string> endpoints;
+    for (const auto& worker : workers_) endpoints.push_back(worker.endpoint);
+    return endpoints;
+}
+
+void LocalWorkers::look_after(Time now, const Handlers& handlers) {
+    for (auto& worker : workers_) {
+        if (worker.process) {
+            worker.was_of_use |= handlers.of_use(worker.endpoint);
+            if (waitpid(worker.process, nullptr, WNOHANG) == worker.process) died(worker, now, handlers);
+        } else if (worker.useless_deaths < most_useless_deaths && now >= worker.next_start) {
+            int out = -1;
+            worker.process = start(worker.endpoint, &out);
+            close(out);  // where it listens is known
+            worker.was_of_use = false;
+        }
+    }
+}
+
+void LocalWorkers::died(Worker& worker, Time now, const Handlers& handlers) {
+    worker.process = 0;
+    handlers.ended(worker.endpoint);
+    worker.useless_deaths = worker.was_of_use ? 0 : worker.useless_deaths + 1;
+    worker.next_start = now + first_delay * (1 << worker.useless_deaths);
+    if (worker.useless_deaths < most_useless_deaths)
+        handlers.say("local worker " + worker.endpoint + " has died; it is started anew");
+    else
+        handlers.say("local worker " + worker.endpoint + " has died " + std::to_string(most_useless_deaths) +
+                     " times without being of use, and is given up");
+}
+
+}  // namespace lightnet

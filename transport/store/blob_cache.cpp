@@ -1,0 +1,143 @@
+#include "transport/store/blob_cache.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <random>
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "transport/store/recipes.hpp"
+
+namespace lightnet {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr auto given_up = std::chrono::hours(24);  // what was not written to for so long comes no more
+
+// Null: there is no such file, or something else, such as a pipe that would never end.
+Bytes read_file(const std::string& path) {
+    std::error_code ignored;
+    if (!fs::is_regular_file(path, ignored)) return nullptr;
+    std::ifstream in(path, std::ios::binary | std::ios::ate);
+    if (!in) return nullptr;
+    auto bytes = std::make_shared<std::vector<std::byte>>(static_cast<std::size_t>(in.tellg()));
+    in.seekg(0);
+    in.read(reinterpret_cast<char*>(bytes->data()), static_cast<std::streamsize>(bytes->size()));
+    return in ? bytes : nullptr;
+}
+
+void remove(const CacheFile& file) {
+    std::error_code ignored;
+    fs::remove(file.path, ignored);
+}
+
+}  // namespace
+
+BlobCache::BlobCache(std::string folder, std::uint64_t most_bytes)
+    : folder_(std::move(folder)), most_bytes_(most_bytes) {
+    open_cache_folder(folder_);
+}
+
+std::string BlobCache::path_of(const Hash& hash) const { return folder_ + "/" + to_hex(hash); }
+
+bool BlobCache::has(const Hash& hash) const { return read(hash) != nullptr; }
+
+Bytes BlobCache::read(const Hash& hash) const {
+    const auto path = path_of(hash);
+    auto bytes = read_file(path);
+    std::error_code ignored;
+    if (!bytes) return nullptr;
+    if (content_hash(*bytes) != hash) {
+        fs::remove(path, ignored);
+        return nullptr;
+    }
+    fs::last_write_time(path, fs::file_time_type::clock::now(), ignored);
+    return bytes;
+}
+
+BlobCache::Incoming BlobCache::receive(const Hash& hash) const { return {path_of(hash), hash}; }
+
+BlobCache::Incoming::Incoming(std::string path, const Hash& hash)
+    : path_(std::move(path)),
+      // one of its own: a blob may come from its beginning again before the first attempt is given up
+      partial_(path_ + ".part-" + std::to_string(getpid()) + "-" + std::to_string(std::random_device()())),
+      hash_(hash),
+      file_(partial_, std::ios::binary | std::ios::trunc) {}
+
+BlobCache::Incoming::Incoming(Incoming&& other) noexcept
+    : path_(std::move(other.path_)),
+      partial_(std::exchange(other.partial_, {})),
+      hash_(other.hash_),
+      hasher_(std::move(other.hasher_)),
+      size_(other.size_),
+      file_(std::move(other.file_)) {}
+
+BlobCache::Incoming::~Incoming() {
+    std::error_code ignored;
+    if (!partial_.empty()) fs::remove(partial_, ignored);
+}
+
+void BlobCache::store(const Hash& hash, std::span<const std::byte> blob) const {
+    auto incoming = receive(hash);
+    incoming.write(blob);
+    incoming.appear();
+}
+
+void BlobCache::Incoming::add(std::span<const std::byte> piece) {
+    hasher_.add(piece);
+    write(piece);
+}
+
+void BlobCache::Incoming::write(std::span<const std::byte> piece) {
+    size_ += piece.size();
+    file_.write(reinterpret_cast<const char*>(piece.data()), static_cast<std::streamsize>(piece.size()));
+    if (!file_) throw Error(partial_, "can't be written");
+}
+
+void BlobCache::Incoming::finish() {
+    if (hasher_.finish() != hash_) throw Error("a file of the scene arrived damaged");
+    appear();
+}
+
+void BlobCache::Incoming::appear() {
+    file_.close();
+    std::error_code error;
+    if (file_.fail()) throw Error(partial_, "can't be written");
+    fs::rename(partial_, path_, error);
+    if (error) throw Error(path_, "can't be kept: " + error.message());
+    partial_.clear();
+}
+
+void BlobCache::trim() const {
+    auto files = files_of_ours(folder_);
+    const auto recipes = recipes_in(folder_);
+    for (auto& file : files_of_ours(recipes)) files.push_back(std::move(file));
+    const auto now = fs::file_time_type::clock::now();
+    for (const auto& file : files)
+        if (file.partial && now - file.used > given_up) remove(file);
+    std::erase_if(files, [](const auto& file) { return file.partial; });
+    std::uint64_t sum = 0;
+    for (const auto& file : files) sum += file.size;
+    std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) { return a.used < b.used; });
+    for (auto file = files.begin(); file != files.end() && sum > most_bytes_; sum -= file++->size) remove(*file);
+    trim_recipes(recipes, [this](const Hash& blob) {
+        std::error_code ignored;
+        return fs::exists(path_of(blob), ignored);
+    });
+}
+
+Bytes BlobFiles::read(const std::string& path) {
+    const auto found = std::find_if(files_.begin(), files_.end(), [&](const auto& file) { return file.path == path; });
+    if (found == files_.end()) throw Error(path, "no such file among those that were sent");
+    auto bytes = cache_.read(found->hash);
+    if (!bytes) throw Error(path, "the cache has lost it");
+    return bytes;
+}
+
+}  // namespace lightnet

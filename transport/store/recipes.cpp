@@ -1,0 +1,50 @@
+#include "transport/store/recipes.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "core/base/atomic_file.hpp"
+#include "transport/store/cache_folder.hpp"
+
+namespace lightnet {
+namespace {
+
+namespace fs = std::filesystem;
+
+// DECISIONS: recipes-say-what-of
+std::string text_of(const Hash& recipe, const Hash& blob) {
+    const std::string text = "lightnet recipe 1\nrecipe " + to_hex(recipe) + "\nblob " + to_hex(blob) + "\n";
+    return text + "sum " + to_hex(content_hash(text)) + "\n";
+}
+
+}  // namespace
+
+std::string recipes_in(const std::string& cache) { return cache + "/recipes"; }
+
+std::optional<Hash> read_recipe(const std::string& folder, const Hash& recipe) {
+    const auto path = folder + "/" + to_hex(recipe);
+    std::error_code ignored;
+    if (!fs::is_regular_file(path, ignored)) return std::nullopt;  // a pipe would make us wait for ever
+    std::ifstream in(path, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    const auto at = text.find("\nblob ");
+    if (at == text.npos) return std::nullopt;
+    const auto blob = hash_from_hex(text.substr(at + 6, 2 * sizeof(Hash::bytes)));
+    return blob && text == text_of(recipe, *blob) ? blob : std::nullopt;
+}
+
+void write_recipe(const std::string& folder, const Hash& recipe, const Hash& blob) {
+    write_file(folder + "/" + to_hex(recipe), text_of(recipe, blob));
+}
+
+void trim_recipes(const std::string& folder, const std::function<bool(const Hash&)>& is_there) {
+    for (const auto& file : files_of_ours(folder)) {
+        const auto recipe = hash_from_hex(file.path.filename().string());
+        const auto blob = recipe ? read_recipe(folder, *recipe) : std::nullopt;
+        std::error_code ignored;
+        if (!file.partial && !(blob && is_there(*blob))) fs::remove(file.path, ignored);
+    }
+}
+
+}  // namespace lightnet

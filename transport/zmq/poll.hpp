@@ -1,0 +1,38 @@
+// Waiting at several sockets at once.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <vector>
+
+#include "transport/zmq/socket.hpp"
+
+struct zmq_pollitem_t;
+
+namespace lightnet {
+
+/// What one thread waits for: sockets and descriptors, numbered in the order in which they were added. Made anew for
+/// each wait; they must live as long. Looking into an empty socket costs a call of the system, so who waits had better
+/// look only where something is readable.
+class Poll {
+public:
+    Poll();
+    ~Poll();
+    Poll(const Poll&) = delete;
+    Poll& operator=(const Poll&) = delete;
+
+    void add(const Socket& socket);
+    void add(int descriptor);
+    std::size_t size() const;
+    /// Returns when something is readable, or after `most`, or when the process was sent a signal. Throws SocketError
+    /// when something is wrong with what it waits for.
+    void wait(std::chrono::milliseconds most);
+    bool readable(std::size_t item) const;
+    /// Any of [first, last).
+    bool any_readable(std::size_t first, std::size_t last) const;
+
+private:
+    std::vector<zmq_pollitem_t> items_;
+};
+
+}  // namespace lightnet

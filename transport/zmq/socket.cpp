@@ -1,0 +1,154 @@
+#include "transport/zmq/socket.hpp"
+
+#include <zmq.h>
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <utility>
+
+#include "transport/places/descriptors.hpp"
+
+namespace lightnet {
+namespace {
+
+// ZeroMQ's own threads and what they wait at.
+constexpr std::size_t descriptors_of_context = 16;
+constexpr int most_sockets = 65535;  // that it can have
+
+constexpr int heartbeat_ms = 500, heartbeat_timeout_ms = 1500, time_to_live_ms = 5000;
+
+void common_options(Socket& socket) {
+    socket.set(ZMQ_SNDHWM, high_water_mark);
+    socket.set(ZMQ_RCVHWM, high_water_mark);
+    const auto most = static_cast<std::int64_t>(packet::most_bytes);
+    if (zmq_setsockopt(socket.library(), ZMQ_MAXMSGSIZE, &most, sizeof most) != 0) throw SocketError();
+    socket.set(ZMQ_HANDSHAKE_IVL, 2000);
+}
+
+void heartbeat_options(Socket& socket) {
+    socket.set(ZMQ_HEARTBEAT_IVL, heartbeat_ms);
+    socket.set(ZMQ_HEARTBEAT_TIMEOUT, heartbeat_timeout_ms);
+    socket.set(ZMQ_HEARTBEAT_TTL, time_to_live_ms);
+}
+
+}  // namespace
+
+SocketError::SocketError(int number) : std::runtime_error(zmq_strerror(number)), number_(number) {}
+SocketError::SocketError() : SocketError(zmq_errno()) {}
+bool SocketError::out_of_descriptors() const { return number_ == EMFILE || number_ == ENFILE; }
+
+SocketContext::SocketContext(int io_threads) {
+    want_descriptors(descriptors_of_context, "a process with sockets");
+    context_ = zmq_ctx_new();
+    if (!context_) throw SocketError();
+    zmq_ctx_set(context_, ZMQ_IO_THREADS, io_threads);
+    zmq_ctx_set(context_, ZMQ_MAX_SOCKETS, most_sockets);
+}
+
+SocketContext::~SocketContext() {
+    while (zmq_ctx_term(context_) != 0 && zmq_errno() == EINTR) {
+    }
+}
+
+Socket::Socket(const SocketContext& context, int type) : socket_(zmq_socket(context.library(), type)) {
+    if (!socket_) throw SocketError();
+    set(ZMQ_LINGER, 0);
+}
+
+Socket::~Socket() {
+    if (socket_) zmq_close(socket_);
+}
+
+Socket::Socket(Socket&& other) noexcept : socket_(std::exchange(other.socket_, nullptr)) {}
+
+Socket& Socket::operator=(Socket&& other) noexcept {
+    std::swap(socket_, other.socket_);
+    return *this;
+}
+
+void Socket::bind(const std::string& endpoint) {
+    if (zmq_bind(socket_, endpoint.c_str()) != 0) throw SocketError();
+}
+
+void Socket::connect(const std::string& endpoint) {
+    if (zmq_connect(socket_, endpoint.c_str()) != 0) throw SocketError();
+}
+
+void Socket::unbind(const std::string& endpoint) noexcept { zmq_unbind(socket_, endpoint.c_str()); }
+
+std::string Socket::endpoint() const {
+    std::array<char, 1024> text{};
+    std::size_t size = text.size();
+    if (zmq_getsockopt(socket_, ZMQ_LAST_ENDPOINT, text.data(), &size) != 0) throw SocketError();
+    return text.data();
+}
+
+bool Socket::can_send() const {
+    int events = 0;
+    std::size_t size = sizeof events;
+    if (zmq_getsockopt(socket_, ZMQ_EVENTS, &events, &size) != 0) throw SocketError();
+    return (events & ZMQ_POLLOUT) != 0;
+}
+
+void Socket::set(int option, int value) {
+    if (zmq_setsockopt(socket_, option, &value, sizeof value) != 0) throw SocketError();
+}
+
+void Socket::set(int option, const std::string& value) {
+    if (zmq_setsockopt(socket_, option, value.data(), value.size()) != 0) throw SocketError();
+}
+
+bool Socket::send(Frames& frames) {
+    happens_before_receiving();
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        const int more = i + 1 < frames.size() ? ZMQ_SNDMORE : 0;
+        if (zmq_msg_send(frames[i].library(), socket_, more | ZMQ_DONTWAIT) >= 0) continue;
+        const int error = zmq_errno();
+        if (error == EHOSTUNREACH || error == EAGAIN || error == EINTR) return false;  // only the first can be refused
+        throw SocketError(error);
+    }
+    return true;
+}
+
+std::optional<Frames> Socket::receive() {
+    Frames frames;
+    do {
+        MessageFrame frame;
+        if (zmq_msg_recv(frame.library(), socket_, ZMQ_DONTWAIT) < 0) {
+            const int error = zmq_errno();
+            if (error == EAGAIN || error == EINTR || error == ETERM) return std::nullopt;
+            throw SocketError(error);
+        }
+        frames.push_back(std::move(frame));
+    } while (zmq_msg_more(frames.back().library()));
+    happens_after_sending();
+    return frames;
+}
+
+Socket answering_socket(const SocketContext& context) {
+    Socket socket(context, ZMQ_ROUTER);
+    common_options(socket);
+    socket.set(ZMQ_ROUTER_MANDATORY, 1);
+    return socket;
+}
+
+Socket door_socket(const SocketContext& context) {
+    auto socket = answering_socket(context);
+    socket.set(ZMQ_PROBE_ROUTER, 1);
+    heartbeat_options(socket);
+    socket.set(ZMQ_TCP_KEEPALIVE, 1);
+    return socket;
+}
+
+Socket asking_socket(const SocketContext& context, const std::string& endpoint) {
+    Socket socket(context, ZMQ_DEALER);
+    common_options(socket);
+    socket.set(ZMQ_IMMEDIATE, 1);
+    socket.set(ZMQ_RECONNECT_IVL, 50);
+    socket.set(ZMQ_RECONNECT_IVL_MAX, 1000);
+    if (!endpoint.starts_with("inproc://")) heartbeat_options(socket);  // a silent peer looks connected for ever
+    socket.connect(endpoint);
+    return socket;
+}
+
+}  // namespace lightnet

@@ -1,0 +1,90 @@
+// Sockets as this project uses them: with the options that make them safe, and nothing else of the library.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "transport/zmq/message_frame.hpp"
+
+namespace lightnet {
+
+/// What the library refuses: an endpoint that is none or is taken, or one socket more.
+class SocketError : public std::runtime_error {
+public:
+    /// Of an error number of the library.
+    explicit SocketError(int number);
+    /// The last one.
+    SocketError();
+    /// The process, or the system, has no more descriptors.
+    bool out_of_descriptors() const;
+
+private:
+    int number_;
+};
+
+/// What the sockets of a process belong to; outlives them. Any thread.
+class SocketContext {
+public:
+    /// With room for as many sockets as the system has descriptors for. Throws Error when there are too few left for
+    /// any work. `io_threads` 0: for sockets within the process only.
+    explicit SocketContext(int io_threads = 1);
+    /// Waits until all its sockets are closed.
+    ~SocketContext();
+    SocketContext(const SocketContext&) = delete;
+    SocketContext& operator=(const SocketContext&) = delete;
+    void* library() const { return context_; }
+
+private:
+    void* context_;
+};
+
+/// Never blocks, never lingers. One thread's.
+class Socket {
+public:
+    /// `type` is the library's number. See the functions below. Throws SocketError.
+    Socket(const SocketContext& context, int type);
+    ~Socket();
+    Socket(Socket&& other) noexcept;
+    Socket& operator=(Socket&& other) noexcept;
+
+    /// Both throw SocketError.
+    void bind(const std::string& endpoint);
+    void connect(const std::string& endpoint);
+    /// The endpoint is free for others at once; closing alone frees it later.
+    void unbind(const std::string& endpoint) noexcept;
+    /// Where it is bound, with the port that the system chose.
+    std::string endpoint() const;
+    /// Sends all frames or none. False: the peer is gone or its queue is full.
+    bool send(Frames& frames);
+    /// One whole message, if there is one.
+    std::optional<Frames> receive();
+    /// A peer is there, and has room for more.
+    bool can_send() const;
+    /// Options of the library, by its numbers.
+    void set(int option, int value);
+    void set(int option, const std::string& value);
+    void* library() const { return socket_; }
+
+private:
+    void* socket_;
+};
+
+/// A socket that binds and answers: knows its peers, refuses those that are gone.
+Socket answering_socket(const SocketContext& context);
+/// The same for other hosts: greets each connection with an empty message, so that a peer whose connection was cut
+/// knows that what was under way may be lost. Who does not answer its heartbeats is cut off.
+Socket door_socket(const SocketContext& context);
+/// A socket that connects and asks: one peer only, sends nothing before the peer is there, says hello by itself after
+/// each reconnection.
+Socket asking_socket(const SocketContext& context, const std::string& endpoint);
+
+/// Sizes that were agreed on (flow control by credit) never fill a queue of this many messages; if one is full,
+/// something is wrong, and counted.
+inline constexpr int high_water_mark = 4096;
+/// May a socket that connects have refused because its queue is full, with so many messages on their way? If not, its
+/// peer is gone for the moment; it does not tell which.
+inline bool may_be_full(std::size_t under_way) { return under_way >= std::size_t{high_water_mark} / 2; }
+
+}  // namespace lightnet

@@ -1,0 +1,47 @@
+// The carrier of a place: inproc:// to places of the same process, tcp:// to those of other hosts.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/run/message/carrier.hpp"
+#include "transport/places/place_transport.hpp"
+#include "transport/zmq/socket.hpp"
+
+namespace lightnet {
+
+/// How the sockets of one run inside one process are called. `run` keeps runs apart.
+std::string inproc_endpoint(std::uint64_t run, std::uint32_t place);
+
+/// Within the process a message is handed over by pointer. To another host it goes as a packet, through the gateway
+/// that all places of the process share. A packet is kept until its reply is there, and sent again whenever a
+/// connection was cut. Belongs to one thread.
+class ZmqCarrier final : public Carrier {
+public:
+    struct Address {
+        std::uint64_t run = 0;
+        std::string host;                      // of this process, as in PlaceAt
+        std::optional<std::uint32_t> place{};  // whose messages arrive here; none: it only asks, as the master does
+    };
+    /// `at_fault` is told of hosts that failed.
+    ZmqCarrier(
+        const SocketContext& context, Address me, PlaceTransport::AtFault at_fault = [](const Failure&) {});
+    ~ZmqCarrier() override;
+
+    bool ask(const PlaceAt& to, Message& message) override;
+    void reply(Message message) override;
+    std::optional<Message> receive() override;
+    void wait(std::chrono::nanoseconds most) override;
+    void give_up(std::uint32_t channel) override;
+    bool take_out(const std::string& host, const std::string& why) override;
+    void forget(const PlaceAt& place) override;
+    const Counters& counters() const override;
+
+private:
+    struct Sockets;
+    std::unique_ptr<Sockets> sockets_;
+};
+
+}  // namespace lightnet
