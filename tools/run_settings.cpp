@@ -22,16 +22,10 @@ const char* name_of(Mode mode) {
 
 FilmFormat film_format(const RunRequest& request, const Registry& registry) {
     const auto film = film_of(request.graph, registry);
-    const auto& params = request.graph.nodes[renderer_of(request.graph, registry)].params;
-    // Renderers other than our own may have no cells.
-    const auto number = [&](const char* name) {
-        const auto param = params.find(name);
-        return param == params.end() ? 0 : std::get<double>(param->second.data);
-    };
-    const auto count = [&](const char* name) { return static_cast<std::uint32_t>(number(name)); };
+    const auto sampling = sampling_of(request.graph, registry);
     const auto layers = layers_of(request.graph, registry);
-    FilmFormat format{film.width, film.height, layers.film, count("samples"), film.crop};
-    format.refinement = {static_cast<float>(number("error")), count("least_samples")};
+    FilmFormat format{film.width, film.height, layers.film, sampling.samples, film.crop};
+    format.refinement = {sampling.error, sampling.least_samples};
     format.shown = shown_names(layers, request.graph);
     return format;
 }
