@@ -1,4 +1,4 @@
--- How open the corners of the Cornell box are.
+-- Ambient occlusion in the Cornell box: how open its corners are.
 size, samples = 256, 16
 
 scene    = Scene { "cornell_box.pbrt" }

@@ -1,4 +1,4 @@
--- The Cornell box: direct light and what is reflected on, each a layer of its own.
+-- The Cornell box: direct and indirect light, each a layer of its own.
 size, samples = 256, 64
 
 scene    = Scene { "cornell_box.pbrt" }

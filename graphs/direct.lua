@@ -1,4 +1,4 @@
--- Light that comes straight from the lamp.
+-- Direct light: what comes straight from the lamp.
 size, samples = 256, 16
 
 scene  = Scene { "cornell_box.pbrt" }

@@ -1,5 +1,5 @@
--- The network of the paper's figure 5: direct light, caustics from a photon map, and an irradiance cache that looks at
--- all light of other surfaces. A lamp, a glass ball and a mirror in the Cornell box.
+-- The network of the paper's figure 5: direct light, caustics from a photon map, and an irradiance cache that
+-- gathers the light of all other surfaces. A lamp, a glass ball and a mirror in the Cornell box.
 -- lightnet run graphs/figure5.lua -D file=/somewhere/scene.pbrt -D width=640 -D height=360
 file = "glass_ball.pbrt"
 width, height, samples, photons, rays = 256, 256, 16, 200000, 256

@@ -1,5 +1,5 @@
--- The network of figure5.lua, and beside the picture what its operators give each other: the light that the cache looks
--- at, where photons and records lie, and how densely. To see each in its place in the graph:
+-- The network of figure5.lua, and beside the picture what its operators give each other: the light that the cache
+-- gathers, where photons and records lie, and how densely. To see each in its place in the graph:
 -- lightnet run graphs/figure8.lua -o figure8.exr
 -- lightnet dot graphs/figure8.lua --pictures figure8.exr | dot -Tpng > figure8.png
 file = "glass_ball.pbrt"

@@ -1,5 +1,5 @@
--- Any scene whose soft light is interpolated: direct light as it is, and an irradiance cache that looks at all other
--- light by path tracing. Caustics are left out: figure5.lua has them.
+-- Any scene whose diffuse interreflection is interpolated: direct light as it is, and an irradiance cache that gathers
+-- all other light by path tracing. Caustics are left out: figure5.lua has them.
 -- lightnet run graphs/irradiance_cache.lua -D file=/somewhere/scene.pbrt -D width=640 -D height=360
 file = "cornell_box.pbrt"
 width, height, samples, rays = 256, 256, 16, 1024

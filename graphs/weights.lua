@@ -1,4 +1,4 @@
--- Sums of sums: how often light was reflected makes layers, and weights make their shares. Light that was reflected
+-- Sums of sums: layers by how often light was reflected, with weights of their own. Light that was reflected
 -- once counts half as much again (`often` has it as well), and a little light comes from everywhere.
 size, samples = 256, 16
 

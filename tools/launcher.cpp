@@ -29,7 +29,7 @@ public:
             CLI::App& app = *app_.add_subcommand(verb.name, verb.help);
             known_.push_back({verb.name, verb.options(app)});
         }
-        app_.add_subcommand("help", "tell how a verb is used: lightnet help run");
+        app_.add_subcommand("help", "show how a verb is used: lightnet help run");
     }
 
     std::variant<Action, Finished> parse(std::vector<std::string> words) {

@@ -52,9 +52,9 @@ std::optional<PictureCrop> crop_of(std::string_view text) {
 void add_helpers(CLI::App& verb, RunningOptions& running) {
     takes_numbers(verb.add_option("--local-workers", running.local_workers, "daemons to start on this machine"), "N", 1,
                   1024);
-    takes_endpoint(
-        verb.add_option("--listen", running.listen, "where lightnetd --join may join, even in the middle of the run"),
-        true);
+    takes_endpoint(verb.add_option("--listen", running.listen,
+                                   "where daemons may join (lightnetd --join), even in the middle of the run"),
+                   true);
     verb.add_option("--pass", running.pass,
                     "file with what a host must know to join (default: ~/.config/lightnet/pass, made when missing)")
         ->type_name("FILE");
@@ -66,8 +66,8 @@ void add_helpers(CLI::App& verb, RunningOptions& running) {
         ->capture_default_str();
     auto* const slurm = takes_numbers(
         verb.add_option("--slurm", running.slurm, "daemons to start as a job array of Slurm"), "N", 1, 10000);
-    verb.add_option("--partition", running.partition, "of Slurm")->type_name("P")->needs(slurm);
-    verb.add_option("--slurm-args", running.slurm_arguments, "more words for sbatch, in one")->needs(slurm);
+    verb.add_option("--partition", running.partition, "the partition of Slurm to use")->type_name("P")->needs(slurm);
+    verb.add_option("--slurm-args", running.slurm_arguments, "further arguments for sbatch, as one text")->needs(slurm);
 }
 
 // The picture does not depend on any of these.
@@ -154,9 +154,9 @@ void add_running(CLI::App& verb, RunningOptions& running) {
     add_picture(verb, running.picture);
     add_hosts(verb, running.hosts);
     add_threads(verb, running.threads,
-                "places in this process; 1: serial (default: one per core, if no daemons are asked for)");
+                "threads of this process that render; 1: serial (default: one per core, if no daemons are asked for)");
     add_helpers(verb, running);
-    takes_numbers(verb.add_option("--seed", running.seed, "root of all random numbers"), "N", 0,
+    takes_numbers(verb.add_option("--seed", running.seed, "seed of all random numbers"), "N", 0,
                   std::numeric_limits<std::uint64_t>::max());
     verb.add_option("--exposure", running.picture.exposure, "exposure in stops: each makes the picture twice as bright")
         ->type_name("STOPS");
@@ -167,11 +167,11 @@ void add_running(CLI::App& verb, RunningOptions& running) {
         ->check([](const std::string& text) {
             return progress_mode(text) ? "" : "must be auto, bar, plain, json or none, not '" + text + "'";
         });
-    takes_amounts(verb.add_option("--preview", running.preview, "write the picture so far from time to time"),
+    takes_amounts(verb.add_option("--preview", running.preview, "write the picture so far, every so many seconds"),
                   "SECONDS", Least::above_zero);
     verb.add_flag("--resume", running.resume,
-                  "go on from the checkpoint beside the picture, if there is one; of a finished picture, to more "
-                  "samples");
+                  "continue from the checkpoint beside the picture, if there is one; a finished picture gets the "
+                  "samples that it lacks");
     verb.add_flag("--forget", running.forget,
                   "leave no checkpoint beside a finished picture, so that no samples can be added to it");
     add_tuning(verb, running.tuning);

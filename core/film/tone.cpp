@@ -11,7 +11,7 @@ constexpr double most = 0.5;                      // of the pixels
 constexpr double hardly_any = 0.05;               // of the pixels
 constexpr float darkest = 0.5f / (255 * 12.92f);  // the least that is not black in 8 bits of sRGB
 // DECISIONS: hint-at-an-exposure
-constexpr float bright = 0.9f, middle = 0.5f;     // what pixels should become
+constexpr float bright = 0.9f, middle = 0.5f;  // what pixels should become
 
 // Sorts some of it.
 float quantile(std::vector<float>& values, double share) {

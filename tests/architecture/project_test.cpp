@@ -45,7 +45,8 @@ TEST(Project, HasOneTypeOfEachName) {
     std::vector<SourceFile> product;
     for (const char* room : {"core", "nodes", "transport", "lua", "tools"})
         std::ranges::move(files_of(room), std::back_inserter(product));
-    std::erase_if(product, [](const SourceFile& file) { return file.path.ends_with(".lua") || file.path.ends_with(".cmake"); });
+    std::erase_if(product,
+                  [](const SourceFile& file) { return file.path.ends_with(".lua") || file.path.ends_with(".cmake"); });
     EXPECT_THAT(repeated_types(product), IsEmpty());
 }
 

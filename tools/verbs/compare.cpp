@@ -34,7 +34,8 @@ void describe_compare(CLI::App& verb, CompareRequest& request) {
     verb.add_option("--exposure", request.view.exposure, "stops, before pictures are shown: for FLIP and .png")
         ->type_name("STOPS")
         ->capture_default_str();
-    takes_amounts(verb.add_option("--pixels-per-degree", request.view.pixels_per_degree, "how FLIP looks at pictures"),
+    takes_amounts(verb.add_option("--pixels-per-degree", request.view.pixels_per_degree,
+                                  "pixels per degree of what the eye sees, for FLIP"),
                   "N", Least::above_zero)
         ->capture_default_str();
     add_tolerances(verb, request);
@@ -54,7 +55,7 @@ int compare(const CompareRequest& request, const Launcher& launcher) {
 }  // namespace
 
 Verb compare_verb() {
-    return verb<CompareRequest>("compare", "tell how far pictures are from a reference", describe_compare, compare);
+    return verb<CompareRequest>("compare", "measure how far pictures are from a reference", describe_compare, compare);
 }
 
 }  // namespace lightnet

@@ -19,7 +19,7 @@ struct DescribeOptions {
 };
 
 void describe_describe(CLI::App& app, DescribeOptions& options) {
-    app.add_option("KIND", options.kind, "the kind to tell of");
+    app.add_option("KIND", options.kind, "the kind to show");
     add_examples(app, {"lightnet describe PhotonMap"});
 }
 
@@ -42,7 +42,7 @@ int describe_kinds(const DescribeOptions& options, const Launcher& launcher) {
 }  // namespace
 
 Verb describe_verb() {
-    return verb<DescribeOptions>("describe", "list the kinds of nodes, or tell all of one", describe_describe,
+    return verb<DescribeOptions>("describe", "list the kinds of nodes, or show all about one", describe_describe,
                                  describe_kinds);
 }
 

@@ -51,8 +51,8 @@ int print_hosts(const HostsOptions& options, const Launcher& launcher) {
 }  // namespace
 
 Verb hosts_verb() {
-    return verb<HostsOptions>("hosts", "tell the state and load of daemons, and what their machines are like",
-                              describe_hosts, print_hosts);
+    return verb<HostsOptions>("hosts", "show the state and load of daemons, and their machines", describe_hosts,
+                              print_hosts);
 }
 
 }  // namespace lightnet

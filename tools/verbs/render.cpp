@@ -27,17 +27,18 @@ void describe_render(CLI::App& app, RenderOptions& options) {
     auto& scene = options.scene;
     app.add_option("FILE", scene.file, "the scene file")->required();
     app.add_option("--lighting", scene.lighting,
-                   "path: all light; direct: what comes straight from lamps; ao: how open a place is; or a graph "
-                   "file, whose scene this one replaces")
+                   "path: all light paths; direct: direct light only; ao: ambient occlusion; or a graph file, whose "
+                   "scene this one replaces")
         ->type_name("path|direct|ao|GRAPH.lua")
         ->capture_default_str();
-    app.add_option("--env", scene.environment, "what is around the scene: a picture, or a colour like 1,0.9,0.8")
+    app.add_option("--env", scene.environment, "the environment of the scene: a picture, or a colour like 1,0.9,0.8")
         ->type_name("FILE|COLOUR");
-    app.add_flag("--two-sided", scene.two_sided, "no surface is black from behind, as Mitsuba's may be");
+    app.add_flag("--two-sided", scene.two_sided,
+                 "surfaces reflect on both sides, also where Mitsuba's are black from behind");
     add_constants(app, scene.constants,
                   "define a variable of the scene file, or a constant of GRAPH.lua (may be repeated)");
     add_running(app, options.running);
-    add_output(app, options.running.picture.output, "the picture, instead of the scene's name with .exr here");
+    add_output(app, options.running.picture.output, "file of the picture, instead of the scene's name with .exr, here");
     when_taken_apart(app, [&options] {
         const auto mistake = mistaken_graph(options.scene.file, "to render it: lightnet run");
         return mistake ? mistake : settle(options.running);

@@ -19,7 +19,7 @@ struct RunOptions {
 void describe_run(CLI::App& app, RunOptions& options) {
     add_graph(app, options.graph);
     add_running(app, options.running);
-    add_output(app, options.running.picture.output, "the picture, instead of the graph's");
+    add_output(app, options.running.picture.output, "file of the picture, instead of the graph's");
     when_taken_apart(app, [&options] {
         const auto mistake = mistaken_scene(options.graph.file, "to render it: lightnet render");
         return mistake ? mistake : settle(options.running);

@@ -54,12 +54,13 @@ std::string camera_text(const SceneData& scene) {
     std::string text = camera.orthographic ? "orthographic" : fmt::format("perspective, {:.4g} degrees", camera.fov);
     text += fmt::format(", at {}, looks along {}", point_text(column(3)), point_text(column(2)));
     if (camera.lens_radius > 0)
-        text += fmt::format(", lens of {:.4g} m, sharp at {:.4g} m", camera.lens_radius, camera.focus_distance);
+        text += fmt::format(", lens of radius {:.4g}, in focus at {:.4g} (scene units)", camera.lens_radius,
+                            camera.focus_distance);
     return text;
 }
 
 void line(std::ostream& out, std::string_view what, const std::string& text) {
-    out << fmt::format("{:<11} {}\n", what, text);
+    out << fmt::format("{:<12} {}\n", what, text);
 }
 
 void print(const SceneData& scene, const SceneStatistics& found, std::ostream& out) {
@@ -84,7 +85,7 @@ struct SceneInfoOptions {
 
 void describe_scene(CLI::App& app, SceneInfoOptions& options) {
     app.require_subcommand(1);
-    CLI::App& info = *app.add_subcommand("info", "tell what is in a scene file, and what of it is not supported");
+    CLI::App& info = *app.add_subcommand("info", "show what is in a scene file, and what of it is not supported");
     info.add_option("FILE", options.file, "the scene file")->required();
     add_constants(info, options.constants, "define a variable of the scene file (may be repeated)");
     when_taken_apart(info, [&options] { return mistaken_graph(options.file, "to look at it: lightnet check"); });
@@ -118,8 +119,8 @@ int print_scene_info(const SceneInfoOptions& options, const Launcher& launcher) 
                               double(found.geometry_bytes) / double(found.triangles),
                               double(resident) / double(found.triangles));
     line(out, "memory", memory);
-    if (warnings.empty()) line(out, "liberties", "none: all was taken literally");
-    for (const auto& warning : warnings) line(out, "liberty", to_string(warning));
+    if (warnings.empty()) line(out, "approximated", "nothing: all was taken literally");
+    for (const auto& warning : warnings) line(out, "approximated", to_string(warning));
     return exit_code::done;
 }
 
