@@ -33,7 +33,7 @@ std::size_t first_half(std::size_t leaves) {
 void sort_spots(std::span<Spot> spots, std::size_t leaves, const Photon* photons) {
     if (leaves == 1) return sort_few(spots, BySpot{0, photons});
     const std::size_t left = first_half(leaves);
-    halve(spots, left * width, BySpot{longest_side(std::span<const Spot>(spots)), photons});
+    halve(spots, left * width, BySpot{longest_axis(std::span<const Spot>(spots)), photons});
     sort_spots(spots.first(left * width), left, photons);
     sort_spots(spots.subspan(left * width), leaves - left, photons);
 }
@@ -98,7 +98,7 @@ void PhotonTree::sort(std::size_t first, std::size_t leaves, std::size_t threads
     const std::size_t low = first * width, high = std::min(low + leaves * width, size_);
     const auto photons = std::span(photons_).subspan(low, high - low);
     const std::size_t left = first_half(leaves);
-    halve(photons, left * width, ByPhoton{longest_side(std::span<const Photon>(photons))});
+    halve(photons, left * width, ByPhoton{longest_axis(std::span<const Photon>(photons))});
     if (threads < 2 || high - low < least_shared) {
         sort(first, left, 1);
         sort(first + left, leaves - left, 1);

@@ -1,4 +1,4 @@
-// Many points side by side, coordinate by coordinate: what the compiler turns loops over points into vectors from.
+// Many points as a structure of arrays, coordinate by coordinate: what compilers turn loops into SIMD vectors from.
 #pragma once
 
 #include <array>

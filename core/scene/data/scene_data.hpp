@@ -162,7 +162,7 @@ struct SceneData {
     CameraData camera;
     bool camera_given = false;  // else Scene looks at everything from where all of it is seen
     FilmData film;
-    std::vector<Problem> warnings;        // what was read, but not taken literally
+    std::vector<Problem> warnings;        // what was approximated or left out
     std::map<std::string, Bytes> kept{};  // by node of the graph: what earlier runs have kept, which it goes on from
 };
 /// Without those who look (camera, film), and without what was said or learnt of it.
