@@ -30,8 +30,7 @@ IrradianceOctree::Entry IrradianceOctree::entry_of(IrradianceRecord record, cons
     return {record, reach};
 }
 
-IrradianceOctree::IrradianceOctree(std::span<const IrradianceRecord> records, const Spacing& spacing,
-                                   const Scene::Box& bounds)
+IrradianceOctree::IrradianceOctree(std::span<const IrradianceRecord> records, const Spacing& spacing, const Box& bounds)
     : low_(bounds.low), spacing_(spacing) {
     const Vec3 extent = bounds.high - bounds.low;
     size_ = std::max({extent.x, extent.y, extent.z}) * 1.001f;

@@ -26,7 +26,7 @@ public:
     /// Limits how far each record counts: by its own gradient (an estimate never changes by more than itself), and by
     /// its neighbours, as they see what it may have missed (Krivanek et al. 2006, "Making radiance and irradiance
     /// caching practical", section 3.1).
-    IrradianceOctree(std::span<const IrradianceRecord> records, const Spacing& spacing, const Scene::Box& bounds);
+    IrradianceOctree(std::span<const IrradianceRecord> records, const Spacing& spacing, const Box& bounds);
 
     std::size_t size() const { return records_.size(); }
     /// Irradiance at a point, between all records that reach it when their reach is `stretch` times what it is; none:

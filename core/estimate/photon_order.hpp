@@ -10,6 +10,7 @@
 #include <span>
 #include <tuple>
 
+#include "core/base/math/box.hpp"
 #include "core/estimate/photon.hpp"
 #include "core/estimate/ranks.hpp"
 
@@ -101,15 +102,10 @@ void halve(std::span<T> all, std::size_t middle, const Before& before) {
 
 /// The axis along which they reach farthest.
 template <class T>
-std::size_t longest_side(std::span<const T> all) {
-    Vec3 least = all[0].position, most = least;
-    for (const T& one : all)
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            least[axis] = std::min(least[axis], one.position[axis]);
-            most[axis] = std::max(most[axis], one.position[axis]);
-        }
-    const Vec3 size = most - least;
-    return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+std::size_t longest_axis(std::span<const T> all) {
+    Box box;
+    for (const T& one : all) box.add(one.position);
+    return box.longest_axis();
 }
 
 }  // namespace lightnet

@@ -32,7 +32,7 @@ std::size_t first_half(std::size_t leaves) {
 void sort_spots(std::span<Spot> spots, std::size_t leaves, const Photon* photons) {
     if (leaves == 1) return sort_few(spots, BySpot{0, photons});
     const std::size_t left = first_half(leaves);
-    halve(spots, left * width, BySpot{longest_side(std::span<const Spot>(spots)), photons});
+    halve(spots, left * width, BySpot{longest_axis(std::span<const Spot>(spots)), photons});
     sort_spots(spots.first(left * width), left, photons);
     sort_spots(spots.subspan(left * width), leaves - left, photons);
 }
@@ -116,7 +116,7 @@ std::array<PhotonTree::Part, 2> PhotonTree::halved(Part part) {
     const std::size_t low = first * width, high = std::min(low + leaves * width, size_);
     const auto photons = std::span(photons_).subspan(low, high - low);
     const std::size_t left = first_half(leaves);
-    halve(photons, left * width, ByPhoton{longest_side(std::span<const Photon>(photons))});
+    halve(photons, left * width, ByPhoton{longest_axis(std::span<const Photon>(photons))});
     return {Part{first, left}, Part{first + left, leaves - left}};
 }
 

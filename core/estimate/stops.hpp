@@ -7,7 +7,7 @@
 
 #include "core/scene/direct_light.hpp"
 #include "core/scene/scene.hpp"
-#include "core/scene/surfaces/plain_surfaces.hpp"
+#include "core/scene/surfaces/lambertian_surfaces.hpp"
 
 namespace lightnet {
 
@@ -30,17 +30,17 @@ struct LampRays {
 class Stops {
 public:
     explicit Stops(const Scene& scene)
-        : scene_(scene), plain_shapes_(scene.plain_shapes()), only_lamp_(scene.only_flat_lamp()) {}
+        : scene_(scene), lambertian_shapes_(scene.lambertian_shapes()), only_lamp_(scene.only_flat_lamp()) {}
 
     void clear() { plain_.clear(), points_.clear(), seen_.clear(), bsdfs_.clear(), visitors_.clear(); }
     bool full() const { return plain_.full(); }
     /// Walk `walk`, after those added before, has come to a surface, as seen from `outgoing`, through `inside`; this
     /// has not been full. Only these `lobes` are looked at.
     void add(std::uint32_t walk, const Hit& hit, Vec3 outgoing, std::uint8_t lobes, const Rgb* inside) {
-        plain_last_ = hit.instance == Query::no_instance && plain_shapes_[hit.geometry].mesh && !inside &&
+        plain_last_ = hit.instance == Query::no_instance && lambertian_shapes_[hit.geometry].mesh && !inside &&
                       (lobes & lobe::diffuse);
         if (plain_last_) {
-            plain_.add(walk, plain_shapes_[hit.geometry], hit, outgoing);
+            plain_.add(walk, lambertian_shapes_[hit.geometry], hit, outgoing);
             return;
         }
         points_.push_back(scene_.surface(hit));
@@ -50,7 +50,7 @@ public:
     /// The same place again.
     void add_again(std::uint32_t walk, const Hit& hit, Vec3 outgoing) {
         if (plain_last_)
-            plain_.add(walk, plain_shapes_[hit.geometry], hit, outgoing);
+            plain_.add(walk, lambertian_shapes_[hit.geometry], hit, outgoing);
         else
             add_to_last(walk);
     }
@@ -164,9 +164,9 @@ private:
     }
 
     const Scene& scene_;
-    std::span<const PlainShape> plain_shapes_;
+    std::span<const LambertianShape> lambertian_shapes_;
     const FlatLamp* only_lamp_;
-    PlainSurfaces plain_;
+    LambertianSurfaces plain_;
     bool plain_last_ = false;
     // the others, and who has come to which
     std::vector<SurfacePoint> points_;

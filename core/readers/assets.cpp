@@ -9,6 +9,14 @@
 #include "core/base/error.hpp"
 
 namespace lightnet {
+namespace {
+
+bool has_light(const SceneData& scene) {
+    return !scene.environments.empty() || !scene.lights.empty() ||
+           std::ranges::any_of(scene.shapes, [](const Shape& shape) { return shape.emission.has_value(); });
+}
+
+}  // namespace
 
 std::optional<Bytes> Assets::read(const std::string& path, const SourceLine& where) {
     try {
@@ -44,7 +52,7 @@ std::shared_ptr<const Image> Assets::picture(const std::string& name, std::span<
     try {
         entry->second = std::make_shared<const Image>(read_image(bytes, encoding));
     } catch (const Error& problem) {
-        report_.error(where, fmt::format("picture '{}': {}", name, problem.what()));
+        report_.error(where, fmt::format("image '{}': {}", name, problem.what()));
     }
     return entry->second;
 }
@@ -89,14 +97,19 @@ Rgb mean_colour(const SceneData& scene, TextureId id) {
     return texture.invert ? Rgb{1, 1, 1} - mean : mean;
 }
 
-void light_the_dark(SceneData& scene, Report& report, const std::string& file) {
-    const bool lit = !scene.environments.empty() || !scene.lights.empty() ||
-                     std::any_of(scene.shapes.begin(), scene.shapes.end(),
-                                 [](const Shape& shape) { return shape.emission.has_value(); });
-    if (lit) return;
-    report.warn({file, 0},
-                "there is no light: a constant environment of radiance 1 is taken (choose one with '--env')");
-    scene.environments.emplace_back();
+SceneData read_by_assets(Files& files, const std::string& path, const std::function<void(Assets&)>& fill) {
+    Report report;
+    SceneData scene;
+    Assets assets(files, report, scene);
+    fill(assets);
+    report.check();
+    if (!has_light(scene)) {
+        report.warn({path, 0},
+                    "there is no light: a constant environment of radiance 1 is taken (choose one with '--env')");
+        scene.environments.emplace_back();
+    }
+    scene.warnings = report.warnings();
+    return scene;
 }
 
 }  // namespace lightnet

@@ -1,7 +1,8 @@
-// What the readers of scenes draw on while they fill a scene: its files, its pictures, each decoded once, its textures.
+// What the readers of scenes draw on while they fill a scene: its files, its images, each decoded once, its textures.
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -28,9 +29,9 @@ public:
     bool stays_beside(const std::string& from, const std::string& path) const {
         return lightnet::stays_beside(files_, from, path);
     }
-    /// The picture at `path`. Null: reported.
+    /// The image at `path`. Null: reported.
     std::shared_ptr<const Image> picture(const std::string& path, const Encoding& encoding, const SourceLine& where);
-    /// A picture inside another file; `name` tells it from all others.
+    /// An image inside another file; `name` tells it from all others.
     std::shared_ptr<const Image> picture(const std::string& name, std::span<const std::byte> bytes,
                                          const Encoding& encoding, const SourceLine& where);
 
@@ -55,7 +56,8 @@ private:
 /// Mean colour of a texture's pattern times its scale, where that is easy to say; else its scale.
 Rgb mean_colour(const SceneData& scene, TextureId texture);
 
-/// Light for scenes that have none: a warning that names `--env`, and a constant environment of radiance 1.
-void light_the_dark(SceneData& scene, Report& report, const std::string& file);
+/// The scene in the file at `path` by what `fill` adds to it. Throws UserError with all that is reported. Scenes
+/// without light get a constant environment of radiance 1, and a warning that names `--env`.
+SceneData read_by_assets(Files& files, const std::string& path, const std::function<void(Assets&)>& fill);
 
 }  // namespace lightnet

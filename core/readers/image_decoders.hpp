@@ -1,4 +1,4 @@
-// One decoder per picture format; only image_file.cpp chooses among them.
+// One decoder per image format; only image_file.cpp chooses among them.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@ Raster read_png(Input bytes);
 Image read_exr(Input bytes);
 Image read_hdr(Input bytes);
 
-/// Throws Error unless a picture of that size is worth allocating.
+/// Throws Error unless an image of that size is worth allocating.
 void check_size(std::int64_t width, std::int64_t height);
 
 }  // namespace lightnet::decoders

@@ -50,7 +50,7 @@ Image decode(Input bytes) {
     const auto& channels = file.header().channels();
     for (const char* name : {"R", "G", "B", "Y", "A"})
         if (const auto* c = channels.findChannel(name); c && (c->xSampling != 1 || c->ySampling != 1))
-            throw Error("EXR: pictures with fewer samples of colour than of brightness are not supported");
+            throw Error("EXR: images with fewer samples of colour than of brightness are not supported");
     const bool grey = !channels.findChannel("R");
     if (grey && !channels.findChannel("Y")) throw Error("EXR: there is no channel R, and no channel Y");
     const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);

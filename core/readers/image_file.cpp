@@ -25,7 +25,7 @@ float linear(float value, const Encoding& encoding) {
     }
 }
 
-/// The curve at all values that a sample can have: pictures are large, pow() is slow.
+/// The curve at all values that a sample can have: images are large, pow() is slow.
 std::vector<float> curve(const Encoding& encoding, std::size_t steps) {
     std::vector<float> table(steps);
     for (std::size_t i = 0; i < steps; ++i) table[i] = linear(float(i) / float(steps - 1), encoding);
@@ -60,9 +60,9 @@ bool begins(std::span<const std::byte> bytes, std::string_view start) {
 
 void decoders::check_size(std::int64_t width, std::int64_t height) {
     constexpr std::int64_t most_pixels = std::int64_t{1} << 26, longest_side = 1 << 20;
-    if (width <= 0 || height <= 0) throw Error("the picture has no pixels");
+    if (width <= 0 || height <= 0) throw Error("the image has no pixels");
     if (width > longest_side || height > longest_side || width * height > most_pixels)
-        throw Error(fmt::format("a picture of {} x {} pixels is too large (at most 2^26 pixels)", width, height));
+        throw Error(fmt::format("an image of {} x {} pixels is too large (at most 2^26 pixels)", width, height));
 }
 
 Image read_image(std::span<const std::byte> bytes, const Encoding& encoding) {
@@ -70,7 +70,7 @@ Image read_image(std::span<const std::byte> bytes, const Encoding& encoding) {
     if (begins(bytes, "\x89PNG\r\n\x1A\n")) return to_image(decoders::read_png(bytes), encoding);
     if (begins(bytes, "\x76\x2F\x31\x01")) return decoders::read_exr(bytes);
     if (begins(bytes, "#?")) return decoders::read_hdr(bytes);
-    throw Error("not a picture of a known kind (JPEG, PNG, OpenEXR, Radiance HDR)");
+    throw Error("not an image of a known format (JPEG, PNG, OpenEXR, Radiance HDR)");
 }
 
 }  // namespace lightnet

@@ -1,4 +1,4 @@
-// Pictures read from files, for textures: JPEG, PNG, OpenEXR and Radiance HDR.
+// Images read from files, for textures: JPEG, PNG, OpenEXR and Radiance HDR.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace lightnet {
 
-/// How the numbers of an 8- or 16-bit picture stand for light. Pictures of floats are always linear.
+/// How the numbers of an 8- or 16-bit image stand for light. Images of floats are always linear.
 struct Encoding {
     enum class Curve { srgb, linear, gamma };
     Curve curve = Curve::srgb;
@@ -17,7 +17,7 @@ struct Encoding {
     friend bool operator==(const Encoding&, const Encoding&) = default;
 };
 
-/// Decodes a picture; its format is told by its first bytes. Throws Error (without a file name) when it is broken, of
+/// Decodes an image; its format is told by its first bytes. Throws Error (without a file name) when it is broken, of
 /// no known kind, or has more than 2²⁶ pixels.
 Image read_image(std::span<const std::byte> bytes, const Encoding& encoding = {});
 

@@ -43,7 +43,7 @@ private:
 
 std::int64_t number_after(std::string_view& text, std::string_view axis) {
     std::int64_t value = 0;
-    if (!text.starts_with(axis)) throw Error("HDR: only pictures with the rows '-Y … +X …' are supported");
+    if (!text.starts_with(axis)) throw Error("HDR: only images with the rows '-Y … +X …' are supported");
     text.remove_prefix(axis.size());
     const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (problem != std::errc{}) throw Error("HDR: the size is broken");

@@ -27,7 +27,7 @@ void leave(j_common_ptr jpeg) {
     std::longjmp(errors->jump, 1);
 }
 
-// libjpeg would fill up a picture that ends early with grey; other warnings are harmless
+// libjpeg would fill up an image that ends early with grey; other warnings are harmless
 void warn(j_common_ptr jpeg, int level) {
     if (level < 0 && jpeg->err->msg_code == JWRN_JPEG_EOF) leave(jpeg);
 }

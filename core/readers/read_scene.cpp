@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <vector>
 
 #include "core/readers/gltf/gltf.hpp"
 #include "core/readers/mitsuba/mitsuba.hpp"
 #include "core/readers/obj/obj.hpp"
 #include "core/readers/pbrt/pbrt.hpp"
-#include "core/readers/ply.hpp"
+#include "core/readers/ply/ply.hpp"
+#include "core/scene/bsdf/check_materials.hpp"
+#include "core/scene/textures/look_up.hpp"
 
 namespace lightnet {
 namespace {
@@ -38,29 +41,73 @@ std::string ending_of(const std::string& path) {
     return ending;
 }
 
-SceneData read(Files& files, const std::string& path, const std::map<std::string, std::string>& constants) {
+const SceneFormat* format_of(const std::string& path, std::span<const SceneFormat> formats) {
     const std::string ending = ending_of(path);
-    if (ending == ".xml") return mitsuba::read(files, path, constants);
-    if (!constants.empty())
-        throw UserError({path, 0}, "only Mitsuba's scenes ('.xml') have variables: there is no '" +
+    const auto found = std::ranges::find_if(formats, [&](const SceneFormat& format) {
+        return std::ranges::find(format.endings, ending) != format.endings.end();
+    });
+    return found == formats.end() ? nullptr : &*found;
+}
+
+/// "'.a', '.b' (somebody) or '.c'"
+std::string endings_text(std::span<const SceneFormat> formats) {
+    std::vector<std::string> endings;
+    for (const SceneFormat& format : formats)
+        for (const auto ending : format.endings)
+            endings.push_back("'" + std::string(ending) + "'" +
+                              (format.maker.empty() ? "" : " (" + std::string(format.maker) + ")"));
+    std::string text;
+    for (std::size_t i = 0; i < endings.size(); ++i)
+        text += (i == 0 ? "" : i + 1 < endings.size() ? ", " : " or ") + endings[i];
+    return text;
+}
+
+/// "Mitsuba's scenes ('.xml')"
+std::string with_variables(std::span<const SceneFormat> formats) {
+    std::string text;
+    for (const SceneFormat& format : formats)
+        if (format.has_variables)
+            text += (text.empty() ? "" : ", ") + std::string(format.maker) + "'s scenes ('" +
+                    std::string(format.endings.front()) + "')";
+    return text;
+}
+
+SceneData read(Files& files, const std::string& path, const SceneConstants& constants,
+               std::span<const SceneFormat> formats) {
+    const SceneFormat* format = format_of(path, formats);
+    if (!constants.empty() && !(format && format->has_variables))
+        throw UserError({path, 0}, "only " + with_variables(formats) + " have variables: there is no '" +
                                        constants.begin()->first + "' to define");
-    if (ending == ".pbrt") return pbrt::read(files, path);
-    if (ending == ".gltf" || ending == ".glb") return gltf::read(files, path);
-    if (ending == ".obj") return obj::read(files, path);
-    if (ending == ".ply") return read_ply_scene(files, path);
-    throw UserError({path, 0}, "a scene must be a '.pbrt', '.xml' (Mitsuba), '.gltf', '.glb', '.obj' or '.ply' file");
+    if (!format) throw UserError({path, 0}, "a scene must be a " + endings_text(formats) + " file");
+    return format->read(files, path, constants);
+}
+
+/// What each reader would have to look for: names that lead nowhere or in circles.
+void check(const SceneData& scene, const std::string& path) try {
+    check_textures(scene.textures);
+    check_materials(scene.materials, scene.textures.size());
+} catch (const Error& problem) {
+    throw UserError({path, 0}, problem.what());
 }
 
 }  // namespace
 
-bool is_named_like_a_scene(const std::string& path) {
-    constexpr std::array endings{".pbrt", ".xml", ".gltf", ".glb", ".obj", ".ply"};
-    return std::find(endings.begin(), endings.end(), ending_of(path)) != endings.end();
+std::span<const SceneFormat> scene_formats() {
+    static const std::array formats{pbrt::format(), mitsuba::format(), gltf::format(), obj::format(), ply::format()};
+    return formats;
 }
 
-SceneData read_scene(Files& files, const std::string& path, const std::map<std::string, std::string>& constants) {
+bool is_named_like_a_scene(const std::string& path) { return format_of(path, scene_formats()) != nullptr; }
+
+SceneData read_scene(Files& files, const std::string& path, const SceneConstants& constants) {
+    return read_scene(files, path, constants, scene_formats());
+}
+
+SceneData read_scene(Files& files, const std::string& path, const SceneConstants& constants,
+                     std::span<const SceneFormat> formats) {
     Watched watched(files, path);
-    SceneData scene = read(watched, path, constants);
+    SceneData scene = read(watched, path, constants, formats);
+    check(scene, path);
     if (!watched.outside().empty())
         scene.warnings.push_back(
             {{path, 0},

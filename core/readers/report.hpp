@@ -1,4 +1,4 @@
-// What a reader of scenes has to say about the files: mistakes and liberties taken, collected while it reads on.
+// What a reader of scenes has to say about the files: mistakes and approximations, collected while it reads on.
 #pragma once
 
 #include <cstddef>

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <set>
 
 #include "core/scene/data/contents.hpp"
@@ -10,29 +9,13 @@
 namespace lightnet {
 namespace {
 
-/// A box that grows.
-class Box {
-public:
-    void add(Vec3 p) {
-        least_ = {std::min(least_.x, p.x), std::min(least_.y, p.y), std::min(least_.z, p.z)};
-        most_ = {std::max(most_.x, p.x), std::max(most_.y, p.y), std::max(most_.z, p.z)};
-    }
-    bool empty() const { return !(least_.x <= most_.x); }
-    Vec3 least() const { return empty() ? Vec3{} : least_; }
-    Vec3 most() const { return empty() ? Vec3{} : most_; }
-
-    /// Around this box moved.
-    void add_to(Box& other, const Matrix& to) const {
-        if (empty()) return;
-        for (int corner = 0; corner < 8; ++corner)
-            other.add(transform_point(to, {corner & 1 ? most_.x : least_.x, corner & 2 ? most_.y : least_.y,
-                                           corner & 4 ? most_.z : least_.z}));
-    }
-
-private:
-    static constexpr float far = std::numeric_limits<float>::infinity();
-    Vec3 least_{far, far, far}, most_{-far, -far, -far};
-};
+/// Adds what is in a box, once it is moved.
+void add_moved(Box& to, const Box& box, const Matrix& by) {
+    if (box.empty()) return;
+    for (int corner = 0; corner < 8; ++corner)
+        to.add(transform_point(by, {corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
+                                    corner & 4 ? box.high.z : box.low.z}));
+}
 
 template <class Element>
 std::uint64_t bytes_of(const std::vector<Element>& elements) {
@@ -85,13 +68,13 @@ void measure(const SceneData& scene, SceneStatistics& found) {
     for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
         if (inside[i]) continue;
         add_shape(world, scene.shapes[i]);
-        found.seen_triangles += triangles_of(scene.shapes[i]);
+        found.instanced_triangles += triangles_of(scene.shapes[i]);
     }
     for (const auto& instance : scene.instances) {
-        boxes[instance.object].add_to(world, instance.to_world);
-        found.seen_triangles += triangles[instance.object];
+        add_moved(world, boxes[instance.object], instance.to_world);
+        found.instanced_triangles += triangles[instance.object];
     }
-    found.least = world.least(), found.most = world.most();
+    found.bounds = world.empty() ? Box{{}, {}} : world;
 }
 
 void count_lights(const SceneData& scene, SceneStatistics& found) {
@@ -101,7 +84,7 @@ void count_lights(const SceneData& scene, SceneStatistics& found) {
         ++found.lights[names[light.index()]];
     }
     for (const auto& environment : scene.environments)
-        ++found.lights[environment.image ? "environments with a picture" : "even environments"];
+        ++found.lights[environment.image ? "environments with an image" : "constant environments"];
 }
 
 }  // namespace
@@ -115,8 +98,8 @@ SceneStatistics statistics_of(const SceneData& scene) {
     measure(scene, found);
     count_lights(scene, found);
     const auto images = images_of(scene);
-    found.pictures = images.size();
-    for (const Image* image : images) found.picture_bytes += image->memory();
+    found.images = images.size();
+    for (const Image* image : images) found.image_bytes += image->memory();
     return found;
 }
 

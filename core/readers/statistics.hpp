@@ -6,20 +6,20 @@
 #include <map>
 #include <string>
 
-#include "core/base/math/vec.hpp"
+#include "core/base/math/box.hpp"
 #include "core/scene/data/scene_data.hpp"
 
 namespace lightnet {
 
 struct SceneStatistics {
-    std::uint64_t triangles = 0;       // in memory
-    std::uint64_t seen_triangles = 0;  // in the world: those of objects once for each instance
+    std::uint64_t triangles = 0;            // in memory
+    std::uint64_t instanced_triangles = 0;  // in the world: those of objects once for each instance
     std::size_t spheres = 0, meshes = 0, objects = 0, instances = 0;
     std::map<std::string, std::size_t> materials;  // that shapes have, by model
     std::map<std::string, std::size_t> lights;     // by what they are
-    std::size_t textures = 0, pictures = 0;
-    std::uint64_t geometry_bytes = 0, picture_bytes = 0;
-    Vec3 least, most;  // corners of the box around everything; equal where there is nothing
+    std::size_t textures = 0, images = 0;
+    std::uint64_t geometry_bytes = 0, image_bytes = 0;
+    Box bounds;  // around everything; a point where there is nothing
 };
 
 SceneStatistics statistics_of(const SceneData& scene);

@@ -13,42 +13,42 @@ unsigned usual_threads() { return std::clamp(std::thread::hardware_concurrency()
 Workshop::Workshop(unsigned threads) : most_threads_((threads ? threads : usual_threads()) - 1) {}
 
 Workshop::~Workshop() {
-    std::unique_lock lock(pieces_mutex_);
-    pieces_.clear();  // somebody gave up
+    std::unique_lock lock(tasks_mutex_);
+    tasks_.clear();  // somebody gave up
 }
 
-void Workshop::add(std::function<void()> piece) {
-    std::unique_lock lock(pieces_mutex_);
-    if (most_threads_ == 0 || pieces_.size() >= most_waiting) {
+void Workshop::add(std::function<void()> task) {
+    std::unique_lock lock(tasks_mutex_);
+    if (most_threads_ == 0 || tasks_.size() >= most_waiting) {
         lock.unlock();
-        return piece();
+        return task();
     }
-    pieces_.push_back(std::move(piece));
+    tasks_.push_back(std::move(task));
     if (threads_.size() < most_threads_) threads_.emplace_back([this](const std::stop_token& stop) { work(stop); });
     came_.notify_one();
 }
 
 void Workshop::finish() {
-    std::unique_lock lock(pieces_mutex_);
+    std::unique_lock lock(tasks_mutex_);
     while (do_one(lock)) {
     }
-    done_.wait(lock, [this] { return pieces_.empty() && under_way_ == 0; });
+    done_.wait(lock, [this] { return tasks_.empty() && under_way_ == 0; });
 }
 
 void Workshop::work(const std::stop_token& stop) {
-    std::unique_lock lock(pieces_mutex_);
-    while (came_.wait(lock, stop, [this] { return !pieces_.empty(); })) do_one(lock);
+    std::unique_lock lock(tasks_mutex_);
+    while (came_.wait(lock, stop, [this] { return !tasks_.empty(); })) do_one(lock);
 }
 
 bool Workshop::do_one(std::unique_lock<std::mutex>& lock) {
-    if (pieces_.empty()) return false;
-    const auto piece = std::move(pieces_.front());
-    pieces_.pop_front();
+    if (tasks_.empty()) return false;
+    const auto task = std::move(tasks_.front());
+    tasks_.pop_front();
     ++under_way_;
     lock.unlock();
-    piece();
+    task();
     lock.lock();
-    if (--under_way_ == 0 && pieces_.empty()) done_.notify_all();
+    if (--under_way_ == 0 && tasks_.empty()) done_.notify_all();
     return true;
 }
 

@@ -1,4 +1,4 @@
-// Decoding on the side: a reader goes on through its file while pictures and meshes are taken apart.
+// A thread pool: a reader goes on through its file while images and meshes are decoded.
 #pragma once
 
 #include <condition_variable>
@@ -11,8 +11,8 @@
 
 namespace lightnet {
 
-/// Does pieces of work in any order, on threads of its own, which end with it. What depends on the order belongs
-/// behind finish(). Called from one thread; pieces must not throw, and share nothing but what never changes.
+/// Does tasks in any order, on threads of its own, which end with it. What depends on the order belongs
+/// behind finish(). Called from one thread; tasks must not throw, and share nothing but what never changes.
 class Workshop {
 public:
     /// 0 threads: as many as the machine has cores, but a few at most. The caller's own counts as one.
@@ -21,9 +21,9 @@ public:
     Workshop(const Workshop&) = delete;
     Workshop& operator=(const Workshop&) = delete;
 
-    /// Takes a piece of work; does it at once when too much is waiting, so that what waits stays small.
-    void add(std::function<void()> piece);
-    /// Returns when all pieces are done; the caller helps.
+    /// Takes a task; does it at once when too much is waiting, so that what waits stays small.
+    void add(std::function<void()> task);
+    /// Returns when all tasks are done; the caller helps.
     void finish();
 
 private:
@@ -32,10 +32,10 @@ private:
     void work(const std::stop_token& stop);
     bool do_one(std::unique_lock<std::mutex>& lock);
 
-    std::mutex pieces_mutex_;
+    std::mutex tasks_mutex_;
     std::condition_variable_any came_;
     std::condition_variable done_;
-    std::deque<std::function<void()>> pieces_;
+    std::deque<std::function<void()>> tasks_;
     std::size_t under_way_ = 0;
     unsigned most_threads_;
     std::vector<std::jthread> threads_;  // started when there is work; first to go

@@ -32,7 +32,7 @@ private:
     Vec3 right_{2, 0, 0}, down_{0, -2, 0};  // per pixel
     Vec3 axis_{0, 0, 1};                    // orthographic: of all rays, one unit long
     Vec3 lens_x_, lens_y_;                  // from the middle of the lens to its rim
-    float focus_ = 1;                       // how many times the way to the screen the plane in focus is away
+    float focus_ = 1;                       // distance of the plane in focus over that of the screen
 };
 
 /// A camera that sees everything in a box: from the front, a little from the right and from above (y is up). For a

@@ -1,4 +1,4 @@
-// Light that arrives at a surface point straight from lamps and environment: what operators of light share.
+// Direct light at a surface point, by next-event estimation and by the BSDF: what operators of light share.
 #pragma once
 
 #include <cstdint>
@@ -11,21 +11,21 @@
 
 namespace lightnet {
 
-/// How two ways to find the same light share it. Veach 1997, section 9.2.
+/// How two sampling techniques share the light that both find: multiple importance sampling. Veach 1997, section 9.2.
 enum class Heuristic { balance, power };
 
-/// Weight of the way with density `mine`, when `other` is the density of the other way.
+/// Weight of the technique with density `mine`, when `other` is the density of the other one.
 inline float share(Heuristic heuristic, float mine, float other) {
     const float ratio = other / mine;
     const float part = 1 / (1 + (heuristic == Heuristic::power ? ratio * ratio : ratio));
     return other == 0 ? 1 : part;
 }
 
-/// What is left of light after that way through something that absorbs: Beer and Lambert's law. `absorption` per metre,
+/// What is left of light after that distance in something that absorbs: Beer and Lambert's law. `absorption` per metre,
 /// null: nothing absorbs. What has no end, as behind a solid that has a hole, absorbs nothing.
 Rgb left_after(const Rgb* absorption, float distance);
 
-/// What a way into `direction` leads through from a surface, when light arrived there through `arriving` from
+/// What a ray into `direction` passes through from a surface, when light arrived there through `arriving` from
 /// `outgoing`: what the surface is filled with; on the viewer's side what was there; else nothing.
 inline const Rgb* filling(const Bsdf& bsdf, const SurfacePoint& point, Vec3 outgoing, Vec3 direction,
                           const Rgb* arriving) {
@@ -41,7 +41,7 @@ struct Gathering {
     const Bsdf& bsdf;
     Vec3 outgoing;
     std::uint8_t lobes;
-    const Rgb* inside = nullptr;  // what the way to the viewer leads through
+    const Rgb* inside = nullptr;  // what lies between it and the viewer
 };
 
 /// What one sampled light sends to a surface point and on, if nothing is in the way of the ray.
@@ -50,7 +50,7 @@ struct LampRay {
     Rgb light;
 };
 
-/// The numbers that choose a light and a way to it.
+/// The random numbers that choose a light and a point on it.
 struct LampNumbers {
     float choice = 0;  // of no use unless there are many lamps
     Vec2 place;

@@ -63,9 +63,9 @@ FilmData sized(FilmData film, const SceneOptions& options) {
 }
 
 // Of an empty scene, too.
-Scene::Box finite_box(const Geometry::Box& box) {
-    const bool usable = finite(box.lower) && finite(box.upper) && length(box.upper - box.lower) > 0;
-    return usable ? Scene::Box{box.lower, box.upper} : Scene::Box{{-0.5f, -0.5f, -0.5f}, {0.5f, 0.5f, 0.5f}};
+Box finite_box(const Box& box) {
+    const bool usable = finite(box.low) && finite(box.high) && length(box.size()) > 0;
+    return usable ? box : Box{{-0.5f, -0.5f, -0.5f}, {0.5f, 0.5f, 0.5f}};
 }
 
 }  // namespace
@@ -77,7 +77,7 @@ struct Scene::Built {
           geometry(data, shading, {options.isa, options.build_threads}),
           placements(placements_of(data)),
           box(finite_box(geometry.bounds())),
-          lights(data, shading, {(box.low + box.high) * 0.5f, length(box.high - box.low) / 2}),
+          lights(data, shading, {box.center(), length(box.size()) / 2}),
           film(sized(data.film, options)),
           camera(data.camera_given ? data.camera : camera_for(box.low, box.high, film.width, film.height), film.width,
                  film.height) {}
@@ -114,7 +114,7 @@ SurfacePoint Scene::surface(const Hit& hit) const {
     return hit.instance == Query::no_instance ? point : built_->placements[hit.instance].place(point);
 }
 
-std::span<const PlainShape> Scene::plain_shapes() const { return built_->shading.plain_shapes(); }
+std::span<const LambertianShape> Scene::lambertian_shapes() const { return built_->shading.lambertian_shapes(); }
 
 Hit Scene::hit(const Query& query) const {
     const auto& shapes = built_->data.shapes;
@@ -155,8 +155,8 @@ bool Scene::has_environment() const { return built_->lights.has_environment(); }
 bool Scene::has_lamps() const { return !built_->lights.empty(); }
 bool Scene::has_many_lamps() const { return built_->lights.many(); }
 
-std::optional<Emission> Scene::emit(float choice, Vec2 where, Vec2 whither) const {
-    return built_->lights.emit(choice, where, whither);
+std::optional<Emission> Scene::emit(float choice, Vec2 position_sample, Vec2 direction_sample) const {
+    return built_->lights.emit(choice, position_sample, direction_sample);
 }
 
 bool Scene::may_shine(const Ray& ray) const { return has_environment() || may_meet_lamp(ray); }
@@ -171,8 +171,8 @@ bool Scene::visible(const SurfacePoint& from, const LightSample& lamp) const { r
 
 const Camera& Scene::camera() const { return built_->camera; }
 const FilmData& Scene::film() const { return built_->film; }
-Scene::Box Scene::bounds() const { return built_->box; }
-float Scene::radius() const { return length(built_->box.high - built_->box.low) / 2; }
+Box Scene::bounds() const { return built_->box; }
+float Scene::radius() const { return length(built_->box.size()) / 2; }
 
 SceneSize Scene::size() const { return size_of(built_->data, built_->geometry, built_->lights); }
 

@@ -9,13 +9,14 @@
 #include <string>
 #include <vector>
 
+#include "core/base/math/box.hpp"
 #include "core/base/query.hpp"
 #include "core/scene/bsdf/bsdf.hpp"
 #include "core/scene/camera.hpp"
 #include "core/scene/data/scene_data.hpp"
 #include "core/scene/lamps/light_sample.hpp"
 #include "core/scene/surfaces/flat_lamp.hpp"
-#include "core/scene/surfaces/plain_surfaces.hpp"
+#include "core/scene/surfaces/lambertian_surfaces.hpp"
 #include "core/scene/surfaces/ray.hpp"
 #include "core/scene/surfaces/surface.hpp"
 
@@ -35,7 +36,7 @@ struct SceneSize {
     std::size_t lights = 0;                  // lamps (a flat one or a ball counts once, else each triangle), bare
                                              // lights and environments
     std::size_t mesh_bytes = 0;              // vertices and triangles, which the trees share
-    std::size_t tree_bytes = 0;              // what rays are led by
+    std::size_t tree_bytes = 0;              // BVHs
     std::size_t texture_bytes = 0;           // images, each once; those of environments, too
     std::size_t light_bytes = 0;
 };
@@ -63,8 +64,8 @@ public:
     Hit hit(const Query& query) const;
     /// What the scene was built from: names of shapes, materials and objects. Its meshes may be gone.
     const SceneData& data() const;
-    /// By shape: how plain it is. What is hit in an instance is not.
-    std::span<const PlainShape> plain_shapes() const;
+    /// By shape: what is Lambertian of it. What is hit in an instance is not.
+    std::span<const LambertianShape> lambertian_shapes() const;
     /// How the surface scatters there.
     Bsdf bsdf(const SurfacePoint& point) const;
     /// The same, made where it is to stay; appended.
@@ -75,7 +76,7 @@ public:
     /// Radiance arriving from infinity, from `direction` (unit, away from the eye).
     Rgb environment(Vec3 direction) const;
 
-    /// Chooses a light and a way from `from` to it: a point of a lamp, a bare light, or a direction to the environment.
+    /// Chooses a light and a direction to it from `from`: to a point of a lamp, to a bare light, or to the environment.
     /// None: no light can reach the point by this sample.
     std::optional<LightSample> sample_light(Vec3 from, float choice, Vec2 u) const;
     /// What sample_light() always chooses, if that's a flat lamp; else null.
@@ -91,7 +92,7 @@ public:
     bool has_many_lamps() const;
     /// Light leaving one of all lights, chosen by power; the environment's goes into the ball around the scene. None:
     /// nothing leaves by this sample.
-    std::optional<Emission> emit(float choice, Vec2 where, Vec2 whither) const;
+    std::optional<Emission> emit(float choice, Vec2 position_sample, Vec2 direction_sample) const;
     /// Could the ray end where light comes from? False is certain, true is a guess that is cheaper than tracing it.
     bool may_shine(const Ray& ray) const;
     /// The same of lamps alone: where it is false, all that the ray could find is the environment.
@@ -104,9 +105,6 @@ public:
     const Camera& camera() const;
     const FilmData& film() const;
     /// The box around everything that rays can meet.
-    struct Box {
-        Vec3 low, high;
-    };
     Box bounds() const;
     /// Radius of the sphere around everything, metres.
     float radius() const;

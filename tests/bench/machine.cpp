@@ -13,7 +13,7 @@
 #include "core/base/math/random.hpp"
 #include "core/base/math/sampling.hpp"
 #include "core/readers/files.hpp"
-#include "core/readers/ply.hpp"
+#include "core/readers/ply/mesh.hpp"
 
 namespace lightnet::bench {
 namespace {

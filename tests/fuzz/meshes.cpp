@@ -1,5 +1,5 @@
 #include "core/base/error.hpp"
-#include "core/readers/ply.hpp"
+#include "core/readers/ply/mesh.hpp"
 #include "tests/fuzz/targets.hpp"
 
 namespace lightnet::fuzz {

@@ -111,8 +111,8 @@ TEST(Hdr, ReadsPlainPixelsAndOldRuns) {
 }
 
 TEST(Pictures, OfUnknownKindsAreRefused) {
-    EXPECT_THAT(error_of("GIF89a"), HasSubstr("not a picture of a known kind"));
-    EXPECT_THAT(error_of(""), HasSubstr("not a picture of a known kind"));
+    EXPECT_THAT(error_of("GIF89a"), HasSubstr("not an image of a known format"));
+    EXPECT_THAT(error_of(""), HasSubstr("not an image of a known format"));
 }
 
 TEST(Pictures, OfImpossibleSizesAreRefused) {

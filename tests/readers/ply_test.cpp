@@ -1,4 +1,4 @@
-#include "core/readers/ply.hpp"
+#include "core/readers/ply/mesh.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -100,7 +100,7 @@ std::vector<Hit> some_hits(const Scene& scene) {
 
 // Plain points among many hits, who looks at them, and the same points one by one.
 struct Plain {
-    PlainSurfaces together;
+    LambertianSurfaces together;
     std::vector<SurfacePoint> points;
     std::vector<Bsdf> bsdfs;
     std::vector<Vec3> outgoing;
@@ -120,7 +120,7 @@ std::size_t each_plain(const Scene& scene, With&& with) {
         plain = {};
     };
     for (std::uint32_t i = 0; i < many; ++i) {
-        const PlainShape& shape = scene.plain_shapes()[hits[i].geometry];
+        const LambertianShape& shape = scene.lambertian_shapes()[hits[i].geometry];
         if (!shape.mesh || hits[i].instance != Query::no_instance) continue;
         Samples samples(8, i);
         plain.points.push_back(scene.surface(hits[i]));
@@ -157,25 +157,25 @@ TEST(Many, PointsAreThoseOfOne) {
     EXPECT_GT(black_behind, 20u);
 }
 
-// Whatever has some finesse is not plain.
+// Whatever is more than an ideal diffuse mesh is worked out alone.
 TEST(Many, WhatIsNotPlainIsLeftOut) {
-    const auto is_plain = [](auto&& change) {
+    const auto is_lambertian = [](auto&& change) {
         SceneData data;
         const auto grey = diffuse(data, 0.5f);
         add(data, waves(), grey);
         change(data);
-        return Scene(std::move(data)).plain_shapes()[0].mesh != nullptr;
+        return Scene(std::move(data)).lambertian_shapes()[0].mesh != nullptr;
     };
-    EXPECT_TRUE(is_plain([](SceneData&) {}));
-    EXPECT_TRUE(is_plain([](SceneData& d) { d.materials[0].one_sided = true; }));
-    EXPECT_FALSE(is_plain([](SceneData& d) { d.shapes[0].emission = AreaEmission{{1, 1, 1}}; }));
-    EXPECT_FALSE(is_plain([](SceneData& d) { d.shapes[0].geometry = ball({}, 1); }));
-    EXPECT_FALSE(is_plain([](SceneData& d) { d.materials[0].model = DielectricMaterial{}; }));
-    EXPECT_FALSE(is_plain([](SceneData& d) { std::get<DiffuseMaterial>(d.materials[0].model).sigma = 0.3f; }));
-    EXPECT_FALSE(is_plain([](SceneData& d) {
+    EXPECT_TRUE(is_lambertian([](SceneData&) {}));
+    EXPECT_TRUE(is_lambertian([](SceneData& d) { d.materials[0].one_sided = true; }));
+    EXPECT_FALSE(is_lambertian([](SceneData& d) { d.shapes[0].emission = AreaEmission{{1, 1, 1}}; }));
+    EXPECT_FALSE(is_lambertian([](SceneData& d) { d.shapes[0].geometry = ball({}, 1); }));
+    EXPECT_FALSE(is_lambertian([](SceneData& d) { d.materials[0].model = DielectricMaterial{}; }));
+    EXPECT_FALSE(is_lambertian([](SceneData& d) { std::get<DiffuseMaterial>(d.materials[0].model).sigma = 0.3f; }));
+    EXPECT_FALSE(is_lambertian([](SceneData& d) {
         std::get<DiffuseMaterial>(d.materials[0].model).transmittance = colour(d, {0.1f, 0.1f, 0.1f});
     }));
-    EXPECT_FALSE(is_plain([](SceneData& d) { d.materials[0].bump_map = colour(d, {0.1f, 0.1f, 0.1f}); }));
+    EXPECT_FALSE(is_lambertian([](SceneData& d) { d.materials[0].bump_map = colour(d, {0.1f, 0.1f, 0.1f}); }));
 }
 
 TEST(Many, DirectionsAreThoseOfOne) {

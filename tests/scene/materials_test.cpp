@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/base/math/samples.hpp"
 #include "core/base/math/sampling.hpp"
 #include "core/scene/scene.hpp"
@@ -54,18 +56,50 @@ TEST(Materials, MixMixtures) {
     EXPECT_NEAR(shading.bsdf(at(shading, 0.5f, 0.2f)).evaluate(up, up, lobe::all).r * pi, 0.3f, 1e-6f);
 }
 
+std::string error_of(const SceneData& data) {
+    try {
+        const Materials materials(data);
+        return "no error";
+    } catch (const Error& error) {
+        return error.what();
+    }
+}
+
 TEST(Materials, ThatContainThemselvesAreRefused) {
     SceneData data;
     const auto half = colour(data, {0.5f, 0.5f, 0.5f});
     const auto grey = diffuse(data, 0.5f);
     material(data, MixtureMaterial{grey, 2, half});
     material(data, TwoFacedMaterial{1, grey});
-    try {
-        const Materials materials(data);
-        FAIL() << "no error";
-    } catch (const Error& error) {
-        EXPECT_THAT(error.what(), HasSubstr("mixed from itself"));
-    }
+    EXPECT_THAT(error_of(data), HasSubstr("mixed from itself"));
+}
+
+// Each is made of the one before, so that whoever goes through them in order has seen every part already.
+SceneData chain(int levels, bool twice) {
+    SceneData data;
+    const auto half = colour(data, {0.5f, 0.5f, 0.5f});
+    const auto grey = diffuse(data, 0.5f);
+    auto last = grey;
+    for (int i = 0; i < levels; ++i) last = material(data, MixtureMaterial{last, twice ? last : grey, half});
+    return data;
+}
+
+TEST(Materials, MixedTooDeeplyAreRefused) {
+    EXPECT_EQ(error_of(chain(64, false)), "no error");
+    EXPECT_THAT(error_of(chain(65, false)), HasSubstr("more than 64 deep"));
+    EXPECT_THAT(error_of(chain(100'000, false)), HasSubstr("more than 64 deep"));
+    SceneData upside_down = chain(100'000, false);
+    std::reverse(upside_down.materials.begin() + 1, upside_down.materials.end());
+    for (std::uint32_t i = 1; i < upside_down.materials.size(); ++i)
+        upside_down.materials[i].model = MixtureMaterial{i + 1 < upside_down.materials.size() ? i + 1 : 0, 0, 0};
+    EXPECT_THAT(error_of(upside_down), HasSubstr("more than 64 deep"));
+}
+
+// Each level doubles what a surface's light is worked out for.
+TEST(Materials, MixedFromTooManyAreRefused) {
+    EXPECT_EQ(error_of(chain(10, true)), "no error");
+    EXPECT_THAT(error_of(chain(11, true)), HasSubstr("mixed from more than 1024 materials"));
+    EXPECT_THAT(error_of(chain(60, true)), HasSubstr("mixed from more than 1024 materials"));
 }
 
 TEST(Materials, WithoutTheirTexturesAreRefused) {

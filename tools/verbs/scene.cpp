@@ -60,19 +60,19 @@ std::string camera_text(const SceneData& scene) {
 }
 
 void line(std::ostream& out, std::string_view what, const std::string& text) {
-    out << fmt::format("{:<12} {}\n", what, text);
+    out << fmt::format("{:<14} {}\n", what, text);
 }
 
 void print(const SceneData& scene, const SceneStatistics& found, std::ostream& out) {
     line(out, "triangles",
-         fmt::format("{} in {} meshes, {} with all instances", found.triangles, found.meshes, found.seen_triangles));
+         fmt::format("{} in {} meshes, {} with all instances", found.triangles, found.meshes,
+                     found.instanced_triangles));
     line(out, "shapes",
          fmt::format("{} spheres, {} objects, {} instances", found.spheres, found.objects, found.instances));
     line(out, "materials", counts_text(found.materials));
     line(out, "lights", counts_text(found.lights));
-    line(out, "textures",
-         fmt::format("{}, {} pictures, {}", found.textures, found.pictures, mebibytes(found.picture_bytes)));
-    line(out, "bounds", point_text(found.least) + " to " + point_text(found.most));
+    line(out, "textures", fmt::format("{}, {} images, {}", found.textures, found.images, mebibytes(found.image_bytes)));
+    line(out, "bounds", point_text(found.bounds.low) + " to " + point_text(found.bounds.high));
     line(out, "camera", camera_text(scene));
     line(out, "film",
          fmt::format("{} x {}, brightness times {:.4g}", scene.film.width, scene.film.height, scene.film.scale));
@@ -119,8 +119,8 @@ int print_scene_info(const SceneInfoOptions& options, const Launcher& launcher) 
                               double(found.geometry_bytes) / double(found.triangles),
                               double(resident) / double(found.triangles));
     line(out, "memory", memory);
-    if (warnings.empty()) line(out, "approximated", "nothing: all was taken literally");
-    for (const auto& warning : warnings) line(out, "approximated", to_string(warning));
+    if (warnings.empty()) line(out, "approximations", "none");
+    for (const auto& warning : warnings) line(out, "approximation", to_string(warning));
     return exit_code::done;
 }
 

@@ -1,4 +1,4 @@
-// Structures of arrays: many points, coordinate by coordinate, so that loops over points become vector instructions.
+// Many points as a structure of arrays, coordinate by coordinate: what compilers turn loops into SIMD vectors from.
 #pragma once
 
 #include <array>

@@ -1,20 +1,17 @@
 #include "core/network/light/sectors.hpp"
 
 #include <algorithm>
+#include <span>
+
+#include "core/base/math/box.hpp"
 
 namespace lightnet {
 namespace {
 
-std::size_t longest_axis(const std::vector<Vec3>& points, std::size_t first, std::size_t end) {
-    if (first == end) return 0;
-    Vec3 least = points[first], most = least;
-    for (std::size_t i = first; i < end; ++i)
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            least[axis] = std::min(least[axis], points[i][axis]);
-            most[axis] = std::max(most[axis], points[i][axis]);
-        }
-    const Vec3 size = most - least;
-    return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+std::size_t longest_axis(std::span<const Vec3> points) {
+    Box box;
+    for (const Vec3 point : points) box.add(point);
+    return box.longest_axis();
 }
 
 }  // namespace
@@ -29,7 +26,7 @@ Sectors::Sectors(std::vector<Vec3> landmarks, std::uint32_t count) : count_(coun
 std::int32_t Sectors::cut(std::vector<Vec3>& landmarks, Range range, std::uint32_t first, std::uint32_t count) {
     if (count <= 1) return -1 - static_cast<std::int32_t>(first);
     const std::uint32_t below = count / 2;
-    const std::size_t axis = longest_axis(landmarks, range.first, range.end);
+    const std::size_t axis = longest_axis(std::span(landmarks).subspan(range.first, range.end - range.first));
     const std::size_t middle = range.first + (range.end - range.first) * below / count;
     const auto at = [&](std::size_t i) { return landmarks.begin() + static_cast<std::ptrdiff_t>(i); };
     if (range.first < range.end)

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 #include <string_view>
 
@@ -47,26 +48,26 @@ void check_occlusion(const At& root) {
             root.warn("occlusion maps are left out: light finds by itself where it is dark");
 }
 
+SceneData read(Files& files, const std::string& path, const SceneConstants&) {
+    return read_by_assets(files, path, [&](Assets& assets) {
+        Report& report = assets.report();
+        SceneData& scene = assets.scene();
+        Document document(assets, path);
+        check_extensions(document.root());
+        report.check();  // what is packed in unknown ways would only give more errors
+        check_occlusion(document.root());
+        add_nodes(document, assets);
+        if (scene.shapes.empty() && report.good()) report.error({path, 0}, "there are no triangles");
+        if (std::ranges::any_of(scene.shapes, [](const Shape& shape) { return shape.emission.has_value(); }) &&
+            scene.environments.empty() && scene.lights.empty())
+            report.warn({path, 0},
+                        "only its own glowing surfaces light the scene, where viewers show a sky, too (choose one with "
+                        "'--env')");
+    });
+}
+
 }  // namespace
 
-SceneData read(Files& files, const std::string& path) {
-    Report report;
-    SceneData scene;
-    Assets assets(files, report, scene);
-    Document document(assets, path);
-    check_extensions(document.root());
-    report.check();  // what is packed in unknown ways would only give more errors
-    check_occlusion(document.root());
-    add_nodes(document, assets);
-    if (scene.shapes.empty() && report.good()) report.error({path, 0}, "there are no triangles");
-    report.check();
-    light_the_dark(scene, report, path);
-    if (scene.environments.empty() && scene.lights.empty())
-        report.warn({path, 0},
-                    "only its own glowing surfaces light the scene, where viewers show a sky, too (choose one with "
-                    "'--env')");
-    scene.warnings = report.warnings();
-    return scene;
-}
+SceneFormat format() { return {.endings = {".gltf", ".glb"}, .read = read}; }
 
 }  // namespace lightnet::gltf

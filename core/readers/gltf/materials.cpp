@@ -76,7 +76,7 @@ std::optional<ImageTexture> Materials::picture(const At& info, Kind kind) {
     if (!index) return std::nullopt;
     const At at = list[*index];
     if (!at["source"]) {
-        at.warn("a texture without a picture of a known kind is left out");
+        at.warn("a texture without an image of a known format is left out");
         return std::nullopt;
     }
     ImageTexture pattern;
@@ -91,7 +91,7 @@ std::optional<ImageTexture> Materials::picture(const At& info, Kind kind) {
     if (moved) pattern.uv = transform_of(moved);
     const std::size_t set = (moved["texCoord"] ? moved["texCoord"] : info["texCoord"]).whole(0);
     if (uv_set_.value_or(set) != set)
-        info.warn("pictures of one material on different texture coordinates are all laid on the first's");
+        info.warn("images of one material on different texture coordinates are all laid on the first's");
     uv_set_ = uv_set_.value_or(set);
     return pattern;
 }
@@ -103,7 +103,7 @@ std::optional<TextureId> Materials::texture(const At& info, Kind kind, Rgb scale
     return assets_.add({scale, *pattern, false});
 }
 
-/// The colour of a surface: factor × picture × the colours of the mesh.
+/// The colour of a surface: factor × image × the colours of the mesh.
 TextureId Materials::base(const At& info, Rgb factor, bool painted) {
     const auto map = texture(info, Kind::colour, factor);
     if (!painted) return map ? *map : assets_.colour(factor);

@@ -14,7 +14,7 @@ namespace lightnet::gltf {
 struct Surface {
     MaterialId material = 0;
     std::optional<AreaEmission> emission;
-    std::size_t uv_set = 0;  // the texture coordinates that its pictures lie on
+    std::size_t uv_set = 0;  // the texture coordinates that its images lie on
 };
 
 /// Makes the materials of one document, each when a primitive first asks for it.

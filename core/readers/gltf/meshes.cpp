@@ -132,8 +132,8 @@ private:
 
 }  // namespace
 
-std::vector<Piece> read_mesh(const At& at, Document& document, Materials& materials) {
-    std::vector<Piece> pieces;
+std::vector<Primitive> read_mesh(const At& at, Document& document, Materials& materials) {
+    std::vector<Primitive> found;
     const At primitives = at["primitives"];
     for (std::size_t i = 0; i < primitives.size() && !at.report().full(); ++i) {
         const At primitive = primitives[i];
@@ -144,9 +144,9 @@ std::vector<Piece> read_mesh(const At& at, Document& document, Materials& materi
         mesh->uvs = reader.uvs(surface.uv_set);
         if (mesh->uvs.size() != mesh->positions.size()) mesh->uvs = {};
         if (!mesh->normals.empty()) order_by_normals(*mesh);  // without any, glTF wants flat ones
-        pieces.push_back({*std::move(mesh), surface.material, surface.emission});
+        found.push_back({*std::move(mesh), surface.material, surface.emission});
     }
-    return pieces;
+    return found;
 }
 
 }  // namespace lightnet::gltf

@@ -10,13 +10,13 @@
 namespace lightnet::gltf {
 
 /// A primitive in its own space.
-struct Piece {
+struct Primitive {
     Mesh mesh;
     MaterialId material = 0;
     std::optional<AreaEmission> emission;
 };
 
 /// All primitives of a mesh that have a surface. What is wrong is reported and left out.
-std::vector<Piece> read_mesh(const At& mesh, Document& document, Materials& materials);
+std::vector<Primitive> read_mesh(const At& mesh, Document& document, Materials& materials);
 
 }  // namespace lightnet::gltf

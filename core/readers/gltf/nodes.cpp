@@ -165,12 +165,12 @@ private:
     void add(const At& mesh, const std::vector<Matrix>& places, const std::string& node) {
         Object object;
         object.name = mesh["name"].text(node);
-        for (auto& piece : read_mesh(mesh, document_, materials_)) {
-            if (places.size() > 1 && !piece.emission) {
-                object.shapes.push_back(shape(std::move(piece), object.name));
+        for (auto& primitive : read_mesh(mesh, document_, materials_)) {
+            if (places.size() > 1 && !primitive.emission) {
+                object.shapes.push_back(shape(std::move(primitive), object.name));
                 continue;
             }
-            for (const Matrix& place : places) bake(piece, place, mesh, object.name);
+            for (const Matrix& place : places) bake(primitive, place, mesh, object.name);
         }
         if (object.shapes.empty()) return;
         auto& scene = assets_.scene();
@@ -179,17 +179,18 @@ private:
             scene.instances.push_back({static_cast<std::uint32_t>(scene.objects.size() - 1), place});
     }
 
-    std::uint32_t shape(Piece piece, const std::string& name) {
+    std::uint32_t shape(Primitive primitive, const std::string& name) {
         auto& shapes = assets_.scene().shapes;
-        shapes.push_back({std::move(piece.mesh), piece.material, piece.emission, {document_.path(), 0}, name});
+        shapes.push_back(
+            {std::move(primitive.mesh), primitive.material, primitive.emission, {document_.path(), 0}, name});
         return static_cast<std::uint32_t>(shapes.size() - 1);
     }
 
-    void bake(const Piece& piece, const Matrix& place, const At& mesh, const std::string& name) {
+    void bake(const Primitive& primitive, const Matrix& place, const At& mesh, const std::string& name) {
         constexpr std::uint64_t most_triangles = std::uint64_t{1} << 26;
-        baked_ += piece.mesh.triangles.size();
+        baked_ += primitive.mesh.triangles.size();
         if (baked_ > most_triangles) return mesh.error("is a lamp too often: too many triangles");
-        Piece copy = piece;
+        Primitive copy = primitive;
         if (swaps_handedness(place)) flip_order(copy.mesh);
         if (!transform(copy.mesh, place)) return mesh.error("has a vertex that is not finite in the scene");
         shape(std::move(copy), name);
@@ -236,10 +237,10 @@ private:
         return resize(at, film, aspect);
     }
 
-    /// glTF names no picture size: its shape is kept, its height is the usual one.
+    /// glTF names no image size: its shape is kept, its height is the usual one.
     bool resize(const At& at, FilmData& film, double aspect) {
         if (!(aspect > 0.01 && aspect < 100)) {
-            at.error("has a picture of an impossible shape");
+            at.error("has an image of an impossible shape");
             return false;
         }
         film.width = static_cast<std::uint32_t>(std::max(1.0, std::round(film.height * aspect)));

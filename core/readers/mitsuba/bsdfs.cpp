@@ -58,7 +58,7 @@ const std::map<std::string, Bsdfs::Maker, std::less<>>& Bsdfs::makers() {
 MaterialId Bsdfs::of(const Node& node) {
     const auto [entry, fresh] = made_.try_emplace(&node);
     if (!fresh && !entry->second) context_.error(node, fmt::format("bsdf '{}' refers to itself", node.id));
-    if (!fresh) return entry->second.value_or(plain(false));
+    if (!fresh) return entry->second.value_or(unnamed(false));
     Material material = make(node);
     material.name = node.id;
     const MaterialId made = context_.assets.add(std::move(material));
@@ -66,8 +66,8 @@ MaterialId Bsdfs::of(const Node& node) {
     return made;
 }
 
-MaterialId Bsdfs::plain(bool lamp) {
-    auto& known = plain_[lamp ? 1 : 0];
+MaterialId Bsdfs::unnamed(bool lamp) {
+    auto& known = unnamed_[lamp ? 1 : 0];
     if (!known) {
         known = context_.assets.add(one_sided(DiffuseMaterial{context_.assets.grey(lamp ? 0.0f : 0.5f)}));
     }

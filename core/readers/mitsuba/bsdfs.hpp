@@ -16,7 +16,7 @@ public:
     /// The material of a <bsdf>. What is wrong is reported and grey.
     MaterialId of(const Node& node);
     /// The material of a shape that names none; lamps are black.
-    MaterialId plain(bool lamp);
+    MaterialId unnamed(bool lamp);
 
 private:
     using Maker = Material (Bsdfs::*)(Properties&);
@@ -60,7 +60,7 @@ private:
     Textures& textures_;
     const Context& context_;
     std::map<const Node*, std::optional<MaterialId>> made_;  // none: being made
-    std::optional<MaterialId> plain_[2];
+    std::optional<MaterialId> unnamed_[2];
     int depth_ = 0;
 };
 

@@ -68,9 +68,9 @@ std::optional<Rgb> blackbody(double kelvin, double scale, const Node& node, cons
 
 /// "400:0.1, 700:0.3"
 std::optional<Rgb> table(std::string_view text, const Node& node, const Context& context) {
-    std::string plain(text);
-    std::replace(plain.begin(), plain.end(), ':', ' ');
-    const auto values = numbers(plain, node, context);
+    std::string spaced(text);
+    std::replace(spaced.begin(), spaced.end(), ':', ' ');
+    const auto values = numbers(spaced, node, context);
     if (!values) return std::nullopt;
     std::vector<SpectrumPoint> points;
     for (std::size_t i = 0; i + 1 < values->size(); i += 2)

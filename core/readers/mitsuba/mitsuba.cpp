@@ -66,23 +66,22 @@ private:
     std::string first_unknown_;
 };
 
+SceneData read(Files& files, const std::string& path, const SceneConstants& constants) {
+    return read_by_assets(files, path, [&](Assets& assets) {
+        Report& report = assets.report();
+        SceneData& scene = assets.scene();
+        const auto document = read_document(assets, path, constants);
+        report.check();
+        const Context context{assets, *document};
+        Builder builder(context);
+        for (const auto& node : document->scene.children)
+            if (!report.full()) builder.add(*node);
+        if (scene.shapes.empty() && report.good()) report.error({path, 0}, builder.why_empty());
+    });
+}
+
 }  // namespace
 
-SceneData read(Files& files, const std::string& path, const std::map<std::string, std::string>& definitions) {
-    Report report;
-    SceneData scene;
-    Assets assets(files, report, scene);
-    const auto document = read_document(assets, path, definitions);
-    report.check();
-    const Context context{assets, *document};
-    Builder builder(context);
-    for (const auto& node : document->scene.children)
-        if (!report.full()) builder.add(*node);
-    if (scene.shapes.empty() && report.good()) report.error({path, 0}, builder.why_empty());
-    report.check();
-    light_the_dark(scene, report, path);
-    scene.warnings = report.warnings();
-    return scene;
-}
+SceneFormat format() { return {.endings = {".xml"}, .maker = "Mitsuba", .has_variables = true, .read = read}; }
 
 }  // namespace lightnet::mitsuba

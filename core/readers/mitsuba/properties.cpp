@@ -7,17 +7,12 @@
 #include <cmath>
 
 #include "core/base/suggestion.hpp"
+#include "core/readers/trimmed.hpp"
 
 namespace lightnet::mitsuba {
 namespace {
 
 constexpr std::string_view between = " \t\r\n,";
-
-std::string_view trimmed(std::string_view text) {
-    const auto first = text.find_first_not_of(between);
-    if (first == text.npos) return {};
-    return text.substr(first, text.find_last_not_of(between) - first + 1);
-}
 
 }  // namespace
 
@@ -41,20 +36,20 @@ std::string Context::path(const std::string& name, const Node& node) const {
 }
 
 std::optional<double> number(std::string_view text, const Node& node, const Context& context) {
-    auto digits = trimmed(text);
+    auto digits = trimmed(text, between);
     if (digits.starts_with('+')) digits.remove_prefix(1);
     double value = 0;
     const auto [end, problem] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     const bool tiny = problem == std::errc::result_out_of_range && digits.find("e-") != digits.npos;
     const bool sound = problem == std::errc{} && std::isfinite(value) && std::fabs(value) < 3e38;
     if ((sound || tiny) && end == digits.data() + digits.size()) return tiny ? 0 : value;
-    context.error(node, fmt::format("a finite number expected, not '{}'", trimmed(text).substr(0, 32)));
+    context.error(node, fmt::format("a finite number expected, not '{}'", trimmed(text, between).substr(0, 32)));
     return std::nullopt;
 }
 
 std::optional<std::vector<double>> numbers(std::string_view text, const Node& node, const Context& context) {
     std::vector<double> values;
-    for (text = trimmed(text); !text.empty(); text = trimmed(text)) {
+    for (text = trimmed(text, between); !text.empty(); text = trimmed(text, between)) {
         const auto end = std::min(text.find_first_of(between), text.size());
         const auto value = number(text.substr(0, end), node, context);
         if (!value) return std::nullopt;
@@ -122,7 +117,7 @@ int Properties::integer(std::string_view name, int fallback) {
 bool Properties::boolean(std::string_view name, bool fallback) {
     const Node* given = find(name);
     if (!given) return fallback;
-    const auto word = trimmed(given->attribute("value"));
+    const auto word = trimmed(given->attribute("value"), between);
     if (word == "true" || word == "True" || word == "1") return true;
     if (word == "false" || word == "False" || word == "0") return false;
     context_.error(*given, fmt::format("'true' or 'false' expected, not '{}'", word.substr(0, 32)));

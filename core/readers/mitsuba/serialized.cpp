@@ -21,7 +21,7 @@ static_assert(std::endian::native == std::endian::little, "the format is little-
 [[noreturn]] void fail(const std::string& what) { throw Error("serialized mesh: " + what); }
 
 template <class Value>
-Value plain(std::span<const std::byte> bytes, std::size_t at) {
+Value value_at(std::span<const std::byte> bytes, std::size_t at) {
     Value value{};
     if (at > bytes.size() || bytes.size() - at < sizeof value) fail("the file ends early");
     std::memcpy(&value, bytes.data() + at, sizeof value);
@@ -31,19 +31,20 @@ Value plain(std::span<const std::byte> bytes, std::size_t at) {
 /// The part of the file that holds one mesh, behind its header; `version` is the header's.
 std::span<const std::byte> part_of(std::span<const std::byte> bytes, std::size_t index, std::uint16_t& version) {
     const auto header = [&](std::size_t at) {
-        if (plain<std::uint16_t>(bytes, at) != 0x041C) fail("the file does not begin with 0x041C");
-        const auto found = plain<std::uint16_t>(bytes, at + 2);
+        if (value_at<std::uint16_t>(bytes, at) != 0x041C) fail("the file does not begin with 0x041C");
+        const auto found = value_at<std::uint16_t>(bytes, at + 2);
         if (found != 3 && found != 4) fail(fmt::format("version {} is not known (3 and 4 are)", found));
         return found;
     };
     version = header(0);
     if (index == 0) return bytes.subspan(4);  // needs no table
     const std::size_t wide = version == 4 ? 8 : 4, end = bytes.size() - 4;
-    const std::uint64_t count = plain<std::uint32_t>(bytes, end);
+    const std::uint64_t count = value_at<std::uint32_t>(bytes, end);
     if (count > end / wide) fail("the table at its end is not sound");
     if (index >= count) fail(fmt::format("there is no mesh {}: the file has {}", index, count));
     const std::size_t entry = end - wide * count + wide * index;
-    const std::uint64_t at = version == 4 ? plain<std::uint64_t>(bytes, entry) : plain<std::uint32_t>(bytes, entry);
+    const std::uint64_t at =
+        version == 4 ? value_at<std::uint64_t>(bytes, entry) : value_at<std::uint32_t>(bytes, entry);
     if (at > bytes.size()) fail("the table at its end is not sound");
     version = header(static_cast<std::size_t>(at));
     return bytes.subspan(static_cast<std::size_t>(at) + 4);

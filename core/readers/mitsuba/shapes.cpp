@@ -13,7 +13,7 @@
 #include "core/readers/mitsuba/serialized.hpp"
 #include "core/readers/mitsuba/transforms.hpp"
 #include "core/readers/obj/model.hpp"
-#include "core/readers/ply.hpp"
+#include "core/readers/ply/mesh.hpp"
 
 namespace lightnet::mitsuba {
 namespace {
@@ -209,7 +209,7 @@ std::optional<Mesh> Shapes::file(Properties& properties) {
 
 MaterialId Shapes::material(Properties& properties, bool lamp) {
     const auto given = properties.objects("bsdf");
-    if (given.empty()) return bsdfs_.plain(lamp);
+    if (given.empty()) return bsdfs_.unnamed(lamp);
     if (given.size() > 1) context_.warn(properties.node(), "further bsdfs of a shape are left out");
     return bsdfs_.of(*given[0]);
 }

@@ -7,22 +7,18 @@
 #include <cmath>
 #include <utility>
 
+#include "core/readers/trimmed.hpp"
+
 namespace lightnet::obj {
 namespace {
 
 constexpr std::string_view spaces = " \t\r\v\f";
 
-std::string_view trimmed(std::string_view text) {
-    const auto first = text.find_first_not_of(spaces);
-    if (first == text.npos) return {};
-    return text.substr(first, text.find_last_not_of(spaces) - first + 1);
-}
-
 }  // namespace
 
 std::string_view Lines::cut() {
     const auto end = std::min(text_.find('\n', at_), text_.size());
-    const auto line = trimmed(text_.substr(at_, end - at_));
+    const auto line = trimmed(text_.substr(at_, end - at_), spaces);
     at_ = end + 1;
     ++ended_;
     return line;
@@ -44,14 +40,14 @@ bool Lines::next() {
 }
 
 std::string_view Lines::word() {
-    left_ = trimmed(left_);
+    left_ = trimmed(left_, spaces);
     const auto end = std::min(left_.find_first_of(spaces), left_.size());
     const auto word = left_.substr(0, end);
     left_.remove_prefix(end);
     return word;
 }
 
-std::string_view Lines::rest() { return trimmed(std::exchange(left_, {})); }
+std::string_view Lines::rest() { return trimmed(std::exchange(left_, {}), spaces); }
 
 std::optional<float> Lines::number(Report& report) {
     auto digits = word();

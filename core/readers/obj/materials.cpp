@@ -13,7 +13,7 @@
 namespace lightnet::obj {
 namespace {
 
-/// A picture as an MTL statement names it, with its options.
+/// An image as an MTL statement names it, with its options.
 struct Map {
     std::string file;
     SourceLine where;

@@ -49,30 +49,29 @@ void libraries(const Model& model, const std::string& path, Assets& assets, Pale
     }
 }
 
+SceneData read(Files& files, const std::string& path, const SceneConstants&) {
+    return read_by_assets(files, path, [&](Assets& assets) {
+        Report& report = assets.report();
+        SceneData& scene = assets.scene();
+        const auto bytes = assets.read(path, {path, 0});
+        report.check();
+        Model model = read_model(**bytes, path, Cut::by_material, report);
+        Palette palette(assets);
+        libraries(model, path, assets, palette);
+        for (auto& part : model.parts) {
+            const Surface surface = palette.of(part);
+            if (part.mesh.normals.empty() && part.smooth)
+                smooth_normals(part.mesh);
+            else if (!part.mesh.normals.empty())
+                order_by_normals(part.mesh);
+            scene.shapes.push_back({std::move(part.mesh), surface.material, surface.emission, part.where, part.object});
+        }
+        if (scene.shapes.empty() && report.good()) report.error({path, 0}, "there are no faces");
+    });
+}
+
 }  // namespace
 
-SceneData read(Files& files, const std::string& path) {
-    Report report;
-    SceneData scene;
-    Assets assets(files, report, scene);
-    const auto bytes = assets.read(path, {path, 0});
-    report.check();
-    Model model = read_model(**bytes, path, Cut::by_material, report);
-    Palette palette(assets);
-    libraries(model, path, assets, palette);
-    for (auto& part : model.parts) {
-        const Surface surface = palette.of(part);
-        if (part.mesh.normals.empty() && part.smooth)
-            smooth_normals(part.mesh);
-        else if (!part.mesh.normals.empty())
-            order_by_normals(part.mesh);
-        scene.shapes.push_back({std::move(part.mesh), surface.material, surface.emission, part.where, part.object});
-    }
-    if (scene.shapes.empty() && report.good()) report.error({path, 0}, "there are no faces");
-    report.check();
-    light_the_dark(scene, report, path);
-    scene.warnings = report.warnings();
-    return scene;
-}
+SceneFormat format() { return {.endings = {".obj"}, .read = read}; }
 
 }  // namespace lightnet::obj

@@ -242,7 +242,7 @@ void Builder::world_begin(Statement&) {
     systems_["world"] = {};
 }
 
-// how pictures are sampled is the graph's business
+// how images are sampled is the graph's business
 void Builder::ignored(Statement&) {}
 
 void Builder::medium(Statement& s) {

@@ -32,7 +32,7 @@ std::optional<Rgb> strength(Parameters& parameters, const Sources& sources, cons
     return std::nullopt;
 }
 
-/// A picture and a colour exclude each other.
+/// An image and a colour exclude each other.
 std::string picture_file(Parameters& parameters, const char* colour) {
     const std::string file = parameters.text("filename", "");
     if (!file.empty() && *colour && parameters.find(colour))
@@ -144,7 +144,7 @@ void infinite_light(const Making& making) {
     making.scene.environments.push_back(environment);
 }
 
-/// Lights with a picture of directions are taken as the nearest that a scene has.
+/// Lights with an image of directions are taken as the nearest that a scene has.
 void goniometric_light(const Making& making) {
     auto& parameters = making.parameters;
     auto colour = strength(parameters, making.sources, "I");
@@ -172,7 +172,7 @@ void projection_light(const Making& making) {
     making.textures.pictures().finish();
     const auto axis = axis_of(making, {}, {0, 0, 1});
     if (!image || !colour || !axis) return;
-    parameters.warn("a projection light is taken as a spot light with the mean colour of its picture");
+    parameters.warn("a projection light is taken as a spot light with the mean colour of its image");
     SpotLight light;
     light.position = transform_point(making.to_world, {});
     light.axis = *axis;

@@ -15,7 +15,7 @@ namespace lightnet::pbrt {
 struct AreaLight {
     AreaEmission emission;
     std::optional<float> power;  // watts (pbrt: of each shape); decides the radiance with the shape's area
-    float brightness = 1;        // mean luminance of the picture on it, for the power
+    float brightness = 1;        // mean luminance of the image on it, for the power
 
     /// The emission of a shape with that area.
     AreaEmission on(double area) const;

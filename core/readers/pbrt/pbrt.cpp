@@ -61,9 +61,7 @@ private:
     int files_ = 0;
 };
 
-}  // namespace
-
-SceneData read(Files& files, const std::string& path) {
+SceneData read(Files& files, const std::string& path, const SceneConstants&) {
     Report report;
     const Sources sources{files, path, report};
     Builder builder(sources);
@@ -78,5 +76,9 @@ SceneData read(Files& files, const std::string& path) {
     report.check();
     return builder.take();
 }
+
+}  // namespace
+
+SceneFormat format() { return {.endings = {".pbrt"}, .read = read}; }
 
 }  // namespace lightnet::pbrt

@@ -1,4 +1,4 @@
-// What pictures around a scene amount to.
+// What images around a scene amount to.
 #pragma once
 
 #include "core/scene/data/scene_data.hpp"
@@ -8,11 +8,11 @@ namespace lightnet::pbrt {
 Rgb mean_colour(const Image& image);
 inline float mean_luminance(const Image& image) { return luminance(mean_colour(image)); }
 
-/// Square pictures have equal areas, others rows of latitude.
+/// Square images have equal areas, others rows of latitude.
 EnvironmentData::Layout layout_of(const Image& image);
 
 /// Illuminance (lux, for radiances in nits) of a plane that looks along the environment's own +z axis (+y, where it
-/// has rows of latitude), by the upper half of its picture alone, not multiplied by its radiance.
+/// has rows of latitude), by the upper half of its image alone, not multiplied by its radiance.
 float upper_illuminance(const EnvironmentData& environment);
 
 }  // namespace lightnet::pbrt

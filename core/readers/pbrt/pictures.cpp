@@ -46,7 +46,7 @@ void Pictures::finish() {
             sources_.report.error(order.where, fmt::format("'{}': {}", order.name, order.problem));
     }
     if (pixels_ > most_pixels && !std::exchange(too_many_, true))
-        sources_.report.error({sources_.main, 0}, "the pictures of the scene have more than 2^28 pixels in all");
+        sources_.report.error({sources_.main, 0}, "the images of the scene have more than 2^28 pixels in all");
 }
 
 }  // namespace lightnet::pbrt

@@ -1,4 +1,4 @@
-// The picture files of one pbrt scene, decoded while the reader goes on.
+// The image files of one pbrt scene, decoded while the reader goes on.
 #pragma once
 
 #include <atomic>
@@ -21,9 +21,9 @@ class Pictures {
 public:
     Pictures(const Sources& sources, Workshop& workshop) : sources_(sources), workshop_(workshop) {}
 
-    /// A picture that is empty until finish(). None: the file can't be read, which is reported.
+    /// An image that is empty until finish(). None: the file can't be read, which is reported.
     std::shared_ptr<const Image> get(const std::string& name, const Encoding& encoding, const SourceLine& where);
-    /// Waits until all pictures are there. Broken ones stay empty and are reported, in the order in which they came.
+    /// Waits until all images are there. Broken ones stay empty and are reported, in the order in which they came.
     void finish();
 
 private:
@@ -42,7 +42,7 @@ private:
     std::map<Key, std::shared_ptr<const Image>> known_;
     std::vector<std::unique_ptr<Order>> orders_;  // those before `reported_` are finished
     std::size_t reported_ = 0;
-    std::atomic<std::uint64_t> pixels_ = 0;  // of all pictures
+    std::atomic<std::uint64_t> pixels_ = 0;  // of all images
     bool too_many_ = false;                  // and said so
 };
 

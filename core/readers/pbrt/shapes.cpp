@@ -14,7 +14,7 @@
 #include "core/readers/pbrt/meshes.hpp"
 #include "core/readers/pbrt/quadrics.hpp"
 #include "core/readers/pbrt/transforms.hpp"
-#include "core/readers/ply.hpp"
+#include "core/readers/ply/mesh.hpp"
 
 namespace lightnet::pbrt {
 namespace {

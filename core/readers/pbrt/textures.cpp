@@ -213,7 +213,7 @@ Texture Textures::dots(Named& named, Parameters& parameters) {
     return {{1, 1, 1}, MixTexture{outside, inside, constant(all(0.19f))}, false};
 }
 
-// The colours are the pixels of a picture of two by two; its pixels' centres lie at 1/4 and 3/4.
+// The colours are the pixels of an image of two by two; its pixels' centres lie at 1/4 and 3/4.
 Texture Textures::bilinear(Parameters& parameters) {
     const Rgb v00 = corner(parameters, "v00", 0), v01 = corner(parameters, "v01", 1);
     const Rgb v10 = corner(parameters, "v10", 0), v11 = corner(parameters, "v11", 1);
@@ -280,7 +280,7 @@ std::optional<TextureId> Textures::maybe_number(Parameters& parameters, std::str
     return number ? std::optional(constant(all(*number))) : std::nullopt;
 }
 
-std::optional<TextureId> Textures::plain_picture(const std::string& file, const SourceLine& where) {
+std::optional<TextureId> Textures::linear_image(const std::string& file, const SourceLine& where) {
     ImageTexture pattern;
     pattern.image = pictures_.get(file, {Encoding::Curve::linear, 1}, where);
     if (!pattern.image) return std::nullopt;

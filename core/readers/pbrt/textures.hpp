@@ -32,14 +32,14 @@ public:
     std::optional<TextureId> maybe_number(Parameters& parameters, std::string_view name);
     TextureId add(Texture texture);
     TextureId constant(Rgb value) { return add({value, {}, false}); }
-    /// A picture whose numbers are taken as they are, repeated: normal maps. None: reported.
-    std::optional<TextureId> plain_picture(const std::string& file, const SourceLine& where);
+    /// An image whose numbers are taken as they are, repeated: normal maps. None: reported.
+    std::optional<TextureId> linear_image(const std::string& file, const SourceLine& where);
     /// The value of a texture that is the same everywhere.
     std::optional<Rgb> constant_value(TextureId texture) const;
     /// The product of a texture and a number.
     TextureId scaled(TextureId texture, float factor);
 
-    /// Once all pictures are there: pbrt takes a number from a picture's alpha, if that is not 1 everywhere.
+    /// Once all images are there: pbrt takes a number from an image's alpha, if that is not 1 everywhere.
     void finish();
     Pictures& pictures() { return pictures_; }
 

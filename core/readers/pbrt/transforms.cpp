@@ -44,7 +44,7 @@ std::optional<Matrix> rotation(double degrees, double x, double y, double z) {
     return r;
 }
 
-// pbrt's camera space is left-handed: x to the right of the picture, y up, z into it
+// pbrt's camera space is left-handed: x to the right of the image, y up, z into it
 std::optional<Matrix> look_at(std::span<const double, 9> n) {
     const Triple eye{n[0], n[1], n[2]};
     Triple z{n[3] - n[0], n[4] - n[1], n[5] - n[2]}, up{n[6], n[7], n[8]};

@@ -1,4 +1,4 @@
-// How much single lobes reflect in all, from tables: what layered models share light by.
+// Directional albedos of single lobes, from tables: what layered models share light by.
 #pragma once
 
 #include "core/base/math/vec.hpp"

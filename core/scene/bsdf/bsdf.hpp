@@ -73,7 +73,7 @@ public:
     bool one_sided() const { return one_sided_; }
     const Frame& shading() const { return shading_; }
 
-    /// What a way into `direction` leads through absorbs, per metre: of light on a way of that length exp(-it × length)
+    /// What a ray into `direction` passes through absorbs, per metre: of light over a length, exp(-it × length)
     /// is left. Null: nothing.
     const Rgb* absorption(Vec3 direction) const {
         return absorption_ && dot(direction, normal_) < 0 ? absorption_ : nullptr;

@@ -1,4 +1,4 @@
-// The way of light between a coat and the metal below, one reflection after the other.
+// A random walk of light between a coat and the metal below, one reflection after the other.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace lightnet {
 
 /// One walk between microfacets that scatter once, as in pbrt. The metal reflects everything; what the coat lets out
-/// and what it sends down again are both followed, so that a walk has no luck but in the facets it meets.
+/// and what it sends down again are both followed, so that chance enters by the facets alone.
 class CoatWalk {
 public:
     CoatWalk(const Coat& coat, const Ggx& above, const Ggx& below, Samples samples)

@@ -160,7 +160,7 @@ struct SceneData {
     CameraData camera;
     bool camera_given = false;  // else Scene looks at everything from where all of it is seen
     FilmData film;
-    std::vector<Problem> warnings;  // what was read, but not taken literally
+    std::vector<Problem> warnings;  // what was approximated or left out
 };
 /// Without those who look (camera, film), and without what was said or learnt of it.
 void visit_members(Is<SceneData> auto& scene, const auto& visit) {

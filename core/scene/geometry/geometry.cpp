@@ -384,7 +384,7 @@ void Geometry::occluded(std::span<const Ray> rays, std::span<std::uint8_t> hidde
                    : look_through<Four>(tracer_->scene, rays, hidden);
 }
 
-Geometry::Box Geometry::bounds() const {
+Box Geometry::bounds() const {
     RTCBounds box;
     rtcGetSceneBounds(tracer_->scene, &box);
     return {{box.lower_x, box.lower_y, box.lower_z}, {box.upper_x, box.upper_y, box.upper_z}};

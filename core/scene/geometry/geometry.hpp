@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 
+#include "core/base/math/box.hpp"
 #include "core/scene/data/scene_data.hpp"
 #include "core/scene/surfaces/ray.hpp"
 #include "core/scene/surfaces/shading.hpp"
@@ -19,7 +20,7 @@ namespace lightnet {
 /// Shapes of no material are not there; where others have holes, rays go through.
 class Geometry {
 public:
-    /// How the trees are built.
+    /// How the trees (bounding volume hierarchies, BVHs) are built.
     struct Options {
         std::string isa = "avx2";   // Embree's instruction set
         std::uint32_t threads = 0;  // that build; 0: one per core
@@ -35,9 +36,6 @@ public:
     bool occluded(const Ray& ray) const;
     void occluded(std::span<const Ray> rays, std::span<std::uint8_t> hidden) const;
 
-    struct Box {
-        Vec3 lower, upper;
-    };
     /// Around all that rays can meet.
     Box bounds() const;
     /// Bytes that Embree holds: its trees. Vertices and triangles are not copied.

@@ -1,5 +1,6 @@
 #include "core/scene/lamps/area_lamps.hpp"
 
+#include "core/base/math/box.hpp"
 #include "core/base/math/frame.hpp"
 #include "core/base/math/octahedral.hpp"
 #include "core/base/math/sampling.hpp"
@@ -10,22 +11,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <span>
 
 namespace lightnet {
 namespace {
 
 constexpr std::uint32_t few_facets = 4;  // that are chosen by area alone where they lie in one plane
-
-struct Box {
-    Vec3 low{far, far, far}, high{-far, -far, -far};
-    static constexpr float far = std::numeric_limits<float>::infinity();
-    void add(Vec3 p) {
-        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-};
 
 // 1 - cos of the cone that a sphere fills, seen from a distance; without cancellation for small ones.
 float one_minus_cosine(float radius, float distance2) {
@@ -73,7 +64,7 @@ void AreaLamps::add_mesh(std::uint32_t shape, const Mesh& mesh) {
         flat &= dot(facets_.back().normal, facets_[first].normal) > 0.9999f;
         for (const Vec3 p : {at.a, at.b, at.c}) box.add(p);
     }
-    const Vec3 center = count ? (box.low + box.high) * 0.5f : Vec3{};
+    const Vec3 center = count ? box.center() : Vec3{};
     float radius2 = 0;
     for (std::uint32_t t = 0; t < count; ++t) {
         const Corners at = corners(mesh, t);
@@ -100,13 +91,13 @@ void AreaLamps::add_lamp(std::uint32_t shape, std::uint32_t first, std::uint32_t
     lamp.facets = facets;
     lamp.radiance = emission.radiance;
     lamp.two_sided = emission.two_sided;
-    lamp.plain = !emission.texture && !shading_.has_holes(shape);
+    lamp.uniform = !emission.texture && !shading_.has_holes(shape);
     for (std::uint32_t f = first; f < first + facets; ++f)
         lamp.area += 0.5f * length(cross(facets_[f].first_edge, facets_[f].second_edge));
     if (const auto* ball = std::get_if<Sphere>(&data_.shapes[shape].geometry))
         lamp.area = 4 * pi * ball->radius * ball->radius;
     if (!std::isfinite(lamp.area)) lamp.area = 0;  // never chosen
-    if (lamp.plain && facets == 2)
+    if (lamp.uniform && facets == 2)
         if (const auto whole = parallelogram(facets_[first], facets_[first + 1])) {
             lamp.whole = std::uint32_t(wholes_.size());
             wholes_.push_back(*whole);
@@ -138,15 +129,15 @@ Rgb AreaLamps::mean_of_texture(const Lamp& lamp) const {
     Rgb sum{0.16f, 0.16f, 0.16f};
     for (int i = 0; i < 16; ++i) {
         const Vec2 u{(float(i % 4) + 0.5f) / 4, (float(i / 4) + 0.5f) / 4};
-        Spot spot;
+        PointOnLamp point;
         if (lamp.facets) {
-            spot = on_mesh(lamp, u);
+            point = on_mesh(lamp, u);
         } else {
             const Vec2 name = to_octahedral(sphere(u));
-            spot.u = name.x;
-            spot.v = name.y;
+            point.u = name.x;
+            point.v = name.y;
         }
-        sum += texture_at(lamp.shape, spot.primitive, spot.u, spot.v);
+        sum += texture_at(lamp.shape, point.primitive, point.u, point.v);
     }
     return sum / 16.16f;
 }
@@ -169,9 +160,9 @@ Rgb AreaLamps::radiance(const SurfacePoint& point, Vec3 direction) const {
     return emission.radiance * texture_at(point.geometry, point.primitive, point.u, point.v);
 }
 
-Rgb AreaLamps::radiance_at(const Lamp& lamp, const Spot& spot) const {
+Rgb AreaLamps::radiance_at(const Lamp& lamp, const PointOnLamp& point) const {
     if (!data_.shapes[lamp.shape].emission->texture) return lamp.radiance;
-    return lamp.radiance * texture_at(lamp.shape, spot.primitive, spot.u, spot.v);
+    return lamp.radiance * texture_at(lamp.shape, point.primitive, point.u, point.v);
 }
 
 std::uint32_t AreaLamps::facet_of(const Lamp& lamp, float& u) const {
@@ -179,13 +170,13 @@ std::uint32_t AreaLamps::facet_of(const Lamp& lamp, float& u) const {
     return lamp.first + std::uint32_t(pick(std::span(ends_).subspan(lamp.first, lamp.facets), u));
 }
 
-AreaLamps::Spot AreaLamps::on_mesh(const Lamp& lamp, Vec2 u) const {
+AreaLamps::PointOnLamp AreaLamps::on_mesh(const Lamp& lamp, Vec2 u) const {
     const std::uint32_t facet = facet_of(lamp, u.x);
     const Vec2 at = triangle(u);
     return {facets_[facet].at(at), facets_[facet].normal, facet - places_[lamp.shape].facet, at.x, at.y};
 }
 
-AreaLamps::Spot AreaLamps::on_sphere(const Sphere& ball, Vec3 outwards) const {
+AreaLamps::PointOnLamp AreaLamps::on_sphere(const Sphere& ball, Vec3 outwards) const {
     const Vec2 name = to_octahedral(outwards);
     return {ball.center + outwards * ball.radius, ball.flip_normals ? -outwards : outwards, 0, name.x, name.y};
 }
@@ -200,13 +191,13 @@ std::optional<LightSample> AreaLamps::from_mesh(const Lamp& lamp, Vec3 from, Vec
     const Facet& on = whole ? wholes_[lamp.whole] : facets_[facet];
     const Vec2 at = Facet::uniform(u, whole);
     const Vec3 position = on.at(at);
-    const auto [direction, pdf, found] = way_to_lamp(from, position, on.normal, lamp.area, lamp.two_sided);
+    const auto [direction, pdf, found] = direction_to_lamp(from, position, on.normal, lamp.area, lamp.two_sided);
     if (!found) return {};
     Rgb radiance = lamp.radiance;
-    if (!lamp.plain) {
-        const Spot spot{position, on.normal, facet - places_[lamp.shape].facet, at.x, at.y};
-        if (!is_there(lamp, spot)) return {};
-        radiance = radiance_at(lamp, spot);
+    if (!lamp.uniform) {
+        const PointOnLamp point{position, on.normal, facet - places_[lamp.shape].facet, at.x, at.y};
+        if (!is_there(lamp, point)) return {};
+        radiance = radiance_at(lamp, point);
     }
     return LightSample{position, direction, radiance, pdf, false, false};
 }
@@ -214,7 +205,7 @@ std::optional<LightSample> AreaLamps::from_mesh(const Lamp& lamp, Vec3 from, Vec
 std::optional<FlatLamp> AreaLamps::flat(std::size_t index) const {
     const Lamp& lamp = lamps_[index];
     const bool whole = lamp.whole != none;
-    if (!lamp.plain || (!whole && lamp.facets != 1)) return {};
+    if (!lamp.uniform || (!whole && lamp.facets != 1)) return {};
     return FlatLamp{whole ? wholes_[lamp.whole] : facets_[lamp.first], whole, lamp.area, lamp.radiance, lamp.two_sided};
 }
 
@@ -237,14 +228,14 @@ std::optional<LightSample> AreaLamps::from_sphere(const Lamp& lamp, Vec3 from, V
         outwards = normalize(aside - ray * std::sqrt(rest));
         pdf = 1 / (2 * pi * drop);
     }
-    const Spot spot = on_sphere(ball, outwards);
-    const Vec3 way = spot.position - from;
+    const PointOnLamp point = on_sphere(ball, outwards);
+    const Vec3 way = point.position - from;
     const float way2 = length_squared(way);
     if (!(way2 > 0)) return {};
     const Vec3 direction = way / std::sqrt(way2);
     if (pdf == 0) pdf = way2 / (lamp.area * std::max(1e-6f, std::fabs(dot(outwards, direction))));
-    if (!shines_towards(lamp.two_sided, spot.normal, -direction) || !is_there(lamp, spot)) return {};
-    return LightSample{spot.position, direction, radiance_at(lamp, spot), pdf, false, false};
+    if (!shines_towards(lamp.two_sided, point.normal, -direction) || !is_there(lamp, point)) return {};
+    return LightSample{point.position, direction, radiance_at(lamp, point), pdf, false, false};
 }
 
 float AreaLamps::pdf(std::size_t index, Vec3 from, Vec3 direction, const SurfacePoint& on) const {
@@ -286,27 +277,28 @@ Rgb AreaLamps::power(std::size_t index) const {
     return lamp.radiance * lamp.mean * (pi * lamp.area * (lamp.two_sided ? 2 : 1));
 }
 
-std::optional<Emission> AreaLamps::emit(std::size_t index, Vec2 where, Vec2 whither) const {
+std::optional<Emission> AreaLamps::emit(std::size_t index, Vec2 position_sample, Vec2 direction_sample) const {
     const Lamp& lamp = lamps_[index];
     if (!(lamp.area > 0)) return {};
     float sides = 1;
-    Spot spot = lamp.facets ? on_mesh(lamp, where)
-                            : on_sphere(std::get<Sphere>(data_.shapes[lamp.shape].geometry), sphere(where));
+    PointOnLamp start = lamp.facets
+                            ? on_mesh(lamp, position_sample)
+                            : on_sphere(std::get<Sphere>(data_.shapes[lamp.shape].geometry), sphere(position_sample));
     if (lamp.two_sided) {
         sides = 2;
-        const bool back = whither.x >= 0.5f;
-        whither.x = std::min(2 * (whither.x - (back ? 0.5f : 0)), 0x1.fffffep-1f);
-        if (back) spot.normal = -spot.normal;
+        const bool back = direction_sample.x >= 0.5f;
+        direction_sample.x = std::min(2 * (direction_sample.x - (back ? 0.5f : 0)), 0x1.fffffep-1f);
+        if (back) start.normal = -start.normal;
     }
-    if (!is_there(lamp, spot)) return {};
-    const SurfacePoint point = shading_.point(lamp.shape, spot.primitive, spot.u, spot.v);
-    const Vec3 direction = Frame::around(spot.normal).to_world(cosine_hemisphere(whither));
-    return Emission{point.origin_towards(direction), direction, radiance_at(lamp, spot) * (pi * lamp.area * sides)};
+    if (!is_there(lamp, start)) return {};
+    const SurfacePoint point = shading_.point(lamp.shape, start.primitive, start.u, start.v);
+    const Vec3 direction = Frame::around(start.normal).to_world(cosine_hemisphere(direction_sample));
+    return Emission{point.origin_towards(direction), direction, radiance_at(lamp, start) * (pi * lamp.area * sides)};
 }
 
 // Where a mask has holes a lamp does not shine.
-bool AreaLamps::is_there(const Lamp& lamp, const Spot& spot) const {
-    return !shading_.has_holes(lamp.shape) || shading_.is_there(lamp.shape, spot.primitive, spot.u, spot.v);
+bool AreaLamps::is_there(const Lamp& lamp, const PointOnLamp& point) const {
+    return !shading_.has_holes(lamp.shape) || shading_.is_there(lamp.shape, point.primitive, point.u, point.v);
 }
 
 std::size_t AreaLamps::memory() const {

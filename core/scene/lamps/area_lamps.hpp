@@ -29,7 +29,7 @@ public:
     std::size_t size() const { return lamps_.size(); }
     /// A point on a lamp that is chosen for certain. None: it sends no light this way.
     std::optional<LightSample> sample(std::size_t lamp, Vec3 from, Vec2 u) const;
-    /// The same lamp for many points at once, if it's a plain triangle or parallelogram.
+    /// The same lamp for many points at once, if it's a uniform triangle or parallelogram.
     std::optional<FlatLamp> flat(std::size_t lamp) const;
     /// Density with which sample() finds the emitting point `on`, which lies in `direction` from `from`.
     float pdf(std::size_t lamp, Vec3 from, Vec3 direction, const SurfacePoint& on) const;
@@ -44,7 +44,7 @@ public:
     /// All that the lamp emits, W; of a textured one, nearly.
     Rgb power(std::size_t lamp) const;
     /// Light leaving the lamp: uniform by area, by the cosine in direction; flux as if it were the only light.
-    std::optional<Emission> emit(std::size_t lamp, Vec2 where, Vec2 whither) const;
+    std::optional<Emission> emit(std::size_t lamp, Vec2 position_sample, Vec2 direction_sample) const;
     std::size_t memory() const;
 
 private:
@@ -55,7 +55,7 @@ private:
         float area = 0;                       // m²
         Rgb radiance;
         bool two_sided = false;
-        bool plain = true;           // neither texture nor holes
+        bool uniform = true;         // neither texture nor holes
         std::uint32_t whole = none;  // into wholes_
         Rgb mean{1, 1, 1};           // of the texture
     };
@@ -64,7 +64,7 @@ private:
         float radius = 0;
     };
     /// A point on a lamp.
-    struct Spot {
+    struct PointOnLamp {
         Vec3 position, normal;
         std::uint32_t primitive = 0;
         float u = 0, v = 0;
@@ -74,11 +74,11 @@ private:
     void add_lamp(std::uint32_t shape, std::uint32_t first, std::uint32_t facets);
     Rgb mean_of_texture(const Lamp& lamp) const;
     Rgb texture_at(std::uint32_t shape, std::uint32_t primitive, float u, float v) const;
-    Rgb radiance_at(const Lamp& lamp, const Spot& spot) const;
-    bool is_there(const Lamp& lamp, const Spot& spot) const;
+    Rgb radiance_at(const Lamp& lamp, const PointOnLamp& point) const;
+    bool is_there(const Lamp& lamp, const PointOnLamp& point) const;
     std::uint32_t facet_of(const Lamp& lamp, float& u) const;
-    Spot on_mesh(const Lamp& lamp, Vec2 u) const;
-    Spot on_sphere(const Sphere& ball, Vec3 outwards) const;
+    PointOnLamp on_mesh(const Lamp& lamp, Vec2 u) const;
+    PointOnLamp on_sphere(const Sphere& ball, Vec3 outwards) const;
     std::optional<LightSample> from_mesh(const Lamp& lamp, Vec3 from, Vec2 u) const;
     std::optional<LightSample> from_sphere(const Lamp& lamp, Vec3 from, Vec2 u) const;
 

@@ -25,7 +25,7 @@ public:
 
     /// Without a map it is the same everywhere, and sampled uniformly.
     bool has_map() const { return image_ != nullptr; }
-    /// A direction by importance.
+    /// A direction by importance: by the CDF of the rows, then by that of its row's columns.
     Vec3 sample(Vec2 u) const;
     /// Density with which sample() finds `direction`, per steradian.
     float pdf(Vec3 direction) const;

@@ -1,4 +1,4 @@
-// A way in which light reaches a point, found by chance.
+// Samples of light: directions towards lights, and light that leaves them.
 #pragma once
 
 #include "core/base/math/rgb.hpp"

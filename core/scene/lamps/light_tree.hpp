@@ -1,4 +1,4 @@
-// Choosing among many lights by where they are and where they shine, seen from a point.
+// Importance sampling of many lights: by where they are and where they shine, seen from a point.
 #pragma once
 
 #include <cstddef>
@@ -21,8 +21,8 @@ struct LightBounds {
     bool two_sided = false;
 };
 
-/// A binary tree over lights, after Conty Estévez & Kulla 2018, "Importance Sampling of Many Lights with Adaptive Tree
-/// Splitting" (without the splitting). Immutable; any thread may ask.
+/// A binary tree over lights (a light BVH). Conty Estévez & Kulla 2018, "Importance Sampling of Many Lights with
+/// Adaptive Tree Splitting", without the splitting. Immutable; any thread may ask.
 class LightTree {
 public:
     LightTree() = default;

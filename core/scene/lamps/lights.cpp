@@ -144,7 +144,7 @@ Rgb Lights::power() const {
     return sum;
 }
 
-std::optional<Emission> Lights::emit(float choice, Vec2 where, Vec2 whither) const {
+std::optional<Emission> Lights::emit(float choice, Vec2 position_sample, Vec2 direction_sample) const {
     if (power_ends_.empty()) return {};
     std::size_t light = pick(power_ends_, choice);
     const float chance = share_of(power_ends_, light);
@@ -152,25 +152,26 @@ std::optional<Emission> Lights::emit(float choice, Vec2 where, Vec2 whither) con
         if (one) one->flux *= 1 / chance;
         return one;
     };
-    if (light < lamps_.size()) return weighted(lamps_.emit(light, where, whither));
+    if (light < lamps_.size()) return weighted(lamps_.emit(light, position_sample, direction_sample));
     light -= lamps_.size();
     if (light < near_.size())
-        return weighted(near_light(near_[light], [&](const auto& l) { return emission_of(l, whither); }));
+        return weighted(near_light(near_[light], [&](const auto& l) { return emission_of(l, direction_sample); }));
     light -= near_.size();
-    if (light < far_.size()) return weighted(through_ball(far_[light].direction, far_[light].irradiance, where));
-    return weighted(from_sky(environments_[light - far_.size()], where, whither));
+    if (light < far_.size())
+        return weighted(through_ball(far_[light].direction, far_[light].irradiance, position_sample));
+    return weighted(from_sky(environments_[light - far_.size()], position_sample, direction_sample));
 }
 
-Emission Lights::from_sky(const Environment& environment, Vec2 where, Vec2 whither) const {
-    const Vec3 towards = environment.sample(whither);
+Emission Lights::from_sky(const Environment& environment, Vec2 position_sample, Vec2 direction_sample) const {
+    const Vec3 towards = environment.sample(direction_sample);
     const float density = environment.pdf(towards);
-    return through_ball(-towards, density > 0 ? environment.radiance(towards) / density : Rgb{}, where);
+    return through_ball(-towards, density > 0 ? environment.radiance(towards) / density : Rgb{}, position_sample);
 }
 
 // From a disk across the direction, before the ball.
-Emission Lights::through_ball(Vec3 direction, Rgb irradiance, Vec2 where) const {
+Emission Lights::through_ball(Vec3 direction, Rgb irradiance, Vec2 position_sample) const {
     const Frame frame = Frame::around(direction);
-    const Vec2 at = disk(where);
+    const Vec2 at = disk(position_sample);
     return {around_.center + (frame.x * at.x + frame.y * at.y - direction) * around_.radius, direction,
             irradiance * (pi * around_.radius * around_.radius)};
 }

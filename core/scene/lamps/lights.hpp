@@ -1,4 +1,4 @@
-// All light of a scene, and ways to find it.
+// All lights of a scene, and how they are sampled.
 #pragma once
 
 #include <cstddef>
@@ -55,7 +55,7 @@ public:
 
     /// Light leaving one of all lights, chosen by power; what comes from infinity goes into the ball around the scene.
     /// None: nothing leaves by this sample.
-    std::optional<Emission> emit(float choice, Vec2 where, Vec2 whither) const;
+    std::optional<Emission> emit(float choice, Vec2 position_sample, Vec2 direction_sample) const;
     /// All that is emitted, W: by lamps, nearly where they are textured; from infinity, into that ball.
     Rgb power() const;
 
@@ -69,8 +69,8 @@ private:
     std::optional<LightSample> from_tree(Vec3 from, float choice, Vec2 u) const;
     std::optional<LightSample> from_infinity(Vec3 from, float choice, Vec2 u) const;
     std::optional<LightSample> from_map(float choice, Vec2 u) const;
-    Emission from_sky(const Environment& environment, Vec2 where, Vec2 whither) const;
-    Emission through_ball(Vec3 direction, Rgb irradiance, Vec2 where) const;
+    Emission from_sky(const Environment& environment, Vec2 position_sample, Vec2 direction_sample) const;
+    Emission through_ball(Vec3 direction, Rgb irradiance, Vec2 position_sample) const;
 
     Ball around_;
     AreaLamps lamps_;

@@ -1,4 +1,4 @@
-// Choosing one of many in proportion to what they weigh.
+// Choosing one of many in proportion to what they weigh, by their cumulative distribution (CDF).
 #pragma once
 
 #include <algorithm>

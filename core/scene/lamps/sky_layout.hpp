@@ -1,4 +1,4 @@
-// How directions lie in a picture of everything around: two layouts, in the environment's own axes.
+// How directions lie in an image of everything around: two layouts, in the environment's own axes.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace lightnet {
 
-/// [0,1)², from the picture's upper left corner → unit vector. +y is the top row, -z the middle, +x right of it.
+/// [0,1)², from the image's upper left corner → unit vector. +y is the top row, -z the middle, +x right of it.
 inline Vec3 from_latitude_longitude(Vec2 p) {
     const float theta = pi * p.y, phi = 2 * pi * (p.x - 0.5f), sine = std::sin(theta);
     return {sine * std::sin(phi), std::cos(theta), -sine * std::cos(phi)};

@@ -1,4 +1,4 @@
-// A triangle or parallelogram that shines, and points on it.
+// A triangle or parallelogram that emits light, and points on it.
 #pragma once
 
 #include <cmath>
@@ -19,13 +19,13 @@ struct Facet {
 };
 
 /// From a point that is lit to one that was chosen on a facet, uniform by area.
-struct WayToLamp {
+struct DirectionToLamp {
     Vec3 direction;
     float pdf;   // per steradian
     bool found;  // else the lamp sends no light this way
 };
 /// Without a branch, as loops over many points want it.
-inline WayToLamp way_to_lamp(Vec3 from, Vec3 position, Vec3 normal, float area, bool two_sided) {
+inline DirectionToLamp direction_to_lamp(Vec3 from, Vec3 position, Vec3 normal, float area, bool two_sided) {
     const Vec3 way = position - from;
     const float distance2 = length_squared(way);
     const Vec3 direction = way / std::sqrt(distance2);
@@ -34,7 +34,7 @@ inline WayToLamp way_to_lamp(Vec3 from, Vec3 position, Vec3 normal, float area, 
     return {direction, distance2 / (area * cosine), found};
 }
 
-/// One that shines alike everywhere.
+/// One that emits the same radiance everywhere.
 struct FlatLamp {
     Facet facet;
     bool whole = false;  // a parallelogram

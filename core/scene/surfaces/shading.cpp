@@ -71,11 +71,11 @@ Shading::Shading(const SceneData& data) : data_(data), materials_(data) {
     for (const auto& shape : data.shapes) {
         needs_.push_back({materials_.needs(shape.material), least_offset(shape)});
         needs_.back().material.texture |= shape.emission && shape.emission->texture;
-        plain_.push_back(plain(shape, needs_.back()));
+        lambertian_.push_back(lambertian(shape, needs_.back()));
     }
 }
 
-PlainShape Shading::plain(const Shape& shape, const Needs& needs) const {
+LambertianShape Shading::lambertian(const Shape& shape, const Needs& needs) const {
     const auto* mesh = std::get_if<Mesh>(&shape.geometry);
     if (!mesh || shape.emission || !materials_.is_lambertian(shape.material)) return {};
     const Rgb* albedo = materials_.constant_albedo(shape.material);

@@ -7,8 +7,8 @@
 
 #include "core/scene/bsdf/bsdf.hpp"
 #include "core/scene/data/scene_data.hpp"
+#include "core/scene/surfaces/lambertian_surfaces.hpp"
 #include "core/scene/surfaces/materials.hpp"
-#include "core/scene/surfaces/plain_surfaces.hpp"
 #include "core/scene/surfaces/ray.hpp"
 #include "core/scene/surfaces/surface.hpp"
 #include "core/scene/textures/look_up.hpp"
@@ -31,9 +31,9 @@ public:
     void find(std::uint32_t geometry, std::uint32_t primitive, float u, float v, SurfacePoint& point) const;
     Bsdf bsdf(const SurfacePoint& point) const;
     void add_bsdf(const SurfacePoint& point, std::vector<Bsdf>& to) const;
-    /// What is plain about each shape.
-    std::span<const PlainShape> plain_shapes() const { return plain_; }
-    /// Reflectance there of a plain one.
+    /// By shape: null meshes where it is not Lambertian.
+    std::span<const LambertianShape> lambertian_shapes() const { return lambertian_; }
+    /// Reflectance there of a Lambertian one.
     Rgb albedo(const Hit& hit) const;
 
     /// What textures may depend on there, by the same coordinates.
@@ -51,7 +51,7 @@ private:
         MaterialNeeds material;
         float offset = 0;  // least distance by which rays must leave the shape, m
     };
-    PlainShape plain(const Shape& shape, const Needs& needs) const;
+    LambertianShape lambertian(const Shape& shape, const Needs& needs) const;
     void on_mesh(const Mesh& mesh, const Needs& needs, SurfacePoint& point) const;
     /// Adds what textures, grooves and bumps need.
     void dress(const Mesh& mesh, const Needs& needs, SurfacePoint& point) const;
@@ -60,7 +60,7 @@ private:
     const SceneData& data_;
     Materials materials_;
     std::vector<Needs> needs_;  // by shape
-    std::vector<PlainShape> plain_;
+    std::vector<LambertianShape> lambertian_;
 };
 
 }  // namespace lightnet

@@ -1,4 +1,4 @@
-// A picture in memory, for textures and environments.
+// An image in memory, for textures and environments.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace lightnet {
 
-/// A decoded picture, row 0 on top. It keeps the numbers of its file as they are, with as few bits; what is looked up
+/// A decoded image, row 0 on top. It keeps the numbers of its file as they are, with as few bits; what is looked up
 /// is linear.
 class Image {
 public:
@@ -36,7 +36,7 @@ public:
     Rgb colour(std::uint32_t x, std::uint32_t y) const;
     /// How opaque that pixel is: 1 where nothing else is said.
     float alpha(std::uint32_t x, std::uint32_t y) const;
-    /// Names what it shows. Another file, or another way to keep the same colours, may be another picture.
+    /// Names what it shows. Another file, or another way to keep the same colours, may be another image.
     Hash content() const;
     /// Bytes of its numbers.
     std::size_t memory() const;

@@ -1,4 +1,4 @@
-#include "core/readers/ply.hpp"
+#include "core/readers/ply/mesh.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include "core/readers/ply_header.hpp"
+#include "core/readers/ply/header.hpp"
 
 namespace lightnet {
 namespace {

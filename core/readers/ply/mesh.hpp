@@ -3,9 +3,7 @@
 
 #include <cstddef>
 #include <span>
-#include <string>
 
-#include "core/readers/files.hpp"
 #include "core/scene/data/scene_data.hpp"
 
 namespace lightnet {
@@ -15,8 +13,5 @@ namespace lightnet {
 /// Other properties and elements are skipped. Throws Error (without a file name) when the bytes are no sound PLY file;
 /// allocates no more than a small multiple of them.
 Mesh read_ply(std::span<const std::byte> bytes);
-
-/// The scene of a PLY file alone: its mesh, matt and in the colours of its vertices, or grey. Throws UserError.
-SceneData read_ply_scene(Files& files, const std::string& path);
 
 }  // namespace lightnet

@@ -1,4 +1,4 @@
-#include "core/readers/ply_header.hpp"
+#include "core/readers/ply/header.hpp"
 
 #include <fmt/format.h>
 

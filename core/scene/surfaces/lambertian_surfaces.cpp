@@ -1,12 +1,12 @@
-#include "core/scene/surfaces/plain_surfaces.hpp"
+#include "core/scene/surfaces/lambertian_surfaces.hpp"
 
 #include "core/scene/direct_light.hpp"
 
 namespace lightnet {
 
 // As Shading::on_mesh().
-struct PlainSurfaces::Points {
-    PlainSurfaces& all;
+struct LambertianSurfaces::Points {
+    LambertianSurfaces& all;
 
     [[gnu::always_inline]] void work() {
         for (std::size_t i = 0; i < all.count_; ++i) {
@@ -21,12 +21,12 @@ struct PlainSurfaces::Points {
     }
 };
 
-void PlainSurfaces::find_points() {
+void LambertianSurfaces::find_points() {
     Points points{*this};
     work_side_by_side(points);
 }
 
-SurfacePoint PlainSurfaces::point(std::size_t i) const {
+SurfacePoint LambertianSurfaces::point(std::size_t i) const {
     SurfacePoint point;
     point.position = position_[i];
     point.normal = normal_[i];
@@ -37,14 +37,14 @@ SurfacePoint PlainSurfaces::point(std::size_t i) const {
     return point;
 }
 
-Bsdf PlainSurfaces::bsdf(std::size_t i) const {
+Bsdf LambertianSurfaces::bsdf(std::size_t i) const {
     Bsdf bsdf(Frame::around(shading_[i]), normal_[i], DiffuseBsdf{albedo(i)});
     if (one_sided_[i]) bsdf.make_one_sided();
     return bsdf;
 }
 
-struct PlainSurfaces::Sampling {
-    PlainSurfaces& at;
+struct LambertianSurfaces::Sampling {
+    LambertianSurfaces& at;
 
     // As Bsdf::sample().
     [[gnu::always_inline]] void work() {
@@ -62,15 +62,15 @@ struct PlainSurfaces::Sampling {
     }
 };
 
-const PlainSurfaces::Steps& PlainSurfaces::sample() {
+const LambertianSurfaces::Steps& LambertianSurfaces::sample() {
     Sampling sampling{*this};
     work_side_by_side(sampling);
     return steps_;
 }
 
 template <bool by_power, bool whole>
-struct PlainSurfaces::Looking {
-    PlainSurfaces& at;
+struct LambertianSurfaces::Looking {
+    LambertianSurfaces& at;
     const FlatLamp& lamp;
 
     // As ray_to_lamp().
@@ -83,7 +83,7 @@ struct PlainSurfaces::Looking {
         for (std::size_t i = 0; i < at.count_; ++i) {
             const Vec3 position = at.position_[i], normal = at.normal_[i];
             const Vec3 on_lamp = facet.at(Facet::uniform(at.numbers_[i], whole));
-            const WayToLamp way = way_to_lamp(position, on_lamp, facet.normal, area, two_sided);
+            const DirectionToLamp way = direction_to_lamp(position, on_lamp, facet.normal, area, two_sided);
             const float pdf =
                 diffuse_pdf(at.shading_[i], normal, at.one_sided_[i] != 0, at.outgoing_[i], way.direction);
             const Rgb value = Rgb{at.albedo_.x[i], at.albedo_.y[i], at.albedo_.z[i]} * pdf;
@@ -99,7 +99,7 @@ struct PlainSurfaces::Looking {
     }
 };
 
-const PlainSurfaces::RaysToLamp& PlainSurfaces::look_at(const FlatLamp& lamp, bool by_power) {
+const LambertianSurfaces::RaysToLamp& LambertianSurfaces::look_at(const FlatLamp& lamp, bool by_power) {
     const auto look = [&](auto looking) { work_side_by_side(looking); };
     if (by_power)
         lamp.whole ? look(Looking<true, true>{*this, lamp}) : look(Looking<true, false>{*this, lamp});

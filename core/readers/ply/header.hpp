@@ -1,4 +1,4 @@
-// The header of a PLY file, and the numbers behind it. Only ply.cpp reads files with them.
+// The header of a PLY file, and the numbers behind it. Only mesh.cpp reads files with them.
 #pragma once
 
 #include <cstddef>

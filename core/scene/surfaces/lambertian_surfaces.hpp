@@ -1,4 +1,4 @@
-// What most surfaces are, many at once: of meshes, diffuse, without any finesse.
+// What most surfaces are, many at once: meshes that reflect the same radiance into all directions, without bumps.
 #pragma once
 
 #include <array>
@@ -16,8 +16,8 @@ namespace lightnet {
 
 class Shading;
 
-/// A shape whose surface is nothing but diffuse, is filled with nothing, and shines not.
-struct PlainShape {
+/// A mesh that is an ideal diffuse (Lambertian) reflector, is filled with nothing, and emits nothing.
+struct LambertianShape {
     const Mesh* mesh = nullptr;  // null: the shape is another
     Rgb albedo;
     const Shading* textured = nullptr;  // knows the albedo, which is not the same everywhere
@@ -25,16 +25,17 @@ struct PlainShape {
     bool one_sided = false;
 };
 
-/// Points of such shapes side by side. They are put into columns once, and stay there: points, light from a lamp and
-/// the ways on are worked out in loops without a branch, by the formulas of one point alone, to the bit.
-class PlainSurfaces {
+/// Points of such shapes as a structure of arrays: each coordinate has a column of its own, for vectors of the
+/// processor (SIMD). They are put there once and stay: points, shadow rays to a lamp and the next directions of paths
+/// are worked out in loops without a branch, by the formulas of one point alone, to the bit.
+class LambertianSurfaces {
 public:
     std::size_t size() const { return count_; }
     bool full() const { return count_ == lanes; }
     void clear() { count_ = 0; }
 
     /// Adds the point of a hit on `shape`, seen from `outgoing`; there is room for it. `who`: the caller's.
-    void add(std::uint32_t who, const PlainShape& shape, const Hit& hit, Vec3 outgoing);
+    void add(std::uint32_t who, const LambertianShape& shape, const Hit& hit, Vec3 outgoing);
     /// Works out where the points are, and how they are turned: before anything of the following is asked.
     void find_points();
 
@@ -91,10 +92,10 @@ private:
     RaysToLamp rays_;
 };
 
-/// Reflectance of a textured plain shape there.
+/// Reflectance of a textured Lambertian shape there.
 Rgb albedo_at(const Shading& shading, const Hit& hit);
 
-inline void PlainSurfaces::add(std::uint32_t who, const PlainShape& shape, const Hit& hit, Vec3 outgoing) {
+inline void LambertianSurfaces::add(std::uint32_t who, const LambertianShape& shape, const Hit& hit, Vec3 outgoing) {
     const std::size_t to = count_++;
     const Mesh& mesh = *shape.mesh;
     const auto [i, j, k] = mesh.triangles[hit.primitive];

@@ -1,0 +1,11 @@
+// PLY files, alone as scenes.
+#pragma once
+
+#include "core/readers/scene_format.hpp"
+
+namespace lightnet::ply {
+
+/// A mesh, diffuse and in the colours of its vertices, or grey.
+SceneFormat format();
+
+}  // namespace lightnet::ply
