@@ -9,7 +9,7 @@
 
 #include "core/base/math/samples.hpp"
 #include "core/base/math/sampling.hpp"
-#include "core/estimate/stops.hpp"
+#include "core/estimate/path_vertices.hpp"
 #include "core/scene/direct_light.hpp"
 #include "core/scene/scene.hpp"
 #include "tests/support/small_scenes.hpp"
