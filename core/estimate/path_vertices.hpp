@@ -47,6 +47,13 @@ public:
         views_.push_back({outgoing, lobes, inside});
         add_to_last(path);
     }
+    /// The place of the one added last again.
+    void add_again(std::uint32_t path, const Hit& hit, Vec3 outgoing) {
+        if (plain_last_)
+            plain_.add(path, plain_shapes_[hit.geometry], hit, outgoing);
+        else
+            add_to_last(path);
+    }
     /// Begins anew: `first` and the paths after it stand where questions are asked about, question(path), as many as
     /// there is room for. Those of one question follow one another. Returns the first path for which there was no room.
     template <class Question>
@@ -164,13 +171,6 @@ private:
         std::uint8_t lobes;
         const Rgb* inside;
     };
-    // The place of the one added last again.
-    void add_again(std::uint32_t path, const Hit& hit, Vec3 outgoing) {
-        if (plain_last_)
-            plain_.add(path, plain_shapes_[hit.geometry], hit, outgoing);
-        else
-            add_to_last(path);
-    }
     void add_to_last(std::uint32_t path) {
         visitors_.push_back({path, static_cast<std::uint32_t>(points_.size() - 1)});
     }
