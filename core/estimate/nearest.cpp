@@ -39,7 +39,7 @@ std::size_t Nearest::pad() {
 std::size_t Nearest::count_within(float distance2) {
     const std::size_t padded = pad();  // may move them
     Count count{distances_.data(), padded, distance2};
-    work_side_by_side(count);
+    work_in_lanes(count);
     return count.within;
 }
 

@@ -193,7 +193,7 @@ public:
     void visit(std::size_t level, std::size_t at) {
         const std::size_t count = tree_.children(level, at), first = at * fan;
         Bounds bounds{tree_.levels_[level][at], wanted_, {}};
-        work_side_by_side(bounds);
+        work_in_lanes(bounds);
         if (level == 0)
             for (std::size_t i = 0; i < count; ++i)
                 if (bounds.distance2[i] <= found_.limit()) fetch(tree_.leaf(first + i));
@@ -232,7 +232,7 @@ private:
 
     void visit_leaf(std::size_t leaf) {
         Distances distances{tree_.leaf(leaf), wanted_.position, wanted_.normal, {}};
-        work_side_by_side(distances);
+        work_in_lanes(distances);
         found_.offer(distances.distance2, std::uint32_t(leaf * width));
     }
 
@@ -320,7 +320,7 @@ Rgb PhotonTree::radiance(const Lookup& at, float radius, std::size_t most, Neare
             many.packed[i] = light_of(found[first + i].index).incoming;
             many.distance2[i] = found[first + i].distance2;
         }
-        work_side_by_side(many);
+        work_in_lanes(many);
         for (std::size_t i = 0; i < many.count; ++i) {
             const Rgb flux = light_of(found[first + i].index).flux * many.share[i];
             if (albedo)

@@ -16,7 +16,7 @@ public:
     /// `values`: `count` of them, filled up with infinity to `padded`, a multiple of the width of vectors.
     Ranks(const float* values, std::size_t count, std::size_t padded)
         : values_(values), count_(count), padded_(padded) {
-        work_side_by_side(*this);
+        work_in_lanes(*this);
         std::size_t sum = 0;
         for (std::size_t i = 0; i < count_; ++i) sum += ranks_[i];
         all_differ_ = count_ == 0 || sum == count_ * (count_ - 1) / 2;

@@ -57,12 +57,12 @@ template <class Many>
     many.work();
 }
 template <class Many>
-void work_side_by_side(Many& many) {
+void work_in_lanes(Many& many) {
     __builtin_cpu_supports("avx2") ? work_in_avx2(many) : many.work();
 }
 #else
 template <class Many>
-void work_side_by_side(Many& many) {
+void work_in_lanes(Many& many) {
     many.work();
 }
 #endif

@@ -23,7 +23,7 @@ struct LambertianSurfaces::Points {
 
 void LambertianSurfaces::find_points() {
     Points points{*this};
-    work_side_by_side(points);
+    work_in_lanes(points);
 }
 
 SurfacePoint LambertianSurfaces::point(std::size_t i) const {
@@ -64,7 +64,7 @@ struct LambertianSurfaces::Sampling {
 
 const LambertianSurfaces::Steps& LambertianSurfaces::sample() {
     Sampling sampling{*this};
-    work_side_by_side(sampling);
+    work_in_lanes(sampling);
     return steps_;
 }
 
@@ -100,7 +100,7 @@ struct LambertianSurfaces::Looking {
 };
 
 const LambertianSurfaces::RaysToLamp& LambertianSurfaces::look_at(const FlatLamp& lamp, bool by_power) {
-    const auto look = [&](auto looking) { work_side_by_side(looking); };
+    const auto look = [&](auto looking) { work_in_lanes(looking); };
     if (by_power)
         lamp.whole ? look(Looking<true, true>{*this, lamp}) : look(Looking<true, false>{*this, lamp});
     else
