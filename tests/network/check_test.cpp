@@ -155,7 +155,7 @@ TEST(Check, PrintsTheWayOfACycle) {
 }
 
 TEST(Check, WantsOneRenderer) {
-    EXPECT_EQ(problems_of("sky = Ambient {}"), "graph.lua: no renderer: one node must make the picture, a RayTracer");
+    EXPECT_EQ(problems_of("sky = Ambient {}"), "graph.lua: no renderer: one node must make the image, a RayTracer");
     EXPECT_THAT(
         problems_of("sky = Ambient {}\n" + rest + "\nother = RayTracer { sky, scene = scene, film = { 8, 8 } }"),
         HasSubstr("graph.lua:3: RayTracer 'other': a second renderer; 'image' makes the image already"));
