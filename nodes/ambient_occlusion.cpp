@@ -57,7 +57,6 @@ Kind ambient_occlusion_kind() {
     return {
         .name = "AmbientOcclusion",
         .help = "how open the surroundings of a point are: 1 where nothing is near",
-        .paths = [](const Node&) { return std::vector<std::string>{}; },
         .params =
             {
                 {.name = "samples",
@@ -74,6 +73,7 @@ Kind ambient_occlusion_kind() {
                  .initial = Value{0.0},
                  .least = 0},
             },
+        .light = {.paths = always({})},
         .make_light = [](const NodeContext& here) { return std::make_unique<AmbientOcclusion>(here); },
     };
 }

@@ -34,14 +34,13 @@ Kind clamp_kind() {
     return {
         .name = "Clamp",
         .help = "its input without its brightest sparks: quieter, and a little too dark",
-        .least_inputs = 1,
-        .most_inputs = 1,
-        .onward = "",
+        .inputs = {1, 1},
         .params = {{.name = "most",
                     .help = "of each answer, in its strongest colour",
                     .unit = "W·sr⁻¹·m⁻²",
                     .initial = Value{10.0},
                     .least = 0}},
+        .light = {.onward = ""},
         .make_light = [](const NodeContext& here) { return std::make_unique<Clamp>(here); },
     };
 }

@@ -33,14 +33,13 @@ Kind combine_kind() {
     return {
         .name = "Combine",
         .help = "the sum of its inputs, each times its weight",
-        .least_inputs = 1,
-        .most_inputs = 64,
-        .linear = true,
+        .inputs = {1, 64},
         .params = {{.name = "weights",
                     .type = ParamType::numbers,
                     .help = "one per input; none: all 1",
                     .initial = Value{Table{}},
                     .per_input = true}},
+        .light = {.linear = true},
         .make_light = [](const NodeContext& here) { return std::make_unique<Combine>(here); },
     };
 }

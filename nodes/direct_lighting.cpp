@@ -206,7 +206,6 @@ Kind direct_lighting_kind() {
     return {
         .name = "DirectLighting",
         .help = "light that comes straight from lamps and environment",
-        .paths = [](const Node&) { return std::vector<std::string>{"LD"}; },
         .params =
             {
                 {.name = "samples",
@@ -236,6 +235,7 @@ Kind direct_lighting_kind() {
                  .initial = Value{"power"},
                  .choices = {"power", "balance"}},
             },
+        .light = {.paths = always({"LD"})},
         .make_light = [](const NodeContext& here) { return std::make_unique<DirectLighting>(here); },
     };
 }

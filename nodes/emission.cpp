@@ -28,7 +28,7 @@ Kind emission_kind() {
     return {
         .name = "Emission",
         .help = "what surfaces shine by themselves; for nodes that gather light, as the renderer sees it anyhow",
-        .paths = [](const Node&) { return std::vector<std::string>{"A"}; },
+        .light = {.paths = always({"A"})},
         .make_light = [](const NodeContext& here) { return std::make_unique<SelfEmission>(here); },
     };
 }

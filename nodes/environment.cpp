@@ -63,7 +63,6 @@ Kind environment_kind() {
     return {
         .name = "Environment",
         .help = "light that comes straight from the environment, without that of lamps; a part of DirectLighting",
-        .paths = [](const Node&) { return std::vector<std::string>{"VD"}; },
         .params = {{.name = "samples",
                     .type = ParamType::integer,
                     .help = "directions per question",
@@ -71,6 +70,7 @@ Kind environment_kind() {
                     .initial = Value{1.0},
                     .least = 1,
                     .most = 65536}},
+        .light = {.paths = always({"VD"})},
         .make_light = [](const NodeContext& here) { return std::make_unique<SkyLight>(here); },
     };
 }

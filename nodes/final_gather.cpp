@@ -72,9 +72,7 @@ Kind final_gather_kind() {
     return {
         .name = "FinalGather",
         .help = "light by way of one more rough surface: what its input says of the surfaces that the point sees",
-        .least_inputs = 1,
-        .most_inputs = 1,
-        .onward = "S*D",
+        .inputs = {1, 1},
         .params = {{.name = "rays",
                     .type = ParamType::integer,
                     .help = "directions per question",
@@ -82,6 +80,7 @@ Kind final_gather_kind() {
                     .initial = Value{1.0},
                     .least = 1,
                     .most = 65536}},
+        .light = {.onward = "S*D"},
         .make_light = [](const NodeContext& here) { return std::make_unique<FinalGather>(here); },
     };
 }

@@ -311,14 +311,10 @@ Kind irradiance_cache_kind() {
     return {
         .name = "IrradianceCache",
         .help = "light by way of one more rough surface, computed at few points and interpolated: for soft light",
-        .least_inputs = 1,
-        .most_inputs = 1,
-        .prepares = true,
-        .rehearses = true,
-        .freezes = "irradiance records",
-        .onward = "S*D",
-        .keeps = true,
+        .inputs = {1, 1},
         .params = params(),
+        .light = {.onward = "S*D"},
+        .run = {.prepares = true, .rehearses = true, .freezes = "irradiance records", .keeps = true},
         .make_light = [](const NodeContext& here) { return std::make_unique<IrradianceCache>(here); },
     };
 }

@@ -308,7 +308,6 @@ Kind path_tracing_kind() {
     return {
         .name = "PathTracing",
         .help = "indirect light, all that arrives by way of other surfaces; or all light",
-        .paths = paths_of,
         .params =
             {
                 {.name = "samples",
@@ -336,6 +335,7 @@ Kind path_tracing_kind() {
                  .initial = Value{"indirect"},
                  .choices = {"indirect", "all"}},
             },
+        .light = {.paths = paths_of},
         .make_light = [](const NodeContext& here) { return std::make_unique<PathTracing>(here); },
     };
 }

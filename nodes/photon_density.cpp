@@ -53,8 +53,6 @@ Kind photon_density_kind() {
     return {
         .name = "PhotonDensity",
         .help = "a picture of a photon map, no light: how many photons there are per square metre",
-        .prepares = true,
-        .paths = [](const Node&) { return std::vector<std::string>{}; },
         .params = {{.name = "of", .type = ParamType::node, .help = "the map", .choices = {"photons"}},
                    {.name = "gather",
                     .type = ParamType::integer,
@@ -69,6 +67,8 @@ Kind photon_density_kind() {
                     .unit = "m",
                     .initial = Value{0.0},
                     .least = 0}},
+        .light = {.paths = always({})},
+        .run = {.prepares = true},
         .make_light = [](const NodeContext& here) { return std::make_unique<PhotonDensity>(here); },
     };
 }

@@ -141,9 +141,9 @@ Kind photon_irradiance_kind() {
     return {
         .name = "PhotonIrradiance",
         .help = "the light of a photon map as irradiance that is known beforehand: quick to look at, in small steps",
-        .prepares = true,
-        .converts = true,
         .params = params(),
+        .light = {.converts = true},
+        .run = {.prepares = true},
         .make_light = [](const NodeContext& here) { return std::make_unique<PhotonIrradiance>(here); },
     };
 }

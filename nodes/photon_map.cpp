@@ -88,11 +88,11 @@ Kind photon_map_kind() {
     return {
         .name = "PhotonMap",
         .help = "light that was sent from the lamps beforehand: caustics, or a rough picture of all light",
-        .prepares = true,
-        .freezes = "photons",
-        .paths = paths_of_photons,
-        .landmarks = [](const NodeContext& here) { return landmarks_of(here.scene(), Shooting::of(here)); },
         .params = params(),
+        .light = {.paths = paths_of_photons},
+        .run = {.prepares = true,
+                .freezes = "photons",
+                .landmarks = [](const NodeContext& here) { return landmarks_of(here.scene(), Shooting::of(here)); }},
         .make_light = [](const NodeContext& here) { return std::make_unique<PhotonMap>(here); },
     };
 }

@@ -48,8 +48,6 @@ Kind photon_positions_kind() {
     return {
         .name = "PhotonPositions",
         .help = "a picture of a photon map, no light: a dot around each of its photons",
-        .prepares = true,
-        .paths = [](const Node&) { return std::vector<std::string>{}; },
         .params = {{.name = "of", .type = ParamType::node, .help = "the map", .choices = {"photons"}},
                    {.name = "size",
                     .type = ParamType::number,
@@ -57,6 +55,8 @@ Kind photon_positions_kind() {
                     .unit = "m",
                     .initial = Value{0.0},
                     .least = 0}},
+        .light = {.paths = always({})},
+        .run = {.prepares = true},
         .make_light = [](const NodeContext& here) { return std::make_unique<PhotonPositions>(here); },
     };
 }

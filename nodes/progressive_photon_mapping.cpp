@@ -89,9 +89,9 @@ Kind progressive_photon_mapping_kind() {
     return {
         .name = "ProgressivePhotonMapping",
         .help = "light that was sent from the lamps in many passes, each sharper: caustics without bias in the end",
-        .prepares = true,
-        .paths = paths_of_photons,
         .params = params(),
+        .light = {.paths = paths_of_photons},
+        .run = {.prepares = true},
         .make_light = [](const NodeContext& here) { return std::make_unique<ProgressivePhotonMapping>(here); },
     };
 }

@@ -203,10 +203,7 @@ Kind ray_tracer_kind() {
         .role = Role::image,
         .help =
             "makes the picture: follows rays from the eye through mirrors and glass, and asks how bright things are",
-        .least_inputs = 1,
-        .most_inputs = 1,
-        .paths = [](const Node&) { return std::vector<std::string>{"LS*E"}; },
-        .onward = "S*E",
+        .inputs = {1, 1},
         .params =
             {
                 {.name = "scene", .type = ParamType::scene, .help = "what is seen"},
@@ -254,6 +251,7 @@ Kind ray_tracer_kind() {
                  .least = 0,
                  .most = 16},
             },
+        .light = {.paths = always({"LS*E"}), .onward = "S*E"},
         .make_renderer = [](const NodeContext& here) { return std::make_unique<RayTracer>(here); },
     };
 }

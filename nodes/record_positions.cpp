@@ -45,8 +45,6 @@ Kind record_positions_kind() {
     return {
         .name = "RecordPositions",
         .help = "a picture of an irradiance cache, no light: a dot around each of its records",
-        .prepares = true,
-        .paths = [](const Node&) { return std::vector<std::string>{}; },
         .params = {{.name = "of", .type = ParamType::node, .help = "the cache", .choices = {"irradiance records"}},
                    {.name = "size",
                     .type = ParamType::number,
@@ -55,6 +53,8 @@ Kind record_positions_kind() {
                     .unit = "m",
                     .initial = Value{0.0},
                     .least = 0}},
+        .light = {.paths = always({})},
+        .run = {.prepares = true},
         .make_light = [](const NodeContext& here) { return std::make_unique<RecordPositions>(here); },
     };
 }

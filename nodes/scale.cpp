@@ -33,10 +33,7 @@ Kind scale_kind() {
     return {
         .name = "Scale",
         .help = "its input times a number, and times a colour",
-        .least_inputs = 1,
-        .most_inputs = 1,
-        .linear = true,
-        .partial = true,
+        .inputs = {1, 1},
         .params = {{.name = "factor", .help = "for all colours", .initial = Value{1.0}, .least = 0},
                    {.name = "colour",
                     .type = ParamType::numbers,
@@ -44,6 +41,7 @@ Kind scale_kind() {
                     .initial = Value{Table{}},
                     .least = 0,
                     .count = 3}},
+        .light = {.linear = true, .partial = true},
         .make_light = [](const NodeContext& here) { return std::make_unique<Scale>(here); },
     };
 }

@@ -136,11 +136,7 @@ Kind select_kind() {
     return {
         .name = "Select",
         .help = "its input on surfaces of one material, of one object, or in a box; black elsewhere",
-        .least_inputs = 1,
-        .most_inputs = 1,
-        .linear = true,
-        .mistakes = mistakes,
-        .partial = true,
+        .inputs = {1, 1},
         .params = {{.name = "material",
                     .type = ParamType::text,
                     .help = "name that the scene's file gives to the material, * for any part of it; empty: any",
@@ -159,6 +155,8 @@ Kind select_kind() {
                     .type = ParamType::flag,
                     .help = "all other surfaces instead",
                     .initial = Value{false}}},
+        .mistakes = mistakes,
+        .light = {.linear = true, .partial = true},
         .make_light = [](const NodeContext& here) { return std::make_unique<Select>(here); },
     };
 }

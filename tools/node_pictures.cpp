@@ -23,7 +23,9 @@ std::vector<Rgb> all_light(const Picture& picture) {
     return sum_of(layers);
 }
 
-bool is_light(const Node& node, const Kind& kind) { return !kind.paths || !kind.paths(node).empty() || kind.onward; }
+bool is_light(const Node& node, const Kind& kind) {
+    return !kind.light.paths || !kind.light.paths(node).empty() || kind.light.onward;
+}
 
 void scale_to_white(std::vector<Rgb>& pixels) {
     std::vector<float> values;

@@ -50,7 +50,7 @@ std::vector<Problem> problems_of_kept_files(const Graph& graph, const Registry& 
     for (const auto& node : graph.nodes) {
         const Kind* kind = registry.find(node.kind);
         const auto param = node.params.find("keep");
-        if (!kind || !kind->keeps || param == node.params.end()) continue;
+        if (!kind || !kind->run.keeps || param == node.params.end()) continue;
         const auto* name = std::get_if<std::string>(&param->second.data);
         if (!name || name->empty()) continue;
         const auto file = beside_graph(graph, *name);

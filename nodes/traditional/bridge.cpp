@@ -162,14 +162,14 @@ std::vector<Kind> candela_kinds() {
                                    .params = {count("rays", "points on lamps per question", 1)}}),
         wrap<candela::GatheredGlow>("CandelaGathered",
                                     {.help = "wrapped example: light that matt surroundings scatter once",
-                                     .least_inputs = 1,
+                                     .inputs = {1, 1},
                                      .params = {count("rays", "directions per question", 16)}}),
         wrap<candela::DimmedGlow>("CandelaDimmed", {.help = "wrapped example: a part of its input, up to a limit",
-                                                    .least_inputs = 1,
+                                                    .inputs = {1, 1},
                                                     .params = {amount("strength", "the part", 1),
                                                                amount("limit", "the most radiance", 1000)}}),
         wrap<candela::Eye>("CandelaEye", {.help = "wrapped example: follows one ray at a time, through mirrors",
-                                          .least_inputs = 1,
+                                          .inputs = {1, 1},
                                           .params = {count("mirrors", "in a row that are followed", 8)}}),
     };
 }

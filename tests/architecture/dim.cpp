@@ -27,10 +27,9 @@ private:
 Kind dim_kind() {
     return {.name = "Dim",
             .help = "passes on a part of the light of its input",
-            .least_inputs = 1,
-            .most_inputs = 1,
-            .linear = true,
+            .inputs = {1, 1},
             .params = {{.name = "strength", .help = "the part", .initial = Value{0.5}, .least = 0}},
+            .light = {.linear = true},
             .make_light = [](const NodeContext& here) { return std::make_unique<Dim>(here); }};
 }
 

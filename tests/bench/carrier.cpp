@@ -92,8 +92,7 @@ Registry asking_kinds() {
          {.name = "Asker",
           .role = Role::image,
           .help = "asks",
-          .least_inputs = 1,
-          .most_inputs = 1,
+          .inputs = {1, 1},
           .params = {{.name = "scene", .type = ParamType::scene, .help = "what hosts read, and nobody asks"}},
           .make_renderer = [](const NodeContext& here) { return std::make_unique<Asker>(here); }}});
 }

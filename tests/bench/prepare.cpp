@@ -56,7 +56,7 @@ private:
 
 Registry with_bulk() {
     auto kinds = standard_nodes();
-    Kind kind{.name = "Bulk", .help = "prepares much", .prepares = true};
+    Kind kind{.name = "Bulk", .help = "prepares much", .run = {.prepares = true}};
     kind.params = {{.name = "turn", .type = ParamType::integer, .help = "makes other bytes", .initial = Value{0.0}}};
     kind.make_light = [](const NodeContext& here) { return std::make_unique<Bulk>(here); };
     kinds.push_back(std::move(kind));

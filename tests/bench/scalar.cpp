@@ -89,12 +89,11 @@ Registry kinds() {
         {{.name = "Echo",
           .help = "answers at once",
           .make_light = [](const NodeContext&) { return std::make_unique<Echo>(); }},
-         wrap<Patient>("Patient", {.help = "asks one by one", .least_inputs = 1}),
+         wrap<Patient>("Patient", {.help = "asks one by one", .inputs = {1, 1}}),
          {.name = "Watch",
           .role = Role::image,
           .help = "asks, and takes the time",
-          .least_inputs = 1,
-          .most_inputs = 1,
+          .inputs = {1, 1},
           .params = {{.name = "scene", .type = ParamType::scene, .help = "what hosts read, and nobody asks"}},
           .make_renderer = [](const NodeContext& here) { return std::make_unique<Watch>(here); }}});
 }

@@ -39,8 +39,8 @@ private:
 
 Registry with_fragile(Trouble trouble) {
     auto kinds = standard_nodes();
-    Kind fragile{.name = "Fragile", .help = "passes light on", .least_inputs = 1, .most_inputs = 1};
-    fragile.prepares = true;
+    Kind fragile{.name = "Fragile", .help = "passes light on", .inputs = {1, 1}};
+    fragile.run.prepares = true;
     fragile.make_light = [trouble](const NodeContext& here) { return std::make_unique<Fragile>(here, trouble); };
     kinds.push_back(std::move(fragile));
     return Registry(std::move(kinds));

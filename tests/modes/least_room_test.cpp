@@ -105,13 +105,13 @@ namespace {
 Registry kinds() {
     return Registry({{.name = "Plain",
                       .help = "asks twice",
-                      .most_inputs = 3,
+                      .inputs = {0, 3},
                       .make_light = [](const NodeContext& here) { return std::make_unique<Plain>(here); }},
-                     wrap<Traditional>("Traditional", {.help = "asks one by one", .most_inputs = 3}),
+                     wrap<Traditional>("Traditional", {.help = "asks one by one", .inputs = {0, 3}}),
                      {.name = "Asking",
                       .role = Role::image,
                       .help = "asks",
-                      .most_inputs = 1,
+                      .inputs = {0, 1},
                       .make_renderer = [](const NodeContext& here) { return std::make_unique<Asking>(here); }}});
 }
 

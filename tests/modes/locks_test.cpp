@@ -45,8 +45,8 @@ private:
 
 Registry with_rare() {
     auto kinds = standard_nodes();
-    Kind rare{.name = "Rare", .help = "needs what there is one of", .least_inputs = 1, .most_inputs = 1};
-    rare.locks = true;
+    Kind rare{.name = "Rare", .help = "needs what there is one of", .inputs = {1, 1}};
+    rare.run.locks = true;
     rare.params = {{.name = "asks", .type = ParamType::flag, .help = "with the lock in hand", .initial = Value{false}}};
     rare.make_light = [](const NodeContext& here) { return std::make_unique<Rare>(here); };
     kinds.push_back(std::move(rare));

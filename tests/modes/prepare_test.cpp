@@ -87,7 +87,7 @@ public:
 };
 
 TEST(Prepare, PutsShardsTogetherThoughPlacesDoOnlySomeOfThoseThatTheyAreAskedFor) {
-    Kind bulky{.name = "Bulky", .help = "for tests", .prepares = true};
+    Kind bulky{.name = "Bulky", .help = "for tests", .run = {.prepares = true}};
     bulky.make_light = [](const NodeContext& here) { return std::make_unique<Bulky>(here); };
     auto kinds = standard_nodes();
     kinds.push_back(bulky);

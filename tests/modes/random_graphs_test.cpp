@@ -49,13 +49,13 @@ private:
     void add_light(const std::string& name, std::size_t others) {
         std::vector<const Kind*> possible;
         for (const auto& kind : registry_.kinds())
-            if (kind.role == Role::light && !kind.prepares && (kind.least_inputs == 0 || others > 0))
+            if (kind.role == Role::light && !kind.run.prepares && (kind.inputs.least == 0 || others > 0))
                 possible.push_back(&kind);
         const Kind& kind = *possible[below(possible.size())];
         Node node{name, kind.name, {}, {}, {}};
-        const std::size_t most = std::min<std::size_t>(kind.most_inputs, 3);
+        const std::size_t most = std::min<std::size_t>(kind.inputs.most, 3);
         const std::size_t inputs =
-            kind.least_inputs + (most > kind.least_inputs ? below(most - kind.least_inputs + 1) : 0);
+            kind.inputs.least + (most > kind.inputs.least ? below(most - kind.inputs.least + 1) : 0);
         for (std::size_t i = 0; i < inputs; ++i)
             node.entries.push_back(
                 Value{NodeRef{"n" + std::to_string(others - 1 - below(std::min<std::size_t>(others, 3)))}});

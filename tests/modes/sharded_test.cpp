@@ -121,8 +121,8 @@ private:
 
 Registry with_fireflies() {
     Kind kind{.name = "Fireflies", .help = "small lights"};
-    kind.prepares = true;
-    kind.landmarks = [](const NodeContext&) {
+    kind.run.prepares = true;
+    kind.run.landmarks = [](const NodeContext&) {
         std::vector<Vec3> landmarks;
         for (std::size_t fly = 0; fly < 1000; ++fly) landmarks.push_back(Fireflies::place(fly));
         return landmarks;

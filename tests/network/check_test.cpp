@@ -185,7 +185,7 @@ TEST(Examine, WarnsOfNodesThatThePictureDoesNotNeed) {
 TEST(Examine, WarnsOfNodesWhoseBytesAreOthersEachTime) {
     auto dice = test::ambient();
     dice.name = "Dice";
-    dice.reproducible = false;
+    dice.run.reproducible = false;
     const Registry registry({test::ray_tracer(), dice});
     const Examined found = examine(parse("sky = Dice {}\n" + rest), registry);
     EXPECT_THAT(found.problems, testing::IsEmpty());

@@ -16,19 +16,19 @@ using testing::IsEmpty;
 
 Kind light(const char* name, std::vector<std::string> paths) {
     Kind kind{.name = name, .help = "some light"};
-    kind.paths = [paths](const Node&) { return paths; };
+    kind.light.paths = [paths](const Node&) { return paths; };
     return kind;
 }
 
 Registry kinds() {
     Kind cache = test::cache(), part = test::cache(), clamp = test::cache(), image = test::ray_tracer();
-    cache.onward = "D";
+    cache.light.onward = "D";
     part.name = "Part";
-    part.linear = part.partial = true;
+    part.light.linear = part.light.partial = true;
     clamp.name = "Clamp";
-    clamp.onward = "";
-    image.paths = [](const Node&) { return std::vector<std::string>{"LS*E"}; };
-    image.onward = "S*E";
+    clamp.light.onward = "";
+    image.light.paths = [](const Node&) { return std::vector<std::string>{"LS*E"}; };
+    image.light.onward = "S*E";
     return Registry({image, cache, part, clamp, test::combine(), test::ambient(), light("Direct", {"LD"}),
                      light("Paths", {"L(S|D)+D"}), light("Caustic", {"LS+D"}), light("Openness", {})});
 }

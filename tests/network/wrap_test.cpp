@@ -151,10 +151,10 @@ protected:
 };
 
 TEST_F(WrapTest, MakesANodeOfAClassByOneLine) {
-    const Kind kind = wrap<old::Doubler>("Doubler", {.help = "adds up neighbours", .least_inputs = 1});
+    const Kind kind = wrap<old::Doubler>("Doubler", {.help = "adds up neighbours", .inputs = {1, 1}});
     EXPECT_EQ(kind.name, "Doubler");
-    EXPECT_EQ(kind.least_inputs, 1u);
-    EXPECT_EQ(kind.most_inputs, 1u);
+    EXPECT_EQ(kind.inputs.least, 1u);
+    EXPECT_EQ(kind.inputs.most, 1u);
     const auto light = kind.make_light(here());
     EXPECT_EQ(answers_of(*light, questions(3)), (std::vector<Rgb>{{10, 0, 0}, {30, 0, 0}, {50, 0, 0}}));
 }
@@ -211,7 +211,7 @@ TEST_F(WrapTest, CatchesAClassWhoseHistoryChangesAnswers) {
 TEST_F(WrapTest, MakesARendererOfAClassThatSeesOneRayAtATime) {
     const Kind kind = wrap<old::Eye>("Eye", {.help = "looks"});
     EXPECT_EQ(kind.role, Role::image);
-    EXPECT_TRUE(kind.merges);
+    EXPECT_TRUE(kind.light.merges);
     const auto eye = kind.make_renderer(here());
     std::vector<Rgb> pixels(6);
     eye->render(Tile{4, 2, 3, 2, 0, 4}, pixels);

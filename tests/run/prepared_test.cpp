@@ -121,7 +121,7 @@ TEST(Stages, AreOfNodesThatCannotAskEachOther) {
 TEST(SerialRun, SaysWhenAKindRehearsesUnannounced) {
     auto kinds = standard_nodes();
     kinds.push_back(test::learner());
-    kinds.back().rehearses = false;
+    kinds.back().run.rehearses = false;
     const Registry registry(std::move(kinds));
     const auto network = network_of(learning_graph(registry), registry);
     SerialRun run(*network);

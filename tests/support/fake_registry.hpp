@@ -28,16 +28,15 @@ inline Kind ambient() {
                     .initial = Value{std::string("all")},
                     .choices = {"all", "caustic"}},
                    {.name = "soft", .type = ParamType::flag, .help = "without edges", .initial = Value{false}}};
-    kind.landmarks = [](const NodeContext&) { return std::vector<Vec3>{}; };
+    kind.run.landmarks = [](const NodeContext&) { return std::vector<Vec3>{}; };
     return kind;
 }
 
 /// Sums light.
 inline Kind combine() {
     Kind kind{.name = "Combine", .help = "sums its inputs"};
-    kind.least_inputs = 1;
-    kind.most_inputs = std::numeric_limits<std::size_t>::max();
-    kind.linear = true;
+    kind.inputs = {1, std::numeric_limits<std::size_t>::max()};
+    kind.light.linear = true;
     kind.params = {{.name = "weights",
                     .type = ParamType::numbers,
                     .help = "one per input",
@@ -49,24 +48,24 @@ inline Kind combine() {
 /// Does something to its input that isn't linear, and keeps what it learns.
 inline Kind cache() {
     Kind kind{.name = "Cache", .help = "remembers light"};
-    kind.least_inputs = kind.most_inputs = 1;
-    kind.prepares = true;
-    kind.freezes = "records";
-    kind.landmarks = [](const NodeContext&) { return std::vector<Vec3>{}; };
+    kind.inputs = {1, 1};
+    kind.run.prepares = true;
+    kind.run.freezes = "records";
+    kind.run.landmarks = [](const NodeContext&) { return std::vector<Vec3>{}; };
     return kind;
 }
 
 /// Takes what a Cache keeps.
 inline Kind reuse() {
     Kind kind{.name = "Reuse", .help = "takes what was remembered"};
-    kind.prepares = true;
+    kind.run.prepares = true;
     kind.params = {{.name = "of", .type = ParamType::node, .help = "whose", .choices = {"records"}}};
     return kind;
 }
 
 inline Kind ray_tracer() {
     Kind kind{.name = "RayTracer", .role = Role::image, .help = "makes the picture"};
-    kind.least_inputs = kind.most_inputs = 1;
+    kind.inputs = {1, 1};
     kind.params = {{.name = "scene", .type = ParamType::scene, .help = "what is seen"},
                    {.name = "film", .type = ParamType::film, .help = "size and file of the picture"},
                    {.name = "show", .type = ParamType::nodes, .help = "pictures beside it", .initial = Value{Table{}}},

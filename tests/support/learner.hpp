@@ -84,8 +84,8 @@ private:
 };
 
 inline Kind learner() {
-    Kind kind{.name = "Learner", .help = "remembers light that it has met", .least_inputs = 1, .most_inputs = 1};
-    kind.prepares = kind.rehearses = true;
+    Kind kind{.name = "Learner", .help = "remembers light that it has met", .inputs = {1, 1}};
+    kind.run.prepares = kind.run.rehearses = true;
     kind.params = {{.name = "stride",
                     .type = ParamType::integer,
                     .help = "of the rehearsals",

@@ -65,7 +65,7 @@ class KeptFiles : public ::testing::Test {
 protected:
     KeptFiles() : graph_file(folder.write("graphs/room.lua", "")) {
         keeper.name = "Keeper";
-        keeper.keeps = true;
+        keeper.run.keeps = true;
     }
     std::vector<Problem> problems(const std::string& keep) const {
         Graph graph;

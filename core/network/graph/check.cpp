@@ -95,10 +95,10 @@ private:
     void check_taken(const Node& node, const Param& param, const std::string& name) {
         const auto other = given_.find(name);
         const Kind* gives = other ? registry_.find(given_.nodes[*other].kind) : nullptr;
-        if (!gives || gives->freezes == param.choices.at(0)) return;
+        if (!gives || gives->run.freezes == param.choices.at(0)) return;
         std::string kinds;
         for (const auto& known : registry_.kinds())
-            if (known.freezes == param.choices.at(0)) kinds += (kinds.empty() ? "" : " or ") + known.name;
+            if (known.run.freezes == param.choices.at(0)) kinds += (kinds.empty() ? "" : " or ") + known.name;
         complain(node, quoted(param.name) + " must be a node that keeps " + param.choices.at(0) + " (" + kinds +
                            "), but " + quoted(name) + " is of kind " + gives->name);
     }
@@ -122,12 +122,12 @@ private:
         for (std::size_t i = 0; i < node.entries.size(); ++i) check_input(node, i, kind);
         if (!kind) return;
         const std::size_t count = node.entries.size();
-        if (count < kind->least_inputs)
-            complain(node, "needs at least " + count_text(kind->least_inputs) + ", has " + std::to_string(count));
-        if (count > kind->most_inputs)
-            complain(node, kind->most_inputs == 0
+        if (count < kind->inputs.least)
+            complain(node, "needs at least " + count_text(kind->inputs.least) + ", has " + std::to_string(count));
+        if (count > kind->inputs.most)
+            complain(node, kind->inputs.most == 0
                                ? "takes no inputs, has " + std::to_string(count)
-                               : "takes at most " + count_text(kind->most_inputs) + ", has " + std::to_string(count));
+                               : "takes at most " + count_text(kind->inputs.most) + ", has " + std::to_string(count));
     }
 
     void check_input(const Node& node, std::size_t index, const Kind* kind) {
@@ -245,7 +245,7 @@ std::vector<Problem> unused_nodes(const Graph& graph, const Registry& registry) 
 std::vector<Problem> irreproducible_nodes(const Graph& graph, const Registry& registry) {
     std::vector<Problem> warnings;
     for (const auto& node : graph.nodes)
-        if (const Kind* kind = registry.find(node.kind); kind && !kind->reproducible)
+        if (const Kind* kind = registry.find(node.kind); kind && !kind->run.reproducible)
             warnings.push_back({node.where, node.kind + " " + quoted(node.name) +
                                                 ": draws random numbers that can't be seeded, so another run gives "
                                                 "other bytes"});

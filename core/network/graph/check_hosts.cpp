@@ -73,7 +73,7 @@ private:
 std::string kinds_with_sectors(const Registry& registry) {
     std::string kinds;
     for (const auto& kind : registry.kinds())
-        if (kind.landmarks) kinds += (kinds.empty() ? "" : ", ") + kind.name;
+        if (kind.run.landmarks) kinds += (kinds.empty() ? "" : ", ") + kind.name;
     return kinds.empty() ? "" : " (these can: " + kinds + ")";
 }
 
@@ -91,7 +91,7 @@ void check_layouts(const Hosts& hosts, const Graph& graph, const Registry& regis
         });
         if (taker != graph.nodes.end())
             check.complain(entry, ": it can't be sharded, as '" + taker->name + "' takes all that it keeps");
-        else if (!kind->landmarks)
+        else if (!kind->run.landmarks)
             check.complain(entry, ": a " + kind->name + " can't be sharded" + kinds_with_sectors(registry));
         else if (sectors < 2)
             check.complain(entry,

@@ -17,7 +17,7 @@ std::string padded(std::string text, std::size_t width) {
 
 std::string inputs_text(const Kind& kind) {
     if (kind.role == Role::scene) return "the name of one file";
-    const std::size_t least = kind.least_inputs, most = kind.most_inputs;
+    const std::size_t least = kind.inputs.least, most = kind.inputs.most;
     if (most == 0) return "none";
     if (least == most) return std::to_string(least) + " that " + (least == 1 ? "gives" : "give") + " light";
     if (most == std::numeric_limits<std::size_t>::max()) return std::to_string(least) + " or more that give light";
@@ -87,9 +87,9 @@ std::string describe(const Kind& kind) {
     std::string text = kind.name + ": " + kind.help + "\n";
     text += "gives: " + std::string(to_string(kind.role)) + "\n";
     text += "inputs: " + inputs_text(kind) + "\n";
-    if (kind.linear) text += "linear: the layers of its inputs pass through\n";
+    if (kind.light.linear) text += "linear: the layers of its inputs pass through\n";
     if (const auto paths = default_paths(kind); !paths.empty()) text += "light paths: " + paths + "\n";
-    if (kind.landmarks) text += "layouts: replicated, sharded\n";
+    if (kind.run.landmarks) text += "layouts: replicated, sharded\n";
     if (kind.params.empty()) return text + "parameters: none\n";
     text += "parameters:\n";
     std::size_t width = 0;

@@ -111,7 +111,7 @@ protected:
 
     // What a node takes of others at its place.
     void draw_taken(const std::string& from, const std::string& to, std::size_t taken) {
-        edge(from, to, registry_.find(graph_.nodes[taken].kind)->freezes, ", style=dashed");
+        edge(from, to, registry_.find(graph_.nodes[taken].kind)->run.freezes, ", style=dashed");
     }
 
     const Graph& graph_;

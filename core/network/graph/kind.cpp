@@ -70,6 +70,10 @@ Kind scene_kind() {
 
 }  // namespace
 
+std::function<std::vector<std::string>(const Node&)> always(std::vector<std::string> paths) {
+    return [paths = std::move(paths)](const Node&) { return paths; };
+}
+
 Registry::Registry(std::vector<Kind> kinds) : kinds_(std::move(kinds)) {
     kinds_.push_back(scene_kind());
     std::sort(kinds_.begin(), kinds_.end(), by_name);

@@ -1,4 +1,4 @@
-// What a node can be: the schema of one kind, which feeds validation, `describe` and the maker of the node.
+// What a node can be: one kind, whose schema feeds validation, `describe` and the maker of the node.
 #pragma once
 
 #include <cstddef>
@@ -57,39 +57,57 @@ struct Param {
     std::vector<Param> fields = {};         // of a table; none: any names, with numbers, texts or flags
 };
 
-/// One kind of node.
-struct Kind {
-    std::string name;  // "DirectLighting"
-    Role role = Role::light;
-    std::string help;              // what it does, one line
-    std::size_t least_inputs = 0;  // light inputs, from the array part
-    std::size_t most_inputs = 0;
-    bool prepares = false;     // learns something before the first question: LightOp::prepare()
-    bool rehearses = false;    // asks for rehearsals meanwhile: Services::rehearse()
-    std::string freezes = {};  // what it keeps for good when it has prepared, for nodes that take it: "photons"
-    bool locks = false;        // holds named locks: NodeContext::locks()
-    bool linear = false;       // answers with a weighted sum of its inputs: layers pass through
-    bool merges = false;  // of a renderer: what comes from its inputs can't be told apart, its picture is one layer
-    bool side_by_side = false;  // wants all questions of a call at once, to have them wait at the same time
-    bool reproducible = true;   // false: draws random numbers that nobody seeds
+/// How many nodes that give light a node may name in its array part: its inputs.
+struct InputCount {
+    std::size_t least = 0, most = 0;
+    friend bool operator==(const InputCount&, const InputCount&) = default;
+};
+
+/// What nodes of a kind do with light.
+struct LightTraits {
+    bool linear = false;    // answers with a weighted sum of its inputs: layers pass through
+    bool merges = false;    // of a renderer: its inputs' light can't be told apart, its picture is one layer
+    bool partial = false;   // passes on a part of its inputs' light, on purpose
+    bool converts = false;  // gives the light of the node whose frozen state it takes, in another representation
     /// Which light paths a node (defaults filled in) counts by itself, as sets for PathSet::parse(): from the light to
     /// the point asked about, whose own scattering is the last letter. An empty list: what it answers is no light.
     std::function<std::vector<std::string>(const Node&)> paths = {};
     /// What happens on to the light of its inputs ("D": it is scattered once more; "": nothing). Linear kinds pass it
     /// on as it is.
     std::optional<std::string> onward = {};
-    /// What is wrong with a node whose parameters fit the schema, one sentence each. `scene`: what it will be made
-    /// with; null as long as that has not been read.
-    std::function<std::vector<std::string>(const Node&, const SceneData* scene)> mistakes = {};
-    bool keeps = false;     // the result of its last call while preparing goes to the file that its parameter `keep`
-                            // names; `extend` names such a file, whose content is in SceneData::kept
-    bool converts = false;  // gives the light of the node whose frozen state it takes, in another representation
+};
+
+/// Paths that all nodes of a kind count alike; none: what they answer is no light.
+std::function<std::vector<std::string>(const Node&)> always(std::vector<std::string> paths);
+
+/// What nodes of a kind ask of a run, and what they leave to it.
+struct RunTraits {
+    bool prepares = false;     // learns something before the first question: LightOp::prepare()
+    bool rehearses = false;    // asks for rehearsals meanwhile: Services::rehearse()
+    std::string freezes = {};  // what it keeps for good when it has prepared, for nodes that take it: "photons"
+    bool keeps = false;        // the result of its last call while preparing goes to the file that its parameter `keep`
+                               // names; `extend` names such a file, whose content is in SceneData::kept
     /// Points of the scene that lie about as densely as what a node prepares, the same wherever they are made. Nodes of
     /// a kind that has this can be sharded: what they prepare comes from Services::map_near(), and an answer depends on
     /// nothing that lies farther from its question than was said there. Asks no inputs.
     std::function<std::vector<Vec3>(const NodeContext&)> landmarks = {};
-    bool partial = false;  // passes on a part of its inputs' light, on purpose
+    bool locks = false;        // holds named locks: NodeContext::locks()
+    bool whole_calls = false;  // wants all questions of a call at once, to have them wait at the same time
+    bool reproducible = true;  // false: draws random numbers that nobody seeds
+};
+
+/// One kind of node: its schema, what it does with light, what it asks of a run, and how a node is made.
+struct Kind {
+    std::string name;  // "DirectLighting"
+    Role role = Role::light;
+    std::string help;  // what it does, one line
+    InputCount inputs = {};
     std::vector<Param> params = {};
+    /// What is wrong with a node whose parameters fit the schema, one sentence each. `scene`: what it will be made
+    /// with; null as long as that has not been read.
+    std::function<std::vector<std::string>(const Node&, const SceneData* scene)> mistakes = {};
+    LightTraits light = {};
+    RunTraits run = {};
     std::function<std::unique_ptr<LightOp>(const NodeContext&)> make_light = {};
     std::function<std::unique_ptr<Renderer>(const NodeContext&)> make_renderer = {};
 };

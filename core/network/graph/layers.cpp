@@ -17,7 +17,7 @@ namespace {
 using Nodes = std::vector<std::size_t>;
 
 // Linear nodes and the renderer pass on what their inputs keep apart; all others are terminals themselves.
-bool is_terminal(const Kind& kind) { return !kind.linear && kind.role == Role::light; }
+bool is_terminal(const Kind& kind) { return !kind.light.linear && kind.role == Role::light; }
 
 /// Per node, the terminals below it, in graph order: for the nodes on additive paths from `top` only.
 std::vector<Nodes> terminals_below(std::size_t top, const Graph& graph, const Registry& registry) {
@@ -58,7 +58,7 @@ std::vector<std::string> shown_names(const Layers& layers, const Graph& graph) {
 Layers layers_of(const Graph& graph, const Registry& registry) {
     const std::size_t renderer = renderer_of(graph, registry);
     Layers layers{{"emission"}, {}, {}};
-    if (registry.find(graph.nodes[renderer].kind)->merges) {
+    if (registry.find(graph.nodes[renderer].kind)->light.merges) {
         layers.film = {graph.nodes[renderer].name};
         layers.of_node.resize(graph.nodes.size());
     } else {

@@ -75,7 +75,7 @@ std::map<std::string, std::uint32_t> shards_of(const Graph& graph, const Registr
     const auto used = used_nodes(graph, renderer_of(graph, registry));
     for (std::size_t node = 0; node < graph.nodes.size(); ++node) {
         const auto& [name, kind, entries, params, where] = graph.nodes[node];
-        if (!used[node] || !registry.find(kind)->landmarks || layout_of(hosts, name) != Layout::sharded) continue;
+        if (!used[node] || !registry.find(kind)->run.landmarks || layout_of(hosts, name) != Layout::sharded) continue;
         if (is_taken(graph, node)) continue;  // whoever takes its frozen state needs all of it
         const auto counts = sectors_by_host(hosts, name);
         const auto count = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});

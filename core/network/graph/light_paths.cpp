@@ -62,14 +62,14 @@ private:
         const Node& node = graph_.nodes[index];
         const Kind& kind = kind_of(index);
         const auto& inputs = edges_.inputs[index];
-        const bool passes = kind.linear || kind.onward;
+        const bool passes = kind.light.linear || kind.light.onward;
         Gathered shares;
-        if (kind.paths)
-            for (const auto& text = kind.paths(node); const auto& own : text)
+        if (kind.light.paths)
+            for (const auto& text = kind.light.paths(node); const auto& own : text)
                 shares.add({PathSet::parse(own), quoted(node.name), 1, false, true, index});
-        if ((!kind.paths && !passes && !kind.converts) || (!inputs.empty() && !passes))
+        if ((!kind.light.paths && !passes && !kind.light.converts) || (!inputs.empty() && !passes))
             shares.add({{}, quoted(node.name), 1, false, false, index});
-        if (kind.converts)
+        if (kind.light.converts)
             for (const std::size_t taken : edges_.taken[index])
                 for (Share share : of_[taken]) {
                     share.who = quoted(node.name) + " from " + share.who;
@@ -82,13 +82,13 @@ private:
     void add_inputs(std::size_t index, Gathered& shares) const {
         const Node& node = graph_.nodes[index];
         const Kind& kind = kind_of(index);
-        const PathSet onward = PathSet::parse(kind.onward.value_or(""));
+        const PathSet onward = PathSet::parse(kind.light.onward.value_or(""));
         const auto& inputs = edges_.inputs[index];
         for (std::size_t i = 0; i < inputs.size(); ++i)
             for (Share share : of_[inputs[i]]) {
                 share.paths = share.paths.then(onward);
-                share.part = share.part || kind.partial || weighted(node, kind, i);
-                if (kind.onward && !kind.onward->empty() && kind.role == Role::light)
+                share.part = share.part || kind.light.partial || weighted(node, kind, i);
+                if (kind.light.onward && !kind.light.onward->empty() && kind.role == Role::light)
                     share.who = quoted(node.name) + " of " + share.who;
                 shares.add(std::move(share));
             }
@@ -162,9 +162,10 @@ PathReport report_paths(const Graph& graph, const Registry& registry) {
 
 std::string paths_text(const Node& node, const Kind& kind) {
     std::string text;
-    if (kind.paths)
-        for (const auto& own : kind.paths(node)) text += (text.empty() ? "" : " and ") + own;
-    if (kind.onward && !kind.onward->empty()) text += (text.empty() ? "… " : " and … ") + *kind.onward;
+    if (kind.light.paths)
+        for (const auto& own : kind.light.paths(node)) text += (text.empty() ? "" : " and ") + own;
+    if (kind.light.onward && !kind.light.onward->empty())
+        text += (text.empty() ? "… " : " and … ") + *kind.light.onward;
     return text;
 }
 

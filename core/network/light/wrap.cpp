@@ -165,11 +165,10 @@ Kind kind_of(std::string name, const Wrapping& wrapping) {
     Kind kind;
     kind.name = std::move(name);
     kind.help = wrapping.help;
-    kind.least_inputs = wrapping.least_inputs;
-    kind.most_inputs = std::max(wrapping.least_inputs, wrapping.most_inputs);
+    kind.inputs = wrapping.inputs;
     kind.params = wrapping.params;
-    kind.side_by_side = true;
-    kind.reproducible = wrapping.reproducible;
+    kind.run.whole_calls = true;
+    kind.run.reproducible = wrapping.reproducible;
     return kind;
 }
 
@@ -199,7 +198,7 @@ Kind wrapped_light(std::string name, Wrapping wrapping, MakeInstance make) {
 Kind wrapped_renderer(std::string name, Wrapping wrapping, MakeInstance make) {
     Kind kind = kind_of(std::move(name), wrapping);
     kind.role = Role::image;
-    kind.merges = true;
+    kind.light.merges = true;
     const std::vector<Param> picture{
         {.name = "scene", .type = ParamType::scene, .help = "what is seen"},
         {.name = "film", .type = ParamType::film, .help = "width, height, and file of the picture"},

@@ -70,8 +70,7 @@ concept LooksAtPixels = requires(Bridge<T>& bridge, const Look& look) {
 /// What graphs may say of a wrapped class.
 struct Wrapping {
     std::string help;  // what it does, one line
-    std::size_t least_inputs = 0;
-    std::size_t most_inputs = 0;
+    InputCount inputs = {};
     std::vector<Param> params = {};
     bool reproducible = true;    // false: it draws random numbers that can't be seeded; the run says so
     std::size_t at_once = 2048;  // instances that a call may have waiting at a time

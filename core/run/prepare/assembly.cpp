@@ -55,25 +55,26 @@ std::size_t Network::width_of(std::size_t node) const {
 std::shared_ptr<const Sectors> Network::sectors(std::size_t node) const {
     const std::size_t whole = whole_of(graph, node);
     const auto& what = graph.nodes[whole];
-    if (!kind_of(whole).landmarks) throw Error(what.kind + " '" + what.name + "'", "can't be sharded");
+    if (!kind_of(whole).run.landmarks) throw Error(what.kind + " '" + what.name + "'", "can't be sharded");
     // As nobody prepares the sharded node itself, none of the shared values is its own.
     return std::static_pointer_cast<const Sectors>(shared->get(whole, 0, [&]() -> SharedValues::Value {
         const auto count = static_cast<std::uint32_t>(sectors_of(graph, whole).size());
-        return std::make_shared<const Sectors>(kind_of(whole).landmarks(NodeContext(what, {}, *scene, seed)), count);
+        return std::make_shared<const Sectors>(kind_of(whole).run.landmarks(NodeContext(what, {}, *scene, seed)),
+                                               count);
     }));
 }
 
 Inputs Assembly::inputs_of(std::size_t node) {
     const auto& of_node = network_.layers.of_node;
     const bool image = network_.kind_of(node).role == Role::image;
-    const bool additive = image ? !network_.kind_of(node).merges : of_node[node] != Terminals{node};
+    const bool additive = image ? !network_.kind_of(node).light.merges : of_node[node] != Terminals{node};
     std::vector<Input> inputs;
     for (const auto asked : network_.graph.inputs_of(node)) {
         Input input;
         input.name = network_.graph.nodes[asked].name;
         if (additive) input.layers = positions(of_node[asked], of_node[node], image ? 1 : 0);  // 0 is emission
         input.port = port_to_(asked, input.width());
-        if (network_.kind_of(node).locks)
+        if (network_.kind_of(node).run.locks)
             input.port = guarded_.emplace_back(std::make_unique<GuardedPort>(*input.port, locks_)).get();
         inputs.push_back(std::move(input));
     }
@@ -110,7 +111,7 @@ void Assembly::prepare(std::size_t node, Services& services) {
 }
 
 Rehearsal& Assembly::rehearsal(std::size_t node) {
-    if (!network_.kind_of(node).rehearses)
+    if (!network_.kind_of(node).run.rehearses)
         throw Error("it asks for a rehearsal, but its kind does not say that it does");
     return rehearsals_[node];
 }

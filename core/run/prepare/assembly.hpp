@@ -62,7 +62,7 @@ public:
     Rehearsal& rehearsal(std::size_t node);
     Called called(std::size_t node) {
         return {light(node), network_.graph.nodes[node].name, network_.width_of(node),
-                network_.kind_of(node).side_by_side, &not_finite_[node]};
+                network_.kind_of(node).run.whole_calls, &not_finite_[node]};
     }
     /// Answers that were infinite or no numbers, by name of the node; nodes that gave none are left out.
     std::map<std::string, std::uint64_t> not_finite() const {

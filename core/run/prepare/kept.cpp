@@ -39,7 +39,7 @@ std::string after(const std::string& head, const std::string& word) {
 }  // namespace
 
 std::string kept_text(const Kind& kind, const Hash& scene, std::span<const std::byte> results) {
-    return std::string(first_line) + "\nwhat " + kind.freezes + "\nscene " + to_hex(scene) + "\nsum " +
+    return std::string(first_line) + "\nwhat " + kind.run.freezes + "\nscene " + to_hex(scene) + "\nsum " +
            to_hex(content_hash(results)) + "\n\n" + std::string(as_text(results));
 }
 
@@ -48,8 +48,8 @@ Bytes kept_results(const Kind& kind, const Hash& scene, std::span<const std::byt
     const auto end = text.substr(0, longest_head).find("\n\n");
     if (!text.starts_with(first_line) || end == std::string_view::npos) throw Error("is no file that a run has kept");
     const std::string head(text.substr(0, end + 1));
-    if (const auto what = after(head, "what"); what != kind.freezes)
-        throw Error("keeps " + what + ", but " + kind.freezes + " are wanted");
+    if (const auto what = after(head, "what"); what != kind.run.freezes)
+        throw Error("keeps " + what + ", but " + kind.run.freezes + " are wanted");
     if (after(head, "scene") != to_hex(scene))
         throw Error("belongs to another scene: its surfaces, materials or lights differ from those here");
     const auto results = file.subspan(end + 2);
@@ -63,7 +63,7 @@ void take_up_kept(const Graph& graph, const Registry& registry, Files& files, Sc
     for (const auto& node : graph.nodes) {
         const Kind* kind = registry.find(node.kind);
         const auto name = text_of(node, "extend");
-        if (!kind || !kind->keeps || name.empty()) continue;
+        if (!kind || !kind->run.keeps || name.empty()) continue;
         const auto path = beside_graph(graph, name);
         try {
             if (!identity) identity = identity_of(scene);
@@ -81,7 +81,7 @@ std::vector<std::pair<std::size_t, std::string>> files_to_keep(const Graph& grap
     std::vector<std::pair<std::size_t, std::string>> files;
     for (const auto node : preparing_nodes(graph, registry))
         if (const auto name = text_of(graph.nodes[node], "keep");
-            registry.find(graph.nodes[node].kind)->keeps && !name.empty())
+            registry.find(graph.nodes[node].kind)->run.keeps && !name.empty())
             files.emplace_back(node, beside_graph(graph, name));
     return files;
 }

@@ -14,7 +14,7 @@ std::vector<std::size_t> preparing_nodes(const Graph& graph, const Registry& reg
     const auto ranks = ranks_of(graph);
     std::vector<std::size_t> nodes;
     for (std::size_t node = 0; node < graph.nodes.size(); ++node)
-        if (used[node] && registry.find(graph.nodes[node].kind)->prepares) nodes.push_back(node);
+        if (used[node] && registry.find(graph.nodes[node].kind)->run.prepares) nodes.push_back(node);
     std::stable_sort(nodes.begin(), nodes.end(), [&](auto a, auto b) { return ranks[a] < ranks[b]; });
     return nodes;
 }
@@ -22,7 +22,7 @@ std::vector<std::size_t> preparing_nodes(const Graph& graph, const Registry& reg
 std::vector<std::size_t> stages_of(const std::vector<std::size_t>& nodes, const Graph& graph,
                                    const Registry& registry) {
     const auto ranks = ranks_of(graph);
-    const auto rehearses = [&](std::size_t node) { return registry.find(graph.nodes[node].kind)->rehearses; };
+    const auto rehearses = [&](std::size_t node) { return registry.find(graph.nodes[node].kind)->run.rehearses; };
     std::vector<std::size_t> stages;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         const bool together =

@@ -28,7 +28,7 @@ Conductor::Conductor(Options options, Carrier& carrier)
       order_(preparing_nodes(*options_.graph, *options_.registry)),
       stages_(stages_of(order_, *options_.graph, *options_.registry)),
       locks_(std::any_of(options_.graph->nodes.begin(), options_.graph->nodes.end(),
-                         [&](const Node& node) { return options_.registry->find(node.kind)->locks; })) {
+                         [&](const Node& node) { return options_.registry->find(node.kind)->run.locks; })) {
     proposal_.places_of.resize(options_.graph->nodes.size());
     in_force_ = proposal_;
 }

@@ -188,7 +188,7 @@ void Place::take(Message message) {
             const auto* steps = std::get_if<Questions<Step>>(&message.questions);
             if (!steps || (*steps)->front().kind == Step::Kind::shards) return queue(std::move(message));
             if ((*steps)->front().kind >= Step::Kind::attend) return locks_.take(std::move(message));
-            if (network_.kind_of(message.node).prepares) preparer_.take(std::move(message));
+            if (network_.kind_of(message.node).run.prepares) preparer_.take(std::move(message));
             return;
         }
         case Message::Type::reply:
