@@ -39,11 +39,11 @@ public:
         std::vector<std::size_t> chosen;
         for (std::size_t i = 0; i < photons->size(); ++i)
             if (is_chosen(i)) chosen.push_back(i);
-        const auto others = services.once<PhotonTree>([&] {
+        const auto others = services.once<PhotonTree>([&](Builders& builders) {
             std::vector<Photon> rest;
             for (std::size_t i = 0; i < photons->size(); ++i)
                 if (!is_chosen(i)) rest.push_back((*photons)[i]);
-            return PhotonTree(rest);
+            return PhotonTree(rest, builders);
         });
         const std::size_t count = chosen.size();
         const auto records = services.map<Photon>(
@@ -53,7 +53,7 @@ public:
                 for (std::size_t i = first; i < std::min(count, first + records_per_shard); ++i)
                     out.push_back(record_at((*photons)[chosen[i]], *others, scratch));
             });
-        records_ = services.once<PhotonTree>([&] { return PhotonTree(records.all()); });
+        records_ = services.once<PhotonTree>([&](Builders& builders) { return PhotonTree(records.all(), builders); });
     }
 
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {

@@ -42,8 +42,7 @@ public:
     void prepare(Services& services) override {
         const auto aim = take_aim(services, scene_, shooting_);
         auto lots = shoot_near(services, scene_, shooting_, *aim, radius_);
-        const std::size_t places = services.whereabouts().places;
-        tree_ = services.once<PhotonTree>([&] { return PhotonTree(taken_out_of(lots), places); });
+        tree_ = services.once<PhotonTree>([&](Builders& builders) { return PhotonTree(taken_out_of(lots), builders); });
     }
 
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {

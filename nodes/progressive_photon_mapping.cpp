@@ -33,13 +33,13 @@ public:
     void prepare(Services& services) override {
         const auto aim = take_aim(services, scene_, shooting_);
         const auto photons = shoot(services, scene_, shooting_, *aim, radii_.size());
-        const std::size_t each = shards_each(shooting_), places = services.whereabouts().places;
+        const std::size_t each = shards_each(shooting_);
         for (std::size_t pass = 0; pass < radii_.size(); ++pass)
-            passes_.push_back(services.once<PhotonTree>([&] {
+            passes_.push_back(services.once<PhotonTree>([&](Builders& builders) {
                 std::vector<Photon> own;
                 for (std::size_t i = pass * each; i < (pass + 1) * each; ++i)
                     own.insert(own.end(), photons.shard(i).begin(), photons.shard(i).end());
-                return PhotonTree(own, places);
+                return PhotonTree(own, builders);
             }));
     }
 

@@ -8,7 +8,6 @@
 #include <cstring>
 #include <limits>
 #include <new>
-#include <thread>
 #include <utility>
 
 namespace lightnet {
@@ -16,7 +15,7 @@ namespace {
 
 constexpr std::size_t width = Nearest::width;  // photons of a leaf
 constexpr std::size_t fan = 8;                 // boxes in a box
-constexpr std::size_t least_shared = 1 << 15;  // photons that are worth a thread
+constexpr std::size_t least_shared = 1 << 15;  // photons that are worth a second builder
 constexpr std::size_t leaves_at_once = 128;    // whose photons stay in the nearest caches
 constexpr float height_counts = 15;            // of a height squared, beside its part of the distance: a flat ellipsoid
 constexpr float least_cosine = 0.7f;           // between normals of a surface that is taken for the same one
@@ -60,14 +59,13 @@ struct PhotonTree::Boxes {
     std::array<Floats, 3> least, most;
 };
 
-PhotonTree::PhotonTree(Photons photons, std::size_t threads) : size_(photons.size()), photons_(std::move(photons)) {
+PhotonTree::PhotonTree(Photons photons, Builders& builders) : size_(photons.size()), photons_(std::move(photons)) {
     static_assert(sizeof(Leaf) == width * sizeof(Photon) && alignof(Leaf) == alignof(Photon) && width == room);
     Photon none;
     none.position = Vec3{1, 1, 1} * std::numeric_limits<float>::quiet_NaN();
     photons_.resize((size_ + width - 1) / width * width, none);
     if (size_ == 0) return;
-    const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
-    sort(0, photons_.size() / width, std::clamp<std::size_t>(threads, 1, cores));
+    sort(builders);
     put_in_boxes();
 }
 
@@ -91,25 +89,40 @@ Photon PhotonTree::operator[](std::size_t i) const {
     return photon;
 }
 
-// Halves photons along the longest side until there is a leaf of them. What other threads do with other leaves changes
-// nothing in these.
-void PhotonTree::sort(std::size_t first, std::size_t leaves, std::size_t threads) {
-    if (leaves <= leaves_at_once) return put_in_leaves(first, leaves);
+// What happens in one part changes nothing in the others: so builders share the halves of what is large, level by
+// level, and then all the rest.
+void PhotonTree::sort(Builders& builders) {
+    std::vector<Part> large, small;
+    const auto add = [&](Part part) { (part.leaves * width > least_shared ? large : small).push_back(part); };
+    add({0, photons_.size() / width});
+    while (!large.empty()) {
+        std::vector<std::array<Part, 2>> halves(large.size());
+        builders.each(large.size(), [&](std::size_t i) { halves[i] = halved(large[i]); });
+        large.clear();
+        for (const auto& both : halves) std::ranges::for_each(both, add);
+    }
+    builders.each(small.size(), [&](std::size_t i) { sort(small[i]); });
+}
+
+// Halves photons until there is a leaf of them.
+void PhotonTree::sort(Part part) {
+    if (part.leaves <= leaves_at_once) return put_in_leaves(part);
+    for (const Part half : halved(part)) sort(half);
+}
+
+// Puts the photons that lie lower along the longest side before the others.
+std::array<PhotonTree::Part, 2> PhotonTree::halved(Part part) {
+    const auto [first, leaves] = part;
     const std::size_t low = first * width, high = std::min(low + leaves * width, size_);
     const auto photons = std::span(photons_).subspan(low, high - low);
     const std::size_t left = first_half(leaves);
     halve(photons, left * width, ByPhoton{longest_side(std::span<const Photon>(photons))});
-    if (threads < 2 || high - low < least_shared) {
-        sort(first, left, 1);
-        sort(first + left, leaves - left, 1);
-    } else {
-        const std::jthread other([=, this] { sort(first, left, threads / 2); });
-        sort(first + left, leaves - left, threads - threads / 2);
-    }
+    return {Part{first, left}, Part{first + left, leaves - left}};
 }
 
 // The same for so few that they stay in the cache: where they are is moved, and they follow in the end.
-void PhotonTree::put_in_leaves(std::size_t first, std::size_t leaves) {
+void PhotonTree::put_in_leaves(Part part) {
+    const auto [first, leaves] = part;
     const std::size_t low = first * width, high = std::min(low + leaves * width, size_);
     const std::vector<Photon> photons(photons_.begin() + std::ptrdiff_t(low), photons_.begin() + std::ptrdiff_t(high));
     std::vector<Spot> spots;

@@ -1,6 +1,7 @@
 // Photons, found by where they are.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -10,6 +11,7 @@
 #include "core/base/query.hpp"
 #include "core/estimate/nearest.hpp"
 #include "core/estimate/photon.hpp"
+#include "core/network/light/builders.hpp"
 #include "core/scene/bsdf/bsdf.hpp"
 #include "core/scene/surfaces/surface.hpp"
 
@@ -21,12 +23,13 @@ class PhotonTree {
 public:
     using Photons = std::vector<Photon, InLines<Photon>>;
 
-    /// `threads` of the caller's machine build it together.
-    explicit PhotonTree(Photons photons, std::size_t threads = 1);
+    PhotonTree(Photons photons, Builders& builders);
     ~PhotonTree();
     PhotonTree(PhotonTree&&) noexcept;
-    explicit PhotonTree(std::span<const Photon> photons, std::size_t threads = 1)
-        : PhotonTree(Photons(photons.begin(), photons.end()), threads) {}
+    PhotonTree(std::span<const Photon> photons, Builders& builders)
+        : PhotonTree(Photons(photons.begin(), photons.end()), builders) {}
+    explicit PhotonTree(std::span<const Photon> photons, OneBuilder alone = {})
+        : PhotonTree(photons, static_cast<Builders&>(alone)) {}
 
     /// What `photons` may need beyond their number so that they need not be copied.
     static constexpr std::size_t room = Nearest::width;
@@ -61,13 +64,19 @@ private:
     struct Leaf;
     struct Boxes;
     class Search;
+    /// Some leaves that follow one another, and their photons.
+    struct Part {
+        std::size_t first, leaves;
+    };
     using Level = std::vector<Boxes, InLines<Boxes>>;
 
     const Leaf& leaf(std::size_t i) const;
     const Light& light_of(std::size_t i) const;
     std::size_t children(std::size_t level, std::size_t at) const;
-    void sort(std::size_t first, std::size_t leaves, std::size_t threads);
-    void put_in_leaves(std::size_t first, std::size_t leaves);
+    void sort(Builders& builders);
+    void sort(Part part);
+    std::array<Part, 2> halved(Part part);
+    void put_in_leaves(Part part);
     void put_in_columns(std::size_t leaf);
     void put_in_boxes();
 

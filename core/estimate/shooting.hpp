@@ -29,7 +29,7 @@ struct Shooting {
 
 /// Parameters `photons`, `paths`, `aim` and `memory` for the schema of a kind.
 std::vector<Param> shooting_params(double photons, const std::string& help_of_photons);
-/// Light paths that such a node counts: for Kind::paths.
+/// Light paths that such a node counts: for LightTraits::paths.
 std::vector<std::string> paths_of_photons(const Node& node);
 
 /// Learns where to aim, from trials: two rounds on all places. Even, unless it is asked for.
@@ -44,7 +44,7 @@ std::size_t shards_each(const Shooting& shooting);
 /// lie within `reach` (m) of where it may be asked. `most_bytes` bounds what this copy of the node gets.
 std::vector<Mapped<Photon>> shoot_near(Services& services, const Scene& scene, const Shooting& shooting, const Aim& aim,
                                        float reach);
-/// Points where photons come to lie, about as densely: for Kind::landmarks.
+/// Points where photons come to lie, about as densely: for RunTraits::landmarks.
 std::vector<Vec3> landmarks_of(const Scene& scene, const Shooting& shooting);
 
 }  // namespace lightnet

@@ -31,12 +31,11 @@ class HandWritten {
 public:
     explicit HandWritten(const Picture& picture)
         : width_(picture.width()),
-          assembly_(
-              *picture.network,
-              [this](std::size_t node, std::size_t) {
-                  return ports_.emplace_back(std::make_unique<PlainCall>(assembly_.light(node))).get();
-              },
-              locks_),
+          assembly_(*picture.network,
+                    [this](std::size_t node, std::size_t) {
+                        return ports_.emplace_back(std::make_unique<PlainCall>(assembly_.light(node))).get();
+                    },
+                    {.locks = &locks_}),
           renderer_(assembly_.renderer(picture.image)) {}
 
     std::vector<Rgb> render(const Tile& tile) const {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <thread>
 #include <tuple>
 
 #include "core/base/math/samples.hpp"
@@ -124,12 +125,25 @@ TEST(Ranks, AreOrderOrSayThatSomeAreEqual) {
     EXPECT_TRUE(Ranks<32>(values.data(), 1, 16).all_differ());
 }
 
-TEST(PhotonTree, DependsNeitherOnTheOrderOfPhotonsNorOnThreads) {
+/// A thread for each piece.
+class ManyBuilders final : public Builders {
+public:
+    void each(std::size_t count, const Piece& piece) override {
+        std::vector<std::jthread> threads;
+        for (std::size_t i = 0; i < count; ++i) threads.emplace_back([&piece, i] { piece(i); });
+        most = std::max(most, count);
+    }
+    std::size_t most = 0;
+};
+
+TEST(PhotonTree, DependsNeitherOnTheOrderOfPhotonsNorOnThoseWhoBuildIt) {
     for (const bool on_grid : {false, true}) {
         auto photons = on_floor(100000, 2, on_grid);
         const PhotonTree one(photons);
         std::reverse(photons.begin(), photons.end());
-        const PhotonTree other(photons, 4);
+        ManyBuilders many;
+        const PhotonTree other(photons, many);
+        EXPECT_GE(many.most, 4u);
         for (std::size_t i = 0; i < one.size(); ++i) EXPECT_EQ(one[i].position, other[i].position);
     }
 }

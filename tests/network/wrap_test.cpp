@@ -130,9 +130,7 @@ class WrapTest : public ::testing::Test {
 protected:
     ~WrapTest() override { fibers.cancel_all(); }
 
-    NodeContext here(NodeContext::Own lent = {}) {
-        return {node, Inputs({{"elsewhere", &port, {0}}}, 1), scene, 1, lent};
-    }
+    NodeContext here(NodeServices lent = {}) { return {node, Inputs({{"elsewhere", &port, {0}}}, 1), scene, 1, lent}; }
     static std::vector<Query> questions(std::uint32_t count) {
         std::vector<Query> all(count);
         for (std::uint32_t i = 0; i < count; ++i) all[i].primitive = i, all[i].stream = mix(i + 1);
@@ -167,7 +165,7 @@ TEST_F(WrapTest, AsksTheInputsOfAllQuestionsBeforeAnyIsAnswered) {
     port.fibers = &fibers;
     std::vector<Fibers::Fiber*> ready;
     Rounds rounds(fibers, 1000, [&](Fibers::Fiber* fiber) { ready.push_back(fiber); });
-    const auto light = wrap<old::Doubler>("Doubler", {}).make_light(here({.side_by_side = &rounds}));
+    const auto light = wrap<old::Doubler>("Doubler", {}).make_light(here({.concurrent = &rounds}));
     std::vector<Rgb> answers;
     fibers.start("doubler", [&] { answers = answers_of(*light, q); });
     while (rounds.start_one()) {

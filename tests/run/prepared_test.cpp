@@ -147,15 +147,6 @@ TEST(Recipes, DependOnWhatANodeAsksAndOnNothingAboveIt) {
     EXPECT_NE(a.of(2, 0, false), a.of(2, 1, false));
 }
 
-TEST(SharedValues, AreMadeOnce) {
-    SharedValues values;
-    int made = 0;
-    const auto make = [&] { return std::make_shared<const int>(++made); };
-    EXPECT_EQ(*std::static_pointer_cast<const int>(values.get(3, 0, make)), 1);
-    EXPECT_EQ(*std::static_pointer_cast<const int>(values.get(3, 0, make)), 1);
-    EXPECT_EQ(*std::static_pointer_cast<const int>(values.get(3, 1, make)), 2);
-}
-
 TEST(SerialRun, PreparesOnceAndTakesTheRestFromTheCache) {
     const auto registry = test::with_learner();
     const auto network = network_of(learning_graph(registry), registry);

@@ -20,7 +20,7 @@ protected:
         most_waiting = std::max(most_waiting, waiting.size());
         fibers.park();
     }
-    void start(std::size_t count, std::size_t at_once, const SideBySide::Work& work) {
+    void start(std::size_t count, std::size_t at_once, const Concurrent::Work& work) {
         fibers.start("caller", [&, count, at_once] {
             try {
                 rounds.each("node", count, at_once, work);
@@ -54,7 +54,7 @@ protected:
 
 TEST_F(RoundsTest, DoEachPieceOnce) {
     std::vector<int> done(100);
-    const SideBySide::Work work = [&](std::size_t i) {
+    const Concurrent::Work work = [&](std::size_t i) {
         if (i % 3) wait();
         ++done[i];
     };
@@ -67,13 +67,13 @@ TEST_F(RoundsTest, DoEachPieceOnce) {
 }
 
 TEST_F(RoundsTest, StartNoFiberForWhatNeverWaits) {
-    const SideBySide::Work work = [](std::size_t) {};
+    const Concurrent::Work work = [](std::size_t) {};
     start(100, 100, work);
     EXPECT_TRUE(ended) << "before anybody could start another";
 }
 
 TEST_F(RoundsTest, HaveNoMoreAtWorkThanTheyAreAllowed) {
-    const SideBySide::Work work = [&](std::size_t) { wait(); };
+    const Concurrent::Work work = [&](std::size_t) { wait(); };
     start(100, 2, work);
     run();
     EXPECT_TRUE(ended);
@@ -93,7 +93,7 @@ TEST_F(RoundsTest, GoOnWithTheCallerAlone) {
 
 TEST_F(RoundsTest, ThrowWhatTheFirstPieceThrewWhenAllThatWereBegunHaveEnded) {
     int done = 0;
-    const SideBySide::Work work = [&](std::size_t i) {
+    const Concurrent::Work work = [&](std::size_t i) {
         wait();
         if (i == 2 || i == 4) throw std::runtime_error("piece " + std::to_string(i));
         ++done;
@@ -107,8 +107,8 @@ TEST_F(RoundsTest, ThrowWhatTheFirstPieceThrewWhenAllThatWereBegunHaveEnded) {
 
 TEST_F(RoundsTest, RunSeveralAtATimeAndInsideEachOther) {
     int done = 0;
-    const SideBySide::Work inner = [&](std::size_t) { wait(), ++done; };
-    const SideBySide::Work outer = [&](std::size_t) { rounds.each("inner", 4, 4, inner); };
+    const Concurrent::Work inner = [&](std::size_t) { wait(), ++done; };
+    const Concurrent::Work outer = [&](std::size_t) { rounds.each("inner", 4, 4, inner); };
     start(3, 3, outer);
     start(3, 3, outer);
     run();
@@ -124,7 +124,7 @@ TEST_F(RoundsTest, UnwindTheCallerAfterItsHelpers) {
         std::string name;
         ~Leaving() { order.push_back(name); }
     };
-    const SideBySide::Work work = [&](std::size_t i) {
+    const Concurrent::Work work = [&](std::size_t i) {
         const Leaving leaving{order, "piece " + std::to_string(i)};
         wait();
     };
@@ -145,7 +145,7 @@ TEST_F(RoundsTest, CountTheTimeOfHelpersAsTheCallers) {
         }
     };
     std::chrono::nanoseconds ran{0};
-    const SideBySide::Work work = [&](std::size_t) {
+    const Concurrent::Work work = [&](std::size_t) {
         wait();
         until(std::chrono::steady_clock::now() + std::chrono::milliseconds(2));
     };
@@ -169,7 +169,7 @@ int recurse(const int* before) {
 
 TEST_F(RoundsTest, AreNamedWhenAStackRunsOutWhoeverHasCalledThem) {
     GTEST_FLAG_SET(death_test_style, "threadsafe");
-    const SideBySide::Work work = [](std::size_t) { (void)recurse(nullptr); };
+    const Concurrent::Work work = [](std::size_t) { (void)recurse(nullptr); };
     EXPECT_DEATH(start(1, 1, work), "stack of node 'node' ran out");
 }
 #endif

@@ -21,14 +21,14 @@ thread_local NoLocks no_locks;
 
 }  // namespace
 
-NodeContext::NodeContext(const Node& node, Inputs inputs, const Scene& scene, std::uint64_t seed, Own own)
-    : node_(node), inputs_(std::move(inputs)), scene_(scene), seed_(seed), own_(own) {
-    if (!own_.rehearsal) own_.rehearsal = &no_rehearsal;
-    if (!own_.locks) own_.locks = &no_locks;
+NodeContext::NodeContext(const Node& node, Inputs inputs, const Scene& scene, std::uint64_t seed, NodeServices services)
+    : node_(node), inputs_(std::move(inputs)), scene_(scene), seed_(seed), services_(std::move(services)) {
+    if (!services_.rehearsal) services_.rehearsal = &no_rehearsal;
+    if (!services_.locks) services_.locks = &no_locks;
 }
 
-void NodeContext::each(std::size_t count, std::size_t at_once, const SideBySide::Work& work) const {
-    if (own_.side_by_side) return own_.side_by_side->each(node_.name.c_str(), count, at_once, work);
+void NodeContext::each(std::size_t count, std::size_t at_once, const Concurrent::Work& work) const {
+    if (services_.concurrent) return services_.concurrent->each(node_.name.c_str(), count, at_once, work);
     for (std::size_t piece = 0; piece < count; ++piece) work(piece);
 }
 
@@ -42,8 +42,8 @@ const Value& NodeContext::value(const std::string& param) const {
 
 const LightOp& NodeContext::taken(const std::string& param) const {
     const auto& ref = as<NodeRef>(node_, param, value(param), "a node");
-    if (!own_.taken) throw Error(node_.kind + " '" + node_.name + "'", "has no node '" + ref.name + "' beside it");
-    return own_.taken(ref.name);
+    if (!services_.taken) throw Error(node_.kind + " '" + node_.name + "'", "has no node '" + ref.name + "' beside it");
+    return services_.taken(ref.name);
 }
 
 double NodeContext::number(const std::string& param) const {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/base/query.hpp"
+#include "core/network/light/builders.hpp"
 #include "core/network/light/mapped.hpp"
 #include "core/network/light/sectors.hpp"
 
@@ -46,9 +47,9 @@ public:
     }
 
     /// Like map(), for results that lie somewhere in the scene: `where(result)` says where. Where the node is sharded
-    /// (see Kind::landmarks), it gives this copy of it only those that lie within `reach` of a question that it may be
-    /// asked; else all of them. In the order of i, but in several memories, each of which is free when it is let go of.
-    /// The node can't know which; what it answers must not depend on what lies farther away than `reach`.
+    /// (see RunTraits::landmarks), it gives this copy of it only those that lie within `reach` of a question that it
+    /// may be asked; else all of them. In the order of i, but in several memories, each of which is free when it is let
+    /// go of. The node can't know which; what it answers must not depend on what lies farther away than `reach`.
     template <class T, class Work, class Where>
     std::vector<Mapped<T>> map_near(std::size_t count, float reach, const Work& work, const Where& where) {
         const Sectors* cut = sectors();
@@ -71,11 +72,16 @@ public:
         return near;
     }
 
-    /// Makes a value from what is prepared so far, once per process; its places share it. `make` asks nobody.
-    template <class T, class Make>
-    std::shared_ptr<const T> once(const Make& make) {
-        return std::static_pointer_cast<const T>(
-            once_any([&make]() -> std::shared_ptr<const void> { return std::make_shared<const T>(make()); }));
+    /// Makes a value from what is prepared so far, once per process; its places share it. `make` asks nobody. It is
+    /// make(), or make(Builders&) where others that wait for the value can help.
+    template <class T, class Work>
+    std::shared_ptr<const T> once(const Work& make) {
+        return std::static_pointer_cast<const T>(once_any([&make](Builders& builders) -> std::shared_ptr<const void> {
+            if constexpr (std::is_invocable_v<const Work&, Builders&>)
+                return std::make_shared<const T>(make(builders));
+            else
+                return std::make_shared<const T>(make());
+        }));
     }
 
     /// Renders every `stride`-th pixel of every `stride`-th row, one sample each, through the whole network, and
@@ -90,6 +96,7 @@ public:
     virtual void say(const std::string& text) = 0;
 
 protected:
+    using Make = std::function<std::shared_ptr<const void>(Builders& builders)>;
     using Shard = std::function<void(std::size_t shard, std::vector<std::byte>& out)>;
     virtual Bytes map_bytes(std::size_t count, const Shard& work) = 0;
     /// How the scene is cut up for the copies of the node; null: each copy has all.
@@ -100,7 +107,7 @@ protected:
 
     /// What is on its way to the copies at one time is the results of so many shards.
     static constexpr std::size_t shards_at_once = 64;
-    virtual std::shared_ptr<const void> once_any(const std::function<std::shared_ptr<const void>()>& make) = 0;
+    virtual std::shared_ptr<const void> once_any(const Make& make) = 0;
 };
 
 }  // namespace lightnet

@@ -1,4 +1,4 @@
-// Work of a place that is done side by side: a fiber for each piece that waits.
+// Work of a place that is done concurrently: a fiber for each piece that waits.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/network/light/side_by_side.hpp"
+#include "core/network/light/concurrent.hpp"
 #include "core/run/fiber/fiber.hpp"
 
 namespace lightnet {
@@ -16,7 +16,7 @@ namespace lightnet {
 /// started only while all that work wait, and there is room for them. So a node goes on with the one fiber that it
 /// has for itself, and what its pieces wait for never depends on another round; a round ends when those pieces have
 /// ended that were begun.
-class Rounds final : public SideBySide {
+class Rounds final : public Concurrent {
 public:
     using Wake = std::function<void(Fibers::Fiber*)>;
 

@@ -37,10 +37,10 @@ private:
 };
 
 template <class Make>
-auto made(const Network& network, std::size_t node, Inputs inputs, NodeContext::Own own, const Make& make) {
+auto made(const Network& network, std::size_t node, Inputs inputs, const NodeServices& services, const Make& make) {
     const auto& what = network.graph.nodes[whole_of(network.graph, node)];  // nobody knows that it has a sector
     try {
-        return make(NodeContext(what, std::move(inputs), *network.scene, network.seed, own));
+        return make(NodeContext(what, std::move(inputs), *network.scene, network.seed, services));
     } catch (const std::exception& error) {
         throw Error(what.kind + " '" + what.name + "'", error.what());
     }
@@ -57,7 +57,7 @@ std::shared_ptr<const Sectors> Network::sectors(std::size_t node) const {
     const auto& what = graph.nodes[whole];
     if (!kind_of(whole).run.landmarks) throw Error(what.kind + " '" + what.name + "'", "can't be sharded");
     // As nobody prepares the sharded node itself, none of the shared values is its own.
-    return std::static_pointer_cast<const Sectors>(shared->get(whole, 0, [&]() -> SharedValues::Value {
+    return std::static_pointer_cast<const Sectors>(shared->get(whole, 0, [&](Builders&) -> SharedValues::Value {
         const auto count = static_cast<std::uint32_t>(sectors_of(graph, whole).size());
         return std::make_shared<const Sectors>(kind_of(whole).run.landmarks(NodeContext(what, {}, *scene, seed)),
                                                count);
@@ -75,7 +75,7 @@ Inputs Assembly::inputs_of(std::size_t node) {
         if (additive) input.layers = positions(of_node[asked], of_node[node], image ? 1 : 0);  // 0 is emission
         input.port = port_to_(asked, input.width());
         if (network_.kind_of(node).run.locks)
-            input.port = guarded_.emplace_back(std::make_unique<GuardedPort>(*input.port, locks_)).get();
+            input.port = guarded_.emplace_back(std::make_unique<GuardedPort>(*input.port, *services_.locks)).get();
         inputs.push_back(std::move(input));
     }
     if (image)
@@ -87,16 +87,15 @@ Inputs Assembly::inputs_of(std::size_t node) {
     return {std::move(inputs), network_.width_of(node)};
 }
 
-NodeContext::Own Assembly::own_of(std::size_t node) {
-    const auto taken = [this](const std::string& name) -> const LightOp& {
-        return light(network_.graph.find(name).value());
-    };
-    return {&rehearsals_[node], &locks_, side_by_side_, network_.checking, taken};
+NodeServices Assembly::services_of(std::size_t node) {
+    NodeServices services = services_;
+    services.rehearsal = &rehearsals_[node];
+    return services;
 }
 
 const LightOp& Assembly::light(std::size_t node) {
     auto& light = lights_[node];
-    if (!light) light = made(network_, node, inputs_of(node), own_of(node), network_.kind_of(node).make_light);
+    if (!light) light = made(network_, node, inputs_of(node), services_of(node), network_.kind_of(node).make_light);
     return *light;
 }
 
@@ -118,7 +117,8 @@ Rehearsal& Assembly::rehearsal(std::size_t node) {
 
 const Renderer& Assembly::renderer(std::size_t node) {
     auto& renderer = renderers_[node];
-    if (!renderer) renderer = made(network_, node, inputs_of(node), own_of(node), network_.kind_of(node).make_renderer);
+    if (!renderer)
+        renderer = made(network_, node, inputs_of(node), services_of(node), network_.kind_of(node).make_renderer);
     return *renderer;
 }
 

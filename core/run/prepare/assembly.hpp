@@ -20,6 +20,7 @@
 #include "core/network/light/sectors.hpp"
 #include "core/run/prepare/call_port.hpp"
 #include "core/run/prepare/prepared.hpp"
+#include "core/run/prepare/shared_values.hpp"
 #include "core/scene/scene.hpp"
 
 namespace lightnet {
@@ -51,10 +52,14 @@ public:
     /// outlive the assembly.
     using PortTo = std::function<Port*(std::size_t node, std::size_t width)>;
 
-    /// `locks` are those of the place. `side_by_side` serves the nodes that have many small things to wait for; none:
-    /// one after the other.
-    Assembly(const Network& network, PortTo port_to, Locks& locks, SideBySide* side_by_side = nullptr)
-        : network_(network), port_to_(std::move(port_to)), locks_(locks), side_by_side_(side_by_side) {}
+    /// `services`: what the place gives all its nodes, locks among them.
+    Assembly(const Network& network, PortTo port_to, NodeServices services)
+        : network_(network), port_to_(std::move(port_to)), services_(std::move(services)) {
+        services_.checking = network.checking;
+        services_.taken = [this](const std::string& name) -> const LightOp& {
+            return light(network_.graph.find(name).value());
+        };
+    }
 
     const LightOp& light(std::size_t node);
     /// Has the node prepare itself.
@@ -75,12 +80,11 @@ public:
 
 private:
     Inputs inputs_of(std::size_t node);
-    NodeContext::Own own_of(std::size_t node);
+    NodeServices services_of(std::size_t node);
 
     const Network& network_;
     PortTo port_to_;
-    Locks& locks_;
-    SideBySide* side_by_side_;
+    NodeServices services_;
     std::vector<std::unique_ptr<Port>> guarded_;
     std::map<std::size_t, Rehearsal> rehearsals_;
     std::map<std::size_t, std::uint64_t> not_finite_;

@@ -71,25 +71,4 @@ Hash Recipes::of(std::size_t node, std::uint32_t call, bool rehearsed, const std
                         (rehearsed ? whole_ : subgraph_[node]) + part);
 }
 
-SharedValues::Value SharedValues::get(std::size_t node, std::uint32_t index, const std::function<Value()>& make) {
-    std::promise<Value> promise;
-    std::shared_future<Value> value;
-    bool first = false;
-    {
-        const std::lock_guard lock(mutex_);
-        auto& known = values_[{node, index}];
-        first = !known.valid();
-        if (first) known = promise.get_future().share();
-        value = known;
-    }
-    if (first) {
-        try {
-            promise.set_value(make());
-        } catch (...) {
-            promise.set_exception(std::current_exception());
-        }
-    }
-    return value.get();
-}
-
 }  // namespace lightnet

@@ -1,15 +1,10 @@
-// What is prepared before rendering: in which order, under which name, and how places of a process share it.
+// What is prepared before rendering: in which order, and under which name.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
-#include <future>
-#include <map>
 #include <memory>
-#include <mutex>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/base/bytes.hpp"
@@ -63,18 +58,6 @@ public:
     virtual Result find(const Hash& recipe) const = 0;
     /// Failing to keep is no error: the next run computes it again.
     virtual void keep(const Hash& recipe, const Result& result) = 0;
-};
-
-/// Values that the places of one process share: made by the first that asks, while the others wait. Any thread.
-class SharedValues {
-public:
-    using Value = std::shared_ptr<const void>;
-    /// The `index`-th value of a node. Throws what `make` throws, to all who ask.
-    Value get(std::size_t node, std::uint32_t index, const std::function<Value()>& make);
-
-private:
-    std::mutex mutex_;
-    std::map<std::pair<std::size_t, std::uint32_t>, std::shared_future<Value>> values_;
 };
 
 }  // namespace lightnet

@@ -126,7 +126,7 @@ protected:
         near_bytes_ += near->size();
         return near;
     }
-    std::shared_ptr<const void> once_any(const std::function<std::shared_ptr<const void>()>& make) override {
+    std::shared_ptr<const void> once_any(const Make& make) override {
         return preparer_.network_.shared->get(index_, values_++, make);
     }
 

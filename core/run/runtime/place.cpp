@@ -26,8 +26,8 @@ Place::Place(const Network& network, const PlaceAt& me, const Plan& plan, std::u
       locks_(
           fibers_, [this](Fibers::Fiber* fiber) { ready_.push_back(fiber); },
           [this](Message reply) { carrier_.reply(std::move(reply)); }),
-      assembly_(
-          network, [this](std::size_t node, std::size_t width) { return port_to(node, width); }, locks_, &rounds_),
+      assembly_(network, [this](std::size_t node, std::size_t width) { return port_to(node, width); },
+                {.locks = &locks_, .concurrent = &rounds_}),
       preparer_(network, assembly_, fibers_,
                 {my_name(), [this](Fibers::Fiber* fiber) { ready_.push_back(fiber); },
                  [this](Message reply) { carrier_.reply(std::move(reply)); },

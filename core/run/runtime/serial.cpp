@@ -51,22 +51,23 @@ protected:
             return join_shards(shards);
         });
     }
-    std::shared_ptr<const void> once_any(const std::function<std::shared_ptr<const void>()>& make) override {
-        return make();
+    std::shared_ptr<const void> once_any(const Make& make) override {
+        OneBuilder alone;
+        return make(alone);
     }
 
 private:
-    template <class Make>
-    Bytes recall(const Make& make) {
-        return run_.last_results_[node_] = found_or(make);
+    template <class Compute>
+    Bytes recall(const Compute& compute) {
+        return run_.last_results_[node_] = found_or(compute);
     }
 
-    template <class Make>
-    Bytes found_or(const Make& make) {
+    template <class Compute>
+    Bytes found_or(const Compute& compute) {
         const Hash recipe = recipes_.of(node_, call_++, rehearsed_);
         if (cache_)
             if (auto known = cache_->find(recipe).bytes) return known;
-        auto made = make();
+        auto made = compute();
         if (cache_) cache_->keep(recipe, {content_hash(*made), made});
         return made;
     }
@@ -85,14 +86,14 @@ SerialRun::SerialRun(const Network& network, std::function<void()> pause)
       pause_(std::move(pause)),
       image_(renderer_of(network.graph, network.registry)),
       rays_before_(Scene::rays_of_this_thread()),
-      assembly_(
-          network,
-          [this](std::size_t node, std::size_t width) {
-              const auto called = assembly_.called(node);
-              return ports_.emplace_back(std::make_unique<CallPort>(called, width, counters_.local_questions, pause_))
-                  .get();
-          },
-          locks_) {
+      assembly_(network,
+                [this](std::size_t node, std::size_t width) {
+                    const auto called = assembly_.called(node);
+                    return ports_
+                        .emplace_back(std::make_unique<CallPort>(called, width, counters_.local_questions, pause_))
+                        .get();
+                },
+                {.locks = &locks_}) {
     assembly_.renderer(image_);
 }
 

@@ -1,0 +1,60 @@
+// Values that the places of one process share, and make together.
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <utility>
+
+#include "core/network/light/builders.hpp"
+
+namespace lightnet {
+
+/// One value: the first place that asks for it makes it, and those that come meanwhile do pieces of the work while they
+/// wait. So as many threads build as have nothing else to do, and none is started. Any thread.
+class SharedValue final : private Builders {
+public:
+    using Value = std::shared_ptr<const void>;
+    using Make = std::function<Value(Builders&)>;
+
+    /// Throws what `make` throws, to all who ask.
+    Value get(const Make& make);
+
+private:
+    using Lock = std::unique_lock<std::mutex>;
+
+    void each(std::size_t count, const Piece& piece) override;
+    void make_it(const Make& make);
+    void do_next(Lock& lock);
+    bool has_piece() const { return next_ < count_; }
+
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    bool begun_ = false, made_ = false;
+    Value value_;
+    std::exception_ptr failure_;
+    // what its maker has others help with
+    const Piece* piece_ = nullptr;
+    std::size_t next_ = 0, count_ = 0;
+    std::size_t under_way_ = 0;
+    std::exception_ptr piece_failure_;
+};
+
+/// All of them. Any thread.
+class SharedValues {
+public:
+    using Value = SharedValue::Value;
+    /// The `index`-th value of a node. Throws what `make` throws, to all who ask.
+    Value get(std::size_t node, std::uint32_t index, const SharedValue::Make& make);
+
+private:
+    std::mutex mutex_;
+    std::map<std::pair<std::size_t, std::uint32_t>, SharedValue> values_;
+};
+
+}  // namespace lightnet
