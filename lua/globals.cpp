@@ -46,7 +46,7 @@ void push_by_look(lua_State* L, const std::string& text) {
         lua_pushlstring(L, text.data(), text.size());
 }
 
-bool plain_type(int type) { return type == LUA_TSTRING || type == LUA_TNUMBER || type == LUA_TBOOLEAN; }
+bool type_of_constants(int type) { return type == LUA_TSTRING || type == LUA_TNUMBER || type == LUA_TBOOLEAN; }
 
 const char* type_in_words(int type) {
     switch (type) {
@@ -68,8 +68,8 @@ const char* type_in_words(int type) {
 }  // namespace
 
 Globals::Globals(Sandbox& sandbox, std::map<std::string, std::string> constants)
-    : sandbox_(sandbox), L_(sandbox.state()), constants_(std::move(constants)) {
-    for (const auto& [name, text] : constants_) met_[name] = false;
+    : sandbox_(sandbox), L_(sandbox.state()), overrides_(std::move(constants)) {
+    for (const auto& [name, text] : overrides_) met_[name] = false;
     install();
 }
 
@@ -148,7 +148,7 @@ int Globals::read(lua_State* L) {
     lua_getfield(L, LUA_REGISTRYINDEX, store);
     lua_pushvalue(L, 2);
     if (lua_rawget(L, -2) != LUA_TNIL) return 1;
-    if (const auto constant = constants_.find(name); constant != constants_.end()) {
+    if (const auto constant = overrides_.find(name); constant != overrides_.end()) {
         met_[name] = true;
         push_by_look(L, constant->second);
         return 1;
@@ -164,10 +164,10 @@ int Globals::read(lua_State* L) {
 int Globals::write(lua_State* L) {
     if (lua_type(L, 2) != LUA_TSTRING) throw Error("a global goes by a name");
     const std::string name = lua_tostring(L, 2);
-    if (constants_.contains(name)) override_constant(L, name);
-    if (plain_type(lua_type(L, 3)) && !plain_.contains(name)) {
+    if (overrides_.contains(name)) override_constant(L, name);
+    if (type_of_constants(lua_type(L, 3)) && !constants_.contains(name)) {
         remember(name);
-        plain_.emplace(name, sandbox_.caller());
+        constants_.emplace(name, sandbox_.caller());
     }
     assigned(L, name);
     lua_getfield(L, LUA_REGISTRYINDEX, store);
@@ -180,25 +180,25 @@ int Globals::write(lua_State* L) {
 void Globals::override_constant(lua_State* L, const std::string& name) {
     met_[name] = true;
     const int type = lua_type(L, -1);
-    if (push_like_top(L, constants_.at(name))) return lua_replace(L, -2);
-    const std::string given = "-D " + name + "=" + constants_.at(name) + ": the file gives ";
-    complain(sandbox_.caller(),
-             given + type_in_words(type) + (plain_type(type) ? ", and so must -D" : ", which -D can't override"));
+    if (push_like_top(L, overrides_.at(name))) return lua_replace(L, -2);
+    const std::string given = "-D " + name + "=" + overrides_.at(name) + ": the file gives ";
+    complain(sandbox_.caller(), given + type_in_words(type) +
+                                    (type_of_constants(type) ? ", and so must -D" : ", which -D can't override"));
 }
 
 void Globals::finish(const std::vector<std::string>& named) {
     std::vector<std::string> known = named;
-    for (const auto& [name, where] : plain_) known.push_back(name);
+    for (const auto& [name, where] : constants_) known.push_back(name);
     std::set<std::pair<std::string, int>> told;
     for (const auto& [name, where, taken] : unknowns_) {
         if (taken || !told.emplace(where.file + ":" + name, where.line).second) continue;
-        if (plain_.contains(name))
+        if (constants_.contains(name))
             complain(where, "'" + name + "' is used before it has a value");
         else
             complain(where, "nothing is called '" + name + "'" + did_you_mean(name, known));
     }
     std::vector<std::string> constants;
-    for (const auto& [name, where] : plain_) constants.push_back(name);
+    for (const auto& [name, where] : constants_) constants.push_back(name);
     for (const auto& [name, met] : met_)
         if (!met)
             complain({sandbox_.file(), 0},

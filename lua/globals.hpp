@@ -64,9 +64,9 @@ private:
     int write(lua_State* L);
     void override_constant(lua_State* L, const std::string& name);
 
-    const std::map<std::string, std::string> constants_;  // -D
+    const std::map<std::string, std::string> overrides_;  // -D
     std::map<std::string, bool> met_;                     // overrides that the file reads or gives
-    std::map<std::string, SourceLine> plain_;             // constants of the file
+    std::map<std::string, SourceLine> constants_;         // constants of the file
     std::vector<Unknown> unknowns_;
     std::size_t remembered_ = 0;  // bytes
 };

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <utility>
 
+#include "core/base/quoted.hpp"
 #include "core/base/suggestion.hpp"
 #include "core/network/graph/json.hpp"
 
@@ -18,8 +19,6 @@ constexpr int most_depth = 12;                            // of tables in tables
 
 // Until all nodes have their names, a reference goes by the node's number; no name of a file's can begin like this.
 constexpr char by_number = '\x01';
-
-std::string quoted(const std::string& text) { return "'" + text + "'"; }
 
 }  // namespace
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/quoted.hpp"
 #include "core/base/suggestion.hpp"
 #include "core/network/graph/graph_film.hpp"
 
@@ -11,8 +12,6 @@ namespace lightnet {
 namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
-
-std::string quoted(const std::string& text) { return "'" + text + "'"; }
 
 std::string joined(const std::vector<std::string>& words) {
     std::string text;
@@ -216,7 +215,7 @@ private:
         }
     }
 
-    // Edges in pixels of the whole picture, the last column and row excluded. Sides that are wrong were said.
+    // Edges in pixels of the whole image, the last column and row excluded. Sides that are wrong were said.
     void crop(const Value& value, const List& sides) const {
         const auto* given = std::get_if<Table>(&value.data);
         const auto edge = [&](std::size_t i) {

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 
+#include "core/base/quoted.hpp"
 #include "core/network/graph/plan.hpp"
 
 namespace lightnet {
@@ -106,8 +107,6 @@ private:
         return false;
     }
 
-    static std::string quoted(const std::string& text) { return "'" + text + "'"; }
-
     const Graph& graph_;
     const Registry& registry_;
     const Edges edges_;
@@ -119,13 +118,13 @@ void find_doubles(const Graph& graph, const Node& renderer, const Shares& shares
     const auto say = [&](const Share& share, const std::string& what) {
         const Node& node = graph.nodes[share.origin];
         problems.push_back(
-            {node.where.line ? node.where : renderer.where, node.kind + " '" + node.name + "': " + what});
+            {node.where.line ? node.where : renderer.where, node.kind + " " + quoted(node.name) + ": " + what});
     };
     for (std::size_t i = 0; i < shares.size(); ++i) {
         const Share& later = shares[i];
         if (later.part) continue;
         if (later.times > 1 && !later.paths.empty())
-            say(later, "light is counted more than once, as more than one way leads from it to the picture: " +
+            say(later, "light is counted more than once, as more than one way leads from it to the image: " +
                            *PathSet::common(later.paths, later.paths) + ", for one");
         for (std::size_t j = 0; j < i; ++j) {
             if (shares[j].part) continue;
@@ -153,10 +152,11 @@ PathReport report_paths(const Graph& graph, const Registry& registry) {
         known = known && share.known;
         light = light || (share.origin != image && !share.paths.empty());
     }
-    // A picture of something else than light misses nothing.
+    // An image of something else than light misses nothing.
     if (!known || !light) return report;
     if (const auto path = PathSet::missing(PathSet::parse("L(S|D)*E"), all))
-        report.missing.push_back({renderer.where, renderer.kind + " '" + renderer.name + "': no node counts " + *path});
+        report.missing.push_back(
+            {renderer.where, renderer.kind + " " + quoted(renderer.name) + ": no node counts " + *path});
     return report;
 }
 
