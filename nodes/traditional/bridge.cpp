@@ -132,7 +132,7 @@ struct Bridge<candela::Eye> {
     Bridge(const NodeContext& here, OneByOne& inputs)
         : scene_(here.scene()), around_(here, inputs), instance_(made<candela::Eye>(here, around_)) {}
 
-    Rgb look(const Look& at) {
+    Rgb sample(const PixelSample& at) {
         const Ray ray = scene_.camera().ray(at.x, at.y);
         return ours(instance_.see(theirs(ray.origin), theirs(ray.direction)));
     }

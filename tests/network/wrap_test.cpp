@@ -94,7 +94,7 @@ struct Bridge<T> {
 template <>
 struct Bridge<old::Eye> {
     Bridge(const NodeContext&, OneByOne& inputs) : inputs_(inputs) {}
-    Rgb look(const Look& at) {
+    Rgb sample(const PixelSample& at) {
         return {static_cast<float>(eye_.see(at.x, at.y, static_cast<unsigned>(inputs_.seed()))), 0, 0};
     }
 
@@ -188,7 +188,8 @@ TEST_F(WrapTest, NamesTheQuestionWhateverTheClassThrows) {
             answers_of(*light, {Query{.geometry = 3, .primitive = place, .sample = 5}});
             ADD_FAILURE() << "it should have thrown";
         } catch (const Error& error) {
-            EXPECT_THAT(error.what(), testing::HasSubstr("sample 5 about shape 3, primitive " + std::to_string(place)));
+            EXPECT_THAT(error.what(),
+                        testing::HasSubstr("shape 3, primitive " + std::to_string(place) + ", uv (0, 0), sample 5"));
             EXPECT_THAT(error.what(), testing::HasSubstr(what));
         }
 }

@@ -9,6 +9,7 @@
 #include "core/base/error.hpp"
 #include "core/base/math/samples.hpp"
 #include "core/network/light/cancelled.hpp"
+#include "core/network/light/describe_question.hpp"
 #include "core/network/light/light_op.hpp"
 #include "core/network/light/renderer.hpp"
 
@@ -36,16 +37,12 @@ private:
     std::vector<std::unique_ptr<WrappedInstance>> idle_;
 };
 
-std::string text_of(const Query& question) {
-    return fmt::format("question {:016x} sample {} about shape {}, primitive {} at ({}, {})", question.stream,
-                       question.sample, question.geometry, question.primitive, question.u, question.v);
-}
-std::string text_of(const Look& look) {
-    return fmt::format("sample {} at pixel ({}, {})", look.sample, look.x, look.y);
+std::string describe(const PixelSample& sample) {
+    return fmt::format("sample {} at pixel ({}, {})", sample.sample, sample.x, sample.y);
 }
 
 Rgb ask(WrappedInstance& instance, const Query& question) { return instance.light(question); }
-Rgb ask(WrappedInstance& instance, const Look& look) { return instance.look(look); }
+Rgb ask(WrappedInstance& instance, const PixelSample& sample) { return instance.sample(sample); }
 
 // Names the question when the class throws, whatever it throws.
 template <class Question>
@@ -54,9 +51,9 @@ Rgb ask_named(WrappedInstance& instance, const Question& question) try {
 } catch (const Cancelled&) {
     throw;
 } catch (const std::exception& error) {
-    throw Error(text_of(question), error.what());
+    throw Error(describe(question), error.what());
 } catch (...) {
-    throw Error(text_of(question), "threw what is no std::exception");
+    throw Error(describe(question), "threw what is no std::exception");
 }
 
 // The questions that are asked again in a checking run: chosen and ordered by their keys alone.
@@ -106,7 +103,7 @@ private:
             const auto instance = pool_.fresh();
             const Rgb again = ask_named(*instance, question);
             if (std::memcmp(&again, &answers[order[k]], sizeof again) != 0)
-                throw Error(text_of(question),
+                throw Error(describe(question),
                             "a fresh instance answers differently: what the class remembers must not change answers");
         };
         here_.each(order.size(), at_once_, std::ref(work));
@@ -131,7 +128,7 @@ private:
     std::unique_ptr<Wrapped> wrapped_;
 };
 
-/// Follows the rays of a tile side by side, and adds them up in the order of samples.
+/// Follows the rays of a tile concurrently, and adds them up in the order of samples.
 class WrappedRenderer final : public Renderer {
 public:
     WrappedRenderer(const NodeContext& here, const Wrapping& wrapping, MakeInstance make)
@@ -141,14 +138,14 @@ public:
         std::vector<std::size_t> wanted;
         for (std::uint32_t pixel = 0; pixel < tile.pixels(); ++pixel)
             if (tile.looks_at(tile.x + pixel % tile.width, tile.y + pixel / tile.width)) wanted.push_back(pixel);
-        std::vector<Rgb> seen(wanted.size() * tile.samples);
-        const auto look = [&](std::size_t i) { return look_at(tile, wanted[i / tile.samples], i % tile.samples); };
-        wrapped_->answer(look, seen);
-        for (std::size_t i = 0; i < seen.size(); ++i) pixels[wanted[i / tile.samples]] += seen[i];
+        std::vector<Rgb> found(wanted.size() * tile.samples);
+        const auto sample = [&](std::size_t i) { return sample_at(tile, wanted[i / tile.samples], i % tile.samples); };
+        wrapped_->answer(sample, found);
+        for (std::size_t i = 0; i < found.size(); ++i) pixels[wanted[i / tile.samples]] += found[i];
     }
 
 private:
-    Look look_at(const Tile& tile, std::size_t pixel, std::size_t i) const {
+    PixelSample sample_at(const Tile& tile, std::size_t pixel, std::size_t i) const {
         const auto x = tile.x + static_cast<std::uint32_t>(pixel % tile.width);
         const auto y = tile.y + static_cast<std::uint32_t>(pixel / tile.width);
         const Key key = pixel_key(seed_, x, y);
@@ -185,7 +182,7 @@ Rgb OneByOne::ask(std::size_t index, Query question) {
 }
 
 Rgb WrappedInstance::light(const Query&) { throw Error("a renderer was asked for light"); }
-Rgb WrappedInstance::look(const Look&) { throw Error("a light operator was asked for pixels"); }
+Rgb WrappedInstance::sample(const PixelSample&) { throw Error("a light operator was asked for pixels"); }
 
 Kind wrapped_light(std::string name, Wrapping wrapping, MakeInstance make) {
     Kind kind = kind_of(std::move(name), wrapping);
@@ -199,17 +196,17 @@ Kind wrapped_renderer(std::string name, Wrapping wrapping, MakeInstance make) {
     Kind kind = kind_of(std::move(name), wrapping);
     kind.role = Role::image;
     kind.light.merges = true;
-    const std::vector<Param> picture{
-        {.name = "scene", .type = ParamType::scene, .help = "what is seen"},
-        {.name = "film", .type = ParamType::film, .help = "width, height, and file of the picture"},
+    const std::vector<Param> image{
+        {.name = "scene", .type = ParamType::scene, .help = "what is found"},
+        {.name = "film", .type = ParamType::film, .help = "width, height, and file of the image"},
         {.name = "samples",
          .type = ParamType::integer,
-         .help = "rays from the eye per pixel",
+         .help = "samples per pixel",
          .unit = "samples",
          .initial = Value{16.0},
          .least = 1,
          .most = 1 << 24}};
-    kind.params.insert(kind.params.begin(), picture.begin(), picture.end());
+    kind.params.insert(kind.params.begin(), image.begin(), image.end());
     kind.make_renderer = [wrapping = std::move(wrapping), make = std::move(make)](const NodeContext& here) {
         return std::make_unique<WrappedRenderer>(here, wrapping, make);
     };

@@ -21,9 +21,9 @@
 namespace lightnet {
 
 /// One sample of a pixel, for a renderer that follows one ray at a time.
-struct Look {
-    float x = 0, y = 0;        // on the picture, in pixels from the upper left corner
-    Key stream = 0;            // root of all random numbers of this look
+struct PixelSample {
+    float x = 0, y = 0;        // on the image, in pixels from the upper left corner
+    Key stream = 0;            // root of all random numbers of this sample
     std::uint32_t sample = 0;  // of the pixel
 };
 
@@ -52,7 +52,8 @@ private:
 /// To be specialised, for one class or for all that some condition holds for. A Bridge<T> is constructed from
 /// (const NodeContext&, OneByOne&) and owns an instance of T; both arguments outlive it. It has
 ///     Rgb light(const Query&)    if T is to be a light operator, or
-///     Rgb look(const Look&)      if T is to be a renderer: the radiance that arrives, what shines by itself included.
+///     Rgb sample(const PixelSample&)      if T is to be a renderer: the radiance that arrives, what shines by itself
+///     included.
 /// Either begins with seeding whatever draws random numbers, if anything does, from OneByOne::seed(). What an instance
 /// remembers from one call to the next is scratch: history must not change answers.
 template <class T>
@@ -63,8 +64,8 @@ concept AnswersQuestions = requires(Bridge<T>& bridge, const Query& question) {
     { bridge.light(question) } -> std::convertible_to<Rgb>;
 };
 template <class T>
-concept LooksAtPixels = requires(Bridge<T>& bridge, const Look& look) {
-    { bridge.look(look) } -> std::convertible_to<Rgb>;
+concept SamplesPixels = requires(Bridge<T>& bridge, const PixelSample& sample) {
+    { bridge.sample(sample) } -> std::convertible_to<Rgb>;
 };
 
 /// What graphs may say of a wrapped class.
@@ -83,7 +84,7 @@ public:
     /// Of a light operator.
     virtual Rgb light(const Query& question);
     /// Of a renderer.
-    virtual Rgb look(const Look& look);
+    virtual Rgb sample(const PixelSample& sample);
 };
 
 using MakeInstance = std::function<std::unique_ptr<WrappedInstance>(const NodeContext&)>;
@@ -95,7 +96,7 @@ Kind wrapped_renderer(std::string name, Wrapping wrapping, MakeInstance make);
 /// A kind of node that is made of T.
 template <class T>
 Kind wrap(std::string name, Wrapping wrapping) {
-    static_assert(AnswersQuestions<T> || LooksAtPixels<T>, "this class has no lightnet::Bridge that can ask it");
+    static_assert(AnswersQuestions<T> || SamplesPixels<T>, "this class has no lightnet::Bridge that can ask it");
     class InstanceOfT final : public WrappedInstance {
     public:
         explicit InstanceOfT(const NodeContext& here) : one_by_one_(here), bridge_(here, one_by_one_) {}
@@ -106,12 +107,12 @@ Kind wrap(std::string name, Wrapping wrapping) {
             }
             return WrappedInstance::light(question);
         }
-        Rgb look([[maybe_unused]] const Look& at) override {
-            if constexpr (LooksAtPixels<T>) {
+        Rgb sample([[maybe_unused]] const PixelSample& at) override {
+            if constexpr (SamplesPixels<T>) {
                 one_by_one_.begin(at.stream, at.sample);
-                return bridge_.look(at);
+                return bridge_.sample(at);
             }
-            return WrappedInstance::look(at);
+            return WrappedInstance::sample(at);
         }
 
     private:

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "core/run/message/describe_question.hpp"
+#include "core/network/light/describe_question.hpp"
 
 namespace lightnet {
 namespace {

@@ -3,7 +3,7 @@
 #include <chrono>
 
 #include "core/base/error.hpp"
-#include "core/run/message/describe_question.hpp"
+#include "core/network/light/describe_question.hpp"
 #include "core/run/runtime/place.hpp"
 
 namespace lightnet {

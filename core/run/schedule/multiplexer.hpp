@@ -17,9 +17,9 @@
 
 #include "core/base/error.hpp"
 #include "core/base/hash.hpp"
+#include "core/network/light/describe_question.hpp"
 #include "core/run/message/channel.hpp"
 #include "core/run/message/counters.hpp"
-#include "core/run/message/describe_question.hpp"
 #include "core/run/message/region.hpp"
 #include "core/run/schedule/scheduler.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/run/message/describe_question.hpp"
+#include "core/network/light/describe_question.hpp"
 
 #include <fmt/format.h>
 
