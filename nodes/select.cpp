@@ -55,10 +55,9 @@ public:
             }
         if (selected.empty()) return;
         const Part part = ask(inputs_, 0, selected);
-        const std::size_t width = part.input->width();
-        for (std::size_t q = 0; q < selected.size(); ++q)
-            for (std::size_t k = 0; k < width; ++k)
-                answers[askers[q] * part.layers + part.input->layers[k]] += part.answers[q * width + k];
+        each_colour(part, [&](std::size_t q, std::size_t layer, const Rgb& colour) {
+            answers[askers[q] * part.layers + layer] += colour;
+        });
     }
 
 private:
@@ -148,7 +147,7 @@ Kind select_kind() {
                    {.name = "box",
                     .type = ParamType::numbers,
                     .help = "lower x, y, z and upper x, y, z; empty: anywhere",
-                    .unit = "m",
+                    .unit = "scene units",
                     .initial = Value{Table{}},
                     .count = 6},
                    {.name = "except",

@@ -60,11 +60,9 @@ Rgb ask_one(const Input& input, const Query& question) {
 }
 
 void add(const Part& part, std::span<Rgb> answers, float weight) {
-    const std::size_t width = part.input->width();
-    const std::size_t questions = part.answers.size() / width;
-    for (std::size_t q = 0; q < questions; ++q)
-        for (std::size_t k = 0; k < width; ++k)
-            answers[q * part.layers + part.input->layers[k]] += part.answers[q * width + k] * weight;
+    each_colour(part, [&](std::size_t q, std::size_t layer, const Rgb& colour) {
+        answers[q * part.layers + layer] += colour * weight;
+    });
 }
 
 }  // namespace lightnet

@@ -31,7 +31,7 @@ public:
     const Input& operator[](std::size_t i) const { return inputs_[i]; }
     auto begin() const { return inputs_.begin(); }
     auto end() const { return inputs_.end(); }
-    /// How many colours an answer of the node itself has: one per layer of the picture that it adds to.
+    /// How many colours an answer of the node itself has: one per layer of the image that it adds to.
     std::size_t layers() const { return layers_; }
 
 private:
@@ -39,7 +39,7 @@ private:
     std::size_t layers_ = 1;
 };
 
-/// What one input answered: `input->width()` colours per question, side by side.
+/// What one input answered: `input->width()` colours per question, next to each other.
 struct Part {
     const Input* input = nullptr;
     std::size_t index = 0;   // of the input
@@ -55,6 +55,14 @@ Part ask(const Inputs& inputs, std::size_t index, std::span<const Query> questio
 
 /// Asks one input one question. No colour of the answer is kept apart: only for an input of one colour.
 Rgb ask_one(const Input& input, const Query& question);
+
+/// Calls with(question, layer, colour) for each colour of a part; the layer is the asker's.
+template <class With>
+void each_colour(const Part& part, With&& with) {
+    const std::size_t width = part.input->width(), questions = part.answers.size() / width;
+    for (std::size_t q = 0; q < questions; ++q)
+        for (std::size_t k = 0; k < width; ++k) with(q, part.input->layers[k], part.answers[q * width + k]);
+}
 
 /// answers += weight × part, each colour into its own layer.
 void add(const Part& part, std::span<Rgb> answers, float weight = 1);
