@@ -11,8 +11,8 @@
 namespace lightnet {
 namespace {
 
-/// Answers with the share of cosine-weighted directions, on the side of the surface that is asked about, in which
-/// nothing is near: 1 in the open, 0 in a closed corner, in all channels and whatever the material.
+/// Ambient occlusion: answers with the share of cosine-weighted directions, on the side of the surface that is asked
+/// about, in which nothing is near: 1 in the open, 0 in a closed corner, in all channels and whatever the material.
 class AmbientOcclusion final : public LightOp {
 public:
     explicit AmbientOcclusion(const NodeContext& here)
@@ -56,7 +56,7 @@ private:
 Kind ambient_occlusion_kind() {
     return {
         .name = "AmbientOcclusion",
-        .help = "how open the surroundings of a point are: 1 where nothing is near",
+        .help = "ambient occlusion: how open the surroundings of a point are, 1 where nothing is near",
         .params =
             {
                 {.name = "samples",
@@ -69,7 +69,7 @@ Kind ambient_occlusion_kind() {
                 {.name = "distance",
                  .type = ParamType::number,
                  .help = "how far away a surface still counts; 0: any distance",
-                 .unit = "m",
+                 .unit = "scene units",
                  .initial = Value{0.0},
                  .least = 0},
             },

@@ -1,4 +1,4 @@
-// Light without its brightest sparks.
+// Light without fireflies.
 #include "core/network/graph/kind.hpp"
 #include "core/network/light/light_op.hpp"
 #include "core/network/light/node_context.hpp"
@@ -6,8 +6,8 @@
 namespace lightnet {
 namespace {
 
-/// Its input, darkened to `most` in its strongest colour where it is brighter, the hue kept. That makes pictures
-/// quieter and too dark: a bias. The sum of the input's layers counts, so the picture has one layer for all of them.
+/// Its input, darkened to `most` in its strongest colour where it is brighter, the hue kept. That makes images
+/// less noisy and too dark: a bias. The sum of the input's layers counts, so the image has one layer for all of them.
 /// What isn't a number becomes black.
 class Clamp final : public LightOp {
 public:
@@ -33,7 +33,7 @@ private:
 Kind clamp_kind() {
     return {
         .name = "Clamp",
-        .help = "its input without its brightest sparks: quieter, and a little too dark",
+        .help = "its input without fireflies: less noise, and a little too dark",
         .inputs = {1, 1},
         .params = {{.name = "most",
                     .help = "of each answer, in its strongest colour",

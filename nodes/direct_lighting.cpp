@@ -1,4 +1,4 @@
-// Light that comes straight from lamps and environment.
+// Direct light: what comes straight from lamps and environment.
 #include <algorithm>
 #include <bit>
 #include <optional>
@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/math/many_samples.hpp"
-#include "core/estimate/stops.hpp"
+#include "core/estimate/path_vertices.hpp"
 #include "core/network/graph/kind.hpp"
 #include "core/network/light/light_op.hpp"
 #include "core/network/light/node_context.hpp"
@@ -15,9 +15,9 @@
 namespace lightnet {
 namespace {
 
-/// Two ways to find each light, by a point on a lamp and by a direction from the surface, weighted by multiple
-/// importance sampling (Veach 1997, chapter 9). The samples of many questions are worked out side by side; what each
-/// finds does not depend on the others.
+/// Two strategies find each light, a point on a lamp (next event estimation) and a direction drawn from the BSDF, weighted
+/// by multiple importance sampling (Veach 1997, chapter 9). The samples of many questions are worked out at once; what
+/// each finds does not depend on the others.
 class DirectLighting final : public LightOp {
 public:
     explicit DirectLighting(const NodeContext& here)
@@ -48,29 +48,29 @@ private:
         std::uint32_t room;  // numbers of a question's samples: more than counts
         Key key;             // of their random numbers; 0: those of the answer
     };
-    /// A direction in which a sample looks.
-    struct Look {
+    /// A ray that a sample draws from the BSDF.
+    struct BsdfRay {
         std::uint32_t sample;
-        Stops::Step step;
+        PathVertices::Step step;
     };
     /// Some samples, and scratch space for them.
     struct Samplers {
-        explicit Samplers(const Scene& scene) : stops(scene) {}
+        explicit Samplers(const Scene& scene) : vertices(scene) {}
 
         std::vector<std::size_t> asked;  // whose each sample is
         std::vector<Rgb> found;          // by each
         ManySamples numbers;             // of each
         std::vector<float> choices;
-        std::vector<Vec2> places, ways;
-        Stops stops;
-        LampRays from_lamps;
-        std::vector<std::uint8_t> hidden;
-        std::vector<Look> looks;
-        std::vector<Ray> rays;  // of each look
+        std::vector<Vec2> places, directions;
+        PathVertices vertices;
+        ShadowRays shadow_rays;
+        std::vector<std::uint8_t> occluded;
+        std::vector<BsdfRay> bsdf_rays;
+        std::vector<Ray> rays;  // the same
         std::vector<std::optional<Hit>> hits;
     };
     /// Numbers of a sample.
-    enum Dimension : std::uint32_t { choice_of_lamp, place_on_lamp, choice_of_way, way };
+    enum Dimension : std::uint32_t { choice_of_lamp, place_on_lamp, choice_of_lobe, direction };
 
     /// take(index of question, what one sample of it finds), in the order of questions and samples.
     template <class Take>
@@ -92,8 +92,8 @@ private:
         some.found.assign(some.asked.size(), Rgb{});
         if (scene_.has_lamps()) some.numbers.draw(place_on_lamp, some.places);
         if (scene_.has_many_lamps()) some.numbers.draw(choice_of_lamp, some.choices);
-        some.numbers.draw(way, some.ways);
-        for (std::size_t next = 0; next < some.asked.size();) next = look_around(some, questions, next);
+        some.numbers.draw(direction, some.directions);
+        for (std::size_t next = 0; next < some.asked.size();) next = draw_rays(some, questions, next);
         find_lamps(some);
         find_by_direction(some);
         for (std::size_t i = 0; i < some.asked.size(); ++i) take(some.asked[i], some.found[i]);
@@ -101,52 +101,41 @@ private:
         some.numbers.keep(0);
     }
 
-    /// Some samples from `next` on: where they look for light. Returns where the next ones begin.
-    std::size_t look_around(Samplers& some, std::span<const Query> questions, std::size_t next) const {
-        some.stops.clear();
-        Hit hit;
-        for (std::size_t begun = next; next < some.asked.size() && !some.stops.full(); ++next) {
-            const Query& question = questions[some.asked[next]];
-            const auto sample = static_cast<std::uint32_t>(next);
-            if (next == begun || some.asked[next] != some.asked[next - 1]) {
-                hit = scene_.hit(question);
-                some.stops.add(sample, hit, question.outgoing, question.lobes, nullptr);
-            } else {
-                some.stops.add_again(sample, hit, question.outgoing);
-            }
-        }
-        some.stops.find_points();
-        some.stops.find_bsdfs();
+    /// Draws the rays by which some samples from `next` on look for light. Returns where the next ones begin.
+    std::size_t draw_rays(Samplers& some, std::span<const Query> questions, std::size_t next) const {
+        next = some.vertices.begin(next, some.asked.size(),
+                                   [&](std::size_t i) -> const Query& { return questions[some.asked[i]]; });
+        some.vertices.find_bsdfs();
         if (scene_.has_lamps())
-            some.stops.look_for_lamps(
-                {some.choices, some.places}, heuristic_, some.from_lamps,
+            some.vertices.sample_lamps(
+                {some.choices, some.places}, heuristic_, some.shadow_rays,
                 [](std::uint32_t) {
                     return Rgb{1, 1, 1};
                 },
                 [](std::uint32_t i) { return i; });
-        const auto choice = [&](std::uint32_t i) { return some.numbers.at(i, choice_of_way).next(); };
-        some.stops.scatter(some.ways, choice, [&](std::uint32_t i, const Stops::Step& step) {
+        const auto choice = [&](std::uint32_t i) { return some.numbers.at(i, choice_of_lobe).next(); };
+        some.vertices.scatter(some.directions, choice, [&](std::uint32_t i, const PathVertices::Step& step) {
             if (!scene_.may_shine(step.ray)) return;
-            some.looks.push_back({i, step});
+            some.bsdf_rays.push_back({i, step});
             some.rays.push_back(step.ray);
         });
         return next;
     }
 
     void find_lamps(Samplers& some) const {
-        LampRays& rays = some.from_lamps;
-        some.hidden.resize(rays.rays.size());
-        scene_.occluded(rays.rays, some.hidden);
-        for (std::size_t i = 0; i < some.hidden.size(); ++i)
-            if (!some.hidden[i]) some.found[rays.paths[i]] += rays.light[i];
+        ShadowRays& rays = some.shadow_rays;
+        some.occluded.resize(rays.rays.size());
+        scene_.occluded(rays.rays, some.occluded);
+        for (std::size_t i = 0; i < some.occluded.size(); ++i)
+            if (!some.occluded[i]) some.found[rays.sums[i]] += rays.light[i];
         rays.resize(0);
     }
 
     void find_by_direction(Samplers& some) const {
         some.hits.resize(some.rays.size());
         scene_.intersect(some.rays, some.hits);
-        for (std::size_t i = 0; i < some.looks.size(); ++i) {
-            const auto& [sample, step] = some.looks[i];
+        for (std::size_t i = 0; i < some.bsdf_rays.size(); ++i) {
+            const auto& [sample, step] = some.bsdf_rays[i];
             const auto& hit = some.hits[i];
             std::optional<SurfacePoint> end;
             if (hit) end = scene_.surface(*hit);
@@ -155,27 +144,27 @@ private:
             const Rgb left = hit ? left_after(step.inside, hit->distance) : Rgb{1, 1, 1};
             some.found[sample] += step.sample.weight * left * arriving;
         }
-        some.looks.clear();
+        some.bsdf_rays.clear();
         some.rays.clear();
     }
 
     /// How many samples bring the root of the mean square error, relative to the answer, to what is wanted, as some
     /// trials tell. They have random numbers of their own and are no part of the answer, which stays without bias.
     Wanted enough_for_error(Samplers& some, std::span<const Query> questions) const {
-        struct Seen {
+        struct Statistics {
             double mean = 0, squares = 0;
             std::uint32_t trials = 0;
         };
-        std::vector<Seen> seen(questions.size());
+        std::vector<Statistics> found(questions.size());
         const Wanted tried{questions, std::vector<std::uint32_t>(questions.size(), trials), trials, trial_key};
-        each_sample(some, tried, [&](std::size_t q, Rgb found) {
-            auto& [mean, squares, count] = seen[q];
-            const double value = luminance(found), step = value - mean;
+        each_sample(some, tried, [&](std::size_t q, Rgb light) {
+            auto& [mean, squares, count] = found[q];
+            const double value = luminance(light), step = value - mean;
             mean += step / ++count;
             squares += step * (value - mean);
         });
         Wanted wanted{questions, {}, most_, {}};
-        for (const auto& [mean, squares, count] : seen) wanted.counts.push_back(enough(mean, squares));
+        for (const auto& [mean, squares, count] : found) wanted.counts.push_back(enough(mean, squares));
         return wanted;
     }
 
@@ -205,20 +194,20 @@ private:
 Kind direct_lighting_kind() {
     return {
         .name = "DirectLighting",
-        .help = "light that comes straight from lamps and environment",
+        .help = "direct light: what comes straight from lamps and environment",
         .params =
             {
                 {.name = "samples",
                  .type = ParamType::integer,
-                 .help = "points on lamps, and directions, per question; with an error: at least",
+                 .help = "points on lamps, and directions drawn from the BSDF, per question; with an error: at least",
                  .unit = "samples",
                  .initial = Value{1.0},
                  .least = 1,
                  .most = 65536},
                 {.name = "error",
                  .type = ParamType::number,
-                 .help = "takes as many samples as bring the error of each answer, relative to it, to this, as sixteen "
-                         "trials tell; 0: takes the same number everywhere",
+                 .help = "noise threshold: takes as many samples as bring the error of each answer, relative to it, to "
+                         "this, as sixteen trials tell; 0: takes the same number everywhere",
                  .initial = Value{0.0},
                  .least = 0,
                  .most = 1},
@@ -231,7 +220,7 @@ Kind direct_lighting_kind() {
                  .most = 65536},
                 {.name = "heuristic",
                  .type = ParamType::text,
-                 .help = "how both ways to find a light share it",
+                 .help = "by which multiple importance sampling weights both ways to find a light",
                  .initial = Value{"power"},
                  .choices = {"power", "balance"}},
             },

@@ -27,7 +27,9 @@ private:
 Kind emission_kind() {
     return {
         .name = "Emission",
-        .help = "what surfaces shine by themselves; for nodes that gather light, as the renderer sees it anyhow",
+        .help =
+            "emitted light: what surfaces shine by themselves; for nodes that gather light, as the renderer sees it "
+            "anyhow",
         .light = {.paths = always({"A"})},
         .make_light = [](const NodeContext& here) { return std::make_unique<SelfEmission>(here); },
     };

@@ -1,4 +1,4 @@
-// Light that comes straight from the environment.
+// Direct light of the environment.
 #include <algorithm>
 #include <vector>
 
@@ -11,8 +11,7 @@
 namespace lightnet {
 namespace {
 
-/// Looks into directions that the surface scatters much light from. What is in the way counts as black, even if it
-/// shines: that is what lamps bring.
+/// Samples directions by the BSDF. What is in the way counts as black, even if it shines: that is what lamps bring.
 class SkyLight final : public LightOp {
 public:
     explicit SkyLight(const NodeContext& here)
@@ -21,23 +20,23 @@ public:
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
         std::fill(answers.begin(), answers.end(), Rgb{});
         if (!scene_.has_environment()) return;
-        Looks looks;
-        for (std::size_t i = 0; i < questions.size(); ++i) look(questions[i], i, looks);
-        looks.hidden.resize(looks.rays.size());
-        scene_.occluded(looks.rays, looks.hidden);
-        for (std::size_t k = 0; k < looks.rays.size(); ++k)
-            if (!looks.hidden[k]) answers[looks.askers[k]] += looks.light[k];
+        SkyRays rays;
+        for (std::size_t i = 0; i < questions.size(); ++i) add_rays(questions[i], i, rays);
+        rays.occluded.resize(rays.rays.size());
+        scene_.occluded(rays.rays, rays.occluded);
+        for (std::size_t k = 0; k < rays.rays.size(); ++k)
+            if (!rays.occluded[k]) answers[rays.askers[k]] += rays.light[k];
     }
 
 private:
-    struct Looks {
+    struct SkyRays {
         std::vector<Ray> rays;
         std::vector<Rgb> light;  // that they bring if nothing is in the way
         std::vector<std::size_t> askers;
-        std::vector<std::uint8_t> hidden;
+        std::vector<std::uint8_t> occluded;
     };
 
-    void look(const Query& question, std::size_t asker, Looks& looks) const {
+    void add_rays(const Query& question, std::size_t asker, SkyRays& rays) const {
         const SurfacePoint point = scene_.surface(question);
         const Bsdf bsdf = scene_.bsdf(point);
         const Key stream = child(question.stream, key_);
@@ -46,9 +45,9 @@ private:
             const float choice = bsdf.chooses() ? samples.next() : samples.skip();
             const auto sample = bsdf.sample(question.outgoing, choice, samples.next_2d(), question.lobes);
             if (!sample) continue;
-            looks.rays.push_back({point.origin_towards(sample->incoming), sample->incoming});
-            looks.light.push_back(sample->weight * scene_.environment(sample->incoming) / float(samples_));
-            looks.askers.push_back(asker);
+            rays.rays.push_back({point.origin_towards(sample->incoming), sample->incoming});
+            rays.light.push_back(sample->weight * scene_.environment(sample->incoming) / float(samples_));
+            rays.askers.push_back(asker);
         }
     }
 
@@ -62,7 +61,7 @@ private:
 Kind environment_kind() {
     return {
         .name = "Environment",
-        .help = "light that comes straight from the environment, without that of lamps; a part of DirectLighting",
+        .help = "direct light of the environment, without that of lamps; a part of DirectLighting",
         .params = {{.name = "samples",
                     .type = ParamType::integer,
                     .help = "directions per question",

@@ -1,4 +1,4 @@
-// Light by way of one more surface, computed at few points and interpolated between them.
+// Irradiance caching: light by one more bounce, computed at few points and interpolated between them.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/math/samples.hpp"
 #include "core/estimate/even_scattering.hpp"
 #include "core/estimate/gather.hpp"
 #include "core/estimate/hemisphere.hpp"
@@ -22,11 +21,11 @@
 namespace lightnet {
 namespace {
 
-/// Ward, Rubinstein & Clear 1988, "A ray tracing solution for diffuse interreflection", with gradients (Ward & Heckbert
-/// 1992). Rehearsals find the points, from coarse to fine; all places compute the irradiance there; then the records
-/// are frozen. Where none reaches, the irradiance is computed for the question alone, with a sixteenth of the rays (the
-/// samples of a pixel add up), and not kept. Only what a surface
-/// scatters evenly is interpolated; for the glossy rest the point looks around anew each time. The bias is that of the
+/// Irradiance caching: Ward, Rubinstein & Clear 1988, "A ray tracing solution for diffuse interreflection", with
+/// gradients (Ward & Heckbert 1992). Rehearsals find the points, from coarse to fine; all places compute the irradiance
+/// there; then the records are frozen. Where none reaches, the irradiance is computed for the question alone, with a
+/// sixteenth of the rays (the samples of a pixel add up), and not kept. Only what a surface scatters diffusely is
+/// interpolated; for the glossy rest rays are drawn from the BSDF anew each time. The bias is that of the
 /// interpolation: `accuracy` bounds it.
 class IrradianceCache final : public LightOp {
 public:
@@ -142,7 +141,7 @@ private:
     }
 
     /// Computes records for some of the noted questions, on all places, until each of them is near enough to one. The
-    /// first ones come in the order of their keys, which is none: all over the picture.
+    /// first ones come in the order of their keys, which is none: all over the image.
     void learn(Services& services, std::vector<Query> noted, std::vector<IrradianceRecord>& records) {
         while (!noted.empty()) {
             const std::size_t count = std::min(noted.size(), std::max(least_batch, noted.size() / 3));
@@ -176,25 +175,25 @@ private:
 
     std::vector<IrradianceRecord> compute(std::span<const Query> questions, std::span<const Wanted> wanted,
                                           const Hemisphere& hemisphere) const {
-        std::vector<SurfaceLook> looks;
-        looks.reserve(wanted.size() * hemisphere.size());
+        std::vector<GatherRay> rays;
+        rays.reserve(wanted.size() * hemisphere.size());
         for (std::size_t i = 0; i < wanted.size(); ++i) {
             const Query& question = questions[wanted[i].question];
             const bool second = i > 0 && wanted[i - 1].question == wanted[i].question;
             const Key stream = child(child(question.stream, key_, second), question.sample);
-            hemisphere.add_looks(wanted[i].side.origin, wanted[i].side.normal, stream, question.depth, looks);
+            hemisphere.add_rays(wanted[i].side.origin, wanted[i].side.normal, stream, question.depth, rays);
         }
-        std::vector<Seen> seen(looks.size());
-        look_around(scene_, inputs_, 0, looks, seen);
+        std::vector<GatherResult> results(rays.size());
+        gather(scene_, inputs_, 0, rays, results);
         std::vector<IrradianceRecord> records;
         for (std::size_t i = 0; i < wanted.size(); ++i)
             records.push_back(hemisphere.record(wanted[i].side.position, wanted[i].side.normal,
-                                                std::span(seen).subspan(i * hemisphere.size(), hemisphere.size())));
+                                                std::span(results).subspan(i * hemisphere.size(), hemisphere.size())));
         return records;
     }
 
     void add_computed(std::span<const Query> questions, std::span<const Wanted> wanted, std::span<Rgb> answers) const {
-        const std::size_t at_once = std::max<std::size_t>(1, looks_at_once / lone_.size());
+        const std::size_t at_once = std::max<std::size_t>(1, rays_at_once / lone_.size());
         for (std::size_t first = 0; first < wanted.size(); first += at_once) {
             const auto some = wanted.subspan(first, std::min(at_once, wanted.size() - first));
             const auto records = compute(questions, some, lone_);
@@ -204,39 +203,22 @@ private:
     }
 
     void add_glossy(std::span<const Query> questions, std::span<Rgb> answers) const {
-        std::vector<SurfaceLook> looks;
-        std::vector<Rgb> weights;
-        std::vector<std::size_t> askers;
+        BsdfGather gathered(scene_, key_, glossy_rays_);
         for (std::size_t q = 0; q < questions.size(); ++q) {
             const Query& question = questions[q];
             if (!(question.lobes & lobe::glossy)) continue;
             const SurfacePoint point = scene_.surface(question);
             const Bsdf bsdf = scene_.bsdf(point);
             if (!(bsdf.lobes() & lobe::glossy)) continue;
-            const Key stream = child(question.stream, key_, 2);
-            for (std::uint32_t i = 0; i < glossy_rays_; ++i) {
-                Samples samples(stream, question.sample * glossy_rays_ + i);
-                const float choice = bsdf.chooses() ? samples.next() : samples.skip();
-                const auto step = bsdf.sample(question.outgoing, choice, samples.next_2d(), lobe::glossy);
-                if (!step || !(max_component(step->weight) > 0)) continue;
-                looks.push_back({{point.origin_towards(step->incoming), step->incoming},
-                                 child(stream, key_, i),
-                                 question.sample,
-                                 question.depth});
-                weights.push_back(step->weight * (1 / float(glossy_rays_)));
-                askers.push_back(q);
-            }
+            gathered.add(q, question, point, bsdf, lobe::glossy, child(question.stream, key_, 2));
         }
-        if (looks.empty()) return;
-        std::vector<Seen> seen(looks.size());
-        look_around(scene_, inputs_, 0, looks, seen);
-        for (std::size_t i = 0; i < looks.size(); ++i) answers[askers[i]] += weights[i] * seen[i].light;
+        gathered.answer(inputs_, answers);
     }
 
     static constexpr std::uint32_t coarsest = 16;       // pixels between points of the first rehearsal
     static constexpr std::size_t least_batch = 256;     // points that are computed before the next are chosen
     static constexpr std::size_t points_per_shard = 8;  // some ms, over path tracing
-    static constexpr std::size_t looks_at_once = 4096;
+    static constexpr std::size_t rays_at_once = 4096;
     static constexpr std::size_t records_per_shard = 65536;
 
     const Scene& scene_;
@@ -257,7 +239,7 @@ std::vector<Param> params() {
     return {
         {.name = "rays",
          .type = ParamType::integer,
-         .help = "directions in which each record looks",
+         .help = "rays of each record",
          .unit = "rays",
          .initial = Value{1024.0},
          .least = 8,
@@ -271,13 +253,13 @@ std::vector<Param> params() {
         {.name = "min_spacing",
          .type = ParamType::number,
          .help = "how far each record reaches at least; 0: a hundredth of the scene's radius",
-         .unit = "m",
+         .unit = "scene units",
          .initial = Value{0.0},
          .least = 0},
         {.name = "max_spacing",
          .type = ParamType::number,
          .help = "how far each record reaches at most; 0: a fifth of the scene's radius",
-         .unit = "m",
+         .unit = "scene units",
          .initial = Value{0.0},
          .least = 0},
         {.name = "stride",
@@ -297,7 +279,7 @@ std::vector<Param> params() {
          .initial = Value{""}},
         {.name = "glossy_rays",
          .type = ParamType::integer,
-         .help = "directions in which glossy surfaces look, per question",
+         .help = "rays of glossy surfaces, per question",
          .unit = "rays",
          .initial = Value{1.0},
          .least = 1,
@@ -310,7 +292,8 @@ std::vector<Param> params() {
 Kind irradiance_cache_kind() {
     return {
         .name = "IrradianceCache",
-        .help = "light by way of one more rough surface, computed at few points and interpolated: for soft light",
+        .help =
+            "irradiance caching: light by one more bounce, computed at few points and interpolated; for diffuse light",
         .inputs = {1, 1},
         .params = params(),
         .light = {.onward = "S*D"},

@@ -1,4 +1,4 @@
-// Indirect light, or all light: what reaches a point by way of other surfaces.
+// Path tracing: indirect light, or all light.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -8,7 +8,7 @@
 
 #include "core/base/math/columns.hpp"
 #include "core/base/math/many_samples.hpp"
-#include "core/estimate/stops.hpp"
+#include "core/estimate/path_vertices.hpp"
 #include "core/network/graph/kind.hpp"
 #include "core/network/light/light_op.hpp"
 #include "core/network/light/node_context.hpp"
@@ -41,246 +41,231 @@ public:
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
         std::fill(answers.begin(), answers.end(), Rgb{});
         const std::size_t paths = questions.size() * samples_;
-        Paths going(scene_);
+        Batch batch(scene_);
         for (std::size_t first = 0; first < paths; first += paths_at_once) {
             const std::size_t last = std::min(paths, first + paths_at_once);
-            start(going, questions, first, last);
-            for (std::uint32_t depth = 1; !going.walks.empty(); ++depth) go_on(going, depth);
+            start(batch, questions, first, last);
+            for (std::uint32_t depth = 1; !batch.paths.empty(); ++depth) go_on(batch, depth);
             for (std::size_t path = first; path < last; ++path)
-                answers[going.asked[path - first]] += going.sums[path - first];
+                answers[batch.asked[path - first]] += batch.sums[path - first];
         }
         for (Rgb& answer : answers) answer = answer / float(samples_);
     }
 
 private:
     static constexpr std::size_t paths_at_once = 256;
-    static constexpr std::size_t stops_at_once = lanes;
+    static constexpr std::size_t vertices_at_once = lanes;
 
-    /// A path on its way from one surface to the next.
-    struct Walk {
-        std::uint32_t path;  // index into Paths::sums
-        float squeezed;      // by refraction, which is no loss: roulette must not see it
+    /// A path between two of its vertices.
+    struct Path {
+        std::uint32_t sum;  // index into Batch::sums
+        float eta_scale;    // of radiance by refraction, which is no loss: roulette must not see it
         Rgb weight;
-        const Rgb* inside;  // what it leads through; may be null
+        const Rgb* inside;  // what fills the space that it crosses; may be null
         Vec3 from;
         BsdfSample step;
     };
-    /// Random numbers of each walk at the surface that it has come to, dimension by dimension.
+    /// Random numbers of each path at its vertex, dimension by dimension.
     struct Numbers {
         std::vector<float> choices, survivals;
-        std::vector<Vec2> places, ways;
+        std::vector<Vec2> places, directions;
     };
     /// Some paths, and scratch space for them.
-    struct Paths {
-        explicit Paths(const Scene& scene) : stops(scene) {}
+    struct Batch {
+        explicit Batch(const Scene& scene) : vertices(scene) {}
 
-        std::vector<Rgb> sums;           // of each path
+        std::vector<Rgb> sums;           // of each path that began
         std::vector<std::size_t> asked;  // the same: which question it's for
-        std::vector<Walk> walks;
-        std::vector<Ray> rays;  // of each walk
+        std::vector<Path> paths;
+        std::vector<Ray> rays;  // of each path
         std::vector<std::optional<Hit>> hits;
-        ManySamples samples;  // of each walk
+        ManySamples samples;  // of each path
         Numbers numbers;
-        Stops stops;
-        LampRays from_lamps;
-        std::vector<std::uint8_t> hidden;
-        std::size_t kept = 0;  // walks and rays of the next leg
+        PathVertices vertices;
+        ShadowRays shadow_rays;
+        std::vector<std::uint8_t> occluded;
+        std::size_t kept = 0;  // paths and rays that go on
     };
-    /// Each surface on a way has these dimensions of its own, used or not.
+    /// Each vertex of a path has these dimensions of its own, used or not.
     enum Dimension : std::uint32_t {
         choice_of_lamp,
         place_on_lamp,
-        choice_of_look,
-        look,
-        choice_of_way,
-        way,
+        choice_of_second,
+        second_direction,
+        choice_of_lobe,
+        direction,
         survival
     };
     static constexpr std::uint32_t dimensions = 7;
 
-    void start(Paths& going, std::span<const Query> questions, std::size_t first, std::size_t last) const {
-        going.sums.assign(last - first, Rgb{});
-        going.walks.clear();
-        going.samples.keep(0);
-        going.asked.clear();
+    void start(Batch& batch, std::span<const Query> questions, std::size_t first, std::size_t last) const {
+        batch.sums.assign(last - first, Rgb{});
+        batch.paths.clear();
+        batch.samples.keep(0);
+        batch.asked.clear();
         for (std::size_t path = first; path < last;) {
             const std::size_t q = path / samples_, end = std::min(last, (q + 1) * samples_);
             const Key key = child(questions[q].stream, key_);
             auto index = questions[q].sample * samples_ + static_cast<std::uint32_t>(path - q * samples_);
             for (; path < end; ++path, ++index) {
-                going.asked.push_back(q);
-                going.samples.add(key, index);
-                going.walks.push_back({static_cast<std::uint32_t>(path - first), 1, {1, 1, 1}, nullptr, {}, {}});
+                batch.asked.push_back(q);
+                batch.samples.add(key, index);
+                batch.paths.push_back({static_cast<std::uint32_t>(path - first), 1, {1, 1, 1}, nullptr, {}, {}});
             }
         }
-        going.rays.resize(going.walks.size());
-        draw(going, 0);
-        going.kept = 0;
-        for (std::size_t path = first; path < last;) path = begin_at(going, questions, first, path, last);
-        close(going);
-    }
-
-    /// Some of the paths from `path` on, at the surfaces that are asked about. Returns where the next ones begin.
-    std::size_t begin_at(Paths& going, std::span<const Query> questions, std::size_t first, std::size_t path,
-                         std::size_t last) const {
-        going.stops.clear();
-        Hit hit;
-        for (std::size_t begun = path; path < last && !going.stops.full(); ++path) {
-            const Query& question = questions[path / samples_];
-            const auto walk = static_cast<std::uint32_t>(path - first);
-            if (path == begun || path % samples_ == 0) {
-                hit = scene_.hit(question);
-                going.stops.add(walk, hit, question.outgoing, question.lobes, nullptr);
-            } else {
-                going.stops.add_again(walk, hit, question.outgoing);
-            }
+        batch.rays.resize(batch.paths.size());
+        draw(batch, 0);
+        batch.kept = 0;
+        const auto question = [&](std::size_t path) -> const Query& { return questions[batch.asked[path]]; };
+        for (std::size_t next = 0; next < batch.paths.size();) {
+            next = batch.vertices.begin(next, batch.paths.size(), question);
+            go_round(batch, 0);
         }
-        going.stops.find_points();
-        go_round(going, 0);
-        return path;
+        close(batch);
     }
 
-    /// Takes all paths over the next surface: number `depth` on their way.
-    void go_on(Paths& going, std::uint32_t depth) const {
-        going.hits.resize(going.rays.size());
-        scene_.intersect(going.rays, going.hits);
-        draw(going, depth);
-        going.kept = 0;
-        for (std::size_t first = 0; first < going.walks.size(); first += stops_at_once)
-            visit(going, first, std::min(going.walks.size(), first + stops_at_once), depth);
-        close(going);
+    /// Takes all paths over their next vertex: the one of number `depth`.
+    void go_on(Batch& batch, std::uint32_t depth) const {
+        batch.hits.resize(batch.rays.size());
+        scene_.intersect(batch.rays, batch.hits);
+        draw(batch, depth);
+        batch.kept = 0;
+        for (std::size_t first = 0; first < batch.paths.size(); first += vertices_at_once)
+            visit(batch, first, std::min(batch.paths.size(), first + vertices_at_once), depth);
+        close(batch);
     }
 
-    /// Ends a leg: who was kept goes on, and who found light on lamps is given it, where nothing is in the way.
-    void close(Paths& going) const {
-        going.walks.resize(going.kept);
-        going.rays.resize(going.kept);
-        going.samples.keep(going.kept);
-        LampRays& found = going.from_lamps;
-        going.hidden.resize(found.rays.size());
-        scene_.occluded(found.rays, going.hidden);
-        for (std::size_t i = 0; i < found.paths.size(); ++i)
-            going.sums[found.paths[i]] += nothing_if(going.hidden[i], found.light[i]);
+    /// Keeps the paths that go on, and adds what shadow rays found where nothing is in between.
+    void close(Batch& batch) const {
+        batch.paths.resize(batch.kept);
+        batch.rays.resize(batch.kept);
+        batch.samples.keep(batch.kept);
+        ShadowRays& found = batch.shadow_rays;
+        batch.occluded.resize(found.rays.size());
+        scene_.occluded(found.rays, batch.occluded);
+        for (std::size_t i = 0; i < found.sums.size(); ++i)
+            batch.sums[found.sums[i]] += nothing_if(batch.occluded[i], found.light[i]);
         found.resize(0);
     }
 
     /// Without a branch, as what is in the way can't be foretold.
-    static Rgb nothing_if(bool hidden, Rgb light) {
-        const std::uint32_t mask = std::uint32_t{hidden} - 1;
+    static Rgb nothing_if(bool occluded, Rgb light) {
+        const std::uint32_t mask = std::uint32_t{occluded} - 1;
         const auto masked = [&](float x) { return std::bit_cast<float>(std::bit_cast<std::uint32_t>(x) & mask); };
         return {masked(light.r), masked(light.g), masked(light.b)};
     }
 
-    void draw(Paths& going, std::uint32_t depth) const {
-        const ManySamples& samples = going.samples;
-        Numbers& numbers = going.numbers;
+    void draw(Batch& batch, std::uint32_t depth) const {
+        const ManySamples& samples = batch.samples;
+        Numbers& numbers = batch.numbers;
         const std::uint32_t first = depth * dimensions;
         if (scene_.has_lamps() && (all_ || depth > 0)) samples.draw(first + place_on_lamp, numbers.places);
         if (scene_.has_many_lamps()) samples.draw(first + choice_of_lamp, numbers.choices);
-        samples.draw(first + way, numbers.ways);
+        samples.draw(first + direction, numbers.directions);
         if (depth >= roulette_depth_) samples.draw(first + survival, numbers.survivals);
     }
 
-    void visit(Paths& going, std::size_t first, std::size_t last, std::uint32_t depth) const {
-        going.stops.clear();
+    void visit(Batch& batch, std::size_t first, std::size_t last, std::uint32_t depth) const {
+        batch.vertices.clear();
         for (std::size_t i = first; i < last; ++i) {
-            Walk& walk = going.walks[i];
-            if (!going.hits[i]) {
-                leave(walk, depth, going);
+            Path& path = batch.paths[i];
+            if (!batch.hits[i]) {
+                leave(path, depth, batch);
                 continue;
             }
-            const Hit& hit = *going.hits[i];
-            if (walk.inside) walk.weight *= left_after(walk.inside, hit.distance);
-            going.stops.add(static_cast<std::uint32_t>(i), hit, -walk.step.incoming, lobe::all, walk.inside);
+            const Hit& hit = *batch.hits[i];
+            if (path.inside) path.weight *= left_after(path.inside, hit.distance);
+            batch.vertices.add(static_cast<std::uint32_t>(i), hit, -path.step.incoming, lobe::all, path.inside);
         }
-        going.stops.find_points();
+        batch.vertices.find_points();
         if (all_ || depth > 1)
-            going.stops.each_that_may_shine(
-                [&](std::uint32_t walk, const SurfacePoint& point) { meet_lamp(going.walks[walk], point, going); });
-        if (!max_depth_ || depth <= max_depth_) go_round(going, depth);
+            batch.vertices.each_that_may_shine(
+                [&](std::uint32_t i, const SurfacePoint& point) { meet_lamp(batch.paths[i], point, batch); });
+        if (!max_depth_ || depth <= max_depth_) go_round(batch, depth);
     }
 
     /// What paths do at the surfaces that they have come to.
-    void go_round(Paths& going, std::uint32_t depth) const {
-        going.stops.find_bsdfs();
-        if (depth > 0 || all_) look_around(going, depth);
-        scatter(going, depth);
+    void go_round(Batch& batch, std::uint32_t depth) const {
+        batch.vertices.find_bsdfs();
+        if (depth > 0 || all_) look_around(batch, depth);
+        scatter(batch, depth);
     }
 
     /// What a path finds that meets nothing any more.
-    void leave(const Walk& walk, std::uint32_t depth, Paths& going) const {
+    void leave(const Path& path, std::uint32_t depth, Batch& batch) const {
         if (!all_ && depth == 1) return;
         const float part = two_looks(depth - 1) ? 0.5f : 1.0f;
-        going.sums[walk.path] += part * walk.weight * light_by_bsdf(scene_, walk.from, walk.step, nullptr, heuristic);
+        batch.sums[path.sum] += part * path.weight * light_by_bsdf(scene_, path.from, path.step, nullptr, heuristic);
     }
 
     /// What a path finds that may have come to a lamp.
-    void meet_lamp(const Walk& walk, const SurfacePoint& point, Paths& going) const {
-        const Rgb light = light_by_bsdf(scene_, walk.from, walk.step, &point, heuristic);
-        if (!is_black(light)) going.sums[walk.path] += walk.weight * light;
+    void meet_lamp(const Path& path, const SurfacePoint& point, Batch& batch) const {
+        const Rgb light = light_by_bsdf(scene_, path.from, path.step, &point, heuristic);
+        if (!is_black(light)) batch.sums[path.sum] += path.weight * light;
     }
 
-    /// What paths find at surfaces by looking for light, rather than by going on.
-    void look_around(Paths& going, std::uint32_t depth) const {
-        const auto& walks = going.walks;
+    /// What paths find at surfaces by looking for light, rather than by batch on.
+    void look_around(Batch& batch, std::uint32_t depth) const {
+        const auto& paths = batch.paths;
         if (scene_.has_lamps()) {
-            const Numbers& numbers = going.numbers;
-            going.stops.look_for_lamps(
-                {numbers.choices, numbers.places}, heuristic, going.from_lamps,
-                [&](std::uint32_t i) { return walks[i].weight; }, [&](std::uint32_t i) { return walks[i].path; });
+            const Numbers& numbers = batch.numbers;
+            batch.vertices.sample_lamps(
+                {numbers.choices, numbers.places}, heuristic, batch.shadow_rays,
+                [&](std::uint32_t i) { return paths[i].weight; }, [&](std::uint32_t i) { return paths[i].sum; });
         }
         if (two_looks(depth))
-            going.stops.each([&](std::uint32_t i, const Gathering& at) { look_at_sky(going, i, at, depth); });
+            batch.vertices.each([&](std::uint32_t i, const Gathering& at) { look_at_sky(batch, i, at, depth); });
     }
 
-    void look_at_sky(Paths& going, std::uint32_t i, const Gathering& at, std::uint32_t depth) const {
-        const Walk& walk = going.walks[i];
-        Samples samples = going.samples.at(i, depth * dimensions + choice_of_look);
+    void look_at_sky(Batch& batch, std::uint32_t i, const Gathering& at, std::uint32_t depth) const {
+        const Path& path = batch.paths[i];
+        Samples samples = batch.samples.at(i, depth * dimensions + choice_of_second);
         const float choice = at.bsdf.chooses() ? samples.next() : samples.skip();
         const auto found = at.bsdf.sample(at.outgoing, choice, samples.next_2d(), at.lobes);
         if (!found) return;
         const Rgb sky = found->weight * light_by_bsdf(scene_, at.point.position, *found, nullptr, heuristic);
         if (is_black(sky)) return;
-        going.from_lamps.add({at.point.origin_towards(found->incoming), found->incoming}, walk.weight * (0.5f * sky),
-                             walk.path);
+        batch.shadow_rays.add({at.point.origin_towards(found->incoming), found->incoming}, path.weight * (0.5f * sky),
+                              path.sum);
     }
 
     /// Is the environment seen from the surface number `depth` looked at by two directions?
     bool two_looks(std::uint32_t depth) const { return looks_twice_ && depth == (all_ ? 0 : 1); }
 
     /// Sends paths on from surfaces, if they aren't absorbed.
-    void scatter(Paths& going, std::uint32_t depth) const {
+    void scatter(Batch& batch, std::uint32_t depth) const {
         const auto choice = [&](std::uint32_t i) {
-            return going.samples.at(i, depth * dimensions + choice_of_way).next();
+            return batch.samples.at(i, depth * dimensions + choice_of_lobe).next();
         };
-        going.stops.scatter(going.numbers.ways, choice,
-                            [&](std::uint32_t i, const Stops::Step& step) { send_on(going, i, step, depth); });
+        batch.vertices.scatter(batch.numbers.directions, choice, [&](std::uint32_t i, const PathVertices::Step& step) {
+            send_on(batch, i, step, depth);
+        });
     }
 
-    /// Puts a walk on into the place of one that has been here before, or of itself. Who ends by chance, which can't be
-    /// foretold, is put there as well, and written over by the next.
-    void send_on(Paths& going, std::size_t i, const Stops::Step& on, std::uint32_t depth) const {
-        const std::size_t to = going.kept;
-        const Walk& walk = going.walks[i];
-        Rgb weight = walk.weight * on.sample.weight;
-        const float squeezed = walk.squeezed * on.sample.eta * on.sample.eta;
-        const float kept = max_component(weight) * squeezed / (max_component(walk.weight) * walk.squeezed);
+    /// Puts a path that goes on into the place of one that was here before, or of itself. Who ends by chance, which
+    /// can't be foretold, is put there as well, and written over by the next.
+    void send_on(Batch& batch, std::size_t i, const PathVertices::Step& on, std::uint32_t depth) const {
+        const std::size_t to = batch.kept;
+        const Path& path = batch.paths[i];
+        Rgb weight = path.weight * on.sample.weight;
+        const float eta_scale = path.eta_scale * on.sample.eta * on.sample.eta;
+        const float kept = max_component(weight) * eta_scale / (max_component(path.weight) * path.eta_scale);
         if (!(kept > 0)) return;
         bool survives = true;
         if (depth >= roulette_depth_) {
             const float chance = chance_to_survive(kept);
-            survives = going.numbers.survivals[i] < chance;
+            survives = batch.numbers.survivals[i] < chance;
             weight *= 1 / chance;
         }
-        going.kept += survives;
-        going.samples.move(i, to);
-        going.rays[to] = on.ray;
-        going.walks[to] = {walk.path, squeezed, weight, on.inside, on.from, on.sample};
+        batch.kept += survives;
+        batch.samples.move(i, to);
+        batch.rays[to] = on.ray;
+        batch.paths[to] = {path.sum, eta_scale, weight, on.inside, on.from, on.sample};
     }
 
-    /// Paths end by chance, and the others carry more. `kept` is the share of light that the last surface leaves: by it
-    /// alone, not by all that was lost before, paths end gradually from `roulette_depth` on. Measured on rooms,
-    /// variance × rays is a quarter to a half less than with a chance by the whole weight.
+    /// Russian roulette: paths end by chance, and the others carry more. `kept` is the share of light that the last
+    /// surface leaves: by it alone, not by all that was lost before, paths end gradually from `roulette_depth` on.
+    /// Measured on rooms, variance × rays is a quarter to a half less than with a chance by the whole weight.
     static float chance_to_survive(float kept) { return std::min(kept, 0.95f); }
 
     static constexpr Heuristic heuristic = Heuristic::power;
@@ -307,25 +292,25 @@ std::vector<std::string> paths_of(const Node& node) {
 Kind path_tracing_kind() {
     return {
         .name = "PathTracing",
-        .help = "indirect light, all that arrives by way of other surfaces; or all light",
+        .help = "path tracing: indirect light, all that arrives by way of other surfaces; or all light",
         .params =
             {
                 {.name = "samples",
                  .type = ParamType::integer,
-                 .help = "paths per question",
+                 .help = "light paths per question",
                  .unit = "samples",
                  .initial = Value{1.0},
                  .least = 1,
                  .most = 65536},
                 {.name = "max_depth",
                  .type = ParamType::integer,
-                 .help = "surfaces that light may meet on its way from a lamp to the point; 0: any number",
+                 .help = "surfaces that a light path may have between a lamp and the point; 0: any number",
                  .initial = Value{0.0},
                  .least = 0,
                  .most = 65536},
                 {.name = "roulette_depth",
                  .type = ParamType::integer,
-                 .help = "surfaces after which paths may end by chance, as light is absorbed",
+                 .help = "surfaces after which paths may end by chance: Russian roulette",
                  .initial = Value{3.0},
                  .least = 0,
                  .most = 65536},

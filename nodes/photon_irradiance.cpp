@@ -6,6 +6,7 @@
 #include "core/base/math/sampling.hpp"
 #include "core/estimate/even_scattering.hpp"
 #include "core/estimate/photon_tree.hpp"
+#include "core/estimate/shooting.hpp"
 #include "core/network/graph/kind.hpp"
 #include "core/network/light/light_op.hpp"
 #include "core/network/light/node_context.hpp"
@@ -16,9 +17,8 @@ namespace lightnet {
 namespace {
 
 /// Christensen 1999, "Faster photon map global illumination": takes the photons of a map, computes the irradiance at
-/// some of them, and answers with that of the nearest one. Made for operators that look at a map through one more
-/// surface: a look costs one photon instead of some dozens. As blurred as the map is, in steps, and scattered as if
-/// light arrived evenly.
+/// some of them, and answers with that of the nearest one. Made for final gathering over a map: a lookup costs one
+/// photon instead of some dozens. As blurred as the map is, in steps, and scattered as if light arrived evenly.
 class PhotonIrradiance final : public LightOp {
 public:
     explicit PhotonIrradiance(const NodeContext& here)
@@ -27,9 +27,7 @@ public:
           key_(here.key()),
           every_(static_cast<std::size_t>(here.integer("every"))),
           gather_(static_cast<std::size_t>(here.integer("gather"))),
-          radius_(static_cast<float>(here.number("radius"))) {
-        if (radius_ == 0) radius_ = 0.05f * scene_.radius();
-    }
+          radius_(gather_radius(here)) {}
 
     void prepare(Services& services) override {
         const auto photons = map_.frozen().as<PhotonTree>();
@@ -121,17 +119,12 @@ std::vector<Param> params() {
          .most = 65536},
         {.name = "gather",
          .type = ParamType::integer,
-         .help = "how many of the nearest photons that looks at; 0: all within the radius",
+         .help = "how many of the nearest photons that takes; 0: all within the radius",
          .unit = "photons",
          .initial = Value{60.0},
          .least = 0,
          .most = 65536},
-        {.name = "radius",
-         .type = ParamType::number,
-         .help = "how far they may be away, and how far the irradiance counts; 0: a twentieth of the scene's radius",
-         .unit = "m",
-         .initial = Value{0.0},
-         .least = 0},
+        gather_radius("how far they may be away, and how far the irradiance counts"),
     };
 }
 
@@ -140,7 +133,7 @@ std::vector<Param> params() {
 Kind photon_irradiance_kind() {
     return {
         .name = "PhotonIrradiance",
-        .help = "the light of a photon map as irradiance that is known beforehand: quick to look at, in small steps",
+        .help = "the light of a photon map, as irradiance computed beforehand at some photons: a quick approximation",
         .params = params(),
         .light = {.converts = true},
         .run = {.prepares = true},

@@ -1,12 +1,12 @@
-// Light that was sent from the lamps beforehand, and kept where it met surfaces.
+// Photon mapping: light that was sent from the lamps beforehand, and kept where it met surfaces.
 #include <algorithm>
 #include <cassert>
 #include <memory>
 #include <vector>
 
+#include "core/estimate/path_vertices.hpp"
 #include "core/estimate/photon_tree.hpp"
 #include "core/estimate/shooting.hpp"
-#include "core/estimate/stops.hpp"
 #include "core/network/graph/kind.hpp"
 #include "core/network/light/light_op.hpp"
 #include "core/network/light/node_context.hpp"
@@ -35,9 +35,7 @@ public:
         : scene_(here.scene()),
           shooting_(Shooting::of(here)),
           gather_(static_cast<std::size_t>(here.integer("gather"))),
-          radius_(static_cast<float>(here.number("radius"))) {
-        if (radius_ == 0) radius_ = 0.05f * scene_.radius();
-    }
+          radius_(gather_radius(here)) {}
 
     void prepare(Services& services) override {
         const auto aim = take_aim(services, scene_, shooting_);
@@ -64,20 +62,15 @@ private:
 };
 
 std::vector<Param> params() {
-    auto params = shooting_params(200000, "ways of light that leave the lamps");
+    auto params = shooting_params(200000, "light paths that leave the lamps");
     params.push_back({.name = "gather",
                       .type = ParamType::integer,
-                      .help = "how many of the nearest photons an answer looks at; 0: all within the radius",
+                      .help = "how many of the nearest photons an answer takes; 0: all within the radius",
                       .unit = "photons",
                       .initial = Value{60.0},
                       .least = 0,
                       .most = 65536});
-    params.push_back({.name = "radius",
-                      .type = ParamType::number,
-                      .help = "how far they may be away; 0: a twentieth of the scene's radius",
-                      .unit = "m",
-                      .initial = Value{0.0},
-                      .least = 0});
+    params.push_back(gather_radius("how far they may be away"));
     return params;
 }
 
@@ -86,7 +79,7 @@ std::vector<Param> params() {
 Kind photon_map_kind() {
     return {
         .name = "PhotonMap",
-        .help = "light that was sent from the lamps beforehand: caustics, or a rough picture of all light",
+        .help = "photon mapping, light sent from the lamps beforehand: caustics, or an approximation of all light",
         .params = params(),
         .light = {.paths = paths_of_photons},
         .run = {.prepares = true,

@@ -4,9 +4,9 @@
 #include <memory>
 #include <vector>
 
+#include "core/estimate/path_vertices.hpp"
 #include "core/estimate/photon_tree.hpp"
 #include "core/estimate/shooting.hpp"
-#include "core/estimate/stops.hpp"
 #include "core/network/graph/kind.hpp"
 #include "core/network/light/light_op.hpp"
 #include "core/network/light/node_context.hpp"
@@ -16,7 +16,7 @@ namespace lightnet {
 namespace {
 
 /// Knaus & Zwicker 2011, "Progressive photon mapping: a probabilistic approach". Each pass has photons of its own, and
-/// a radius that follows from its number alone; sample s of a pixel looks at pass s modulo `passes`, so that a picture
+/// a radius that follows from its number alone; sample s of a pixel takes pass s modulo `passes`, so that an image
 /// of as many samples is the mean of all passes. Noise and bias both vanish as passes and samples grow.
 class ProgressivePhotonMapping final : public LightOp {
 public:
@@ -60,7 +60,7 @@ private:
 };
 
 std::vector<Param> params() {
-    auto params = shooting_params(100000, "ways of light that leave the lamps in each pass");
+    auto params = shooting_params(100000, "light paths that leave the lamps in each pass");
     params.push_back({.name = "passes",
                       .type = ParamType::integer,
                       .help = "maps, each for one sample of a pixel in turn: as many as samples, or a part of them",
@@ -77,7 +77,7 @@ std::vector<Param> params() {
     params.push_back({.name = "radius",
                       .type = ParamType::number,
                       .help = "within which photons of the first pass count; 0: 0.013 of the scene's radius",
-                      .unit = "m",
+                      .unit = "scene units",
                       .initial = Value{0.0},
                       .least = 0});
     return params;
@@ -88,7 +88,7 @@ std::vector<Param> params() {
 Kind progressive_photon_mapping_kind() {
     return {
         .name = "ProgressivePhotonMapping",
-        .help = "light that was sent from the lamps in many passes, each sharper: caustics without bias in the end",
+        .help = "progressive photon mapping: many passes of photons, each sharper; caustics without bias in the end",
         .params = params(),
         .light = {.paths = paths_of_photons},
         .run = {.prepares = true},

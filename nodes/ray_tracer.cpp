@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/base/math/samples.hpp"
-#include "core/estimate/mirror_way.hpp"
+#include "core/estimate/specular_path.hpp"
 #include "core/network/graph/kind.hpp"
 #include "core/network/light/node_context.hpp"
 #include "core/network/light/renderer.hpp"
@@ -80,30 +80,30 @@ public:
     }
 
 private:
-    /// What a look has still to follow.
-    struct Way {
-        MirrorWay mirrored;
+    /// A path that a sample has still to follow.
+    struct Branch {
+        SpecularPath path;
         std::optional<Hit> hit;
         std::uint32_t depth;  // mirrors and glass before
     };
     /// Questions about what some pixels see, in order of pixel, sample and depth.
-    struct Seen {
+    struct PixelQuestions {
         std::vector<Query> questions;
         std::vector<std::size_t> pixels;  // whose the answers are
         std::vector<Rgb> weights;         // what reaches the eye of them
-        std::vector<Way> ways;            // scratch
+        std::vector<Branch> branches;     // scratch
     };
     /// One sample of a pixel.
-    struct Look {
+    struct TileSample {
         std::size_t pixel;
         Key key;
         std::uint32_t sample;
     };
 
     void render_some(const Tile& tile, std::size_t first, std::size_t last, std::span<Rgb> pixels) const {
-        std::vector<Look> looks;
+        std::vector<TileSample> samples;
         std::vector<Ray> rays;
-        looks.reserve((last - first) * tile.samples);
+        samples.reserve((last - first) * tile.samples);
         rays.reserve((last - first) * tile.samples);
         for (std::size_t pixel = first; pixel < last; ++pixel) {
             const auto x = tile.x + static_cast<std::uint32_t>(pixel % tile.width);
@@ -111,79 +111,77 @@ private:
             if (!tile.looks_at(x, y)) continue;
             const Key key = pixel_key(seed_, x, y);
             for (std::uint32_t s = 0; s < tile.samples; ++s) {
-                const Look& look = looks.emplace_back(Look{pixel, key, tile.first_sample + s});
-                Samples samples(key, look.sample);
-                const Vec2 u = filter_.place(samples.next_2d());
+                const auto& sample = samples.emplace_back(TileSample{pixel, key, tile.first_sample + s});
+                Samples numbers(key, sample.sample);
+                const Vec2 u = filter_.place(numbers.next_2d());
                 const Camera& camera = scene_.camera();
-                rays.push_back(camera.has_lens() ? camera.ray(float(x) + u.x, float(y) + u.y, samples.next_2d())
+                rays.push_back(camera.has_lens() ? camera.ray(float(x) + u.x, float(y) + u.y, numbers.next_2d())
                                                  : camera.ray(float(x) + u.x, float(y) + u.y));
             }
         }
         std::vector<std::optional<Hit>> hits(rays.size());
         scene_.intersect(rays, hits);
 
-        Seen seen;
-        seen.questions.reserve(looks.size());
-        seen.pixels.reserve(looks.size());
-        seen.weights.reserve(looks.size());
-        for (std::size_t i = 0; i < looks.size(); ++i)
-            pixels[looks[i].pixel * inputs_.layers()] += follow(looks[i], rays[i], hits[i], seen);
-        if (!seen.questions.empty()) add_answers(seen, pixels);
+        PixelQuestions met;
+        met.questions.reserve(samples.size());
+        met.pixels.reserve(samples.size());
+        met.weights.reserve(samples.size());
+        for (std::size_t i = 0; i < samples.size(); ++i)
+            pixels[samples[i].pixel * inputs_.layers()] += follow(samples[i], rays[i], hits[i], met);
+        if (!met.questions.empty()) add_answers(met, pixels);
     }
 
-    /// Follows one ray until no mirror or glass carries it on. Returns what shines by itself on the way. At glass both
-    /// of its ways are followed as long as they carry much: a lamp that is seen in it by chance is noise for long.
-    Rgb follow(const Look& look, const Ray& ray, const std::optional<Hit>& hit, Seen& seen) const {
+    /// Follows one ray until no mirror or glass carries it on. Returns what shines by itself on its path. At glass both
+    /// branches are followed as long as they carry much: a lamp that is seen in it by chance is noise for long.
+    Rgb follow(const TileSample& sample, const Ray& ray, const std::optional<Hit>& hit, PixelQuestions& met) const {
         Rgb emitted;
-        seen.ways.assign(1, {MirrorWay(ray), hit, 0});
-        for (std::uint32_t met = 0; !seen.ways.empty(); ++met) {
-            const Way way = seen.ways.back();
-            seen.ways.pop_back();
-            emitted += visit(look, way, met, seen);
+        met.branches.assign(1, {SpecularPath(ray), hit, 0});
+        for (std::uint32_t surface = 0; !met.branches.empty(); ++surface) {
+            const Branch branch = met.branches.back();
+            met.branches.pop_back();
+            emitted += visit(sample, branch, surface, met);
         }
         return emitted;
     }
 
-    /// The surface number `met` of a look. Returns what shines by itself there.
-    Rgb visit(const Look& look, Way way, std::uint32_t met, Seen& seen) const {
-        if (!way.hit) return way.mirrored.weight() * scene_.environment(way.mirrored.ray().direction);
-        way.mirrored.arrive(way.hit->distance);
-        const SurfacePoint point = scene_.surface(*way.hit);
+    /// The surface of that number that a sample meets. Returns what shines by itself there.
+    Rgb visit(const TileSample& sample, Branch branch, std::uint32_t surface, PixelQuestions& met) const {
+        if (!branch.hit) return branch.path.weight() * scene_.environment(branch.path.ray().direction);
+        branch.path.arrive(branch.hit->distance);
+        const SurfacePoint point = scene_.surface(*branch.hit);
         const Bsdf bsdf = scene_.bsdf(point);
-        const Vec3 outgoing = -way.mirrored.ray().direction;
+        const Vec3 outgoing = -branch.path.ray().direction;
         const std::uint8_t lobes = bsdf.lobes();
-        const Rgb emitted = way.mirrored.weight() * scene_.emission(point, outgoing);
+        const Rgb emitted = branch.path.weight() * scene_.emission(point, outgoing);
         if (lobes & lobe::rough) {
-            Query question = way.mirrored.question_about(*way.hit, lobes, way.depth);
-            question.stream = child(look.key, key_, met);
-            question.sample = look.sample;
-            seen.questions.push_back(question);
-            seen.pixels.push_back(look.pixel);
-            seen.weights.push_back(way.mirrored.weight());
+            Query question = branch.path.question_about(*branch.hit, lobes, branch.depth);
+            question.stream = child(sample.key, key_, surface);
+            question.sample = sample.sample;
+            met.questions.push_back(question);
+            met.pixels.push_back(sample.pixel);
+            met.weights.push_back(branch.path.weight());
         }
-        if (!(lobes & lobe::specular) || way.depth >= max_depth_) return emitted;
-        if (const auto reflected = way.mirrored.split(point, bsdf, both_carry)) {
-            seen.ways.push_back({*reflected, scene_.intersect(reflected->ray()), way.depth + 1});
-        } else if (!way.mirrored.go_on(point, bsdf, Samples(child(look.key, chain_key, met), look.sample), keep)) {
+        if (!(lobes & lobe::specular) || branch.depth >= max_depth_) return emitted;
+        if (const auto reflected = branch.path.split(point, bsdf, both_carry)) {
+            met.branches.push_back({*reflected, scene_.intersect(reflected->ray()), branch.depth + 1});
+        } else if (!branch.path.go_on(point, bsdf, Samples(child(sample.key, chain_key, surface), sample.sample),
+                                      keep)) {
             return emitted;
         }
-        seen.ways.push_back({way.mirrored, scene_.intersect(way.mirrored.ray()), way.depth + 1});
+        met.branches.push_back({branch.path, scene_.intersect(branch.path.ray()), branch.depth + 1});
         return emitted;
     }
 
-    void add_answers(const Seen& seen, std::span<Rgb> pixels) const {
-        // The first input makes the picture; those that are shown beside it are asked the same.
-        for (const Part& part : ask_all(inputs_, seen.questions)) {
-            const std::size_t width = part.input->width();
-            for (std::size_t q = 0; q < seen.questions.size(); ++q)
-                for (std::size_t k = 0; k < width; ++k)
-                    pixels[seen.pixels[q] * inputs_.layers() + part.input->layers[k]] +=
-                        part.answers[q * width + k] * seen.weights[q];
-        }
+    void add_answers(const PixelQuestions& met, std::span<Rgb> pixels) const {
+        // The first input makes the image; those that are shown beside it are asked the same.
+        for (const Part& part : ask_all(inputs_, met.questions))
+            each_colour(part, [&](std::size_t q, std::size_t layer, const Rgb& colour) {
+                pixels[met.pixels[q] * inputs_.layers() + layer] += colour * met.weights[q];
+            });
     }
 
     static constexpr std::size_t samples_at_once = 4096;
-    static constexpr float both_carry = 0.01f;  // at least, where both ways of glass are followed
+    static constexpr float both_carry = 0.01f;  // at least, where both branches at glass are followed
     static constexpr float keep = 25;           // what is fainter than its inverse is followed seldom
     static constexpr Key chain_key = key_of("chain of mirrors");
 
@@ -201,23 +199,22 @@ Kind ray_tracer_kind() {
     return {
         .name = "RayTracer",
         .role = Role::image,
-        .help =
-            "makes the picture: follows rays from the eye through mirrors and glass, and asks how bright things are",
+        .help = "makes the image: follows rays from the eye through mirrors and glass, and asks how bright things are",
         .inputs = {1, 1},
         .params =
             {
                 {.name = "scene", .type = ParamType::scene, .help = "what is seen"},
-                {.name = "film", .type = ParamType::film, .help = "width, height, and file of the picture"},
+                {.name = "film", .type = ParamType::film, .help = "width, height, and file of the image"},
                 {.name = "samples",
                  .type = ParamType::integer,
-                 .help = "rays from the eye per pixel; with an error: at most",
+                 .help = "samples per pixel; with an error: at most",
                  .unit = "samples",
                  .initial = Value{16.0},
                  .least = 1,
                  .most = 1 << 24},
                 {.name = "error",
-                 .help = "ends a cell of 8 x 8 pixels before it has all samples: when the root of its mean square "
-                         "error, each pixel relative to its value, is estimated at this; 0: never",
+                 .help = "noise threshold: ends a cell of 8 x 8 pixels before it has all samples, when the root of its "
+                         "mean square error, each pixel relative to its value, is estimated at this; 0: never",
                  .initial = Value{0.0},
                  .least = 0,
                  .most = 1},
@@ -236,16 +233,16 @@ Kind ray_tracer_kind() {
                  .most = 255},
                 {.name = "show",
                  .type = ParamType::nodes,
-                 .help = "operators whose own light is kept beside the picture, as layers that are not added up",
+                 .help = "operators whose own light is kept beside the image, as layers that are not added up: AOVs",
                  .initial = Value{Table{}}},
                 {.name = "filter",
                  .type = ParamType::text,
-                 .help = "what a pixel sees of its surroundings",
+                 .help = "the pixel filter",
                  .initial = Value{"box"},
                  .choices = {"box", "tent", "gaussian"}},
                 {.name = "filter_radius",
                  .type = ParamType::number,
-                 .help = "how far from its middle; 0: as is usual (box 0.5, tent 1, gaussian 1.5)",
+                 .help = "how far the filter reaches; 0: as is usual (box 0.5, tent 1, gaussian 1.5)",
                  .unit = "pixels",
                  .initial = Value{0.0},
                  .least = 0,

@@ -95,8 +95,8 @@ Aim::Choice Aim::choose(Samples& samples) const {
     const std::size_t at = pick(ends_, u);
     const Cell& cell = cells_[at];
     const float which = samples.next();
-    const Vec2 where = samples.next_2d(), whither = samples.next_2d();
-    Choice choice{{which, where.x, where.y, whither.x, whither.y}, float(cell.volume()) / share_of(ends_, at)};
+    const Vec2 where = samples.next_2d(), direction = samples.next_2d();
+    Choice choice{{which, where.x, where.y, direction.x, direction.y}, float(cell.volume()) / share_of(ends_, at)};
     for (std::size_t i = 0; i < choice.numbers.size(); ++i)
         choice.numbers[i] = std::min(cell.low[i] + choice.numbers[i] * (cell.high[i] - cell.low[i]),
                                      std::nextafter(cell.high[i], 0.0f));

@@ -13,10 +13,10 @@
 
 namespace lightnet {
 
-/// The numbers that Scene::emit() takes: which light, where on it, and whither.
+/// The numbers that Scene::emit() takes: which light, where on it, and in which direction.
 using EmissionNumbers = std::array<float, 5>;
 
-/// A way of light that was tried, and was of use. Small, as many travel: its numbers are cut off.
+/// A light path that was tried, and was of use. Small, as many travel: its numbers are cut off.
 class Trial {
 public:
     Trial() = default;

@@ -1,4 +1,4 @@
-// What surfaces make of light that arrives evenly.
+// What surfaces make of light that arrives evenly, from all directions alike.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 namespace lightnet {
 
 /// Radiance that the named lobes scatter to `outgoing` per irradiance (sr⁻¹), when light arrives evenly from the side
-/// of `normal` (unit): exact for surfaces that scatter evenly, else the mean of four directions. Black for opaque
+/// of `normal` (unit): exact for diffuse surfaces, else the mean of four directions. Black for opaque
 /// surfaces seen from the other side.
 Rgb evenly_scattered(const Bsdf& bsdf, Vec3 outgoing, Vec3 normal, std::uint8_t lobes);
 

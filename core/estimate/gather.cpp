@@ -1,10 +1,11 @@
 #include "core/estimate/gather.hpp"
 
 #include "core/base/math/samples.hpp"
-#include "core/estimate/mirror_way.hpp"
+#include "core/estimate/specular_path.hpp"
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 namespace lightnet {
 namespace {
@@ -13,62 +14,83 @@ constexpr std::uint32_t most_mirrors = 100;  // in a row
 constexpr float keep = 4;                    // what is fainter than its inverse is followed seldom
 constexpr Key chain_key = key_of("chain of mirrors");
 
-/// Questions about what looks meet, in order of look and depth.
-struct Met {
+/// Questions about what rays meet, in order of ray and depth.
+struct RayQuestions {
     std::vector<Query> questions;
-    std::vector<std::size_t> looks;  // whose they are
+    std::vector<std::size_t> rays;  // whose they are
     std::vector<Rgb> weights;
 };
 
-Query question_about(const SurfaceLook& look, const MirrorWay& way, const Hit& hit, std::uint8_t lobes,
+Query question_about(const GatherRay& ray, const SpecularPath& path, const Hit& hit, std::uint8_t lobes,
                      std::uint32_t mirrors) {
-    Query question = way.question_about(hit, lobes, look.depth + 1u + mirrors);
-    question.stream = mirrors ? child(look.stream, chain_key, mirrors) : look.stream;
-    question.sample = look.sample;
+    Query question = path.question_about(hit, lobes, ray.depth + 1u + mirrors);
+    question.stream = mirrors ? child(ray.stream, chain_key, mirrors) : ray.stream;
+    question.sample = ray.sample;
     return question;
 }
 
-void follow(const Scene& scene, const SurfaceLook& look, std::optional<Hit> hit, std::size_t index, Met& met) {
-    MirrorWay way(look.ray);
+void follow(const Scene& scene, const GatherRay& ray, std::optional<Hit> hit, std::size_t index, RayQuestions& met) {
+    SpecularPath path(ray.ray);
     for (std::uint32_t mirrors = 0; hit; ++mirrors) {
-        way.arrive(hit->distance);
+        path.arrive(hit->distance);
         const SurfacePoint point = scene.surface(*hit);
         const Bsdf bsdf = scene.bsdf(point);
         const std::uint8_t lobes = bsdf.lobes();
         if (lobes & lobe::rough) {
-            met.questions.push_back(question_about(look, way, *hit, lobes, mirrors));
-            met.looks.push_back(index);
-            met.weights.push_back(way.weight());
+            met.questions.push_back(question_about(ray, path, *hit, lobes, mirrors));
+            met.rays.push_back(index);
+            met.weights.push_back(path.weight());
         }
         if (!(lobes & lobe::specular) || mirrors >= most_mirrors) return;
-        if (!way.go_on(point, bsdf, Samples(child(look.stream, chain_key, 256 + mirrors), look.sample), keep)) return;
-        hit = scene.intersect(way.ray());
+        if (!path.go_on(point, bsdf, Samples(child(ray.stream, chain_key, 256 + mirrors), ray.sample), keep)) return;
+        hit = scene.intersect(path.ray());
     }
 }
 
 }  // namespace
 
-void look_around(const Scene& scene, const Inputs& inputs, std::size_t index, std::span<const SurfaceLook> looks,
-                 std::span<Seen> seen) {
-    std::vector<Ray> rays;
-    rays.reserve(looks.size());
-    for (const SurfaceLook& look : looks) rays.push_back(look.ray);
-    std::vector<std::optional<Hit>> hits(rays.size());
-    scene.intersect(rays, hits);
-    Met met;
-    met.questions.reserve(looks.size());
-    met.looks.reserve(looks.size());
-    met.weights.reserve(looks.size());
-    for (std::size_t i = 0; i < looks.size(); ++i) {
-        seen[i] = {{}, hits[i] ? hits[i]->distance : std::numeric_limits<float>::infinity()};
-        follow(scene, looks[i], hits[i], i, met);
+void gather(const Scene& scene, const Inputs& inputs, std::size_t index, std::span<const GatherRay> rays,
+            std::span<GatherResult> results) {
+    std::vector<Ray> first;
+    first.reserve(rays.size());
+    for (const GatherRay& ray : rays) first.push_back(ray.ray);
+    std::vector<std::optional<Hit>> hits(first.size());
+    scene.intersect(first, hits);
+    RayQuestions met;
+    met.questions.reserve(rays.size());
+    met.rays.reserve(rays.size());
+    met.weights.reserve(rays.size());
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        results[i] = {{}, hits[i] ? hits[i]->distance : std::numeric_limits<float>::infinity()};
+        follow(scene, rays[i], hits[i], i, met);
     }
     if (met.questions.empty()) return;
-    const Part part = ask(inputs, index, met.questions);
-    const std::size_t width = part.input->width();
-    for (std::size_t q = 0; q < met.questions.size(); ++q)
-        for (std::size_t k = 0; k < width; ++k)
-            seen[met.looks[q]].light += part.answers[q * width + k] * met.weights[q];
+    each_colour(ask(inputs, index, met.questions), [&](std::size_t q, std::size_t, const Rgb& colour) {
+        results[met.rays[q]].light += colour * met.weights[q];
+    });
+}
+
+void BsdfGather::add(std::size_t asker, const Query& question, const SurfacePoint& point, const Bsdf& bsdf,
+                     std::uint8_t lobes, Key stream) {
+    for (std::uint32_t i = 0; i < rays_per_question_; ++i) {
+        Samples samples(stream, question.sample * rays_per_question_ + i);
+        const float choice = bsdf.chooses() ? samples.next() : samples.skip();
+        const auto step = bsdf.sample(question.outgoing, choice, samples.next_2d(), lobes);
+        if (!step || !(max_component(step->weight) > 0)) continue;
+        rays_.push_back({{point.origin_towards(step->incoming), step->incoming},
+                         child(stream, key_, i),
+                         question.sample,
+                         question.depth});
+        weights_.push_back(step->weight * (1 / float(rays_per_question_)));
+        askers_.push_back(asker);
+    }
+}
+
+void BsdfGather::answer(const Inputs& inputs, std::span<Rgb> answers) const {
+    if (rays_.empty()) return;
+    std::vector<GatherResult> results(rays_.size());
+    gather(scene_, inputs, 0, rays_, results);
+    for (std::size_t i = 0; i < rays_.size(); ++i) answers[askers_[i]] += weights_[i] * results[i].light;
 }
 
 }  // namespace lightnet

@@ -1,9 +1,8 @@
-// Asks a node's input how bright other surfaces look from a point.
+// Asks a node's input how bright other surfaces look from a point: final gathering.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,23 +12,45 @@
 
 namespace lightnet {
 
-/// A look from a surface to others.
-struct SurfaceLook {
+/// A ray from a surface to others.
+struct GatherRay {
     Ray ray;
     Key stream = 0;            // of its own random numbers, and of the questions about what it meets
     std::uint32_t sample = 0;  // index within the stream
-    std::uint8_t depth = 0;    // scattering events between the eye and the point from which it looks
+    std::uint8_t depth = 0;    // scattering events between the eye and the point that it leaves
 };
 
-/// What a look saw.
-struct Seen {
+/// What a ray found.
+struct GatherResult {
     Rgb light;       // radiance arriving that some surface has scattered (what shines by itself is direct light)
     float distance;  // m, to the first surface; infinite where there is none
 };
 
-/// Follows looks, through mirrors and glass, to surfaces that scatter in other ways too, and asks input `index` about
-/// all of these at once; nobody else's rays decide what a look finds.
-void look_around(const Scene& scene, const Inputs& inputs, std::size_t index, std::span<const SurfaceLook> looks,
-                 std::span<Seen> seen);
+/// Follows rays, through mirrors and glass, to surfaces that scatter in other ways too, and asks input `index` about
+/// all of these at once; what a ray finds depends on no other ray.
+void gather(const Scene& scene, const Inputs& inputs, std::size_t index, std::span<const GatherRay> rays,
+            std::span<GatherResult> results);
+
+/// Gathers for many questions at once what their surfaces scatter to them, with rays drawn from their BSDFs.
+class BsdfGather {
+public:
+    /// `rays` for each question; `key` is the node's own.
+    BsdfGather(const Scene& scene, Key key, std::uint32_t rays) : scene_(scene), key_(key), rays_per_question_(rays) {}
+
+    /// Draws the rays of a question, which are for `asker`, from these lobes. `stream` is the root of their random
+    /// numbers.
+    void add(std::size_t asker, const Query& question, const SurfacePoint& point, const Bsdf& bsdf, std::uint8_t lobes,
+             Key stream);
+    /// answers[asker] += what the rays of all bring, as the node's input 0 says.
+    void answer(const Inputs& inputs, std::span<Rgb> answers) const;
+
+private:
+    const Scene& scene_;
+    Key key_;
+    std::uint32_t rays_per_question_;
+    std::vector<GatherRay> rays_;
+    std::vector<Rgb> weights_;  // of what each brings
+    std::vector<std::size_t> askers_;
+};
 
 }  // namespace lightnet

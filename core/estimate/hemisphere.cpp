@@ -19,9 +19,9 @@ void add_scaled(std::array<Vec3, 3>& sum, Vec3 direction, Rgb by) {
 }  // namespace
 
 Rgb IrradianceRecord::at(Vec3 point, Vec3 towards) const {
-    const Vec3 way = point - position, turn = cross(normal, towards);
+    const Vec3 offset = point - position, turn = cross(normal, towards);
     const auto changed = [&](float value, std::size_t colour) {
-        return std::max(0.0f, value + dot(moved[colour], way) + dot(turned[colour], turn));
+        return std::max(0.0f, value + dot(moved[colour], offset) + dot(turned[colour], turn));
     };
     return {changed(irradiance.r, 0), changed(irradiance.g, 1), changed(irradiance.b, 2)};
 }
@@ -45,23 +45,23 @@ Hemisphere::Hemisphere(std::size_t rays)
     }
 }
 
-void Hemisphere::add_looks(Vec3 origin, Vec3 normal, Key stream, std::uint8_t depth,
-                           std::vector<SurfaceLook>& looks) const {
+void Hemisphere::add_rays(Vec3 origin, Vec3 normal, Key stream, std::uint8_t depth,
+                          std::vector<GatherRay>& rays) const {
     const Frame frame = Frame::around(normal);
     for (std::size_t j = 0; j < rings_; ++j)
         for (std::size_t k = 0; k < sectors_; ++k) {
-            // one stream, so that what the looks draw further on is spread over all of them as well
+            // one stream, so that what the rays draw further on is spread over all of them as well
             const auto index = static_cast<std::uint32_t>(j * sectors_ + k);
             const Vec2 u = Samples(child(stream, j, k), 0).next_2d();
             const float squared = std::min((float(j) + u.x) / float(rings_), 0x1.fffffep-1f);  // sin²
             const float angle = 2 * pi * (float(k) + u.y) / float(sectors_);
             const float sine = std::sqrt(squared);
             const Vec3 local{sine * std::cos(angle), sine * std::sin(angle), std::sqrt(1 - squared)};
-            looks.push_back({{origin, normalize(frame.to_world(local))}, stream, index, depth});
+            rays.push_back({{origin, normalize(frame.to_world(local))}, stream, index, depth});
         }
 }
 
-IrradianceRecord Hemisphere::record(Vec3 position, Vec3 normal, std::span<const Seen> seen) const {
+IrradianceRecord Hemisphere::record(Vec3 position, Vec3 normal, std::span<const GatherResult> found) const {
     IrradianceRecord record{position, normal, {}, 0, std::numeric_limits<float>::infinity(), {}, {}};
     const Frame frame = Frame::around(normal);
     const auto world = [&](Vec2 d) { return frame.x * d.x + frame.y * d.y; };
@@ -69,8 +69,8 @@ IrradianceRecord Hemisphere::record(Vec3 position, Vec3 normal, std::span<const 
     double nearness = 0;
     for (std::size_t j = 0; j < rings_; ++j)
         for (std::size_t k = 0; k < sectors_; ++k) {
-            const Seen& here = seen[j * sectors_ + k];
-            const Seen& beside = seen[j * sectors_ + (k + sectors_ - 1) % sectors_];
+            const GatherResult& here = found[j * sectors_ + k];
+            const GatherResult& beside = found[j * sectors_ + (k + sectors_ - 1) % sectors_];
             const Ring& ring = ring_[j];
             record.irradiance += here.light * even;
             nearness += here.distance > 0 ? 1.0 / here.distance : 0;
@@ -81,7 +81,7 @@ IrradianceRecord Hemisphere::record(Vec3 position, Vec3 normal, std::span<const 
                 add_scaled(record.moved, world(sector_[k].start),
                            (here.light - beside.light) * ((ring.high - ring.low) / to_side));
             if (j == 0) continue;
-            const Seen& above = seen[(j - 1) * sectors_ + k];
+            const GatherResult& above = found[(j - 1) * sectors_ + k];
             const float to_ring = std::min(here.distance, above.distance);
             if (to_ring > 0)
                 add_scaled(record.moved, world(sector_[k].middle),

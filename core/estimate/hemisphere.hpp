@@ -28,17 +28,17 @@ struct IrradianceRecord {
     Rgb at(Vec3 point, Vec3 towards) const;
 };
 
-/// Looks into a cosine-weighted, stratified hemisphere: `rings` of equal projected area, each of `sectors`.
+/// Samples a cosine-weighted, stratified hemisphere: `rings` of equal projected area, each of `sectors`.
 class Hemisphere {
 public:
-    /// Of about `rays` looks, so that cells are about as wide as high.
+    /// Of about so many rays, so that cells are about as wide as high.
     explicit Hemisphere(std::size_t rays);
 
     std::size_t size() const { return rings_ * sectors_; }
-    /// Appends the looks of one point, ring by ring. `origin`: off the surface.
-    void add_looks(Vec3 origin, Vec3 normal, Key stream, std::uint8_t depth, std::vector<SurfaceLook>& looks) const;
-    /// What they saw, as a record. Gradients: Ward & Heckbert 1992, in the form of Krivanek et al. 2005, equation 14.
-    IrradianceRecord record(Vec3 position, Vec3 normal, std::span<const Seen> seen) const;
+    /// Appends the rays of one point, ring by ring. `origin`: off the surface.
+    void add_rays(Vec3 origin, Vec3 normal, Key stream, std::uint8_t depth, std::vector<GatherRay>& rays) const;
+    /// What they found, as a record. Gradients: Ward & Heckbert 1992, in the form of Krivanek et al. 2005, equation 14.
+    IrradianceRecord record(Vec3 position, Vec3 normal, std::span<const GatherResult> found) const;
 
 private:
     struct Ring {

@@ -113,15 +113,15 @@ void IrradianceOctree::for_all_near(Vec3 position, Function function) const {
 }
 
 float IrradianceOctree::weight(const Reach& entry, Vec3 position, Vec3 normal, float stretch) const {
-    const Vec3 way = position - entry.position;
-    const float reach = entry.reach * stretch, distance2 = length_squared(way);
+    const Vec3 offset = position - entry.position;
+    const float reach = entry.reach * stretch, distance2 = length_squared(offset);
     if (distance2 >= reach * reach) return 0;
     const float cosine = dot(normal, entry.normal);
     const float turn = std::sqrt(std::max(0.0f, 1 - cosine)) / (spacing_.accuracy * stretch);
     const float error = std::sqrt(distance2) / reach + turn;
     if (error >= 1) return 0;
     // What lies behind the record's horizon, it did not see.
-    if (dot(way, normal + entry.normal) * 0.5f < -in_front * reach) return 0;
+    if (dot(offset, normal + entry.normal) * 0.5f < -in_front * reach) return 0;
     return 1 - error;
 }
 

@@ -1,4 +1,4 @@
-// The nearest of what a search comes upon.
+// The nearest of what a search comes upon: k nearest neighbours.
 #pragma once
 
 #include <algorithm>

@@ -24,7 +24,7 @@ inline bool comes_before(const Photon& a, const Photon& b) {
 }
 
 /// A photon that stays where it is while others are put before and behind it.
-struct Spot {
+struct PhotonProxy {
     Vec3 position;
     std::uint32_t photon;
 };
@@ -38,10 +38,10 @@ struct ByPhoton {
     }
 };
 /// The same order of those that stand for them.
-struct BySpot {
+struct ByProxy {
     std::size_t axis;
     const Photon* photons;
-    bool operator()(const Spot& a, const Spot& b) const {
+    bool operator()(const PhotonProxy& a, const PhotonProxy& b) const {
         const float x = a.position[axis], y = b.position[axis];
         return x != y ? x < y : comes_before(photons[a.photon], photons[b.photon]);
     }

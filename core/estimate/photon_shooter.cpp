@@ -11,7 +11,7 @@
 namespace lightnet {
 namespace {
 
-constexpr std::size_t ways_at_once = 1024;    // whose rays are traced together
+constexpr std::size_t paths_at_once = 1024;   // whose rays are traced together
 constexpr std::uint32_t most_surfaces = 512;  // light can go round inside glass without loss
 
 // Veach 1997, equation 5.19: where shading normals lean, light that is followed from its lamp isn't scattered as light
@@ -46,16 +46,16 @@ std::string expression_of(PhotonPaths paths) {
     return "L(S|D)*D";
 }
 
-struct PhotonShooter::Walk {
+struct PhotonShooter::PhotonPath {
     Samples samples;
-    std::uint32_t way;  // counted from the first
+    std::uint32_t index;  // counted from the first
     Rgb flux;
-    const Rgb* inside = nullptr;  // what it leads through
+    const Rgb* inside = nullptr;  // what fills the space that it crosses
     bool met_mirror = false, met_rough = false;
 };
 
-struct PhotonShooter::Flock {
-    std::vector<Walk> walks, before;
+struct PhotonShooter::Batch {
+    std::vector<PhotonPath> paths, before;
     std::vector<Ray> rays, rays_before;
     std::vector<std::optional<Hit>> hits;
 };
@@ -75,35 +75,35 @@ bool PhotonShooter::keeps(bool met_mirror, bool met_rough) const {
 }
 
 template <class Keep>
-void PhotonShooter::visit(Walk walk, const Ray& ray, const Hit& hit, const Keep& keep, Flock& flock) const {
-    if (walk.inside) walk.flux *= left_after(walk.inside, hit.distance);
+void PhotonShooter::visit(PhotonPath path, const Ray& ray, const Hit& hit, const Keep& keep, Batch& batch) const {
+    if (path.inside) path.flux *= left_after(path.inside, hit.distance);
     const SurfacePoint point = scene_.surface(hit);
     const Bsdf bsdf = scene_.bsdf(point);
     const Vec3 arriving = -ray.direction;
-    if ((bsdf.lobes() & lobe::rough) && keeps(walk.met_mirror, walk.met_rough)) keep(walk, point, arriving);
+    if ((bsdf.lobes() & lobe::rough) && keeps(path.met_mirror, path.met_rough)) keep(path, point, arriving);
     const auto lobes = paths_ == PhotonPaths::caustic ? lobe::specular : lobe::all;
     if (!(bsdf.lobes() & lobes)) return;
-    const float choice = bsdf.chooses() ? walk.samples.next() : walk.samples.skip();
-    const auto step = bsdf.sample(arriving, choice, walk.samples.next_2d(), lobes);
+    const float choice = bsdf.chooses() ? path.samples.next() : path.samples.skip();
+    const auto step = bsdf.sample(arriving, choice, path.samples.next_2d(), lobes);
     if (!step) return;
     float gain = step->transmitted ? step->eta * step->eta : 1;  // flux isn't squeezed as radiance is
     if (step->lobe != lobe::specular) gain *= lean(point, arriving, step->incoming);
-    const Rgb flux = walk.flux * step->weight * gain;
-    // Ways end by chance, so that what is left carries about as much as before. Jensen 2001, section 5.2.
-    const float before = max_component(walk.flux), after = max_component(flux);
+    const Rgb flux = path.flux * step->weight * gain;
+    // Russian roulette, so that what is left carries about as much as before. Jensen 2001, section 5.2.
+    const float before = max_component(path.flux), after = max_component(flux);
     const float chance = std::min(1.0f, after / before);
-    if (!(walk.samples.next() < chance)) return;
-    walk.flux = flux / chance;
-    walk.inside = filling(bsdf, point, arriving, step->incoming, walk.inside);
-    (step->lobe == lobe::specular ? walk.met_mirror : walk.met_rough) = true;
-    flock.walks.push_back(walk);
-    flock.rays.push_back({point.origin_towards(step->incoming), step->incoming});
+    if (!(path.samples.next() < chance)) return;
+    path.flux = flux / chance;
+    path.inside = filling(bsdf, point, arriving, step->incoming, path.inside);
+    (step->lobe == lobe::specular ? path.met_mirror : path.met_rough) = true;
+    batch.paths.push_back(path);
+    batch.rays.push_back({point.origin_towards(step->incoming), step->incoming});
 }
 
 template <class Keep>
 void PhotonShooter::follow(std::uint64_t first, std::size_t count, float share, const Aim& aim, const Keep& keep,
                            std::vector<Aim::Choice>* chosen) const {
-    Flock flock;
+    Batch batch;
     for (std::size_t i = 0; i < count; ++i) {
         Samples samples(key_, static_cast<std::uint32_t>(first + i));
         const auto choice = aim.choose(samples);
@@ -111,41 +111,41 @@ void PhotonShooter::follow(std::uint64_t first, std::size_t count, float share, 
         if (chosen) chosen->push_back(choice);
         const auto light = scene_.emit(numbers[0], {numbers[1], numbers[2]}, {numbers[3], numbers[4]});
         if (!light || !(max_component(light->flux) > 0)) continue;
-        flock.walks.push_back({samples, static_cast<std::uint32_t>(i), light->flux * (weight * share)});
-        flock.rays.push_back({light->origin, light->direction});
+        batch.paths.push_back({samples, static_cast<std::uint32_t>(i), light->flux * (weight * share)});
+        batch.rays.push_back({light->origin, light->direction});
     }
-    for (std::uint32_t surface = 0; !flock.walks.empty() && surface < most_surfaces; ++surface) {
-        flock.hits.resize(flock.rays.size());
-        scene_.intersect(flock.rays, flock.hits);
-        flock.before.swap(flock.walks);
-        flock.rays_before.swap(flock.rays);
-        flock.walks.clear();
-        flock.rays.clear();
-        for (std::size_t i = 0; i < flock.before.size(); ++i)
-            if (flock.hits[i]) visit(flock.before[i], flock.rays_before[i], *flock.hits[i], keep, flock);
+    for (std::uint32_t surface = 0; !batch.paths.empty() && surface < most_surfaces; ++surface) {
+        batch.hits.resize(batch.rays.size());
+        scene_.intersect(batch.rays, batch.hits);
+        batch.before.swap(batch.paths);
+        batch.rays_before.swap(batch.rays);
+        batch.paths.clear();
+        batch.rays.clear();
+        for (std::size_t i = 0; i < batch.before.size(); ++i)
+            if (batch.hits[i]) visit(batch.before[i], batch.rays_before[i], *batch.hits[i], keep, batch);
     }
 }
 
 void PhotonShooter::shoot(std::uint64_t first, std::size_t count, double share, const Aim& aim,
                           std::vector<Photon>& out) const {
-    const auto keep = [&](const Walk& walk, const SurfacePoint& point, Vec3 arriving) {
-        out.emplace_back(point.position, walk.flux, arriving, point.normal);
+    const auto keep = [&](const PhotonPath& path, const SurfacePoint& point, Vec3 arriving) {
+        out.emplace_back(point.position, path.flux, arriving, point.normal);
     };
-    for (std::size_t done = 0; done < count; done += ways_at_once)
-        follow(first + done, std::min(ways_at_once, count - done), float(share), aim, keep, nullptr);
+    for (std::size_t done = 0; done < count; done += paths_at_once)
+        follow(first + done, std::min(paths_at_once, count - done), float(share), aim, keep, nullptr);
 }
 
 void PhotonShooter::attempt(std::uint64_t first, std::size_t count, const Aim& aim, std::vector<Trial>& out) const {
-    for (std::size_t done = 0; done < count; done += ways_at_once) {
+    for (std::size_t done = 0; done < count; done += paths_at_once) {
         std::vector<Aim::Choice> chosen;
-        std::vector<float> gains(ways_at_once);
+        std::vector<float> gains(paths_at_once);
         // What the choice itself added to the flux is none of the gain.
-        const auto keep = [&](const Walk& walk, const SurfacePoint&, Vec3) {
-            gains[walk.way] += luminance(walk.flux) / chosen[walk.way].weight;
+        const auto keep = [&](const PhotonPath& path, const SurfacePoint&, Vec3) {
+            gains[path.index] += luminance(path.flux) / chosen[path.index].weight;
         };
-        follow(first + done, std::min(ways_at_once, count - done), 1, aim, keep, &chosen);
-        for (std::size_t way = 0; way < chosen.size(); ++way)
-            if (gains[way] > 0) out.emplace_back(chosen[way].numbers, chosen[way].weight, gains[way]);
+        follow(first + done, std::min(paths_at_once, count - done), 1, aim, keep, &chosen);
+        for (std::size_t i = 0; i < chosen.size(); ++i)
+            if (gains[i] > 0) out.emplace_back(chosen[i].numbers, chosen[i].weight, gains[i]);
     }
 }
 

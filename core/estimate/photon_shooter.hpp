@@ -24,26 +24,26 @@ PhotonPaths photon_paths(const std::string& name);
 /// In Heckbert's notation.
 std::string expression_of(PhotonPaths paths);
 
-/// Jensen 2001, "Realistic Image Synthesis Using Photon Mapping", chapter 5. What a way of light meets depends on the
-/// key and on its number alone. Any thread may ask.
+/// Photon tracing: Jensen 2001, "Realistic Image Synthesis Using Photon Mapping", chapter 5. What a light path meets
+/// depends on the key and on its number alone. Any thread may ask.
 class PhotonShooter {
 public:
     PhotonShooter(const Scene& scene, PhotonPaths paths, Key key) : scene_(scene), paths_(paths), key_(key) {}
 
-    /// Ways `first` … `first + count` of `total`; appends what they leave on surfaces: of all light `share` (1 /
+    /// Paths `first` … `first + count` of `total`; appends what they leave on surfaces: of all light `share` (1 /
     /// total).
     void shoot(std::uint64_t first, std::size_t count, double share, const Aim& aim, std::vector<Photon>& out) const;
-    /// The same ways, as trials: of those that leave something.
+    /// The same paths, as trials: of those that leave something.
     void attempt(std::uint64_t first, std::size_t count, const Aim& aim, std::vector<Trial>& out) const;
 
 private:
-    struct Walk;
-    struct Flock;
+    struct PhotonPath;
+    struct Batch;
     template <class Keep>
     void follow(std::uint64_t first, std::size_t count, float share, const Aim& aim, const Keep& keep,
                 std::vector<Aim::Choice>* chosen) const;
     template <class Keep>
-    void visit(Walk walk, const Ray& ray, const Hit& hit, const Keep& keep, Flock& flock) const;
+    void visit(PhotonPath path, const Ray& ray, const Hit& hit, const Keep& keep, Batch& batch) const;
     bool keeps(bool met_mirror, bool met_rough) const;
 
     const Scene& scene_;

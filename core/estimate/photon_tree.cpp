@@ -29,12 +29,12 @@ std::size_t first_half(std::size_t leaves) {
     return ((leaves + of_box - 1) / of_box + 1) / 2 * of_box;
 }
 
-void sort_spots(std::span<Spot> spots, std::size_t leaves, const Photon* photons) {
-    if (leaves == 1) return sort_few(spots, BySpot{0, photons});
+void sort_proxies(std::span<PhotonProxy> proxies, std::size_t leaves, const Photon* photons) {
+    if (leaves == 1) return sort_few(proxies, ByProxy{0, photons});
     const std::size_t left = first_half(leaves);
-    halve(spots, left * width, BySpot{longest_side(std::span<const Spot>(spots)), photons});
-    sort_spots(spots.first(left * width), left, photons);
-    sort_spots(spots.subspan(left * width), leaves - left, photons);
+    halve(proxies, left * width, ByProxy{longest_side(std::span<const PhotonProxy>(proxies)), photons});
+    sort_proxies(proxies.first(left * width), left, photons);
+    sort_proxies(proxies.subspan(left * width), leaves - left, photons);
 }
 
 }  // namespace
@@ -125,11 +125,11 @@ void PhotonTree::put_in_leaves(Part part) {
     const auto [first, leaves] = part;
     const std::size_t low = first * width, high = std::min(low + leaves * width, size_);
     const std::vector<Photon> photons(photons_.begin() + std::ptrdiff_t(low), photons_.begin() + std::ptrdiff_t(high));
-    std::vector<Spot> spots;
-    spots.reserve(photons.size());
-    for (const Photon& photon : photons) spots.push_back({photon.position, std::uint32_t(spots.size())});
-    sort_spots(spots, leaves, photons.data());
-    for (std::size_t i = 0; i < spots.size(); ++i) photons_[low + i] = photons[spots[i].photon];
+    std::vector<PhotonProxy> proxies;
+    proxies.reserve(photons.size());
+    for (const Photon& photon : photons) proxies.push_back({photon.position, std::uint32_t(proxies.size())});
+    sort_proxies(proxies, leaves, photons.data());
+    for (std::size_t i = 0; i < proxies.size(); ++i) photons_[low + i] = photons[proxies[i].photon];
     for (std::size_t leaf = first; leaf < first + leaves; ++leaf) put_in_columns(leaf);
 }
 
@@ -190,7 +190,7 @@ public:
         found_.begin(wanted.most, std::min(wanted.radius * wanted.radius, std::numeric_limits<float>::max()));
     }
 
-    void look(std::size_t level, std::size_t at) {
+    void visit(std::size_t level, std::size_t at) {
         const std::size_t count = tree_.children(level, at), first = at * fan;
         Bounds bounds{tree_.levels_[level][at], wanted_, {}};
         work_side_by_side(bounds);
@@ -202,7 +202,7 @@ public:
             for (std::size_t i = 1; i < count; ++i) next = bounds.distance2[i] < bounds.distance2[next] ? i : next;
             if (!(bounds.distance2[next] <= found_.limit())) return;
             bounds.distance2[next] = visited;
-            level == 0 ? look_at_leaf(first + next) : look(level - 1, first + next);
+            level == 0 ? visit_leaf(first + next) : visit(level - 1, first + next);
         }
     }
 
@@ -215,9 +215,9 @@ private:
 
         [[gnu::always_inline]] void work() {
             for (std::size_t i = 0; i < width; ++i) {
-                const Vec3 way = Vec3{leaf.x[i], leaf.y[i], leaf.z[i]} - at;
-                const float height = dot(way, normal);
-                const float counted = length_squared(way) + height_counts * height * height;
+                const Vec3 offset = Vec3{leaf.x[i], leaf.y[i], leaf.z[i]} - at;
+                const float height = dot(offset, normal);
+                const float counted = length_squared(offset) + height_counts * height * height;
                 const float cosine = std::fabs(Photon::cosine_between(leaf.surface[i], normal));
                 distance2[i] = counted + (cosine < least_cosine ? nowhere : 0);
             }
@@ -230,10 +230,10 @@ private:
         __builtin_prefetch(leaf.surface.data());
     }
 
-    void look_at_leaf(std::size_t leaf) {
-        Distances seen{tree_.leaf(leaf), wanted_.position, wanted_.normal, {}};
-        work_side_by_side(seen);
-        found_.offer(seen.distance2, std::uint32_t(leaf * width));
+    void visit_leaf(std::size_t leaf) {
+        Distances distances{tree_.leaf(leaf), wanted_.position, wanted_.normal, {}};
+        work_side_by_side(distances);
+        found_.offer(distances.distance2, std::uint32_t(leaf * width));
     }
 
     // No photon in a box is nearer, as it is counted: each step rounds a greater number to no smaller one, and is the
@@ -270,7 +270,7 @@ private:
 
 std::span<const Nearest::Item> PhotonTree::find(const Wanted& wanted, Nearest& scratch) const {
     Search search(*this, wanted, scratch);
-    if (size_ > 0) search.look(levels_.size() - 1, 0);
+    if (size_ > 0) search.visit(levels_.size() - 1, 0);
     // Indices would differ between the trees of all photons and of some.
     return scratch.sorted([this](auto a, auto b) { return comes_before((*this)[a], (*this)[b]); });
 }

@@ -17,7 +17,7 @@
 
 namespace lightnet {
 
-/// A balanced tree of boxes, as wide as the processor compares at once. Immutable; any thread may ask. Its order
+/// A balanced tree of bounding boxes, as wide as the processor compares at once. Immutable; any thread may ask. Its order
 /// depends on the photons alone.
 class PhotonTree {
 public:

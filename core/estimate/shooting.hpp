@@ -18,8 +18,8 @@ namespace lightnet {
 /// How a map of photons is made: the parameters that nodes share.
 struct Shooting {
     PhotonPaths paths = PhotonPaths::caustic;
-    std::uint64_t ways = 0;  // of light that leave the lamps
-    bool aimed = false;      // rather where they are of use than evenly
+    std::uint64_t emitted = 0;  // light paths that leave the lamps
+    bool aimed = false;         // where they are of use, rather than everywhere alike
     Key key = 0;
     std::size_t most_bytes = 0;  // that may be kept; more is an error
 
@@ -29,19 +29,23 @@ struct Shooting {
 
 /// Parameters `photons`, `paths`, `aim` and `memory` for the schema of a kind.
 std::vector<Param> shooting_params(double photons, const std::string& help_of_photons);
+/// The parameter `radius` of nodes that gather photons; 0: a twentieth of the scene's radius.
+Param gather_radius(const std::string& help);
+float gather_radius(const NodeContext& here);
+
 /// Light paths that such a node counts: for LightTraits::paths.
 std::vector<std::string> paths_of_photons(const Node& node);
 
 /// Learns where to aim, from trials: two rounds on all places. Even, unless it is asked for.
 std::shared_ptr<const Aim> take_aim(Services& services, const Scene& scene, const Shooting& shooting);
-/// Shoots on all places, so many times anew; photons come in the order of their ways. Shards (see Mapped) of each time
+/// Shoots on all places, so many times anew; photons come in the order of their paths. Shards (see Mapped) of each time
 /// stand together: shards_each() of them. Throws Error when that takes more memory than it may.
 Mapped<Photon> shoot(Services& services, const Scene& scene, const Shooting& shooting, const Aim& aim,
                      std::size_t times = 1);
 std::size_t shards_each(const Shooting& shooting);
 
-/// Shoots once; photons in the order of their ways, but in several memories: where the node is sharded, only those that
-/// lie within `reach` (m) of where it may be asked. `most_bytes` bounds what this copy of the node gets.
+/// Shoots once; photons in the order of their paths, but in several memories: where the node is sharded, only those
+/// that lie within `reach` (m) of where it may be asked. `most_bytes` bounds what this copy of the node gets.
 std::vector<Mapped<Photon>> shoot_near(Services& services, const Scene& scene, const Shooting& shooting, const Aim& aim,
                                        float reach);
 /// Points where photons come to lie, about as densely: for RunTraits::landmarks.

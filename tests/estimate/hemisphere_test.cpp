@@ -10,19 +10,19 @@
 namespace lightnet {
 namespace {
 
-using Sky = std::function<Seen(Vec3 origin, Vec3 direction)>;
+using Sky = std::function<GatherResult(Vec3 origin, Vec3 direction)>;
 
 IrradianceRecord record_of(Vec3 position, Vec3 normal, std::size_t rays, const Sky& sky, Key key = 1) {
     const Hemisphere hemisphere(rays);
-    std::vector<SurfaceLook> looks;
-    hemisphere.add_looks(position, normal, key, 0, looks);
-    std::vector<Seen> seen;
-    for (const SurfaceLook& look : looks) seen.push_back(sky(look.ray.origin, look.ray.direction));
+    std::vector<GatherRay> rays_of_point;
+    hemisphere.add_rays(position, normal, key, 0, rays_of_point);
+    std::vector<GatherResult> seen;
+    for (const GatherRay& ray : rays_of_point) seen.push_back(sky(ray.ray.origin, ray.ray.direction));
     return hemisphere.record(position, normal, seen);
 }
 
 // A ceiling at height 1 whose radiance changes with where it is, smoothly.
-Seen ceiling(Vec3 origin, Vec3 direction) {
+GatherResult ceiling(Vec3 origin, Vec3 direction) {
     if (direction.y <= 1e-4f) return {{}, 1e30f};
     const float way = (1 - origin.y) / direction.y;
     const float x = origin.x + way * direction.x, z = origin.z + way * direction.z;
@@ -31,7 +31,7 @@ Seen ceiling(Vec3 origin, Vec3 direction) {
 
 TEST(Hemisphere, SumsUpAnEvenSkyToPi) {
     for (const std::size_t rays : {8, 100, 512, 5000}) {
-        const auto record = record_of({}, {0, 1, 0}, rays, [](Vec3, Vec3) { return Seen{{1, 2, 0}, 3}; });
+        const auto record = record_of({}, {0, 1, 0}, rays, [](Vec3, Vec3) { return GatherResult{{1, 2, 0}, 3}; });
         EXPECT_NEAR(record.irradiance.r, pi, 1e-3f);
         EXPECT_NEAR(record.irradiance.g, 2 * pi, 1e-3f);
         EXPECT_NEAR(record.distance, 3, 1e-3f);
@@ -58,7 +58,7 @@ TEST(Hemisphere, KnowsHowIrradianceChangesWhenThePointMoves) {
 TEST(Hemisphere, KnowsHowIrradianceChangesWhenTheSurfaceTurns) {
     const Vec3 up{0, 1, 0}, at{0.1f, 0, 0.2f};
     // All around, so that nothing comes in over the horizon.
-    const auto sky = [](Vec3, Vec3 d) { return Seen{{std::max(0.0f, d.y), 2 + d.x, 2 + d.z + d.x * d.y}, 1}; };
+    const auto sky = [](Vec3, Vec3 d) { return GatherResult{{std::max(0.0f, d.y), 2 + d.x, 2 + d.z + d.x * d.y}, 1}; };
     const auto record = record_of(at, up, 40000, sky);
     constexpr float angle = 0.05f;
     for (const Vec3 sideways : {Vec3{1, 0, 0}, Vec3{0, 0, 1}}) {

@@ -9,7 +9,7 @@
 
 #include "core/base/math/samples.hpp"
 #include "core/base/math/sampling.hpp"
-#include "core/estimate/stops.hpp"
+#include "core/estimate/path_vertices.hpp"
 #include "core/scene/direct_light.hpp"
 #include "core/scene/scene.hpp"
 #include "tests/support/small_scenes.hpp"
@@ -256,7 +256,7 @@ TEST(Many, StopsTellEachWalkWhatOneIsTold) {
         };
         std::vector<Walk> walks;
         std::vector<Vec2> numbers;
-        Stops stops(scene);
+        PathVertices vertices(scene);
         std::size_t told = 0, found = 0, went_on = 0;
         const auto compare = [&] {
             std::vector<float> choices;
@@ -266,10 +266,10 @@ TEST(Many, StopsTellEachWalkWhatOneIsTold) {
                 const Bsdf bsdf = scene.bsdf(point);
                 with(Gathering{point, bsdf, walks[i].outgoing, walks[i].lobes, walks[i].inside});
             };
-            stops.find_points();
-            stops.find_bsdfs();
+            vertices.find_points();
+            vertices.find_bsdfs();
             std::vector<int> seen(walks.size());
-            stops.each([&](std::uint32_t i, const Gathering& at) {
+            vertices.each([&](std::uint32_t i, const Gathering& at) {
                 ++seen[i];
                 alone(i, [&](const Gathering& one) {
                     EXPECT_EQ(std::tuple(at.point.position, at.point.normal, at.outgoing, at.inside),
@@ -278,15 +278,15 @@ TEST(Many, StopsTellEachWalkWhatOneIsTold) {
                 });
             });
             EXPECT_EQ(seen, std::vector<int>(walks.size(), 1));
-            LampRays rays;
-            stops.look_for_lamps(
+            ShadowRays rays;
+            vertices.sample_lamps(
                 {choices, numbers}, Heuristic::power, rays, [](auto) { return 2.0f; }, [](auto i) { return i; });
             std::vector<int> lit(walks.size(), -1);
-            for (std::size_t k = 0; k < rays.paths.size(); ++k) lit[rays.paths[k]] = int(k);
+            for (std::size_t k = 0; k < rays.sums.size(); ++k) lit[rays.sums[k]] = int(k);
             std::vector<int> goes(walks.size());
             std::uint32_t last = 0;
             const auto choice = [&](std::uint32_t i) { return choices[i]; };
-            stops.scatter(numbers, choice, [&](std::uint32_t i, const Stops::Step& step) {
+            vertices.scatter(numbers, choice, [&](std::uint32_t i, const PathVertices::Step& step) {
                 EXPECT_GE(i, last);
                 last = i;
                 goes[i] = 1;
@@ -317,21 +317,21 @@ TEST(Many, StopsTellEachWalkWhatOneIsTold) {
             told += walks.size();
             walks.clear();
             numbers.clear();
-            stops.clear();
+            vertices.clear();
         };
         for (std::uint32_t i = 0; i < many; ++i) {
             Samples samples(9, i);
             Walk walk{hits[i], sphere(samples.next_2d()), i % 7 ? lobe::all : lobe::specular,
                       i % 11 ? nullptr : &absorption, samples.next()};
-            stops.add(std::uint32_t(walks.size()), walk.hit, walk.outgoing, walk.lobes, walk.inside);
+            vertices.add(std::uint32_t(walks.size()), walk.hit, walk.outgoing, walk.lobes, walk.inside);
             walks.push_back(walk);
             numbers.push_back(samples.next_2d());
-            if (i % 3 == 0 && !stops.full()) {
-                stops.add_again(std::uint32_t(walks.size()), walk.hit, walk.outgoing);
+            if (i % 3 == 0 && !vertices.full()) {
+                vertices.add_again(std::uint32_t(walks.size()), walk.hit, walk.outgoing);
                 walks.push_back(walk);
                 numbers.push_back(samples.next_2d());
             }
-            if (stops.full()) compare();
+            if (vertices.full()) compare();
         }
         compare();
         EXPECT_GT(told, many);

@@ -1,4 +1,4 @@
-#include "core/estimate/mirror_way.hpp"
+#include "core/estimate/specular_path.hpp"
 
 #include "core/scene/direct_light.hpp"
 
@@ -6,11 +6,11 @@
 
 namespace lightnet {
 
-void MirrorWay::arrive(float distance) {
+void SpecularPath::arrive(float distance) {
     if (inside_) weight_ *= left_after(inside_, distance);
 }
 
-Query MirrorWay::question_about(const Hit& hit, std::uint8_t lobes, std::uint32_t depth) const {
+Query SpecularPath::question_about(const Hit& hit, std::uint8_t lobes, std::uint32_t depth) const {
     return {.instance = hit.instance,
             .geometry = hit.geometry,
             .primitive = hit.primitive,
@@ -21,26 +21,26 @@ Query MirrorWay::question_about(const Hit& hit, std::uint8_t lobes, std::uint32_
             .depth = static_cast<std::uint8_t>(std::min(depth, 255u))};
 }
 
-bool MirrorWay::go_on(const SurfacePoint& point, const Bsdf& bsdf, Samples samples, float keep) {
+bool SpecularPath::go_on(const SurfacePoint& point, const Bsdf& bsdf, Samples samples, float keep) {
     const Vec3 outgoing = -ray_.direction;
     const float choice = bsdf.chooses() ? samples.next() : samples.skip();
     const auto sample = bsdf.sample(outgoing, choice, samples.next_2d(), lobe::specular);
     if (!sample) return false;
     take(point, bsdf, *sample);
-    const float chance = std::min(1.0f, max_component(weight_) * squeezed_ * keep);
+    const float chance = std::min(1.0f, max_component(weight_) * eta_scale_ * keep);
     if (!(samples.next() < chance)) return false;
     weight_ *= 1 / chance;
     return true;
 }
 
-std::optional<MirrorWay> MirrorWay::split(const SurfacePoint& point, const Bsdf& bsdf, float least) {
+std::optional<SpecularPath> SpecularPath::split(const SurfacePoint& point, const Bsdf& bsdf, float least) {
     const auto chance = bsdf.reflection_chance(-ray_.direction);
-    const float carried = max_component(weight_) * squeezed_;
+    const float carried = max_component(weight_) * eta_scale_;
     if (!chance || carried * std::min(*chance, 1 - *chance) < least) return {};
     const auto reflection = bsdf.sample(-ray_.direction, *chance / 2, {}, lobe::specular);
     const auto transmission = bsdf.sample(-ray_.direction, (1 + *chance) / 2, {}, lobe::specular);
     if (!reflection || !transmission) return {};
-    MirrorWay reflected = *this;
+    SpecularPath reflected = *this;
     reflected.take(point, bsdf, *reflection);
     reflected.weight_ *= *chance;
     take(point, bsdf, *transmission);
@@ -48,10 +48,10 @@ std::optional<MirrorWay> MirrorWay::split(const SurfacePoint& point, const Bsdf&
     return reflected;
 }
 
-void MirrorWay::take(const SurfacePoint& point, const Bsdf& bsdf, const BsdfSample& sample) {
+void SpecularPath::take(const SurfacePoint& point, const Bsdf& bsdf, const BsdfSample& sample) {
     inside_ = filling(bsdf, point, -ray_.direction, sample.incoming, inside_);
     weight_ *= sample.weight;
-    squeezed_ *= sample.eta * sample.eta;
+    eta_scale_ *= sample.eta * sample.eta;
     ray_ = {point.origin_towards(sample.incoming), sample.incoming};
 }
 
