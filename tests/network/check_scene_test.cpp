@@ -58,9 +58,9 @@ TEST(CheckScene, SaysWhatEachEntryMustBe) {
 }
 
 TEST(Describe, TellsTheEntriesOfATable) {
-    EXPECT_THAT(
-        describe(*test::fake_registry().find("Scene")),
-        HasSubstr("fov    angle across the shorter side of the picture: number, in degrees, optional, 0.001 … 179\n"));
+    EXPECT_THAT(describe(*test::fake_registry().find("Scene")),
+                HasSubstr("fov    field of view: angle across the shorter side of the image: number, in degrees, "
+                          "optional, 0.001 … 179\n"));
 }
 
 }  // namespace

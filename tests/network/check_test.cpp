@@ -155,10 +155,10 @@ TEST(Check, PrintsTheWayOfACycle) {
 }
 
 TEST(Check, WantsOneRenderer) {
-    EXPECT_EQ(problems_of("sky = Ambient {}"), "graph.lua: no renderer: one node must make the picture, a RayTracer");
+    EXPECT_EQ(problems_of("sky = Ambient {}"), "graph.lua: no renderer: one node must make the image, a RayTracer");
     EXPECT_THAT(
         problems_of("sky = Ambient {}\n" + rest + "\nother = RayTracer { sky, scene = scene, film = { 8, 8 } }"),
-        HasSubstr("graph.lua:3: RayTracer 'other': a second renderer; 'image' makes the picture already"));
+        HasSubstr("graph.lua:3: RayTracer 'other': a second renderer; 'image' makes the image already"));
 }
 
 TEST(Check, TellsAllProblemsAtOnceInTheOrderOfLines) {
@@ -179,7 +179,7 @@ TEST(Check, SaysWhatTheValueIsThatNobodyGives) {
 TEST(Examine, WarnsOfNodesThatThePictureDoesNotNeed) {
     const Examined found = examine(parse("sky = Ambient {}\nidle = Ambient {}\n" + rest), fake_registry());
     EXPECT_THAT(found.problems, testing::IsEmpty());
-    EXPECT_THAT(found.warnings, ElementsAre(Problem{{"graph.lua", 2}, "Ambient 'idle': the picture doesn't need it"}));
+    EXPECT_THAT(found.warnings, ElementsAre(Problem{{"graph.lua", 2}, "Ambient 'idle': the image doesn't need it"}));
 }
 
 TEST(Examine, WarnsOfNodesWhoseBytesAreOthersEachTime) {

@@ -12,7 +12,7 @@ TEST(Describe, ListsAllKinds) {
               "Ambient    light  light from everywhere\n"
               "Cache      light  remembers light\n"
               "Combine    light  sums its inputs\n"
-              "RayTracer  image  makes the picture\n"
+              "RayTracer  image  makes the image\n"
               "Reuse      light  takes what was remembered\n"
               "Scene      scene  what is seen: Scene { \"file.pbrt\" }, the file named from the graph's folder\n");
 }

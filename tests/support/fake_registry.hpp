@@ -64,7 +64,7 @@ inline Kind reuse() {
 }
 
 inline Kind ray_tracer() {
-    Kind kind{.name = "RayTracer", .role = Role::image, .help = "makes the picture"};
+    Kind kind{.name = "RayTracer", .role = Role::image, .help = "makes the image"};
     kind.inputs = {1, 1};
     kind.params = {{.name = "scene", .type = ParamType::scene, .help = "what is seen"},
                    {.name = "film", .type = ParamType::film, .help = "size and file of the picture"},

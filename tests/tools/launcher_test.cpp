@@ -225,7 +225,7 @@ TEST(Launcher, ShowsAndRunsWhatIsSharded) {
 TEST(Launcher, DescribesKinds) {
     Bench lightnet;
     EXPECT_EQ(lightnet({"describe"}), 0);
-    EXPECT_THAT(lightnet.out, HasSubstr("RayTracer  image  makes the picture"));
+    EXPECT_THAT(lightnet.out, HasSubstr("RayTracer  image  makes the image"));
     EXPECT_EQ(lightnet({"describe", "Ambient"}), 0);
     EXPECT_THAT(lightnet.out, HasSubstr("rays   integer, in samples, default 4"));
     EXPECT_EQ(lightnet({"describe", "Ambeint"}), 2);

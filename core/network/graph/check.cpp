@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "core/base/problem_list.hpp"
+#include "core/base/quoted.hpp"
 #include "core/network/graph/check_hosts.hpp"
 #include "core/network/graph/check_params.hpp"
 #include "core/network/graph/layout.hpp"
@@ -15,8 +16,6 @@
 
 namespace lightnet {
 namespace {
-
-std::string quoted(const std::string& text) { return "'" + text + "'"; }
 
 std::string count_text(std::size_t count) { return std::to_string(count) + (count == 1 ? " input" : " inputs"); }
 
@@ -148,11 +147,11 @@ private:
     void check_cycles() {
         state_.assign(given_.nodes.size(), State::fresh);
         for (std::size_t node = 0; node < given_.nodes.size(); ++node)
-            if (state_[node] == State::fresh) walk(node);
+            if (state_[node] == State::fresh) follow(node);
     }
 
     // By hand instead of by recursion: a long chain of nodes mustn't cost the stack.
-    void walk(std::size_t start) {
+    void follow(std::size_t start) {
         std::vector<std::pair<std::size_t, std::vector<std::size_t>>> path;
         const auto enter = [&](std::size_t node) {
             state_[node] = State::open;
@@ -203,7 +202,7 @@ private:
             const Kind* kind = registry_.find(node.kind);
             unknown = unknown || !kind;
             if (!kind || kind->role != Role::image) continue;
-            if (first) complain(node, "a second renderer; " + quoted(first->name) + " makes the picture already");
+            if (first) complain(node, "a second renderer; " + quoted(first->name) + " makes the image already");
             if (!first) first = &node;
         }
         // an unknown kind may well be the renderer, misspelt
@@ -214,7 +213,7 @@ private:
         std::string text;
         for (const auto& kind : registry_.kinds())
             if (kind.role == Role::image) text += (text.empty() ? "" : " or ") + kind.name;
-        return text.empty() ? "" : ": one node must make the picture, a " + text;
+        return text.empty() ? "" : ": one node must make the image, a " + text;
     }
 
     enum class State { fresh, open, done };
@@ -235,7 +234,7 @@ std::vector<Problem> unused_nodes(const Graph& graph, const Registry& registry) 
         const auto used = used_nodes(graph, node);
         for (std::size_t other = 0; other < used.size(); ++other)
             if (const auto& [name, kind, entries, params, where] = graph.nodes[other]; !used[other])
-                warnings.push_back({where, kind + " " + quoted(name) + ": the picture doesn't need it"});
+                warnings.push_back({where, kind + " " + quoted(name) + ": the image doesn't need it"});
     }
     return warnings;
 }

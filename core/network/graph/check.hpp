@@ -15,7 +15,7 @@ namespace lightnet {
 struct Examined {
     Graph graph;                    // with defaults filled in
     std::vector<Problem> problems;  // all of them, in the order of the files' lines; empty: the graph is sound
-    std::vector<Problem> warnings;  // what works, but is probably not meant: nodes that the picture doesn't need, or
+    std::vector<Problem> warnings;  // what works, but is probably not meant: nodes that the image doesn't need, or
                                     // whose bytes are others each time, light that is counted twice
     std::vector<Problem> notes;     // what is often meant, and good to know: light that no node counts
 };

@@ -68,7 +68,7 @@ protected:
                         (image ? ", penwidth=2" : "") + "];");
     }
 
-    // A picture, and below it a text.
+    // An image, and below it a text.
     static std::string shown(const std::string& file, const std::string& text) {
         std::string below = in_html(text);
         for (std::size_t at = 0; (at = below.find('\n', at)) != std::string::npos;) below.replace(at, 1, "<BR/>");
@@ -201,7 +201,7 @@ private:
         return std::find(inputs.begin(), inputs.end(), whole_of(graph_, node)) != inputs.end();
     }
 
-    const char* way(std::uint32_t from, std::uint32_t to) const {
+    const char* carried_by(std::uint32_t from, std::uint32_t to) const {
         return plan_.places[from].host == plan_.places[to].host ? "inproc bundles" : "tcp bundles";
     }
 
@@ -285,7 +285,7 @@ private:
         if (holds(place, input))
             edge(from, id(input, place), light(input) + "\ncall");
         else if (replicas.size() == 1)
-            edge(from, id(input, replicas[0]), light(input) + "\n" + way(place, replicas[0]));
+            edge(from, id(input, replicas[0]), light(input) + "\n" + carried_by(place, replicas[0]));
         else
             edge(from, multiplexer_id(input, place), light(input) + "\ncall");
     }
@@ -293,7 +293,7 @@ private:
     void draw_choices(std::uint32_t place, std::size_t input) {
         if (!chooses(place, input)) return;
         for (const auto replica : plan_.places_of[input])
-            edge(multiplexer_id(input, place), id(input, replica), light(input) + "\n" + way(place, replica));
+            edge(multiplexer_id(input, place), id(input, replica), light(input) + "\n" + carried_by(place, replica));
     }
 
     std::size_t first_asker(std::uint32_t place, std::size_t input) const {

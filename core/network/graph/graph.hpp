@@ -77,7 +77,7 @@ std::vector<std::size_t> leaves_first(const Edges& edges);
 /// a cycle, which check() would have named.
 std::vector<unsigned> ranks_of(const Graph& graph);
 
-/// Per node, whether the picture of `renderer` needs it: the renderer itself, what it asks, and the scenes of these.
+/// Per node, whether the image of `renderer` needs it: the renderer itself, what it asks, and the scenes of these.
 std::vector<bool> used_nodes(const Graph& graph, std::size_t renderer);
 
 /// Canonical text (JSON) of a graph: the same graph gives the same bytes. For pipes, plans and hashes. Throws Error

@@ -1,4 +1,4 @@
-// The size of the picture, and where it goes.
+// The size of the image, and where it goes.
 #pragma once
 
 #include <cstddef>
@@ -16,11 +16,11 @@ namespace lightnet {
 struct GraphFilm {
     std::uint32_t width = 0, height = 0;  // pixels
     std::string file;                     // "" where the graph names none
-    std::optional<Window> crop{};         // none: the whole picture
+    std::optional<Window> crop{};         // none: the whole image
     friend bool operator==(const GraphFilm&, const GraphFilm&) = default;
 };
 
-/// Width and height of a picture are at most this many pixels.
+/// Width and height of an image are at most this many pixels.
 inline constexpr std::uint32_t longest_side = 16384;
 
 /// The film of a checked graph's renderer.

@@ -16,16 +16,16 @@ std::vector<Param> camera_fields() {
         return Param{.name = name, .type = ParamType::numbers, .help = help, .optional = true, .count = 3};
     };
     return {point("from", "where it stands"),
-            point("to", "what is in the middle of the picture"),
-            point("up", "what is up in the picture"),
+            point("to", "what is in the middle of the image"),
+            point("up", "what is up in the image"),
             {.name = "fov",
-             .help = "angle across the shorter side of the picture",
+             .help = "field of view: angle across the shorter side of the image",
              .unit = "degrees",
              .least = 0.001,
              .most = 179,
              .optional = true},
-            {.name = "lens", .help = "radius of the lens", .unit = "m", .least = 0, .optional = true},
-            {.name = "focus", .help = "distance of what is sharp", .unit = "m", .least = 1e-6, .optional = true}};
+            {.name = "lens", .help = "radius of the lens", .unit = "scene units", .least = 0, .optional = true},
+            {.name = "focus", .help = "distance in focus", .unit = "scene units", .least = 1e-6, .optional = true}};
 }
 
 Kind scene_kind() {
@@ -42,11 +42,11 @@ Kind scene_kind() {
         {.name = "environment",
          .type = ParamType::surrounding,
          .help =
-             "instead of what the file has around the scene; pictures: square ones have equal areas, others latitudes",
+             "instead of what the file has around the scene; images: equal-area where square, else latitude-longitude",
          .optional = true},
         {.name = "environment_scale", .help = "times what is around the scene", .initial = Value{1.0}, .least = 0},
         {.name = "exposure",
-         .help = "how many times the picture becomes twice as bright",
+         .help = "how many times the image becomes twice as bright",
          .unit = "stops",
          .initial = Value{0.0},
          .least = -64,

@@ -46,7 +46,7 @@ struct Param {
     std::string name;
     ParamType type = ParamType::number;
     std::string help;                   // one line
-    std::string unit = {};              // "m", "W·sr⁻¹·m⁻²", "samples", …; empty: none
+    std::string unit = {};              // "scene units", "W·sr⁻¹·m⁻²", "samples", …; empty: none
     std::optional<Value> initial = {};  // the default; none: must be given
     double least = -std::numeric_limits<double>::infinity();
     double most = std::numeric_limits<double>::infinity();
@@ -66,7 +66,7 @@ struct InputCount {
 /// What nodes of a kind do with light.
 struct LightTraits {
     bool linear = false;    // answers with a weighted sum of its inputs: layers pass through
-    bool merges = false;    // of a renderer: its inputs' light can't be told apart, its picture is one layer
+    bool merges = false;    // of a renderer: its inputs' light can't be told apart, its image is one layer
     bool partial = false;   // passes on a part of its inputs' light, on purpose
     bool converts = false;  // gives the light of the node whose frozen state it takes, in another representation
     /// Which light paths a node (defaults filled in) counts by itself, as sets for PathSet::parse(): from the light to

@@ -1,4 +1,4 @@
-// Which layers a picture has, and which node keeps which of them apart.
+// Which layers an image has, and which node keeps which of them apart.
 #include <algorithm>
 #include <cassert>
 
@@ -72,7 +72,7 @@ Layers layers_of(const Graph& graph, const Registry& registry) {
         if (!is_there(layers.film, graph.nodes[shown].name) && !is_there(layers.shown, shown))
             layers.shown.push_back(shown);
     }
-    // whoever is on no additive path answers with one colour of its own
+    // a node on no additive path answers with one colour of its own
     for (std::size_t node = 0; node < graph.nodes.size(); ++node) {
         const Kind* kind = registry.find(graph.nodes[node].kind);
         if (layers.of_node[node].empty() && kind->role == Role::light) layers.of_node[node] = {node};

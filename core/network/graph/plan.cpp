@@ -135,7 +135,7 @@ private:
     const Graph& graph_;
     Plan plan_;
     std::map<std::string, std::set<std::size_t>> sectors_;  // by host: those that the hosts file gives it
-    std::vector<bool> placed_;                              // per node: the picture needs it, and a place must hold it
+    std::vector<bool> placed_;                              // per node: the image needs it, and a place must hold it
     std::vector<std::size_t> held_;                         // per place: how many nodes it holds
 };
 

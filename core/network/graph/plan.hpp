@@ -15,17 +15,17 @@
 
 namespace lightnet {
 
-/// What the picture's layers are, and which of them pass through each node. Depends on the graph alone.
+/// What the image's layers are, and which of them pass through each node. Depends on the graph alone.
 struct Layers {
     std::vector<std::string> film;   // "emission", then the terminals of the additive paths, graph order
-    std::vector<std::size_t> shown;  // nodes whose pictures stand beside the sum, behind the layers of the film
+    std::vector<std::size_t> shown;  // nodes whose images stand beside the sum, behind the layers of the film
     std::vector<std::vector<std::size_t>>
         of_node;  // per node: the terminals (node indices) that its answers keep apart
 };
 
-/// How many colours a pixel has: one per layer, and one per picture beside the sum.
+/// How many colours a pixel has: one per layer, and one per image beside the sum.
 inline std::size_t colours_of(const Layers& layers) { return layers.film.size() + layers.shown.size(); }
-/// The names of the pictures beside the sum.
+/// The names of the images beside the sum.
 std::vector<std::string> shown_names(const Layers& layers, const Graph& graph);
 
 /// Layers of a checked graph. A linear node on an additive path from the renderer keeps its terminals apart; every
@@ -78,7 +78,7 @@ Plan plan(const Graph& graph, const Registry& registry, const Hosts& hosts, cons
 /// Every node of the graph has a row, and every place that is named is there. Plans that arrive are checked.
 bool fits(const Plan& plan, const Graph& graph);
 
-/// The index of the renderer whose picture the run makes.
+/// The index of the renderer whose image the run makes.
 std::size_t renderer_of(const Graph& graph, const Registry& registry);
 
 /// Canonical text of a plan, and back; limits and errors as for graphs.

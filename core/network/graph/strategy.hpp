@@ -12,7 +12,7 @@ enum class Strategy : std::uint8_t {
     fastest,       // who is expected to finish first: outstanding work, fill level, measured service time
     least_loaded,  // who has the fewest questions waiting, as he said with his last reply
     round_robin,   // in turn
-    affinity,      // the same region of the scene or picture to the same replica, while it is not overloaded
+    affinity,      // the same region of the scene or image to the same replica, while it is not overloaded
 };
 
 /// As they are called in hosts files, in the order of the enum.

@@ -7,7 +7,7 @@
 
 namespace lightnet {
 
-/// One node's way to the locks of the run. At most one call in the whole run holds a lock of a name, on whatever host
+/// One node's access to the locks of the run. At most one call in the whole run holds a lock of a name, on whatever host
 /// it runs; the others wait. Asking an input while holding one is an error, as it could make places wait for each
 /// other. What a lock protects must not decide what is answered.
 class Locks {

@@ -11,7 +11,7 @@ namespace lightnet {
 /// come out of Services::rehearse(), from all places, in an order that depends on the questions alone.
 class Rehearsal {
 public:
-    /// True while notes are taken. The answers given meanwhile reach no picture.
+    /// True while notes are taken. The answers given meanwhile reach no image.
     bool on() const { return on_; }
     void note(const Query& question) {
         if (on_) noted_.push_back(question);

@@ -1,4 +1,4 @@
-// A renderer: turns tiles of the picture into pixels.
+// A renderer: turns tiles of the image into pixels.
 #pragma once
 
 #include <span>
@@ -8,7 +8,7 @@
 
 namespace lightnet {
 
-/// Samples the picture, finds what is seen, and asks its lighting input how bright it is. The rules of LightOp hold.
+/// Samples the image, finds what is seen, and asks its lighting input how bright it is. The rules of LightOp hold.
 class Renderer {
 public:
     virtual ~Renderer() = default;

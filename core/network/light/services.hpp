@@ -87,7 +87,7 @@ public:
     /// Renders every `stride`-th pixel of every `stride`-th row, one sample each, through the whole network, and
     /// returns all questions that the node has noted with NodeContext::rehearsal() meanwhile: sorted, each once. The
     /// node is asked while it prepares, so light() must answer from what is there: anything will do, as it reaches no
-    /// picture. Strides of later calls must divide those of earlier ones.
+    /// image. Strides of later calls must divide those of earlier ones.
     virtual std::vector<Query> rehearse(std::uint32_t stride) = 0;
 
     virtual Whereabouts whereabouts() const = 0;
