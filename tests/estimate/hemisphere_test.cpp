@@ -84,7 +84,7 @@ TEST(Hemisphere, GuessesBetterWithGradientsThanWithout) {
 IrradianceRecord plain(Vec3 at, float brightness, float distance) {
     return {at, {0, 1, 0}, {brightness, brightness, brightness}, distance, distance, {}, {}};
 }
-const Scene::Box box{{-2, -2, -2}, {2, 2, 2}};
+const Box box{{-2, -2, -2}, {2, 2, 2}};
 
 TEST(IrradianceOctree, AnswersWithinReachOnly) {
     const std::vector<IrradianceRecord> records{plain({0, 0, 0}, 3, 1)};

@@ -233,15 +233,24 @@ TEST(MitsubaCheckerboard, HasTwoSquaresPerUnit) {
                 HasSubstr("texture 'wood' is not supported: grey is taken"));
 }
 
-TEST(MitsubaBsdfs, MayBeNestedButNotForEver) {
+// Each blends the one before with `other`; with itself if there is none.
+std::string blends(const std::string& other) {
     std::string chain = "<bsdf type='diffuse' id='b0'/>";
     for (int i = 1; i <= 200; ++i) {
-        const auto n = std::to_string(i), before = std::to_string(i - 1);
-        chain += "<bsdf type='blendbsdf' id='b" + n + "'><ref id='b" + before + "'/><ref id='b" + before + "'/></bsdf>";
+        const auto n = std::to_string(i), before = "b" + std::to_string(i - 1);
+        chain += "<bsdf type='blendbsdf' id='b" + n + "'><ref id='" + before + "'/><ref id='" +
+                 (other.empty() ? before : other) + "'/></bsdf>";
     }
-    EXPECT_THAT(errors_of_mitsuba(chain + "<shape type='sphere'><ref id='b200'/></shape>"),
+    return chain;
+}
+
+TEST(MitsubaBsdfs, MayBeNestedButNotForEver) {
+    EXPECT_THAT(errors_of_mitsuba(blends("b0") + "<shape type='sphere'><ref id='b200'/></shape>"),
                 HasSubstr("bsdfs are nested too deeply"));
-    EXPECT_EQ(errors_of_mitsuba(chain + "<shape type='sphere'><ref id='b60'/></shape>"), "");
+    EXPECT_EQ(errors_of_mitsuba(blends("b0") + "<shape type='sphere'><ref id='b60'/></shape>"), "");
+    EXPECT_THAT(errors_of_mitsuba(blends("") + "<shape type='sphere'><ref id='b60'/></shape>"),
+                HasSubstr("mixed from more than 1024 materials"))
+        << "each doubles what is below";
 }
 
 }  // namespace
