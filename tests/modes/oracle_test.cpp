@@ -114,10 +114,10 @@ Plan crossed(const Shipped& graph) {
 TEST(Places, ThatServeEachOtherWithOneFiberPerNodeAndCreditOneDoNotHang) {
     const Shipped graph("cornell.lua");
     Tuning narrow;
-    narrow.credit = {1, 1};
+    narrow.credit = 1, narrow.credit_questions = 1;
     narrow.spare_fibers = 0;
     for (const std::size_t bundle : {1, 64}) {
-        narrow.bundles.questions = bundle;
+        narrow.bundle = bundle;
         Counters counters;
         EXPECT_TRUE(graph.threaded(crossed(graph), narrow, &counters) == graph.serial());
         EXPECT_GT(counters.questions, 0u);
