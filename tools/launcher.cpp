@@ -56,7 +56,6 @@ RunRequest request_of(const Options& options, const Registry& registry, Loaded l
     request.listen = options.listen;
     request.pass = options.pass;
     request.tuning = options.tuning;
-    request.check_answers = options.check_answers;
     request.local_workers = options.local_workers.value_or(0);
     request.slurm = {options.slurm.value_or(0), options.partition, words_of(options.slurm_arguments)};
     request.wait = std::chrono::seconds(options.wait);

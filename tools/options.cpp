@@ -239,8 +239,6 @@ private:
                       "samples");
         verb.add_flag("--forget", options_.forget,
                       "leave no checkpoint beside a finished picture, so that no samples can be added to it");
-        verb.add_flag("--check-answers", options_.check_answers,
-                      "ask wrapped classes some questions twice, and compare all that is answered twice, bit by bit");
         add_tuning(verb);
     }
 
@@ -268,25 +266,28 @@ private:
 
     // The picture does not depend on any of these.
     void add_tuning(CLI::App& verb) {
-        auto& tuning = options_.tuning;
-        const auto add = [&](const char* name, std::uint32_t& value, std::uint64_t least, std::uint64_t most,
-                             const char* help) {
-            takes_numbers(verb.add_option(name, value, help), "N", least, most)->group("Tuning");
-        };
-        add("--tile", tuning.tile, 1, 256, "pixels along a side of a tile");
-        add("--bundle", tuning.bundle, 1, 65536, "questions in a full bundle");
-        add("--credit", tuning.credit, 1, 1024, "bundles under way to one place, per node asked");
-        add("--checkpoint", tuning.checkpoint, 1, 86400, "seconds between two checkpoints");
-        verb.add_option("--cache", tuning.cache, "where what nodes prepare is kept from run to run; 'none': nowhere")
-            ->type_name("FOLDER")
-            ->group("Tuning");
-        verb.add_option("--cache-size", tuning.cache_size, "bytes that the cache may keep, like 500M")
-            ->type_name("SIZE")
-            ->default_str("4G")
+        for (const auto& knob : knobs) {
+            if (knob.by != Knob::By::users) continue;
+            std::string flag = std::string("--") + knob.name;
+            std::replace(flag.begin(), flag.end(), '_', '-');
+            std::visit([&](const auto& member) { add_knob(verb, flag, knob, options_.tuning.*member); }, knob.member);
+        }
+    }
+    static void add_knob(CLI::App& verb, const std::string& flag, const Knob& knob, bool& value) {
+        verb.add_flag(flag, value, knob.help)->group("Tuning");
+    }
+    static void add_knob(CLI::App& verb, const std::string& flag, const Knob& knob, std::string& value) {
+        verb.add_option(flag, value, knob.help)->type_name(knob.unit)->group("Tuning");
+    }
+    static void add_knob(CLI::App& verb, const std::string& flag, const Knob& knob, std::uint32_t& value) {
+        takes_numbers(verb.add_option(flag, value, knob.help), knob.unit, knob.least, knob.most)->group("Tuning");
+    }
+    static void add_knob(CLI::App& verb, const std::string& flag, const Knob& knob, std::uint64_t& value) {
+        verb.add_option(flag, value, knob.help)
+            ->type_name(knob.unit)
+            ->default_str(std::to_string(value >> 30) + "G")
             ->transform(CLI::AsSizeValue(false).description(""))
             ->group("Tuning");
-        add("--spare-fibers", tuning.spare_fibers, 0, 4096, "fibers of a place beside one per node");
-        add("--side-fibers", tuning.side_fibers, 0, 8192, "fibers of a place for questions that wrapped code asks");
     }
 
     void add_check() {

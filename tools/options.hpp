@@ -58,7 +58,6 @@ struct Options {
     bool resume = false;  // from a checkpoint
     bool forget = false;  // it, when the picture is finished
     Tuning tuning;
-    bool check_answers = false;
     std::string kind;               // for describe; "": all
     std::string pictures;           // for dot: the EXR that shows what each node gives; "": none
     std::vector<std::string> whom;  // for hosts: endpoints and hosts files

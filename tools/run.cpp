@@ -75,8 +75,8 @@ RunReport first_page(const RunRequest& request, const Registry& registry, const 
             fmt::format("{},{},{},{}", crop->x, crop->y, crop->x + crop->width, crop->y + crop->height);
     if (film.adaptive()) report.settings["error"] = fmt::format("{}", film.refinement.error);
     report.settings["seed"] = std::to_string(request.seed);
-    report.settings["tile"] = std::to_string(request.tuning.tile);
-    report.settings["bundle"] = std::to_string(request.tuning.bundle);
+    for (const auto& knob : knobs)
+        if (knob.by == Knob::By::users) report.settings[knob.name] = text_of(request.tuning, knob);
     for (const auto& warning : irreproducible_nodes(request.graph, registry))  // said already, when it was checked
         report.warnings.push_back(to_string(warning));
     return report;
@@ -150,11 +150,7 @@ Job Run::make_job(DiskFiles& files) const {
     job.seed = request_.seed;
     job.isa = usual_isa();
     job.width = format_.width, job.height = format_.height;
-    job.rules.bundles.questions = request_.tuning.bundle;
-    job.rules.credit.bundles = request_.tuning.credit;
-    job.rules.side_fibers = request_.tuning.side_fibers;
-    job.checking = job.rules.check = request_.check_answers;
-    job.rules.spare_fibers = request_.tuning.spare_fibers;
+    job.tuning = request_.tuning;
     return job;
 }
 
@@ -259,7 +255,7 @@ void Run::render_in_threads(SceneData scene) {
     book_.phase("prepare");
     const auto network = build_network(job_, registry_, std::move(scene));
     const Plan plan = lightnet::plan(job_.graph, registry_, {}, {{"", request_.threads}});
-    ThreadedRun run(network, id_, plan, job_.rules);
+    ThreadedRun run(network, id_, plan, job_.tuning);
     book_.use(plan, job_.graph);
     hand_out(run.carrier(), plan, [&](std::size_t) { run.check(); });
     book_.count(run.stop());
@@ -319,7 +315,7 @@ void Run::hand_out(Carrier& carrier, const Plan& plan, const LookAround& look_ar
     job.tiles = tiles_;
     const auto tiles = tiles_per_place(plan);
     job.credit = {tiles, tiles * MasterRenderer::most_together};
-    job.check = request_.check_answers;
+    job.check_answers = request_.tuning.check_answers;
     MasterRenderer* more = nullptr;
     MasterRenderer master(std::move(job), conductor, [this, &more](const Tile& tile, std::span<const Rgb> pixels) {
         more->append(book_.take(tile, pixels));

@@ -12,25 +12,13 @@
 #include "core/network/graph/hosts.hpp"
 #include "core/network/graph/kind.hpp"
 #include "core/readers/files.hpp"
+#include "core/run/message/tuning.hpp"
 #include "core/scene/data/scene_data.hpp"
-#include "transport/cache_folder.hpp"
 
 namespace lightnet {
 
 /// How a run is: in one thread, in places of this process, or with hosts of any kind (and places of this process).
 enum class Mode { serial, threads, network };
-
-/// Sizes that decide how fast a run is, and never what it computes.
-struct Tuning {
-    std::uint32_t tile = 32;     // pixels along a side of a tile
-    std::uint32_t bundle = 512;  // questions in a full bundle
-    std::uint32_t credit = 8;    // bundles under way to one place, for each node that is asked
-    std::string cache;           // folder for what nodes prepare; "": the usual one, "none": nowhere
-    std::uint64_t cache_size = usual_cache_size;
-    std::uint32_t spare_fibers = 16;   // of a place, beside the one that each node has for itself
-    std::uint32_t side_fibers = 2048;  // of a place, for questions that wrapped code waits for one by one
-    std::uint32_t checkpoint = 5;      // seconds between two checkpoints
-};
 
 /// A scene that has been read before its run, with the files that it took. As its file says: nothing is overridden yet.
 struct ReadScene {
@@ -63,8 +51,7 @@ struct RunRequest {
     std::shared_ptr<ReadScene> read;  // it, read already; the run takes it away. None: still to be read
     std::string output;               // "x.exr", as seen from here
     std::uint64_t seed = 0;
-    double preview = 0;          // seconds between two pictures of what is there; 0: none
-    bool check_answers = false;  // ask wrapped classes twice, and compare what is answered twice
+    double preview = 0;  // seconds between two pictures of what is there; 0: none
     ProgressMode progress = ProgressMode::automatic;
 };
 

@@ -31,7 +31,7 @@ Cluster::Links::Links(Options given)
     for (const auto& endpoint : options.endpoints) call(endpoint);
     if (options.threads)
         own = std::make_unique<OwnPlaces>(context, options.network, options.run, options.threads,
-                                          options.plan({{"", options.threads}}), options.job.rules);
+                                          options.plan({{"", options.threads}}), options.job.tuning);
 }
 
 Cluster::Links::~Links() = default;

@@ -105,7 +105,7 @@ bool HostedRun::advance() {
         state_ = State::building;
     } else if (state_ == State::building && building_.wait_for(now) == std::future_status::ready) {
         places_ = std::make_unique<PlaceThreads>(context_, building_.get(), given_.id, given_.me, given_.places,
-                                                 given_.plan, given_.job.rules);
+                                                 given_.plan, given_.job.tuning);
         state_ = State::starting;
     } else if (places_ && places_->ready() && state_ == State::starting) {  // throws what a place has died of
         places_->use(given_.plan);                                          // it may have changed meanwhile

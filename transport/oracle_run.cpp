@@ -80,7 +80,7 @@ private:
 
 }  // namespace
 
-Counters run_oracle(const std::shared_ptr<const Network>& network, const std::vector<Tile>& tiles, PlaceRules rules,
+Counters run_oracle(const std::shared_ptr<const Network>& network, const std::vector<Tile>& tiles, Tuning rules,
                     const Done& done) {
     const auto image = renderer_of(network->graph, network->registry);
     rules.call_own_nodes = false;

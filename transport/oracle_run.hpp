@@ -14,7 +14,7 @@ namespace lightnet {
 /// Renders tiles like SerialRun, but through everything that a networked run goes through except sockets and threads:
 /// each ask becomes a bundle, a packet, a fiber and a packet again. If its pixels differ from those of SerialRun, codec
 /// or fibers are wrong. For tests.
-Counters run_oracle(const std::shared_ptr<const Network>& network, const std::vector<Tile>& tiles, PlaceRules rules,
+Counters run_oracle(const std::shared_ptr<const Network>& network, const std::vector<Tile>& tiles, Tuning rules,
                     const std::function<void(const Tile&, std::span<const Rgb>)>& done);
 
 }  // namespace lightnet

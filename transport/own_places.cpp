@@ -14,7 +14,7 @@ struct OwnPlaces::Parts {
 };
 
 OwnPlaces::OwnPlaces(zmq::context_t& context, std::shared_ptr<const Network> network, std::uint64_t run,
-                     std::uint32_t count, const Plan& plan, PlaceRules rules)
+                     std::uint32_t count, const Plan& plan, Tuning rules)
     : parts_(new Parts{{context, run}, {context, std::move(network), run, "", count, plan, rules}, false}) {}
 
 OwnPlaces::~OwnPlaces() = default;

@@ -22,7 +22,7 @@ public:
         std::function<void(Frames&)> answered;  // [address][header][body]: to another host
     };
     OwnPlaces(zmq::context_t& context, std::shared_ptr<const Network> network, std::uint64_t run, std::uint32_t count,
-              const Plan& plan, PlaceRules rules);
+              const Plan& plan, Tuning rules);
     ~OwnPlaces();
 
     std::uint32_t count() const;

@@ -36,7 +36,7 @@ struct PlaceThreads::Threads {
     std::uint64_t run;
     std::string host;
     Plan plan;
-    PlaceRules rules;
+    Tuning rules;
     std::vector<Life> lives;  // by place
     Wakeup news{};
     std::vector<zmq::socket_t> to{};
@@ -90,7 +90,7 @@ void PlaceThreads::Threads::start(std::uint32_t count) {
 }
 
 PlaceThreads::PlaceThreads(zmq::context_t& context, std::shared_ptr<const Network> network, std::uint64_t run,
-                           std::string host, std::uint32_t count, Plan plan, PlaceRules rules) {
+                           std::string host, std::uint32_t count, Plan plan, Tuning rules) {
     want_descriptors(sockets_per_place * count + other_descriptors, std::to_string(count) + " places");
     threads_.reset(new Threads{context, std::move(network), run, std::move(host), std::move(plan), rules,
                                std::vector<Threads::Life>(count)});

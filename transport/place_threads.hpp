@@ -22,7 +22,7 @@ class PlaceThreads {
 public:
     /// Throws Error when there are not enough threads or descriptors to be had; none is left behind then.
     PlaceThreads(zmq::context_t& context, std::shared_ptr<const Network> network, std::uint64_t run, std::string host,
-                 std::uint32_t count, Plan plan, PlaceRules rules);
+                 std::uint32_t count, Plan plan, Tuning rules);
     /// Stops and joins.
     ~PlaceThreads();
     PlaceThreads(const PlaceThreads&) = delete;

@@ -14,14 +14,14 @@ struct ThreadedRun::Parts {
     PlaceThreads places;
     ZmqCarrier carrier;
 
-    Parts(std::shared_ptr<const Network> network, std::uint64_t run, Plan plan, PlaceRules rules)
+    Parts(std::shared_ptr<const Network> network, std::uint64_t run, Plan plan, Tuning rules)
         : places(context, std::move(network), run, "", static_cast<std::uint32_t>(plan.places.size()), plan, rules),
           carrier(context, {run, "", false, 0}) {
         places.wait_until_ready();
     }
 };
 
-ThreadedRun::ThreadedRun(std::shared_ptr<const Network> network, std::uint64_t run, Plan plan, PlaceRules rules)
+ThreadedRun::ThreadedRun(std::shared_ptr<const Network> network, std::uint64_t run, Plan plan, Tuning rules)
     : parts_(std::make_unique<Parts>(std::move(network), run, std::move(plan), rules)) {}
 
 ThreadedRun::~ThreadedRun() = default;

@@ -14,7 +14,7 @@ namespace lightnet {
 class ThreadedRun {
 public:
     /// Returns when all places are ready.
-    ThreadedRun(std::shared_ptr<const Network> network, std::uint64_t run, Plan plan, PlaceRules rules);
+    ThreadedRun(std::shared_ptr<const Network> network, std::uint64_t run, Plan plan, Tuning rules);
     ~ThreadedRun();
 
     Carrier& carrier();

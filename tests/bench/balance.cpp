@@ -39,10 +39,10 @@ double light() {
     job.isa = usual_isa();
     job.graph.file = "balance.lua";
     job.graph.nodes = {emulated_light("light", microseconds), emulated_image(0, questions, {"light"})};
-    job.rules.bundles.questions = 128;
+    job.tuning.bundle = 128;
     const auto network = build_network(job, kinds, SceneData{});
     Plan plan{{{"", 0}, {"", 1}, {"", 2}, {"", 3}, {"", 4}}, {{1, 2, 3, 4}, {0}}};
-    ThreadedRun run(network, run_id, plan, job.rules);
+    ThreadedRun run(network, run_id, plan, job.tuning);
     const double seconds = seconds_of_emulated(*network, run_id, run.carrier(), plan, tiles, 32);
     run.stop();
     const double ideal = tiles * questions * microseconds * 1e-6 / (1 + 0.5 + 0.25 + 0.125);

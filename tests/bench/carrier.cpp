@@ -109,8 +109,8 @@ Job asking_job(const Picture& picture) {
     job.graph.nodes = {{"trivial", "Trivial", {}, {}, {}},
                        {"asker", "Asker", {Value{NodeRef{"trivial"}}}, {{"scene", Value{NodeRef{"scene"}}}}, {}},
                        {"scene", "Scene", {Value{job.scene}}, {}, {}}};
-    job.rules.bundles.questions = bundle;
-    job.rules.credit.bundles = in_flight;
+    job.tuning.bundle = bundle;
+    job.tuning.credit = in_flight;
     return job;
 }
 
@@ -235,7 +235,7 @@ void measure_inproc(const Picture& picture) {
     const Job job = asking_job(picture);
     const auto network = build_network(job, kinds, SceneData{});
     const Plan plan = one_asks_the_other({"", 0}, {"", 1});
-    ThreadedRun run(network, run_id, plan, job.rules);
+    ThreadedRun run(network, run_id, plan, job.tuning);
     measure("carrier.inproc", run.carrier(), plan, "inproc://plain");
     run.stop();
 }

@@ -155,7 +155,7 @@ double seconds_of_places(std::uint32_t places, double milliseconds, std::size_t 
     job.graph.nodes = {emulated_image(milliseconds, 0)};
     const auto network = build_network(job, kinds, SceneData{});
     const Plan all = plan(job.graph, kinds, {}, {{"", places}});
-    ThreadedRun run(network, run_id, all, job.rules);
+    ThreadedRun run(network, run_id, all, job.tuning);
     if (slowness->slowed >= 0) slowness->slowed_at += Clock::now().time_since_epoch();
     const double seconds = seconds_of_emulated(*network, run_id, run.carrier(), all, tiles * places, 2);
     run.stop();

@@ -38,7 +38,7 @@ void measure_efficiency(const char* name, const Picture& picture, Carrier& carri
 
 void measure_threads(const Picture& picture, const Registry& registry, const char* name) {
     const Plan two = plan(picture.job.graph, registry, {}, {{"", 2}});
-    ThreadedRun run(picture.network, run_id, two, picture.job.rules);
+    ThreadedRun run(picture.network, run_id, two, picture.job.tuning);
     measure_efficiency(name, picture, run.carrier(), two);
     run.stop();
 }

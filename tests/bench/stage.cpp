@@ -86,7 +86,7 @@ Rendered Stage::in_threads(std::uint32_t places) {
     Rendered made;
     const double cpu = process_seconds();
     made.seconds = seconds_of([&] {
-        ThreadedRun run(network, 1, whole, job_.rules);
+        ThreadedRun run(network, 1, whole, job_.tuning);
         lead(
             run.carrier(), whole, 1, [&] { run.check(); }, made);
         made.rays = static_cast<double>(run.stop().rays);

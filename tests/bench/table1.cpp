@@ -69,15 +69,15 @@ public:
     /// As the launcher does it, with bundles as large as they get.
     Cost bundled() {
         Job job = job_;
-        job.rules.bundles.questions = 1024;
+        job.tuning.bundle = 1024;
         return measure(job, tiles_of(side, side, 38, std::uint32_t(samples)), 6);
     }
     /// One question at a time, waited for; a twentieth of the picture's rows, spread over it.
     Cost one_by_one() {
         Job job = job_;
-        job.rules.bundles.questions = 1;
-        job.rules.credit = {1, 1};
-        job.rules.spare_fibers = job.rules.side_fibers = 0;
+        job.tuning.bundle = 1;
+        job.tuning.credit = job.tuning.credit_questions = 1;
+        job.tuning.spare_fibers = job.tuning.side_fibers = 0;
         std::vector<Tile> tiles;
         for (std::uint32_t y = 10; y < side; y += 20) tiles.push_back({0, y, side, 1, 0, std::uint32_t(samples)});
         return measure(job, tiles, 1);

@@ -39,7 +39,7 @@ Job job_of(const Picture& picture) {
                        emulated_image(milliseconds, questions, {"direct", "caustics", "bounce"}),
                        {"scene", "Scene", {Value{job.scene}}, {}, {}}};
     job.graph.nodes[3].params["scene"] = Value{NodeRef{"scene"}};
-    job.rules.bundles.questions = 128;
+    job.tuning.bundle = 128;
     return job;
 }
 

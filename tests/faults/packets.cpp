@@ -55,9 +55,9 @@ Packet long_chain(int nodes) {
         "scene":{{"node":"scene"}},"film":{{"list":[16.0,16.0],"named":{{}}}}}},"where":["x",1]}}]}})",
                         nodes - 1);
     const std::string rest =
-        R"("scene":"a.pbrt","files":[],"seed":0,"isa":"sse4.2","width":16,"height":16,"checking":false,"rules":{"questions":1,
-        "oldest_us":1,"eager":1,"credit_bundles":1,"credit_questions":1,"credit_bytes":1,"spare_fibers":1,
-        "side_fibers":1,"check":false,"call_own_nodes":true}})";
+        R"("scene":"a.pbrt","files":[],"seed":0,"isa":"sse4.2","width":16,"height":16,"tuning":{"bundle":1,
+        "oldest_us":1,"eager":1,"credit":1,"credit_questions":1,"credit_bytes":1,"spare_fibers":1,
+        "side_fibers":1,"check_answers":false,"call_own_nodes":true}})";
     Plan plan;
     plan.places = {{"x", 0}};
     plan.places_of.resize(static_cast<std::size_t>(nodes) + 2);

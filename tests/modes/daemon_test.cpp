@@ -81,8 +81,9 @@ TEST_F(DaemonTest, RefusesAJobThatIsNone) {
     EXPECT_EQ(launcher.receive().first, Type::broken);
     // Well-formed, but the graph has a kind that is none, or the plan has no row for its nodes.
     const std::string rest =
-        R"("scene":"","files":[],"seed":0,"isa":"sse4.2","width":8,"height":8,"rules":{"questions":1,
-        "oldest_us":1,"eager":1,"credit_bundles":1,"credit_questions":1,"spare_fibers":0,"call_own_nodes":true}})";
+        R"("scene":"","files":[],"seed":0,"isa":"sse4.2","width":8,"height":8,"tuning":{"bundle":1,
+        "oldest_us":1,"eager":1,"credit":1,"credit_questions":1,"credit_bytes":1,"spare_fibers":0,
+        "side_fibers":1,"check_answers":false,"call_own_nodes":true}})";
     Graph strange;
     strange.nodes = {{"a", "NoSuchKind", {}, {}, {}}};
     launcher.send(packet::pack(Type::begin, 6,

@@ -112,7 +112,7 @@ public:
         return render(conductor);
     }
 
-    std::vector<Pixels> threaded(const Plan& plan, PlaceRules rules) const {
+    std::vector<Pixels> threaded(const Plan& plan, Tuning rules) const {
         ThreadedRun run(network, 1, plan, rules);
         Conductor conductor(options(), run.carrier());
         conductor.propose(plan);

@@ -147,10 +147,10 @@ Plan some_plan(Random& random, const Graph& graph) {
     return plan;
 }
 
-PlaceRules narrow_rules(Random& random) {
-    PlaceRules rules;
-    rules.credit = {1, 1};
-    rules.bundles.questions = 1 + below(random, 8);
+Tuning narrow_rules(Random& random) {
+    Tuning rules;
+    rules.credit = rules.credit_questions = 1;
+    rules.bundle = 1 + below(random, 8);
     rules.spare_fibers = below(random, 3);
     rules.side_fibers = below(random, 4);
     rules.call_own_nodes = below(random, 2);
@@ -173,7 +173,7 @@ Pixels serially(const Network& network, const std::vector<Tile>& tiles) {
 }
 
 // Nothing: it hangs.
-Pixels in_places(const std::shared_ptr<const Network>& network, const Plan& plan, PlaceRules rules,
+Pixels in_places(const std::shared_ptr<const Network>& network, const Plan& plan, Tuning rules,
                  const std::vector<Tile>& tiles, Counters& counters) {
     ThreadedRun run(network, 1, plan, rules);
     Pixels pixels(tiles.size());
@@ -210,7 +210,7 @@ TEST(RandomGraphs, NeverHangWithTheLeastRoomThereIs) {
         Random random(seed);
         const Graph graph = some_graph(random);
         const Plan plan = some_plan(random, graph);
-        const PlaceRules rules = narrow_rules(random);
+        const Tuning rules = narrow_rules(random);
         const auto network = network_of(graph, registry);
         const auto found = in_places(network, plan, rules, tiles, counters);
         ASSERT_FALSE(found.empty()) << "seed " << seed << " hangs";

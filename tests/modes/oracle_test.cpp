@@ -44,14 +44,14 @@ public:
         for (const auto& tile : tiles) pixels.push_back(run.render(tile));
         return pixels;
     }
-    std::vector<Pixels> oracle(PlaceRules rules) const {
+    std::vector<Pixels> oracle(Tuning rules) const {
         std::vector<Pixels> pixels(tiles.size());
         run_oracle(network, tiles, rules, [&](const Tile& tile, std::span<const Rgb> colours) {
             pixels[index_of(tile)].assign(colours.begin(), colours.end());
         });
         return pixels;
     }
-    std::vector<Pixels> threaded(const Plan& plan, PlaceRules rules, Counters* counters = nullptr) const {
+    std::vector<Pixels> threaded(const Plan& plan, Tuning rules, Counters* counters = nullptr) const {
         std::vector<Pixels> pixels(tiles.size());
         ThreadedRun run(network, 1, plan, rules);
         MasterRenderer::Job job;
@@ -85,8 +85,8 @@ TEST_P(Oracle, AgreesWithSerialBitForBit) {
     const Shipped graph(GetParam());
     const auto serial = graph.serial();
     for (const std::size_t bundle : {1, 7, 512}) {
-        PlaceRules rules;
-        rules.bundles.questions = bundle;
+        Tuning rules;
+        rules.bundle = bundle;
         rules.spare_fibers = bundle == 7 ? 0 : 16;
         EXPECT_TRUE(graph.oracle(rules) == serial) << "bundles of " << bundle;
     }
@@ -111,11 +111,11 @@ Plan crossed(const Shipped& graph) {
 
 TEST(Places, ThatServeEachOtherWithOneFiberPerNodeAndCreditOneDoNotHang) {
     const Shipped graph("cornell.lua");
-    PlaceRules narrow;
-    narrow.credit = {1, 1};
+    Tuning narrow;
+    narrow.credit = 1, narrow.credit_questions = 1;
     narrow.spare_fibers = 0;
     for (const std::size_t bundle : {1, 64}) {
-        narrow.bundles.questions = bundle;
+        narrow.bundle = bundle;
         Counters counters;
         EXPECT_TRUE(graph.threaded(crossed(graph), narrow, &counters) == graph.serial());
         EXPECT_GT(counters.questions, 0u);

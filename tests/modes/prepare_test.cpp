@@ -36,10 +36,10 @@ TEST(Prepare, PassesOnWhatNodesSayOnce) {
 
 TEST(Prepare, GetsByWithOneFiberPerNodeAndBundlesOfOne) {
     const Learning learning;
-    PlaceRules narrow;
+    Tuning narrow;
     narrow.spare_fibers = 0;
-    narrow.bundles.questions = 1;
-    narrow.credit = {1, 1};
+    narrow.bundle = 1;
+    narrow.credit = 1, narrow.credit_questions = 1;
     EXPECT_EQ(learning.threaded(spread(learning.network->graph.nodes.size(), 3), narrow), learning.serial());
 }
 

@@ -81,8 +81,8 @@ class RandomGraphs : public testing::TestWithParam<unsigned> {
 protected:
     Pixels oracle() const {
         Pixels pixels(tiles_.size());
-        PlaceRules rules;
-        rules.bundles.questions = 5;
+        Tuning rules;
+        rules.bundle = 5;
         run_oracle(network_, tiles_, rules, [&](const Tile& tile, std::span<const Rgb> colours) {
             pixels[index_of(tile)].assign(colours.begin(), colours.end());
         });

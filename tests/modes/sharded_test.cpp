@@ -72,10 +72,10 @@ TEST(Sharded, GivesTheBytesOfAWholeMapInThreads) {
 }
 
 TEST(Sharded, GetsByWithOneFiberPerNodeAndBundlesOfOne) {
-    PlaceRules narrow;
+    Tuning narrow;
     narrow.spare_fibers = 0;
-    narrow.bundles.questions = 1;
-    narrow.credit = {1, 1};
+    narrow.bundle = 1;
+    narrow.credit = 1, narrow.credit_questions = 1;
     const Learning cut = mapped({{"number", 3}});
     EXPECT_EQ(cut.threaded(share(cut.network->graph, 2), narrow), mapped().serial());
 }

@@ -28,8 +28,8 @@ Job some_job() {
     job.seed = ~std::uint64_t{0};
     job.isa = "avx2";
     job.width = 64, job.height = 32;
-    job.rules.side_fibers = 7;
-    job.checking = true;
+    job.tuning.side_fibers = 7;
+    job.tuning.check_answers = true;
     return job;
 }
 

@@ -79,8 +79,8 @@ TEST(Launcher, HasWrappedClassesCheckedWhenAsked) {
     lightnet({"run", lightnet.graph});
     lightnet({"run", lightnet.graph, "--check-answers", "--side-fibers", "0"});
     ASSERT_EQ(lightnet.runs.size(), 2u);
-    EXPECT_FALSE(lightnet.runs[0].check_answers);
-    EXPECT_TRUE(lightnet.runs[1].check_answers);
+    EXPECT_FALSE(lightnet.runs[0].tuning.check_answers);
+    EXPECT_TRUE(lightnet.runs[1].tuning.check_answers);
     EXPECT_EQ(lightnet.runs[1].tuning.side_fibers, 0u);
 }
 

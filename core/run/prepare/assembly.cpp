@@ -90,7 +90,7 @@ NodeContext::Own Assembly::own_of(std::size_t node) {
     const auto taken = [this](const std::string& name) -> const LightOp& {
         return light(network_.graph.find(name).value());
     };
-    return {&rehearsals_[node], &locks_, side_by_side_, network_.checking, taken};
+    return {&rehearsals_[node], &locks_, side_by_side_, network_.check_answers, taken};
 }
 
 const LightOp& Assembly::light(std::size_t node) {

@@ -34,7 +34,7 @@ struct Network {
     Layers layers = layers_of(graph, registry);
     std::shared_ptr<SharedValues> shared = std::make_shared<SharedValues>();
     std::function<Bytes(const Hash&)> results = {};  // of preparing, that came by themselves; called from any place
-    bool checking = false;                           // wrapped classes are asked twice, to find those with a memory
+    bool check_answers = false;                      // wrapped classes are asked twice, to find those with a memory
 
     const Kind& kind_of(std::size_t node) const { return *registry.find(graph.nodes[node].kind); }
     /// Colours per answer when nothing is added up.

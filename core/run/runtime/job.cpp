@@ -27,19 +27,27 @@ Integer count_of(const Json& object, const char* key) {
     }
 }
 
-PlaceRules rules_of(const Json& json) {
-    PlaceRules rules;
-    rules.bundles.questions = count_of<std::size_t>(json, "questions");
-    rules.bundles.oldest = std::chrono::microseconds(count_of<std::uint32_t>(json, "oldest_us"));
-    rules.bundles.eager = count_of<std::size_t>(json, "eager");
-    rules.credit.bundles = count_of<std::size_t>(json, "credit_bundles");
-    rules.credit.questions = count_of<std::size_t>(json, "credit_questions");
-    rules.credit.bytes = count_of<std::size_t>(json, "credit_bytes");
-    rules.spare_fibers = count_of<std::size_t>(json, "spare_fibers");
-    rules.side_fibers = count_of<std::size_t>(json, "side_fibers");
-    rules.check = json.at("check").flag();
-    rules.call_own_nodes = json.at("call_own_nodes").flag();
-    return rules;
+nlohmann::json json_of(const Tuning& tuning) {
+    nlohmann::json json;
+    for (const auto& knob : knobs)
+        if (knob.where == Knob::Where::places)
+            std::visit([&](const auto& member) { json[knob.name] = tuning.*member; }, knob.member);
+    return json;
+}
+
+void take(const Json& json, const char* name, std::string& text) { text = json.at(name).text(); }
+void take(const Json& json, const char* name, bool& flag) { flag = json.at(name).flag(); }
+template <class Integer>
+void take(const Json& json, const char* name, Integer& number) {
+    number = count_of<Integer>(json, name);
+}
+
+Tuning tuning_of(const Json& json) {
+    Tuning tuning;
+    for (const auto& knob : knobs)
+        if (knob.where == Knob::Where::places)
+            std::visit([&](const auto& member) { take(json, knob.name, tuning.*member); }, knob.member);
+    return tuning;
 }
 
 JobFile file_of(const Json& json) {
@@ -54,27 +62,15 @@ std::string to_json(const Job& job) {
     nlohmann::json files = nlohmann::json::array();
     for (const auto& file : job.files)
         files.push_back({{"path", file.path}, {"hash", to_hex(file.hash)}, {"size", file.size}});
-    const auto& rules = job.rules;
-    return nlohmann::json{{"graph", nlohmann::json::parse(to_json(job.graph))},
-                          {"scene", job.scene},
-                          {"files", std::move(files)},
-                          {"seed", job.seed},
-                          {"isa", job.isa},
-                          {"width", job.width},
-                          {"height", job.height},
-                          {"rules",
-                           {{"questions", rules.bundles.questions},
-                            {"oldest_us", rules.bundles.oldest.count()},
-                            {"eager", rules.bundles.eager},
-                            {"credit_bundles", rules.credit.bundles},
-                            {"credit_questions", rules.credit.questions},
-                            {"credit_bytes", rules.credit.bytes},
-                            {"spare_fibers", rules.spare_fibers},
-                            {"side_fibers", rules.side_fibers},
-                            {"check", rules.check},
-                            {"call_own_nodes", rules.call_own_nodes}}},
-                          {"checking", job.checking}}
-        .dump();
+    const auto rest = nlohmann::json{{"scene", job.scene},
+                                     {"files", std::move(files)},
+                                     {"seed", job.seed},
+                                     {"isa", job.isa},
+                                     {"width", job.width},
+                                     {"height", job.height},
+                                     {"tuning", json_of(job.tuning)}}
+                          .dump();
+    return "{\"graph\":" + to_json(job.graph) + "," + rest.substr(1);  // which is text already
 }
 
 Job job_from_json(std::string_view text) {
@@ -87,8 +83,7 @@ Job job_from_json(std::string_view text) {
     job.isa = json.at("isa").text();
     job.width = count_of<std::uint32_t>(json, "width");
     job.height = count_of<std::uint32_t>(json, "height");
-    job.rules = rules_of(json.at("rules"));
-    job.checking = json.at("checking").flag();
+    job.tuning = tuning_of(json.at("tuning"));
     return job;
 }
 
@@ -118,7 +113,7 @@ std::shared_ptr<const Network> build_network(const Job& job, const Registry& reg
     try {
         Network network{job.graph, registry, std::make_shared<const Scene>(std::move(scene), options), job.seed};
         network.results = std::move(results);
-        network.checking = job.checking;
+        network.check_answers = job.tuning.check_answers;
         return std::make_shared<const Network>(std::move(network));
     } catch (const std::bad_alloc&) {
         throw Error(job.scene, "is too large for the memory of this machine, with what finds its surfaces");

@@ -12,8 +12,8 @@
 #include "core/base/hash.hpp"
 #include "core/network/graph/graph.hpp"
 #include "core/readers/files.hpp"
+#include "core/run/message/tuning.hpp"
 #include "core/run/prepare/assembly.hpp"
-#include "core/run/runtime/place.hpp"
 #include "core/scene/data/scene_data.hpp"
 
 namespace lightnet {
@@ -34,8 +34,7 @@ struct Job {
     std::uint64_t seed = 0;
     std::string isa;                      // of Embree
     std::uint32_t width = 0, height = 0;  // of the picture, pixels
-    PlaceRules rules;
-    bool checking = false;  // wrapped classes are asked twice, to find those with a memory
+    Tuning tuning;                        // what places must know of it travels
     friend bool operator==(const Job&, const Job&) = default;
 };
 

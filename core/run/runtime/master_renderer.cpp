@@ -30,7 +30,7 @@ void MasterRenderer::use(const Plan& plan) {
         rules.scheduling.double_tail = job_.double_tail;
         rules.clock = job_.clock;
         rules.at_fault = [this](const Failure& failure) { carrier_.take_out(failure.host, failure.why); };
-        if (job_.check) rules.differs = [this](const std::string& what) { error_ = what; };
+        if (job_.check_answers) rules.differs = [this](const std::string& what) { error_ = what; };
         replicas_.follow(std::move(rules), &counters_);
     }
     channels_.connect(edge_, replicas_, plan);

@@ -20,12 +20,12 @@ public:
 
     struct Job {
         std::uint64_t run = 0;
-        std::uint32_t image = 0;  // the renderer's node
-        std::uint32_t width = 1;  // colours per pixel
-        std::vector<Tile> tiles;  // in the order of handing out
-        Credit credit{3, 3};      // of a place: more blocks of samples than bundles: quick ones go together
-        bool double_tail = true;  // idle places do the last tiles once more
-        bool check = false;       // tiles that are done twice must have the same bits
+        std::uint32_t image = 0;     // the renderer's node
+        std::uint32_t width = 1;     // colours per pixel
+        std::vector<Tile> tiles;     // in the order of handing out
+        Credit credit{3, 3};         // of a place: more blocks of samples than bundles: quick ones go together
+        bool double_tail = true;     // idle places do the last tiles once more
+        bool check_answers = false;  // tiles that are done twice must have the same bits
         std::function<double()> clock = steady_seconds;
     };
     MasterRenderer(Job job, Carrier& carrier, Done done);

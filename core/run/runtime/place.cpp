@@ -10,16 +10,16 @@
 #include "core/scene/scene.hpp"
 
 namespace lightnet {
-Place::Place(const Network& network, const PlaceAt& me, const Plan& plan, std::uint64_t run, PlaceRules rules,
+Place::Place(const Network& network, const PlaceAt& me, const Plan& plan, std::uint64_t run, const Tuning& tuning,
              Carrier& carrier)
     : network_(network),
       me_(me),
       plan_(plan),
       run_(run),
-      rules_(rules),
+      tuning_(tuning),
       carrier_(carrier),
       rays_before_(Scene::rays_of_this_thread()),
-      rounds_(fibers_, rules.side_fibers, [this](Fibers::Fiber* fiber) { ready_.push_back(fiber); }),
+      rounds_(fibers_, tuning.side_fibers, [this](Fibers::Fiber* fiber) { ready_.push_back(fiber); }),
       inboxes_(network.graph.nodes.size()),
       by_rank_(network.graph.nodes.size()),
       channels_(carrier, run, name_of(me), counters_),
@@ -78,7 +78,7 @@ Port* Place::port_to_one(std::size_t node, std::size_t width) {
 
 bool Place::called_here(std::size_t node) const {
     const auto& holders = plan_.places_of[node];
-    return rules_.call_own_nodes &&
+    return tuning_.call_own_nodes &&
            std::any_of(holders.begin(), holders.end(), [&](auto i) { return plan_.places[i] == me_; });
 }
 
@@ -90,9 +90,11 @@ Port* Place::call_port_to(std::size_t node, std::size_t width) {
 
 Port* Place::bundle_port_to(std::size_t node, std::size_t width) {
     auto& remote = remotes_[{node, width}];
-    remote.edge = {static_cast<std::uint32_t>(node), rules_.credit, {}};
+    const Credit credit{tuning_.credit, tuning_.credit_questions, tuning_.credit_bytes};
+    const BundleRules bundles{tuning_.bundle, std::chrono::microseconds(tuning_.oldest_us), tuning_.eager};
+    remote.edge = {static_cast<std::uint32_t>(node), credit, {}};
     remote.port = std::make_unique<BundlePort>(
-        fibers_, [this](Fibers::Fiber* fiber) { ready_.push_back(fiber); }, width, rules_.bundles);
+        fibers_, [this](Fibers::Fiber* fiber) { ready_.push_back(fiber); }, width, bundles);
     remote.port->replicas().follow(multiplexer_rules(node), &counters_);
     channels_.connect(remote.edge, remote.port->replicas(), plan_);
     return remote.port.get();
@@ -101,9 +103,9 @@ Port* Place::bundle_port_to(std::size_t node, std::size_t width) {
 MultiplexerRules Place::multiplexer_rules(std::size_t node) {
     MultiplexerRules rules;
     rules.scheduling.strategy = plan_.strategy_of(node);
-    rules.scheduling.usual = rules_.bundles.questions;
+    rules.scheduling.usual = tuning_.bundle;
     rules.at_fault = [this](const Failure& failure) { carrier_.take_out(failure.host, failure.why); };
-    if (rules_.check) rules.differs = [](const std::string& what) { throw Error(what); };
+    if (tuning_.check_answers) rules.differs = [](const std::string& what) { throw Error(what); };
     return rules;
 }
 
@@ -162,7 +164,7 @@ bool Place::step() {
 
 bool Place::may_start(std::size_t node) const {
     const auto& inbox = inboxes_[node];
-    return !inbox.waiting.empty() && (inbox.fibers == 0 || spare_in_use_ < rules_.spare_fibers);
+    return !inbox.waiting.empty() && (inbox.fibers == 0 || spare_in_use_ < tuning_.spare_fibers);
 }
 
 bool Place::start_next(bool images) {

@@ -15,6 +15,7 @@
 #include "core/run/fiber/fiber.hpp"
 #include "core/run/fiber/rounds.hpp"
 #include "core/run/message/carrier.hpp"
+#include "core/run/message/tuning.hpp"
 #include "core/run/prepare/assembly.hpp"
 #include "core/run/prepare/call_port.hpp"
 #include "core/run/prepare/lock_desk.hpp"
@@ -26,17 +27,6 @@
 
 namespace lightnet {
 
-/// Sizes that decide how fast a run is, and never what it computes.
-struct PlaceRules {
-    BundleRules bundles;
-    Credit credit;
-    std::size_t spare_fibers = 16;   // beside the one that each node has for itself
-    std::size_t side_fibers = 2048;  // of a place, for questions that wrapped code waits for one by one
-    bool check = false;              // what is answered twice must have the same bits
-    bool call_own_nodes = true;      // false: even a node of the same place is asked by bundles (for tests)
-    friend bool operator==(const PlaceRules&, const PlaceRules&) = default;
-};
-
 /// Answers for its nodes until it is told to stop. Nothing is shared between places but the network, which is constant.
 ///
 /// No graph can make places wait for each other for ever: a bundle whose node has no fiber running is always given
@@ -45,7 +35,7 @@ struct PlaceRules {
 /// see Rounds. So the nodes that ask nobody always finish, then those that ask only them, and so on.
 class Place {
 public:
-    Place(const Network& network, const PlaceAt& me, const Plan& plan, std::uint64_t run, PlaceRules rules,
+    Place(const Network& network, const PlaceAt& me, const Plan& plan, std::uint64_t run, const Tuning& tuning,
           Carrier& carrier);
     ~Place();
     Place(const Place&) = delete;
@@ -104,7 +94,7 @@ private:
     PlaceAt me_;
     Plan plan_;
     std::uint64_t run_;
-    PlaceRules rules_;
+    Tuning tuning_;
     Carrier& carrier_;
     Counters counters_;
     std::uint64_t rays_before_;

@@ -18,7 +18,7 @@ std::vector<Message> Place::next_asks(std::size_t node) {
         return asks.empty() ||
                (std::holds_alternative<Questions<Query>>(ask.questions) &&
                 std::holds_alternative<Questions<Query>>(asks.front().questions) && ask.width == asks.front().width &&
-                questions + work_in(ask) <= rules_.bundles.questions);
+                questions + work_in(ask) <= tuning_.bundle);
     };
     while (!waiting.empty() && fits(waiting.front())) {
         questions += work_in(waiting.front());
