@@ -39,7 +39,7 @@ public:
           lone_(std::max<std::size_t>(least_lone_rays, static_cast<std::size_t>(here.integer("rays")) / 16)),
           glossy_rays_(static_cast<std::uint32_t>(here.integer("glossy_rays"))),
           finest_(static_cast<std::uint32_t>(here.integer("stride"))),
-          name_(here.name()),
+          kept_(here.kept()),
           keeps_(!here.text("keep").empty()) {
         const auto spacing = [&](const char* name, float usual) {
             const auto given = static_cast<float>(here.number(name));
@@ -120,9 +120,8 @@ private:
 
     // What an earlier run has kept of the same scene.
     std::vector<IrradianceRecord> older() const {
-        const auto kept = scene_.data().kept.find(name_);
-        if (kept == scene_.data().kept.end()) return {};
-        const Mapped<IrradianceRecord> records(kept->second);
+        if (!kept_) return {};
+        const Mapped<IrradianceRecord> records(kept_);
         return {records.begin(), records.end()};
     }
 
@@ -248,7 +247,7 @@ private:
     std::uint32_t glossy_rays_;
     std::uint32_t finest_;
     Spacing spacing_;
-    std::string name_;
+    Bytes kept_;  // what an earlier run has kept of the same scene
     bool keeps_;
     std::shared_ptr<const IrradianceOctree> records_;
 };

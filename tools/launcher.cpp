@@ -154,7 +154,7 @@ int Launcher::perform_check(const Options& options) const {
     const Loaded loaded = load(options, registry, true);
     warn(loaded.warnings, options, err);
     DiskFiles files;
-    warn(load_scene(loaded.graph, registry, files, scene_file(loaded.graph, registry)).warnings, options, err);
+    warn(load_scene(loaded.graph, registry, files, scene_file(loaded.graph, registry)).data.warnings, options, err);
     for (const auto& note : loaded.notes) err << "note: " << to_string(note) << '\n';
     const auto format = film_of(loaded.graph, registry);
     out << options.graph << ": sound: " << loaded.graph.nodes.size() << " nodes, " << format.width << "x"

@@ -102,9 +102,9 @@ private:
     Job make_job(DiskFiles& files) const;
     void take_up_checkpoint();
     void report_failure();
-    void render_serially(SceneData scene);
-    void render_in_threads(SceneData scene);
-    void render_on_hosts(const DiskFiles& files, SceneData scene);
+    void render_serially(LoadedScene scene);
+    void render_in_threads(LoadedScene scene);
+    void render_on_hosts(const DiskFiles& files, LoadedScene scene);
     Cluster::Options cluster_options(const DiskFiles& files);
     /// Called several times a second with the number of places that render.
     using LookAround = std::function<void(std::size_t renderers)>;
@@ -175,11 +175,10 @@ int Run::perform() {
         const auto read = request_.read ? request_.read : std::make_shared<ReadScene>();
         DiskFiles& files = read->files;
         if (!request_.read) read->scene = read_scene(files, request_.scene, scene_constants(request_.graph, registry_));
-        SceneData scene = std::move(read->scene);
-        override_scene(request_.graph, registry_, files, scene);
-        for (const auto& warning : scene.warnings) book_.warn(to_string(warning));
-        book_.will_keep(request_.graph, registry_, scene);
-        const float scale = scene.film.scale;
+        LoadedScene scene = override_scene(request_.graph, registry_, files, std::move(read->scene));
+        for (const auto& warning : scene.data.warnings) book_.warn(to_string(warning));
+        book_.will_keep(request_.graph, registry_, scene.data);
+        const float scale = scene.data.film.scale;
         job_ = make_job(files);
         book_.expose(scale);
         if (request_.preview > 0) book_.preview(request_.output, request_.preview);
@@ -229,7 +228,7 @@ void Run::report_failure() {
     }
 }
 
-void Run::render_serially(SceneData scene) {
+void Run::render_serially(LoadedScene scene) {
     book_.phase("prepare");
     const auto network = build_network(job_, registry_, std::move(scene));
     SerialRun run(*network, [this] {
@@ -251,7 +250,7 @@ void Run::render_serially(SceneData scene) {
     book_.count(run.counters());
 }
 
-void Run::render_in_threads(SceneData scene) {
+void Run::render_in_threads(LoadedScene scene) {
     book_.phase("prepare");
     const auto network = build_network(job_, registry_, std::move(scene));
     const Plan plan = lightnet::plan(job_.graph, registry_, {}, {{"", request_.threads}});
@@ -349,7 +348,7 @@ Cluster::Options Run::cluster_options(const DiskFiles& files) {
     return options;
 }
 
-void Run::render_on_hosts(const DiskFiles& files, SceneData scene) {
+void Run::render_on_hosts(const DiskFiles& files, LoadedScene scene) {
     book_.phase("prepare");
     auto options = cluster_options(files);
     if (request_.threads) options.network = build_network(job_, registry_, std::move(scene));

@@ -40,7 +40,7 @@ double light() {
     job.graph.file = "balance.lua";
     job.graph.nodes = {emulated_light("light", microseconds), emulated_image(0, questions, {"light"})};
     job.tuning.bundle = 128;
-    const auto network = build_network(job, kinds, SceneData{});
+    const auto network = build_network(job, kinds, LoadedScene{});
     Plan plan{{{"", 0}, {"", 1}, {"", 2}, {"", 3}, {"", 4}}, {{1, 2, 3, 4}, {0}}};
     ThreadedRun run(network, run_id, plan, job.tuning);
     const double seconds = seconds_of_emulated(*network, run_id, run.carrier(), plan, tiles, 32);

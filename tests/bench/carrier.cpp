@@ -233,7 +233,7 @@ void measure(const char* name, Carrier& carrier, const Plan& plan, const std::st
 void measure_inproc(const Picture& picture) {
     const Registry kinds = asking_kinds();
     const Job job = asking_job(picture);
-    const auto network = build_network(job, kinds, SceneData{});
+    const auto network = build_network(job, kinds, LoadedScene{});
     const Plan plan = one_asks_the_other({"", 0}, {"", 1});
     ThreadedRun run(network, run_id, plan, job.tuning);
     measure("carrier.inproc", run.carrier(), plan, "inproc://plain");

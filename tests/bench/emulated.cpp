@@ -153,7 +153,7 @@ double seconds_of_places(std::uint32_t places, double milliseconds, std::size_t 
     job.isa = usual_isa();
     job.graph.file = "emulated.lua";
     job.graph.nodes = {emulated_image(milliseconds, 0)};
-    const auto network = build_network(job, kinds, SceneData{});
+    const auto network = build_network(job, kinds, LoadedScene{});
     const Plan all = plan(job.graph, kinds, {}, {{"", places}});
     ThreadedRun run(network, run_id, all, job.tuning);
     if (slowness->slowed >= 0) slowness->slowed_at += Clock::now().time_since_epoch();

@@ -34,7 +34,7 @@ Picture::Picture(const Registry& registry, std::uint32_t size, std::uint32_t sam
     auto scene = read_scene(disk, job.scene);
     files = disk.seen();
     for (const auto& [path, bytes] : files) job.files.push_back({path, content_hash(*bytes), bytes->size()});
-    network = build_network(job, registry, std::move(scene));
+    network = build_network(job, registry, LoadedScene{std::move(scene)});
     image = renderer_of(job.graph, registry);
     tiles = tiles_of(size, size, tile_size, samples);
 }

@@ -154,7 +154,7 @@ void measure_scalar_inproc(const Picture& picture) {
     const Registry registry = kinds();
     const Job job = scalar_job(picture);
     const Plan plan = asked_elsewhere({"", 0}, {"", 1});
-    ThreadedRun run(build_network(job, registry, SceneData{}), run_id, plan, job.tuning);
+    ThreadedRun run(build_network(job, registry, LoadedScene{}), run_id, plan, job.tuning);
     std::vector<double> each;
     for (int i = 0; i < rounds; ++i) each.push_back(1e9 * round(run.carrier(), plan) / asks);
     report("carrier.scalar_inproc", each, run.stop(), 150);

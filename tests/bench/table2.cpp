@@ -36,7 +36,7 @@ void measure_set_up(const Picture& picture, const Registry& registry) {
     for (int round = 0; round < 5; ++round) {
         const double loading = seconds_of([&] {
             DiskFiles files;
-            build_network(picture.job, registry, read_scene(files, picture.job.scene));
+            build_network(picture.job, registry, LoadedScene{read_scene(files, picture.job.scene)});
         });
         std::optional<LocalWorkers> workers;
         std::optional<Cluster> cluster;

@@ -60,7 +60,7 @@ void measure() {
     options.endpoints = {one.endpoint(), two.endpoint(), three.endpoint()};
     const Graph graph = options.job.graph;
     options.plan = [&](const std::vector<HostOffer>& offers) { return plan(graph, kinds, hosts, offers); };
-    const auto network = build_network(options.job, kinds, SceneData{});
+    const auto network = build_network(options.job, kinds, LoadedScene{});
     Cluster cluster(std::move(options));
     const std::atomic<bool> never{false};
     cluster.gather(10s, never);

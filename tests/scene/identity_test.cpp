@@ -198,7 +198,6 @@ TEST(Identity, IsTheSameForAnotherViewOfTheSameRoom) {
     scene.camera_given = true;
     scene.film.width = 7;
     scene.warnings.push_back({{"room.pbrt", 1}, "something"});
-    scene.kept["bounce"] = nullptr;
     scene.materials[0].name = scene.shapes[0].name = scene.objects[0].name = "other";
     scene.shapes[0].where = {"elsewhere.pbrt", 9};
     std::get<ImageTexture>(scene.textures[1].pattern).image = picture(0.5f);  // the same, read again

@@ -98,7 +98,7 @@ TEST(Render, DefinesVariablesOfTheSceneFileOnAllHosts) {
     const RunRequest& run = lightnet.runs.at(0);
     EXPECT_EQ(std::get<Sphere>(run.read->scene.shapes.at(0).geometry).radius, 3);
     DiskFiles files;  // a host has the graph and the files, and nothing else
-    const SceneData there = load_scene(run.graph, lightnet.registry, files, scene);
+    const SceneData there = load_scene(run.graph, lightnet.registry, files, scene).data;
     EXPECT_EQ(std::get<Sphere>(there.shapes.at(0).geometry).radius, 3);
     EXPECT_EQ(lightnet({"scene", "info", scene, "-D", "radius=3"}), 0) << lightnet.err;
     EXPECT_THAT(lightnet.out, HasSubstr("(-3, -3, -3) to (3, 3, 3)"));

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/bytes.hpp"
 #include "core/base/math/random.hpp"
 #include "core/network/graph/graph.hpp"
 #include "core/network/light/inputs.hpp"
@@ -31,6 +32,7 @@ public:
         SideBySide* side_by_side = nullptr;
         bool checking = false;  // is this a run that looks for wrapped classes with a memory?
         std::function<const LightOp&(const std::string& node)> taken = {};  // a node of the same place
+        Bytes kept = nullptr;                                               // by an earlier run
     };
     NodeContext(const Node& node, Inputs inputs, const Scene& scene, std::uint64_t seed)
         : NodeContext(node, std::move(inputs), scene, seed, Own{}) {}
@@ -50,6 +52,9 @@ public:
     /// The node that a parameter of type node names, at the same place. It has prepared when this one prepares:
     /// frozen() gives what it has learnt.
     const LightOp& taken(const std::string& param) const;
+
+    /// What an earlier run has kept of this scene for the node to go on from; null: nothing.
+    const Bytes& kept() const { return own_.kept; }
 
     bool checking() const { return own_.checking; }
 

@@ -90,7 +90,9 @@ NodeContext::Own Assembly::own_of(std::size_t node) {
     const auto taken = [this](const std::string& name) -> const LightOp& {
         return light(network_.graph.find(name).value());
     };
-    return {&rehearsals_[node], &locks_, side_by_side_, network_.check_answers, taken};
+    const auto kept = network_.kept.find(network_.graph.nodes[whole_of(network_.graph, node)].name);
+    return {&rehearsals_[node],     &locks_, side_by_side_,
+            network_.check_answers, taken,   kept == network_.kept.end() ? nullptr : kept->second};
 }
 
 const LightOp& Assembly::light(std::size_t node) {

@@ -19,6 +19,7 @@
 #include "core/network/light/renderer.hpp"
 #include "core/network/light/sectors.hpp"
 #include "core/run/prepare/call_port.hpp"
+#include "core/run/prepare/kept.hpp"
 #include "core/run/prepare/prepared.hpp"
 #include "core/scene/scene.hpp"
 
@@ -35,6 +36,7 @@ struct Network {
     std::shared_ptr<SharedValues> shared = std::make_shared<SharedValues>();
     std::function<Bytes(const Hash&)> results = {};  // of preparing, that came by themselves; called from any place
     bool check_answers = false;                      // wrapped classes are asked twice, to find those with a memory
+    KeptResults kept = {};                           // by earlier runs
 
     const Kind& kind_of(std::size_t node) const { return *registry.find(graph.nodes[node].kind); }
     /// Colours per answer when nothing is added up.

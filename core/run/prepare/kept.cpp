@@ -57,8 +57,9 @@ Bytes kept_results(const Kind& kind, const Hash& scene, std::span<const std::byt
     return bytes_of(results);
 }
 
-void take_up_kept(const Graph& graph, const Registry& registry, Files& files, SceneData& scene,
-                  std::vector<Problem>& problems) {
+KeptResults read_kept(const Graph& graph, const Registry& registry, Files& files, const SceneData& scene,
+                      std::vector<Problem>& problems) {
+    KeptResults kept;
     std::optional<Hash> identity;
     for (const auto& node : graph.nodes) {
         const Kind* kind = registry.find(node.kind);
@@ -67,7 +68,7 @@ void take_up_kept(const Graph& graph, const Registry& registry, Files& files, Sc
         const auto path = beside_graph(graph, name);
         try {
             if (!identity) identity = identity_of(scene);
-            scene.kept[node.name] = kept_results(*kind, *identity, *files.read(path));
+            kept[node.name] = kept_results(*kind, *identity, *files.read(path));
         } catch (const std::exception& error) {
             const std::string what = error.what();
             const bool says_path = what.find(path) != std::string::npos;
@@ -75,6 +76,7 @@ void take_up_kept(const Graph& graph, const Registry& registry, Files& files, Sc
                                                 "': 'extend': " + (says_path ? "" : "'" + path + "' ") + what});
         }
     }
+    return kept;
 }
 
 std::vector<std::pair<std::size_t, std::string>> files_to_keep(const Graph& graph, const Registry& registry) {

@@ -1,6 +1,7 @@
 // What a node has learnt in one run, kept in a file for later ones.
 #pragma once
 
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,10 +27,12 @@ std::string kept_text(const Kind& kind, const Hash& scene, std::span<const std::
 /// The results in such a file. Throws Error when it is none, or of another kind or scene.
 Bytes kept_results(const Kind& kind, const Hash& scene, std::span<const std::byte> file);
 
-/// Reads the files that nodes of a checked graph go on from (`extend`) into scene.kept. Appends to `problems` what is
-/// wrong with them.
-void take_up_kept(const Graph& graph, const Registry& registry, Files& files, SceneData& scene,
-                  std::vector<Problem>& problems);
+/// What earlier runs have kept and nodes of this one go on from, by node.
+using KeptResults = std::map<std::string, Bytes>;
+
+/// Reads the files that nodes of a checked graph go on from (`extend`). Appends to `problems` what is wrong with them.
+KeptResults read_kept(const Graph& graph, const Registry& registry, Files& files, const SceneData& scene,
+                      std::vector<Problem>& problems);
 
 /// The nodes of a checked graph whose results are to be kept, and in which files (`keep`), taken from the graph's
 /// folder.

@@ -2,11 +2,11 @@
 
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/network/graph/graph_film.hpp"
 #include "core/readers/read_scene.hpp"
-#include "core/run/prepare/kept.hpp"
 
 namespace lightnet {
 namespace {
@@ -69,21 +69,20 @@ std::map<std::string, std::string> scene_constants(const Graph& graph, const Reg
     return constants;
 }
 
-void override_scene(const Graph& graph, const Registry& registry, Files& files, SceneData& scene) {
+LoadedScene override_scene(const Graph& graph, const Registry& registry, Files& files, SceneData scene) {
     apply(scene_overrides(graph, registry), scene, files, scene_of(graph, registry).where);
     std::vector<Problem> problems;
-    take_up_kept(graph, registry, files, scene, problems);
+    auto kept = read_kept(graph, registry, files, scene, problems);
     for (const auto& node : graph.nodes)
         if (const Kind* kind = registry.find(node.kind); kind && kind->mistakes)
             for (const auto& what : kind->mistakes(node, &scene))
                 problems.push_back({node.where, node.kind + " '" + node.name + "': " + what});
     if (!problems.empty()) throw UserError(std::move(problems));
+    return {std::move(scene), std::move(kept)};
 }
 
-SceneData load_scene(const Graph& graph, const Registry& registry, Files& files, const std::string& path) {
-    SceneData scene = read_scene(files, path, scene_constants(graph, registry));
-    override_scene(graph, registry, files, scene);
-    return scene;
+LoadedScene load_scene(const Graph& graph, const Registry& registry, Files& files, const std::string& path) {
+    return override_scene(graph, registry, files, read_scene(files, path, scene_constants(graph, registry)));
 }
 
 }  // namespace lightnet

@@ -8,6 +8,7 @@
 #include "core/network/graph/kind.hpp"
 #include "core/readers/files.hpp"
 #include "core/readers/overrides.hpp"
+#include "core/run/prepare/kept.hpp"
 #include "core/scene/data/scene_data.hpp"
 
 namespace lightnet {
@@ -18,10 +19,16 @@ SceneOverrides scene_overrides(const Graph& graph, const Registry& registry);
 /// What it says of the variables of the scene's file: for read_scene().
 std::map<std::string, std::string> scene_constants(const Graph& graph, const Registry& registry);
 
+/// A scene as the graph wants it, and what its nodes go on from.
+struct LoadedScene {
+    SceneData data;
+    KeptResults kept{};
+};
+
 /// Changes a scene as read from its file. Throws UserError, also with what nodes of the graph find wrong with it.
-void override_scene(const Graph& graph, const Registry& registry, Files& files, SceneData& scene);
+LoadedScene override_scene(const Graph& graph, const Registry& registry, Files& files, SceneData scene);
 
 /// Reads the scene in the file at `path` and applies what the graph changes. Throws UserError with all that is wrong.
-SceneData load_scene(const Graph& graph, const Registry& registry, Files& files, const std::string& path);
+LoadedScene load_scene(const Graph& graph, const Registry& registry, Files& files, const std::string& path);
 
 }  // namespace lightnet

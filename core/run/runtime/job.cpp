@@ -7,7 +7,6 @@
 #include "core/network/graph/check.hpp"
 #include "core/network/graph/graph_film.hpp"
 #include "core/network/graph/json.hpp"
-#include "core/run/prepare/load_scene.hpp"
 
 namespace lightnet {
 
@@ -104,15 +103,16 @@ std::shared_ptr<const Network> build_network(const Job& job, const Registry& reg
     return build_network(job, registry, load_scene(job.graph, registry, files, job.scene), std::move(results));
 }
 
-std::shared_ptr<const Network> build_network(const Job& job, const Registry& registry, SceneData scene,
+std::shared_ptr<const Network> build_network(const Job& job, const Registry& registry, LoadedScene scene,
                                              std::function<Bytes(const Hash&)> results) {
     SceneOptions options;
     options.isa = job.isa;
     options.width = job.width;
     options.height = job.height;
     try {
-        Network network{job.graph, registry, std::make_shared<const Scene>(std::move(scene), options), job.seed};
+        Network network{job.graph, registry, std::make_shared<const Scene>(std::move(scene.data), options), job.seed};
         network.results = std::move(results);
+        network.kept = std::move(scene.kept);
         network.check_answers = job.tuning.check_answers;
         return std::make_shared<const Network>(std::move(network));
     } catch (const std::bad_alloc&) {

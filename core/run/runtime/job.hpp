@@ -14,7 +14,7 @@
 #include "core/readers/files.hpp"
 #include "core/run/message/tuning.hpp"
 #include "core/run/prepare/assembly.hpp"
-#include "core/scene/data/scene_data.hpp"
+#include "core/run/prepare/load_scene.hpp"
 
 namespace lightnet {
 
@@ -52,8 +52,8 @@ Job read_job(std::string_view text, const Registry& registry);
 /// Reads the scene, changes what the graph overrides, and builds everything that the places of a process share.
 std::shared_ptr<const Network> build_network(const Job& job, const Registry& registry, Files& files,
                                              std::function<Bytes(const Hash&)> results = {});
-/// The same from the scene that load_scene() gave.
-std::shared_ptr<const Network> build_network(const Job& job, const Registry& registry, SceneData scene,
+/// The same from a scene that has been loaded.
+std::shared_ptr<const Network> build_network(const Job& job, const Registry& registry, LoadedScene scene,
                                              std::function<Bytes(const Hash&)> results = {});
 
 /// All that what is prepared may depend on, beside the graph: see Recipes.

@@ -139,8 +139,8 @@ void visit_members(Is<DirectionalLight> auto& light, const auto& visit) {
 
 /// Without those who look (camera, film), and without what was said or learnt of it.
 void visit_members(Is<SceneData> auto& scene, const auto& visit) {
-    auto& [shapes, objects, instances, materials, textures, environments, lights, camera, camera_given, film, warnings,
-           kept] = scene;
+    auto& [shapes, objects, instances, materials, textures, environments, lights, camera, camera_given, film,
+           warnings] = scene;
     visit(shapes, objects, instances, materials, textures, environments, lights);
 }
 

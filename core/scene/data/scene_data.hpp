@@ -3,14 +3,12 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
-#include "core/base/bytes.hpp"
 #include "core/base/error.hpp"
 #include "core/base/math/rgb.hpp"
 #include "core/base/math/transform.hpp"
@@ -261,8 +259,7 @@ struct SceneData {
     CameraData camera;
     bool camera_given = false;  // else Scene looks at everything from where all of it is seen
     FilmData film;
-    std::vector<Problem> warnings;        // what was read, but not taken literally
-    std::map<std::string, Bytes> kept{};  // by node of the graph: what earlier runs have kept, which it goes on from
+    std::vector<Problem> warnings;  // what was read, but not taken literally
 };
 
 }  // namespace lightnet
