@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/run/message/counters.hpp"
-#include "core/run/prepare/call_port.hpp"
+#include "core/run/prepare/direct_port.hpp"
 
 namespace lightnet {
 namespace {
@@ -27,7 +27,7 @@ TEST(NotFinite, IsCountedPerAnswer) {
     const std::string name = "broken";
     std::uint64_t count = 0;
     std::vector<Rgb> answers(5);
-    answer(Called{broken, name, 1, false, &count}, 1, std::vector<Query>(5), answers);
+    answer(Callee{broken, name, 1, false, &count}, 1, std::vector<Query>(5), answers);
     EXPECT_EQ(count, 1u);
 }
 

@@ -193,17 +193,17 @@ PathSet::States PathSet::after(const States& states, char letter) const {
 // Words by length, and each pair of state sets once: breadth first through both automata.
 template <class Wanted>
 std::optional<std::string> PathSet::shortest(const PathSet& a, const PathSet& b, Wanted wanted) {
-    struct Place {
+    struct StatePair {
         States in_a, in_b;
         std::string word;
     };
-    std::deque<Place> open{{a.begin(), b.begin(), ""}};
+    std::deque<StatePair> open{{a.begin(), b.begin(), ""}};
     std::set<std::pair<States, States>> seen{{open.front().in_a, open.front().in_b}};
     for (; !open.empty(); open.pop_front()) {
-        const Place& here = open.front();
+        const StatePair& here = open.front();
         if (wanted(a.accepts(here.in_a), b.accepts(here.in_b))) return shown(here.word);
         for (const char letter : letters) {
-            Place next{a.after(here.in_a, letter), b.after(here.in_b, letter), here.word + letter};
+            StatePair next{a.after(here.in_a, letter), b.after(here.in_b, letter), here.word + letter};
             if (std::find(next.in_a.begin(), next.in_a.end(), true) == next.in_a.end()) continue;  // a has no such word
             if (seen.emplace(next.in_a, next.in_b).second) open.push_back(std::move(next));
         }

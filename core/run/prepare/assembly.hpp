@@ -18,7 +18,7 @@
 #include "core/network/light/rehearsal.hpp"
 #include "core/network/light/renderer.hpp"
 #include "core/network/light/sectors.hpp"
-#include "core/run/prepare/call_port.hpp"
+#include "core/run/prepare/direct_port.hpp"
 #include "core/run/prepare/kept.hpp"
 #include "core/run/prepare/prepared.hpp"
 #include "core/scene/scene.hpp"
@@ -62,7 +62,7 @@ public:
     /// Has the node prepare itself.
     void prepare(std::size_t node, Services& services);
     Rehearsal& rehearsal(std::size_t node);
-    Called called(std::size_t node) {
+    Callee callee(std::size_t node) {
         return {light(node), network_.graph.nodes[node].name, network_.width_of(node),
                 network_.kind_of(node).side_by_side, &not_finite_[node]};
     }

@@ -178,7 +178,7 @@ private:
     std::size_t near_bytes_ = 0;  // of results of its sector
 };
 
-Preparer::Preparer(const Network& network, Assembly& assembly, Fibers& fibers, Place place)
+Preparer::Preparer(const Network& network, Assembly& assembly, Fibers& fibers, PlaceHooks place)
     : network_(network), assembly_(assembly), fibers_(fibers), place_(std::move(place)) {}
 
 Preparer::~Preparer() = default;

@@ -20,13 +20,14 @@ namespace lightnet {
 /// brings the result. Belongs to a place, and to its thread.
 class Preparer {
 public:
-    struct Place {
+    /// What its place does for it.
+    struct PlaceHooks {
         std::string name;
         std::function<void(Fibers::Fiber*)> resume;  // as soon as the place gets to it
         std::function<void(Message)> reply;
         std::function<std::size_t(std::size_t node)> places_of;
     };
-    Preparer(const Network& network, Assembly& assembly, Fibers& fibers, Place place);
+    Preparer(const Network& network, Assembly& assembly, Fibers& fibers, PlaceHooks place);
     ~Preparer();
 
     /// A step of any kind but shards.
@@ -45,7 +46,7 @@ private:
     const Network& network_;
     Assembly& assembly_;
     Fibers& fibers_;
-    Place place_;
+    PlaceHooks place_;
     std::map<std::size_t, std::unique_ptr<Node>> nodes_;
     std::deque<std::size_t> to_start_;
     std::uint64_t result_bytes_ = 0;

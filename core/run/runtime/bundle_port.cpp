@@ -112,28 +112,28 @@ BundlePort::Buffer BundlePort::empty_buffer() {
     return buffer;
 }
 
-std::uint64_t BundlePort::open_pieces() {
+std::uint64_t BundlePort::open_slices() {
     if (unused_.empty()) {
-        unused_.push_back(static_cast<std::uint32_t>(pieces_.size()));
-        pieces_.emplace_back();
+        unused_.push_back(static_cast<std::uint32_t>(slices_.size()));
+        slices_.emplace_back();
     }
     const std::uint32_t slot = unused_.back();
     unused_.pop_back();
-    pieces_[slot].open = true;
-    return number_of(slot, pieces_[slot].uses);
+    slices_[slot].open = true;
+    return number_of(slot, slices_[slot].uses);
 }
 
 // Null: the bundle has been answered already.
-BundlePort::Pieces* BundlePort::pieces_of(const Bundle<Query>& bundle) {
-    auto& pieces = pieces_[slot_of(bundle.number)];
-    return pieces.open && pieces.uses == uses_of(bundle.number) ? &pieces : nullptr;
+BundlePort::Slices* BundlePort::slices_of(const Bundle<Query>& bundle) {
+    auto& slices = slices_[slot_of(bundle.number)];
+    return slices.open && slices.uses == uses_of(bundle.number) ? &slices : nullptr;
 }
 
 Bundle<Query> BundlePort::make_bundle(Clock::time_point now) {
     auto questions = empty_buffer();
-    const std::uint64_t number = open_pieces();
-    pieces_[slot_of(number)].sent = now;
-    auto& pieces = pieces_[slot_of(number)].all;
+    const std::uint64_t number = open_slices();
+    slices_[slot_of(number)].sent = now;
+    auto& slices = slices_[slot_of(number)].all;
     while (first_ < unbundled_.size() && questions->size() < rules_.questions) {
         const Ticket ticket = unbundled_[first_];
         auto* const ask = find(ticket);
@@ -142,9 +142,9 @@ Bundle<Query> BundlePort::make_bundle(Clock::time_point now) {
             continue;
         }
         const std::size_t count = std::min(rules_.questions - questions->size(), ask->questions.size() - ask->bundled);
-        const auto piece = ask->questions.subspan(ask->bundled, count);
-        questions->insert(questions->end(), piece.begin(), piece.end());
-        pieces.push_back({ticket, ask->bundled, count});
+        const auto slice = ask->questions.subspan(ask->bundled, count);
+        questions->insert(questions->end(), slice.begin(), slice.end());
+        slices.push_back({ticket, ask->bundled, count});
         ask->bundled += count;
         waiting_ -= count;
         if (ask->bundled == ask->questions.size()) ++first_;
@@ -166,42 +166,42 @@ void BundlePort::settle(Ask& ask) {
     if (auto* fiber = std::exchange(ask.waiting, nullptr)) wake_(fiber);
 }
 
-void BundlePort::close(Pieces& pieces, const Bundle<Query>& bundle) {
-    pieces.all.clear();
-    pieces.open = false;
-    ++pieces.uses;
+void BundlePort::close(Slices& slices, const Bundle<Query>& bundle) {
+    slices.all.clear();
+    slices.open = false;
+    ++slices.uses;
     unused_.push_back(slot_of(bundle.number));
     if (bundle.questions.use_count() == 1)
         buffers_.push_back(std::const_pointer_cast<std::vector<Query>>(bundle.questions));
 }
 
 void BundlePort::answered(const Bundle<Query>& bundle, std::vector<Rgb> answers) {
-    auto* const pieces = pieces_of(bundle);
-    if (!pieces) return;
-    const auto took = std::chrono::nanoseconds(Clock::now() - pieces->sent);
+    auto* const slices = slices_of(bundle);
+    if (!slices) return;
+    const auto took = std::chrono::nanoseconds(Clock::now() - slices->sent);
     answer_time_ = answer_time_ == answer_time_.zero() ? took : (3 * answer_time_ + took) / 4;
     auto from = answers.begin();
-    for (const auto& piece : pieces->all) {
-        const auto next = from + static_cast<std::ptrdiff_t>(piece.count * width_);
-        if (auto* const ask = find(piece.ask)) {
-            std::copy(from, next, ask->answers.begin() + static_cast<std::ptrdiff_t>(piece.first * width_));
-            ask->unanswered -= piece.count;
+    for (const auto& slice : slices->all) {
+        const auto next = from + static_cast<std::ptrdiff_t>(slice.count * width_);
+        if (auto* const ask = find(slice.ask)) {
+            std::copy(from, next, ask->answers.begin() + static_cast<std::ptrdiff_t>(slice.first * width_));
+            ask->unanswered -= slice.count;
             if (ask->unanswered == 0) settle(*ask);
         }
         from = next;
     }
-    close(*pieces, bundle);
+    close(*slices, bundle);
 }
 
 void BundlePort::failed(const Bundle<Query>& bundle, const Failure& failure) {
-    auto* const pieces = pieces_of(bundle);
-    if (!pieces) return;
-    for (const auto& piece : pieces->all)
-        if (auto* const ask = find(piece.ask)) {
+    auto* const slices = slices_of(bundle);
+    if (!slices) return;
+    for (const auto& slice : slices->all)
+        if (auto* const ask = find(slice.ask)) {
             ask->failure = failure;
             settle(*ask);
         }
-    close(*pieces, bundle);
+    close(*slices, bundle);
 }
 
 }  // namespace lightnet

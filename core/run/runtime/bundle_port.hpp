@@ -66,16 +66,16 @@ private:
         std::optional<Failure> failure;
     };
     // A run of questions of one ask inside a bundle.
-    struct Piece {
+    struct Slice {
         Ticket ask;
         std::size_t first, count;
     };
     // Those of one bundle; kept in slots as well.
-    struct Pieces {
+    struct Slices {
         std::uint32_t uses = 0;
         bool open = false;
         Clock::time_point sent;
-        std::vector<Piece> all;
+        std::vector<Slice> all;
     };
     using Buffer = std::shared_ptr<std::vector<Query>>;
 
@@ -85,10 +85,10 @@ private:
     bool due(Clock::time_point now, bool idle);
     Bundle<Query> make_bundle(Clock::time_point now);
     Buffer empty_buffer();
-    std::uint64_t open_pieces();
-    Pieces* pieces_of(const Bundle<Query>& bundle);
+    std::uint64_t open_slices();
+    Slices* slices_of(const Bundle<Query>& bundle);
     void settle(Ask& ask);
-    void close(Pieces& pieces, const Bundle<Query>& bundle);
+    void close(Slices& slices, const Bundle<Query>& bundle);
 
     Fibers& fibers_;
     Wake wake_;
@@ -102,8 +102,8 @@ private:
     std::size_t waiting_ = 0;                  // questions in no bundle yet
     std::chrono::nanoseconds answer_time_{0};  // from sending a bundle to its answer, smoothed
     Clock::time_point oldest_;                 // since when the first of them has waited, at most
-    std::deque<Pieces> pieces_;                // by slot in the number of the bundle
-    std::vector<std::uint32_t> unused_;        // slots of pieces_
+    std::deque<Slices> slices_;                // by slot in the number of the bundle
+    std::vector<std::uint32_t> unused_;        // slots of slices_
     std::vector<Buffer> buffers_;              // that no bundle has now
     std::deque<Bundle<Query>> again_;          // came back unanswered
 };

@@ -169,7 +169,7 @@ void Conductor::lead(const NodeCopy& copy, std::size_t position) {
     }
 }
 
-void Conductor::hand_out(const NodeCopy& copy, std::size_t position, Call& call) {
+void Conductor::hand_out(const NodeCopy& copy, std::size_t position, ServiceCall& call) {
     auto& follower = followers_[copy];
     const std::size_t places = copies(position).size();
     while (const auto shards = call.hand_out({follower.asks, places, steady_seconds()})) {

@@ -16,9 +16,9 @@
 #include <vector>
 
 #include "core/run/message/carrier.hpp"
-#include "core/run/prepare/calls.hpp"
 #include "core/run/prepare/prepare_progress.hpp"
 #include "core/run/prepare/prepared.hpp"
+#include "core/run/prepare/service_calls.hpp"
 #include "core/run/runtime/conducted_rehearsal.hpp"
 #include "core/run/runtime/epoch.hpp"
 #include "core/run/runtime/lock_keeper.hpp"
@@ -95,7 +95,7 @@ private:
     void advance();
     std::size_t led() const;
     void lead(const NodeCopy& copy, std::size_t position);
-    void hand_out(const NodeCopy& copy, std::size_t position, Call& call);
+    void hand_out(const NodeCopy& copy, std::size_t position, ServiceCall& call);
     void collect();
     void begin_rehearsal(std::uint32_t call);
     void end_rehearsal();
@@ -114,7 +114,7 @@ private:
 
     Options options_;
     Carrier& carrier_;
-    Calls calls_;
+    ServiceCalls calls_;
     std::vector<std::size_t> order_;  // nodes that prepare; what stands for their sectors is found by nodes_at()
     std::vector<std::size_t> stages_;
     std::optional<LockKeeper> locks_;  // none: nobody in the graph locks

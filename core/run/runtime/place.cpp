@@ -69,7 +69,7 @@ Port* Place::port_to_sectors(std::size_t node, std::size_t width) {
 Port* Place::port_to_one(std::size_t node, std::size_t width) {
     auto& port = ports_[{node, width}];
     if (!port) {
-        port = std::make_unique<PlannedPort>([=, this] { return call_port_to(node, width); },
+        port = std::make_unique<PlannedPort>([=, this] { return direct_port_to(node, width); },
                                              [=, this] { return bundle_port_to(node, width); });
         port->use(called_here(node));
     }
@@ -82,10 +82,10 @@ bool Place::called_here(std::size_t node) const {
            std::any_of(holders.begin(), holders.end(), [&](auto i) { return plan_.places[i] == me_; });
 }
 
-Port* Place::call_port_to(std::size_t node, std::size_t width) {
-    call_ports_.push_back(
-        std::make_unique<CallPort>(assembly_.called(node), width, counters_.local_questions, [this] { pause(); }));
-    return call_ports_.back().get();
+Port* Place::direct_port_to(std::size_t node, std::size_t width) {
+    direct_ports_.push_back(
+        std::make_unique<DirectPort>(assembly_.callee(node), width, counters_.local_questions, [this] { pause(); }));
+    return direct_ports_.back().get();
 }
 
 Port* Place::bundle_port_to(std::size_t node, std::size_t width) {

@@ -17,7 +17,7 @@
 #include "core/run/message/carrier.hpp"
 #include "core/run/message/tuning.hpp"
 #include "core/run/prepare/assembly.hpp"
-#include "core/run/prepare/call_port.hpp"
+#include "core/run/prepare/direct_port.hpp"
 #include "core/run/prepare/lock_desk.hpp"
 #include "core/run/prepare/preparer.hpp"
 #include "core/run/runtime/bundle_port.hpp"
@@ -67,7 +67,7 @@ private:
     Port* port_to_one(std::size_t node, std::size_t width);
     Port* port_to_sectors(std::size_t node, std::size_t width);
     bool called_here(std::size_t node) const;
-    Port* call_port_to(std::size_t node, std::size_t width);
+    Port* direct_port_to(std::size_t node, std::size_t width);
     Port* bundle_port_to(std::size_t node, std::size_t width);
     void use(const Plan& plan);
     void cancel_asks_of_lost(const Plan& before);
@@ -112,7 +112,7 @@ private:
     std::vector<Inbox> inboxes_;                                                         // by node
     std::vector<std::size_t> by_rank_;                                                   // nodes, lowest rank first
     std::map<std::pair<std::size_t, std::size_t>, std::unique_ptr<PlannedPort>> ports_;  // by node and width
-    std::vector<std::unique_ptr<CallPort>> call_ports_;
+    std::vector<std::unique_ptr<DirectPort>> direct_ports_;
     std::vector<std::unique_ptr<SectorPort>> sector_ports_;
     std::map<std::pair<std::size_t, std::size_t>, Remote> remotes_;  // by node and width
     RemoteChannels<Query> channels_;

@@ -15,10 +15,9 @@ std::vector<Message> Place::next_asks(std::size_t node) {
     std::vector<Message> asks;
     std::size_t questions = 0;
     const auto fits = [&](const Message& ask) {
-        return asks.empty() ||
-               (std::holds_alternative<Questions<Query>>(ask.questions) &&
-                std::holds_alternative<Questions<Query>>(asks.front().questions) && ask.width == asks.front().width &&
-                questions + work_in(ask) <= tuning_.bundle);
+        return asks.empty() || (std::holds_alternative<Questions<Query>>(ask.questions) &&
+                                std::holds_alternative<Questions<Query>>(asks.front().questions) &&
+                                ask.width == asks.front().width && questions + work_in(ask) <= tuning_.bundle);
     };
     while (!waiting.empty() && fits(waiting.front())) {
         questions += work_in(waiting.front());
@@ -106,7 +105,7 @@ std::vector<Rgb> Place::light_answers(std::size_t node, std::size_t width, std::
     if (network_.kind_of(node).role != Role::light || (width != 1 && width != layers))
         throw Error("was asked for light in a way that its graph does not have");
     std::vector<Rgb> answers(questions.size() * width);
-    lightnet::answer(assembly_.called(node), width, questions, answers);
+    lightnet::answer(assembly_.callee(node), width, questions, answers);
     return answers;
 }
 

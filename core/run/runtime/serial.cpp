@@ -82,8 +82,8 @@ SerialRun::SerialRun(const Network& network, std::function<void()> pause)
       assembly_(
           network,
           [this](std::size_t node, std::size_t width) {
-              const auto called = assembly_.called(node);
-              return ports_.emplace_back(std::make_unique<CallPort>(called, width, counters_.local_questions, pause_))
+              const auto called = assembly_.callee(node);
+              return ports_.emplace_back(std::make_unique<DirectPort>(called, width, counters_.local_questions, pause_))
                   .get();
           },
           locks_) {

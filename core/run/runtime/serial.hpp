@@ -10,7 +10,7 @@
 
 #include "core/run/message/counters.hpp"
 #include "core/run/prepare/assembly.hpp"
-#include "core/run/prepare/call_port.hpp"
+#include "core/run/prepare/direct_port.hpp"
 #include "core/run/prepare/prepare_progress.hpp"
 
 namespace lightnet {
@@ -45,7 +45,7 @@ private:
     std::size_t image_;
     Counters counters_;
     std::uint64_t rays_before_;
-    std::vector<std::unique_ptr<CallPort>> ports_;
+    std::vector<std::unique_ptr<DirectPort>> ports_;
     std::map<std::size_t, Bytes> last_results_;
     NoLocks locks_;
     Assembly assembly_;

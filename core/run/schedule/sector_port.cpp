@@ -8,7 +8,7 @@ namespace lightnet {
 Port::Ticket SectorPort::begin(std::span<const Query> questions, std::span<Rgb> answers) {
     if (free_.empty()) {
         free_.push_back(asks_.size());
-        asks_.emplace_back().pieces.resize(sectors_.size());
+        asks_.emplace_back().parts.resize(sectors_.size());
     }
     const std::size_t slot = free_.back();
     free_.pop_back();
@@ -16,7 +16,7 @@ Port::Ticket SectorPort::begin(std::span<const Query> questions, std::span<Rgb> 
     ask.answers = answers;
     try {
         sort(ask, questions);
-        begin_pieces(ask, questions);
+        begin_parts(ask, questions);
     } catch (...) {
         give_up(ask);
         free_.push_back(slot);
@@ -26,24 +26,24 @@ Port::Ticket SectorPort::begin(std::span<const Query> questions, std::span<Rgb> 
 }
 
 void SectorPort::sort(Ask& ask, std::span<const Query> questions) const {
-    for (auto& piece : ask.pieces) piece.where.clear();
-    for (std::uint32_t i = 0; i < questions.size(); ++i) ask.pieces[sector_of_(questions[i])].where.push_back(i);
-    ask.cut = std::none_of(ask.pieces.begin(), ask.pieces.end(),
-                           [&](const Piece& piece) { return piece.where.size() == questions.size(); });
+    for (auto& part : ask.parts) part.where.clear();
+    for (std::uint32_t i = 0; i < questions.size(); ++i) ask.parts[sector_of_(questions[i])].where.push_back(i);
+    ask.cut = std::none_of(ask.parts.begin(), ask.parts.end(),
+                           [&](const SectorAsk& part) { return part.where.size() == questions.size(); });
 }
 
-void SectorPort::begin_pieces(Ask& ask, std::span<const Query> questions) {
+void SectorPort::begin_parts(Ask& ask, std::span<const Query> questions) {
     for (std::size_t sector = 0; sector < sectors_.size(); ++sector) {
-        Piece& piece = ask.pieces[sector];
-        if (piece.where.empty()) continue;
+        SectorAsk& part = ask.parts[sector];
+        if (part.where.empty()) continue;
         if (ask.cut) {
-            piece.questions.clear();
-            for (const auto i : piece.where) piece.questions.push_back(questions[i]);
-            piece.answers.assign(piece.where.size() * width_, Rgb{});
+            part.questions.clear();
+            for (const auto i : part.where) part.questions.push_back(questions[i]);
+            part.answers.assign(part.where.size() * width_, Rgb{});
         }
-        piece.ticket = ask.cut ? sectors_[sector]->begin(piece.questions, piece.answers)
-                               : sectors_[sector]->begin(questions, ask.answers);
-        piece.begun = true;
+        part.ticket = ask.cut ? sectors_[sector]->begin(part.questions, part.answers)
+                              : sectors_[sector]->begin(questions, ask.answers);
+        part.begun = true;
     }
 }
 
@@ -51,7 +51,7 @@ void SectorPort::finish(Ticket ticket) {
     Ask& ask = asks_[ticket - 1];
     try {
         for (std::size_t sector = 0; sector < sectors_.size(); ++sector)
-            if (std::exchange(ask.pieces[sector].begun, false)) sectors_[sector]->finish(ask.pieces[sector].ticket);
+            if (std::exchange(ask.parts[sector].begun, false)) sectors_[sector]->finish(ask.parts[sector].ticket);
     } catch (...) {
         abandon(ticket);
         throw;
@@ -61,15 +61,15 @@ void SectorPort::finish(Ticket ticket) {
 }
 
 void SectorPort::put_together(Ask& ask) const {
-    for (const auto& piece : ask.pieces)
-        for (std::size_t i = 0; i < piece.where.size(); ++i)
-            std::copy_n(piece.answers.begin() + static_cast<std::ptrdiff_t>(i * width_), width_,
-                        ask.answers.begin() + static_cast<std::ptrdiff_t>(piece.where[i] * width_));
+    for (const auto& part : ask.parts)
+        for (std::size_t i = 0; i < part.where.size(); ++i)
+            std::copy_n(part.answers.begin() + static_cast<std::ptrdiff_t>(i * width_), width_,
+                        ask.answers.begin() + static_cast<std::ptrdiff_t>(part.where[i] * width_));
 }
 
 void SectorPort::give_up(Ask& ask) noexcept {
     for (std::size_t sector = 0; sector < sectors_.size(); ++sector)
-        if (std::exchange(ask.pieces[sector].begun, false)) sectors_[sector]->abandon(ask.pieces[sector].ticket);
+        if (std::exchange(ask.parts[sector].begun, false)) sectors_[sector]->abandon(ask.parts[sector].ticket);
 }
 
 void SectorPort::abandon(Ticket ticket) noexcept {

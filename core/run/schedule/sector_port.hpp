@@ -27,7 +27,7 @@ public:
 
 private:
     // The questions of one sector.
-    struct Piece {
+    struct SectorAsk {
         bool begun = false;
         Ticket ticket = 0;
         std::vector<std::uint32_t> where;  // in the ask
@@ -37,12 +37,12 @@ private:
     // Kept in slots that are used again; a ticket is its slot + 1.
     struct Ask {
         std::span<Rgb> answers;
-        std::vector<Piece> pieces;  // by sector
-        bool cut = false;           // else all went to one sector, and need not be put together
+        std::vector<SectorAsk> parts;  // by sector
+        bool cut = false;              // else all went to one sector, and need not be put together
     };
 
     void sort(Ask& ask, std::span<const Query> questions) const;
-    void begin_pieces(Ask& ask, std::span<const Query> questions);
+    void begin_parts(Ask& ask, std::span<const Query> questions);
     void give_up(Ask& ask) noexcept;
     void put_together(Ask& ask) const;
 

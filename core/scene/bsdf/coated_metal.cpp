@@ -26,11 +26,11 @@ std::optional<Ggx> roughness(std::size_t index, const std::optional<Ggx>& only) 
 }
 
 /// Where among `count` roughnesses one lies.
-struct Place {
+struct TablePosition {
     std::size_t low = 0;
     float share = 0;
 };
-Place place(const Ggx& facets, std::size_t count) {
+TablePosition place(const Ggx& facets, std::size_t count) {
     if (count == 1) return {};
     const float root = std::sqrt(std::sqrt(facets.alpha_u * facets.alpha_v));
     const float at = std::min(root, 1.0f) * float(count - 1);
@@ -143,7 +143,7 @@ CoatedMetal::Kernel CoatedMetal::lobe(const Ggx& above, const Ggx& below, std::u
 
 CoatedMetal::Returned CoatedMetal::returned(const Ggx& above, const Ggx& below, float cosine) const {
     const Between angle = between(cosine);
-    const Place row = place(above, rows_), column = place(below, columns_);
+    const TablePosition row = place(above, rows_), column = place(below, columns_);
     Returned sum;
     const auto add_table = [&](std::size_t r, std::size_t c, float share) {
         if (share == 0) return;

@@ -153,7 +153,7 @@ Rgb AreaLamps::mean_of_texture(const Lamp& lamp) const {
 
 std::optional<std::size_t> AreaLamps::lamp_at(const SurfacePoint& point) const {
     if (point.geometry >= places_.size() || places_[point.geometry].lamp == none) return {};
-    const Place& place = places_[point.geometry];
+    const LampsOfShape& place = places_[point.geometry];
     return place.lamp + (place.by_triangle ? point.primitive : 0);
 }
 
@@ -311,7 +311,7 @@ bool AreaLamps::is_there(const Lamp& lamp, const Spot& spot) const {
 
 std::size_t AreaLamps::memory() const {
     return lamps_.size() * sizeof(Lamp) + facets_.size() * sizeof(Facet) + ends_.size() * sizeof(float) +
-           wholes_.size() * sizeof(Facet) + balls_.size() * sizeof(Ball) + places_.size() * sizeof(Place);
+           wholes_.size() * sizeof(Facet) + balls_.size() * sizeof(Ball) + places_.size() * sizeof(LampsOfShape);
 }
 
 }  // namespace lightnet

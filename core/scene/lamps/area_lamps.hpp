@@ -89,12 +89,12 @@ private:
     std::vector<float> ends_;    // by facet: share of its lamp's area up to and with it
     std::vector<Facet> wholes_;  // parallelograms of two triangles, which can be chosen from at once
     std::vector<Ball> balls_;    // one around each shape that shines
-    struct Place {
+    struct LampsOfShape {
         std::uint32_t lamp = none;  // the first of the shape's
         std::uint32_t facet = 0;    // the first of the shape's
         bool by_triangle = false;   // each triangle is a lamp
     };
-    std::vector<Place> places_;  // by shape
+    std::vector<LampsOfShape> places_;  // by shape
 };
 
 }  // namespace lightnet

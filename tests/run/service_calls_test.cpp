@@ -1,4 +1,4 @@
-#include "core/run/prepare/calls.hpp"
+#include "core/run/prepare/service_calls.hpp"
 
 #include <gmock/gmock.h>
 
@@ -22,8 +22,8 @@ Bytes results(const std::vector<int>& values) {
 
 constexpr Shards only(std::uint32_t shard) { return {shard, 1}; }
 
-TEST(Call, HandsEachShardOutOnceAndTheLastOnesToThoseWhoAreIdle) {
-    Call call({StepReport::Kind::map, 0, 5}, false);
+TEST(ServiceCall, HandsEachShardOutOnceAndTheLastOnesToThoseWhoAreIdle) {
+    ServiceCall call({StepReport::Kind::map, 0, 5}, false);
     EXPECT_EQ(call.hand_out({0, 2}), only(0));
     EXPECT_EQ(call.hand_out({1, 2}), only(1));
     EXPECT_EQ(call.hand_out({2, 2}), std::nullopt) << "two at a time";
@@ -34,8 +34,8 @@ TEST(Call, HandsEachShardOutOnceAndTheLastOnesToThoseWhoAreIdle) {
     EXPECT_EQ(call.hand_out({0, 2}), std::nullopt) << "nobody is late";
 }
 
-TEST(Call, HandsOutOnceMoreWhatSomebodyIsLateWith) {
-    Call call({StepReport::Kind::map, 0, 3}, false);
+TEST(ServiceCall, HandsOutOnceMoreWhatSomebodyIsLateWith) {
+    ServiceCall call({StepReport::Kind::map, 0, 3}, false);
     for (std::uint32_t shard = 0; shard < 3; ++shard) EXPECT_EQ(call.hand_out({0, 3, 10}), only(shard));
     call.answer(only(0), results({0}), 10.1);
     EXPECT_EQ(call.hand_out({0, 3, 10.15}), std::nullopt) << "it takes as long as the first, and half as long again";
@@ -45,15 +45,15 @@ TEST(Call, HandsOutOnceMoreWhatSomebodyIsLateWith) {
     EXPECT_EQ(call.hand_out({0, 3, 20}), std::nullopt) << "no shard is done three times at once";
 }
 
-TEST(Call, WaitsForTheFirstShardsWithPatience) {
-    Call call({StepReport::Kind::map, 0, 1}, false);
+TEST(ServiceCall, WaitsForTheFirstShardsWithPatience) {
+    ServiceCall call({StepReport::Kind::map, 0, 1}, false);
     EXPECT_EQ(call.hand_out({0, 2, 10}), only(0));
     EXPECT_EQ(call.hand_out({0, 2, 10.9}), std::nullopt);
     EXPECT_EQ(call.hand_out({0, 2, 11.1}), only(0));
 }
 
-TEST(Call, PutsShardsTogetherInTheirOrderAndCountsTheFirstAnswerOnly) {
-    Call call({StepReport::Kind::map, 0, 2}, false);
+TEST(ServiceCall, PutsShardsTogetherInTheirOrderAndCountsTheFirstAnswerOnly) {
+    ServiceCall call({StepReport::Kind::map, 0, 2}, false);
     call.hand_out({0}), call.hand_out({0}), call.hand_out({0, 1, 100});
     EXPECT_FALSE(call.answer(only(1), results({1})));
     EXPECT_FALSE(call.answer(only(1), results({9})));
@@ -64,8 +64,8 @@ TEST(Call, PutsShardsTogetherInTheirOrderAndCountsTheFirstAnswerOnly) {
     EXPECT_FALSE(call.answer(only(0), results({5}))) << "too late";
 }
 
-TEST(Call, HandsOutAgainWhatALostPlaceHad) {
-    Call call({StepReport::Kind::map, 0, 2}, false);
+TEST(ServiceCall, HandsOutAgainWhatALostPlaceHad) {
+    ServiceCall call({StepReport::Kind::map, 0, 2}, false);
     call.hand_out({0}), call.hand_out({0});
     call.take_back(only(1));
     EXPECT_EQ(call.hand_out({0}), only(1));
@@ -75,8 +75,8 @@ TEST(Call, HandsOutAgainWhatALostPlaceHad) {
 }
 
 // Fewer towards the end; what is not answered goes to somebody else.
-TEST(Call, HandsOutSeveralShardsTogetherWhileThereAreMany) {
-    Call call({StepReport::Kind::map, 0, 20}, false);
+TEST(ServiceCall, HandsOutSeveralShardsTogetherWhileThereAreMany) {
+    ServiceCall call({StepReport::Kind::map, 0, 20}, false);
     EXPECT_EQ(call.hand_out({0, 2}), (Shards{0, 3}));
     EXPECT_EQ(call.hand_out({1, 2}), (Shards{3, 2}));
     EXPECT_FALSE(call.answer({0, 3}, results({0, 1})));
@@ -100,10 +100,10 @@ TEST(Call, HandsOutSeveralShardsTogetherWhileThereAreMany) {
     EXPECT_EQ(std::vector<int>(result.begin(), result.end()), all);
 }
 
-TEST(Calls, NamesANodeThatDoesNotPrepareAlikeEverywhere) {
+TEST(ServiceCalls, NamesANodeThatDoesNotPrepareAlikeEverywhere) {
     Graph graph;
     graph.nodes.push_back({"photons", "PhotonMap", {}, {}, {}});
-    Calls calls(graph, "", nullptr);
+    ServiceCalls calls(graph, "", nullptr);
     calls.reported(0, {StepReport::Kind::map, 0, 4});
     EXPECT_NO_THROW(calls.reported(0, {StepReport::Kind::map, 0, 4}));
     try {
@@ -133,8 +133,8 @@ std::vector<int> values(const Bytes& result) {
     return values;
 }
 
-TEST(Call, GivesEachSectorItsOwnPartInTheOrderOfShards) {
-    Call call({StepReport::Kind::sectors, 0, 2}, false, 2);
+TEST(ServiceCall, GivesEachSectorItsOwnPartInTheOrderOfShards) {
+    ServiceCall call({StepReport::Kind::sectors, 0, 2}, false, 2);
     call.hand_out({0}), call.hand_out({0});
     EXPECT_THROW(call.answer(only(0), results({})), Error);
     EXPECT_THROW(call.answer(only(0), done({results({})})), Error) << "of no sector";
@@ -185,7 +185,7 @@ protected:
     const StepReport at{StepReport::Kind::sectors, 0, 3};
     Graph graph;
     KeepingCache cache;
-    std::optional<Calls> calls;
+    std::optional<ServiceCalls> calls;
 };
 
 TEST_F(SectorCalls, LetGoOfWhatIsOnDiskAndTakeItFromThere) {
@@ -209,7 +209,7 @@ TEST_F(SectorCalls, ComputeAgainWhatTheDiskHasLostOrSpoiled) {
 }
 
 TEST_F(SectorCalls, StayInMemoryWhereNothingElseKeepsThem) {
-    Calls alone(graph, "", nullptr);
+    ServiceCalls alone(graph, "", nullptr);
     auto& call = alone.reported(1, at);
     for (std::uint32_t shard = 0; shard < 3; ++shard) call.answer(only(shard), done({two_lists(1, 2)}));
     call.complete_from_shards();

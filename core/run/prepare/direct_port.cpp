@@ -1,4 +1,4 @@
-#include "core/run/prepare/call_port.hpp"
+#include "core/run/prepare/direct_port.hpp"
 
 #include <xmmintrin.h>
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace lightnet {
 namespace {
 
-constexpr std::size_t piece = 256;
+constexpr std::size_t chunk = 256;
 constexpr unsigned usual_float_mode = 0x1f80;
 
 // Flush-to-zero, denormals-are-zero and rounding must be those that every place starts with.
@@ -24,7 +24,7 @@ void check_float_mode() {
 }
 
 // Which question a node threw at: each is asked alone until it throws again. Empty: none is to blame.
-std::string culprit(const Called& node, std::span<const Query> questions) {
+std::string culprit(const Callee& node, std::span<const Query> questions) {
     std::vector<Rgb> answer(node.layers);
     std::string found;
     for (const auto& question : questions) {
@@ -41,11 +41,11 @@ std::string culprit(const Called& node, std::span<const Query> questions) {
 
 }  // namespace
 
-CallPort::CallPort(Called node, std::size_t width, std::uint64_t& count, std::function<void()> pause)
+DirectPort::DirectPort(Callee node, std::size_t width, std::uint64_t& count, std::function<void()> pause)
     : node_(node), width_(width), count_(count), pause_(std::move(pause)) {}
 
-Port::Ticket CallPort::begin(std::span<const Query> questions, std::span<Rgb> answers) {
-    const std::size_t most = node_.whole ? questions.size() : piece;
+Port::Ticket DirectPort::begin(std::span<const Query> questions, std::span<Rgb> answers) {
+    const std::size_t most = node_.whole ? questions.size() : chunk;
     for (std::size_t first = 0; first < questions.size(); first += most) {
         const std::size_t n = std::min(most, questions.size() - first);
         if (pause_) pause_();
@@ -55,7 +55,7 @@ Port::Ticket CallPort::begin(std::span<const Query> questions, std::span<Rgb> an
     return 0;
 }
 
-void answer(const Called& node, std::size_t width, std::span<const Query> questions, std::span<Rgb> answers) try {
+void answer(const Callee& node, std::size_t width, std::span<const Query> questions, std::span<Rgb> answers) try {
     if (width == node.layers) {
         std::fill(answers.begin(), answers.end(), Rgb{});
         node.light.light(questions, answers);

@@ -26,11 +26,11 @@ struct Shards {
 };
 
 /// One call of a node's prepare(), which is the same on all its places.
-class Call {
+class ServiceCall {
 public:
-    Call() = default;
+    ServiceCall() = default;
     /// `parts`: how many results it has; more than one where each sector of a node gets its own.
-    Call(const StepReport& what, bool rehearsed, std::uint32_t parts = 1);
+    ServiceCall(const StepReport& what, bool rehearsed, std::uint32_t parts = 1);
 
     const StepReport& what() const { return what_; }
     /// It is a rehearsal, or comes after one.
@@ -102,22 +102,22 @@ private:
 
 /// All calls of a run, by node and number. The nodes that stand for the sectors of one node make the same calls, which
 /// are that node's.
-class Calls {
+class ServiceCalls {
 public:
     /// `cache` may be null.
-    Calls(const Graph& graph, std::string made_from, ResultCache* cache)
+    ServiceCalls(const Graph& graph, std::string made_from, ResultCache* cache)
         : graph_(graph), recipes_(graph, std::move(made_from)), cache_(cache) {}
 
     /// The call that a place reports; begun, or found in the cache, when nobody has reported it before. Throws Error
     /// when another place has reported something else.
-    Call& reported(std::size_t node, const StepReport& at);
+    ServiceCall& reported(std::size_t node, const StepReport& at);
     /// One that has been reported.
-    Call& of(std::size_t node, std::uint32_t number) { return calls_.at({whole_of(graph_, node), number}); }
+    ServiceCall& of(std::size_t node, std::uint32_t number) { return calls_.at({whole_of(graph_, node), number}); }
     /// The result for a node that has a sector or is whole. Null when there is none, so far or any more: then its
     /// shards are to be done.
     Bytes result(std::size_t node, std::uint32_t number);
     /// Which part of a call's result a node gets.
-    std::uint32_t part_of(std::size_t node, const Call& call) const;
+    std::uint32_t part_of(std::size_t node, const ServiceCall& call) const;
     /// Keeps its result for later runs.
     void keep(std::size_t node, std::uint32_t number);
     /// Every copy of the node has its part: what is large and on disk need not be in memory as well.
@@ -127,15 +127,15 @@ public:
     /// Of the node's last call; null: it has none.
     Bytes last_result(std::size_t node) const;
     /// The call of the node that has no result yet.
-    const Call* unfinished(std::size_t node) const;
+    const ServiceCall* unfinished(std::size_t node) const;
 
 private:
-    Hash recipe_of(std::size_t whole, std::uint32_t number, const Call& call, std::uint32_t part) const;
+    Hash recipe_of(std::size_t whole, std::uint32_t number, const ServiceCall& call, std::uint32_t part) const;
 
     const Graph& graph_;
     Recipes recipes_;
     ResultCache* cache_;
-    std::map<std::pair<std::size_t, std::uint32_t>, Call> calls_;
+    std::map<std::pair<std::size_t, std::uint32_t>, ServiceCall> calls_;
 };
 
 }  // namespace lightnet

@@ -1,4 +1,4 @@
-#include "core/run/prepare/calls.hpp"
+#include "core/run/prepare/service_calls.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -20,12 +20,12 @@ constexpr double patience_at_first = 1;  // seconds, as long as nobody has answe
 
 }  // namespace
 
-Call::Call(const StepReport& what, bool rehearsed, std::uint32_t parts)
+ServiceCall::ServiceCall(const StepReport& what, bool rehearsed, std::uint32_t parts)
     : what_(what), rehearsed_(rehearsed), kept_(parts), lent_(parts) {
     begin_again();
 }
 
-void Call::begin_again() {
+void ServiceCall::begin_again() {
     names_.clear();
     if (!shared_out()) return;
     to_do_.clear();
@@ -42,7 +42,7 @@ void Call::begin_again() {
     if (what_.count == 0) complete_from_shards();
 }
 
-std::optional<Shards> Call::hand_out(const Asker& asker) {
+std::optional<Shards> ServiceCall::hand_out(const Asker& asker) {
     if (asker.under_way >= most_per_place || missing_ == 0) return std::nullopt;
     // The last ones go to who is idle first: behind others they would wait longer.
     if (asker.under_way > 0 && to_do_.size() <= asker.places) return std::nullopt;
@@ -66,19 +66,19 @@ std::optional<Shards> Call::hand_out(const Asker& asker) {
     return std::nullopt;
 }
 
-bool Call::is_late(std::uint32_t shard, double now) const {
+bool ServiceCall::is_late(std::uint32_t shard, double now) const {
     const std::size_t done = answered_.size() - missing_;
     const double usual = done > 0 ? seconds_ / double(done) : patience_at_first / late_factor;
     return now - begun_[shard] > std::max(late_factor * usual, least_late);
 }
 
-void Call::take_back(const Shards& shards) {
+void ServiceCall::take_back(const Shards& shards) {
     if (done()) return;
     for (auto shard = shards.first + shards.count; shard-- > shards.first;)
         if (!answered_[shard] && copies_[shard] > 0 && --copies_[shard] == 0) to_do_.push_front(shard);
 }
 
-bool Call::answer(const Shards& shards, const Bytes& joined, double now) {
+bool ServiceCall::answer(const Shards& shards, const Bytes& joined, double now) {
     if (done()) return false;
     const auto results = split_shards(joined);
     if (results.empty() || results.size() > shards.count)
@@ -90,7 +90,7 @@ bool Call::answer(const Shards& shards, const Bytes& joined, double now) {
     return missing_ == 0;
 }
 
-void Call::take(const Results& results, std::uint32_t shard, double now) {
+void ServiceCall::take(const Results& results, std::uint32_t shard, double now) {
     if (answered_[shard]) return;
     if (what_.kind == StepReport::Kind::sectors && split_shards(results.own).size() != parts())
         throw Error("results of preparing", "they are not for as many sectors as there are");
@@ -100,13 +100,13 @@ void Call::take(const Results& results, std::uint32_t shard, double now) {
     --missing_;
 }
 
-std::vector<std::span<const std::byte>> Call::parts_of(const Results& shard) const {
+std::vector<std::span<const std::byte>> ServiceCall::parts_of(const Results& shard) const {
     if (what_.kind == StepReport::Kind::sectors) return split_shards(shard.own);
     return {shard.own};
 }
 
 // While places still work; at the end they would wait for it.
-void Call::join_what_is_next() {
+void ServiceCall::join_what_is_next() {
     for (; next_ < shards_.size() && answered_[next_]; ++next_) {
         const Results shard = std::exchange(shards_[next_], {});
         const auto spans = parts_of(shard);
@@ -117,7 +117,7 @@ void Call::join_what_is_next() {
     }
 }
 
-void Call::complete(const std::vector<Result>& parts) {
+void ServiceCall::complete(const std::vector<Result>& parts) {
     for (std::size_t part = 0; part < parts.size(); ++part) {
         lent_[part] = kept_[part] = parts[part].bytes;
         names_.push_back(parts[part].name);
@@ -127,7 +127,7 @@ void Call::complete(const std::vector<Result>& parts) {
     missing_ = 0;
 }
 
-void Call::complete_from_shards() {
+void ServiceCall::complete_from_shards() {
     std::vector<Result> results;
     for (auto& [joiner, hasher] : joined_) {
         hasher.add(joiner.tail());
@@ -136,15 +136,15 @@ void Call::complete_from_shards() {
     complete(results);
 }
 
-void Call::let_go() { kept_.assign(kept_.size(), nullptr); }
+void ServiceCall::let_go() { kept_.assign(kept_.size(), nullptr); }
 
-bool Call::restore(std::uint32_t part, const Result& result) {
+bool ServiceCall::restore(std::uint32_t part, const Result& result) {
     if (!result.bytes || result.name != names_[part]) return false;
     lent_[part] = kept_[part] = result.bytes;
     return true;
 }
 
-Call& Calls::reported(std::size_t node, const StepReport& at) {
+ServiceCall& ServiceCalls::reported(std::size_t node, const StepReport& at) {
     const std::size_t whole = whole_of(graph_, node);
     if (const auto known = calls_.find({whole, at.call}); known != calls_.end()) {
         if (known->second.what() != at)
@@ -157,7 +157,7 @@ Call& Calls::reported(std::size_t node, const StepReport& at) {
         throw Error("'" + graph_.nodes[whole].name + "' prepares for sectors, but has none");
     const bool rehearsed = at.kind == StepReport::Kind::rehearse || (at.call > 0 && of(whole, at.call - 1).rehearsed());
     auto& call = calls_[{whole, at.call}] =
-        Call(at, rehearsed, at.kind == StepReport::Kind::sectors ? sector->count : 1);
+        ServiceCall(at, rehearsed, at.kind == StepReport::Kind::sectors ? sector->count : 1);
     if (!cache_ || call.done()) return call;
     std::vector<Result> parts;
     for (std::uint32_t part = 0; part < call.parts(); ++part) {
@@ -168,19 +168,20 @@ Call& Calls::reported(std::size_t node, const StepReport& at) {
     return call;
 }
 
-Hash Calls::recipe_of(std::size_t whole, std::uint32_t number, const Call& call, std::uint32_t part) const {
+Hash ServiceCalls::recipe_of(std::size_t whole, std::uint32_t number, const ServiceCall& call,
+                             std::uint32_t part) const {
     const std::string which = call.what().kind == StepReport::Kind::sectors
                                   ? "\nsector " + std::to_string(part + 1) + " of " + std::to_string(call.parts())
                                   : std::string();
     return recipes_.of(whole, number, call.rehearsed(), which);
 }
 
-std::uint32_t Calls::part_of(std::size_t node, const Call& call) const {
+std::uint32_t ServiceCalls::part_of(std::size_t node, const ServiceCall& call) const {
     const auto* sector = sector_at(graph_, node);
     return sector && call.what().kind == StepReport::Kind::sectors ? sector->index : 0;
 }
 
-Bytes Calls::result(std::size_t node, std::uint32_t number) {
+Bytes ServiceCalls::result(std::size_t node, std::uint32_t number) {
     auto& call = of(node, number);
     if (!call.done()) return nullptr;
     const auto part = part_of(node, call);
@@ -191,18 +192,18 @@ Bytes Calls::result(std::size_t node, std::uint32_t number) {
     return nullptr;
 }
 
-void Calls::keep(std::size_t node, std::uint32_t number) {
+void ServiceCalls::keep(std::size_t node, std::uint32_t number) {
     const auto& call = of(node, number);
     for (std::uint32_t part = 0; cache_ && part < call.parts(); ++part)
         cache_->keep(recipe_of(whole_of(graph_, node), number, call, part), {call.name(part), call.result(part)});
 }
 
-void Calls::all_have(std::size_t node, std::uint32_t number) {
+void ServiceCalls::all_have(std::size_t node, std::uint32_t number) {
     auto& call = of(node, number);
     if (cache_ && call.done() && call.what().kind == StepReport::Kind::sectors) call.let_go();
 }
 
-std::map<std::string, Hash> Calls::hashes() const {
+std::map<std::string, Hash> ServiceCalls::hashes() const {
     std::map<std::string, std::string> texts;
     for (const auto& [key, call] : calls_)
         for (std::uint32_t part = 0; call.done() && part < call.parts(); ++part)
@@ -212,14 +213,14 @@ std::map<std::string, Hash> Calls::hashes() const {
     return hashes;
 }
 
-Bytes Calls::last_result(std::size_t node) const {
+Bytes ServiceCalls::last_result(std::size_t node) const {
     Bytes last;
     for (const auto& [key, call] : calls_)
         if (key.first == node && call.result()) last = call.result();
     return last;
 }
 
-const Call* Calls::unfinished(std::size_t node) const {
+const ServiceCall* ServiceCalls::unfinished(std::size_t node) const {
     for (const auto& [key, call] : calls_)
         if (key.first == node && !call.done()) return &call;
     return nullptr;

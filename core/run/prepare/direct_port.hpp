@@ -11,7 +11,7 @@
 namespace lightnet {
 
 /// A node that can be called.
-struct Called {
+struct Callee {
     const LightOp& light;
     const std::string& name;              // as in the graph
     std::size_t layers = 1;               // colours per answer when nothing is added up
@@ -19,20 +19,20 @@ struct Called {
     std::uint64_t* not_finite = nullptr;  // counts its answers that are infinite or no numbers
 };
 
-/// Calls the node. Long asks are cut into pieces, between which the place may look at its sockets; an answer does not
+/// Calls the node. Long asks are cut into chunks, between which the place may look at its sockets; an answer does not
 /// depend on its neighbours, so nobody can tell.
-class CallPort final : public Port {
+class DirectPort final : public Port {
 public:
     /// `width` colours per question are wanted: as many as the node has, or one, their sum. Counts questions in
-    /// `count`. `pause` is called between pieces; it may be empty.
-    CallPort(Called node, std::size_t width, std::uint64_t& count, std::function<void()> pause = {});
+    /// `count`. `pause` is called between chunks; it may be empty.
+    DirectPort(Callee node, std::size_t width, std::uint64_t& count, std::function<void()> pause = {});
 
     Ticket begin(std::span<const Query> questions, std::span<Rgb> answers) override;
     void finish(Ticket) override {}
     void abandon(Ticket) noexcept override {}
 
 private:
-    Called node_;
+    Callee node_;
     std::size_t width_;
     std::uint64_t& count_;
     std::function<void()> pause_;
@@ -41,6 +41,6 @@ private:
 /// Asks `node` and adds its layers up, first to last, when one colour is wanted. Throws Error with the node's name when
 /// it throws, and when it leaves the thread's floating-point mode changed: its own and all later answers would depend
 /// on where it ran.
-void answer(const Called& node, std::size_t width, std::span<const Query> questions, std::span<Rgb> answers);
+void answer(const Callee& node, std::size_t width, std::span<const Query> questions, std::span<Rgb> answers);
 
 }  // namespace lightnet
