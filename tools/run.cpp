@@ -128,16 +128,10 @@ private:
 
 FilmFormat Run::format() const {
     const auto film = film_of(request_.graph, registry_);
-    const auto& params = request_.graph.nodes[image_].params;
-    // Renderers other than our own may have no cells.
-    const auto number = [&](const char* name) {
-        const auto param = params.find(name);
-        return param == params.end() ? 0 : std::get<double>(param->second.data);
-    };
-    const auto count = [&](const char* name) { return static_cast<std::uint32_t>(number(name)); };
+    const auto sampling = sampling_of(request_.graph, registry_);
     const auto layers = layers_of(request_.graph, registry_);
-    FilmFormat format{film.width, film.height, layers.film, count("samples"), film.crop};
-    format.refinement = {static_cast<float>(number("error")), count("least_samples")};
+    FilmFormat format{film.width, film.height, layers.film, sampling.samples, film.crop};
+    format.refinement = {sampling.error, sampling.least_samples};
     format.shown = shown_names(layers, request_.graph);
     return format;
 }

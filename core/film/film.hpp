@@ -57,7 +57,7 @@ struct FilmFormat {
     std::uint32_t samples = 0;            // per pixel, at most
     std::optional<Window> crop{};         // what is wanted of the picture; none: all of it
     Refinement refinement{};
-    std::vector<std::string> shown{};  // pictures beside the sum: their colours come behind those of the layers
+    std::vector<std::string> shown{};  // pictures beside the sum (AOVs): their colours come behind those of the layers
 
     /// Of one pixel.
     std::size_t colours() const { return layers.size() + shown.size(); }
@@ -117,11 +117,12 @@ struct FilmState {
 /// The last group may be one to which a picture of more samples would add. It is kept beside the sums of the others and
 /// added for the picture only, so that such a picture can go on from what this film holds.
 ///
-/// With a refinement, a cell is done when sqrt(mean(v / (m² + 0.01))) over its pixels and channels is at most the
-/// error, or when it has all samples. m is the mean of a pixel's k blocks as the picture shows it, v = Σ(b - m)² / (k
-/// (k - 1)) the variance of that mean. Blocks of a scrambled sequence complete each other, so v is rather too large
-/// than too small; what no block has found (a caustic that is met once in a thousand samples) it can't know of, and as
-/// samples decide about their own number, pixels come out too dark by a part of their error.
+/// With a refinement (adaptive sampling with a noise threshold), a cell is done when sqrt(mean(v / (m² + 0.01))) over
+/// its pixels and channels is at most the error, or when it has all samples. m is the mean of a pixel's k blocks as the
+/// picture shows it, v = Σ(b - m)² / (k (k - 1)) the variance of that mean. Blocks of a scrambled sequence complete
+/// each other, so v is rather too large than too small; what no block has found (a caustic that is met once in a
+/// thousand samples) it can't know of, and as samples decide about their own number, pixels come out too dark by a part
+/// of their error.
 class Film {
 public:
     /// Throws Error on a format without pixels, samples or layers, or with two layers of one name.

@@ -1,4 +1,4 @@
-// Many points side by side, coordinate by coordinate: what the compiler turns loops over points into vectors from.
+// Structures of arrays: many points, coordinate by coordinate, so that loops over points become vector instructions.
 #pragma once
 
 #include <array>

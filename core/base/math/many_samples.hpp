@@ -1,4 +1,4 @@
-// The random numbers of many streams that go on side by side.
+// The random numbers of many streams that advance together.
 #pragma once
 
 #include <cstddef>

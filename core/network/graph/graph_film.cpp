@@ -32,6 +32,16 @@ GraphFilm film_of(const Graph& graph, const Registry& registry) {
     return made;
 }
 
+GraphSampling sampling_of(const Graph& graph, const Registry& registry) {
+    const auto& params = graph.nodes[renderer_of(graph, registry)].params;
+    const auto number = [&](const char* name) {
+        const auto param = params.find(name);
+        return param == params.end() ? 0 : std::get<double>(param->second.data);
+    };
+    const auto count = [&](const char* name) { return static_cast<std::uint32_t>(number(name)); };
+    return {count("samples"), static_cast<float>(number("error")), count("least_samples")};
+}
+
 const Node& scene_of(const Graph& graph, const Registry& registry) {
     const auto& ref = std::get<NodeRef>(param_of(graph, registry, ParamType::scene).data);
     const auto scene = graph.find(ref.name);

@@ -23,8 +23,18 @@ struct GraphFilm {
 /// Width and height of a picture are at most this many pixels.
 inline constexpr std::uint32_t longest_side = 16384;
 
+/// How many samples a renderer wants. Those of a kind without such parameters have zeros.
+struct GraphSampling {
+    std::uint32_t samples = 0;        // per pixel, at most
+    float error = 0;                  // noise threshold; 0: every pixel gets all samples
+    std::uint32_t least_samples = 0;  // of each pixel, where there is a threshold
+};
+
 /// The film of a checked graph's renderer.
 GraphFilm film_of(const Graph& graph, const Registry& registry);
+
+/// The samples of a checked graph's renderer.
+GraphSampling sampling_of(const Graph& graph, const Registry& registry);
 
 /// The Scene node of a checked graph's renderer.
 const Node& scene_of(const Graph& graph, const Registry& registry);

@@ -1,4 +1,4 @@
-// Work of a place that is done side by side: a fiber for each piece that waits.
+// Work of a place that is done concurrently: a fiber for each piece that waits.
 #pragma once
 
 #include <cstddef>

@@ -19,7 +19,7 @@ template <class Question>
 struct Bundle {
     Questions<Question> questions;
     BundleOwner<Question>* owner = nullptr;  // who made it and gets the answers
-    std::uint64_t number = 0;                // the owner's own
+    std::uint64_t number = 0;                // the owner's own, see Message
     std::uint32_t width = 1;                 // colours per question that are wanted
 };
 

@@ -1,4 +1,4 @@
-// How much may be under way to one place.
+// How much may be under way to one place: flow control by credit.
 #pragma once
 
 #include <cstddef>

@@ -41,6 +41,17 @@ struct Route {
     std::vector<std::string> hops;
 };
 
+/// What is said. A question wears several numbers on its way, each given by who must know it again:
+///
+///   ticket   Port          one ask of a node; who asked finishes it by its ticket
+///   number   BundleOwner   one bundle, in which questions of several asks may go; the owner finds its asks again by it
+///   work     Multiplexer   one bundle that is wanted, or a piece of one that was cut up; it may be sent several times
+///   copy     Scheduler     one sending of it, which takes credit at one replica
+///   channel  asking place  one node at one other place
+///
+/// To a channel, a copy is a bundle like any other: Message::bundle is the number of the copy where a multiplexer asks.
+/// Bundles are filled by BundlePort (questions of several asks) and MasterRenderer (several quick tiles), cut by
+/// Multiplexer (among idle replicas) and SectorPort (by sector), and several of them are answered together by Place.
 struct Message {
     enum class Type : std::uint8_t {
         ask,      // questions for `node`
@@ -53,7 +64,7 @@ struct Message {
     Type type = Type::ask;
     std::uint64_t run = 0;      // messages of other runs are dropped
     std::uint32_t channel = 0;  // the asker's; comes back with the reply
-    std::uint64_t bundle = 0;   // unique per channel
+    std::uint64_t bundle = 0;   // its number, unique per channel; comes back with the reply
     std::uint32_t node = 0;     // index in the graph
     std::uint32_t width = 1;    // colours per question that are wanted; 0: nobody waits for the reply
     std::uint64_t asker = 0;    // of an ask: name_of() the asking place; 0: the launcher

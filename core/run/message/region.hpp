@@ -1,4 +1,4 @@
-// Coarse regions of scene and picture, for replicas that cache.
+// Coarse regions of scene and picture: questions of one region go to the same replica, whose cache knows it (affinity).
 #pragma once
 
 #include <cstdint>

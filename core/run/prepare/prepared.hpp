@@ -59,7 +59,7 @@ struct Result {
     Bytes bytes;
 };
 
-/// Keeps results from run to run. Any thread.
+/// Keeps results from run to run, by recipe. Any thread.
 class ResultCache {
 public:
     virtual ~ResultCache() = default;

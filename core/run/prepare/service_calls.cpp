@@ -5,15 +5,16 @@
 
 #include "core/base/error.hpp"
 #include "core/network/light/mapped.hpp"
+#include "core/run/schedule/guided.hpp"
 
 namespace lightnet {
 namespace {
 
 constexpr std::size_t most_per_place = 2;  // asks: one that is worked at and one that waits
 constexpr std::uint8_t most_copies = 2;
-// Of what nobody does, what is handed out at once is this part for each place, so that there are fewer messages and the
-// last ones are still small (guided self-scheduling, Polychronopoulos & Kuck 1987).
-constexpr std::size_t shares = 3;
+constexpr std::size_t shares = 3;  // for each place, see guided_share()
+// Speculative execution, as Scheduler has it for questions, but sooner: shards are alike, so a late one stands out, and
+// all places wait for the last.
 constexpr double late_factor = 2;        // times as long as others
 constexpr double least_late = 0.01;      // seconds
 constexpr double patience_at_first = 1;  // seconds, as long as nobody has answered
@@ -47,7 +48,7 @@ std::optional<Shards> ServiceCall::hand_out(const Asker& asker) {
     // The last ones go to who is idle first: behind others they would wait longer.
     if (asker.under_way > 0 && to_do_.size() <= asker.places) return std::nullopt;
     if (!to_do_.empty()) {
-        const auto most = std::max<std::size_t>(1, to_do_.size() / (shares * asker.places));
+        const auto most = std::max<std::size_t>(1, guided_share(to_do_.size(), asker.places, shares));
         Shards some{to_do_.front(), 0};
         while (!to_do_.empty() && to_do_.front() == some.first + some.count && some.count < most) {
             if (++copies_[to_do_.front()] == 1) begun_[to_do_.front()] = asker.now;
@@ -56,8 +57,7 @@ std::optional<Shards> ServiceCall::hand_out(const Asker& asker) {
         }
         return some;
     }
-    // Nothing is left but what others do: whoever is idle does what they are late with, too, and the first result
-    // counts.
+    // All are handed out: an idle place does once more what another one is late with, and the first result counts.
     for (std::uint32_t shard = 0; shard < answered_.size(); ++shard)
         if (!answered_[shard] && copies_[shard] < most_copies && is_late(shard, asker.now)) {
             ++copies_[shard];

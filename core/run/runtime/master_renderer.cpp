@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/error.hpp"
+#include "core/run/schedule/guided.hpp"
 
 namespace lightnet {
 namespace {
@@ -10,7 +11,7 @@ namespace {
 constexpr double worth_the_way = 0.25;   // seconds of work: beside them, some hundred µs of sending are little
 constexpr double soon_enough = 1;        // seconds until a group of blocks is there
 constexpr std::size_t most_bytes = 4e6;  // of an answer of several tiles
-constexpr std::size_t shares = 4;        // of what is left, for each place: who ends last keeps nobody waiting long
+constexpr std::size_t shares = 4;        // for each place, see guided_share()
 
 }  // namespace
 
@@ -43,10 +44,11 @@ void MasterRenderer::append(const std::vector<Tile>& tiles) {
     unanswered_ += work_in(tiles);
 }
 
-// How many blocks of samples go together: fewer towards the end (guided self-scheduling, Polychronopoulos & Kuck 1987).
+// How many blocks of samples go together: fewer towards the end.
 MasterRenderer::Together MasterRenderer::together() const {
     const double seconds = replicas_.scheduler().service() * double(replicas_.size());  // of one block at one place
-    const auto most = std::min(job_.credit.questions / job_.credit.bundles, left_ / (shares * replicas_.size()));
+    const auto most =
+        std::min(job_.credit.questions / job_.credit.bundles, guided_share(left_, replicas_.size(), shares));
     if (seconds <= 0 || most < 2) return {};
     const auto within = [&](double time) { return std::size_t(std::max(1.0, std::min(time / seconds, double(most)))); };
     return {within(worth_the_way), within(soon_enough)};

@@ -140,7 +140,7 @@ void Place::serve(const std::atomic<bool>& stop, std::atomic<std::uint64_t>& pro
             if (!flush(true) && !stopping_) carrier_.wait(patience());
             continue;
         }
-        // Looking at the sockets costs calls of the system: what has come together is worked off together.
+        // Each look at the sockets costs system calls: what has come together is worked off together.
         while (!fibers_.stint_over() && step()) {
         }
     }
@@ -148,8 +148,8 @@ void Place::serve(const std::atomic<bool>& stop, std::atomic<std::uint64_t>& pro
     fibers_.cancel_all();
 }
 
-// Runs one thing: fibers whose answers are there, then bundles of the lowest rank, then more of what nodes do side by
-// side, then paused work, then new tiles.
+// Runs one thing: a fiber whose answers are there, else a bundle of the lowest rank, else one more piece of what nodes
+// do concurrently, else paused work, else a new tile.
 bool Place::step() {
     const auto resume_first_of = [&](auto& queue) {
         if (queue.empty()) return false;

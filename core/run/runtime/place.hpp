@@ -31,7 +31,7 @@ namespace lightnet {
 ///
 /// No graph can make places wait for each other for ever: a bundle whose node has no fiber running is always given
 /// one, bundles of the lowest rank (the longest way down to a node that asks nobody) go first, and the asker has kept
-/// room for the reply. A node that answers its questions side by side needs no other fiber than that one to go on;
+/// room for the reply. A node that works on its questions concurrently needs no other fiber than that one to go on;
 /// see Rounds. So the nodes that ask nobody always finish, then those that ask only them, and so on.
 class Place {
 public:

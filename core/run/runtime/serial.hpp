@@ -1,4 +1,5 @@
-// The whole network in one thread: function calls and nothing else, with plain stack traces.
+// The whole network in one thread: function calls and nothing else, so that a debugger shows the whole way of a
+// question.
 #pragma once
 
 #include <functional>

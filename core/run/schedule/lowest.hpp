@@ -9,8 +9,8 @@
 
 namespace lightnet {
 
-/// A tournament: each change costs O(log n), the winner is known at once. Of equal keys the lowest number wins, so that
-/// the same changes always give the same winner.
+/// A tournament tree: each change costs O(log n), the winner is known at once. Of equal keys the lowest number wins, so
+/// that the same changes always give the same winner.
 class Lowest {
 public:
     static constexpr double none = std::numeric_limits<double>::infinity();

@@ -1,4 +1,4 @@
-// One channel made of several equal ones: the questions go where they will be answered first.
+// Load balancing: one channel made of several equal ones; questions go where they will be answered first.
 #pragma once
 
 #include <algorithm>
