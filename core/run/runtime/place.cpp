@@ -19,26 +19,33 @@ Place::Place(const Network& network, const PlaceAt& me, const Plan& plan, std::u
       tuning_(tuning),
       carrier_(carrier),
       rays_before_(Scene::rays_of_this_thread()),
-      rounds_(fibers_, tuning.side_fibers, [this](Fibers::Fiber* fiber) { ready_.push_back(fiber); }),
+      rounds_(fibers_, tuning.side_fibers, wake()),
       inboxes_(network.graph.nodes.size()),
       by_rank_(network.graph.nodes.size()),
       channels_(carrier, run, name_of(me), counters_),
-      locks_(
-          fibers_, [this](Fibers::Fiber* fiber) { ready_.push_back(fiber); },
-          [this](Message reply) { carrier_.reply(std::move(reply)); }),
+      locks_(fibers_, wake(), reply()),
       assembly_(
           network, [this](std::size_t node, std::size_t width) { return port_to(node, width); }, locks_, &rounds_),
       preparer_(network, assembly_, fibers_,
-                {my_name(), [this](Fibers::Fiber* fiber) { ready_.push_back(fiber); },
-                 [this](Message reply) { carrier_.reply(std::move(reply)); },
-                 [this](std::size_t node) { return plan_.places_of[node].size(); }}) {
+                {my_name(), wake(), reply(), [this](std::size_t node) { return plan_.places_of[node].size(); }}) {
     const auto rank = ranks_of(network.graph);
     std::iota(by_rank_.begin(), by_rank_.end(), 0);
     std::stable_sort(by_rank_.begin(), by_rank_.end(), [&](auto a, auto b) { return rank[a] < rank[b]; });
     for (std::size_t node = 0; node < plan_.places_of.size(); ++node)
-        if (std::any_of(plan_.places_of[node].begin(), plan_.places_of[node].end(),
-                        [&](auto i) { return plan_.places[i] == me_; }))
-            assemble(node);
+        if (holds(node)) assemble(node);
+}
+
+std::function<void(Fibers::Fiber*)> Place::wake() {
+    return [this](Fibers::Fiber* fiber) { ready_.push_back(fiber); };
+}
+
+std::function<void(Message)> Place::reply() {
+    return [this](Message reply) { carrier_.reply(std::move(reply)); };
+}
+
+bool Place::holds(std::size_t node) const {
+    const auto& holders = plan_.places_of[node];
+    return std::any_of(holders.begin(), holders.end(), [&](auto i) { return plan_.places[i] == me_; });
 }
 
 void Place::assemble(std::size_t node) {
@@ -76,11 +83,7 @@ Port* Place::port_to_one(std::size_t node, std::size_t width) {
     return port.get();
 }
 
-bool Place::called_here(std::size_t node) const {
-    const auto& holders = plan_.places_of[node];
-    return tuning_.call_own_nodes &&
-           std::any_of(holders.begin(), holders.end(), [&](auto i) { return plan_.places[i] == me_; });
-}
+bool Place::called_here(std::size_t node) const { return tuning_.call_own_nodes && holds(node); }
 
 Port* Place::direct_port_to(std::size_t node, std::size_t width) {
     direct_ports_.push_back(
@@ -93,8 +96,7 @@ Port* Place::bundle_port_to(std::size_t node, std::size_t width) {
     const Credit credit{tuning_.credit, tuning_.credit_questions, tuning_.credit_bytes};
     const BundleRules bundles{tuning_.bundle, std::chrono::microseconds(tuning_.oldest_us), tuning_.eager};
     remote.edge = {static_cast<std::uint32_t>(node), credit, {}};
-    remote.port = std::make_unique<BundlePort>(
-        fibers_, [this](Fibers::Fiber* fiber) { ready_.push_back(fiber); }, width, bundles);
+    remote.port = std::make_unique<BundlePort>(fibers_, wake(), width, bundles);
     remote.port->replicas().follow(multiplexer_rules(node), &counters_);
     channels_.connect(remote.edge, remote.port->replicas(), plan_);
     return remote.port.get();

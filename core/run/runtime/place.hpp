@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 #include <span>
@@ -62,6 +63,9 @@ private:
         RemoteChannels<Query>::Edge edge;
     };
 
+    std::function<void(Fibers::Fiber*)> wake();
+    std::function<void(Message)> reply();
+    bool holds(std::size_t node) const;
     void assemble(std::size_t node);
     Port* port_to(std::size_t node, std::size_t width);
     Port* port_to_one(std::size_t node, std::size_t width);
