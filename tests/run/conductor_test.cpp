@@ -302,5 +302,31 @@ TEST(Conductor, TakesRepliesAfterMoreRehearsalsThanThereAreEpochs) {
     }
 }
 
+TEST(ConductedRehearsal, CollectsTheNotesOfEveryCopyOnceItIsRendered) {
+    ByHand places;
+    const NodeCopy one{{"one", 0}, 3}, two{{"two", 0}, 3};
+    ConductedRehearsal rehearsal(0, {one, two}, {}, places);
+    EXPECT_FALSE(rehearsal.wants_notes_of(one)) << "it has not been rendered";
+    rehearsal.render(std::chrono::milliseconds(1));  // it has no tiles
+    ASSERT_TRUE(rehearsal.rendered());
+    EXPECT_TRUE(rehearsal.wants_notes_of(one));
+    rehearsal.asked(one);
+    EXPECT_FALSE(rehearsal.wants_notes_of(one));
+    EXPECT_FALSE(rehearsal.collect(bytes_of(std::vector<Query>{at(2), at(1)})));
+    EXPECT_TRUE(rehearsal.collect(bytes_of(std::vector<Query>{at(1)})));
+    const Mapped<Query> noted(rehearsal.result());
+    EXPECT_EQ(noted.all().size(), 2u) << "each question once";
+}
+
+TEST(ConductedRehearsal, AsksNobodyWhenItIsBroken) {
+    ByHand places;
+    const NodeCopy one{{"one", 0}, 3};
+    ConductedRehearsal rehearsal(0, {one}, {}, places);
+    rehearsal.render(std::chrono::milliseconds(1));
+    rehearsal.break_off();
+    EXPECT_TRUE(rehearsal.broken());
+    EXPECT_FALSE(rehearsal.wants_notes_of(one));
+}
+
 }  // namespace
 }  // namespace lightnet

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include <cstring>
+#include "core/run/runtime/lock_keeper.hpp"
 
 namespace lightnet {
 namespace {
@@ -75,6 +75,51 @@ TEST(LockDesk, DoesNotTakeALockFromWhoGotItMeanwhile) {
     EXPECT_THAT(desk.granted(), IsEmpty());
 }
 
+// What a keeper sends: to whom, and which step.
+class LockKeeperTest : public testing::Test {
+protected:
+    using Sent = std::pair<PlaceAt, Step::Kind>;
+    std::vector<Sent> attend(const std::vector<PlaceAt>& places) {
+        sent.clear();
+        keeper.attend(places);
+        return sent;
+    }
+    void want_at(const PlaceAt& place) { keeper.hear(place, bytes_of(std::vector<LockWord>{{want, device}})); }
+
+    std::vector<Sent> sent;
+    bool open = true;
+    LockKeeper keeper{[this](const PlaceAt& place, const Step& step) {
+        if (open) sent.emplace_back(place, step.kind);
+        return open;
+    }};
+};
+
+TEST_F(LockKeeperTest, KeepsOneStepAtEveryPlace) {
+    EXPECT_THAT(attend({first, second}),
+                ElementsAre(Pair(first, Step::Kind::attend), Pair(second, Step::Kind::attend)));
+    EXPECT_THAT(attend({first, second}), IsEmpty());
+    keeper.hear(first, nullptr);
+    EXPECT_THAT(attend({first, second}), ElementsAre(Pair(first, Step::Kind::attend)));
+}
+
+TEST_F(LockKeeperTest, PassesALockOnUntilItCanBeSent) {
+    attend({first});
+    want_at(first);
+    open = false;
+    EXPECT_THAT(attend({first}), IsEmpty());
+    open = true;
+    EXPECT_THAT(attend({first}), ElementsAre(Pair(first, Step::Kind::attend), Pair(first, Step::Kind::grant)));
+    EXPECT_THAT(attend({first}), IsEmpty());
+}
+
+TEST_F(LockKeeperTest, GivesTheLockOfALostPlaceToTheNext) {
+    attend({first, second});
+    want_at(first), want_at(second);
+    attend({first, second});
+    keeper.lose(first);
+    EXPECT_THAT(attend({second}), ElementsAre(Pair(second, Step::Kind::grant)));
+}
+
 Message step(Step::Kind kind, std::uint32_t call = 0) {
     Message ask;
     ask.questions = std::make_shared<const std::vector<Step>>(1, Step{.kind = kind, .call = call, .data = device});
@@ -86,10 +131,7 @@ TEST(PlaceLocks, TellAllAnewWhenTheLauncherHadLostSightOfThem) {
     std::vector<std::vector<LockWord>> said;
     PlaceLocks locks(
         fibers, [&](Fibers::Fiber* fiber) { fibers.resume(fiber); },
-        [&](const Message& reply) {
-            said.emplace_back(reply.data->size() / sizeof(LockWord));
-            if (!reply.data->empty()) std::memcpy(said.back().data(), reply.data->data(), reply.data->size());
-        });
+        [&](const Message& reply) { said.push_back(values_of<LockWord>(reply.data)); });
     const auto hold_it = [&] {
         const auto held = locks.hold("device");
         fibers.park();
