@@ -234,7 +234,7 @@ private:
     std::shared_ptr<const IrradianceOctree> records_;
 };
 
-std::vector<Param> params() {
+std::vector<Param> irradiance_cache_params() {
     return {
         {.name = "rays",
          .type = ParamType::integer,
@@ -294,7 +294,7 @@ Kind irradiance_cache_kind() {
         .help =
             "irradiance caching: light by one more bounce, computed at few points and interpolated; for diffuse light",
         .inputs = {1, 1},
-        .params = params(),
+        .params = irradiance_cache_params(),
         .light = {.onward = "S*D"},
         .run = {.prepares = true, .rehearses = true, .freezes = "irradiance records", .keeps = true},
         .make_light = [](const NodeContext& here) { return std::make_unique<IrradianceCache>(here); },

@@ -107,7 +107,7 @@ private:
     std::shared_ptr<const PhotonTree> records_;
 };
 
-std::vector<Param> params() {
+std::vector<Param> photon_irradiance_params() {
     return {
         {.name = "of", .type = ParamType::node, .help = "the map", .choices = {"photons"}},
         {.name = "every",
@@ -134,7 +134,7 @@ Kind photon_irradiance_kind() {
     return {
         .name = "PhotonIrradiance",
         .help = "the light of a photon map, as irradiance computed beforehand at some photons: a quick approximation",
-        .params = params(),
+        .params = photon_irradiance_params(),
         .light = {.converts = true},
         .run = {.prepares = true},
         .make_light = [](const NodeContext& here) { return std::make_unique<PhotonIrradiance>(here); },

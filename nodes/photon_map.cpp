@@ -61,7 +61,7 @@ private:
     std::shared_ptr<const PhotonTree> tree_;
 };
 
-std::vector<Param> params() {
+std::vector<Param> photon_map_params() {
     auto params = shooting_params(200000, "light paths that leave the lamps");
     params.push_back({.name = "gather",
                       .type = ParamType::integer,
@@ -80,7 +80,7 @@ Kind photon_map_kind() {
     return {
         .name = "PhotonMap",
         .help = "photon mapping, light sent from the lamps beforehand: caustics, or an approximation of all light",
-        .params = params(),
+        .params = photon_map_params(),
         .light = {.paths = paths_of_photons},
         .run = {.prepares = true,
                 .freezes = "photons",

@@ -59,7 +59,7 @@ private:
     std::vector<std::shared_ptr<const PhotonTree>> passes_;
 };
 
-std::vector<Param> params() {
+std::vector<Param> progressive_photon_mapping_params() {
     auto params = shooting_params(100000, "light paths that leave the lamps in each pass");
     params.push_back({.name = "passes",
                       .type = ParamType::integer,
@@ -89,7 +89,7 @@ Kind progressive_photon_mapping_kind() {
     return {
         .name = "ProgressivePhotonMapping",
         .help = "progressive photon mapping: many passes of photons, each sharper; caustics without bias in the end",
-        .params = params(),
+        .params = progressive_photon_mapping_params(),
         .light = {.paths = paths_of_photons},
         .run = {.prepares = true},
         .make_light = [](const NodeContext& here) { return std::make_unique<ProgressivePhotonMapping>(here); },

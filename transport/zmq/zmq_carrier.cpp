@@ -13,7 +13,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr auto look_interval = std::chrono::milliseconds(200);
+constexpr auto socket_look_interval = std::chrono::milliseconds(200);
 // After so long without any answer packets are sent again: a flipped bit can make a message vanish without a trace. The
 // next time the host is given twice as long (exponential backoff), since it may just be slow.
 // DECISIONS: say-it-again
@@ -89,8 +89,8 @@ struct ZmqCarrier::Sockets {
 
     void look_after_pending() {
         const auto now = Clock::now();
-        if (!unsent && now - looked < look_interval) return;
-        if (now - looked >= look_interval) {
+        if (!unsent && now - looked < socket_look_interval) return;
+        if (now - looked >= socket_look_interval) {
             looked = now;
             for (auto& [host, peer] : peers) {
                 if (now - std::max(peer.asked, peer.answered) <= peer.patience || !has_pending(host)) continue;
