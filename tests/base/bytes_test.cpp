@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace lightnet {
+namespace lightnet::bytes_test {
 namespace {
 
 TEST(Bytes, GiveBackTheValuesTheyWereMadeOf) {
@@ -25,4 +25,4 @@ TEST(Bytes, DropWhatIsLeftOverBehindTheLastWholeValue) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::bytes_test

@@ -17,7 +17,7 @@
 #include "tests/support/slowdown.hpp"
 #include "transport/launcher/threaded_run.hpp"
 
-namespace lightnet {
+namespace lightnet::deep_graph_test {
 namespace {
 
 constexpr std::uint32_t side = 8;
@@ -112,4 +112,4 @@ TEST(DeepGraph, ThatIsDeeperIsRefusedBeforeItIsBuilt) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::deep_graph_test

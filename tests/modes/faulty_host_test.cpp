@@ -11,7 +11,7 @@
 #include "tests/modes/learning.hpp"
 #include "tests/support/folder.hpp"
 
-namespace lightnet {
+namespace lightnet::faulty_host_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -108,4 +108,4 @@ INSTANTIATE_TEST_SUITE_P(Trouble, FaultyHost, ::testing::Values(Trouble::prepari
                          });
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::faulty_host_test

@@ -17,7 +17,7 @@
 #include "tests/support/small_scenes.hpp"
 #include "transport/launcher/threaded_run.hpp"
 
-namespace lightnet {
+namespace lightnet::least_room_test {
 namespace {
 
 constexpr std::uint8_t deepest = 4;  // questions are handed on so often: graphs have exponentially many paths
@@ -263,4 +263,4 @@ TEST(ThreadedRuns, LeaveNothingBehind) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::least_room_test

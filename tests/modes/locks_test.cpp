@@ -12,7 +12,7 @@
 #include "tests/modes/learning.hpp"
 #include "tests/support/folder.hpp"
 
-namespace lightnet {
+namespace lightnet::locks_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -103,4 +103,4 @@ TEST(Locks, MayNotBeHeldWhileAsking) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::locks_test

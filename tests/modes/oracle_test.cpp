@@ -19,7 +19,7 @@
 #include "tests/support/slowdown.hpp"
 #include "transport/launcher/threaded_run.hpp"
 
-namespace lightnet {
+namespace lightnet::oracle_test {
 namespace {
 
 using Pixels = std::vector<Rgb>;
@@ -153,4 +153,4 @@ TEST(Places, EndTheRunWithTheNameOfTheNodeThatThrew) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::oracle_test

@@ -10,7 +10,7 @@
 #include "tests/support/folder.hpp"
 #include "tests/support/process.hpp"
 
-namespace lightnet {
+namespace lightnet::prepare_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -181,4 +181,4 @@ TEST(Prepare, GoesOnWhenALineIsCutAgainAndAgain) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::prepare_test

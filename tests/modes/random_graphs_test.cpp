@@ -16,7 +16,7 @@
 #include "tests/support/slowdown.hpp"
 #include "transport/launcher/threaded_run.hpp"
 
-namespace lightnet {
+namespace lightnet::random_graphs_test {
 namespace {
 
 using Pixels = std::vector<std::vector<Rgb>>;
@@ -139,4 +139,4 @@ TEST_P(RandomGraphs, AreNumbersAndTheSameInEveryMode) {
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomGraphs, testing::Range(1u, 6u));
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::random_graphs_test

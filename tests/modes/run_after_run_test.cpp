@@ -7,7 +7,7 @@
 #include "tests/modes/learning.hpp"
 #include "tests/support/folder.hpp"
 
-namespace lightnet {
+namespace lightnet::run_after_run_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -31,4 +31,4 @@ TEST(RunAfterRun, EndsAsSoonAsAllHostsSayThatTheyAreFree) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::run_after_run_test

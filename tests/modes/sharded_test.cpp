@@ -14,7 +14,7 @@
 #include "tests/modes/learning.hpp"
 #include "tests/support/folder.hpp"
 
-namespace lightnet {
+namespace lightnet::sharded_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -299,4 +299,4 @@ TEST_F(ShardedRun, ChangesNoByteWhenADaemonIsKilledInTheMiddle) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::sharded_test

@@ -65,7 +65,7 @@ public:
 
 }  // namespace old
 
-namespace lightnet {
+namespace lightnet::wrap_test {
 
 // All of the library that answers for places.
 template <class T>
@@ -222,4 +222,4 @@ TEST_F(WrapTest, MakesARendererOfAClassThatSeesOneRayAtATime) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::wrap_test

@@ -4,7 +4,7 @@
 #include "tests/support/rig.hpp"
 #include "tests/support/small_scenes.hpp"
 
-namespace lightnet {
+namespace lightnet::combine_test {
 namespace {
 
 using namespace test;
@@ -51,4 +51,4 @@ TEST_F(Combining, KeepsLayersApart) {
 TEST_F(Combining, RefusesWeightsThatDoNotFitItsInputs) { EXPECT_THROW(ask({{Value{2.0}}, {}}, false), Error); }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::combine_test

@@ -8,7 +8,7 @@
 #include "tests/support/rig.hpp"
 #include "tests/support/small_scenes.hpp"
 
-namespace lightnet {
+namespace lightnet::restriction_test {
 namespace {
 
 using namespace test;
@@ -181,4 +181,4 @@ TEST_F(Restrictions, EnvironmentBringsTheSkyAndNoLamp) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::restriction_test

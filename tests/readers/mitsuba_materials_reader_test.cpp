@@ -7,7 +7,7 @@
 #include "core/scene/textures/look_up.hpp"
 #include "tests/support/scene_text.hpp"
 
-namespace lightnet::test {
+namespace lightnet::test::mitsuba_materials_reader_test {
 namespace {
 
 using testing::HasSubstr;
@@ -254,4 +254,4 @@ TEST(MitsubaBsdfs, MayBeNestedButNotForEver) {
 }
 
 }  // namespace
-}  // namespace lightnet::test
+}  // namespace lightnet::test::mitsuba_materials_reader_test

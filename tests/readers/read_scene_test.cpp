@@ -9,7 +9,7 @@
 #include "tests/support/memory_files.hpp"
 #include "tests/support/scene_text.hpp"
 
-namespace lightnet {
+namespace lightnet::read_scene_test {
 namespace {
 
 using testing::HasSubstr;
@@ -77,4 +77,4 @@ TEST(ReadScene, RefusesMixturesThatAreTooDeep) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::read_scene_test

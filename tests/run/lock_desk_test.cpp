@@ -4,7 +4,7 @@
 
 #include "core/run/runtime/lock_keeper.hpp"
 
-namespace lightnet {
+namespace lightnet::lock_desk_test {
 namespace {
 
 using testing::ElementsAre;
@@ -148,4 +148,4 @@ TEST(PlaceLocks, TellAllAnewWhenTheLauncherHadLostSightOfThem) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::lock_desk_test

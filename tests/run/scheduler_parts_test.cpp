@@ -12,7 +12,7 @@
 #include "core/run/schedule/stragglers.hpp"
 #include "core/run/schedule/suspects.hpp"
 
-namespace lightnet {
+namespace lightnet::scheduler_parts_test {
 namespace {
 
 TEST(Lowest, KnowsTheLowestKeyThroughAllChanges) {
@@ -181,4 +181,4 @@ TEST(Stragglers, KnowTheFirstAndTheLastOfAllReplicas) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::scheduler_parts_test

@@ -11,7 +11,7 @@
 
 #include "core/run/prepare/shared_values.hpp"
 
-namespace lightnet {
+namespace lightnet::shared_values_test {
 namespace {
 
 TEST(SharedValues, AreMadeOnce) {
@@ -72,4 +72,4 @@ TEST(SharedValues, ThrowWhatAPieceThrowsToAllWhoAsk) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::shared_values_test

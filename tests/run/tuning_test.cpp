@@ -9,7 +9,7 @@
 
 #include "core/run/runtime/job.hpp"
 
-namespace lightnet {
+namespace lightnet::tuning_test {
 namespace {
 
 struct Anything {
@@ -60,4 +60,4 @@ TEST(Tuning, TravelsAsFarAsPlacesMustKnowOfIt) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::tuning_test

@@ -6,7 +6,7 @@
 #include <map>
 
 
-namespace lightnet {
+namespace lightnet::identity_test {
 namespace {
 
 std::shared_ptr<const Image> picture(float grey) {
@@ -204,4 +204,4 @@ TEST(Identity, IsTheSameForAnotherViewOfTheSameRoom) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::identity_test

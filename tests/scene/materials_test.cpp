@@ -12,7 +12,7 @@
 #include "core/scene/surfaces/shading.hpp"
 #include "tests/support/small_scenes.hpp"
 
-namespace lightnet {
+namespace lightnet::materials_test {
 namespace {
 
 using namespace test;
@@ -302,4 +302,4 @@ TEST(VertexColours, AreMixedOverTheTriangle) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::materials_test

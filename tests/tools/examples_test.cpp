@@ -7,7 +7,7 @@
 
 #include "tools/launcher.hpp"
 
-namespace lightnet {
+namespace lightnet::examples_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -64,4 +64,4 @@ INSTANTIATE_TEST_SUITE_P(EveryVerb, HelpOf, testing::ValuesIn(every_verb()), [](
 });
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::examples_test

@@ -14,7 +14,7 @@
 #include "tests/support/folder.hpp"
 #include "tools/options.hpp"
 
-namespace lightnet {
+namespace lightnet::launcher_test {
 namespace {
 
 using testing::HasSubstr;
@@ -267,4 +267,4 @@ TEST(Launcher, ToldOfARunThatFailsExitsWithOne) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::launcher_test

@@ -9,7 +9,7 @@
 #include "tests/support/fake_registry.hpp"
 #include "tools/launcher.hpp"
 
-namespace lightnet {
+namespace lightnet::options_test {
 namespace {
 
 using testing::HasSubstr;
@@ -205,4 +205,4 @@ TEST(Options, TellTheVersion) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::options_test

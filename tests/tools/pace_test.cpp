@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lightnet {
+namespace lightnet::pace_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -29,4 +29,4 @@ TEST(Pace, LeavesTimeForOtherThings) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::pace_test

@@ -10,7 +10,7 @@
 #include "transport/launcher/cluster.hpp"
 #include "transport/launcher/joiners.hpp"
 
-namespace lightnet {
+namespace lightnet::joiners_test {
 namespace {
 
 using packet::Fields;
@@ -189,4 +189,4 @@ TEST_F(JoinersTest, CountWhatStrangersSay) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::joiners_test

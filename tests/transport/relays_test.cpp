@@ -7,7 +7,7 @@
 #include "transport/launcher/relays.hpp"
 #include "transport/wire/relay_address.hpp"
 
-namespace lightnet {
+namespace lightnet::relays_test {
 namespace {
 
 using packet::Header;
@@ -151,4 +151,4 @@ TEST(CallsDirectly, NeverFromNorToHostsThatDialledIn) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::relays_test

@@ -8,7 +8,7 @@
 
 #include "transport/zmq/socket.hpp"
 
-namespace lightnet {
+namespace lightnet::zmq_carrier_test {
 namespace {
 
 // At the end of a run a place may end before one that still asks it.
@@ -39,4 +39,4 @@ TEST(ZmqCarrier, CountsWhatAFullPlaceRefusesAndNotWhatOneDoesThatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::zmq_carrier_test

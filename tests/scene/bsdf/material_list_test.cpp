@@ -9,7 +9,7 @@
 #include "core/scene/bsdf/bsdf.hpp"
 #include "tests/scene/bsdf/veil.hpp"
 
-namespace lightnet {
+namespace lightnet::material_list_test {
 namespace {
 
 using testing::ElementsAre;
@@ -94,4 +94,4 @@ TEST(EveryMaterialOfTheList, HasANameOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::material_list_test
