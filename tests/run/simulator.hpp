@@ -323,7 +323,7 @@ inline Told play(const World& world, double most = 1e6) {
     MasterRenderer::Job job;
     job.credit = world.credit;
     job.clock = [&] { return simulator.now(); };
-    job.check = true;
+    job.check_answers = true;
     constexpr std::uint32_t first = 2 * blocks_per_group * samples_per_block;  // of a whole group
     for (std::uint32_t i = 0; i < world.tiles; ++i)
         job.tiles.push_back({i, 0, 1, 1, first, world.blocks * samples_per_block});
