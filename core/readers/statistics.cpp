@@ -18,7 +18,7 @@ void add_moved(Box& to, const Box& box, const Matrix& by) {
 }
 
 template <class Element>
-std::uint64_t bytes_of(const std::vector<Element>& elements) {
+std::uint64_t size_in_memory(const std::vector<Element>& elements) {
     return elements.size() * sizeof(Element);
 }
 
@@ -44,8 +44,9 @@ void count_shapes(const SceneData& scene, SceneStatistics& found) {
         if (const auto* mesh = std::get_if<Mesh>(&shape.geometry)) {
             ++found.meshes;
             found.triangles += mesh->triangles.size();
-            found.geometry_bytes += bytes_of(mesh->positions) + bytes_of(mesh->normals) + bytes_of(mesh->uvs) +
-                                    bytes_of(mesh->colours) + bytes_of(mesh->triangles);
+            found.geometry_bytes += size_in_memory(mesh->positions) + size_in_memory(mesh->normals) +
+                                    size_in_memory(mesh->uvs) + size_in_memory(mesh->colours) +
+                                    size_in_memory(mesh->triangles);
         } else {
             ++found.spheres;
             found.geometry_bytes += sizeof(Sphere);

@@ -9,7 +9,7 @@
 #include "transport/launcher/remote_host.hpp"
 #include "transport/zmq/socket.hpp"
 
-namespace lightnet::host_link_test {
+namespace lightnet::remote_host_test {
 namespace {
 
 using packet::Fields;
@@ -209,4 +209,4 @@ TEST_F(RemoteHostTest, LetsAHostLeaveWhenItHasAnsweredAll) {
 }
 
 }  // namespace
-}  // namespace lightnet::host_link_test
+}  // namespace lightnet::remote_host_test

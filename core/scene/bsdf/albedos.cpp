@@ -11,21 +11,21 @@
 namespace lightnet {
 namespace {
 
-constexpr std::size_t size = 32;
+constexpr std::size_t table_size = 32;
 
 /// Values by roughness and angle, both with more nodes where they change fast: at √α and √cos.
 template <class Value>
-using Table = std::array<std::array<Value, size>, size>;
+using Table = std::array<std::array<Value, table_size>, table_size>;
 
-float node(std::size_t i) { return float(i) / (size - 1); }
+float node(std::size_t i) { return float(i) / (table_size - 1); }
 
 struct Between {
     std::size_t low;
     float share;
 };
 Between between(float root) {
-    const float at = std::clamp(root, 0.0f, 1.0f) * (size - 1);
-    const auto low = std::min(static_cast<std::size_t>(at), size - 2);
+    const float at = std::clamp(root, 0.0f, 1.0f) * (table_size - 1);
+    const auto low = std::min(static_cast<std::size_t>(at), table_size - 2);
     return {low, at - float(low)};
 }
 
@@ -66,12 +66,12 @@ GgxAlbedo integrated(float alpha, float cosine) {
 
 struct GgxTables {
     Table<GgxAlbedo> by_angle;
-    std::array<GgxAlbedo, size> mean;
+    std::array<GgxAlbedo, table_size> mean;
 
     GgxTables() {
-        for (std::size_t a = 0; a < size; ++a) {
+        for (std::size_t a = 0; a < table_size; ++a) {
             const float alpha = node(a) * node(a);
-            for (std::size_t c = 0; c < size; ++c)
+            for (std::size_t c = 0; c < table_size; ++c)
                 by_angle[a][c] = integrated(alpha, std::max(1e-3f, node(c) * node(c)));
             constexpr int strips = 256;
             double low = 0, high = 0;
@@ -109,8 +109,8 @@ float sheen_integrated(float alpha, float cosine) {
 const Table<float>& sheen_table() {
     static const Table<float> table = [] {
         Table<float> made;
-        for (std::size_t a = 0; a < size; ++a)
-            for (std::size_t c = 0; c < size; ++c)
+        for (std::size_t a = 0; a < table_size; ++a)
+            for (std::size_t c = 0; c < table_size; ++c)
                 made[a][c] = sheen_integrated(std::max(least_sheen_alpha, node(a) * node(a)),
                                               std::max(1e-3f, node(c) * node(c)));
         return made;
