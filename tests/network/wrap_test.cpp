@@ -65,7 +65,7 @@ public:
 
 }  // namespace old
 
-namespace lightnet::wrap_test {
+namespace lightnet {
 
 // All of the library that answers for places.
 template <class T>
@@ -102,6 +102,9 @@ struct Bridge<old::Eye> {
     old::Eye eye_;
 };
 
+}  // namespace lightnet
+
+namespace lightnet::wrap_test {
 namespace {
 
 // Answers with ten times the primitive; parks, as an input elsewhere would.

@@ -35,7 +35,7 @@ protected:
 
     Scene scene_{SceneData{}};
     Constant first_{1}, second_{10};
-    CallPort first_port_{first_}, second_port_{second_};
+    test::CallPort first_port_{first_}, second_port_{second_};
 };
 
 TEST_F(Combining, AddsUpItsInputs) { EXPECT_EQ(ask({}, false), (std::vector<Rgb>{{11, 22, 0}, {11, 22, 0}})); }

@@ -153,7 +153,7 @@ public:
 
 TEST_F(Restrictions, ClampTakesWhatIsNoNumberForBlack) {
     const Broken broken;
-    CallPort port(broken);
+    test::CallPort port(broken);
     const auto kinds = standard_nodes();
     const auto kind = std::find_if(kinds.begin(), kinds.end(), [](const Kind& k) { return k.name == "Clamp"; });
     const Node node{"it", "Clamp", {}, {{"most", Value{1.0}}}, {}};

@@ -14,7 +14,7 @@ namespace {
 // DECISIONS: guarded-port
 constexpr const char* authentication = "inproc://zeromq.zap.01";  // the name is ZeroMQ's
 constexpr int enforce_domain = 93;  // ZMQ_ZAP_ENFORCE_DOMAIN: without a doorkeeper nobody gets in; not in all headers
-constexpr std::size_t for_own_work = 64, most = 4096, least = 8;
+constexpr std::size_t for_own_work = 64, most_let_in = 4096, least_let_in = 8;
 
 std::string events_endpoint() {
     static std::atomic<unsigned> number{0};
@@ -24,7 +24,7 @@ std::string events_endpoint() {
 }  // namespace
 
 std::size_t most_peers(std::size_t left) {
-    return std::clamp(left > for_own_work ? (left - for_own_work) / 2 : 0, least, most);
+    return std::clamp(left > for_own_work ? (left - for_own_work) / 2 : 0, least_let_in, most_let_in);
 }
 
 Doorkeeper::Doorkeeper(const SocketContext& context) : context_(context), requests_(context, ZMQ_REP) {
