@@ -5,6 +5,7 @@
 #include <cctype>
 #include <utility>
 
+#include "core/base/printable.hpp"
 #include "core/base/suggestion.hpp"
 #include "core/network/graph/json.hpp"
 
@@ -12,14 +13,12 @@ namespace lightnet::lua {
 namespace {
 
 constexpr const char* node_type = "lightnet.node";
-constexpr std::size_t most_values = 200000;               // numbers, texts and tables of a whole graph
-constexpr std::size_t most_bytes = std::size_t{4} << 20;  // of its texts
-constexpr int most_depth = 12;                            // of tables in tables
+constexpr std::size_t most_values = 200000;                    // numbers, texts and tables of a whole graph
+constexpr std::size_t most_text_bytes = std::size_t{4} << 20;  // of its texts
+constexpr int most_depth = 12;                                 // of tables in tables
 
 // Until all nodes have their names, a reference goes by the node's number; no name of a file's can begin like this.
 constexpr char by_number = '\x01';
-
-std::string quoted(const std::string& text) { return "'" + text + "'"; }
 
 }  // namespace
 
@@ -149,7 +148,7 @@ std::string GraphScript::text_at(lua_State* L, int index) {
 void GraphScript::count(std::size_t bytes) {
     bytes_ += bytes;
     if (++values_ > most_values) throw Error("a graph has at most " + std::to_string(most_values) + " values");
-    if (bytes_ > most_bytes) throw Error("the texts of a graph have at most 4 MiB");
+    if (bytes_ > most_text_bytes) throw Error("the texts of a graph have at most 4 MiB");
 }
 
 // Told when the node's name is known. What would not be told is not kept.

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "core/base/printable.hpp"
 #include "core/network/graph/json.hpp"
 #include "lua/guarded.hpp"
 
@@ -11,8 +12,6 @@ namespace lightnet::lua {
 namespace {
 
 constexpr std::size_t most_hosts = 10000;
-
-std::string quoted(const std::string& text) { return "'" + text + "'"; }
 
 }  // namespace
 

@@ -253,7 +253,7 @@ private:
     std::shared_ptr<const IrradianceOctree> records_;
 };
 
-std::vector<Param> params() {
+std::vector<Param> irradiance_cache_params() {
     return {
         {.name = "rays",
          .type = ParamType::integer,
@@ -318,7 +318,7 @@ Kind irradiance_cache_kind() {
         .freezes = "irradiance records",
         .onward = "S*D",
         .keeps = true,
-        .params = params(),
+        .params = irradiance_cache_params(),
         .make_light = [](const NodeContext& here) { return std::make_unique<IrradianceCache>(here); },
     };
 }

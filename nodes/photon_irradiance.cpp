@@ -109,7 +109,7 @@ private:
     std::shared_ptr<const PhotonTree> records_;
 };
 
-std::vector<Param> params() {
+std::vector<Param> photon_irradiance_params() {
     return {
         {.name = "of", .type = ParamType::node, .help = "the map", .choices = {"photons"}},
         {.name = "every",
@@ -143,7 +143,7 @@ Kind photon_irradiance_kind() {
         .help = "the light of a photon map as irradiance that is known beforehand: quick to look at, in small steps",
         .prepares = true,
         .converts = true,
-        .params = params(),
+        .params = photon_irradiance_params(),
         .make_light = [](const NodeContext& here) { return std::make_unique<PhotonIrradiance>(here); },
     };
 }

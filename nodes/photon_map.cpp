@@ -64,7 +64,7 @@ private:
     std::shared_ptr<const PhotonTree> tree_;
 };
 
-std::vector<Param> params() {
+std::vector<Param> photon_map_params() {
     auto params = shooting_params(200000, "ways of light that leave the lamps");
     params.push_back({.name = "gather",
                       .type = ParamType::integer,
@@ -92,7 +92,7 @@ Kind photon_map_kind() {
         .freezes = "photons",
         .paths = paths_of_photons,
         .landmarks = [](const NodeContext& here) { return landmarks_of(here.scene(), Shooting::of(here)); },
-        .params = params(),
+        .params = photon_map_params(),
         .make_light = [](const NodeContext& here) { return std::make_unique<PhotonMap>(here); },
     };
 }

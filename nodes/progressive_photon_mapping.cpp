@@ -59,7 +59,7 @@ private:
     std::vector<std::shared_ptr<const PhotonTree>> passes_;
 };
 
-std::vector<Param> params() {
+std::vector<Param> progressive_photon_mapping_params() {
     auto params = shooting_params(100000, "ways of light that leave the lamps in each pass");
     params.push_back({.name = "passes",
                       .type = ParamType::integer,
@@ -91,7 +91,7 @@ Kind progressive_photon_mapping_kind() {
         .help = "light that was sent from the lamps in many passes, each sharper: caustics without bias in the end",
         .prepares = true,
         .paths = paths_of_photons,
-        .params = params(),
+        .params = progressive_photon_mapping_params(),
         .make_light = [](const NodeContext& here) { return std::make_unique<ProgressivePhotonMapping>(here); },
     };
 }

@@ -13,6 +13,6 @@ else
     clang-format --dry-run -Werror "${files[@]}"
 fi
 
-tools/build.sh dev
+tools/build.sh dev all benchmarks   # each file alone: release and the sanitizers compile folders as one
 tools/build.sh dev all_verify_interface_header_sets
 ctest --test-dir build/dev --parallel "$(nproc)" --output-on-failure -LE '^(slow|fuzz|bench)$' </dev/null

@@ -15,7 +15,7 @@ using packet::Type;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t most_joined = 4096;
-constexpr auto lease = std::chrono::milliseconds(1500);
+constexpr auto joined_lease = std::chrono::milliseconds(1500);
 constexpr std::size_t longest_name = 200;
 
 std::string address_of(zmq::message_t& from) {
@@ -142,12 +142,12 @@ std::optional<std::string> Joiners::name_for(std::string wanted, std::uint64_t p
     for (int number = 1;; ++number) {
         const auto name = number == 1 ? wanted : wanted + "-" + std::to_string(number);
         const auto known = joined_.find(name);
-        if (known == joined_.end() || known->second.process == process || now - known->second.heard > lease) {
+        if (known == joined_.end() || known->second.process == process || now - known->second.heard > joined_lease) {
             rivals_.erase(process);
             return name;
         }
         if (rivals_.size() > most_joined) rivals_.clear();
-        if (now - rivals_.try_emplace(process, now).first->second < lease + std::chrono::milliseconds(500))
+        if (now - rivals_.try_emplace(process, now).first->second < joined_lease + std::chrono::milliseconds(500))
             return std::nullopt;
     }
 }

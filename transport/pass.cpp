@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t secret_digits = 64, least_digits = 32, most_digits = 4096;
 
-std::string hexadecimal(const unsigned char* bytes, std::size_t count) {
+std::string digits_of(const unsigned char* bytes, std::size_t count) {
     constexpr char digits[] = "0123456789abcdef";
     std::string text;
     for (std::size_t i = 0; i < count; ++i) {
@@ -33,7 +33,7 @@ std::string random_digits(std::size_t count) {
     std::array<unsigned char, secret_digits / 2> bytes{};
     if (getrandom(bytes.data(), count / 2, 0) != static_cast<ssize_t>(count / 2))
         throw Error(std::string("no random numbers are to be had: ") + std::strerror(errno));
-    return hexadecimal(bytes.data(), count / 2);
+    return digits_of(bytes.data(), count / 2);
 }
 
 struct Descriptor {

@@ -14,7 +14,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr auto look_interval = std::chrono::milliseconds(200);
+constexpr auto socket_look_interval = std::chrono::milliseconds(200);
 // After so long without any answer a host is asked again: a flipped bit can make a message vanish without a trace. The
 // next time it is given twice as long, since it may just be slow.
 constexpr auto shortest_patience = std::chrono::milliseconds(3000);
@@ -88,8 +88,8 @@ struct ZmqCarrier::Sockets {
 
     void look_after_pending() {
         const auto now = Clock::now();
-        if (!unsent && now - looked < look_interval) return;
-        if (now - looked >= look_interval) {
+        if (!unsent && now - looked < socket_look_interval) return;
+        if (now - looked >= socket_look_interval) {
             looked = now;
             for (auto& [host, peer] : peers) {
                 if (now - std::max(peer.asked, peer.answered) <= peer.patience || !has_pending(host)) continue;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <tuple>
 
+#include "core/base/printable.hpp"
 #include "core/base/problem_list.hpp"
 #include "core/network/graph/check_hosts.hpp"
 #include "core/network/graph/check_params.hpp"
@@ -15,8 +16,6 @@
 
 namespace lightnet {
 namespace {
-
-std::string quoted(const std::string& text) { return "'" + text + "'"; }
 
 std::string count_text(std::size_t count) { return std::to_string(count) + (count == 1 ? " input" : " inputs"); }
 

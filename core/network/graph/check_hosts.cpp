@@ -5,6 +5,7 @@
 #include <numeric>
 #include <set>
 
+#include "core/base/printable.hpp"
 #include "core/network/graph/check_params.hpp"
 #include "core/network/graph/layout.hpp"
 #include "core/network/graph/strategy.hpp"
@@ -13,8 +14,6 @@ namespace lightnet {
 namespace {
 
 constexpr int most_places = 1024;  // of one host; more is a slip of the pen
-
-std::string quoted(const std::string& text) { return "'" + text + "'"; }
 
 /// One entry of the hosts file, and what is said of it.
 class EntryCheck {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/printable.hpp"
 #include "core/base/suggestion.hpp"
 #include "core/network/graph/graph_film.hpp"
 
@@ -11,8 +12,6 @@ namespace lightnet {
 namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
-
-std::string quoted(const std::string& text) { return "'" + text + "'"; }
 
 std::string joined(const std::vector<std::string>& words) {
     std::string text;

@@ -8,7 +8,7 @@
 namespace lightnet {
 namespace {
 
-constexpr double unlimited = std::numeric_limits<double>::infinity();
+constexpr double no_limit = std::numeric_limits<double>::infinity();
 
 std::string padded(std::string text, std::size_t width) {
     text.resize(std::max(text.size(), width), ' ');
@@ -24,7 +24,7 @@ std::string inputs_text(const Kind& kind) {
     return std::to_string(least) + " … " + std::to_string(most) + " that give light";
 }
 
-std::string range_text(const Param& param) {
+std::string limits_text(const Param& param) {
     if (param.type == ParamType::node) return "one that keeps " + param.choices.at(0);
     if (!param.choices.empty()) {
         std::string text;
@@ -34,9 +34,9 @@ std::string range_text(const Param& param) {
     if (param.type == ParamType::film)
         return "{ width, height, crop = { x0, y0, x1, y1 }, file = \"picture.exr\" }, in pixels";
     if (param.count) return std::to_string(param.count) + " of them";
-    if (param.least == -unlimited && param.most == unlimited) return "";
-    if (param.most == unlimited) return "at least " + number_text(param.least);
-    if (param.least == -unlimited) return "at most " + number_text(param.most);
+    if (param.least == -no_limit && param.most == no_limit) return "";
+    if (param.most == no_limit) return "at least " + number_text(param.least);
+    if (param.least == -no_limit) return "at most " + number_text(param.most);
     return number_text(param.least) + " … " + number_text(param.most);
 }
 
@@ -55,7 +55,7 @@ std::string default_paths(const Kind& kind) {
 
 std::string facts_text(const Param& param) {
     std::string facts{to_string(param.type)};
-    for (const auto& fact : {param.unit.empty() ? "" : "in " + param.unit, default_text(param), range_text(param),
+    for (const auto& fact : {param.unit.empty() ? "" : "in " + param.unit, default_text(param), limits_text(param),
                              std::string(param.per_input ? "one for each input" : "")})
         if (!fact.empty()) facts += ", " + fact;
     return facts;

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 
+#include "core/base/printable.hpp"
 #include "core/network/graph/plan.hpp"
 
 namespace lightnet {
@@ -105,8 +106,6 @@ private:
         }
         return false;
     }
-
-    static std::string quoted(const std::string& text) { return "'" + text + "'"; }
 
     const Graph& graph_;
     const Registry& registry_;

@@ -29,7 +29,7 @@ Matrix from_parts(const std::array<double, 3>& move, std::array<double, 4> q, co
     return t;
 }
 
-Matrix transform_of(const At& node) {
+Matrix matrix_of(const At& node) {
     if (!node["matrix"])
         return from_parts(node["translation"].numbers<3>({0, 0, 0}), node["rotation"].numbers<4>({0, 0, 0, 1}),
                           node["scale"].numbers<3>({1, 1, 1}));
@@ -102,7 +102,7 @@ private:
         while (!waiting.empty() && !assets_.report().full()) {
             const auto [node, parent] = waiting.back();
             waiting.pop_back();
-            const Matrix to_world = parent * transform_of(node);
+            const Matrix to_world = parent * matrix_of(node);
             result.push_back({node, to_world});
             const At children = node["children"];
             for (std::size_t i = children.size(); i-- > 0;) add(children[i], to_world);

@@ -14,7 +14,7 @@
 namespace lightnet::mitsuba {
 namespace {
 
-constexpr float degrees = std::numbers::pi_v<float> / 180;
+constexpr float to_radians = std::numbers::pi_v<float> / 180;
 
 Vec3 unit(Vec3 v, Vec3 fallback) {
     const float size = length(v);
@@ -53,7 +53,7 @@ void spot(Properties& properties, SceneData& scene) {
     light.intensity = colour_of(properties, "intensity", {1, 1, 1});
     const float cutoff = std::clamp(properties.number("cutoff_angle", 20), 0.01f, 180.0f);
     const float beam = std::clamp(properties.number("beam_width", cutoff * 0.75f), 0.0f, cutoff);
-    light.outer = cutoff * degrees, light.inner = beam * degrees;
+    light.outer = cutoff * to_radians, light.inner = beam * to_radians;
     light.falloff = SpotLight::Falloff::linear;
     if (properties.has("texture"))
         properties.context().warn(properties.node(), "the texture of a spot light is left out");

@@ -11,7 +11,7 @@
 namespace lightnet::mitsuba {
 namespace {
 
-constexpr double degrees = std::numbers::pi / 180;
+constexpr double one_degree = std::numbers::pi / 180;
 
 FilmData film_of(Properties& sensor) {
     FilmData film;
@@ -58,11 +58,11 @@ Extent extent_of(Properties& properties, const FilmData& film) {
         if (!properties.has("fov"))
             properties.context().warn(properties.node(),
                                       "a sensor without 'fov' is taken to have 50mm of focal length");
-        const double fallback = 2 * std::atan(36.0 / 2 / 50) / degrees;
+        const double fallback = 2 * std::atan(36.0 / 2 / 50) / one_degree;
         const double fov = double(properties.number("fov", static_cast<float>(fallback)));
         if (!(fov > 0 && fov < 180))
             properties.context().error(properties.node(), "'fov' must lie between 0 and 180 degrees");
-        tangent = std::tan(std::clamp(fov, 0.01, 179.9) * degrees / 2);
+        tangent = std::tan(std::clamp(fov, 0.01, 179.9) * one_degree / 2);
     }
     const bool by_width = axis == "x" || (axis == "smaller" && w <= h) || (axis == "larger" && w >= h);
     if (axis == "diagonal") return {tangent * w / diagonal, tangent * h / diagonal};
@@ -107,7 +107,7 @@ void set_sensor(const Node& node, const Context& context) {
         if (node.type != "perspective" && node.type != "thinlens")
             context.warn(node, fmt::format("sensor '{}' is taken as 'perspective'", node.type));
         const Extent extent = extent_of(properties, scene.film);
-        camera.fov = static_cast<float>(2 * std::atan(std::min(extent.x, extent.y)) / degrees);
+        camera.fov = static_cast<float>(2 * std::atan(std::min(extent.x, extent.y)) / one_degree);
     }
     if (shift_x != 0 || shift_y != 0) {
         const float wide = camera.orthographic ? camera.screen[1] : float(std::max(1.0, w / h));

@@ -41,9 +41,9 @@ struct Statements {
     bool has(std::string_view key) const { return numbers.contains(key) || maps.contains(key); }
 };
 
-class Reader {
+class MaterialReader {
 public:
-    Reader(const std::string& path, std::span<const std::byte> bytes, Report& report)
+    MaterialReader(const std::string& path, std::span<const std::byte> bytes, Report& report)
         : lines_(bytes, path), report_(report) {}
 
     std::vector<Statements> read() {
@@ -303,7 +303,7 @@ void read_materials(const std::string& path, const SourceLine& where, Assets& as
     const auto bytes = assets.read(path, where);
     if (!bytes) return;
     Maker maker(assets, path);
-    for (const auto& said : Reader(path, **bytes, assets.report()).read())
+    for (const auto& said : MaterialReader(path, **bytes, assets.report()).read())
         if (!materials.contains(said.name)) materials.emplace(said.name, maker.make(said));
 }
 

@@ -33,9 +33,9 @@ struct Mix {
     }
 };
 
-class Reader {
+class ModelReader {
 public:
-    Reader(std::span<const std::byte> bytes, const std::string& file, Cut cut, Report& report)
+    ModelReader(std::span<const std::byte> bytes, const std::string& file, Cut cut, Report& report)
         : lines_(bytes, file), cut_(cut), report_(report) {}
 
     Model read() {
@@ -210,7 +210,7 @@ private:
 }  // namespace
 
 Model read_model(std::span<const std::byte> bytes, const std::string& file, Cut cut, Report& report) {
-    return Reader(bytes, file, cut, report).read();
+    return ModelReader(bytes, file, cut, report).read();
 }
 
 }  // namespace lightnet::obj

@@ -14,7 +14,7 @@
 namespace lightnet::pbrt {
 namespace {
 
-constexpr float pi = std::numbers::pi_v<float>;
+constexpr float float_pi = std::numbers::pi_v<float>;
 
 /// pbrt gives a light of rgb the luminance that the numbers say, and any other spectrum luminance 1; then `scale`.
 std::optional<Rgb> strength(Parameters& parameters, const Sources& sources, const char* name) {
@@ -74,7 +74,7 @@ std::optional<Vec3> axis_of(const Making& making, Vec3 from, Vec3 to) {
 void point_light(const Making& making) {
     auto colour = strength(making.parameters, making.sources, "I");
     const Vec3 from = transform_point(making.to_world, point(making.parameters, "from", {}));
-    if (const auto power = power_of(making.parameters); power && colour) *colour *= *power / (4 * pi);
+    if (const auto power = power_of(making.parameters); power && colour) *colour *= *power / (4 * float_pi);
     if (colour) making.scene.lights.push_back(PointLight{from, *colour});
 }
 
@@ -90,10 +90,10 @@ void spot_light(const Making& making) {
     }
     SpotLight light;
     light.position = transform_point(making.to_world, from);
-    light.inner = std::max(inner, 0.0f) * pi / 180, light.outer = outer * pi / 180;
+    light.inner = std::max(inner, 0.0f) * float_pi / 180, light.outer = outer * float_pi / 180;
     if (const auto power = power_of(parameters); power && colour) {
         const float start = std::cos(light.inner), end = std::cos(light.outer);
-        *colour *= *power / (2 * pi * ((1 - start) + (start - end) / 2));
+        *colour *= *power / (2 * float_pi * ((1 - start) + (start - end) / 2));
     }
     if (!colour || !axis) return;
     light.axis = *axis, light.intensity = *colour;
@@ -138,7 +138,7 @@ void infinite_light(const Making& making) {
     environment.radiance = *colour;
     if (const float lux = parameters.number("illuminance", -1); lux > 0) {
         // of the upper half, as pbrt takes it
-        const float now = environment.image ? upper_illuminance(environment) : pi;
+        const float now = environment.image ? upper_illuminance(environment) : float_pi;
         if (now > 0) environment.radiance *= lux / now;
     }
     making.scene.environments.push_back(environment);
@@ -157,7 +157,7 @@ void goniometric_light(const Making& making) {
         parameters.warn("a goniometric light is taken as a point light with the same power in all directions");
     }
     const auto power = power_of(parameters);
-    if (colour) *colour *= power ? *power / (4 * pi) : mean;
+    if (colour) *colour *= power ? *power / (4 * float_pi) : mean;
     if (colour) making.scene.lights.push_back(PointLight{transform_point(making.to_world, {}), *colour});
 }
 
@@ -176,17 +176,17 @@ void projection_light(const Making& making) {
     SpotLight light;
     light.position = transform_point(making.to_world, {});
     light.axis = *axis;
-    light.outer = light.inner = fov / 2 * pi / 180;
+    light.outer = light.inner = fov / 2 * float_pi / 180;
     light.intensity = *colour * mean_colour(*image);
     if (const auto power = power_of(parameters); power && luminance(light.intensity) > 0)
-        light.intensity *= *power / (2 * pi * (1 - std::cos(light.outer)) * luminance(light.intensity));
+        light.intensity *= *power / (2 * float_pi * (1 - std::cos(light.outer)) * luminance(light.intensity));
     making.scene.lights.push_back(light);
 }
 
-using Maker = void (*)(const Making&);
+using LightMaker = void (*)(const Making&);
 
-const std::map<std::string, Maker>& makers() {
-    static const std::map<std::string, Maker> table{
+const std::map<std::string, LightMaker>& light_makers() {
+    static const std::map<std::string, LightMaker> table{
         {"distant", distant_light}, {"goniometric", goniometric_light}, {"infinite", infinite_light},
         {"point", point_light},     {"projection", projection_light},   {"spot", spot_light}};
     return table;
@@ -229,10 +229,10 @@ std::optional<AreaLight> make_area_light(const std::string& type, Parameters& pa
 
 void add_light(const std::string& type, Parameters& parameters, Textures& textures, const Sources& sources,
                const Matrix& to_world, SceneData& scene) {
-    if (const auto maker = makers().find(type); maker != makers().end())
+    if (const auto maker = light_makers().find(type); maker != light_makers().end())
         return maker->second({parameters, textures, sources, to_world, scene});
     std::vector<std::string> known;
-    for (const auto& [name, maker] : makers()) known.push_back(name);
+    for (const auto& [name, maker] : light_makers()) known.push_back(name);
     parameters.error(fmt::format("unknown light '{}'{}", type, did_you_mean(type, known)));
     parameters.ignore_all();
 }

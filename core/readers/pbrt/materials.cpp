@@ -183,23 +183,23 @@ Material mix(Parameters& parameters, const MaterialSources& sources) {
 
 Material nothing(Parameters&, const MaterialSources&) { return model(NoMaterial{}); }
 
-using Maker = Material (*)(Parameters&, const MaterialSources&);
+using MaterialMaker = Material (*)(Parameters&, const MaterialSources&);
 
-const std::map<std::string, Maker, std::less<>>& makers() {
-    static const std::map<std::string, Maker, std::less<>> table{{"", nothing},
-                                                                 {"none", nothing},
-                                                                 {"interface", nothing},
-                                                                 {"diffuse", diffuse},
-                                                                 {"conductor", conductor},
-                                                                 {"dielectric", dielectric},
-                                                                 {"thindielectric", thin_dielectric},
-                                                                 {"coateddiffuse", coated_diffuse},
-                                                                 {"coatedconductor", coated_conductor},
-                                                                 {"diffusetransmission", diffuse_transmission},
-                                                                 {"subsurface", subsurface},
-                                                                 {"hair", hair},
-                                                                 {"measured", measured},
-                                                                 {"mix", mix}};
+const std::map<std::string, MaterialMaker, std::less<>>& material_makers() {
+    static const std::map<std::string, MaterialMaker, std::less<>> table{{"", nothing},
+                                                                         {"none", nothing},
+                                                                         {"interface", nothing},
+                                                                         {"diffuse", diffuse},
+                                                                         {"conductor", conductor},
+                                                                         {"dielectric", dielectric},
+                                                                         {"thindielectric", thin_dielectric},
+                                                                         {"coateddiffuse", coated_diffuse},
+                                                                         {"coatedconductor", coated_conductor},
+                                                                         {"diffusetransmission", diffuse_transmission},
+                                                                         {"subsurface", subsurface},
+                                                                         {"hair", hair},
+                                                                         {"measured", measured},
+                                                                         {"mix", mix}};
     return table;
 }
 
@@ -212,7 +212,7 @@ std::string hint(const std::string& type) {
     if (const auto newer = older.find(type); newer != older.end())
         return fmt::format(" (of older versions; pbrt-v4 says '{}')", newer->second);
     std::vector<std::string> known;
-    for (const auto& [name, maker] : makers())
+    for (const auto& [name, maker] : material_makers())
         if (!name.empty()) known.push_back(name);
     return did_you_mean(type, known);
 }
@@ -220,8 +220,8 @@ std::string hint(const std::string& type) {
 }  // namespace
 
 Material make_material(const std::string& type, Parameters& parameters, const MaterialSources& sources) {
-    const auto maker = makers().find(type);
-    if (maker == makers().end()) {
+    const auto maker = material_makers().find(type);
+    if (maker == material_makers().end()) {
         parameters.error(fmt::format("unknown material '{}'{}", type, hint(type)));
         parameters.ignore_all();
         return model(DiffuseMaterial{sources.textures.constant(grey), 0, std::nullopt});

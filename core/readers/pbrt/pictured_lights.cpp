@@ -6,8 +6,6 @@
 namespace lightnet::pbrt {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
 /// Cosine to +z of a point of the equal-area square (Clarberg 2008, "Fast Equal-Area Mapping of the (Hemi)Sphere using
 /// SIMD"): u, v in ±1.
 double height(double u, double v) {
@@ -40,9 +38,10 @@ float upper_illuminance(const EnvironmentData& environment) {
     for (std::uint32_t y = 0; y < image.height; ++y)
         for (std::uint32_t x = 0; x < image.width; ++x) {
             const double u = (x + 0.5) / image.width, v = (y + 0.5) / image.height;
-            const double cosine = square ? height(2 * u - 1, 2 * v - 1) : std::cos(pi * v);
+            const double cosine = square ? height(2 * u - 1, 2 * v - 1) : std::cos(std::numbers::pi * v);
             // solid angle of a pixel: 4π by their number, or by the latitude
-            const double weight = square ? 4 * pi : 2 * pi * pi * std::sin(pi * v);
+            const double weight = square ? 4 * std::numbers::pi
+                                         : 2 * std::numbers::pi * std::numbers::pi * std::sin(std::numbers::pi * v);
             if (cosine > 0) sum += double(luminance(image.colour(x, y))) * weight * cosine;
         }
     return float(sum / (image.empty() ? 1 : double(image.width) * image.height));

@@ -9,7 +9,6 @@
 namespace lightnet::pbrt {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr int around = 128;  // pieces of a full turn
 
 struct Corner {
@@ -37,10 +36,10 @@ Mesh tessellate(int columns, int rows, const std::function<Corner(double u, doub
 }
 
 double phi_max(Parameters& parameters) {
-    return std::clamp(double(parameters.number("phimax", 360)), 0.0, 360.0) * pi / 180;
+    return std::clamp(double(parameters.number("phimax", 360)), 0.0, 360.0) * std::numbers::pi / 180;
 }
 
-int pieces(double angle) { return std::max(1, static_cast<int>(std::ceil(around * angle / (2 * pi)))); }
+int pieces(double angle) { return std::max(1, static_cast<int>(std::ceil(around * angle / (2 * std::numbers::pi)))); }
 
 }  // namespace
 

@@ -86,12 +86,12 @@ std::optional<Geometry> cylinder(Parameters& parameters, const Placement& placem
     return placed(cylinder_mesh(parameters), parameters, placement, placement.flips());
 }
 
-using Maker = std::optional<Geometry> (*)(Parameters&, const Placement&);
+using ShapeMaker = std::optional<Geometry> (*)(Parameters&, const Placement&);
 
-const std::map<std::string, Maker>& makers() {
-    static const std::map<std::string, Maker> table{{"trianglemesh", triangles}, {"sphere", sphere},
-                                                    {"bilinearmesh", bilinear},  {"disk", disk},
-                                                    {"cylinder", cylinder},      {"loopsubdiv", subdivision}};
+const std::map<std::string, ShapeMaker>& shape_makers() {
+    static const std::map<std::string, ShapeMaker> table{{"trianglemesh", triangles}, {"sphere", sphere},
+                                                         {"bilinearmesh", bilinear},  {"disk", disk},
+                                                         {"cylinder", cylinder},      {"loopsubdiv", subdivision}};
     return table;
 }
 
@@ -120,10 +120,10 @@ std::shared_ptr<MadeShape> Shapes::make(const std::string& type, Parameters& par
         return nullptr;
     }
     if (type == "plymesh") return ply_mesh(parameters, placement);
-    const auto maker = makers().find(type);
-    if (maker == makers().end()) {
+    const auto maker = shape_makers().find(type);
+    if (maker == shape_makers().end()) {
         std::vector<std::string> known{"plymesh"};
-        for (const auto& entry : makers()) known.push_back(entry.first);
+        for (const auto& entry : shape_makers()) known.push_back(entry.first);
         parameters.error("unknown shape" + did_you_mean(type, known));
         parameters.ignore_all();
         return nullptr;

@@ -13,7 +13,7 @@
 namespace lightnet::pbrt {
 namespace {
 
-constexpr Rgb grey{0.5f, 0.5f, 0.5f};
+constexpr Rgb middle_grey{0.5f, 0.5f, 0.5f};
 
 Rgb all(float value) { return {value, value, value}; }
 
@@ -91,7 +91,7 @@ void Textures::define(const std::string& name, const std::string& kind, const st
     Named& named = kind == "float" ? floats_ : spectra_;
     if (named.contains(name)) parameters.error("a texture of that name and kind is there already");
     auto texture = make(type, named, parameters);
-    named.insert_or_assign(name, add(texture ? std::move(*texture) : Texture{grey, {}, false}));
+    named.insert_or_assign(name, add(texture ? std::move(*texture) : Texture{middle_grey, {}, false}));
 }
 
 std::optional<Texture> Textures::make(const std::string& type, Named& named, Parameters& parameters) {
@@ -106,7 +106,7 @@ std::optional<Texture> Textures::make(const std::string& type, Named& named, Par
     if (type == "bilerp") return bilinear(parameters);
     if (type == "marble") return unsupported(type, parameters, {0.8f, 0.8f, 0.82f});  // the mean of its colours
     if (type == "fbm" || type == "windy" || type == "wrinkled" || type == "ptex")
-        return unsupported(type, parameters, grey);
+        return unsupported(type, parameters, middle_grey);
     static const std::vector<std::string> known{"bilerp", "checkerboard", "constant", "directionmix", "dots",
                                                 "fbm",    "imagemap",     "marble",   "mix",          "ptex",
                                                 "scale",  "windy",        "wrinkled"};
@@ -137,7 +137,7 @@ Texture Textures::imagemap(Parameters& parameters, ImageTexture::Channel channel
     pattern.nearest = nearest(parameters);
     const Rgb scale = all(parameters.number("scale", 1));
     const bool invert = parameters.boolean("invert", false);
-    if (!pattern.image) return {grey, {}, false};
+    if (!pattern.image) return {middle_grey, {}, false};
     return {scale, std::move(pattern), invert};
 }
 
@@ -191,14 +191,14 @@ Texture Textures::direction_mix(Named& named, Parameters& parameters) {
     parameters.ignore({"dir"});
     sources_.report.warn(parameters.where(),
                          "textures of class 'directionmix' are not supported: the mean of both is taken");
-    return {{1, 1, 1}, MixTexture{first, second, constant(grey)}, false};
+    return {{1, 1, 1}, MixTexture{first, second, constant(middle_grey)}, false};
 }
 
 Texture Textures::checkerboard(Named& named, Parameters& parameters) {
     const TextureId even = input(named, parameters, "tex1", 1), odd = input(named, parameters, "tex2", 0);
     if (const int dimension = parameters.integer("dimension", 2); dimension == 3) {
         parameters.warn("a checkerboard of dimension 3 is not supported: the mean of both is taken");
-        return {{1, 1, 1}, MixTexture{even, odd, constant(grey)}, false};
+        return {{1, 1, 1}, MixTexture{even, odd, constant(middle_grey)}, false};
     } else if (dimension != 2) {
         parameters.error(fmt::format("a checkerboard has 2 or 3 dimensions, not {}", dimension));
     }
@@ -264,7 +264,7 @@ std::optional<TextureId> Textures::maybe_colour(Parameters& parameters, std::str
     const Parameter* given = parameters.find(name);
     if (!given) return std::nullopt;
     if (given->type == Type::texture) return find(spectra_, *given).value_or(0);
-    return constant(colour_of(*given, use, sources_).value_or(grey));
+    return constant(colour_of(*given, use, sources_).value_or(middle_grey));
 }
 
 TextureId Textures::colour(Parameters& parameters, std::string_view name, Rgb fallback, Use use) {

@@ -8,7 +8,7 @@
 namespace lightnet {
 namespace {
 
-constexpr std::size_t roughnesses = 6;
+constexpr std::size_t metal_roughnesses = 6;
 
 bool smooth(const Ggx& facets) { return is_specular(facets.alpha_u, facets.alpha_v); }
 
@@ -21,7 +21,7 @@ Vec3 from_above(float cosine) { return {std::sqrt(std::max(0.0f, 1 - cosine * co
 /// By the square root of α, where there is more than one.
 std::optional<Ggx> roughness(std::size_t index, const std::optional<Ggx>& only) {
     if (only) return only;
-    const float root = float(index) / (roughnesses - 1), alpha = root * root;
+    const float root = float(index) / (metal_roughnesses - 1), alpha = root * root;
     return Ggx{alpha, alpha};
 }
 
@@ -64,7 +64,7 @@ float CoatedMetal::Returned::factor_with(const Returned& other, float reflectanc
 float CoatedMetal::Returned::albedo(float reflectance) const { return series(energy, again, reflectance); }
 
 CoatedMetal::CoatedMetal(const Coat& coat, std::optional<Ggx> above, std::optional<Ggx> below)
-    : coat_(coat), rows_(above ? 1 : roughnesses), columns_(below ? 1 : roughnesses) {
+    : coat_(coat), rows_(above ? 1 : metal_roughnesses), columns_(below ? 1 : metal_roughnesses) {
     const std::uint32_t walks = rows_ * columns_ == 1 ? 1 << 11 : 1 << 9;
     for (std::size_t i = 0; i < rows_; ++i)
         for (std::size_t j = 0; j < columns_; ++j)
