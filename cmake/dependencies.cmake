@@ -1,11 +1,19 @@
 # What lightnet stands on. Each library has one home; only that folder's .cpp files include it.
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
-find_package(embree 3 REQUIRED)                            # rays against triangles and spheres (core/scene)
+find_package(embree 4 QUIET)                               # rays against triangles and spheres (core/scene)
+if(NOT embree_FOUND)
+  find_package(embree 3 REQUIRED)
+endif()
+add_library(embree_any INTERFACE)                          # either, with the face of 4: <embree/rtcore.h>
+target_link_libraries(embree_any INTERFACE embree)
+target_include_directories(embree_any SYSTEM INTERFACE "${CMAKE_CURRENT_LIST_DIR}/include")
+target_compile_definitions(embree_any INTERFACE LIGHTNET_EMBREE=${embree_VERSION_MAJOR})
 find_package(OpenEXR 3 CONFIG REQUIRED)                    # pictures out (core/film), textures in (core/readers)
 find_package(PNG REQUIRED)                                 # pictures out, textures in
 find_package(ZLIB REQUIRED)                                # packed scene files
 find_package(JPEG REQUIRED)                                # textures in
+pkg_check_modules(libjpeg QUIET libjpeg)                   # its full version: decoders differ in bits
 find_package(pugixml REQUIRED)                             # scenes in XML (core/readers/mitsuba)
 find_package(Boost 1.74 REQUIRED COMPONENTS context)       # fibers (core/fiber)
 find_package(fmt REQUIRED)                                 # text: g++ 12 has no std::format

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what lightnet is built from, where Debian's packages are and we may; elsewhere names them.
-# The one place that lists the packages.
+# The one place that lists the packages; they have the same names in Debian 12 (Embree 3) and 13 (Embree 4).
 set -euo pipefail
 
 packages=(
@@ -18,7 +18,7 @@ if [ "${1-}" = --list ]; then
 fi
 
 if ! command -v dpkg-query >/dev/null; then
-    echo "lightnet is built from these packages of Debian 12; please see that their likes are here:" >&2
+    echo "lightnet is built from these packages of Debian 12 or 13; please see that their likes are here:" >&2
     echo "  ${packages[*]}" >&2
     exit 0   # CMake names what it misses
 fi

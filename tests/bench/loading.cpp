@@ -1,6 +1,6 @@
 // How long a scene takes from its files to where rays can be asked, beside the bare build of the same triangles' tree
 // by Embree. Argument: a scene file; without one, a mesh of a million triangles, which has no files to read.
-#include <embree3/rtcore.h>
+#include <embree/rtcore.h>
 
 #include <cmath>
 #include <cstdio>

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 #include <thread>
+#include <utility>
 
 #include "core/base/math/frame.hpp"
 #include "core/base/math/random.hpp"
@@ -81,13 +82,11 @@ Machine::Flights Machine::from_camera() const {
 
 Machine::Flights Machine::bounced(const Flights& arriving) const {
     Flights flights;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
     for (std::size_t i = 0; i < arriving.size(); ++i) {
         RTCRayHit query;
         set(query.ray, arriving[i].origin, arriving[i].direction);
         query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-        rtcIntersect1(scene_, &context, &query);
+        rtcIntersect1(scene_, &query);
         if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
         Vec3 normal = normalize({query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z});
         if (dot(normal, arriving[i].direction) > 0) normal = -normal;
@@ -98,6 +97,27 @@ Machine::Flights Machine::bounced(const Flights& arriving) const {
     return flights;
 }
 
+#if LIGHTNET_EMBREE >= 4
+auto tracers(bool coherent) {
+    const auto flags = coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+    RTCIntersectArguments meeting;
+    rtcInitIntersectArguments(&meeting);
+    RTCOccludedArguments hiding;
+    rtcInitOccludedArguments(&hiding);
+    meeting.flags = hiding.flags = flags;
+    return std::pair{[meeting](RTCScene scene, RTCRayHit& ray) mutable { rtcIntersect1(scene, &ray, &meeting); },
+                     [hiding](RTCScene scene, RTCRay& ray) mutable { rtcOccluded1(scene, &ray, &hiding); }};
+}
+#else
+auto tracers(bool coherent) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    return std::pair{[context](RTCScene scene, RTCRayHit& ray) mutable { rtcIntersect1(scene, &context, &ray); },
+                     [context](RTCScene scene, RTCRay& ray) mutable { rtcOccluded1(scene, &context, &ray); }};
+}
+#endif
+
 // M rays/s of all threads together.
 double Machine::rate(const Flights& flights, bool shadows, bool coherent) const {
     std::array<std::size_t, threads> traced{};
@@ -105,18 +125,16 @@ double Machine::rate(const Flights& flights, bool shadows, bool coherent) const 
     const auto passed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count(); };
     const auto trace = [&](std::size_t thread) {
         _mm_setcsr(_mm_getcsr() | 0x8040);  // no denormals, as Embree recommends
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+        auto [meet, hide] = tracers(coherent);
         for (std::size_t i = thread * flights.size() / threads; passed() < seconds_each; traced[thread] += at_once)
             for (std::size_t k = 0; k < at_once; ++k, i = i + 1 < flights.size() ? i + 1 : 0) {
                 RTCRayHit query;
                 set(query.ray, flights[i].origin, flights[i].direction);
                 if (shadows) {
-                    rtcOccluded1(scene_, &context, &query.ray);
+                    hide(scene_, query.ray);
                 } else {
                     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-                    rtcIntersect1(scene_, &context, &query);
+                    meet(scene_, query);
                 }
             }
     };

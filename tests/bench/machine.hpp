@@ -1,7 +1,7 @@
 // How fast this machine is, beside the one for which goals in seconds hold.
 #pragma once
 
-#include <embree3/rtcore.h>
+#include <embree/rtcore.h>
 
 #include <array>
 #include <filesystem>

@@ -1,5 +1,5 @@
 // The facts about Embree on which "the same bytes everywhere" rests.
-#include <embree3/rtcore.h>
+#include <embree/rtcore.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -10,7 +10,7 @@
 #include "core/base/math/sampling.hpp"
 #include "core/scene/surfaces/ray.hpp"
 
-namespace lightnet {
+namespace lightnet::embree_test {
 namespace {
 
 struct Found {
@@ -52,14 +52,12 @@ public:
 
     Found one(const Ray& ray) const {
         RTCRayHit query = fill(ray);
-        auto context = incoherent();
-        rtcIntersect1(scene_, &context, &query);
+        rtcIntersect1(scene_, &query);
         return {query.hit.geomID, query.hit.primID, query.hit.instID[0], query.ray.tfar, query.hit.u, query.hit.v};
     }
     bool hidden(const Ray& ray) const {
         RTCRayHit query = fill(ray);
-        auto context = incoherent();
-        rtcOccluded1(scene_, &context, &query.ray);
+        rtcOccluded1(scene_, &query.ray);
         return query.ray.tfar < 0;
     }
     /// Only lanes whose bit is set.
@@ -74,11 +72,10 @@ public:
             store(packet.ray, i, rays[i]);
             packet.hit.geomID[i] = packet.hit.primID[i] = packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
         }
-        auto context = incoherent();
         if constexpr (Lanes == 8)
-            rtcIntersect8(valid.data(), scene_, &context, &packet);
+            rtcIntersect8(valid.data(), scene_, &packet);
         else
-            rtcIntersect16(valid.data(), scene_, &context, &packet);
+            rtcIntersect16(valid.data(), scene_, &packet);
         std::array<Found, Lanes> found;
         for (std::size_t i = 0; i < Lanes; ++i)
             found[i] = {packet.hit.geomID[i], packet.hit.primID[i], packet.hit.instID[0][i],
@@ -91,8 +88,7 @@ public:
         alignas(64) std::array<int, 16> valid;
         valid.fill(-1);
         for (std::size_t i = 0; i < 16; ++i) store(packet, i, rays[i]);
-        auto context = incoherent();
-        rtcOccluded16(valid.data(), scene_, &context, &packet);
+        rtcOccluded16(valid.data(), scene_, &packet);
         std::array<bool, 16> result;
         for (std::size_t i = 0; i < 16; ++i) result[i] = packet.tfar[i] < 0;
         return result;
@@ -139,12 +135,6 @@ private:
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(scene, geometry);
         rtcReleaseGeometry(geometry);
-    }
-    static RTCIntersectContext incoherent() {
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-        return context;
     }
     static RTCRayHit fill(const Ray& ray) {
         RTCRayHit query{};
@@ -242,10 +232,7 @@ public:
                      0,
                      0};
         query.hit.geomID = query.hit.primID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-        rtcIntersect1(scene_, &context, &query);
+        rtcIntersect1(scene_, &query);
         return {query.hit.geomID, query.hit.primID, query.hit.instID[0], query.ray.tfar, query.hit.u, query.hit.v};
     }
 
@@ -318,4 +305,4 @@ TEST_F(Embree, SaysHiddenWhereItFindsAHit) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::embree_test

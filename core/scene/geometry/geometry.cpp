@@ -4,7 +4,7 @@
 #include "core/scene/geometry/sphere_hit.hpp"
 #include "core/scene/surfaces/placement.hpp"
 
-#include <embree3/rtcore.h>
+#include <embree/rtcore.h>
 
 #include <algorithm>
 #include <array>
@@ -116,14 +116,6 @@ RTCGeometry make(RTCDevice device, Sphere& sphere, Form& form) {
     return geometry;
 }
 
-// Not "coherent": with that flag a lane's hit depends on its neighbours.
-RTCIntersectContext any_rays() {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-    return context;
-}
-
 void set(RTCRay& to, const Ray& ray) {
     to = {ray.origin.x,
           ray.origin.y,
@@ -144,15 +136,15 @@ struct Eight {
     static constexpr std::size_t lanes = 8;
     using Rays = RTCRay8;
     using RayHits = RTCRayHit8;
-    static constexpr auto intersect = rtcIntersect8;
-    static constexpr auto occluded = rtcOccluded8;
+    static void intersect(const int* valid, RTCScene scene, RayHits& rays) { rtcIntersect8(valid, scene, &rays); }
+    static void occluded(const int* valid, RTCScene scene, Rays& rays) { rtcOccluded8(valid, scene, &rays); }
 };
 struct Four {
     static constexpr std::size_t lanes = 4;
     using Rays = RTCRay4;
     using RayHits = RTCRayHit4;
-    static constexpr auto intersect = rtcIntersect4;
-    static constexpr auto occluded = rtcOccluded4;
+    static void intersect(const int* valid, RTCScene scene, RayHits& rays) { rtcIntersect4(valid, scene, &rays); }
+    static void occluded(const int* valid, RTCScene scene, Rays& rays) { rtcOccluded4(valid, scene, &rays); }
 };
 
 // Fills lanes that have nothing to do. `valid` alone does not keep Embree from them: where its packets are narrower
@@ -185,13 +177,12 @@ void fill(Packet& packet, Valid<lanes>& valid, std::span<const Ray> rays) {
 
 template <class Wide>
 void look_through(RTCScene scene, std::span<const Ray> rays, std::span<std::uint8_t> hidden) {
-    auto context = any_rays();
     for (std::size_t first = 0; first < rays.size(); first += Wide::lanes) {
         alignas(64) Valid<Wide::lanes> valid;
         alignas(64) typename Wide::Rays packet;
         const std::size_t count = std::min(Wide::lanes, rays.size() - first);
         fill<Wide::lanes>(packet, valid, rays.subspan(first, count));
-        Wide::occluded(valid.data(), scene, &context, &packet);
+        Wide::occluded(valid.data(), scene, packet);
         for (std::size_t i = 0; i < count; ++i) hidden[first + i] = packet.tfar[i] < 0;
     }
 }
@@ -295,7 +286,6 @@ struct Geometry::Tracer {
 
 template <class Wide>
 void Geometry::Tracer::meet(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const {
-    auto context = any_rays();
     for (std::size_t first = 0; first < rays.size(); first += Wide::lanes) {
         alignas(64) Valid<Wide::lanes> valid;
         alignas(64) typename Wide::RayHits together;
@@ -303,7 +293,7 @@ void Geometry::Tracer::meet(std::span<const Ray> rays, std::span<std::optional<H
         fill<Wide::lanes>(together.ray, valid, rays.subspan(first, count));
         for (std::size_t i = 0; i < Wide::lanes; ++i)
             together.hit.geomID[i] = together.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-        Wide::intersect(valid.data(), scene, &context, &together);
+        Wide::intersect(valid.data(), scene, together);
         const auto& found = together.hit;
         for (std::size_t i = 0; i < count; ++i) {
             if (found.geomID[i] == RTC_INVALID_GEOMETRY_ID)
@@ -354,8 +344,7 @@ std::optional<Hit> Geometry::intersect(const Ray& ray) const {
     set(query.ray, ray);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    auto context = any_rays();
-    rtcIntersect1(tracer_->scene, &context, &query);
+    rtcIntersect1(tracer_->scene, &query);
     const auto& hit = query.hit;
     if (hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
     return tracer_->hit(hit.instID[0], hit.geomID, hit.primID, {hit.u, hit.v}, query.ray.tfar);
@@ -371,8 +360,7 @@ bool Geometry::occluded(const Ray& ray) const {
     ++rays_traced;
     RTCRay query;
     set(query, ray);
-    auto context = any_rays();
-    rtcOccluded1(tracer_->scene, &context, &query);
+    rtcOccluded1(tracer_->scene, &query);
     return query.tfar < 0;
 }
 
