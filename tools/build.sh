@@ -5,6 +5,9 @@ cd "$(dirname "$0")/.."
 preset=$1
 shift
 
-if command -v ccache >/dev/null; then export CMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
+if command -v ccache >/dev/null; then
+    export CMAKE_CXX_COMPILER_LAUNCHER=ccache
+    export CCACHE_SLOPPINESS=${CCACHE_SLOPPINESS-pch_defines,time_macros}   # else it keeps nothing of the tests
+fi
 cmake --preset "$preset" --log-level=WARNING >/dev/null
 cmake --build --preset "$preset" --parallel "$(nproc)" ${1:+--target "$@"}

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace lightnet {
+namespace lightnet::error_test {
 namespace {
 
 TEST(Problem, SaysFileAndLine) { EXPECT_EQ(to_string({{"a.lua", 7}, "no such node"}), "a.lua:7: no such node"); }
@@ -25,4 +25,4 @@ TEST(Error, NamesThePlaceFirst) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::error_test

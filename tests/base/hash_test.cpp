@@ -4,7 +4,7 @@
 
 #include <unordered_set>
 
-namespace lightnet {
+namespace lightnet::hash_test {
 namespace {
 
 TEST(Hash, IsSha256) {
@@ -44,4 +44,4 @@ TEST(KeyedHash, IsThatOfTheStandard) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::hash_test

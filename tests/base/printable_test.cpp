@@ -4,7 +4,7 @@
 
 #include "core/base/error.hpp"
 
-namespace lightnet {
+namespace lightnet::printable_test {
 namespace {
 
 TEST(Printable, LeavesWordsOfAnyLanguageAlone) {
@@ -36,4 +36,4 @@ TEST(Printable, IsWhatErrorsSayOfFiles) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::printable_test

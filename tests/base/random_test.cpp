@@ -8,7 +8,7 @@
 #include "core/base/math/samples.hpp"
 #include "core/base/math/sobol.hpp"
 
-namespace lightnet {
+namespace lightnet::random_test {
 namespace {
 
 TEST(Random, DerivesDifferentStreamsForDifferentReasons) {
@@ -84,4 +84,4 @@ TEST(Samples, UsesANewDimensionForEachCall) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::random_test

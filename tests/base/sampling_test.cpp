@@ -6,7 +6,7 @@
 #include "core/base/math/octahedral.hpp"
 #include "core/base/math/samples.hpp"
 
-namespace lightnet {
+namespace lightnet::sampling_test {
 namespace {
 
 constexpr std::uint32_t many = 1 << 14;
@@ -75,4 +75,4 @@ TEST(Frame, IsOrthonormalAroundAnyNormal) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::sampling_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lightnet {
+namespace lightnet::suggestion_test {
 namespace {
 
 const std::vector<std::string> names{"photons", "gather", "paths", "rays"};
@@ -26,4 +26,4 @@ TEST(DidYouMean, SpendsNoTimeOnHugeWords) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::suggestion_test

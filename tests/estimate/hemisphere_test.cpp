@@ -7,7 +7,7 @@
 
 #include <functional>
 
-namespace lightnet {
+namespace lightnet::hemisphere_test {
 namespace {
 
 using Sky = std::function<Seen(Vec3 origin, Vec3 direction)>;
@@ -133,4 +133,4 @@ TEST(IrradianceOctree, DoesNotTrustARecordMoreThanItsNeighbours) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::hemisphere_test

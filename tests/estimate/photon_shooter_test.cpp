@@ -5,7 +5,7 @@
 #include "core/estimate/photon_shooter.hpp"
 #include "tests/support/small_scenes.hpp"
 
-namespace lightnet {
+namespace lightnet::photon_shooter_test {
 namespace {
 
 using namespace test;
@@ -112,4 +112,4 @@ TEST(Aim, IsADensityOverAllNumbers) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::photon_shooter_test

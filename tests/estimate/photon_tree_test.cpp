@@ -10,7 +10,7 @@
 #include "core/estimate/photon_tree.hpp"
 #include "core/estimate/ranks.hpp"
 
-namespace lightnet {
+namespace lightnet::photon_tree_test {
 namespace {
 
 // On a floor of 1 m², each 1 / count W.
@@ -197,4 +197,4 @@ TEST(PhotonTree, SeesEdgesSharperTheMorePhotonsThereAre) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::photon_tree_test

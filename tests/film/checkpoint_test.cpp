@@ -10,7 +10,7 @@
 #include "tests/film/pictures.hpp"
 #include "tests/support/folder.hpp"
 
-namespace lightnet {
+namespace lightnet::checkpoint_test {
 namespace {
 
 const FilmFormat format{8, 4, {"emission", "direct"}, 300};
@@ -190,4 +190,4 @@ TEST(Checkpoint, TellsWhatDiffers) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::checkpoint_test

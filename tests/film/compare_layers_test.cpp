@@ -11,7 +11,7 @@
 #include "core/film/png.hpp"
 #include "tests/film/pictures.hpp"
 
-namespace lightnet {
+namespace lightnet::compare_layers_test {
 namespace {
 
 using testing::ElementsAre;
@@ -108,4 +108,4 @@ TEST(Compare, FindsTwoBlackPicturesEquallyBright) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::compare_layers_test

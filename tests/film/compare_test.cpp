@@ -8,7 +8,7 @@
 #include "core/base/error.hpp"
 #include "tests/film/pictures.hpp"
 
-namespace lightnet {
+namespace lightnet::compare_test {
 namespace {
 
 Picture flat(float value, std::uint32_t size = 32) {
@@ -51,4 +51,4 @@ TEST(Compare, TrimsTheWorstPixelOfAThousand) {
 TEST(Compare, RefusesPicturesOfDifferentSizes) { EXPECT_THROW(compare(flat(1, 32), flat(1, 16)), Error); }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::compare_test

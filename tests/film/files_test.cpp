@@ -32,7 +32,7 @@ extern "C" mode_t umask(mode_t mask) noexcept {
     return static_cast<mode_t>(::syscall(SYS_umask, mask));
 }
 
-namespace lightnet {
+namespace lightnet::files_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -228,4 +228,4 @@ TEST(WriteFile, LeavesNothingBehindWhenItCannotRename) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::files_test

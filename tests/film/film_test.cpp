@@ -15,7 +15,7 @@
 #include "tests/film/pictures.hpp"
 #include "tests/support/slowdown.hpp"
 
-namespace lightnet {
+namespace lightnet::film_test {
 namespace {
 
 // 19 blocks, the last one of 4 samples: groups of 1, 1, 2, 4, 8 and 3, the short block of which goes alone.
@@ -257,4 +257,4 @@ TEST(Film, SaysWhatIsTooLargeForTheMemory) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::film_test

@@ -11,7 +11,7 @@
 
 #include "core/film/perceived_colour.hpp"
 
-namespace lightnet {
+namespace lightnet::flip_test {
 namespace {
 
 constexpr std::uint32_t side = 64;
@@ -141,4 +141,4 @@ TEST(PerceivedColour, KnowsTheLabOfPureColours) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::flip_test

@@ -9,7 +9,7 @@
 #include "core/base/error.hpp"
 #include "core/film/film.hpp"
 
-namespace lightnet {
+namespace lightnet::more_samples_test {
 namespace {
 
 constexpr std::uint32_t width = 9, height = 7;
@@ -148,4 +148,4 @@ TEST(MoreSamples, CountWhatIsNotFiniteOnce) {
 TEST(MoreSamples, AreNoFewer) { EXPECT_THROW(Film(format_of(64)).restore(Film(format_of(80)).state()), Error); }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::more_samples_test

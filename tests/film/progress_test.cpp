@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace lightnet {
+namespace lightnet::progress_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -231,4 +231,4 @@ TEST(Progress, KnowsItsModesByName) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::progress_test

@@ -9,7 +9,7 @@
 #include "core/base/error.hpp"
 #include "core/film/film.hpp"
 
-namespace lightnet {
+namespace lightnet::refinement_test {
 namespace {
 
 constexpr std::uint32_t width = 37, height = 21, samples = 16 * 40;
@@ -178,4 +178,4 @@ TEST(Preview, SaysHowMuchOfItIsDone) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::refinement_test

@@ -7,7 +7,7 @@
 
 #include "tests/film/pictures.hpp"
 
-namespace lightnet {
+namespace lightnet::run_report_test {
 namespace {
 
 RunReport small_report() {
@@ -53,4 +53,4 @@ TEST(RunReport, IsWrittenToAFile) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::run_report_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace lightnet {
+namespace lightnet::tone_test {
 namespace {
 
 // `share` of its pixels have the one value, the others the other.
@@ -54,4 +54,4 @@ TEST(Brightness, KnowsWhenNoExposureHelps) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::tone_test

@@ -13,7 +13,7 @@
 #include "tests/support/folder.hpp"
 #include "tests/support/parse.hpp"
 
-namespace lightnet {
+namespace lightnet::bounds_test {
 namespace {
 
 using test::error_of;
@@ -131,4 +131,4 @@ TEST(Complaints, OfHostsAreBoundedAlike) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::bounds_test

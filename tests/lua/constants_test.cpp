@@ -4,7 +4,7 @@
 #include "lua/load_graph.hpp"
 #include "tests/support/parse.hpp"
 
-namespace lightnet {
+namespace lightnet::constants_test {
 namespace {
 
 using testing::HasSubstr;
@@ -49,4 +49,4 @@ TEST(Constants, AreNoNodes) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::constants_test

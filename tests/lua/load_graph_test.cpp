@@ -6,7 +6,7 @@
 #include "tests/support/folder.hpp"
 #include "tests/support/parse.hpp"
 
-namespace lightnet {
+namespace lightnet::load_graph_test {
 namespace {
 
 using test::error_of;
@@ -186,4 +186,4 @@ TEST(Require, FindsCircles) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::load_graph_test

@@ -4,7 +4,7 @@
 #include "lua/load_graph.hpp"
 #include "tests/support/parse.hpp"
 
-namespace lightnet {
+namespace lightnet::load_hosts_test {
 namespace {
 
 using testing::HasSubstr;
@@ -68,4 +68,4 @@ TEST(LoadHosts, KnowsNothingButPlaces) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::load_hosts_test

@@ -11,7 +11,7 @@
 #include "lua/load_graph.hpp"
 #include "tests/support/parse.hpp"
 
-namespace lightnet {
+namespace lightnet::sandbox_test {
 namespace {
 
 using test::error_of;
@@ -130,4 +130,4 @@ TEST(Child, IsBuriedAlways) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::sandbox_test

@@ -5,7 +5,7 @@
 
 #include "tests/support/parse.hpp"
 
-namespace lightnet {
+namespace lightnet::check_hosts_test {
 namespace {
 
 using testing::HasSubstr;
@@ -104,4 +104,4 @@ TEST(Address, IsTakenApart) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::check_hosts_test

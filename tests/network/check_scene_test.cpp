@@ -7,7 +7,7 @@
 #include "tests/support/fake_registry.hpp"
 #include "tests/support/parse.hpp"
 
-namespace lightnet {
+namespace lightnet::check_scene_test {
 namespace {
 
 using testing::HasSubstr;
@@ -64,4 +64,4 @@ TEST(Describe, TellsTheEntriesOfATable) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::check_scene_test

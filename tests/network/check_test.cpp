@@ -8,7 +8,7 @@
 #include "core/network/graph/graph_film.hpp"
 #include "tests/support/parse.hpp"
 
-namespace lightnet {
+namespace lightnet::check_test {
 namespace {
 
 using test::fake_registry;
@@ -225,4 +225,4 @@ TEST(Graph, RanksNodesByTheirDistanceFromTheLeaves) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::check_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/fake_registry.hpp"
 
-namespace lightnet {
+namespace lightnet::describe_test {
 namespace {
 
 TEST(Describe, ListsAllKinds) {
@@ -44,4 +44,4 @@ TEST(Describe, TellsOfInputs) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::describe_test

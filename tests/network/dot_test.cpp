@@ -8,7 +8,7 @@
 
 #include "tests/support/parse.hpp"
 
-namespace lightnet {
+namespace lightnet::dot_test {
 namespace {
 
 using test::fake_registry;
@@ -140,4 +140,4 @@ TEST(Dot, DrawsWhatIsTakenAndWhatIsShown) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::dot_test

@@ -9,7 +9,7 @@
 #include "core/network/graph/plan.hpp"
 #include "tests/support/parse.hpp"
 
-namespace lightnet {
+namespace lightnet::json_test {
 namespace {
 
 using test::error_of;
@@ -96,4 +96,4 @@ TEST(ProblemsJson, ComesBackEqual) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::json_test

@@ -4,7 +4,7 @@
 #include "core/network/graph/plan.hpp"
 #include "tests/support/parse.hpp"
 
-namespace lightnet {
+namespace lightnet::layers_test {
 namespace {
 
 using test::fake_registry;
@@ -49,4 +49,4 @@ TEST(Layers, HaveWhatIsShownBesideTheSum) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::layers_test

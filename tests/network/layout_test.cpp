@@ -7,7 +7,7 @@
 #include "core/network/graph/plan.hpp"
 #include "tests/support/parse.hpp"
 
-namespace lightnet {
+namespace lightnet::layout_test {
 namespace {
 
 using test::fake_registry;
@@ -138,4 +138,4 @@ TEST(Layout, IsDrawn) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::layout_test

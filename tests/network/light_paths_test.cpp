@@ -7,7 +7,7 @@
 #include "core/network/graph/dot.hpp"
 #include "tests/support/parse.hpp"
 
-namespace lightnet {
+namespace lightnet::light_paths_test {
 namespace {
 
 using testing::ElementsAre;
@@ -116,4 +116,4 @@ TEST(LightPaths, AreDescribedAndDrawn) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::light_paths_test

@@ -13,7 +13,7 @@
 #include "tests/support/parse.hpp"
 #include "tests/support/slowdown.hpp"
 
-namespace lightnet {
+namespace lightnet::limits_test {
 namespace {
 
 using test::error_of;
@@ -153,4 +153,4 @@ TEST(JsonLimits, KeepWholeNumbersToTheLastBit) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::limits_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/parse.hpp"
 
-namespace lightnet {
+namespace lightnet::path_set_test {
 namespace {
 
 PathSet set(const char* text) { return PathSet::parse(text); }
@@ -55,4 +55,4 @@ TEST(PathSet, RefusesWhatIsNoExpression) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::path_set_test

@@ -7,7 +7,7 @@
 
 #include "tests/support/parse.hpp"
 
-namespace lightnet {
+namespace lightnet::plan_test {
 namespace {
 
 using test::fake_registry;
@@ -106,4 +106,4 @@ TEST(Plan, SaysHowAskersChoose) {
 TEST(Plan, WantsAPlace) { EXPECT_THROW(plan(graph(), fake_registry(), {}, {}), Error); }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::plan_test

@@ -11,7 +11,7 @@
 #include "core/base/math/random.hpp"
 #include "core/run/schedule/sector_port.hpp"
 
-namespace lightnet {
+namespace lightnet::sectors_test {
 namespace {
 
 float number(Key key) { return float(mix(key) >> 40) / float(1 << 24); }
@@ -185,4 +185,4 @@ TEST_F(SectorPortTest, AbandonsWhatItHasBegunWhenItCantGoOn) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::sectors_test

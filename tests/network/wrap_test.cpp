@@ -102,6 +102,9 @@ struct Bridge<old::Eye> {
     old::Eye eye_;
 };
 
+}  // namespace lightnet
+
+namespace lightnet::wrap_test {
 namespace {
 
 // Answers with ten times the primitive; parks, as an input elsewhere would.
@@ -223,4 +226,4 @@ TEST_F(WrapTest, MakesARendererOfAClassThatSeesOneRayAtATime) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::wrap_test

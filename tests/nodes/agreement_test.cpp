@@ -17,7 +17,7 @@
 #include "core/readers/read_scene.hpp"
 #include "tests/support/small_network.hpp"
 
-namespace lightnet {
+namespace lightnet::agreement_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -125,4 +125,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& agreement) { return agreement.param.name; });
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::agreement_test

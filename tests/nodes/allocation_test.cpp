@@ -23,7 +23,7 @@ thread_local std::size_t asked_for = 0;
 [[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
 [[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
-namespace lightnet {
+namespace lightnet::allocation_test {
 namespace {
 
 using namespace test;
@@ -91,4 +91,4 @@ TEST(Allocation, OfAPictureDoesNotGrowWithItsSamples) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::allocation_test

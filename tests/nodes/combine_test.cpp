@@ -4,7 +4,7 @@
 #include "tests/support/rig.hpp"
 #include "tests/support/small_scenes.hpp"
 
-namespace lightnet {
+namespace lightnet::combine_test {
 namespace {
 
 using namespace test;
@@ -35,7 +35,7 @@ protected:
 
     Scene scene_{SceneData{}};
     Constant first_{1}, second_{10};
-    CallPort first_port_{first_}, second_port_{second_};
+    test::CallPort first_port_{first_}, second_port_{second_};
 };
 
 TEST_F(Combining, AddsUpItsInputs) { EXPECT_EQ(ask({}, false), (std::vector<Rgb>{{11, 22, 0}, {11, 22, 0}})); }
@@ -51,4 +51,4 @@ TEST_F(Combining, KeepsLayersApart) {
 TEST_F(Combining, RefusesWeightsThatDoNotFitItsInputs) { EXPECT_THROW(ask({{Value{2.0}}, {}}, false), Error); }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::combine_test

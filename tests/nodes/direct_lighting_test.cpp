@@ -6,7 +6,7 @@
 #include "tests/support/rig.hpp"
 #include "tests/support/small_scenes.hpp"
 
-namespace lightnet {
+namespace lightnet::direct_lighting_test {
 namespace {
 
 using namespace test;
@@ -205,4 +205,4 @@ TEST(AmbientOcclusion, IsHalfBesideATallWall) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::direct_lighting_test

@@ -6,7 +6,7 @@
 #include "tests/support/small_network.hpp"
 #include "tests/support/small_scenes.hpp"
 
-namespace lightnet {
+namespace lightnet::irradiance_cache_test {
 namespace {
 
 using namespace test;
@@ -92,4 +92,4 @@ TEST(IrradianceCache, ComesNearerTheMoreAccurateItIs) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::irradiance_cache_test

@@ -4,7 +4,7 @@
 #include "tests/support/rig.hpp"
 #include "tests/support/small_scenes.hpp"
 
-namespace lightnet {
+namespace lightnet::path_tracing_test {
 namespace {
 
 using namespace test;
@@ -251,4 +251,4 @@ TEST(PathTracing, GivesTheSameBytesTwice) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::path_tracing_test

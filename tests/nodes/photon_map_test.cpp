@@ -5,7 +5,7 @@
 #include "tests/support/small_network.hpp"
 #include "tests/support/small_scenes.hpp"
 
-namespace lightnet {
+namespace lightnet::photon_map_test {
 namespace {
 
 using namespace test;
@@ -146,4 +146,4 @@ TEST(FinalGather, IsOneStepOfPathTracing) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::photon_map_test

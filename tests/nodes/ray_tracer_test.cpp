@@ -7,7 +7,7 @@
 #include "tests/support/rig.hpp"
 #include "tests/support/small_scenes.hpp"
 
-namespace lightnet {
+namespace lightnet::ray_tracer_test {
 namespace {
 
 using namespace test;
@@ -170,4 +170,4 @@ TEST(RayTracer, AsksAboutBothSidesOfACoat) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::ray_tracer_test

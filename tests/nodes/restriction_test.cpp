@@ -8,7 +8,7 @@
 #include "tests/support/rig.hpp"
 #include "tests/support/small_scenes.hpp"
 
-namespace lightnet {
+namespace lightnet::restriction_test {
 namespace {
 
 using namespace test;
@@ -153,7 +153,7 @@ public:
 
 TEST_F(Restrictions, ClampTakesWhatIsNoNumberForBlack) {
     const Broken broken;
-    CallPort port(broken);
+    test::CallPort port(broken);
     const auto kinds = standard_nodes();
     const auto kind = std::find_if(kinds.begin(), kinds.end(), [](const Kind& k) { return k.name == "Clamp"; });
     const Node node{"it", "Clamp", {}, {{"most", Value{1.0}}}, {}};
@@ -181,4 +181,4 @@ TEST_F(Restrictions, EnvironmentBringsTheSkyAndNoLamp) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::restriction_test

@@ -4,7 +4,7 @@
 #include "tests/support/small_network.hpp"
 #include "tests/support/small_scenes.hpp"
 
-namespace lightnet {
+namespace lightnet::show_test {
 namespace {
 
 using namespace test;
@@ -121,4 +121,4 @@ TEST(Show, SaysWhatIsWrongWithTheNodesThatItIsGiven) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::show_test

@@ -7,7 +7,7 @@
 #include "core/scene/surfaces/textures.hpp"
 #include "tests/support/scene_text.hpp"
 
-namespace lightnet::test {
+namespace lightnet::test::gltf_reader_test {
 namespace {
 
 using testing::HasSubstr;
@@ -266,4 +266,4 @@ TEST(GltfMistakes, InTheContainerAreRefused) {
 }
 
 }  // namespace
-}  // namespace lightnet::test
+}  // namespace lightnet::test::gltf_reader_test

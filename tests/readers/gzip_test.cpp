@@ -9,7 +9,7 @@
 
 #include "core/base/error.hpp"
 
-namespace lightnet {
+namespace lightnet::gzip_test {
 namespace {
 
 using testing::HasSubstr;
@@ -59,4 +59,4 @@ TEST(Gzip, RefusesWhatIsCutOrBroken) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::gzip_test

@@ -11,7 +11,7 @@
 #include "tests/support/memory_files.hpp"
 #include "tests/support/picture_bytes.hpp"
 
-namespace lightnet {
+namespace lightnet::image_file_test {
 namespace {
 
 using test::exr, test::hdr, test::jpeg, test::png, test::small_png;
@@ -162,4 +162,4 @@ TEST_P(EveryPicture, NeverCrashesWithABrokenByte) {
 INSTANTIATE_TEST_SUITE_P(Kind, EveryPicture, testing::Values(small_png(), jpeg(100, 3), exr({"R", "G", "B"}), hdr()));
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::image_file_test

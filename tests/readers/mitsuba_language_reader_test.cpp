@@ -5,7 +5,7 @@
 #include "core/readers/mitsuba/document.hpp"
 #include "tests/support/scene_text.hpp"
 
-namespace lightnet::test {
+namespace lightnet::test::mitsuba_language_reader_test {
 namespace {
 
 using testing::HasSubstr;
@@ -149,4 +149,4 @@ TEST(MitsubaFiles, MayBeOfOlderVersions) {
 }
 
 }  // namespace
-}  // namespace lightnet::test
+}  // namespace lightnet::test::mitsuba_language_reader_test

@@ -7,7 +7,7 @@
 #include "core/scene/surfaces/textures.hpp"
 #include "tests/support/scene_text.hpp"
 
-namespace lightnet::test {
+namespace lightnet::test::mitsuba_materials_reader_test {
 namespace {
 
 using testing::HasSubstr;
@@ -245,4 +245,4 @@ TEST(MitsubaBsdfs, MayBeNestedButNotForEver) {
 }
 
 }  // namespace
-}  // namespace lightnet::test
+}  // namespace lightnet::test::mitsuba_materials_reader_test

@@ -9,7 +9,7 @@
 #include "core/readers/mitsuba/serialized.hpp"
 #include "tests/support/scene_text.hpp"
 
-namespace lightnet::test {
+namespace lightnet::test::mitsuba_shapes_reader_test {
 namespace {
 
 using testing::HasSubstr;
@@ -312,4 +312,4 @@ TEST(MitsubaFilm, MayBeCropped) {
 }
 
 }  // namespace
-}  // namespace lightnet::test
+}  // namespace lightnet::test::mitsuba_shapes_reader_test

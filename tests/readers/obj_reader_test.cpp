@@ -7,7 +7,7 @@
 #include "core/readers/mesh_tools.hpp"
 #include "tests/support/scene_text.hpp"
 
-namespace lightnet::test {
+namespace lightnet::test::obj_reader_test {
 namespace {
 
 using testing::HasSubstr;
@@ -179,4 +179,4 @@ TEST(SmoothNormals, AreMeansOverTheAnglesOfFaces) {
 }
 
 }  // namespace
-}  // namespace lightnet::test
+}  // namespace lightnet::test::obj_reader_test

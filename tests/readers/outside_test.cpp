@@ -8,7 +8,7 @@
 #include "core/readers/read_scene.hpp"
 #include "tests/support/folder.hpp"
 
-namespace lightnet {
+namespace lightnet::outside_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -90,4 +90,4 @@ TEST(FilesOutside, AreToldFromOthersByNameOnHosts) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::outside_test

@@ -6,7 +6,7 @@
 
 #include "tests/support/memory_files.hpp"
 
-namespace lightnet {
+namespace lightnet::overrides_test {
 namespace {
 
 using testing::HasSubstr;
@@ -144,4 +144,4 @@ TEST(SceneOverrides, TakeBlackBacksAway) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::overrides_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/pbrt_text.hpp"
 
-namespace lightnet::test {
+namespace lightnet::test::pbrt_language_reader_test {
 namespace {
 
 using testing::ElementsAre;
@@ -198,4 +198,4 @@ TEST(PbrtStatements, ThatConcernSamplingHaveNoEffect) {
 }
 
 }  // namespace
-}  // namespace lightnet::test
+}  // namespace lightnet::test::pbrt_language_reader_test

@@ -8,7 +8,7 @@
 #include "core/readers/spectra.hpp"
 #include "tests/support/pbrt_text.hpp"
 
-namespace lightnet::test {
+namespace lightnet::test::pbrt_lights_reader_test {
 namespace {
 
 using testing::HasSubstr;
@@ -203,4 +203,4 @@ TEST(PbrtFiles, MayBePacked) {
 }
 
 }  // namespace
-}  // namespace lightnet::test
+}  // namespace lightnet::test::pbrt_lights_reader_test

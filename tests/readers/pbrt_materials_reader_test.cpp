@@ -6,7 +6,7 @@
 #include "core/scene/surfaces/textures.hpp"
 #include "tests/support/pbrt_text.hpp"
 
-namespace lightnet::test {
+namespace lightnet::test::pbrt_materials_reader_test {
 namespace {
 
 using testing::HasSubstr;
@@ -285,4 +285,4 @@ TEST(PbrtTextures, OfAnotherKindAreNamed) {
 }
 
 }  // namespace
-}  // namespace lightnet::test
+}  // namespace lightnet::test::pbrt_materials_reader_test

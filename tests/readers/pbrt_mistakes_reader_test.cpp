@@ -4,7 +4,7 @@
 
 #include "tests/support/pbrt_text.hpp"
 
-namespace lightnet::test {
+namespace lightnet::test::pbrt_mistakes_reader_test {
 namespace {
 
 using testing::AllOf;
@@ -294,4 +294,4 @@ TEST(PbrtText, NeverCrashesWithABrokenByte) {
 }
 
 }  // namespace
-}  // namespace lightnet::test
+}  // namespace lightnet::test::pbrt_mistakes_reader_test

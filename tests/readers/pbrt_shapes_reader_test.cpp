@@ -6,7 +6,7 @@
 
 #include "tests/support/pbrt_text.hpp"
 
-namespace lightnet::test {
+namespace lightnet::test::pbrt_shapes_reader_test {
 namespace {
 
 using testing::ElementsAre;
@@ -237,4 +237,4 @@ TEST(PbrtShapes, WithInterfacesOnlyAreLeftOut) {
 }
 
 }  // namespace
-}  // namespace lightnet::test
+}  // namespace lightnet::test::pbrt_shapes_reader_test

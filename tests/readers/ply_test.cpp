@@ -11,7 +11,7 @@
 #include "core/base/error.hpp"
 #include "tests/support/memory_files.hpp"
 
-namespace lightnet {
+namespace lightnet::ply_test {
 namespace {
 
 using testing::ElementsAre;
@@ -157,4 +157,4 @@ TEST_P(EveryPly, NeverCrashesWithABrokenByte) {
 INSTANTIATE_TEST_SUITE_P(Format, EveryPly, testing::Values(ascii_square(), binary_square(true), binary_square(false)));
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::ply_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/pbrt_text.hpp"
 
-namespace lightnet::test {
+namespace lightnet::test::real_scenes_reader_test {
 namespace {
 
 using testing::IsEmpty;
@@ -81,4 +81,4 @@ TEST(RealScenes, CornellBoxesAndVeachMisAreReadWithoutWarnings) {
 }
 
 }  // namespace
-}  // namespace lightnet::test
+}  // namespace lightnet::test::real_scenes_reader_test

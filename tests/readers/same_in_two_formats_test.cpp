@@ -10,7 +10,7 @@
 
 #include "tests/support/scene_text.hpp"
 
-namespace lightnet::test {
+namespace lightnet::test::same_in_two_formats_test {
 namespace {
 
 struct Summary {
@@ -130,4 +130,4 @@ TEST(RealScenes, OfAllFormatsAreRead) {
 }
 
 }  // namespace
-}  // namespace lightnet::test
+}  // namespace lightnet::test::same_in_two_formats_test

@@ -8,7 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/scene/bsdf/fresnel.hpp"
 
-namespace lightnet {
+namespace lightnet::spectra_test {
 namespace {
 
 using testing::FloatNear;
@@ -105,4 +105,4 @@ TEST(SpectrumTables, AreRefusedWhenBroken) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::spectra_test

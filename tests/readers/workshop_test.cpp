@@ -6,7 +6,7 @@
 #include <atomic>
 #include <numeric>
 
-namespace lightnet {
+namespace lightnet::workshop_test {
 namespace {
 
 TEST(Workshop, DoesAllPiecesOnce) {
@@ -32,4 +32,4 @@ TEST(Workshop, MayBeGivenUp) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::workshop_test

@@ -5,7 +5,7 @@
 #include "core/base/error.hpp"
 #include "tests/support/fake_channel.hpp"
 
-namespace lightnet {
+namespace lightnet::bundle_port_test {
 namespace {
 
 using test::FakeChannel;
@@ -191,4 +191,4 @@ TEST_F(BundlePortTest, ForgetsAnAskThatWasGivenUp) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::bundle_port_test

@@ -8,7 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/network/light/mapped.hpp"
 
-namespace lightnet {
+namespace lightnet::calls_test {
 namespace {
 
 Bytes one_byte(int value) { return std::make_shared<const std::vector<std::byte>>(1, static_cast<std::byte>(value)); }
@@ -219,4 +219,4 @@ TEST_F(SectorCalls, StayInMemoryWhereNothingElseKeepsThem) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::calls_test

@@ -12,7 +12,7 @@
 #include "core/network/light/mapped.hpp"
 #include "tests/support/learner.hpp"
 
-namespace lightnet {
+namespace lightnet::conductor_test {
 namespace {
 
 using Nodes = std::vector<Node>;
@@ -303,4 +303,4 @@ TEST(Conductor, TakesRepliesAfterMoreRehearsalsThanThereAreEpochs) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::conductor_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lightnet {
+namespace lightnet::epoch_test {
 namespace {
 
 TEST(Epoch, KnowsItsRepliesFromThoseToTheOneBefore) {
@@ -30,4 +30,4 @@ TEST(Epoch, LeavesTheLastNumberOfAllToTheConductor) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::epoch_test

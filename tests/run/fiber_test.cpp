@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace lightnet {
+namespace lightnet::fiber_test {
 namespace {
 
 TEST(Fibers, RunUntilTheyParkAndGoOnWhereTheyStood) {
@@ -155,4 +155,4 @@ TEST(FibersDeathTest, NameTheNodeWhoseStackRanOut) {
 #endif
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::fiber_test

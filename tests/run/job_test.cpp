@@ -13,7 +13,7 @@
 #include "nodes/standard_nodes.hpp"
 #include "tests/support/slowdown.hpp"
 
-namespace lightnet {
+namespace lightnet::job_test {
 namespace {
 
 using ::testing::AnyOf;
@@ -149,4 +149,4 @@ TEST(Fingerprint, OfWhatIsNoInstructionSetIsRefusedEachTime) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::job_test

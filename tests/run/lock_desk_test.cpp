@@ -4,7 +4,7 @@
 
 #include <cstring>
 
-namespace lightnet {
+namespace lightnet::lock_desk_test {
 namespace {
 
 using testing::ElementsAre;
@@ -106,4 +106,4 @@ TEST(PlaceLocks, TellAllAnewWhenTheLauncherHadLostSightOfThem) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::lock_desk_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/fake_channel.hpp"
 
-namespace lightnet {
+namespace lightnet::multiplexer_test {
 namespace {
 
 using test::FakeChannel;
@@ -246,4 +246,4 @@ TEST_F(MultiplexerTest, ServesRenderingAsItServesLight) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::multiplexer_test

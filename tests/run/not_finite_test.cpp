@@ -10,7 +10,7 @@
 #include "core/run/message/counters.hpp"
 #include "core/run/prepare/call_port.hpp"
 
-namespace lightnet {
+namespace lightnet::not_finite_test {
 namespace {
 
 // Answers the first of the questions of a call badly.
@@ -42,4 +42,4 @@ TEST(NotFinite, IsAddedUpOverPlacesByNode) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::not_finite_test

@@ -9,7 +9,7 @@
 #include "tests/support/learner.hpp"
 #include "tests/support/small_scenes.hpp"
 
-namespace lightnet {
+namespace lightnet::prepared_test {
 namespace {
 
 using testing::ElementsAre;
@@ -186,4 +186,4 @@ TEST(SerialRun, PreparesOnceAndTakesTheRestFromTheCache) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::prepared_test

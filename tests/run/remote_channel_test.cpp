@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lightnet {
+namespace lightnet::remote_channel_test {
 namespace {
 
 class RecordingCarrier final : public Carrier {
@@ -115,4 +115,4 @@ TEST_F(RemoteChannelTest, ToAPlaceThatHoldsTheNodeNoMoreStaysOpenForItsAnswers) 
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::remote_channel_test

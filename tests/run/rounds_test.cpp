@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace lightnet {
+namespace lightnet::rounds_test {
 namespace {
 
 // Fibers whose pieces of work wait until the test lets them go on.
@@ -175,4 +175,4 @@ TEST_F(RoundsTest, AreNamedWhenAStackRunsOutWhoeverHasCalledThem) {
 #endif
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::rounds_test

@@ -5,7 +5,7 @@
 #include <map>
 #include <set>
 
-namespace lightnet {
+namespace lightnet::scheduler_test {
 namespace {
 
 // Tells a scheduler stories, and collects what it does.
@@ -378,4 +378,4 @@ TEST_F(SchedulerTest, DropsALateFailure) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::scheduler_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/slowdown.hpp"
 
-namespace lightnet::test {
+namespace lightnet::test::simulator_test {
 namespace {
 
 constexpr std::uint64_t seeds = 500 / slowdown;  // of each kind of world
@@ -201,4 +201,4 @@ TEST(SimulatedRun, ConvictsOnlyAfterThreeDeathsAlone) {
 }
 
 }  // namespace
-}  // namespace lightnet::test
+}  // namespace lightnet::test::simulator_test

@@ -13,7 +13,7 @@
 #include "tests/support/both_ways.hpp"
 #include "tests/support/small_scenes.hpp"
 
-namespace lightnet {
+namespace lightnet::bare_lights_test {
 namespace {
 
 using namespace test;
@@ -315,4 +315,4 @@ TEST(LightTree, BearsLightsInOnePlace) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::bare_lights_test

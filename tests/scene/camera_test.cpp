@@ -6,7 +6,7 @@
 #include "core/scene/scene.hpp"
 #include "tests/support/small_scenes.hpp"
 
-namespace lightnet {
+namespace lightnet::camera_test {
 namespace {
 
 TEST(Camera, LooksAlongItsAxisInTheMiddleOfThePicture) {
@@ -121,4 +121,4 @@ TEST(Camera, IsTheOneGivenOrOneThatSeesTheScene) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::camera_test

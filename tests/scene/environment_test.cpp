@@ -14,7 +14,7 @@
 #include "tests/support/both_ways.hpp"
 #include "tests/support/small_scenes.hpp"
 
-namespace lightnet {
+namespace lightnet::environment_test {
 namespace {
 
 using namespace test;
@@ -222,4 +222,4 @@ TEST(Environment, OfABlackMapIsNeverChosen) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::environment_test

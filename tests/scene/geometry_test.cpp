@@ -6,7 +6,7 @@
 #include "core/scene/scene.hpp"
 #include "tests/support/small_scenes.hpp"
 
-namespace lightnet {
+namespace lightnet::geometry_test {
 namespace {
 
 using namespace test;
@@ -180,4 +180,4 @@ TEST(Scene, OfNothingIsEmpty) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::geometry_test

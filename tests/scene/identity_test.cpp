@@ -7,7 +7,7 @@
 
 #include "core/scene/data/members.hpp"
 
-namespace lightnet {
+namespace lightnet::identity_test {
 namespace {
 
 std::shared_ptr<const Image> picture(float grey) {
@@ -206,4 +206,4 @@ TEST(Identity, IsTheSameForAnotherViewOfTheSameRoom) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::identity_test

@@ -11,7 +11,7 @@
 #include "core/scene/scene.hpp"
 #include "tests/support/small_scenes.hpp"
 
-namespace lightnet {
+namespace lightnet::instances_test {
 namespace {
 
 using namespace test;
@@ -374,4 +374,4 @@ TEST(Holes, OfALampShedNoLight) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::instances_test

@@ -9,7 +9,7 @@
 #include "core/scene/scene.hpp"
 #include "tests/support/small_scenes.hpp"
 
-namespace lightnet {
+namespace lightnet::lights_test {
 namespace {
 
 using namespace test;
@@ -169,4 +169,4 @@ TEST(Heuristics, SharesOfBothWaysAddUpToOne) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::lights_test

@@ -14,7 +14,7 @@
 #include "core/scene/scene.hpp"
 #include "tests/support/small_scenes.hpp"
 
-namespace lightnet {
+namespace lightnet::many_test {
 namespace {
 
 using namespace test;
@@ -354,4 +354,4 @@ INSTANTIATE_TEST_SUITE_P(By, ManyLit,
                          [](const auto& lighting) { return std::string(lighting.param.name); });
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::many_test

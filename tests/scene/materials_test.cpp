@@ -10,7 +10,7 @@
 #include "core/scene/surfaces/shading.hpp"
 #include "tests/support/small_scenes.hpp"
 
-namespace lightnet {
+namespace lightnet::materials_test {
 namespace {
 
 using namespace test;
@@ -268,4 +268,4 @@ TEST(VertexColours, AreMixedOverTheTriangle) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::materials_test

@@ -5,7 +5,7 @@
 #include "core/scene/scene.hpp"
 #include "tests/support/small_scenes.hpp"
 
-namespace lightnet {
+namespace lightnet::surface_test {
 namespace {
 
 using namespace test;
@@ -99,4 +99,4 @@ TEST(Surface, BallsHaveTextureCoordinatesFromPoleToPole) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::surface_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lightnet {
+namespace lightnet::textures_test {
 namespace {
 
 // red   green
@@ -62,4 +62,4 @@ TEST(Texture, SurvivesWildCoordinates) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::textures_test

@@ -14,7 +14,7 @@
 #include "tests/film/pictures.hpp"
 #include "tools/launcher.hpp"
 
-namespace lightnet {
+namespace lightnet::compare_test {
 namespace {
 
 using testing::HasSubstr;
@@ -117,4 +117,4 @@ TEST_F(CompareVerb, TakesPicturesWithoutLayersToo) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::compare_test

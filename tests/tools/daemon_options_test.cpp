@@ -7,7 +7,7 @@
 
 #include "tools/log_line.hpp"
 
-namespace lightnet {
+namespace lightnet::daemon_options_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -104,4 +104,4 @@ TEST(LogLine, SaysWhen) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::daemon_options_test

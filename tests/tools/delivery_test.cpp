@@ -10,7 +10,7 @@
 #include "core/base/error.hpp"
 #include "tests/support/folder.hpp"
 
-namespace lightnet {
+namespace lightnet::delivery_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -102,4 +102,4 @@ TEST(Delivery, LooksForAFolderOfTheUsersFirst) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::delivery_test

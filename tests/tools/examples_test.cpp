@@ -7,7 +7,7 @@
 
 #include "tools/options.hpp"
 
-namespace lightnet {
+namespace lightnet::examples_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -62,4 +62,4 @@ INSTANTIATE_TEST_SUITE_P(EveryVerb, HelpOf,
                          });
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::examples_test

@@ -10,7 +10,7 @@
 #include "lua/load_graph.hpp"
 #include "nodes/standard_nodes.hpp"
 
-namespace lightnet {
+namespace lightnet::graphs_test {
 namespace {
 
 using testing::ElementsAre;
@@ -67,4 +67,4 @@ TEST(Graphs, HaveTheLayersThatTheySay) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::graphs_test

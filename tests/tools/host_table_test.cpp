@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace lightnet {
+namespace lightnet::host_table_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -52,4 +52,4 @@ TEST(HostTable, TellsWhoIsThere) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::host_table_test

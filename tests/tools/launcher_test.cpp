@@ -13,7 +13,7 @@
 #include "tests/support/fake_registry.hpp"
 #include "tests/support/folder.hpp"
 
-namespace lightnet {
+namespace lightnet::launcher_test {
 namespace {
 
 using testing::HasSubstr;
@@ -242,4 +242,4 @@ TEST(Launcher, ToldOfARunThatFailsExitsWithOne) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::launcher_test

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace lightnet {
+namespace lightnet::options_test {
 namespace {
 
 using testing::HasSubstr;
@@ -181,4 +181,4 @@ TEST(Options, TellTheVersion) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::options_test

@@ -10,7 +10,7 @@
 #include "core/film/run_report.hpp"
 #include "tests/support/folder.hpp"
 
-namespace lightnet {
+namespace lightnet::output_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -119,4 +119,4 @@ TEST(PictureOfAGraph, StaysInTheCurrentFolderOrInTheGraphs) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::output_file_test

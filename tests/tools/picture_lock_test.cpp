@@ -11,7 +11,7 @@
 #include "core/base/error.hpp"
 #include "tests/support/folder.hpp"
 
-namespace lightnet {
+namespace lightnet::picture_lock_test {
 namespace {
 
 using testing::HasSubstr;
@@ -59,4 +59,4 @@ TEST(PictureLock, NeverFollowsALink) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::picture_lock_test

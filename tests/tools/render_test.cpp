@@ -13,7 +13,7 @@
 #include "tests/support/folder.hpp"
 #include "tools/launcher.hpp"
 
-namespace lightnet {
+namespace lightnet::render_test {
 namespace {
 
 using testing::EndsWith;
@@ -192,4 +192,4 @@ TEST(SceneInfo, CountsInstances) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::render_test

@@ -9,7 +9,7 @@
 
 #include "tests/support/folder.hpp"
 
-namespace lightnet {
+namespace lightnet::run_book_test {
 namespace {
 
 TEST(RunBook, NamesTheNodeThatMadeWhatIsNotFinite) {
@@ -32,4 +32,4 @@ TEST(RunBook, NamesTheNodeThatMadeWhatIsNotFinite) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::run_book_test

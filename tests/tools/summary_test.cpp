@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace lightnet {
+namespace lightnet::summary_test {
 namespace {
 
 using testing::HasSubstr;
@@ -83,4 +83,4 @@ TEST_F(Summary, SaysThatNothingIsLitWhereNoExposureHelps) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::summary_test

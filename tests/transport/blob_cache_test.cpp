@@ -10,7 +10,7 @@
 #include "core/base/error.hpp"
 #include "tests/support/folder.hpp"
 
-namespace lightnet {
+namespace lightnet::blob_cache_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -111,4 +111,4 @@ TEST_F(BlobCacheTest, ReadsTheFilesOfAJobAndNoOthers) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::blob_cache_test

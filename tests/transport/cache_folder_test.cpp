@@ -15,7 +15,7 @@
 #include "tests/support/folder.hpp"
 #include "transport/blob_cache.hpp"
 
-namespace lightnet {
+namespace lightnet::cache_folder_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -173,4 +173,4 @@ TEST(CacheFolder, ThatStandsInForHomeMustBelongToThisUserAlone) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::cache_folder_test

@@ -15,7 +15,7 @@
 #include "tests/support/slowdown.hpp"
 #include "transport/descriptors.hpp"
 
-namespace lightnet {
+namespace lightnet::doorkeeper_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -113,4 +113,4 @@ TEST(Descriptors, ThatAreLackingAreAskedForBeforeTheyAreNeeded) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::doorkeeper_test

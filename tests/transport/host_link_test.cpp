@@ -10,7 +10,7 @@
 #include "transport/host_link.hpp"
 #include "transport/sockets.hpp"
 
-namespace lightnet {
+namespace lightnet::host_link_test {
 namespace {
 
 using packet::Fields;
@@ -210,4 +210,4 @@ TEST_F(HostLinkTest, LetsAHostLeaveWhenItHasAnsweredAll) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::host_link_test

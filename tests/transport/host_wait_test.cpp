@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lightnet {
+namespace lightnet::host_wait_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -62,4 +62,4 @@ TEST_F(HostWaitTest, SpeaksEveryFewSecondsAndThenLessOften) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::host_wait_test

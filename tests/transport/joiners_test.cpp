@@ -11,7 +11,7 @@
 #include "transport/cluster.hpp"
 #include "transport/joiners.hpp"
 
-namespace lightnet {
+namespace lightnet::joiners_test {
 namespace {
 
 using packet::Fields;
@@ -189,4 +189,4 @@ TEST_F(JoinersTest, CountWhatStrangersSay) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::joiners_test

@@ -9,7 +9,7 @@
 #include "transport/body.hpp"
 #include "transport/colours.hpp"
 
-namespace lightnet {
+namespace lightnet::packet_test {
 namespace {
 
 using packet::Fields;
@@ -286,4 +286,4 @@ TEST(Packet, NamesTheVersionThatAStrangerSpeaks) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::packet_test

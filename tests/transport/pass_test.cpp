@@ -10,7 +10,7 @@
 #include "core/base/error.hpp"
 #include "tests/support/folder.hpp"
 
-namespace lightnet {
+namespace lightnet::pass_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -64,4 +64,4 @@ TEST(Pass, ProvesOneClaimToOneChallengeOnly) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::pass_test

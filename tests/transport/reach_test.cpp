@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lightnet {
+namespace lightnet::reach_test {
 namespace {
 
 TEST(Reach, OfLoopbackEndsAtThisMachine) {
@@ -19,4 +19,4 @@ TEST(Reach, OfEverythingElseDoesNot) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::reach_test

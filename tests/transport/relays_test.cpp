@@ -8,7 +8,7 @@
 #include "transport/relay.hpp"
 #include "transport/relays.hpp"
 
-namespace lightnet {
+namespace lightnet::relays_test {
 namespace {
 
 using packet::Header;
@@ -152,4 +152,4 @@ TEST(CallsDirectly, NeverFromNorToHostsThatDialledIn) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::relays_test

@@ -9,7 +9,7 @@
 
 #include "tests/support/folder.hpp"
 
-namespace lightnet {
+namespace lightnet::result_cache_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -99,4 +99,4 @@ TEST_F(ResultCacheTest, RemovesRecipesThatWereNotReadForTheLongestTime) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::result_cache_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/folder.hpp"
 
-namespace lightnet {
+namespace lightnet::results_test {
 namespace {
 
 class ResultsTest : public ::testing::Test {
@@ -71,4 +71,4 @@ TEST_F(ResultsTest, HasNothingThatItWasNotGiven) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::results_test

@@ -9,7 +9,7 @@
 
 #include "transport/sockets.hpp"
 
-namespace lightnet {
+namespace lightnet::zmq_carrier_test {
 namespace {
 
 // At the end of a run a place may end before one that still asks it.
@@ -40,4 +40,4 @@ TEST(ZmqCarrier, CountsWhatAFullPlaceRefusesAndNotWhatOneDoesThatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::zmq_carrier_test

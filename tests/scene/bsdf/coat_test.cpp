@@ -7,7 +7,7 @@
 #include "core/scene/bsdf/bsdf.hpp"
 #include "core/scene/bsdf/coats.hpp"
 
-namespace lightnet {
+namespace lightnet::coat_test {
 namespace {
 
 constexpr std::uint32_t tries = 1 << 15;
@@ -120,4 +120,4 @@ TEST(Coats, AreMadeOncePerKind) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::coat_test

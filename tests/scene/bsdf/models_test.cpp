@@ -10,7 +10,7 @@
 #include "core/base/math/sampling.hpp"
 #include "core/scene/bsdf/bsdf.hpp"
 
-namespace lightnet {
+namespace lightnet::models_test {
 namespace {
 
 const Coat smooth_coat(1.5f, Ggx{}), rough_coat(1.5f, Ggx{0.3f, 0.3f}), any_coat(1.5f),
@@ -270,4 +270,4 @@ INSTANTIATE_TEST_SUITE_P(Models, EveryModel, testing::ValuesIn(cases),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::models_test

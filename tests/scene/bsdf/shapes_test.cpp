@@ -6,7 +6,7 @@
 #include "core/scene/bsdf/bsdf.hpp"
 #include "core/scene/bsdf/fresnel.hpp"
 
-namespace lightnet {
+namespace lightnet::shapes_test {
 namespace {
 
 const Frame upright = Frame::around({0, 0, 1});
@@ -78,4 +78,4 @@ TEST(Bsdf, IsNotBlackWhereTheShadingNormalTurnsAway) {
 }
 
 }  // namespace
-}  // namespace lightnet
+}  // namespace lightnet::shapes_test
