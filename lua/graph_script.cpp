@@ -5,7 +5,7 @@
 #include <cctype>
 #include <utility>
 
-#include "core/base/quoted.hpp"
+#include "core/base/in_quotes.hpp"
 #include "core/base/suggestion.hpp"
 #include "core/network/graph/json.hpp"
 
@@ -42,7 +42,7 @@ int GraphScript::call(lua_State* L, Unknown& callee) {
     if (lua_gettop(L) == 2 && lua_istable(L, 2)) return make_node(L, name);
     if (std::isupper(static_cast<unsigned char>(name[0])))
         throw Error(name, "takes one table: " + name + " { inputs, key = value }");
-    throw Error("there is no function called " + quoted(name));
+    throw Error("there is no function called " + in_quotes(name));
 }
 
 int GraphScript::make_node(lua_State* L, const std::string& kind) {
@@ -88,7 +88,7 @@ void GraphScript::take_params(lua_State* L, Made& made) {
                 const std::string key = text_at(L, 3);
                 made.node.params.emplace(key, value_at(L, 4, 0));
             } catch (const UserError& error) {
-                note(made, "parameter " + quoted(lua_tostring(L, 3)) + " " + error.what());
+                note(made, "parameter " + in_quotes(lua_tostring(L, 3)) + " " + error.what());
             }
     }
 }
@@ -191,7 +191,7 @@ Graph GraphScript::finish() {
     }
     for (const auto& [node, complaints] : made_) {
         for (const auto& what : complaints)
-            complain(node.where, node.kind + (node.name.empty() ? "" : " " + quoted(node.name)) + ": " + what);
+            complain(node.where, node.kind + (node.name.empty() ? "" : " " + in_quotes(node.name)) + ": " + what);
         if (node.name.empty())
             complain(node.where, node.kind + ": the node has no name; write name = " + node.kind +
                                      " { … }, without local and not inside another table");

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "core/base/quoted.hpp"
+#include "core/base/in_quotes.hpp"
 #include "core/network/graph/json.hpp"
 #include "lua/guarded.hpp"
 
@@ -25,7 +25,7 @@ HostsScript::HostsScript(Sandbox& sandbox, std::map<std::string, std::string> co
 int HostsScript::call(lua_State*, Unknown& callee) {
     callee.taken = true;
     throw Error("a hosts file knows only place \"tcp://host:port\" { node = replicas }, strategy and layout, not " +
-                quoted(callee.name));
+                in_quotes(callee.name));
 }
 
 // strategy = "name": for all nodes. The name stays what it was, so that strategy { … } may follow.
@@ -103,14 +103,14 @@ int HostsScript::fill(lua_State* L) {
         auto& script = *static_cast<HostsScript*>(lua_touserdata(L, lua_upvalueindex(1)));
         auto& entry = script.hosts_.hosts.at(static_cast<std::size_t>(lua_tointeger(L, lua_upvalueindex(2))));
         if (lua_gettop(L) != 1 || !lua_istable(L, 1))
-            throw Error("place " + quoted(entry.endpoint) + " takes a table: { node = replicas }");
+            throw Error("place " + in_quotes(entry.endpoint) + " takes a table: { node = replicas }");
         script.take_replicas(L, entry);
         return 0;
     });
 }
 
 void HostsScript::take_replicas(lua_State* L, HostEntry& entry) {
-    const std::string who = "place " + quoted(entry.endpoint) + ": ";
+    const std::string who = "place " + in_quotes(entry.endpoint) + ": ";
     for (lua_pushnil(L); lua_next(L, 1); lua_settop(L, 2)) {
         if (lua_type(L, 2) != LUA_TSTRING || !is_utf8(lua_tostring(L, 2))) {
             complain(entry.where, who + "nodes go by name: { node = replicas }");
@@ -120,7 +120,7 @@ void HostsScript::take_replicas(lua_State* L, HostEntry& entry) {
         int integral = 0;
         const lua_Integer count = lua_type(L, 3) == LUA_TNUMBER ? lua_tointegerx(L, 3, &integral) : 0;
         if (!integral || count < 0 || count > 1'000'000)
-            complain(entry.where, who + "how many " + quoted(name) + "? A positive integer is wanted");
+            complain(entry.where, who + "how many " + in_quotes(name) + "? A positive integer is wanted");
         else if (name == "places")
             entry.places = static_cast<int>(count);
         else {

@@ -15,7 +15,7 @@ using namespace std::chrono_literals;
 constexpr auto most_time = 30s;  // for a controller that is busy
 
 // For a shell, whatever is in it.
-std::string quoted(const std::string& word) {
+std::string as_shell_word(const std::string& word) {
     std::string text = "'";
     for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
     return text + "'";
@@ -28,9 +28,9 @@ std::string slurm_script(const SlurmWorkers::Request& request) {
     return "#!/bin/sh\n"
            "name=slurm-$SLURM_ARRAY_JOB_ID-$SLURM_ARRAY_TASK_ID\n"
            "exec " +
-           quoted(request.program) + " --join " + quoted(request.join) +
+           as_shell_word(request.program) + " --join " + in_quotes(request.join) +
            " --name \"$name\" --single \"$name\" --places \"${SLURM_CPUS_ON_NODE:-0}\" --leave-after 60" +
-           (request.pass.empty() ? "" : " --pass " + quoted(request.pass)) +
+           (request.pass.empty() ? "" : " --pass " + as_shell_word(request.pass)) +
            (stays_on_this_machine(request.join) ? "" : " --insecure") + "\n";
 }
 

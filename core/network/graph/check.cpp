@@ -7,8 +7,8 @@
 #include <optional>
 #include <tuple>
 
+#include "core/base/in_quotes.hpp"
 #include "core/base/problem_list.hpp"
-#include "core/base/quoted.hpp"
 #include "core/network/graph/check_hosts.hpp"
 #include "core/network/graph/check_params.hpp"
 #include "core/network/graph/layout.hpp"
@@ -48,7 +48,7 @@ public:
 
 private:
     void complain(const Node& node, const std::string& what) {
-        problems_.add(node.where, node.kind + " " + quoted(node.name) + ": " + what);
+        problems_.add(node.where, node.kind + " " + in_quotes(node.name) + ": " + what);
     }
 
     void check_names() {
@@ -98,17 +98,18 @@ private:
         std::string kinds;
         for (const auto& known : registry_.kinds())
             if (known.run.freezes == param.choices.at(0)) kinds += (kinds.empty() ? "" : " or ") + known.name;
-        complain(node, quoted(param.name) + " must be a node that keeps " + param.choices.at(0) + " (" + kinds +
-                           "), but " + quoted(name) + " is of kind " + gives->name);
+        complain(node, in_quotes(param.name) + " must be a node that keeps " + param.choices.at(0) + " (" + kinds +
+                           "), but " + in_quotes(name) + " is of kind " + gives->name);
     }
 
     void check_shown(const Node& node, const Param& param, const std::string& name) {
         const auto other = given_.find(name);
         if (!other)
-            return complain(node, quoted(param.name) + ": no node called " + quoted(name) + suggest(name, names_));
+            return complain(node,
+                            in_quotes(param.name) + ": no node called " + in_quotes(name) + suggest(name, names_));
         const Kind* gives = registry_.find(given_.nodes[*other].kind);
         if (gives && gives->role != Role::light)
-            complain(node, quoted(param.name) + " has " + quoted(name) + ", which gives no light");
+            complain(node, in_quotes(param.name) + " has " + in_quotes(name) + ", which gives no light");
     }
 
     void check_scene(const Node& node) {
@@ -135,11 +136,11 @@ private:
         const auto* ref = std::get_if<NodeRef>(&entry.data);
         if (!ref) return complain(node, which + " is " + std::string(type_name(entry)) + ", but must be a node");
         const auto input = given_.find(ref->name);
-        if (!input) return complain(node, "no node called " + quoted(ref->name) + suggest(ref->name, names_));
+        if (!input) return complain(node, "no node called " + in_quotes(ref->name) + suggest(ref->name, names_));
         const Kind* gives = registry_.find(given_.nodes[*input].kind);
         if (!kind || !gives || gives->role == Role::light) return;
         const std::string hint = gives->role == Role::scene ? " (write scene = " + ref->name + ")" : "";
-        complain(node, which + ", " + quoted(ref->name) + ", gives " +
+        complain(node, which + ", " + in_quotes(ref->name) + ", gives " +
                            (gives->role == Role::image ? "an image" : "a scene") + ", but light is wanted" + hint);
     }
 
@@ -202,7 +203,7 @@ private:
             const Kind* kind = registry_.find(node.kind);
             unknown = unknown || !kind;
             if (!kind || kind->role != Role::image) continue;
-            if (first) complain(node, "a second renderer; " + quoted(first->name) + " makes the image already");
+            if (first) complain(node, "a second renderer; " + in_quotes(first->name) + " makes the image already");
             if (!first) first = &node;
         }
         // an unknown kind may well be the renderer, misspelt
@@ -234,7 +235,7 @@ std::vector<Problem> unused_nodes(const Graph& graph, const Registry& registry) 
         const auto used = used_nodes(graph, node);
         for (std::size_t other = 0; other < used.size(); ++other)
             if (const auto& [name, kind, entries, params, where] = graph.nodes[other]; !used[other])
-                warnings.push_back({where, kind + " " + quoted(name) + ": the image doesn't need it"});
+                warnings.push_back({where, kind + " " + in_quotes(name) + ": the image doesn't need it"});
     }
     return warnings;
 }
@@ -245,7 +246,7 @@ std::vector<Problem> irreproducible_nodes(const Graph& graph, const Registry& re
     std::vector<Problem> warnings;
     for (const auto& node : graph.nodes)
         if (const Kind* kind = registry.find(node.kind); kind && !kind->run.reproducible)
-            warnings.push_back({node.where, node.kind + " " + quoted(node.name) +
+            warnings.push_back({node.where, node.kind + " " + in_quotes(node.name) +
                                                 ": draws random numbers that can't be seeded, so another run gives "
                                                 "other bytes"});
     return warnings;

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <set>
 
-#include "core/base/quoted.hpp"
+#include "core/base/in_quotes.hpp"
 #include "core/network/graph/check_params.hpp"
 #include "core/network/graph/layout.hpp"
 #include "core/network/graph/strategy.hpp"
@@ -21,15 +21,15 @@ public:
     EntryCheck(const HostEntry& entry, std::vector<Problem>& problems) : entry_(entry), problems_(problems) {}
 
     void complain(const std::string& what) const {
-        problems_.push_back({entry_.where, "place " + quoted(entry_.endpoint) + ": " + what});
+        problems_.push_back({entry_.where, "place " + in_quotes(entry_.endpoint) + ": " + what});
     }
 
     void replica(const std::string& name, int count) const {
         if (count < 1 || count > most_places)
-            complain("of " + quoted(name) + " it must hold 1 … " + std::to_string(most_places) + " replicas, not " +
+            complain("of " + in_quotes(name) + " it must hold 1 … " + std::to_string(most_places) + " replicas, not " +
                      std::to_string(count));
         else if (entry_.places > 0 && count > entry_.places)
-            complain(std::to_string(count) + " replicas of " + quoted(name) + " need as many places, but it has " +
+            complain(std::to_string(count) + " replicas of " + in_quotes(name) + " need as many places, but it has " +
                      std::to_string(entry_.places));
     }
 
@@ -46,13 +46,13 @@ public:
         : word_(std::move(word)), known_(std::move(known)), graph_(graph), registry_(registry), problems_(problems) {}
 
     void complain(const ChoiceEntry& entry, const std::string& what) const {
-        problems_.push_back({entry.where, word_ + (entry.node.empty() ? "" : " of " + quoted(entry.node)) + what});
+        problems_.push_back({entry.where, word_ + (entry.node.empty() ? "" : " of " + in_quotes(entry.node)) + what});
     }
 
     /// The kind of the node that is named; null when the entry is for all, or makes no sense.
     const Kind* check(const ChoiceEntry& entry, const std::vector<std::string>& names) const {
         if (std::find(known_.begin(), known_.end(), entry.name) == known_.end())
-            complain(entry, ": there is none called " + quoted(entry.name) + suggest(entry.name, known_));
+            complain(entry, ": there is none called " + in_quotes(entry.name) + suggest(entry.name, known_));
         if (entry.node.empty()) return nullptr;
         const auto node = graph_.find(entry.node);
         const Kind* kind = node ? registry_.find(graph_.nodes[*node].kind) : nullptr;
@@ -140,9 +140,9 @@ void check_hosts(const Hosts& hosts, const Graph& graph, const Registry& registr
             const auto node = graph.find(name);
             const Kind* kind = node ? registry.find(graph.nodes[*node].kind) : nullptr;
             if (!node)
-                check.complain("no node called " + quoted(name) + suggest(name, names));
+                check.complain("no node called " + in_quotes(name) + suggest(name, names));
             else if (kind && kind->role == Role::scene)
-                check.complain(quoted(name) + " is a scene, which every host has");
+                check.complain(in_quotes(name) + " is a scene, which every host has");
             else
                 check.replica(name, count);
         }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/base/quoted.hpp"
+#include "core/base/in_quotes.hpp"
 #include "core/base/suggestion.hpp"
 #include "core/network/graph/graph_film.hpp"
 
@@ -64,11 +64,11 @@ public:
     void operator()(const Value& value) const {
         if (const auto* ref = std::get_if<NodeRef>(&value.data);
             ref && param_.type != ParamType::scene && !graph_.find(ref->name))
-            return complain_(quoted(param_.name) + ": nothing is called " + quoted(ref->name));
+            return complain_(in_quotes(param_.name) + ": nothing is called " + in_quotes(ref->name));
         switch (param_.type) {
             case ParamType::number:
             case ParamType::integer:
-                number(value, quoted(param_.name), param_.type == ParamType::integer);
+                number(value, in_quotes(param_.name), param_.type == ParamType::integer);
                 break;
             case ParamType::flag:
                 as<bool>(value);
@@ -109,7 +109,7 @@ private:
     }
 
     void wrong_type(const Value& value) const {
-        complain_(quoted(param_.name) + " must be " + std::string(wanted(param_.type)) + ", not " +
+        complain_(in_quotes(param_.name) + " must be " + std::string(wanted(param_.type)) + ", not " +
                   std::string(type_name(value)));
     }
 
@@ -131,33 +131,34 @@ private:
         const auto* found = as<std::string>(value);
         const auto& choices = param_.choices;
         if (!found || choices.empty() || std::find(choices.begin(), choices.end(), *found) != choices.end()) return;
-        complain_(quoted(param_.name) + " can't be " + quoted(*found) + suggest(*found, choices));
+        complain_(in_quotes(param_.name) + " can't be " + in_quotes(*found) + suggest(*found, choices));
     }
 
     void numbers(const Value& value) const {
         const auto* table = as<Table>(value);
         if (!table) return;
-        if (!table->named.empty()) complain_(quoted(param_.name) + " must be a table of numbers without keys");
+        if (!table->named.empty()) complain_(in_quotes(param_.name) + " must be a table of numbers without keys");
         for (std::size_t i = 0; i < table->list.size(); ++i)
-            number(table->list[i], "entry " + std::to_string(i + 1) + " of " + quoted(param_.name), false);
+            number(table->list[i], "entry " + std::to_string(i + 1) + " of " + in_quotes(param_.name), false);
         const bool as_default = param_.initial && value == *param_.initial;
         if (param_.count && table->list.size() != param_.count && !as_default)
-            complain_(quoted(param_.name) + " must have " + std::to_string(param_.count) + " numbers, not " +
+            complain_(in_quotes(param_.name) + " must have " + std::to_string(param_.count) + " numbers, not " +
                       std::to_string(table->list.size()));
         if (param_.per_input && !table->list.empty() && table->list.size() != node_.entries.size())
-            complain_(quoted(param_.name) + " must have one number for each of the " +
+            complain_(in_quotes(param_.name) + " must have one number for each of the " +
                       std::to_string(node_.entries.size()) + " inputs, not " + std::to_string(table->list.size()));
     }
 
     void table(const Value& value) const {
         const auto* given = as<Table>(value);
         if (!given) return;
-        if (!given->list.empty()) complain_(quoted(param_.name) + " must be " + std::string(wanted(param_.type)));
-        const Complain inside = [&](const std::string& what) { complain_(quoted(param_.name) + ": " + what); };
+        if (!given->list.empty()) complain_(in_quotes(param_.name) + " must be " + std::string(wanted(param_.type)));
+        const Complain inside = [&](const std::string& what) { complain_(in_quotes(param_.name) + ": " + what); };
         if (param_.fields.empty()) {
             for (const auto& [name, entry] : given->named)
                 if (std::holds_alternative<Table>(entry.data) || std::holds_alternative<NodeRef>(entry.data))
-                    inside(quoted(name) + " must be a number, a text or a flag, not " + std::string(type_name(entry)));
+                    inside(in_quotes(name) + " must be a number, a text or a flag, not " +
+                           std::string(type_name(entry)));
             return;
         }
         std::vector<std::string> names;
@@ -165,7 +166,7 @@ private:
         for (const auto& [name, entry] : given->named) {
             const auto field = std::find(names.begin(), names.end(), name);
             if (field == names.end())
-                inside("unknown entry " + quoted(name) + suggest(name, names));
+                inside("unknown entry " + in_quotes(name) + suggest(name, names));
             else
                 ParamCheck(param_.fields[static_cast<std::size_t>(field - names.begin())], node_, graph_,
                            inside)(entry);
@@ -178,7 +179,7 @@ private:
         const bool sound = list->named.empty() && std::all_of(list->list.begin(), list->list.end(), [](const auto& e) {
                                return std::holds_alternative<NodeRef>(e.data);
                            });
-        if (!sound) complain_(quoted(param_.name) + " must be " + std::string(wanted(param_.type)));
+        if (!sound) complain_(in_quotes(param_.name) + " must be " + std::string(wanted(param_.type)));
     }
 
     void surrounding(const Value& value) const {
@@ -191,27 +192,28 @@ private:
                                return part && std::isfinite(*part) && *part >= 0;
                            });
         if (!sound)
-            complain_(quoted(param_.name) + " must be a colour of three numbers, 0 or more, or the name of a file");
+            complain_(in_quotes(param_.name) + " must be a colour of three numbers, 0 or more, or the name of a file");
     }
 
     void film(const Value& value) const {
         const auto* table = as<Table>(value);
         if (!table) return;
-        if (table->list.size() != 2) complain_(quoted(param_.name) + " must be " + std::string(wanted(param_.type)));
+        if (table->list.size() != 2) complain_(in_quotes(param_.name) + " must be " + std::string(wanted(param_.type)));
         for (const auto& side : table->list) {
             const auto* pixels = std::get_if<double>(&side.data);
             if (!pixels || std::trunc(*pixels) != *pixels || *pixels < 1 || *pixels > longest_side)
-                complain_(quoted(param_.name) + " has a side of " + to_string(side) + ", but must be 1 … " +
+                complain_(in_quotes(param_.name) + " has a side of " + to_string(side) + ", but must be 1 … " +
                           std::to_string(longest_side) + " pixels");
         }
         for (const auto& [name, entry] : table->named) {
             if (name == "crop")
                 crop(entry, table->list);
             else if (name != "file")
-                complain_(quoted(param_.name) + " has an unknown entry " + quoted(name) +
+                complain_(in_quotes(param_.name) + " has an unknown entry " + in_quotes(name) +
                           suggest(name, {"file", "crop"}));
             else if (!std::holds_alternative<std::string>(entry.data))
-                complain_("'file' of " + quoted(param_.name) + " must be a text, not " + std::string(type_name(entry)));
+                complain_("'file' of " + in_quotes(param_.name) + " must be a text, not " +
+                          std::string(type_name(entry)));
         }
     }
 
@@ -227,11 +229,11 @@ private:
             return number ? *number : unlimited;
         };
         if (!given || given->list.size() != 4 || !given->named.empty())
-            return complain_("'crop' of " + quoted(param_.name) + " must be { x0, y0, x1, y1 } in pixels");
+            return complain_("'crop' of " + in_quotes(param_.name) + " must be { x0, y0, x1, y1 } in pixels");
         for (std::size_t axis : {0u, 1u})
             if (!(0 <= edge(axis) && edge(axis) < edge(axis + 2) && edge(axis + 2) <= side(axis)))
-                complain_("'crop' of " + quoted(param_.name) + " goes from " + to_string(given->list[axis]) + " to " +
-                          to_string(given->list[axis + 2]) + ", but must lie within whole pixels 0 … " +
+                complain_("'crop' of " + in_quotes(param_.name) + " goes from " + to_string(given->list[axis]) +
+                          " to " + to_string(given->list[axis + 2]) + ", but must lie within whole pixels 0 … " +
                           number_text(side(axis)));
     }
 
@@ -243,9 +245,9 @@ private:
             std::vector<std::string> scenes;
             for (const auto& node : graph_.nodes)
                 if (node.kind == "Scene") scenes.push_back(node.name);
-            complain_("no scene called " + quoted(ref->name) + suggest(ref->name, scenes));
+            complain_("no scene called " + in_quotes(ref->name) + suggest(ref->name, scenes));
         } else if (const auto& kind = graph_.nodes[*found].kind; kind != "Scene") {
-            complain_(quoted(param_.name) + " must be a Scene, but " + quoted(ref->name) + " is of kind " + kind);
+            complain_(in_quotes(param_.name) + " must be a Scene, but " + in_quotes(ref->name) + " is of kind " + kind);
         }
     }
 
@@ -269,7 +271,7 @@ void check_params(Node& node, const Kind& kind, const Graph& graph, const Compla
     for (const auto& param : kind.params) names.push_back(param.name);
     for (const auto& [name, value] : node.params)
         if (std::find(names.begin(), names.end(), name) == names.end())
-            complain("unknown parameter " + quoted(name) + suggest(name, names));
+            complain("unknown parameter " + in_quotes(name) + suggest(name, names));
     for (const auto& param : kind.params) {
         const auto given = node.params.find(param.name);
         if (given != node.params.end())
@@ -277,7 +279,7 @@ void check_params(Node& node, const Kind& kind, const Graph& graph, const Compla
         else if (param.initial)
             node.params.emplace(param.name, *param.initial);
         else if (!param.optional)
-            complain("parameter " + quoted(param.name) + " is missing: " + param.help);
+            complain("parameter " + in_quotes(param.name) + " is missing: " + param.help);
     }
     if (sound && kind.mistakes)
         for (const auto& mistake : kind.mistakes(node, nullptr)) complain(mistake);

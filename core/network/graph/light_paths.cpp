@@ -4,7 +4,7 @@
 #include <map>
 #include <optional>
 
-#include "core/base/quoted.hpp"
+#include "core/base/in_quotes.hpp"
 #include "core/network/graph/plan.hpp"
 
 namespace lightnet {
@@ -67,13 +67,13 @@ private:
         Gathered shares;
         if (kind.light.paths)
             for (const auto& text = kind.light.paths(node); const auto& own : text)
-                shares.add({PathSet::parse(own), quoted(node.name), 1, false, true, index});
+                shares.add({PathSet::parse(own), in_quotes(node.name), 1, false, true, index});
         if ((!kind.light.paths && !passes && !kind.light.converts) || (!inputs.empty() && !passes))
-            shares.add({{}, quoted(node.name), 1, false, false, index});
+            shares.add({{}, in_quotes(node.name), 1, false, false, index});
         if (kind.light.converts)
             for (const std::size_t taken : edges_.taken[index])
                 for (Share share : of_[taken]) {
-                    share.who = quoted(node.name) + " from " + share.who;
+                    share.who = in_quotes(node.name) + " from " + share.who;
                     shares.add(std::move(share));
                 }
         if (passes) add_inputs(index, shares);
@@ -90,7 +90,7 @@ private:
                 share.paths = share.paths.then(onward);
                 share.part = share.part || kind.light.partial || weighted(node, kind, i);
                 if (kind.light.onward && !kind.light.onward->empty() && kind.role == Role::light)
-                    share.who = quoted(node.name) + " of " + share.who;
+                    share.who = in_quotes(node.name) + " of " + share.who;
                 shares.add(std::move(share));
             }
     }
@@ -118,7 +118,7 @@ void find_doubles(const Graph& graph, const Node& renderer, const Shares& shares
     const auto say = [&](const Share& share, const std::string& what) {
         const Node& node = graph.nodes[share.origin];
         problems.push_back(
-            {node.where.line ? node.where : renderer.where, node.kind + " " + quoted(node.name) + ": " + what});
+            {node.where.line ? node.where : renderer.where, node.kind + " " + in_quotes(node.name) + ": " + what});
     };
     for (std::size_t i = 0; i < shares.size(); ++i) {
         const Share& later = shares[i];
@@ -157,7 +157,7 @@ PathReport report_paths(const Graph& graph, const Registry& registry) {
     if (!known || !light) return report;
     if (const auto path = PathSet::missing(PathSet::parse("L(S|D)*E"), all))
         report.missing.push_back(
-            {renderer.where, renderer.kind + " " + quoted(renderer.name) + ": no node counts " + *path});
+            {renderer.where, renderer.kind + " " + in_quotes(renderer.name) + ": no node counts " + *path});
     return report;
 }
 
