@@ -28,7 +28,7 @@ std::string slurm_script(const SlurmWorkers::Request& request) {
     return "#!/bin/sh\n"
            "name=slurm-$SLURM_ARRAY_JOB_ID-$SLURM_ARRAY_TASK_ID\n"
            "exec " +
-           as_shell_word(request.program) + " --join " + in_quotes(request.join) +
+           as_shell_word(request.program) + " --join " + as_shell_word(request.join) +
            " --name \"$name\" --single \"$name\" --places \"${SLURM_CPUS_ON_NODE:-0}\" --leave-after 60" +
            (request.pass.empty() ? "" : " --pass " + as_shell_word(request.pass)) +
            (stays_on_this_machine(request.join) ? "" : " --insecure") + "\n";
