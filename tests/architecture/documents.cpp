@@ -17,17 +17,6 @@ struct Decision {
     std::string cited_in;  // folder; "": it doesn't say
 };
 
-std::vector<std::string> lines_of(const std::string& text) {
-    std::vector<std::string> lines;
-    std::istringstream stream{text};
-    for (std::string line; std::getline(stream, line);) lines.push_back(line);
-    return lines;
-}
-
-std::string at_line(const SourceFile& file, std::size_t line, const std::string& why) {
-    return file.path + ":" + std::to_string(line) + ": " + why;
-}
-
 /// Keys with the lines in which a file cites them.
 std::vector<std::pair<std::string, std::size_t>> cited_in(const SourceFile& file) {
     static const std::regex citation(R"((//|#) DECISIONS: ([a-z0-9-]+)\s*$)");

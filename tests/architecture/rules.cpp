@@ -66,10 +66,6 @@ const std::array homes{
     Home{"nlohmann JSON", std::regex("nlohmann/.*"), std::regex("(core|lua|tools)/.*")},
 };
 
-std::string at_line(const SourceFile& file, std::size_t line, const std::string& why) {
-    return file.path + ":" + std::to_string(line) + ": " + why;
-}
-
 bool ends_with(std::string_view text, std::string_view end) {
     return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
 }
@@ -85,13 +81,6 @@ bool is_in(std::string_view room, std::string_view path) {
     return path.starts_with(room) && path.substr(room.size(), 1) == "/";
 }
 std::string folder_of(std::string_view path) { return std::string(path.substr(0, path.rfind('/'))); }
-
-std::vector<std::string> lines_of(std::string_view text) {
-    std::vector<std::string> lines;
-    std::istringstream stream{std::string(text)};
-    for (std::string line; std::getline(stream, line);) lines.push_back(line);
-    return lines;
-}
 
 /// One #include of a file.
 struct Include {
@@ -154,6 +143,17 @@ void blank(std::string& text, std::size_t begin, std::size_t end) {
 }
 
 }  // namespace
+
+std::string at_line(const SourceFile& file, std::size_t line, const std::string& why) {
+    return file.path + ":" + std::to_string(line) + ": " + why;
+}
+
+std::vector<std::string> lines_of(std::string_view text) {
+    std::vector<std::string> lines;
+    std::istringstream stream{std::string(text)};
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    return lines;
+}
 
 Complaints stray_includes(const SourceFile& file) {
     Complaints complaints;

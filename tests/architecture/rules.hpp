@@ -17,6 +17,9 @@ struct SourceFile {
 /// What is wrong, as "path:line: why".
 using Complaints = std::vector<std::string>;
 
+std::string at_line(const SourceFile& file, std::size_t line, const std::string& why);
+std::vector<std::string> lines_of(std::string_view text);
+
 /// Includes that leave the room map, that bring a third party out of its home, or that a header must not have.
 Complaints stray_includes(const SourceFile& file);
 

@@ -91,15 +91,22 @@ private:
 
 }  // namespace
 
+}  // namespace lightnet::least_room_test
+
+namespace lightnet {
+
 template <>
-struct Bridge<Traditional> {
+struct Bridge<least_room_test::Traditional> {
     Bridge(const NodeContext& here, OneByOne& inputs) : instance_(inputs, here.key()) {}
     Rgb light(const Query& question) { return instance_.answer(question); }
 
 private:
-    Traditional instance_;
+    least_room_test::Traditional instance_;
 };
 
+}  // namespace lightnet
+
+namespace lightnet::least_room_test {
 namespace {
 
 Registry kinds() {

@@ -29,9 +29,7 @@ Message light_ask(std::size_t count) {
              {1.0f, -2.0f, static_cast<float>(n)},
              5 * n,
              lobe::rough,
-             3,
-             4,
-             5};
+             3};
         ++n;
     }
     Message message;
