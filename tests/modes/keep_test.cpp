@@ -26,7 +26,7 @@ struct Records {
 // What the cache says of itself: "soft: 312 records, 280 of them from an earlier run".
 Records records(const std::string& said) {
     Records found;
-    const auto at = said.find("soft: ", said.find(" records") - 16);
+    const auto at = said.rfind("soft: ", said.find(" records"));
     EXPECT_GE(std::sscanf(said.c_str() + at, "soft: %d records, %d of them", &found.all, &found.older), 1) << said;
     return found;
 }
