@@ -23,6 +23,17 @@ find_package(cppzmq REQUIRED)                              # sockets (transport)
 pkg_check_modules(crypto REQUIRED IMPORTED_TARGET libcrypto)   # SHA-256 content hashes (core)
 pkg_check_modules(lua REQUIRED IMPORTED_TARGET lua5.4-c++)     # the build of Lua whose errors are C++ exceptions
 
+# <lua_any.hpp> includes it as its names want it.
+include(CheckCXXSourceCompiles)
+set(CMAKE_REQUIRED_LIBRARIES PkgConfig::lua)
+check_cxx_source_compiles("#include <lua.hpp>
+int main() { lua_close(nullptr); }" LIGHTNET_LUA_NAMES_OF_C)
+unset(CMAKE_REQUIRED_LIBRARIES)
+add_library(lua_any INTERFACE)
+target_link_libraries(lua_any INTERFACE PkgConfig::lua)
+target_include_directories(lua_any SYSTEM INTERFACE "${CMAKE_CURRENT_LIST_DIR}/include")
+target_compile_definitions(lua_any INTERFACE LIGHTNET_LUA_NAMES_OF_C=$<BOOL:${LIGHTNET_LUA_NAMES_OF_C}>)
+
 # msgpack-cxx installs a config file under a name of its own; an interface target is surer.
 find_path(MSGPACK_INCLUDE_DIR msgpack.hpp REQUIRED)
 add_library(msgpack_headers INTERFACE)

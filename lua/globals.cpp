@@ -1,6 +1,6 @@
 #include "lua/globals.hpp"
 
-#include <lua.hpp>
+#include <lua_any.hpp>
 
 #include <set>
 #include <utility>

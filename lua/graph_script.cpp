@@ -1,6 +1,6 @@
 #include "lua/graph_script.hpp"
 
-#include <lua.hpp>
+#include <lua_any.hpp>
 
 #include <cctype>
 #include <utility>

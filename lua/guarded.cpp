@@ -1,6 +1,6 @@
 #include "lua/guarded.hpp"
 
-#include <lua.hpp>
+#include <lua_any.hpp>
 
 #include <exception>
 #include <new>

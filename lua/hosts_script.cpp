@@ -1,6 +1,6 @@
 #include "lua/hosts_script.hpp"
 
-#include <lua.hpp>
+#include <lua_any.hpp>
 
 #include <utility>
 

@@ -1,7 +1,7 @@
 #include "lua/sandbox.hpp"
 
 #include <unistd.h>
-#include <lua.hpp>
+#include <lua_any.hpp>
 
 #include <algorithm>
 #include <cctype>

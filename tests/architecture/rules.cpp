@@ -52,7 +52,7 @@ struct Home {
 const std::array homes{
     Home{"ZeroMQ", std::regex("zmq.*"), std::regex("transport/zmq/.*")},
     Home{"msgpack", std::regex("msgpack.*"), std::regex("transport/wire/.*")},
-    Home{"Lua", std::regex("(lua5.4/)?(lua|lauxlib|lualib)\\.(h|hpp)"), std::regex("lua/.*")},
+    Home{"Lua", std::regex("(lua5.4/)?(lua(_any)?|lauxlib|lualib)\\.(h|hpp)"), std::regex("lua/.*")},
     Home{"Embree", std::regex("embree.*"), std::regex("core/scene/geometry/.*")},
     Home{"OpenEXR", std::regex("(OpenEXR/|Imath/)?(Imf|Iex|Imath|half).*"),
          std::regex("core/film/.*|core/readers/image_\\w+\\.cpp")},

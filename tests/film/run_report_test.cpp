@@ -43,7 +43,7 @@ TEST(RunReport, KeepsAListWhereThereIsNothing) {
 TEST(RunReport, SurvivesNamesInNoKnownEncoding) {
     RunReport report = small_report();
     report.graph = "caf\xe9.lua";
-    EXPECT_NO_THROW(nlohmann::json::parse(to_json(report)));
+    EXPECT_TRUE(nlohmann::json::accept(to_json(report)));
 }
 
 TEST(RunReport, IsWrittenToAFile) {

@@ -1,4 +1,4 @@
-#include <lua.hpp>
+#include <lua_any.hpp>
 
 #include <stdexcept>
 
