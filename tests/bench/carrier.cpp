@@ -104,6 +104,7 @@ Job asking_job(const Picture& picture) {
     job.scene = picture.job.scene;
     job.files = picture.job.files;
     job.isa = picture.job.isa;
+    job.width = job.height = 1;
     job.graph.file = "carrier.lua";
     job.graph.nodes = {{"trivial", "Trivial", {}, {}, {}},
                        {"asker", "Asker", {Value{NodeRef{"trivial"}}}, {{"scene", Value{NodeRef{"scene"}}}}, {}},

@@ -103,6 +103,7 @@ Job scalar_job(const Picture& picture) {
     job.scene = picture.job.scene;
     job.files = picture.job.files;
     job.isa = picture.job.isa;
+    job.width = job.height = 1;
     job.graph.file = "scalar.lua";
     job.graph.nodes = {{"answerer", "Echo", {}, {}, {}},
                        {"patient", "Patient", {Value{NodeRef{"answerer"}}}, {}, {}},
