@@ -90,6 +90,17 @@ Query at(std::uint32_t primitive) {
     return question;
 }
 
+// A picture by a node that learns from rehearsals.
+Graph learning(const Registry& kinds) {
+    return check(
+        {"test.lua",
+         Nodes{node("scene", "Scene", {Value{std::string("none.pbrt")}}), node("direct", "DirectLighting", {}),
+               node("learned", "Learner", {Value{NodeRef{"direct"}}}),
+               node("image", "RayTracer", {Value{NodeRef{"learned"}}},
+                    {{"scene", Value{NodeRef{"scene"}}}, {"film", Value{Table{{Value{24.0}, Value{16.0}}, {}}}}})}},
+        kinds);
+}
+
 // What one node computes fills the pauses of another that it can't ask; who asks both waits for them.
 TEST(Conductor, PreparesNodesThatDoNotAskEachOtherAtTheSameTime) {
     const Registry kinds = test::with_learner();
@@ -153,13 +164,7 @@ TEST(Conductor, PreparesNodesThatDoNotAskEachOtherAtTheSameTime) {
 // of the first one comes in its middle.
 TEST(Conductor, TakesNoNotesOfARehearsalThatWasBrokenOff) {
     const Registry kinds = test::with_learner();
-    const Graph graph = check(
-        {"test.lua",
-         Nodes{node("scene", "Scene", {Value{std::string("none.pbrt")}}), node("direct", "DirectLighting", {}),
-               node("learned", "Learner", {Value{NodeRef{"direct"}}}),
-               node("image", "RayTracer", {Value{NodeRef{"learned"}}},
-                    {{"scene", Value{NodeRef{"scene"}}}, {"film", Value{Table{{Value{24.0}, Value{16.0}}, {}}}}})}},
-        kinds);
+    const Graph graph = learning(kinds);
     Plan both{{{"a", 0}, {"b", 0}}, std::vector<std::vector<std::uint32_t>>(graph.nodes.size(), {0, 1})};
     const Plan alone{{{"a", 0}}, std::vector<std::vector<std::uint32_t>>(graph.nodes.size(), {0})};
     ByHand places;
@@ -269,13 +274,7 @@ TEST_F(ConductorTrouble, OfAHostThatSaysNonsenseIsThatHosts) {
 // Two epochs for each rehearsal: one of it, and one of what follows it.
 TEST(Conductor, TakesRepliesAfterMoreRehearsalsThanThereAreEpochs) {
     const Registry kinds = test::with_learner();
-    const Graph graph = check(
-        {"test.lua",
-         Nodes{node("scene", "Scene", {Value{std::string("none.pbrt")}}), node("direct", "DirectLighting", {}),
-               node("learned", "Learner", {Value{NodeRef{"direct"}}}),
-               node("image", "RayTracer", {Value{NodeRef{"learned"}}},
-                    {{"scene", Value{NodeRef{"scene"}}}, {"film", Value{Table{{Value{24.0}, Value{16.0}}, {}}}}})}},
-        kinds);
+    const Graph graph = learning(kinds);
     ByHand places;
     Conductor::Options options;
     options.run = 1;

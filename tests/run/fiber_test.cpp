@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/endless.hpp"
+
 namespace lightnet::fiber_test {
 namespace {
 
@@ -134,21 +136,12 @@ TEST(Fibers, EndAStintByWhatTheyRunAndNotByWhatPassesMeanwhile) {
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-// Recurses without end, in a way that no compiler can turn into a loop.
-int recurse(const int* before) {
-    int here[256];
-    here[0] = before ? *before + 1 : 0;
-    if (here[0] < 0) return 0;
-    const int below = recurse(here);
-    return below + here[0];
-}
-
 TEST(FibersDeathTest, NameTheNodeWhoseStackRanOut) {
     GTEST_FLAG_SET(death_test_style, "threadsafe");
     EXPECT_DEATH(
         {
             Fibers fibers(64 * 1024);
-            fibers.start("caustics", [] { (void)recurse(nullptr); });
+            fibers.start("caustics", [] { (void)test::recurse(nullptr); });
         },
         "stack of node 'caustics' ran out");
 }

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "tests/support/endless.hpp"
+
 namespace lightnet::rounds_test {
 namespace {
 
@@ -158,18 +160,9 @@ TEST_F(RoundsTest, CountTheTimeOfHelpersAsTheCallers) {
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-// Without end, in a way that no compiler can turn into a loop.
-int recurse(const int* before) {
-    int here[256];
-    here[0] = before ? *before + 1 : 0;
-    if (here[0] < 0) return 0;
-    const int below = recurse(here);
-    return below + here[0];
-}
-
 TEST_F(RoundsTest, AreNamedWhenAStackRunsOutWhoeverHasCalledThem) {
     GTEST_FLAG_SET(death_test_style, "threadsafe");
-    const Concurrent::Work work = [](std::size_t) { (void)recurse(nullptr); };
+    const Concurrent::Work work = [](std::size_t) { (void)test::recurse(nullptr); };
     EXPECT_DEATH(start(1, 1, work), "stack of node 'node' ran out");
 }
 #endif
