@@ -15,12 +15,14 @@ find_package(ZLIB REQUIRED)                                # packed scene files
 find_package(JPEG REQUIRED)                                # textures in
 pkg_check_modules(libjpeg QUIET libjpeg)                   # its full version: decoders differ in bits
 find_package(pugixml REQUIRED)                             # scenes in XML (core/readers/mitsuba)
-find_package(Boost 1.74 REQUIRED COMPONENTS context)       # fibers (core/fiber)
+find_package(Boost 1.74 REQUIRED COMPONENTS context)       # fibers (core/fiber); Beast: HTTP (tools/watch)
+find_package(Eigen3 3.4 REQUIRED CONFIG)                # least squares (core/film)
 find_package(fmt REQUIRED)                                 # text: g++ 12 has no std::format
 find_package(nlohmann_json REQUIRED)                       # canonical text of graphs and plans, reports of runs
 find_package(CLI11 REQUIRED)                               # command lines (tools)
 find_package(cppzmq REQUIRED)                              # sockets (transport)
 pkg_check_modules(crypto REQUIRED IMPORTED_TARGET libcrypto)   # SHA-256 content hashes (core)
+pkg_check_modules(sodium REQUIRED IMPORTED_TARGET libsodium)   # keys (transport/keys)
 pkg_check_modules(lua REQUIRED IMPORTED_TARGET lua5.4-c++)     # the build of Lua whose errors are C++ exceptions
 
 # <lua_any.hpp> includes it as its names want it.

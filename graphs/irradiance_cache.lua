@@ -3,10 +3,11 @@
 -- lightnet run graphs/irradiance_cache.lua -D file=/somewhere/scene.pbrt -D width=640 -D height=360
 file = "cornell_box.pbrt"
 width, height, samples, rays = 256, 256, 16, 1024
+wanted_error = 0.01    -- how far light may be off between records
 
 scene    = Scene           { file }
 direct   = DirectLighting  { samples = 1 }
 paths    = PathTracing     { paths = "all", samples = 1 }
-soft     = IrradianceCache { paths, rays = rays }
+soft     = IrradianceCache { paths, rays = rays, error = wanted_error }
 lighting = Combine         { direct, soft }
 image    = RayTracer { lighting, scene = scene, samples = samples, film = { width, height, file = "irradiance_cache.exr" } }

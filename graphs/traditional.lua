@@ -1,4 +1,4 @@
--- Classes of an old lighting library, wrapped as they are (nodes/traditional), beside nodes of lightnet. The library
+-- Classes of an old lighting library, wrapped as they are (nodes/examples/candela), beside nodes of lightnet. The library
 -- asks one point at a time; what it asks leaves in bundles all the same.
 size, samples, rays = 256, 16, 2
 

@@ -86,7 +86,8 @@ void GraphScript::take_params(lua_State* L, Made& made) {
         } else
             try {
                 const std::string key = text_at(L, 3);
-                made.node.params.emplace(key, value_at(L, 4, 0));
+                const bool operates = made.node.kind == "Custom" && key == "light" && lua_isfunction(L, 4);
+                made.node.params.emplace(key, operates ? function_at(L, 4) : value_at(L, 4, 0));
             } catch (const UserError& error) {
                 note(made, "parameter " + in_quotes(lua_tostring(L, 3)) + " " + error.what());
             }
@@ -114,6 +115,14 @@ Value GraphScript::value_at(lua_State* L, int index, int depth) {
         return {NodeRef{later->name}};
     }
     throw UserError({}, std::string("is a ") + luaL_typename(L, index));
+}
+
+// As text, which is what travels.
+Value GraphScript::function_at(lua_State* L, int index) {
+    if (lua_iscfunction(L, index)) throw UserError({}, "is a function that is not written in Lua");
+    std::string source = sandbox_.source_of_function(L, index);
+    count(source.size());
+    return {std::move(source)};
 }
 
 Table GraphScript::table_at(lua_State* L, int index, int depth) {

@@ -32,6 +32,7 @@ private:
     void take_entries(lua_State* L, Made& made);
     void take_params(lua_State* L, Made& made);
     Value value_at(lua_State* L, int index, int depth);
+    Value function_at(lua_State* L, int index);
     Table table_at(lua_State* L, int index, int depth);
     std::string text_at(lua_State* L, int index);
     void count(std::size_t bytes);

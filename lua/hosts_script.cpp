@@ -24,8 +24,10 @@ HostsScript::HostsScript(Sandbox& sandbox, std::map<std::string, std::string> co
 
 int HostsScript::call(lua_State*, Unknown& callee) {
     callee.taken = true;
-    throw Error("a hosts file knows only place \"tcp://host:port\" { node = replicas }, strategy and layout, not " +
-                in_quotes(callee.name));
+    throw Error(
+        "a hosts file knows only place \"tcp://host:port\" { node = replicas } (\"here\": this process), strategy and "
+        "layout, not " +
+        in_quotes(callee.name));
 }
 
 // strategy = "name": for all nodes. The name stays what it was, so that strategy { … } may follow.
@@ -117,6 +119,11 @@ void HostsScript::take_replicas(lua_State* L, HostEntry& entry) {
             continue;
         }
         const std::string name = lua_tostring(L, 2);
+        if (name == "key" && lua_type(L, 3) == LUA_TSTRING && is_utf8(lua_tostring(L, 3))) {
+            entry.key = lua_tostring(L, 3);
+            remember(entry.key);
+            continue;
+        }
         int integral = 0;
         const lua_Integer count = lua_type(L, 3) == LUA_TNUMBER ? lua_tointegerx(L, 3, &integral) : 0;
         if (!integral || count < 0 || count > 1'000'000)

@@ -10,7 +10,8 @@
 // overrides. A name that the file uses but nobody gives is a problem, never silently nil.
 //
 // A hosts file: `place "tcp://host:7777" { node = replicas… }`; without a table, or with an empty one, each place of
-// the host holds the whole network; `places = N` in it says how many places the host has.
+// the host holds the whole network; `places = N` in it says how many places the host has, and `key = "…"` what its
+// public key is. `place "here"`, as often as one likes, names places of the launcher's own process in the same way.
 #pragma once
 
 #include <cstddef>

@@ -10,6 +10,7 @@
 
 #include "core/network/graph/value.hpp"
 #include "lua/files.hpp"
+#include "lua/function_source.hpp"
 
 namespace lightnet::lua {
 namespace {
@@ -145,6 +146,7 @@ void Sandbox::run(const std::string& text) {
 // Leaves the function on the stack, or the message, and throws.
 void Sandbox::load(lua_State* L, const std::string& text, const std::string& file) {
     chunks_.push_back(file);
+    texts_[file] = text;
     if (text.starts_with(LUA_SIGNATURE)) {
         lua_pushliteral(L, "compiled Lua is not read, only text");
         throw Error(file);
@@ -160,6 +162,27 @@ SourceLine Sandbox::caller() const {
         if (info.currentline > 0 && info.source[0] == '@') return source_line(info);
     }
     return {file_, 0};
+}
+
+std::string Sandbox::source_of_function(lua_State* L, int index) const {
+    const int top = lua_gettop(L);
+    index = lua_absindex(L, index);
+    lua_Debug info{};
+    lua_pushvalue(L, index);
+    lua_getinfo(L, ">S", &info);
+    const auto text = texts_.find(info.source[0] == '@' ? info.source + 1 : "");
+    if (text == texts_.end()) throw UserError({}, "is a function that stands in no file");
+    lua_getfield(L, LUA_REGISTRYINDEX, "lightnet.globals");
+    if (!lua_istable(L, -1)) lua_newtable(L);
+    lua_pushvalue(L, index);
+    try {
+        std::string source = function_source(L, top + 1, text->first, text->second);
+        lua_settop(L, top);
+        return source;
+    } catch (const Error& error) {
+        lua_settop(L, top);
+        throw UserError({}, error.what());
+    }
 }
 
 // The message handler: it runs where the error was thrown, so the stack still tells the line.

@@ -35,6 +35,10 @@ public:
     /// Where the function that called the running C function stands.
     SourceLine caller() const;
 
+    /// Of a Lua function on the stack, with the constants of the file that it names: see function_source(). Throws
+    /// UserError, whose place says nothing.
+    std::string source_of_function(lua_State* L, int index) const;
+
     static Sandbox& of(lua_State* L);
 
 private:
@@ -55,9 +59,10 @@ private:
     std::string file_;
     std::size_t memory_, used_ = 0;
     std::size_t printed_ = 0;
-    std::vector<std::string> chunks_;   // files that were loaded
-    SourceLine last_error_;             // innermost line when the last error was thrown
-    std::map<std::string, bool> done_;  // required files; false: still running
+    std::vector<std::string> chunks_;           // files that were loaded
+    std::map<std::string, std::string> texts_;  // by their names
+    SourceLine last_error_;                     // innermost line when the last error was thrown
+    std::map<std::string, bool> done_;          // required files; false: still running
     std::unique_ptr<lua_State, Close> state_;
 };
 

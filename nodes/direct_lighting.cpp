@@ -1,6 +1,7 @@
 // Direct light: what comes straight from lamps and environment.
 #include <algorithm>
 #include <bit>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <vector>
@@ -15,13 +16,14 @@
 namespace lightnet {
 namespace {
 
-/// Two strategies find each light, a point on a lamp (next event estimation) and a direction drawn from the BSDF, weighted
-/// by multiple importance sampling (Veach 1997, chapter 9). The samples of many questions are worked out at once; what
-/// each finds does not depend on the others.
+/// Two strategies find each light, a point on a lamp (next event estimation) and a direction drawn from the BSDF,
+/// weighted by multiple importance sampling (Veach 1997, chapter 9). The samples of many questions are worked out at
+/// once; what each finds does not depend on the others.
 class DirectLighting final : public LightOp {
 public:
     explicit DirectLighting(const NodeContext& here)
         : scene_(here.scene()),
+          groups_(scene_.groups()),
           key_(here.key()),
           samples_(static_cast<std::uint32_t>(here.integer("samples"))),
           most_(std::bit_ceil(static_cast<std::uint32_t>(here.integer("most_samples")))),
@@ -34,8 +36,10 @@ public:
         Wanted wanted{questions, std::vector<std::uint32_t>(questions.size(), samples_), samples_, {}};
         if (error_ > 0) wanted = enough_for_error(samplers, questions);
         std::fill(answers.begin(), answers.end(), Rgb{});
-        each_sample(samplers, wanted, [&](std::size_t q, Rgb found) { answers[q] += found; });
-        for (std::size_t q = 0; q < questions.size(); ++q) answers[q] = answers[q] / float(wanted.counts[q]);
+        each_sample(samplers, wanted, [&](std::size_t q, std::span<const Rgb> found) {
+            for (std::size_t g = 0; g < groups_; ++g) answers[q * groups_ + g] += found[g];
+        });
+        for (std::size_t i = 0; i < answers.size(); ++i) answers[i] = answers[i] / float(wanted.counts[i / groups_]);
     }
 
 private:
@@ -58,7 +62,7 @@ private:
         explicit Samplers(const Scene& scene) : vertices(scene) {}
 
         std::vector<std::size_t> asked;  // whose each sample is
-        std::vector<Rgb> found;          // by each
+        std::vector<Rgb> found;          // by each, group by group of lamps
         ManySamples numbers;             // of each
         std::vector<float> choices;
         std::vector<Vec2> places, directions;
@@ -72,7 +76,7 @@ private:
     /// Numbers of a sample.
     enum Dimension : std::uint32_t { choice_of_lamp, place_on_lamp, choice_of_lobe, direction };
 
-    /// take(index of question, what one sample of it finds), in the order of questions and samples.
+    /// take(index of question, what one sample of it finds of each group), in the order of questions and samples.
     template <class Take>
     void each_sample(Samplers& some, const Wanted& wanted, Take&& take) const {
         const auto& questions = wanted.questions;
@@ -89,14 +93,15 @@ private:
 
     template <class Take>
     void finish(Samplers& some, std::span<const Query> questions, Take&& take) const {
-        some.found.assign(some.asked.size(), Rgb{});
+        some.found.assign(some.asked.size() * groups_, Rgb{});
         if (scene_.has_lamps()) some.numbers.draw(place_on_lamp, some.places);
         if (scene_.has_many_lamps()) some.numbers.draw(choice_of_lamp, some.choices);
         some.numbers.draw(direction, some.directions);
         for (std::size_t next = 0; next < some.asked.size();) next = draw_rays(some, questions, next);
         find_lamps(some);
         find_by_direction(some);
-        for (std::size_t i = 0; i < some.asked.size(); ++i) take(some.asked[i], some.found[i]);
+        for (std::size_t i = 0; i < some.asked.size(); ++i)
+            take(some.asked[i], std::span(some.found).subspan(i * groups_, groups_));
         some.asked.clear();
         some.numbers.keep(0);
     }
@@ -112,7 +117,7 @@ private:
                 [](std::uint32_t) {
                     return Rgb{1, 1, 1};
                 },
-                [](std::uint32_t i) { return i; });
+                [&](std::uint32_t i) { return i * static_cast<std::uint32_t>(groups_); });
         const auto choice = [&](std::uint32_t i) { return some.numbers.at(i, choice_of_lobe).next(); };
         some.vertices.scatter(some.directions, choice, [&](std::uint32_t i, const PathVertices::Step& step) {
             if (!scene_.may_shine(step.ray)) return;
@@ -142,7 +147,8 @@ private:
             const Rgb arriving = light_by_bsdf(scene_, step.from, step.sample, end ? &*end : nullptr, heuristic_);
             if (is_black(arriving)) continue;
             const Rgb left = hit ? left_after(step.inside, hit->distance) : Rgb{1, 1, 1};
-            some.found[sample] += step.sample.weight * left * arriving;
+            const std::size_t group = group_by_bsdf(scene_, end ? &*end : nullptr);
+            some.found[sample * groups_ + group] += step.sample.weight * left * arriving;
         }
         some.bsdf_rays.clear();
         some.rays.clear();
@@ -158,9 +164,9 @@ private:
         };
         std::vector<Statistics> found(questions.size());
         const Wanted tried{questions, std::vector<std::uint32_t>(questions.size(), trials), trials, trial_key};
-        each_sample(some, tried, [&](std::size_t q, Rgb light) {
+        each_sample(some, tried, [&](std::size_t q, std::span<const Rgb> light) {
             auto& [mean, squares, count] = found[q];
-            const double value = luminance(light), step = value - mean;
+            const double value = luminance(std::accumulate(light.begin(), light.end(), Rgb{})), step = value - mean;
             mean += step / ++count;
             squares += step * (value - mean);
         });
@@ -179,6 +185,7 @@ private:
     }
 
     const Scene& scene_;
+    std::size_t groups_;  // of lamps
     Key key_;
     static constexpr std::uint32_t trials = 16;
     static constexpr double surely = 2.07;  // 95 of 100 variances are below so many times what 16 normal values show
@@ -225,7 +232,7 @@ Kind direct_lighting_kind() {
                  .initial = Value{"power"},
                  .choices = {"power", "balance"}},
             },
-        .light = {.paths = always({"LD"})},
+        .light = {.lamps = true, .groups = true, .paths = always({"LD"})},
         .make_light = [](const NodeContext& here) { return std::make_unique<DirectLighting>(here); },
     };
 }

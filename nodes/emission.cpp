@@ -14,8 +14,10 @@ public:
     explicit SelfEmission(const NodeContext& here) : scene_(here.scene()) {}
 
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
-        for (std::size_t i = 0; i < questions.size(); ++i)
-            answers[i] = scene_.emission(scene_.surface(questions[i]), questions[i].outgoing);
+        for (std::size_t i = 0; i < questions.size(); ++i) {
+            const SurfacePoint point = scene_.surface(questions[i]);
+            answers[i * scene_.groups() + scene_.group_of(point)] = scene_.emission(point, questions[i].outgoing);
+        }
     }
 
 private:
@@ -30,7 +32,7 @@ Kind emission_kind() {
         .help =
             "emitted light: what surfaces shine by themselves; for nodes that gather light, as the renderer sees it "
             "anyhow",
-        .light = {.paths = always({"A"})},
+        .light = {.lamps = true, .groups = true, .paths = always({"A"})},
         .make_light = [](const NodeContext& here) { return std::make_unique<SelfEmission>(here); },
     };
 }

@@ -25,7 +25,8 @@ public:
         rays.occluded.resize(rays.rays.size());
         scene_.occluded(rays.rays, rays.occluded);
         for (std::size_t k = 0; k < rays.rays.size(); ++k)
-            if (!rays.occluded[k]) answers[rays.askers[k]] += rays.light[k];
+            if (!rays.occluded[k])
+                answers[rays.askers[k] * scene_.groups() + scene_.environment_group()] += rays.light[k];
     }
 
 private:
@@ -69,7 +70,7 @@ Kind environment_kind() {
                     .initial = Value{1.0},
                     .least = 1,
                     .most = 65536}},
-        .light = {.paths = always({"VD"})},
+        .light = {.lamps = true, .groups = true, .paths = always({"VD"})},
         .make_light = [](const NodeContext& here) { return std::make_unique<SkyLight>(here); },
     };
 }

@@ -20,10 +20,11 @@ public:
           rays_(static_cast<std::uint32_t>(here.integer("rays"))) {}
 
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
+        const std::size_t width = inputs_[0].width();
         const std::size_t at_once = std::max<std::size_t>(1, rays_at_once / rays_);
         for (std::size_t first = 0; first < questions.size(); first += at_once) {
             const std::size_t count = std::min(at_once, questions.size() - first);
-            gather_some(questions.subspan(first, count), answers.subspan(first, count));
+            gather_some(questions.subspan(first, count), answers.subspan(first * width, count * width));
         }
     }
 
@@ -60,7 +61,7 @@ Kind final_gather_kind() {
                     .initial = Value{1.0},
                     .least = 1,
                     .most = 65536}},
-        .light = {.onward = "S*D"},
+        .light = {.groups = true, .onward = "S*D"},
         .make_light = [](const NodeContext& here) { return std::make_unique<FinalGather>(here); },
     };
 }

@@ -12,6 +12,7 @@
 #include "core/estimate/gather.hpp"
 #include "core/estimate/hemisphere.hpp"
 #include "core/estimate/irradiance_octree.hpp"
+#include "core/network/graph/graph.hpp"
 #include "core/network/graph/kind.hpp"
 #include "core/network/light/light_op.hpp"
 #include "core/network/light/node_context.hpp"
@@ -31,6 +32,7 @@ class IrradianceCache final : public LightOp {
 public:
     explicit IrradianceCache(const NodeContext& here)
         : scene_(here.scene()),
+          groups_(scene_.groups()),
           inputs_(here.inputs()),
           rehearsal_(here.rehearsal()),
           key_(here.key()),
@@ -44,34 +46,37 @@ public:
             const auto given = static_cast<float>(here.number(name));
             return given > 0 ? given : usual * scene_.radius();
         };
-        spacing_ = {static_cast<float>(here.number("accuracy")), spacing("min_spacing", 0.01f),
-                    spacing("max_spacing", 0.2f)};
+        const double accuracy = here.number("accuracy");
+        // With gradients, what an interpolation misses is of second order.
+        spacing_ = {std::max(0.01f, static_cast<float>(accuracy > 0 ? accuracy : std::sqrt(here.number("error")))),
+                    spacing("min_spacing", 0.01f), spacing("max_spacing", 0.2f)};
         spacing_.most = std::max(spacing_.least, spacing_.most);
     }
 
     void prepare(Services& services) override {
         std::vector<IrradianceRecord> records = older();
-        const std::size_t known = records.size();
-        if (!records.empty())
-            records_ =
-                services.once<IrradianceOctree>([&] { return IrradianceOctree(records, spacing_, scene_.bounds()); });
-        for (std::uint32_t stride = coarsest; stride >= finest_; stride /= 2)
+        const std::size_t known = records.size() / groups_;
+        if (!records.empty()) freeze(services, records);
+        for (std::uint32_t stride = coarsest; stride >= finest_; stride /= 2) {
+            services.doing("looks where records lack, every " + std::to_string(stride) + " pixels");
             learn(services, services.rehearse(stride), records);
-        services.say(std::to_string(records.size()) + " records" +
+        }
+        services.say(std::to_string(records.size() / groups_) + " records" +
                      (known > 0 ? ", " + std::to_string(known) + " of them from an earlier run" : ""));
         if (keeps_) keep(services, records);
     }
 
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
         std::vector<Wanted> wanted;
+        std::vector<Rgb> found(groups_);
         for (std::size_t i = 0; i < questions.size(); ++i) {
             bool known = true;
             for (const Side& side : sides_of(questions[i])) {
                 if (is_black(side.scattered)) continue;
                 if (rehearsal_.on()) {
                     known = known && covered(side);
-                } else if (const auto found = look_up(side)) {
-                    answers[i] += side.scattered * *found;
+                } else if (look_up(side, found)) {
+                    for (std::size_t g = 0; g < groups_; ++g) answers[i * groups_ + g] += side.scattered * found[g];
                 } else {
                     wanted.push_back({i, side});
                 }
@@ -134,15 +139,21 @@ private:
     }
 
     bool covered(const Side& side) const { return records_ && records_->covers(side.position, side.normal); }
-    std::optional<Rgb> look_up(const Side& side) const {
-        if (!records_) return {};
-        return records_->irradiance(side.position, side.normal, IrradianceOctree::most_stretch);
+    // For each group of lamps.
+    bool look_up(const Side& side, std::span<Rgb> found) const {
+        return records_ && records_->irradiance(side.position, side.normal, IrradianceOctree::most_stretch, found);
+    }
+    void freeze(Services& services, const std::vector<IrradianceRecord>& records) {
+        records_ = services.once<IrradianceOctree>(
+            [&] { return IrradianceOctree(records, spacing_, scene_.bounds(), groups_); });
     }
 
     /// Computes records for some of the noted questions, on all places, until each of them is near enough to one. The
     /// first ones come in the order of their keys, which is none: all over the image.
     void learn(Services& services, std::vector<Query> noted, std::vector<IrradianceRecord>& records) {
+        const std::size_t all = noted.size();
         while (!noted.empty()) {
+            services.doing("computes records", all - noted.size(), all);
             const std::size_t count = std::min(noted.size(), std::max(least_batch, noted.size() / 3));
             const std::span batch(noted.data(), count);
             const auto computed = services.map<IrradianceRecord>(
@@ -151,10 +162,10 @@ private:
                     out = records_for(batch.subspan(first, std::min(points_per_shard, count - first)));
                 });
             records.insert(records.end(), computed.begin(), computed.end());
-            records_ =
-                services.once<IrradianceOctree>([&] { return IrradianceOctree(records, spacing_, scene_.bounds()); });
+            freeze(services, records);
             noted.erase(noted.begin(), noted.begin() + std::ptrdiff_t(count));
             std::erase_if(noted, [&](const Query& question) {
+                services.look();
                 const Sides sides = sides_of(question);
                 return std::all_of(sides.begin(), sides.end(),
                                    [&](const Side& side) { return is_black(side.scattered) || covered(side); });
@@ -172,6 +183,7 @@ private:
 
     static constexpr std::size_t least_lone_rays = 16;
 
+    // A record for each group of lamps, side by side.
     std::vector<IrradianceRecord> compute(std::span<const Query> questions, std::span<const Wanted> wanted,
                                           const Hemisphere& hemisphere) const {
         std::vector<GatherRay> rays;
@@ -180,14 +192,19 @@ private:
             const Query& question = questions[wanted[i].question];
             const bool second = i > 0 && wanted[i - 1].question == wanted[i].question;
             const Key stream = child(child(question.stream, key_, second), question.sample);
+            const std::size_t before = rays.size();
             hemisphere.add_rays(wanted[i].side.origin, wanted[i].side.normal, stream, question.depth, rays);
+            for (std::size_t r = before; r < rays.size(); ++r) rays[r].pass = question.pass;
         }
-        std::vector<GatherResult> results(rays.size());
+        std::vector<GatherResult> results(rays.size() * groups_), of_group(hemisphere.size());
         gather(scene_, inputs_, 0, rays, results);
         std::vector<IrradianceRecord> records;
         for (std::size_t i = 0; i < wanted.size(); ++i)
-            records.push_back(hemisphere.record(wanted[i].side.position, wanted[i].side.normal,
-                                                std::span(results).subspan(i * hemisphere.size(), hemisphere.size())));
+            for (std::size_t g = 0; g < groups_; ++g) {
+                for (std::size_t r = 0; r < hemisphere.size(); ++r)
+                    of_group[r] = results[(i * hemisphere.size() + r) * groups_ + g];
+                records.push_back(hemisphere.record(wanted[i].side.position, wanted[i].side.normal, of_group));
+            }
         return records;
     }
 
@@ -196,8 +213,10 @@ private:
         for (std::size_t first = 0; first < wanted.size(); first += at_once) {
             const auto some = wanted.subspan(first, std::min(at_once, wanted.size() - first));
             const auto records = compute(questions, some, lone_);
-            for (std::size_t i = 0; i < some.size(); ++i)
-                answers[some[i].question] += some[i].side.scattered * records[i].irradiance;
+            for (std::size_t i = 0; i < records.size(); ++i) {
+                const auto& [question, side] = some[i / groups_];
+                answers[question * groups_ + i % groups_] += side.scattered * records[i].irradiance;
+            }
         }
     }
 
@@ -221,6 +240,7 @@ private:
     static constexpr std::size_t records_per_shard = 65536;
 
     const Scene& scene_;
+    std::size_t groups_;  // of lamps
     Inputs inputs_;
     Rehearsal& rehearsal_;
     Key key_;
@@ -243,11 +263,18 @@ std::vector<Param> irradiance_cache_params() {
          .initial = Value{1024.0},
          .least = 8,
          .most = 1 << 20},
+        {.name = "error",
+         .type = ParamType::number,
+         .help = "how far light may be off between records: less makes more of them",
+         .initial = Value{0.01},
+         .least = 0.0001,
+         .most = 1},
         {.name = "accuracy",
          .type = ParamType::number,
-         .help = "how large the estimated error between records may be: less makes more of them",
-         .initial = Value{0.25},
-         .least = 0.01,
+         .help =
+             "how far a record counts, as a part of how far its light stays about the same; 0: the root of the error",
+         .initial = Value{0.0},
+         .least = 0,
          .most = 1},
         {.name = "min_spacing",
          .type = ParamType::number,
@@ -286,6 +313,14 @@ std::vector<Param> irradiance_cache_params() {
     };
 }
 
+// A file of records has no place for groups.
+std::vector<std::string> irradiance_cache_mistakes(const Node& node, const SceneData*) {
+    const auto given = [&](const char* name) { return !std::get<std::string>(node.params.at(name).data).empty(); };
+    const bool files = given("keep") || given("extend");
+    if (!files || !std::get<bool>(node.params.at("groups").data)) return {};
+    return {"'groups' exclude 'keep' and 'extend': files hold the light of all lamps together"};
+}
+
 }  // namespace
 
 Kind irradiance_cache_kind() {
@@ -295,7 +330,8 @@ Kind irradiance_cache_kind() {
             "irradiance caching: light by one more bounce, computed at few points and interpolated; for diffuse light",
         .inputs = {1, 1},
         .params = irradiance_cache_params(),
-        .light = {.onward = "S*D"},
+        .mistakes = irradiance_cache_mistakes,
+        .light = {.groups = true, .onward = "S*D"},
         .run = {.prepares = true, .rehearses = true, .freezes = "irradiance records", .keeps = true},
         .make_light = [](const NodeContext& here) { return std::make_unique<IrradianceCache>(here); },
     };

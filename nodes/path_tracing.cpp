@@ -26,11 +26,13 @@ namespace {
 /// than a shadow, and on open ground it halves the variance.
 ///
 /// Many paths go on together, surface by surface, so that their rays are traced in packets. What a path finds does not
-/// depend on the others: hits are those of single rays, and each path adds up its light in its own order.
+/// depend on the others: hits are those of single rays, and each path adds up its light in its own order. Where groups
+/// of lamps are kept apart, the same paths put what they find into one of several sums.
 class PathTracing final : public LightOp {
 public:
     explicit PathTracing(const NodeContext& here)
         : scene_(here.scene()),
+          groups_(static_cast<std::uint32_t>(scene_.groups())),
           key_(here.key()),
           samples_(static_cast<std::uint32_t>(here.integer("samples"))),
           max_depth_(static_cast<std::uint32_t>(here.integer("max_depth"))),
@@ -47,7 +49,8 @@ public:
             start(batch, questions, first, last);
             for (std::uint32_t depth = 1; !batch.paths.empty(); ++depth) go_on(batch, depth);
             for (std::size_t path = first; path < last; ++path)
-                answers[batch.asked[path - first]] += batch.sums[path - first];
+                for (std::size_t g = 0; g < groups_; ++g)
+                    answers[batch.asked[path - first] * groups_ + g] += batch.sums[(path - first) * groups_ + g];
         }
         for (Rgb& answer : answers) answer = answer / float(samples_);
     }
@@ -58,7 +61,7 @@ private:
 
     /// A path between two of its vertices.
     struct Path {
-        std::uint32_t sum;  // index into Batch::sums
+        std::uint32_t sum;  // index into Batch::sums: of the first group of lamps
         float eta_scale;    // of radiance by refraction, which is no loss: roulette must not see it
         Rgb weight;
         const Rgb* inside;  // what fills the space that it crosses; may be null
@@ -74,7 +77,7 @@ private:
     struct Batch {
         explicit Batch(const Scene& scene) : vertices(scene) {}
 
-        std::vector<Rgb> sums;           // of each path that began
+        std::vector<Rgb> sums;           // of each path that began, group by group of lamps
         std::vector<std::size_t> asked;  // the same: which question it's for
         std::vector<Path> paths;
         std::vector<Ray> rays;  // of each path
@@ -99,7 +102,7 @@ private:
     static constexpr std::uint32_t dimensions = 7;
 
     void start(Batch& batch, std::span<const Query> questions, std::size_t first, std::size_t last) const {
-        batch.sums.assign(last - first, Rgb{});
+        batch.sums.assign((last - first) * groups_, Rgb{});
         batch.paths.clear();
         batch.samples.keep(0);
         batch.asked.clear();
@@ -110,7 +113,8 @@ private:
             for (; path < end; ++path, ++index) {
                 batch.asked.push_back(q);
                 batch.samples.add(key, index);
-                batch.paths.push_back({static_cast<std::uint32_t>(path - first), 1, {1, 1, 1}, nullptr, {}, {}});
+                batch.paths.push_back(
+                    {static_cast<std::uint32_t>(path - first) * groups_, 1, {1, 1, 1}, nullptr, {}, {}});
             }
         }
         batch.rays.resize(batch.paths.size());
@@ -195,13 +199,14 @@ private:
     void leave(const Path& path, std::uint32_t depth, Batch& batch) const {
         if (!all_ && depth == 1) return;
         const float part = two_looks(depth - 1) ? 0.5f : 1.0f;
-        batch.sums[path.sum] += part * path.weight * light_by_bsdf(scene_, path.from, path.step, nullptr, heuristic);
+        batch.sums[path.sum + scene_.environment_group()] +=
+            part * path.weight * light_by_bsdf(scene_, path.from, path.step, nullptr, heuristic);
     }
 
     /// What a path finds that may have come to a lamp.
     void meet_lamp(const Path& path, const SurfacePoint& point, Batch& batch) const {
         const Rgb light = light_by_bsdf(scene_, path.from, path.step, &point, heuristic);
-        if (!is_black(light)) batch.sums[path.sum] += path.weight * light;
+        if (!is_black(light)) batch.sums[path.sum + scene_.group_of(point)] += path.weight * light;
     }
 
     /// What paths find at surfaces by looking for light, rather than by batch on.
@@ -226,7 +231,7 @@ private:
         const Rgb sky = found->weight * light_by_bsdf(scene_, at.point.position, *found, nullptr, heuristic);
         if (is_black(sky)) return;
         batch.shadow_rays.add({at.point.origin_towards(found->incoming), found->incoming}, path.weight * (0.5f * sky),
-                              path.sum);
+                              path.sum + scene_.environment_group());
     }
 
     /// Is the environment seen from the surface number `depth` looked at by two directions?
@@ -271,6 +276,7 @@ private:
     static constexpr Heuristic heuristic = Heuristic::power;
 
     const Scene& scene_;
+    std::uint32_t groups_;  // of lamps
     Key key_;
     std::uint32_t samples_;
     std::uint32_t max_depth_;
@@ -320,7 +326,7 @@ Kind path_tracing_kind() {
                  .initial = Value{"indirect"},
                  .choices = {"indirect", "all"}},
             },
-        .light = {.paths = paths_of},
+        .light = {.lamps = true, .groups = true, .paths = paths_of},
         .make_light = [](const NodeContext& here) { return std::make_unique<PathTracing>(here); },
     };
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cassert>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "core/estimate/path_vertices.hpp"
@@ -16,44 +17,58 @@ namespace lightnet {
 namespace {
 
 // Lets each lot go as soon as it is copied.
-PhotonTree::Photons taken_out_of(std::vector<Mapped<Photon>>& lots) {
+PhotonTree::Photons taken_out_of(std::vector<Mapped<Photon>>& lots, const Services& services) {
     PhotonTree::Photons all;
     std::size_t count = 0;
     for (const auto& lot : lots) count += lot.size();
     all.reserve(count + PhotonTree::room);
-    for (; !lots.empty(); lots.pop_back()) all.insert(all.end(), lots.back().begin(), lots.back().end());
+    for (; !lots.empty(); lots.pop_back()) {
+        services.look();
+        all.insert(all.end(), lots.back().begin(), lots.back().end());
+    }
     return all;
 }
 
 /// Jensen 1996, "Global illumination using photon maps". The map is shot on all places before the first question, and
-/// frozen. Answers are as blurred as the `gather` nearest photons lie apart, and darker within that distance of a
-/// surface's edge: the bias of the method, which shrinks as `photons` grow. Where light is wanted that is smooth,
-/// IrradianceCache or FinalGather over a map of all paths hides it.
+/// frozen. Answers are as blurred as the `gather` nearest photons lie apart: the bias of the method, which shrinks as
+/// `photons` grow. At edges light is not lost, but spread over the surface that there is (PhotonSpread). Where light is
+/// wanted that is smooth, IrradianceCache or FinalGather over a map of all paths hides the blur.
 class PhotonMap final : public LightOp {
 public:
     explicit PhotonMap(const NodeContext& here)
-        : scene_(here.scene()),
-          shooting_(Shooting::of(here)),
+        : here_(here),
+          scene_(here.scene()),
+          shooting_(Shooting::with_error(here)),
           gather_(static_cast<std::size_t>(here.integer("gather"))),
           radius_(gather_radius(here)) {}
 
     void prepare(Services& services) override {
+        services.doing("tries where to aim");
         const auto aim = take_aim(services, scene_, shooting_);
-        auto lots = shoot_near(services, scene_, shooting_, *aim, radius_);
-        tree_ = services.once<PhotonTree>([&](Builders& builders) { return PhotonTree(taken_out_of(lots), builders); });
+        services.doing("tries how far photons lie apart");
+        const PhotonSpread spread = take_spread(services, scene_, shooting_, *aim, gather_, radius_);
+        const Whereabouts us = here_.whereabouts();
+        services.doing("shoots photons (places: " + std::to_string(us.places) + ", hosts: " + std::to_string(us.hosts) +
+                       ")");
+        auto lots = shoot_near(services, scene_, shooting_, *aim, spread, radius_);
+        services.doing("builds its tree");
+        tree_ = services.once<PhotonTree>(
+            [&](Builders& builders) { return PhotonTree(taken_out_of(lots, services), builders); });
     }
 
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
         assert(tree_ && "nobody asks before it is prepared");
         Nearest scratch;
         gather_each(scene_, questions, [&](std::uint32_t i, const Gathering& at) {
-            answers[i] = tree_->radiance({at.point, at.bsdf, at.outgoing, at.lobes}, radius_, gather_, scratch);
+            tree_->radiance({at.point, at.bsdf, at.outgoing, at.lobes}, radius_, gather_, scratch,
+                            answers.subspan(i * scene_.groups(), scene_.groups()));
         });
     }
 
     Frozen frozen() const override { return Frozen(tree_); }
 
 private:
+    NodeContext here_;
     const Scene& scene_;
     Shooting shooting_;
     std::size_t gather_;
@@ -62,7 +77,7 @@ private:
 };
 
 std::vector<Param> photon_map_params() {
-    auto params = shooting_params(200000, "light paths that leave the lamps");
+    auto params = shooting_params(0, "light paths that leave the lamps; 0: as many as the error wants");
     params.push_back({.name = "gather",
                       .type = ParamType::integer,
                       .help = "how many of the nearest photons an answer takes; 0: all within the radius",
@@ -81,7 +96,7 @@ Kind photon_map_kind() {
         .name = "PhotonMap",
         .help = "photon mapping, light sent from the lamps beforehand: caustics, or an approximation of all light",
         .params = photon_map_params(),
-        .light = {.paths = paths_of_photons},
+        .light = {.lamps = true, .groups = true, .paths = paths_of_photons},
         .run = {.prepares = true,
                 .freezes = "photons",
                 .landmarks = [](const NodeContext& here) { return landmarks_of(here.scene(), Shooting::of(here)); }},

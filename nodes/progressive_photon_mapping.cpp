@@ -1,5 +1,4 @@
-// Many maps of photons, each with a smaller radius than the one before: caustics that get sharp.
-#include <cassert>
+// Maps of photons without end, each with a smaller radius than the one before: caustics that get sharp.
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -7,6 +6,7 @@
 #include "core/estimate/path_vertices.hpp"
 #include "core/estimate/photon_tree.hpp"
 #include "core/estimate/shooting.hpp"
+#include "core/film/tile.hpp"
 #include "core/network/graph/kind.hpp"
 #include "core/network/light/light_op.hpp"
 #include "core/network/light/node_context.hpp"
@@ -15,59 +15,57 @@
 namespace lightnet {
 namespace {
 
-/// Knaus & Zwicker 2011, "Progressive photon mapping: a probabilistic approach". Each pass has photons of its own, and
-/// a radius that follows from its number alone; sample s of a pixel takes pass s modulo `passes`, so that an image
-/// of as many samples is the mean of all passes. Noise and bias both vanish as passes and samples grow.
+/// Knaus & Zwicker 2011, "Progressive photon mapping: a probabilistic approach". Sample s of every pixel has a map of
+/// its own, with photons and a radius that follow from s alone, so that a picture is the mean of as many maps as it has
+/// samples. Noise and bias both vanish as samples grow. It is made anew for each pass, and has the maps of that one.
+/// Others than the renderer ask about samples of their own: they get the maps of the pass in turn.
 class ProgressivePhotonMapping final : public LightOp {
 public:
-    explicit ProgressivePhotonMapping(const NodeContext& here) : scene_(here.scene()), shooting_(Shooting::of(here)) {
+    explicit ProgressivePhotonMapping(const NodeContext& here)
+        : scene_(here.scene()),
+          shooting_(Shooting::of(here)),
+          first_map_(std::uint64_t{here.pass()} * samples_per_block) {
         const double first = here.number("radius"), alpha = here.number("alpha");
         double squared = std::pow(first > 0 ? first : 0.013 * scene_.radius(), 2);
-        const auto passes = static_cast<std::size_t>(here.integer("passes"));
-        for (std::size_t pass = 1; pass <= passes; ++pass) {
-            radii_.push_back(float(std::sqrt(squared)));
-            squared *= (double(pass) + alpha) / (double(pass) + 1);  // equation 15
+        for (std::uint64_t map = 0; map < first_map_ + samples_per_block; ++map) {
+            if (map >= first_map_) radii_.push_back(float(std::sqrt(squared)));
+            squared *= (double(map) + 1 + alpha) / (double(map) + 2);  // equation 15
         }
     }
 
     void prepare(Services& services) override {
         const auto aim = take_aim(services, scene_, shooting_);
-        const auto photons = shoot(services, scene_, shooting_, *aim, radii_.size());
+        const auto photons = shoot(services, scene_, shooting_, *aim, {first_map_, samples_per_block});
         const std::size_t each = shards_each(shooting_);
-        for (std::size_t pass = 0; pass < radii_.size(); ++pass)
-            passes_.push_back(services.once<PhotonTree>([&](Builders& builders) {
+        for (std::size_t map = 0; map < samples_per_block; ++map)
+            maps_.push_back(services.once<PhotonTree>([&](Builders& builders) {
                 std::vector<Photon> own;
-                for (std::size_t i = pass * each; i < (pass + 1) * each; ++i)
+                for (std::size_t i = map * each; i < (map + 1) * each; ++i)
                     own.insert(own.end(), photons.shard(i).begin(), photons.shard(i).end());
                 return PhotonTree(own, builders);
             }));
     }
 
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
-        assert(passes_.size() == radii_.size() && "nobody asks before it is prepared");
+        if (maps_.empty()) return;  // others rehearse
         Nearest scratch;
         gather_each(scene_, questions, [&](std::uint32_t i, const Gathering& at) {
-            const std::size_t pass = questions[i].sample % radii_.size();
-            answers[i] = passes_[pass]->radiance({at.point, at.bsdf, at.outgoing, at.lobes}, radii_[pass], 0, scratch);
+            const std::size_t map = questions[i].sample % samples_per_block;
+            maps_[map]->radiance({at.point, at.bsdf, at.outgoing, at.lobes}, radii_[map], 0, scratch,
+                                 answers.subspan(i * scene_.groups(), scene_.groups()));
         });
     }
 
 private:
     const Scene& scene_;
     Shooting shooting_;
-    std::vector<float> radii_;  // m, of each pass
-    std::vector<std::shared_ptr<const PhotonTree>> passes_;
+    std::uint64_t first_map_;
+    std::vector<float> radii_;  // m, of each map of the pass
+    std::vector<std::shared_ptr<const PhotonTree>> maps_;
 };
 
 std::vector<Param> progressive_photon_mapping_params() {
-    auto params = shooting_params(100000, "light paths that leave the lamps in each pass");
-    params.push_back({.name = "passes",
-                      .type = ParamType::integer,
-                      .help = "maps, each for one sample of a pixel in turn: as many as samples, or a part of them",
-                      .unit = "passes",
-                      .initial = Value{64.0},
-                      .least = 1,
-                      .most = 65536});
+    auto params = shooting_params(100000, "light paths that leave the lamps for each sample of the pixels");
     params.push_back({.name = "alpha",
                       .type = ParamType::number,
                       .help = "how slowly the radius shrinks: 1 keeps it",
@@ -76,7 +74,7 @@ std::vector<Param> progressive_photon_mapping_params() {
                       .most = 1});
     params.push_back({.name = "radius",
                       .type = ParamType::number,
-                      .help = "within which photons of the first pass count; 0: 0.013 of the scene's radius",
+                      .help = "within which photons of the first sample count; 0: 0.013 of the scene's radius",
                       .unit = "scene units",
                       .initial = Value{0.0},
                       .least = 0});
@@ -88,10 +86,12 @@ std::vector<Param> progressive_photon_mapping_params() {
 Kind progressive_photon_mapping_kind() {
     return {
         .name = "ProgressivePhotonMapping",
-        .help = "progressive photon mapping: many passes of photons, each sharper; caustics without bias in the end",
+        .help = "progressive photon mapping: each sample has photons of its own, and is sharper than the one before",
         .params = progressive_photon_mapping_params(),
-        .light = {.paths = paths_of_photons},
-        .run = {.prepares = true},
+        .gone = {{"passes",
+                  "each sample of a pixel has photons of its own now: 'samples' of the renderer says how many"}},
+        .light = {.lamps = true, .groups = true, .paths = paths_of_photons},
+        .run = {.prepares = true, .passes = true},
         .make_light = [](const NodeContext& here) { return std::make_unique<ProgressivePhotonMapping>(here); },
     };
 }

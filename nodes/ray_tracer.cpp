@@ -61,13 +61,17 @@ private:
 };
 
 /// Follows rays from the eye through mirrors and glass. Where a surface scatters in other ways too it asks its lighting
-/// input about those; what shines by itself it adds to layer 0. Samples are spread around the pixel with the density of
-/// its filter, so each counts alike, and none crosses the border of a tile. Questions leave in large chunks.
+/// input about those; what shines by itself it adds to the first layers, one for each group of lamps. Samples are
+/// spread around the pixel with the density of its filter, so each counts alike, and none crosses the border of a tile.
+/// Questions leave in large chunks.
 class RayTracer final : public Renderer {
 public:
     explicit RayTracer(const NodeContext& here)
-        : scene_(here.scene()),
+        : here_(here),
+          scene_(here.scene()),
           inputs_(here.inputs()),
+          light_(here.inputs().which(false)),
+          facts_(here.inputs().which(true)),
           key_(here.key()),
           seed_(here.seed()),
           max_depth_(static_cast<std::uint32_t>(here.integer("max_depth"))),
@@ -92,6 +96,7 @@ private:
         std::vector<std::size_t> pixels;  // whose the answers are
         std::vector<Rgb> weights;         // what reaches the eye of them
         std::vector<Branch> branches;     // scratch
+        std::vector<Rgb> emitted;         // the same: on one sample's path, by group of lamps
     };
     /// One sample of a pixel.
     struct TileSample {
@@ -127,56 +132,84 @@ private:
         met.pixels.reserve(samples.size());
         met.weights.reserve(samples.size());
         for (std::size_t i = 0; i < samples.size(); ++i)
-            pixels[samples[i].pixel * inputs_.layers()] += follow(samples[i], rays[i], hits[i], met);
+            follow(samples[i], rays[i], hits[i], met, pixels.subspan(samples[i].pixel * inputs_.layers()));
         if (!met.questions.empty()) add_answers(met, pixels);
+        if (!facts_.empty()) add_facts(samples, rays, hits, pixels);
     }
 
-    /// Follows one ray until no mirror or glass carries it on. Returns what shines by itself on its path. At glass both
-    /// branches are followed as long as they carry much: a lamp that is seen in it by chance is noise for long.
-    Rgb follow(const TileSample& sample, const Ray& ray, const std::optional<Hit>& hit, PixelQuestions& met) const {
-        Rgb emitted;
+    /// Follows one ray until no mirror or glass carries it on, and adds to the pixel what shines by itself on its path.
+    /// At glass both branches are followed as long as they carry much: a lamp that is seen in it by chance is noise for
+    /// long.
+    void follow(const TileSample& sample, const Ray& ray, const std::optional<Hit>& hit, PixelQuestions& met,
+                std::span<Rgb> pixel) const {
+        met.emitted.assign(scene_.groups(), Rgb{});
         met.branches.assign(1, {SpecularPath(ray), hit, 0});
         for (std::uint32_t surface = 0; !met.branches.empty(); ++surface) {
             const Branch branch = met.branches.back();
             met.branches.pop_back();
-            emitted += visit(sample, branch, surface, met);
+            visit(sample, branch, surface, met);
         }
-        return emitted;
+        for (std::size_t g = 0; g < met.emitted.size(); ++g) pixel[g] += met.emitted[g];
     }
 
-    /// The surface of that number that a sample meets. Returns what shines by itself there.
-    Rgb visit(const TileSample& sample, Branch branch, std::uint32_t surface, PixelQuestions& met) const {
-        if (!branch.hit) return branch.path.weight() * scene_.environment(branch.path.ray().direction);
+    /// The surface of that number that a sample meets, and what shines by itself there.
+    void visit(const TileSample& sample, Branch branch, std::uint32_t surface, PixelQuestions& met) const {
+        if (!branch.hit) {
+            met.emitted[scene_.environment_group()] +=
+                branch.path.weight() * scene_.environment(branch.path.ray().direction);
+            return;
+        }
         branch.path.arrive(branch.hit->distance);
         const SurfacePoint point = scene_.surface(*branch.hit);
         const Bsdf bsdf = scene_.bsdf(point);
         const Vec3 outgoing = -branch.path.ray().direction;
         const std::uint8_t lobes = bsdf.lobes();
-        const Rgb emitted = branch.path.weight() * scene_.emission(point, outgoing);
+        met.emitted[scene_.group_of(point)] += branch.path.weight() * scene_.emission(point, outgoing);
         if (lobes & lobe::rough) {
             Query question = branch.path.question_about(*branch.hit, lobes, branch.depth);
             question.stream = child(sample.key, key_, surface);
             question.sample = sample.sample;
+            question.pass = here_.pass_mark(sample.sample);
             met.questions.push_back(question);
             met.pixels.push_back(sample.pixel);
             met.weights.push_back(branch.path.weight());
         }
-        if (!(lobes & lobe::specular) || branch.depth >= max_depth_) return emitted;
+        if (!(lobes & lobe::specular) || branch.depth >= max_depth_) return;
         if (const auto reflected = branch.path.split(point, bsdf, both_carry)) {
             met.branches.push_back({*reflected, scene_.intersect(reflected->ray()), branch.depth + 1});
         } else if (!branch.path.go_on(point, bsdf, Samples(child(sample.key, chain_key, surface), sample.sample),
                                       keep)) {
-            return emitted;
+            return;
         }
         met.branches.push_back({branch.path, scene_.intersect(branch.path.ray()), branch.depth + 1});
-        return emitted;
     }
 
     void add_answers(const PixelQuestions& met, std::span<Rgb> pixels) const {
         // The first input makes the image; those that are shown beside it are asked the same.
-        for (const Part& part : ask_all(inputs_, met.questions))
+        for (const Part& part : ask_all(light_, met.questions))
             each_colour(part, [&](std::size_t q, std::size_t layer, const Rgb& colour) {
                 pixels[met.pixels[q] * inputs_.layers() + layer] += colour * met.weights[q];
+            });
+    }
+
+    /// Asks what the samples see first.
+    void add_facts(std::span<const TileSample> samples, std::span<const Ray> rays,
+                   std::span<const std::optional<Hit>> hits, std::span<Rgb> pixels) const {
+        std::vector<Query> questions;
+        std::vector<std::size_t> asked;
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+            if (!hits[i]) continue;
+            Query question = SpecularPath(rays[i]).question_about(*hits[i], lobe::all, 0);
+            question.stream = child(samples[i].key, key_, 0);
+            question.sample = samples[i].sample;
+            question.pass = here_.pass_mark(samples[i].sample);
+            questions.push_back(question);
+            asked.push_back(samples[i].pixel);
+        }
+        if (questions.empty()) return;
+        for (const Part& part : ask_all(facts_, questions))
+            each_colour(part, [&](std::size_t q, std::size_t layer, const Rgb& fact) {
+                pixels[asked[q] * inputs_.layers() + layer] += fact;
             });
     }
 
@@ -186,8 +219,9 @@ private:
     static constexpr float keep = 25;           // what is fainter than its inverse is followed seldom
     static constexpr Key chain_key = key_of("chain of mirrors");
 
+    NodeContext here_;
     const Scene& scene_;
-    Inputs inputs_;
+    Inputs inputs_, light_, facts_;  // all, and both parts of them
     Key key_;
     std::uint64_t seed_;
     std::uint32_t max_depth_;
@@ -249,7 +283,7 @@ Kind ray_tracer_kind() {
                  .least = 0,
                  .most = 16},
             },
-        .light = {.paths = always({"LS*E"}), .onward = "S*E"},
+        .light = {.lamps = true, .groups = true, .paths = always({"LS*E"}), .onward = "S*E"},
         .make_renderer = [](const NodeContext& here) { return std::make_unique<RayTracer>(here); },
     };
 }

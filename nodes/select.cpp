@@ -1,6 +1,4 @@
 // Light on some surfaces only.
-#include <fnmatch.h>
-
 #include <algorithm>
 #include <array>
 #include <set>
@@ -12,16 +10,12 @@
 #include "core/network/graph/kind.hpp"
 #include "core/network/light/light_op.hpp"
 #include "core/network/light/node_context.hpp"
+#include "core/scene/data/lamp_names.hpp"
 #include "core/scene/data/scene_data.hpp"
 #include "core/scene/scene.hpp"
 
 namespace lightnet {
 namespace {
-
-/// Is the name the one that was asked for, or of its form ("chair*")?
-bool fits(const std::string& name, const std::string& wanted) {
-    return name == wanted || (!name.empty() && fnmatch(wanted.c_str(), name.c_str(), FNM_NOESCAPE) == 0);
-}
 
 /// Asks its input where a surface has the material, belongs to the object and lies in the box that are named, and
 /// answers black elsewhere; or the other way round. What isn't selected costs the input nothing.
@@ -38,11 +32,11 @@ public:
         const auto& material = here.text("material");
         const auto& object = here.text("object");
         for (const auto& shape : data.shapes) {
-            made_of_.push_back(material.empty() || fits(data.materials[shape.material].name, material));
-            called_.push_back(object.empty() || fits(shape.name, object));
+            made_of_.push_back(material.empty() || goes_by(data.materials[shape.material].name, material));
+            called_.push_back(object.empty() || goes_by(shape.name, object));
         }
         for (const auto& instance : data.instances)
-            of_object_.push_back(fits(data.objects[instance.object].name, object));
+            of_object_.push_back(goes_by(data.objects[instance.object].name, object));
     }
 
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
@@ -100,7 +94,8 @@ Names objects_of(const SceneData& scene) {
 // Complains where nothing goes by that name.
 void look_for(const std::string& wanted, const char* what, Names names, std::vector<std::string>& wrong) {
     names.erase("");
-    if (wanted.empty() || std::any_of(names.begin(), names.end(), [&](const auto& name) { return fits(name, wanted); }))
+    if (wanted.empty() ||
+        std::any_of(names.begin(), names.end(), [&](const auto& name) { return goes_by(name, wanted); }))
         return;
     constexpr std::size_t most = 40;
     std::vector<std::string> known(names.begin(), names.end());

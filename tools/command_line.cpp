@@ -126,6 +126,21 @@ void add_examples(CLI::App& app, const std::vector<std::string>& lines) {
     app.footer(text);
 }
 
+void add_everywhere(CLI::App& app, std::vector<std::string>& plugins) {
+    app.add_flag("--print-config")
+        ->description(
+            "tell the value of each option, and whether the command line, the environment or "
+            "~/.config/lightnet/config.lua says so")
+        ->group("Everywhere");
+    app.add_option("--plugin", plugins, "shared library that brings kinds of nodes (may be repeated)")
+        ->type_name("FILE")
+        ->expected(1)
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->delimiter(':')
+        ->group("Everywhere");
+}
+
 CLI::Option* takes_numbers(CLI::Option* option, const char* unit, std::uint64_t least, std::uint64_t most) {
     return option->type_name(unit)->check([least, most](const std::string& text) -> std::string {
         std::uint64_t number = 0;

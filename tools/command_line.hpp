@@ -33,6 +33,10 @@ void when_taken_apart(CLI::App& app, std::function<std::optional<std::string>()>
 /// The help of `app` ends in these command lines.
 void add_examples(CLI::App& app, const std::vector<std::string>& lines);
 
+/// What all verbs and programs take: libraries with kinds of nodes (--plugin), and --print-config, which is answered
+/// before a command line is taken apart.
+void add_everywhere(CLI::App& app, std::vector<std::string>& plugins);
+
 /// `option` takes whole numbers from `least` to `most`, called `unit` in the help ("N", "SECONDS").
 CLI::Option* takes_numbers(CLI::Option* option, const char* unit, std::uint64_t least, std::uint64_t most);
 

@@ -23,6 +23,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+}  // namespace
+
 Picture picture_in(const std::string& path) {
     if (std::filesystem::path(path).extension() == ".exr") return read_exr(path);
     DiskFiles files;
@@ -37,6 +39,8 @@ Picture picture_in(const std::string& path) {
         throw Error(path, error.what());
     }
 }
+
+namespace {
 
 // Nothing is written where it can't be understood; said before anything is read.
 void check_request(const CompareRequest& request) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/film/flip.hpp"
+#include "core/film/picture.hpp"
 
 namespace lightnet {
 
@@ -20,6 +21,9 @@ struct CompareRequest {
     FlipView view;
     std::string difference, flip_map;  // files to write; "": none
 };
+
+/// The picture in a file: EXR with its layers, or HDR, PNG and JPEG. Throws Error.
+Picture picture_in(const std::string& path);
 
 /// Writes what there is to say to `out`, and mistakes and what is too far off to `err`. An exit code: 0, 1 when a
 /// tolerance is passed, 2 when a picture can't be read or has another size.

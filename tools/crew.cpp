@@ -3,12 +3,14 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <filesystem>
 #include <thread>
 
 #include "core/base/error.hpp"
+#include "core/base/in_quotes.hpp"
+#include "core/base/suggestion.hpp"
+#include "core/base/this_machine.hpp"
 #include "core/network/graph/check_hosts.hpp"
 
 namespace lightnet {
@@ -27,23 +29,32 @@ std::string daemon_program() {
 std::string seen_from_elsewhere(const std::string& endpoint) {
     const std::string all = "tcp://0.0.0.0:";
     if (!endpoint.starts_with(all)) return endpoint;
-    std::array<char, 256> name{};
-    gethostname(name.data(), name.size() - 1);
-    return std::string("tcp://") + name.data() + ":" + endpoint.substr(all.size());
+    return "tcp://" + machine_name() + ":" + endpoint.substr(all.size());
 }
 
 }  // namespace
 
 Crew::Crew(const RunRequest& request, Cluster::Options cluster) : request_(request), say_(cluster.say) {
-    for (const auto& host : request.hosts.hosts)
-        (address_of(host.endpoint) ? cluster.endpoints : cluster.expected).push_back(host.endpoint);
-    if (!cluster.expected.empty() && request.listen.empty())
-        throw UserError({request.hosts.file, 0}, "place '" + cluster.expected.front() +
-                                                     "' joins by itself, which takes --listen tcp://HOST:PORT");
+    for (const auto& host : request.hosts.hosts) {
+        if (host.is_here()) continue;
+        const bool joins = !address_of(host.endpoint);
+        if (joins && request.listen.empty())
+            throw UserError(host.where, "place " + in_quotes(host.endpoint) +
+                                            ": it joins by itself, which takes --listen tcp://HOST:PORT" +
+                                            did_you_mean(host.endpoint, {std::string(own_process)}));
+        (joins ? cluster.expected : cluster.endpoints).push_back(host.endpoint);
+    }
+    cluster.key = request.keys.own;
+    cluster.host_keys = request.keys.hosts;
+    cluster.join_keys = request.keys.join;
     if (request.local_workers) {
         const auto places = std::max(1u, std::thread::hardware_concurrency() / request.local_workers);
-        local_.emplace(daemon_program(), request.local_workers, places);
-        for (const auto& endpoint : local_->endpoints()) cluster.endpoints.push_back(endpoint);
+        const LocalWorkers::Keys keys{.launcher = request.keys.own.open};
+        local_.emplace(daemon_program(), request.local_workers, places, keys);
+        for (const auto& endpoint : local_->endpoints()) {
+            cluster.endpoints.push_back(endpoint);
+            cluster.host_keys[endpoint] = keys.workers.open;
+        }
     }
     cluster.listen = request.listen;
     cluster.pass = request.pass;
@@ -51,10 +62,18 @@ Crew::Crew(const RunRequest& request, Cluster::Options cluster) : request_(reque
     cluster_ = std::make_unique<Cluster>(std::move(cluster));
     if (!request.listen.empty()) say_("hosts may join at " + seen_from_elsewhere(cluster_->join_endpoint()));
     if (request.slurm.daemons) {
-        slurm_.emplace(
-            SlurmWorkers::Request{daemon_program(), seen_from_elsewhere(cluster_->join_endpoint()),
-                                  request.slurm.daemons, request.slurm.partition, request.slurm.arguments,
-                                  request.pass.empty() ? "" : std::filesystem::absolute(request.pass).string()});
+        SlurmWorkers::Request array{daemon_program(),
+                                    seen_from_elsewhere(cluster_->join_endpoint()),
+                                    request.slurm.daemons,
+                                    request.slurm.partition,
+                                    request.slurm.arguments,
+                                    {},
+                                    request.pass.empty() ? "" : std::filesystem::absolute(request.pass).string()};
+        if (const auto& key = request.keys.slurm) {
+            slurm_key_.emplace("slurm-" + key->open.fingerprint() + ".key", *key);
+            array.keys = {slurm_key_->path(), request.keys.own.open};
+        }
+        slurm_.emplace(array);
         say_("Slurm has taken job " + slurm_->job() + " of " + std::to_string(request.slurm.daemons) + " daemons");
     }
 }
@@ -70,7 +89,7 @@ std::vector<std::string> Crew::missing() const {
     for (const auto& [name, why] : cluster_->missing()) {
         std::string nodes;
         for (const auto& entry : request_.hosts.hosts)
-            if (entry.endpoint == name)
+            if (entry.host() == name)
                 for (const auto& [node, count] : entry.replicas) nodes += (nodes.empty() ? "" : ", ") + node;
         hosts.push_back(name + ": " + why + "; it was to hold " + (nodes.empty() ? "the whole network" : nodes));
     }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tools/run.hpp"
+#include "transport/keys/key_file.hpp"
 #include "transport/launcher/cluster.hpp"
 #include "transport/start/local_workers.hpp"
 #include "transport/start/slurm_workers.hpp"
@@ -34,6 +35,7 @@ private:
     std::function<void(const std::string&)> say_;
     std::optional<LocalWorkers> local_;
     std::unique_ptr<Cluster> cluster_;
+    std::optional<SecretFile> slurm_key_;  // outlives the job
     std::optional<SlurmWorkers> slurm_;
 };
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/build_info.hpp"
+#include "core/network/graph/hosts.hpp"
 #include "transport/wire/loopback.hpp"
 
 namespace lightnet {
@@ -18,7 +19,9 @@ public:
     DaemonGrammar()
         : app_("Renders for others. Serves one run at a time, run after run, until it is told to stop.", "lightnetd") {
         add_reach();
+        add_keys();
         add_stay();
+        add_everywhere(app_, options_.plugins);
         takes_numbers(app_.add_option("--places", host().places, "threads that render; 0: one per core"), "N", 0, 1024)
             ->capture_default_str();
         app_.add_option("--cache", host().cache, "folder for files of scenes (default: ~/.cache/lightnet)")
@@ -27,11 +30,14 @@ public:
             ->type_name("SIZE")
             ->default_str("4G")
             ->transform(CLI::AsSizeValue(false).description(""));
+        app_.add_option("--metrics", options_.metrics, "tell Prometheus how it does: GET http://ADDRESS:PORT/metrics")
+            ->type_name("ADDRESS:PORT");
         app_.add_flag("--quiet", options_.quiet, "say nothing but where it listens");
         app_.add_option("--parent", options_.parent, "end when this process ends")->group("");
         app_.set_version_flag("--version", "lightnetd " + build_id());
         add_examples(app_, {"lightnetd --listen tcp://127.0.0.1:7777 --places 4",
-                            "lightnetd --join tcp://127.0.0.1:7000 --name onyx1"});
+                            "lightnetd --join tcp://127.0.0.1:7000 --name onyx1",
+                            "lightnetd --listen tcp://0.0.0.0:7777 --allow launchers.keys", "lightnetd --print-key"});
     }
 
     std::variant<DaemonOptions, Finished> parse(const std::vector<std::string>& arguments) {
@@ -40,14 +46,44 @@ public:
         host().drain = std::chrono::seconds(drain_);
         if (patience_) host().patience = std::chrono::seconds(patience_);
         for (const auto& [option, endpoint] :
-             {std::pair{"--listen ", host().listen}, std::pair{"--join ", host().join}})
-            if (!insecure_ && !endpoint.empty() && !stays_on_this_machine(endpoint))
-                return usage_error(app_, beyond_this_machine(option + endpoint));
+             {std::pair{std::string("--listen "), host().listen}, std::pair{std::string("--join "), host().join}})
+            if (!insecure_ && !endpoint.empty() && !stays_on_this_machine(endpoint) && !has_keys(option))
+                return usage_error(app_, beyond_this_machine(option + endpoint, way_with_keys(option)));
+        if (const auto& metrics = options_.metrics;
+            !insecure_ && !metrics.empty() && !stays_on_this_machine("tcp://" + metrics))
+            return usage_error(app_, beyond_this_machine("--metrics " + metrics, "put a server with TLS in front of 127.0.0.1"));
         return options_;
     }
 
+    std::vector<VerbText> texts() const { return texts_of(app_); }
+
 private:
     Host::Options& host() { return options_.host; }
+
+    // A launcher that it joins tells it whose questions to take; one that calls it must be on its list.
+    bool has_keys(const std::string& option) const {
+        return options_.host.launcher_key || (option == "--listen " && !options_.host.allow.empty());
+    }
+    static std::string way_with_keys(const std::string& option) {
+        return option == "--listen " ? "say --allow FILE with the keys of those who may use it"
+                                     : "say --launcher-key KEY, which lightnet key shows";
+    }
+
+    void add_keys() {
+        app_.add_option("--key", options_.key_file,
+                        "file with its own secret key (default: ~/.config/lightnet/key, made when missing)")
+            ->type_name("FILE");
+        app_.add_option("--allow", host().allow,
+                        "let in only whose keys are in this file (one a line, and a name behind it; read again when it "
+                        "changes), or one public key")
+            ->type_name("FILE|KEY");
+        app_.add_option_function<std::string>(
+                "--launcher-key", [this](const std::string& text) { host().launcher_key = PublicKey::from(text); },
+                "the public key of the launcher that it joins")
+            ->type_name("KEY")
+            ->check([](const std::string& text) { return mistake_in_key(text); });
+        app_.add_flag("--print-key", options_.print_key, "print its public key, for hosts files, and end");
+    }
 
     void add_reach() {
         takes_endpoint(
@@ -58,12 +94,16 @@ private:
                             "dial out to this launcher, now or when it comes; lets nobody in unless --listen is "
                             "given, too"),
             false);
-        app_.add_option("--name", host().name, "under which it joins (default: the name of the machine)");
+        app_.add_option("--name", host().name, "under which it joins (default: the name of the machine)")
+            ->check([](const std::string& name) {
+                return name == own_process ? "'here' is what hosts files call the launcher's own process" : "";
+            });
         app_.add_option("--pass", host().pass,
                         "file with what it must know to join (default: ~/.config/lightnet/pass, made when missing)")
             ->type_name("FILE");
-        app_.add_flag("--insecure", insecure_,
-                      "reach beyond this machine, unencrypted: whoever reaches the port can have it render");
+        app_.add_flag(
+            "--insecure", insecure_,
+            "reach beyond this machine without keys, unencrypted: whoever reaches the port can have it render");
     }
 
     void add_stay() {
@@ -88,5 +128,7 @@ private:
 std::variant<DaemonOptions, Finished> parse_daemon_options(const std::vector<std::string>& arguments) {
     return DaemonGrammar().parse(arguments);
 }
+
+std::vector<VerbText> daemon_texts() { return DaemonGrammar().texts(); }
 
 }  // namespace lightnet

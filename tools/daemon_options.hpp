@@ -6,18 +6,26 @@
 #include <vector>
 
 #include "tools/command_line.hpp"
+#include "tools/program_text.hpp"
 #include "transport/daemon/host.hpp"
 
 namespace lightnet {
 
 struct DaemonOptions {
     Host::Options host;
-    std::string single;  // no other daemon of this name beside it; "": any
-    int parent = 0;      // the process without which it ends; 0: none
-    bool quiet = false;  // no log
+    std::string single;      // no other daemon of this name beside it; "": any
+    int parent = 0;          // the process without which it ends; 0: none
+    bool quiet = false;      // no log
+    std::string key_file;    // of its own key; "": the usual one
+    bool print_key = false;  // and nothing else
+    std::vector<std::string> plugins;  // shared libraries
+    std::string metrics;  // address at which it tells Prometheus how it does; "": nowhere
 };
 
 /// Takes a command line (without the program's name) apart.
 std::variant<DaemonOptions, Finished> parse_daemon_options(const std::vector<std::string>& arguments);
+
+/// The command line, for manuals.
+std::vector<VerbText> daemon_texts();
 
 }  // namespace lightnet

@@ -7,8 +7,10 @@
 #include <ostream>
 
 #include "core/base/build_info.hpp"
+#include "core/base/joined.hpp"
 #include "core/base/suggestion.hpp"
 #include "core/readers/read_scene.hpp"
+#include "tools/command_line.hpp"
 #include "tools/exit_code.hpp"
 
 namespace lightnet {
@@ -23,11 +25,13 @@ public:
         app_.require_subcommand(1);
         app_.footer(
             "exit codes: 0 done, 1 the run failed (or pictures are too far apart), 2 usage, graph or scene error,\n"
-            "3 no worker reachable, 130 interrupted\n\nExamples:\n  lightnet run graphs/cornell.lua\n"
+            "3 no worker reachable, 4 none whose key is known and that knows ours, 130 interrupted\n\nExamples:\n  "
+            "lightnet run graphs/cornell.lua\n"
             "  lightnet help run");
         for (const auto& verb : verbs) {
             CLI::App& app = *app_.add_subcommand(verb.name, verb.help);
             known_.push_back({verb.name, verb.options(app)});
+            add_everywhere(app, *plugins_);
         }
         app_.add_subcommand("help", "show how a verb is used: lightnet help run");
     }
@@ -39,8 +43,13 @@ public:
         const auto chosen = std::find_if(known_.begin(), known_.end(),
                                          [&](const auto& verb) { return app_.got_subcommand(verb.name); });
         if (chosen == known_.end()) return Finished{exit_code::done, app_.help(), ""};
-        return chosen->action;
+        return [plugins = plugins_, action = chosen->action](const Launcher& launcher) {
+            if (launcher.plug) launcher.plug(*plugins);
+            return action(launcher);
+        };
     }
+
+    std::vector<VerbText> texts() const { return texts_of(app_); }
 
 private:
     struct Known {
@@ -73,7 +82,22 @@ private:
 
     CLI::App app_;
     std::vector<Known> known_;
+    std::shared_ptr<std::vector<std::string>> plugins_ = std::make_shared<std::vector<std::string>>();
 };
+
+std::ptrdiff_t words_in(const std::string& name) { return std::count(name.begin(), name.end(), ' ') + 1; }
+
+// Whose options the command line gives: "scene info" rather than "scene".
+const VerbText* verb_of(const std::vector<VerbText>& texts, const std::vector<std::string>& arguments) {
+    const VerbText* best = nullptr;
+    std::string name = "lightnet";
+    for (const auto& word : arguments) {
+        name += " " + word;
+        for (const auto& text : texts)
+            if (text.name == name) best = &text;
+    }
+    return best;
+}
 
 }  // namespace
 
@@ -81,15 +105,33 @@ std::variant<Action, Finished> understand(const std::vector<std::string>& argume
     return Grammar(verbs).parse(arguments);
 }
 
+std::vector<VerbText> launcher_texts(const std::vector<Verb>& verbs) { return Grammar(verbs).texts(); }
+
+int Launcher::perform(const std::vector<std::string>& arguments) const {
+    const auto texts = launcher_texts(verbs);
+    const VerbText* const verb = verb_of(texts, arguments);
+    auto words = arguments;
+    std::vector<std::string> more;
+    if (verb && std::find(words.begin(), words.end(), "--print-config") != words.end()) {
+        out << settings_table(settings.settled(*verb, words));
+        return exit_code::done;
+    }
+    if (verb) more = settings.missing(*verb, words);
+    if (verb) words.insert(words.begin() + words_in(verb->name) - 1, more.begin(), more.end());
+    const auto understood = understand(words, verbs);
+    if (const auto* finished = std::get_if<Finished>(&understood)) {
+        out << finished->out;
+        err << finished->err;
+        if (finished->code == exit_code::usage && !more.empty())
+            err << "settled elsewhere (--print-config): " << joined(more, " ") << '\n';
+        return finished->code;
+    }
+    return std::get<Action>(understood)(*this);
+}
+
 int Launcher::operator()(const std::vector<std::string>& arguments) const {
     try {
-        const auto understood = understand(arguments, verbs);
-        if (const auto* finished = std::get_if<Finished>(&understood)) {
-            out << finished->out;
-            err << finished->err;
-            return finished->code;
-        }
-        return std::get<Action>(understood)(*this);
+        return perform(arguments);
     } catch (const UserError& error) {
         err << error.what() << '\n';
         return exit_code::usage;

@@ -9,7 +9,9 @@
 
 #include "core/network/graph/kind.hpp"
 #include "tools/command_line.hpp"
+#include "tools/program_text.hpp"
 #include "tools/run.hpp"
+#include "tools/settings.hpp"
 #include "tools/verbs/verb.hpp"
 
 namespace lightnet {
@@ -21,12 +23,21 @@ struct Launcher {
     std::ostream& out;                          // data
     std::ostream& err;                          // messages
     std::vector<Verb> verbs = standard_verbs();
+    /// Adds the kinds of these shared libraries to the registry; throws UserError. None: a launcher without plugins.
+    std::function<void(const std::vector<std::string>& files)> plug = {};
+    Settings settings = {};  // of options that command lines leave open
 
     /// Runs a command line (without the program's name) and returns the exit code; never throws.
     int operator()(const std::vector<std::string>& arguments) const;
+
+private:
+    int perform(const std::vector<std::string>& arguments) const;
 };
 
 /// Takes a command line (without the program's name) apart. Flags may stand in any order after the verb.
 std::variant<Action, Finished> understand(const std::vector<std::string>& arguments, const std::vector<Verb>& verbs);
+
+/// The command line with all its verbs, for manuals.
+std::vector<VerbText> launcher_texts(const std::vector<Verb>& verbs);
 
 }  // namespace lightnet

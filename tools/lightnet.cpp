@@ -1,13 +1,29 @@
 // The launcher: the one place where all rooms meet.
 #include <iostream>
 
+#include "lua/custom.hpp"
+#include "nodes/examples/candela/candela_kinds.hpp"
 #include "nodes/standard_nodes.hpp"
+#include "tools/exit_code.hpp"
 #include "tools/launcher.hpp"
+#include "tools/plugins.hpp"
 #include "transport/places/descriptors.hpp"
 
-int main(int count, char** words) {
+int main(int count, char** words) try {
     lightnet::raise_descriptor_limit();
-    const lightnet::Registry registry{lightnet::standard_nodes()};
+    lightnet::Registry registry{lightnet::standard_nodes()};
+    registry.add(lightnet::candela_kinds());  // an example: code that was written for something else
+    registry.add({lightnet::custom_kind()});
+    lightnet::load_installed_plugins(registry, std::cerr);
     const auto run = [&](const lightnet::RunRequest& request) { return lightnet::run(request, registry); };
-    return lightnet::Launcher{registry, run, std::cout, std::cerr}({words + 1, words + count});
+    lightnet::Launcher launcher{registry, run, std::cout, std::cerr};
+    launcher.plug = [&](const std::vector<std::string>& files) {
+        lightnet::load_plugins(files, registry);
+        lightnet::pass_on_plugins(files);
+    };
+    launcher.settings = lightnet::settings_of_launcher();
+    return launcher({words + 1, words + count});
+} catch (const lightnet::UserError& error) {  // in what the user has settled
+    std::cerr << error.what() << '\n';
+    return lightnet::exit_code::usage;
 }

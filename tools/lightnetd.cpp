@@ -2,20 +2,30 @@
 #include <sys/prctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <iostream>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "core/base/error.hpp"
+#include "lua/custom.hpp"
+#include "nodes/examples/candela/candela_kinds.hpp"
 #include "nodes/standard_nodes.hpp"
 #include "tools/daemon_options.hpp"
 #include "tools/exit_code.hpp"
 #include "tools/log_line.hpp"
+#include "tools/plugins.hpp"
+#include "tools/settings.hpp"
+#include "tools/metrics.hpp"
+#include "tools/metrics_server.hpp"
 #include "tools/signals.hpp"
 #include "tools/single_instance.hpp"
 #include "transport/daemon/host.hpp"
+#include "transport/keys/key_file.hpp"
 #include "transport/places/descriptors.hpp"
 
 namespace {
@@ -30,20 +40,45 @@ void log(const std::string& text) {
     std::cerr << lightnet::log_line("lightnetd", text, std::chrono::system_clock::now()) << std::endl;
 }
 
+lightnet::KeyPair own_key(const lightnet::DaemonOptions& options) {
+    return lightnet::load_or_make_key(options.key_file.empty() ? lightnet::usual_key_file() : options.key_file);
+}
+
+int print_key(const lightnet::DaemonOptions& options) {
+    const auto key = own_key(options).open;
+    std::cout << key.text() << std::endl;
+    std::cerr << "fingerprint " << key.fingerprint() << '\n';
+    return lightnet::exit_code::done;
+}
+
 int serve(lightnet::DaemonOptions options) {
+    if (options.print_key) return print_key(options);
+    options.host.key = lightnet::take_key_from_environment();
+    if (!options.host.key && (!options.host.allow.empty() || options.host.launcher_key))
+        options.host.key = own_key(options);
     if (options.parent) live_no_longer_than(options.parent);
     if (!options.quiet && !options.parent) options.host.log = log;
     const auto& stop = lightnet::watch_signals();
     lightnet::raise_descriptor_limit();
     std::optional<lightnet::SingleInstance> only;
     if (!options.single.empty()) only.emplace(options.single, stop.any);
-    const lightnet::Registry registry{lightnet::standard_nodes()};
+    lightnet::Registry registry{lightnet::standard_nodes()};
+    registry.add(lightnet::candela_kinds());  // an example: code that was written for something else
+    registry.add({lightnet::custom_kind()});
+    lightnet::load_installed_plugins(registry, std::cerr);
+    lightnet::load_plugins(options.plugins, registry);
     lightnet::Host host(options.host, registry);
     if (options.host.listen.empty())
         std::cout << "joining " << options.host.join << std::endl;
     else
         std::cout << "listening on " << host.endpoint() << std::endl;
+    std::optional<lightnet::MetricsServer> metrics;
+    if (!options.metrics.empty()) {
+        metrics.emplace(options.metrics, [&host] { return lightnet::metrics_of(host.figures()); });
+        std::cout << "metrics at " << metrics->url() << std::endl;
+    }
     host.serve(stop.any);
+    metrics.reset();
     if (host.hangs()) {
         log("leaves behind work that does not end");
         std::_Exit(lightnet::exit_code::done);
@@ -54,13 +89,27 @@ int serve(lightnet::DaemonOptions options) {
 }  // namespace
 
 int main(int count, char** words) try {
-    const auto parsed = lightnet::parse_daemon_options({words + 1, words + count});
+    auto settings = lightnet::settings_of_daemon();
+    const auto text = lightnet::daemon_texts().front();
+    std::vector<std::string> typed{words + 1, words + count};
+    if (std::find(typed.begin(), typed.end(), "--print-config") != typed.end()) {
+        std::cout << lightnet::settings_table(settings.settled(text, typed));
+        return lightnet::exit_code::done;
+    }
+    // One that a launcher starts does what that says.
+    if (std::find(typed.begin(), typed.end(), "--parent") != typed.end()) settings.lines.clear();
+    const auto more = settings.missing(text, typed);
+    typed.insert(typed.begin(), more.begin(), more.end());
+    const auto parsed = lightnet::parse_daemon_options(typed);
     if (const auto* finished = std::get_if<lightnet::Finished>(&parsed)) {
         std::cout << finished->out;
         std::cerr << finished->err;
         return finished->code;
     }
     return serve(std::get<lightnet::DaemonOptions>(parsed));
+} catch (const lightnet::UserError& error) {
+    std::cerr << error.what() << '\n';
+    return lightnet::exit_code::usage;
 } catch (const std::exception& error) {
     std::cerr << "lightnetd: " << error.what() << '\n';
     return lightnet::exit_code::failed;

@@ -2,9 +2,11 @@
 
 #include <netdb.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <ostream>
+#include <thread>
 #include <utility>
 
 #include "core/network/graph/check.hpp"
@@ -60,6 +62,14 @@ void check_names(const Hosts& hosts, std::vector<Problem>& problems) {
                 {entry.where, "place '" + entry.endpoint + "': no host is called '" + address->host + "'"});
 }
 
+// How many cores this process may use is known, unlike those of other hosts: so each of its entries has its number of
+// places now.
+void give_places_here(Hosts& hosts) {
+    for (auto& entry : hosts.hosts)
+        if (entry.is_here() && entry.places == 0)
+            entry.places = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
+
 /// A graph as it was found, and what the hosts file says.
 Written with_hosts(Graph graph, std::vector<Problem> problems, const std::string& hosts) {
     Written written{std::move(graph), {}, std::move(problems)};
@@ -93,6 +103,7 @@ Loaded make_sound(Written written, const PictureOptions& wanted, const Registry&
     if (names == NamesOfHosts::looked_up) check_names(hosts, problems);
     sort_by_line(problems, graph.file);
     if (!problems.empty()) throw UserError(std::move(problems));
+    give_places_here(hosts);
     return {std::move(found.graph), std::move(hosts), std::move(found.warnings), std::move(found.notes)};
 }
 

@@ -29,7 +29,7 @@ Written read_files(const RenderedScene& scene, const std::string& hosts);
 /// A sound graph, and where it runs.
 struct Loaded {
     Graph graph;  // checked
-    Hosts hosts;
+    Hosts hosts;  // those for this process have their number of places
     std::vector<Problem> warnings, notes;
 };
 

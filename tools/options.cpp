@@ -55,11 +55,18 @@ void add_helpers(CLI::App& verb, RunningOptions& running) {
     takes_endpoint(verb.add_option("--listen", running.listen,
                                    "where daemons may join (lightnetd --join), even in the middle of the run"),
                    true);
+    verb.add_option("--key", running.key,
+                    "file with our secret key (default: ~/.config/lightnet/key; lightnet key makes it)")
+        ->type_name("FILE");
+    verb.add_option("--allow", running.allow,
+                    "let only hosts join whose keys are in this file (one a line, and a name behind it; read again "
+                    "when it changes), or that have this public key")
+        ->type_name("FILE|KEY");
     verb.add_option("--pass", running.pass,
                     "file with what a host must know to join (default: ~/.config/lightnet/pass, made when missing)")
         ->type_name("FILE");
     verb.add_flag("--insecure", running.insecure,
-                  "reach beyond this machine, unencrypted, on a network that is yours alone");
+                  "reach beyond this machine without keys, unencrypted, on a network that is yours alone");
     takes_numbers(verb.add_option("--wait", running.wait,
                                   "seconds to wait for a host to come, or for a disk to take the picture"),
                   "SECONDS", 0, 864000)
@@ -68,6 +75,24 @@ void add_helpers(CLI::App& verb, RunningOptions& running) {
         verb.add_option("--slurm", running.slurm, "daemons to start as a job array of Slurm"), "N", 1, 10000);
     verb.add_option("--partition", running.partition, "the partition of Slurm to use")->type_name("P")->needs(slurm);
     verb.add_option("--slurm-args", running.slurm_arguments, "further arguments for sbatch, as one text")->needs(slurm);
+}
+
+void add_watching(CLI::App& verb, RunningOptions& running) {
+    verb.add_option_function<std::string>(
+            "--watch", [&running](const std::string& text) { running.watch = watch_address(text); },
+            "serve a page that shows the run while it goes, and say where (default: 127.0.0.1 and a free port)")
+        ->type_name("[ADDRESS[:PORT]]")
+        ->expected(0, 1)
+        ->check([](const std::string& text) {
+            return watch_address(text) ? ""
+                                       : "the page is served at an address like 127.0.0.1:8080 or [::1]:8080, not at " +
+                                             text + "; files stand before --watch";
+        });
+    verb.add_option("--report", running.report, "write a page that shows what the run did, as one file")
+        ->type_name("FILE.html")
+        ->check([](const std::string& text) {
+            return text.ends_with(".html") ? "" : "a report is a file like run.html, not " + text;
+        });
 }
 
 // The picture does not depend on any of these.
@@ -138,6 +163,26 @@ void add_picture(CLI::App& verb, PictureOptions& picture) {
         });
 }
 
+CLI::Option* add_gains(CLI::App& verb, const char* name, std::vector<Gain>& gains, const char* help) {
+    const auto add = [&gains](const std::vector<std::string>& given) {
+        for (const auto& one : given) gains.push_back(gain_of(one));
+    };
+    const auto check = [](const std::string& text) -> std::string {
+        try {
+            gain_of(text);
+            return "";
+        } catch (const Error& error) {
+            return error.what();
+        }
+    };
+    return verb.add_option_function<std::vector<std::string>>(name, add, help)
+        ->type_name("LAYER=X|R,G,B")
+        ->expected(1)
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->check(check);
+}
+
 void add_output(CLI::App& verb, std::string& file, const char* help) {
     verb.add_option("-o,--output", file, help)->type_name("OUT.exr");
 }
@@ -160,6 +205,7 @@ void add_running(CLI::App& verb, RunningOptions& running) {
                   std::numeric_limits<std::uint64_t>::max());
     verb.add_option("--exposure", running.picture.exposure, "exposure in stops: each makes the picture twice as bright")
         ->type_name("STOPS");
+    add_gains(verb, "--gain", running.picture.gains, "times which a layer is in the picture (may be repeated)");
     verb.add_option_function<std::string>(
             "--progress", [&running](const std::string& text) { running.progress = *progress_mode(text); },
             "how progress is shown; none: nothing but errors")
@@ -169,6 +215,9 @@ void add_running(CLI::App& verb, RunningOptions& running) {
         });
     takes_amounts(verb.add_option("--preview", running.preview, "write the picture so far, every so many seconds"),
                   "SECONDS", Least::above_zero);
+    verb.add_option("--trace", running.trace, "write what every place was busy with, for Perfetto (ui.perfetto.dev)")
+        ->type_name("FILE.json");
+    add_watching(verb, running);
     verb.add_flag("--resume", running.resume,
                   "continue from the checkpoint beside the picture, if there is one; a finished picture gets the "
                   "samples that it lacks");
@@ -178,10 +227,12 @@ void add_running(CLI::App& verb, RunningOptions& running) {
 }
 
 std::optional<std::string> settle(RunningOptions& running) {
-    if (!running.listen.empty() && !running.insecure && !stays_on_this_machine(running.listen))
-        return beyond_this_machine("--listen " + running.listen);
-    if (running.slurm && running.listen.empty())
-        running.listen = running.insecure ? "tcp://0.0.0.0:*" : "tcp://127.0.0.1:*";
+    const bool safe = running.insecure || !running.allow.empty() || running.slurm;  // which has keys by itself
+    if (!running.listen.empty() && !safe && !stays_on_this_machine(running.listen))
+        return beyond_this_machine("--listen " + running.listen, "say --allow FILE with the keys of hosts that may join");
+    if (running.watch && !running.insecure && !running.watch->stays_here())
+        return beyond_this_machine("--watch " + in_url(running.watch->host), "put a server with TLS in front of 127.0.0.1");
+    if (running.slurm && running.listen.empty()) running.listen = "tcp://0.0.0.0:*";
     return std::nullopt;
 }
 

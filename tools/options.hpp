@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "core/film/gains.hpp"
 #include "core/film/progress.hpp"
 #include "tools/run.hpp"
 
@@ -40,6 +41,7 @@ struct PictureOptions {
     std::optional<PictureSize> size;
     std::optional<PictureCrop> crop;
     std::optional<double> exposure;  // stops
+    std::vector<Gain> gains;         // of layers
     std::string output;              // file; "": as the graph says
 };
 
@@ -50,6 +52,8 @@ struct RunningOptions {
     std::optional<std::uint32_t> threads;        // places in this process; 1: serial
     std::optional<std::uint32_t> local_workers;  // daemons to start here
     std::string listen;                          // endpoint where hosts may join
+    std::string key;                             // file with our own; "": the usual one
+    std::string allow;                           // whose hosts may join, see AllowFile; "": who knows the pass
     std::string pass;                            // file with what hosts must know to join; "": the usual one
     bool insecure = false;                       // even beyond this machine
     int wait = 30;                               // seconds for a host to come when a node has no place any more
@@ -57,9 +61,12 @@ struct RunningOptions {
     std::string partition, slurm_arguments;
     std::uint64_t seed = 0;
     ProgressMode progress = ProgressMode::automatic;
-    double preview = 0;          // seconds between two pictures of what is there; 0: none
-    bool resume = false;         // from a checkpoint
-    bool forget = false;         // it, when the picture is finished
+    std::string trace;    // file for what places were busy with; "": none
+    std::optional<WatchAddress> watch;  // none: nobody can watch
+    std::string report;                 // file; "": none
+    double preview = 0;                 // seconds between two pictures of what is there; 0: none
+    bool resume = false;                // from a checkpoint
+    bool forget = false;                // it, when the picture is finished
     Tuning tuning;
 };
 
@@ -67,6 +74,8 @@ void add_graph(CLI::App& verb, GraphOptions& graph);
 void add_constants(CLI::App& verb, std::map<std::string, std::string>& constants, const char* help);
 /// --samples, --size and --crop.
 void add_picture(CLI::App& verb, PictureOptions& picture);
+/// An option, or where `name` has no dashes the words of the command line, that gives layers gains.
+CLI::Option* add_gains(CLI::App& verb, const char* name, std::vector<Gain>& gains, const char* help);
 void add_output(CLI::App& verb, std::string& file, const char* help);
 CLI::Option* add_hosts(CLI::App& verb, std::string& file);
 CLI::Option* add_threads(CLI::App& verb, std::optional<std::uint32_t>& threads, const char* help);

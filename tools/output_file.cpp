@@ -10,6 +10,7 @@
 #include "core/network/graph/graph_film.hpp"
 #include "core/readers/files.hpp"
 #include "core/run/prepare/kept.hpp"
+#include "tools/watch/report_page.hpp"
 
 namespace lightnet {
 namespace {
@@ -43,6 +44,13 @@ void check_output(const std::string& output) {
     check(report_beside(output), report_beginning);
     check(checkpoint_beside(output), checkpoint_beginning);
     if (!problems.empty()) throw UserError(problems);
+}
+
+void check_report(const std::string& html) {
+    const auto folder = folder_of(html);
+    if (!fs::is_directory(folder)) throw UserError({html, 0}, "there is no folder " + folder);
+    if (::access(folder.c_str(), W_OK) != 0) throw UserError({html, 0}, "the folder can't be written to");
+    if (const auto why = why_not_replaced(html, report_page_beginning); !why.empty()) throw UserError({html, 0}, why);
 }
 
 // DECISIONS: where-graphs-write

@@ -14,6 +14,9 @@ namespace lightnet {
 /// would: said before work starts, not after hours of it.
 void check_output(const std::string& output);
 
+/// The same for the page of a report.
+void check_report(const std::string& html);
+
 /// What is wrong with the files that a graph, sound or not, wants to be written (`keep`): they stay in the graph's
 /// folder, or below, wherever links lead, and take no place of others.
 std::vector<Problem> problems_of_kept_files(const Graph& graph, const Registry& registry);

@@ -19,6 +19,15 @@ void set_crop(Value& film, const PictureCrop& crop) {
             Table{{{double(crop.x0)}, {double(crop.y0)}, {double(crop.x1)}, {double(crop.y1)}}, {}}};
 }
 
+void set_gains(Value& film, const std::vector<Gain>& gains) {
+    auto* table = std::get_if<Table>(&film.data);
+    if (!table || gains.empty()) return;
+    auto* entry = std::get_if<Table>(&table->named.try_emplace("gains", Value{Table{}}).first->second.data);
+    if (!entry) return;
+    for (const auto& [layer, value] : gains)
+        entry->named[layer] = {Table{{{double(value.r)}, {double(value.g)}, {double(value.b)}}, {}}};
+}
+
 void set_exposure(Node& scene, const Kind& kind, const PictureOptions& wanted) {
     for (const auto& param : kind.params)
         if (wanted.exposure && param.name == "exposure") scene.params[param.name] = {*wanted.exposure};
@@ -34,10 +43,11 @@ void override_picture(Graph& graph, const Registry& registry, const PictureOptio
         for (const auto& param : kind->params) {
             if (wanted.samples && param.name == "samples")
                 node.params[param.name] = {static_cast<double>(*wanted.samples)};
-            if (param.type != ParamType::film || !(wanted.size || wanted.crop)) continue;
+            if (param.type != ParamType::film || !(wanted.size || wanted.crop || !wanted.gains.empty())) continue;
             Value& film = node.params.try_emplace(param.name, Value{Table{}}).first->second;
             if (wanted.size) set_size(film, *wanted.size);
             if (wanted.crop) set_crop(film, *wanted.crop);
+            set_gains(film, wanted.gains);
         }
     }
 }

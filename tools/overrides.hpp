@@ -9,7 +9,8 @@
 
 namespace lightnet {
 
-/// Writes --samples, --size and --crop into the renderers of an unchecked graph, and --exposure into its scenes.
+/// Writes --samples, --size, --crop and --gain into the renderers of an unchecked graph, and --exposure into its
+/// scenes.
 void override_picture(Graph& graph, const Registry& registry, const PictureOptions& wanted);
 
 /// Where the picture of a checked graph goes: -o, else the film's file, else the graph's name with .exr, here.

@@ -5,22 +5,18 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
 
 #include "core/base/error.hpp"
 #include "core/base/printable.hpp"
+#include "core/base/this_machine.hpp"
 
 namespace lightnet {
 namespace {
 
-std::string this_process() {
-    std::array<char, 256> machine{};
-    ::gethostname(machine.data(), machine.size() - 1);
-    return "process " + std::to_string(::getpid()) + " on " + machine.data();
-}
+std::string this_process() { return "process " + std::to_string(::getpid()) + " on " + machine_name(); }
 
 // As the one who has the lock wrote it.
 std::string who_has(const std::string& path) {

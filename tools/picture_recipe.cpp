@@ -33,6 +33,8 @@ std::map<std::string, std::string> picture_recipe(const Job& job, const Registry
                                                   std::uint32_t tile) {
     std::string files = job.scene;
     for (const auto& file : job.files) files += "\n" + file.path + " " + to_hex(file.hash);
+    std::string build = build_id();
+    for (const auto& plugin : job.plugins) build += ", " + plugin;
     const auto crop = format.crop.value_or(Window{0, 0, format.width, format.height});
     return {{"graph", to_hex(content_hash(text_of_light(written(job.graph), registry)))},
             {"scene", to_hex(content_hash(files))},
@@ -41,7 +43,7 @@ std::map<std::string, std::string> picture_recipe(const Job& job, const Registry
             {"crop", fmt::format("{},{},{},{}", crop.x, crop.y, crop.x + crop.width, crop.y + crop.height)},
             {"error", fmt::format("{}", format.refinement.error)},
             {"tile", std::to_string(tile)},
-            {"build", build_id()},
+            {"build", build},
             {"arithmetic", std::to_string(fingerprint(job.isa))}};
 }
 

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <random>
 #include <string>
@@ -13,11 +12,14 @@
 
 #include "core/base/error.hpp"
 #include "core/base/hash.hpp"
+#include "core/base/this_machine.hpp"
 #include "core/network/graph/check.hpp"
+#include "core/run/prepare/looker.hpp"
 #include "core/run/runtime/master_renderer.hpp"
 #include "core/run/runtime/serial.hpp"
 #include "tools/crew.hpp"
 #include "transport/launcher/threaded_run.hpp"
+#include "transport/store/cache_folder.hpp"
 
 namespace lightnet {
 namespace {
@@ -34,10 +36,8 @@ std::uint64_t random_number() {
 
 // For those who have to wait for the hosts of this run.
 std::string who_runs(const Graph& graph) {
-    std::array<char, 256> machine{};
-    gethostname(machine.data(), machine.size() - 1);
     const passwd* user = getpwuid(getuid());
-    return fmt::format("{}@{} ({})", user ? user->pw_name : std::to_string(getuid()), machine.data(), graph.file);
+    return fmt::format("{}@{} ({})", user ? user->pw_name : std::to_string(getuid()), machine_name(), graph.file);
 }
 
 }  // namespace
@@ -63,33 +63,53 @@ void Rendering::perform(LoadedScene scene, const DiskFiles& files) {
 void Rendering::serially(LoadedScene scene) {
     book_.phase("prepare");
     const auto network = build_network(what_.job, what_.registry, std::move(scene));
-    SerialRun run(*network, [this] {
+    std::optional<Looker> looker;
+    const Crowd alone{{}, {}, [&] { return std::vector{this_process(1, looker->figures())}; }, {}};
+    SerialRun run(*network, [&] {
         if (stopped()) throw Cancelled{};
+        if (looker) show(alone);
     });
+    std::optional<PlaceTracer> tracer;
+    if (what_.request.tuning.trace) run.trace(tracer.emplace(what_.job.graph, 1 << 16));
+    if (book_.shown()) looker.emplace(std::vector{&run.gauge()});
     run.watch([this](const PrepareProgress& progress) { book_.preparing(progress); });
     book_.use(Plan{{PlaceAt{}}, std::vector<std::vector<std::uint32_t>>(what_.job.graph.nodes.size(), {0})},
               what_.job.graph);
     try {
-        run.prepare(made_from(what_.job), cache(), [this](const std::string& text) { book_.say(text); });
+        TilesByPass passes(what_.job.graph, what_.registry, what_.tiles);
+        const auto say = [this](const std::string& text) { book_.say(text); };
+        run.prepare(made_from(what_.job), cache(), say, passes.pass());
         what_.kept.write([&](std::size_t node) { return run.last_result(node); }, book_);
         book_.phase("render");
-        for (std::size_t next = 0; next < what_.tiles.size() && !stopped(); ++next) {
-            const Tile tile = what_.tiles[next];
-            const auto more = book_.take(tile, run.render(tile));
-            what_.tiles.insert(what_.tiles.end(), more.begin(), more.end());
+        while (!passes.empty() && !stopped()) {
+            auto tiles = passes.begin_next();
+            for (std::size_t next = 0; next < tiles.size() && !stopped(); ++next) {
+                const Tile tile = tiles[next];
+                const auto more = passes.sort(book_.take(tile, run.render(tile)));
+                tiles.insert(tiles.end(), more.begin(), more.end());
+            }
         }
     } catch (const Cancelled&) {
     }
-    book_.count(run.counters());
+    if (looker) book_.show_last(alone.hosts);
+    auto counters = run.counters();
+    if (tracer) counters.traces.push_back(tracer->take("", 0));
+    book_.count(counters);
 }
 
 void Rendering::in_threads(LoadedScene scene) {
     book_.phase("prepare");
     const auto network = build_network(what_.job, what_.registry, std::move(scene));
-    const Plan plan = lightnet::plan(what_.job.graph, what_.registry, {}, {{"", what_.request.threads}});
+    const Plan plan =
+        lightnet::plan(what_.job.graph, what_.registry, what_.request.hosts, {{"", what_.request.threads}});
     ThreadedRun run(network, id_, plan, what_.job.tuning);
     book_.use(plan, what_.job.graph);
-    hand_out(run.carrier(), plan, [&](std::size_t) { run.check(); });
+    if (book_.shown()) run.watch();
+    const auto places = static_cast<std::uint32_t>(plan.places.size());
+    const auto hosts = [&] { return std::vector{this_process(places, run.figures())}; };
+    hand_out(run.carrier(), plan,
+             {[&](std::size_t) { run.check(); }, [&] { return network->activity->all(); }, hosts, {}});
+    book_.show_last(hosts);
     book_.count(run.stop());
 }
 
@@ -117,17 +137,18 @@ ResultCache* Rendering::cache() {
 }
 
 // True when all is prepared, false when the run was stopped.
-bool Rendering::prepare(Conductor& conductor, const LookAround& look_around) {
+bool Rendering::prepare(Conductor& conductor, const Crowd& crowd) {
     while (!conductor.prepare(50ms)) {
         if (stopped()) return false;
-        look_around(conductor.in_force().places_of[image_].size());
-        book_.preparing(conductor.progress());
+        crowd.look_around(conductor.in_force().places_of[image_].size());
+        book_.preparing(with(conductor.progress(), crowd.doing()));
+        show(crowd);
     }
     for (const auto& [node, hash] : conductor.prepared()) book_.set("prepared." + node, to_hex(hash));
     return true;
 }
 
-void Rendering::hand_out(Carrier& carrier, const Plan& plan, const LookAround& look_around) {
+void Rendering::hand_out(Carrier& carrier, const Plan& plan, const Crowd& crowd) {
     Conductor::Options options;
     options.run = id_;
     options.graph = &what_.job.graph;
@@ -137,25 +158,38 @@ void Rendering::hand_out(Carrier& carrier, const Plan& plan, const LookAround& l
     options.cache = cache();
     options.say = [this](const std::string& text) { book_.say(text); };
     Conductor conductor(std::move(options), carrier);
+    TilesByPass passes(what_.job.graph, what_.registry, what_.tiles);
+    conductor.begin_pass(passes.pass());
     conductor.propose(plan);
-    if (!prepare(conductor, look_around)) return;
+    if (!prepare(conductor, crowd)) return;
     what_.kept.write([&](std::size_t node) { return conductor.last_result(node); }, book_);
     book_.phase("render");
+    while (!passes.empty() && !stopped()) hand_out_pass(conductor, passes, crowd);
+}
+
+// Prepares for the next pass, as far as that is still to be done, and has its tiles rendered.
+void Rendering::hand_out_pass(Conductor& conductor, TilesByPass& passes, const Crowd& crowd) {
     MasterRenderer::Job job;
     job.run = id_;
     job.image = static_cast<std::uint32_t>(image_);
     job.width = static_cast<std::uint32_t>(what_.format.colours());
-    job.tiles = what_.tiles;
-    const auto tiles = tiles_per_place(plan);
+    job.tiles = passes.begin_next();
+    conductor.begin_pass(passes.pass());
+    if (!prepare(conductor, crowd)) return;
+    const auto tiles = tiles_per_place(conductor.in_force());
     job.credit = {tiles, tiles * MasterRenderer::most_together};
     job.check_answers = what_.request.tuning.check_answers;
+    if (book_.shown()) job.handed_out = [this](const auto& handed_out) { book_.show_handed_out(handed_out); };
     MasterRenderer* more = nullptr;
-    MasterRenderer master(std::move(job), conductor, [this, &more](const Tile& tile, std::span<const Rgb> pixels) {
-        more->append(book_.take(tile, pixels));
+    MasterRenderer master(std::move(job), conductor, [&](const Tile& tile, std::span<const Rgb> pixels) {
+        more->append(passes.sort(book_.take(tile, pixels)));
     });
     more = &master;
     master.use(conductor.in_force());
-    while (!stopped() && !master.work(50ms)) look_around(master.renderers());
+    while (!stopped() && !master.work(50ms)) {
+        crowd.look_around(master.renderers());
+        show(crowd);
+    }
     if (signals_.terminated) {
         master.drain();
         const auto end = Clock::now() + drain_deadline;
@@ -196,7 +230,7 @@ void Rendering::on_hosts(LoadedScene scene, const DiskFiles& files) {
     book_.use(cluster.plan(), what_.job.graph);
     for (const auto& host : crew.missing()) book_.warn(host);
     std::optional<Clock::time_point> homeless;
-    hand_out(cluster, cluster.plan(), [&](std::size_t renderers) {
+    const auto look_around = [&](std::size_t renderers) {
         crew.look_after();
         if (renderers > 0) return homeless.reset();
         const auto& name = what_.job.graph.nodes[image_].name;
@@ -208,7 +242,12 @@ void Rendering::on_hosts(LoadedScene scene, const DiskFiles& files) {
         if (Clock::now() - *homeless > what_.request.wait)
             throw Error(fmt::format("node '{}' has no place any more, and no host came within {} s", name,
                                     what_.request.wait.count()));
-    });
+    };
+    if (book_.shown()) cluster.watch();
+    hand_out(cluster, cluster.plan(),
+             {look_around, [&] { return cluster.doing(); }, [&] { return cluster.hosts(); },
+              [&](const std::string& host) { return cluster.drain(host); }});
+    book_.show_last([&] { return cluster.hosts(); });
     book_.use(cluster.plan(), what_.job.graph);
     for (const auto& host : cluster.hosts()) book_.use(host);
     book_.count(cluster.finish(stopped() ? 300ms : 1000ms));

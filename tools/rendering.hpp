@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/film/film.hpp"
@@ -15,6 +16,7 @@
 #include "core/run/prepare/load_scene.hpp"
 #include "core/run/runtime/conductor.hpp"
 #include "core/run/runtime/job.hpp"
+#include "core/run/runtime/tiles_by_pass.hpp"
 #include "tools/kept_files.hpp"
 #include "tools/run.hpp"
 #include "tools/run_book.hpp"
@@ -48,9 +50,19 @@ private:
     void on_hosts(LoadedScene scene, const DiskFiles& files);
     Cluster::Options cluster_options(const DiskFiles& files);
     /// Called several times a second with the number of places that render.
-    using LookAround = std::function<void(std::size_t renderers)>;
-    void hand_out(Carrier& carrier, const Plan& plan, const LookAround& look_around);
-    bool prepare(Conductor& conductor, const LookAround& look_around);
+    /// Those who do the work.
+    struct Crowd {
+        std::function<void(std::size_t renderers)> look_around;
+        std::function<Doings()> doing;  // while they prepare
+        std::function<std::vector<HostState>()> hosts;
+        std::function<bool(const std::string& host)> drain;  // none: nobody can be taken out
+    };
+    void show(const Crowd& crowd);
+    void obey(const WatchCommand& wish, const Crowd& crowd);
+    static HostState this_process(std::uint32_t places, HostFigures figures);
+    void hand_out(Carrier& carrier, const Plan& plan, const Crowd& crowd);
+    void hand_out_pass(Conductor& conductor, TilesByPass& passes, const Crowd& crowd);
+    bool prepare(Conductor& conductor, const Crowd& crowd);
     ResultCache* cache();
     std::uint32_t tiles_per_place(const Plan& plan) const;
     bool stopped() const { return signals_.any; }

@@ -5,9 +5,11 @@
 #include <chrono>
 #include <iostream>
 #include <new>
+#include <optional>
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/own_files.hpp"
 #include "core/network/graph/graph_film.hpp"
 #include "core/readers/read_scene.hpp"
 #include "core/run/prepare/load_scene.hpp"
@@ -20,6 +22,7 @@
 #include "tools/rendering.hpp"
 #include "tools/run_book.hpp"
 #include "tools/run_settings.hpp"
+#include "tools/run_trace.hpp"
 #include "tools/signals.hpp"
 
 namespace lightnet {
@@ -43,6 +46,9 @@ private:
     LoadedScene load(DiskFiles& files);
     int render();
     int cancelled();
+    void open_to_watchers();
+    int perform_watched();
+    void show_outcome(const std::string& outcome);
     void take_up_checkpoint();
     void report_failure();
 
@@ -52,6 +58,7 @@ private:
     FilmFormat format_;
     std::vector<Tile> tiles_;
     RunBook book_;
+    std::optional<Watcher> watcher_;
     Job job_;
 };
 
@@ -74,7 +81,7 @@ LoadedScene Run::load(DiskFiles& files) {
                                    : read_scene(files, request_.scene, scene_constants(request_.graph, registry_));
     LoadedScene scene = override_scene(request_.graph, registry_, files, std::move(read));
     for (const auto& warning : scene.data.warnings) book_.warn(to_string(warning));
-    job_ = make_job(request_, format_, files);
+    job_ = make_job(request_, registry_, format_, files);
     return scene;
 }
 
@@ -84,6 +91,7 @@ int Run::render() {
     LoadedScene scene = load(files);
     const KeptFiles to_keep(request_.graph, registry_, scene.data);
     book_.expose(scene.data.film.scale);
+    book_.trace_to(request_.trace);
     if (request_.preview > 0) book_.preview(request_.output, request_.preview);
     take_up_checkpoint();
     if (book_.complete() && book_.is_written(request_.output)) {
@@ -97,7 +105,7 @@ int Run::render() {
             .perform(std::move(scene), files);
     if (signals_.any) return cancelled();
     book_.phase("write");
-    book_.name_not_finite(job_.graph);
+    book_.name_bad_light(job_.graph);
     return finish_run(book_, request_, scene_overrides(request_.graph, registry_).exposure, signals_.any);
 }
 
@@ -109,9 +117,46 @@ int Run::cancelled() {
     return exit_code::interrupted;
 }
 
+void Run::open_to_watchers() {
+    if (!request_.watch && request_.report.empty()) return;
+    watcher_.emplace(Watcher::Options{request_.watch, !request_.report.empty(), ask_to_stop},
+                     WatchedRun{request_.graph, registry_, format_, request_.output});
+    book_.show_to(&*watcher_);
+    // Whoever asks for it wants to know, however little else is said.
+    if (request_.watch) std::cerr << "watch it at " << watcher_->url() << std::endl;
+}
+
 int Run::perform() {
     check_output(request_.output);
+    if (!request_.trace.empty())
+        if (const auto why = why_not_replaced(request_.trace, trace_beginning); !why.empty())
+            throw UserError({request_.trace, 0}, why);
+    if (!request_.report.empty()) check_report(request_.report);
     const PictureLock lock(request_.output);
+    open_to_watchers();
+    try {
+        const int code = perform_watched();
+        show_outcome(code == exit_code::done ? "done" : code == exit_code::interrupted ? "cancelled" : "failed");
+        return code;
+    } catch (...) {
+        show_outcome("failed");
+        throw;
+    }
+}
+
+// A report that can't be written takes nothing from the picture.
+void Run::show_outcome(const std::string& outcome) {
+    if (!watcher_) return;
+    book_.show_outcome(outcome);
+    if (request_.report.empty()) return;
+    try {
+        book_.write_report_page(request_.report);
+    } catch (const std::exception& error) {
+        std::cerr << "lightnet: there is no report: " << error.what() << '\n';
+    }
+}
+
+int Run::perform_watched() {
     try {
         return render();
     } catch (const UserError&) {
@@ -119,7 +164,7 @@ int Run::perform() {
     } catch (const NoWorker& error) {
         report_failure();
         std::cerr << "lightnet: " << error.what() << '\n';
-        return exit_code::no_worker;
+        return dynamic_cast<const NobodyKnown*>(&error) ? exit_code::unknown_key : exit_code::no_worker;
     } catch (...) {
         report_failure();
         throw;

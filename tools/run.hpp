@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,8 @@
 #include "core/readers/files.hpp"
 #include "core/run/message/tuning.hpp"
 #include "core/scene/data/scene_data.hpp"
+#include "tools/watch/watch_rules.hpp"
+#include "tools/run_keys.hpp"
 
 namespace lightnet {
 
@@ -36,11 +39,12 @@ struct SlurmRequest {
 /// A run, ready to go.
 struct RunRequest {
     Graph graph;  // checked; --samples and --size are in it, and the sectors of sharded nodes
-    Hosts hosts;  // mode network: those to be called, or that join by name
+    Hosts hosts;  // to be called, or that join by name; and places of this process
     Mode mode = Mode::serial;
-    std::uint32_t threads = 0;        // places in this process
+    std::uint32_t threads = 0;        // places in this process, as many as `hosts` names if it names any
     std::uint32_t local_workers = 0;  // mode network: daemons to start
     std::string listen;               // mode network: endpoint where hosts may join; "": nowhere
+    RunKeys keys;                     // mode network: by which hosts and this process know each other
     std::string pass;                 // file with what hosts must know to join; "": the usual one
     SlurmRequest slurm;               // mode network
     std::chrono::seconds wait{30};    // for a host when a node has no place any more
@@ -51,7 +55,10 @@ struct RunRequest {
     std::shared_ptr<ReadScene> read;  // it, read already; the run takes it away. None: still to be read
     std::string output;               // "x.exr", as seen from here
     std::uint64_t seed = 0;
-    double preview = 0;  // seconds between two pictures of what is there; 0: none
+    std::string trace;   // file for what places were busy with; "": none
+    std::optional<WatchAddress> watch;  // serve a page that shows the run
+    std::string report;                 // file of a page that shows what the run did; "": none
+    double preview = 0;                 // seconds between two pictures of what is there; 0: none
     ProgressMode progress = ProgressMode::automatic;
 };
 

@@ -8,17 +8,24 @@
 #include <iterator>
 #include <utility>
 
+#include "core/base/atomic_file.hpp"
 #include "core/base/error.hpp"
 #include "core/base/own_files.hpp"
 #include "core/film/exr.hpp"
 #include "core/film/png.hpp"
 #include "core/network/graph/layout.hpp"
+#include "tools/run_figures.hpp"
+#include "tools/run_trace.hpp"
 #include "tools/summary.hpp"
+#include "tools/watch/report_page.hpp"
 
 namespace lightnet {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+// As hosts files call it.
+std::string shown_host(const std::string& host) { return host.empty() ? std::string(own_process) : host; }
 
 }  // namespace
 
@@ -29,6 +36,7 @@ RunBook::RunBook(FilmFormat format, ProgressMode progress, std::uint64_t blocks,
       progress_(blocks, Progress::style_of_stderr(progress), std::cerr, Clock::now()) {}
 
 void RunBook::end_phase(Clock::time_point now) {
+    end_doing(now);
     if (phase_begun_) report_.phases.back().seconds = std::chrono::duration<double>(now - *phase_begun_).count();
     phase_begun_.reset();
 }
@@ -39,18 +47,43 @@ void RunBook::phase(const std::string& name) {
     report_.phases.push_back({name, 0});
     phase_begun_ = now;
     progress_.phase(name, now);
+    if (watcher_) watcher_->phase(name);
+}
+
+void RunBook::say(const std::string& text) {
+    progress_.say(text);
+    if (watcher_) watcher_->say(text);
+}
+
+void RunBook::show_outcome(const std::string& outcome) {
+    if (watcher_) watcher_->finish(film_, outcome);
 }
 
 void RunBook::warn(const std::string& text) {
     report_.warnings.push_back(text);
-    progress_.say("warning: " + text);
+    say("warning: " + text);
 }
 
 void RunBook::preparing(const PrepareProgress& progress) {
-    if (progress.node.empty()) return;
+    const bool anew = !report_.phases.empty() && report_.phases.back().name == "render";  // between two passes
+    if (progress.node.empty() || anew) return;
+    if (watcher_) watcher_->preparing(progress);
     if (std::exchange(last_prepared_, progress.node) != progress.node) say("preparing " + progress.node);
-    progress_.step(fmt::format("{} {}/{}", progress.node, progress.position, progress.nodes), progress.done,
-                   progress.total, Clock::now());
+    const auto now = Clock::now();
+    const auto what = progress.what.empty() ? "" : ": " + progress.what;
+    progress_.step(fmt::format("{} {}/{}{}", progress.node, progress.position, progress.nodes, what), progress.done,
+                   progress.total, now);
+    auto& did = report_.preparing;
+    if (doing_since_ && did.back().node == progress.node && did.back().what == progress.what) return;
+    end_doing(now);
+    if (progress.what.empty()) return;
+    did.push_back({progress.node, progress.what, 0});
+    doing_since_ = now;
+}
+
+void RunBook::end_doing(Clock::time_point now) {
+    if (doing_since_) report_.preparing.back().seconds = std::chrono::duration<double>(now - *doing_since_).count();
+    doing_since_.reset();
 }
 
 void RunBook::expose(float scale) {
@@ -67,6 +100,7 @@ std::vector<Tile> RunBook::take(const Tile& tile, std::span<const Rgb> pixels) {
     const bool wanted = added || !film_.has(tile);
     if (added) blocks_ += tile.blocks();
     if (!wanted) ++repeated_;
+    if (watcher_) watcher_->taken(tile), watcher_->look(film_);
     // Tiles differ in size where cells decide.
     const bool differ = film_.format().adaptive();
     progress_.update(differ ? static_cast<std::uint64_t>(film_.done() * double(all_blocks_)) : blocks_, Clock::now());
@@ -74,6 +108,12 @@ std::vector<Tile> RunBook::take(const Tile& tile, std::span<const Rgb> pixels) {
     if (checkpoint_)
         if (const auto why = checkpoint_->save_if_due(blocks_); !why.empty()) warn("no checkpoint: " + why);
     return wanted ? film_.more(tile) : std::vector<Tile>{};
+}
+
+void RunBook::preview_now(const std::string& exr) {
+    const auto usual = std::exchange(preview_, Preview{exr, Pace(std::chrono::seconds(0), Clock::now())});
+    write_preview();
+    preview_ = usual;
 }
 
 // A preview that can't be written is no reason to lose the picture.
@@ -148,11 +188,11 @@ void RunBook::end_checkpoint(bool stays) {
 
 void RunBook::use(const HostState& host) {
     const auto& machine = host.machine;
-    report_.hosts.push_back({host.name, host.state, machine.name, machine.cpu, machine.isa, machine.version,
+    report_.hosts.push_back({shown_host(host.name), host.state, machine.name, machine.cpu, machine.isa, machine.version,
                              machine.cores, machine.memory, host.places});
 }
 
-void RunBook::name_not_finite(const Graph& graph) {
+void RunBook::name_bad_light(const Graph& graph) {
     const auto& counts = counters_.not_finite;
     for (std::size_t node = 0; node < graph.nodes.size(); ++node) {
         const auto count = counts.find(graph.nodes[node].name);
@@ -163,6 +203,8 @@ void RunBook::name_not_finite(const Graph& graph) {
             warn(fmt::format("{} '{}' gave {} answers that are not finite", graph.nodes[node].kind,
                              graph.nodes[node].name, count->second));
     }
+    for (const auto& [node, count] : counters_.off_surface)
+        warn(fmt::format("'{}' asked {} times about points that no surface is near; they count as black", node, count));
     const auto lost = film_.lost();
     for (std::size_t layer = 0; layer < lost.size(); ++layer)
         if (lost[layer])
@@ -172,10 +214,14 @@ void RunBook::name_not_finite(const Graph& graph) {
 
 void RunBook::use(const Plan& plan, const Graph& graph) {
     report_.places.clear();
+    report_.nodes = nodes_without_figures(graph);
+    graph_nodes_.clear();
+    for (const auto& node : graph.nodes) graph_nodes_.push_back(node.name);
     for (const auto& [node, count] : shards_in(graph))
         report_.settings["layout." + node] = fmt::format("sharded, {} sectors", count);
     for (std::uint32_t place = 0; place < plan.places.size(); ++place) {
-        PlaceReport entry{plan.places[place].host, plan.places[place].index, {}};
+        PlaceReport entry;
+        entry.host = shown_host(plan.places[place].host), entry.index = plan.places[place].index;
         for (std::size_t node = 0; node < plan.places_of.size(); ++node)
             if (std::count(plan.places_of[node].begin(), plan.places_of[node].end(), place))
                 entry.nodes.push_back(graph.nodes[node].name);
@@ -194,6 +240,11 @@ bool RunBook::is_written(const std::string& exr) const {
     return std::string{std::istreambuf_iterator<char>(file), {}} == exr_of(film_.picture(scale_));
 }
 
+void RunBook::write_report_page(const std::string& html) {
+    expect_ours(html, report_page_beginning);
+    write_file(html, report_page(*watcher_, film_.picture(scale_), facts_of(report_, watcher_->at_work())));
+}
+
 void RunBook::conclude(const Hosts& asked, double exposure) {
     auto layers = film_.format().layers;
     layers.insert(layers.end(), film_.format().shown.begin(), film_.format().shown.end());
@@ -205,9 +256,22 @@ void RunBook::write_report(const std::string& exr, const std::string& outcome) {
     end_phase(now);
     progress_.finish(now);
     report_.outcome = outcome;
+    write_trace();
     report_.counters = counters_.named();
+    add_figures(report_, counters_.places);
     report_.counters["repeated_tiles"] = repeated_;
     lightnet::write_report(report_beside(exr), report_);
+}
+
+// A trace that can't be written is no reason to lose the report.
+void RunBook::write_trace() {
+    if (trace_.empty() || counters_.traces.empty()) return;
+    try {
+        write_file(trace_, to_trace_json(counters_.traces, graph_nodes_));
+        report_.outputs.push_back(trace_);
+    } catch (const Error& error) {
+        warn(std::string("no trace: ") + error.what());
+    }
 }
 
 }  // namespace lightnet

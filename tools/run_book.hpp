@@ -19,6 +19,7 @@
 #include "core/run/prepare/prepare_progress.hpp"
 #include "tools/checkpoint_keeper.hpp"
 #include "tools/pace.hpp"
+#include "tools/watch/watcher.hpp"
 #include "transport/launcher/cluster.hpp"
 
 namespace lightnet {
@@ -33,7 +34,23 @@ public:
 
     /// Another part of the run begins; the one before has ended.
     void phase(const std::string& name);
-    void say(const std::string& text) { progress_.say(text); }
+    void say(const std::string& text);
+    /// From now on, those who watch are shown what happens. Outlives the book, or until the run is told to end.
+    void show_to(Watcher* watcher) { watcher_ = watcher; }
+    /// Somebody may watch.
+    bool shown() const { return watcher_ != nullptr; }
+    /// Shows what is new, to be called several times a second.
+    void show(const Watcher::Hosts& hosts) { watcher_->look(film_, hosts); }
+    void show_last(const Watcher::Hosts& hosts) {
+        if (watcher_) watcher_->part_from(hosts);
+    }
+    void show_handed_out(const std::vector<Tile>& tiles) { watcher_->handed_out(tiles); }
+    /// The last thing that those who watch are shown.
+    void show_outcome(const std::string& outcome);
+    /// Writes a page that shows what the run did. Throws Error.
+    void write_report_page(const std::string& html);
+    /// What they want.
+    std::vector<WatchCommand> wishes() { return watcher_->commands(); }
     /// How far preparing is.
     void preparing(const PrepareProgress& progress);
     void warn(const std::string& text);
@@ -41,6 +58,10 @@ public:
     void expose(float scale);
     /// From now on, writes what is there every so many seconds.
     void preview(const std::string& exr, double seconds);
+    /// With the report, writes there what all places were busy with.
+    void trace_to(const std::string& file) { trace_ = file; }
+    /// Writes what is there now.
+    void preview_now(const std::string& exr);
     /// A preview was written, and no picture since.
     bool previewed() const { return previewed_; }
     /// Pixels of a tile. Returns the tiles that are wanted now, beside those that are wanted anyhow.
@@ -50,9 +71,9 @@ public:
     /// A line of the report's settings.
     void set(const std::string& name, const std::string& value) { report_.settings[name] = value; }
     void count(const Counters& counters) { counters_ += counters; }
-    /// Warns of the nodes that made what is not finite: those that answered so, while none that they ask did; and of
-    /// the layers that lack it.
-    void name_not_finite(const Graph& graph);
+    /// Warns of the nodes that made what is not finite: those that answered so, while none that they ask did; of those
+    /// that asked about no surface; and of the layers that lack light.
+    void name_bad_light(const Graph& graph);
     /// Who took part.
     void use(const HostState& host);
 
@@ -93,16 +114,22 @@ private:
     };
     void write_files(const std::string& exr);
     void write_preview();
+    void write_trace();
     void end_phase(Pace::Clock::time_point now);
+    void end_doing(Pace::Clock::time_point now);
 
     Film film_;
     float scale_ = 1;
-    Brightness brightness_;      // of what was written last
-    std::string last_prepared_;  // node that was named
+    Brightness brightness_;                               // of what was written last
+    std::string last_prepared_;                           // node that was named
+    std::optional<Pace::Clock::time_point> doing_since_;  // what stands last in the report's `preparing`
     bool said_overflow_ = false;
+    Watcher* watcher_ = nullptr;
     std::optional<Preview> preview_;
     bool previewed_ = false;
     std::optional<CheckpointKeeper> checkpoint_;
+    std::string trace_;                     // file; "": none
+    std::vector<std::string> graph_nodes_;  // names by index
     RunReport report_;
     std::uint64_t all_blocks_;
     Progress progress_;

@@ -12,9 +12,9 @@
 #include "core/network/graph/check_hosts.hpp"
 #include "core/network/graph/graph_film.hpp"
 #include "core/network/graph/layout.hpp"
+#include "core/network/graph/plan.hpp"
 #include "core/run/prepare/load_scene.hpp"
 #include "tools/overrides.hpp"
-#include "transport/wire/loopback.hpp"
 
 namespace lightnet {
 namespace {
@@ -24,13 +24,34 @@ std::vector<std::string> words_of(const std::string& text) {
     return {std::istream_iterator<std::string>(in), {}};
 }
 
-// Packets are for everybody to read who is in between.
-void check_reach(const RunningOptions& running, const Hosts& hosts) {
-    std::vector<Problem> problems;
-    for (const auto& host : hosts.hosts)
-        if (!running.insecure && address_of(host.endpoint) && !stays_on_this_machine(host.endpoint))
-            problems.push_back({host.where, beyond_this_machine("'" + host.endpoint + "'")});
-    if (!problems.empty()) throw UserError(std::move(problems));
+// The first entry for places of this process; null: there is none.
+const HostEntry* first_here(const Hosts& hosts) {
+    const auto found =
+        std::find_if(hosts.hosts.begin(), hosts.hosts.end(), [](const HostEntry& entry) { return entry.is_here(); });
+    return found == hosts.hosts.end() ? nullptr : &*found;
+}
+
+// What the hosts file says of this process is said there alone.
+void check_threads(const RunningOptions& running, const Hosts& hosts) {
+    if (const auto* here = first_here(hosts); here && running.threads)
+        throw UserError(here->where, "place 'here': this file says which places this process has, and so --threads " +
+                                         std::to_string(*running.threads) + " can't; leave it out, or write places = " +
+                                         std::to_string(*running.threads) + " here");
+}
+
+// Who takes part: other hosts, or this process alone.
+bool has_other_hosts(const RunningOptions& running, const Hosts& hosts) {
+    const bool only_here = !hosts.hosts.empty() && std::all_of(hosts.hosts.begin(), hosts.hosts.end(),
+                                                               [](const HostEntry& entry) { return entry.is_here(); });
+    return (!running.hosts.empty() && !only_here) || !running.listen.empty() || running.local_workers;
+}
+
+// Places of this process: as many as its entries of the hosts file have, or as the command line says.
+std::uint32_t own_places(const RunningOptions& running, const RunRequest& request, const Registry& registry) {
+    if (!first_here(request.hosts))
+        return running.threads.value_or(
+            request.mode == Mode::network ? 0 : std::max(1u, std::thread::hardware_concurrency()));
+    return places_of_host(plan(request.graph, registry, request.hosts, {{"", 1}}), "");
 }
 
 }  // namespace
@@ -38,7 +59,8 @@ void check_reach(const RunningOptions& running, const Hosts& hosts) {
 RunRequest request_of(const RunningOptions& running, const Launcher& launcher, Loaded loaded) {
     const auto& registry = launcher.registry;
     if (running.progress != ProgressMode::none) warn(loaded.warnings, launcher.err);
-    check_reach(running, loaded.hosts);
+    auto keys = run_keys(running, loaded.hosts);
+    check_threads(running, loaded.hosts);
     RunRequest request;
     request.scene = scene_file(loaded.graph, registry);
     request.output = output_file(loaded.graph, registry, running.picture);
@@ -46,22 +68,25 @@ RunRequest request_of(const RunningOptions& running, const Launcher& launcher, L
     request.hosts = std::move(loaded.hosts);
     request.seed = running.seed;
     request.preview = running.preview;
+    request.watch = running.watch;
+    request.report = running.report;
     request.progress = running.progress;
     request.listen = running.listen;
+    request.keys = std::move(keys);
     request.pass = running.pass;
     request.tuning = running.tuning;
+    request.trace = running.trace;
+    request.tuning.trace = !running.trace.empty();
     request.local_workers = running.local_workers.value_or(0);
     request.slurm = {running.slurm.value_or(0), running.partition, words_of(running.slurm_arguments)};
     request.wait = std::chrono::seconds(running.wait);
     request.resume = running.resume;
     request.forget = running.forget;
-    const bool network = !running.hosts.empty() || !running.listen.empty() || running.local_workers;
-    request.threads = running.threads.value_or(network ? 0 : std::max(1u, std::thread::hardware_concurrency()));
-    request.mode = network ? Mode::network : request.threads > 1 ? Mode::threads : Mode::serial;
-    if (request.mode == Mode::network) {
-        const auto shards = shards_of(request.graph, registry, request.hosts);
-        request.graph = sharded(std::move(request.graph), shards);
-    }
+    request.graph = sharded(std::move(request.graph), shards_of(request.graph, registry, request.hosts));
+    if (has_other_hosts(running, request.hosts)) request.mode = Mode::network;
+    request.threads = own_places(running, request, registry);
+    if (request.mode != Mode::network && (request.threads > 1 || first_here(request.hosts)))
+        request.mode = Mode::threads;
     return request;
 }
 

@@ -2,13 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <system_error>
 #include <variant>
 
 #include "core/base/build_info.hpp"
 #include "core/base/hash.hpp"
 #include "core/network/graph/check.hpp"
 #include "core/network/graph/graph_film.hpp"
+#include "core/network/graph/layout.hpp"
 #include "core/network/graph/plan.hpp"
+#include "core/network/graph/plugin_use.hpp"
 #include "core/run/runtime/fingerprint.hpp"
 
 namespace lightnet {
@@ -27,10 +31,14 @@ FilmFormat film_format(const RunRequest& request, const Registry& registry) {
     FilmFormat format{film.width, film.height, layers.film, sampling.samples, film.crop};
     format.refinement = {sampling.error, sampling.least_samples};
     format.shown = shown_names(layers, request.graph);
+    for (const auto node : layers.shown)
+        if (registry.find(request.graph.nodes[node].kind)->light.facts)
+            format.facts.insert(request.graph.nodes[node].name);
+    format.gains = one_for_each(film.gains, layers.film);
     return format;
 }
 
-Job make_job(const RunRequest& request, const FilmFormat& format, DiskFiles& files) {
+Job make_job(const RunRequest& request, const Registry& registry, const FilmFormat& format, DiskFiles& files) {
     Job job;
     job.graph = request.graph;
     job.scene = request.scene;
@@ -39,6 +47,7 @@ Job make_job(const RunRequest& request, const FilmFormat& format, DiskFiles& fil
     job.isa = usual_isa();
     job.width = format.width, job.height = format.height;
     job.tuning = request.tuning;
+    job.plugins = plugins_of(request.graph, registry);
     return job;
 }
 
@@ -46,14 +55,23 @@ RunReport first_page(const RunRequest& request, const Registry& registry, const 
     RunReport report;
     report.graph = request.graph.file;
     report.graph_hash = to_hex(content_hash(to_json(request.graph)));
+    report.network = to_json(written(request.graph));
+    std::error_code ignored;
+    report.folder = std::filesystem::current_path(ignored).string();
     report.mode = name_of(request.mode);
     report.versions["lightnet"] = build_id();
+    for (const auto& plugin : plugins_of(request.graph, registry))
+        report.versions["plugin " + plugin.substr(0, plugin.find(' '))] = plugin;
     report.settings["samples"] = std::to_string(film.samples);
     report.settings["size"] = fmt::format("{}x{}", film.width, film.height);
     if (const auto& crop = film.crop)
         report.settings["crop"] =
             fmt::format("{},{},{},{}", crop->x, crop->y, crop->x + crop->width, crop->y + crop->height);
     if (film.adaptive()) report.settings["error"] = fmt::format("{}", film.refinement.error);
+    if (const auto gains = film_of(request.graph, registry).gains; !gains.empty()) {
+        auto& text = report.settings["gains"];
+        for (const auto& gain : gains) text += (text.empty() ? "" : " ") + to_string(gain);
+    }
     report.settings["seed"] = std::to_string(request.seed);
     for (const auto& knob : knobs)
         if (knob.by == Knob::By::users) report.settings[knob.name] = text_of(request.tuning, knob);

@@ -14,7 +14,7 @@ namespace lightnet {
 FilmFormat film_format(const RunRequest& request, const Registry& registry);
 
 /// What all hosts have to know of it; `files` were read for its scene.
-Job make_job(const RunRequest& request, const FilmFormat& format, DiskFiles& files);
+Job make_job(const RunRequest& request, const Registry& registry, const FilmFormat& format, DiskFiles& files);
 
 /// How its report begins.
 RunReport first_page(const RunRequest& request, const Registry& registry, const FilmFormat& film);

@@ -6,8 +6,10 @@ set -euo pipefail
 packages=(
     build-essential cmake ninja-build pkg-config        # the build
     libembree-dev libopenexr-dev libpng-dev libjpeg62-turbo-dev     # rays and pictures
+    libeigen3-dev                                       # linear equations
     libpugixml-dev zlib1g-dev                           # scenes in XML
-    libboost-context-dev libzmq3-dev cppzmq-dev libmsgpack-cxx-dev libssl-dev libxxhash-dev   # fibers, sockets, hashes
+    libboost-dev libboost-context-dev libzmq3-dev cppzmq-dev libmsgpack-cxx-dev libssl-dev libxxhash-dev   # fibers, HTTP, sockets, hashes
+    libsodium-dev                                       # keys
     liblua5.4-dev libfmt-dev libcli11-dev nlohmann-json3-dev        # graphs, text, command lines, JSON
     libgtest-dev libgmock-dev libbenchmark-dev          # tests and benchmarks
 )

@@ -22,6 +22,11 @@ bool is_ignored(int signal) {
 
 }  // namespace
 
+void ask_to_stop() {
+    signals.terminated = true;
+    signals.any = true;
+}
+
 const Signals& watch_signals() {
     struct sigaction action {};
     action.sa_handler = on_signal;

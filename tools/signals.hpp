@@ -17,4 +17,7 @@ struct Signals {
 /// longer deadly.
 const Signals& watch_signals();
 
+/// As a signal does: the run is to finish what is under way, and to stop. Any thread.
+void ask_to_stop();
+
 }  // namespace lightnet

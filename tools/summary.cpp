@@ -8,16 +8,18 @@
 #include <set>
 #include <string_view>
 
+#include "core/base/joined.hpp"
+
 namespace lightnet {
 namespace {
 
 constexpr std::size_t most_names = 8;  // in a line
 
-std::string joined(const std::vector<std::string>& words, std::size_t most = ~std::size_t{0}) {
-    std::string text;
-    for (std::size_t i = 0; i < std::min(words.size(), most); ++i) text += (i ? ", " : "") + words[i];
-    if (words.size() > most) text += fmt::format(" and {} more", words.size() - most);
-    return text;
+// The first of them, and how many more there are.
+std::string joined_names(std::vector<std::string> names) {
+    const auto more = names.size() > most_names ? names.size() - most_names : 0;
+    names.resize(names.size() - more);
+    return joined(names) + (more ? fmt::format(" and {} more", more) : "");
 }
 
 std::string counted(std::size_t count, const std::string& thing) {
@@ -50,7 +52,7 @@ std::string how_long(const RunReport& report) {
     return fmt::format("took {:.1f} s: {}", all, joined(parts));
 }
 
-std::string shown_name(const std::string& host) { return host.empty() ? "this process" : host; }
+std::string shown_name(const std::string& host) { return host == own_process ? "this process" : host; }
 
 bool took_part(const HostReport& host) { return host.state == "is ready" || host.state == "leaves"; }
 // A launcher says so of those that it has lost sight of, however far they had come.
@@ -89,7 +91,7 @@ std::string who_came(const RunReport& report, std::size_t all) {
     }
     const auto of =
         names.size() < all ? fmt::format("{} of {}", names.size(), counted(all, "host")) : counted(all, "host");
-    return fmt::format("on    {} with {}: {}", of, counted(places, "place"), joined(names, most_names));
+    return fmt::format("on    {} with {}: {}", of, counted(places, "place"), joined_names(names));
 }
 
 std::string on_hosts(const RunReport& report, const Hosts& asked) {
@@ -133,6 +135,25 @@ std::string hint(const Ending& ending) {
 
 std::string summary_of(const Ending& ending) {
     return what(ending) + "\n" + how_long(ending.report) + "\n" + on_whom(ending) + hint(ending);
+}
+
+std::vector<std::pair<std::string, std::string>> facts_of(const RunReport& report, double at_work) {
+    std::vector<std::pair<std::string, std::string>> facts{{"outcome", report.outcome}, {"graph", report.graph}};
+    double working = 0;
+    for (const auto& phase : report.phases) {
+        facts.emplace_back(phase.name, fmt::format("{:.1f} s", phase.seconds));
+        if (phase.name == "prepare" || phase.name == "render") working += phase.seconds;
+    }
+    facts.emplace_back("places", std::to_string(report.places.size()));
+    facts.emplace_back("at work, on average", fmt::format("{:.2f} of them", at_work));
+    facts.emplace_back("the same work on one place",
+                       fmt::format("about {:.1f} s, had it nothing to wait for", at_work * working));
+    for (const auto& host : report.hosts) facts.emplace_back(host.host, host.state + ", " + host.machine);
+    for (const auto& [name, count] : report.counters)
+        if (count) facts.emplace_back(name, std::to_string(count));
+    for (const auto* texts : {&report.settings, &report.versions})
+        for (const auto& [name, text] : *texts) facts.emplace_back(name, text);
+    return facts;
 }
 
 }  // namespace lightnet

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/film/run_report.hpp"
@@ -21,5 +22,9 @@ struct Ending {
 
 /// Some lines, without the last line break.
 std::string summary_of(const Ending& ending);
+
+/// What the page of a report says in its table. `at_work`: so many places were, on average while the run prepared and
+/// rendered.
+std::vector<std::pair<std::string, std::string>> facts_of(const RunReport& report, double at_work);
 
 }  // namespace lightnet

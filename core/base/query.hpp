@@ -30,8 +30,8 @@ struct Query {
     Vec3 outgoing{};              // unit, world space, away from the surface
     std::uint32_t sample = 0;     // index of the sample within `stream`
     std::uint8_t lobes = lobe::rough;
-    std::uint8_t depth = 0;     // scattering events between the eye and this point
-    std::uint16_t nothing = 0;  // no byte is left to chance, as questions travel and are compared as bytes
+    std::uint8_t depth = 0;  // scattering events between the eye and this point
+    std::uint16_t pass = 0;  // mark of the pass that it belongs to: mark_of_pass(); 0 where the graph has no passes
 
     static constexpr std::uint32_t no_instance = 0xffffffffu;
     friend bool operator==(const Query&, const Query&) = default;

@@ -26,6 +26,7 @@ Query question_about(const GatherRay& ray, const SpecularPath& path, const Hit& 
     Query question = path.question_about(hit, lobes, ray.depth + 1u + mirrors);
     question.stream = mirrors ? child(ray.stream, chain_key, mirrors) : ray.stream;
     question.sample = ray.sample;
+    question.pass = ray.pass;
     return question;
 }
 
@@ -51,6 +52,7 @@ void follow(const Scene& scene, const GatherRay& ray, std::optional<Hit> hit, st
 
 void gather(const Scene& scene, const Inputs& inputs, std::size_t index, std::span<const GatherRay> rays,
             std::span<GatherResult> results) {
+    const std::size_t width = inputs[index].width();
     std::vector<Ray> first;
     first.reserve(rays.size());
     for (const GatherRay& ray : rays) first.push_back(ray.ray);
@@ -61,12 +63,13 @@ void gather(const Scene& scene, const Inputs& inputs, std::size_t index, std::sp
     met.rays.reserve(rays.size());
     met.weights.reserve(rays.size());
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        results[i] = {{}, hits[i] ? hits[i]->distance : std::numeric_limits<float>::infinity()};
+        const float distance = hits[i] ? hits[i]->distance : std::numeric_limits<float>::infinity();
+        std::fill_n(results.begin() + std::ptrdiff_t(i * width), width, GatherResult{{}, distance});
         follow(scene, rays[i], hits[i], i, met);
     }
     if (met.questions.empty()) return;
-    each_colour(ask(inputs, index, met.questions), [&](std::size_t q, std::size_t, const Rgb& colour) {
-        results[met.rays[q]].light += colour * met.weights[q];
+    each_colour(ask(inputs, index, met.questions), [&](std::size_t q, std::size_t layer, const Rgb& colour) {
+        results[met.rays[q] * width + layer].light += colour * met.weights[q];
     });
 }
 
@@ -80,7 +83,8 @@ void BsdfGather::add(std::size_t asker, const Query& question, const SurfacePoin
         rays_.push_back({{point.origin_towards(step->incoming), step->incoming},
                          child(stream, key_, i),
                          question.sample,
-                         question.depth});
+                         question.depth,
+                         question.pass});
         weights_.push_back(step->weight * (1 / float(rays_per_question_)));
         askers_.push_back(asker);
     }
@@ -88,9 +92,12 @@ void BsdfGather::add(std::size_t asker, const Query& question, const SurfacePoin
 
 void BsdfGather::answer(const Inputs& inputs, std::span<Rgb> answers) const {
     if (rays_.empty()) return;
-    std::vector<GatherResult> results(rays_.size());
+    const std::size_t width = inputs[0].width();
+    std::vector<GatherResult> results(rays_.size() * width);
     gather(scene_, inputs, 0, rays_, results);
-    for (std::size_t i = 0; i < rays_.size(); ++i) answers[askers_[i]] += weights_[i] * results[i].light;
+    for (std::size_t i = 0; i < rays_.size(); ++i)
+        for (std::size_t k = 0; k < width; ++k)
+            answers[askers_[i] * width + k] += weights_[i] * results[i * width + k].light;
 }
 
 }  // namespace lightnet

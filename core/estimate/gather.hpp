@@ -18,6 +18,7 @@ struct GatherRay {
     Key stream = 0;            // of its own random numbers, and of the questions about what it meets
     std::uint32_t sample = 0;  // index within the stream
     std::uint8_t depth = 0;    // scattering events between the eye and the point that it leaves
+    std::uint16_t pass = 0;    // of the question that it is followed for
 };
 
 /// What a ray found.
@@ -27,7 +28,8 @@ struct GatherResult {
 };
 
 /// Follows rays, through mirrors and glass, to surfaces that scatter in other ways too, and asks input `index` about
-/// all of these at once; what a ray finds depends on no other ray.
+/// all of these at once; what a ray finds depends on no other ray. A
+/// ray has a result for each colour that the input answers with, side by side.
 void gather(const Scene& scene, const Inputs& inputs, std::size_t index, std::span<const GatherRay> rays,
             std::span<GatherResult> results);
 
@@ -41,7 +43,7 @@ public:
     /// numbers.
     void add(std::size_t asker, const Query& question, const SurfacePoint& point, const Bsdf& bsdf, std::uint8_t lobes,
              Key stream);
-    /// answers[asker] += what the rays of all bring, as the node's input 0 says.
+    /// answers[asker] += what the rays of all bring, as the node's input 0 says; each colour of that apart.
     void answer(const Inputs& inputs, std::span<Rgb> answers) const;
 
 private:

@@ -15,27 +15,54 @@ float change_of(const IrradianceRecord& record) {
     return std::max({r, g, b});
 }
 
-}  // namespace
+IrradianceRecord sum_of(std::span<const IrradianceRecord> groups) {
+    IrradianceRecord sum = groups.front();
+    for (const auto& other : groups.subspan(1)) {
+        sum.irradiance += other.irradiance;
+        for (std::size_t colour = 0; colour < 3; ++colour) {
+            sum.moved[colour] += other.moved[colour];
+            sum.turned[colour] += other.turned[colour];
+        }
+    }
+    return sum;
+}
 
 // Where a record has to reach farther than its gradient lets it, the gradient is made less: next to an edge it is
 // mostly noise.
-IrradianceOctree::Entry IrradianceOctree::entry_of(IrradianceRecord record, const Spacing& spacing) {
+float steepest(const IrradianceRecord& record, const Spacing& spacing, float& reach) {
     const float brightest = max_component(record.irradiance), change = change_of(record);
-    float reach = record.distance;
+    reach = record.distance;
     if (change > 0) reach = std::min(reach, brightest / change);
     reach = std::clamp(spacing.accuracy * reach, spacing.least, spacing.most);
     const float most = spacing.accuracy * brightest / reach;
-    if (change > most)
-        for (Vec3& moved : record.moved) moved = moved * (most / change);
-    return {record, reach};
+    return change > most ? most / change : 1;
 }
 
-IrradianceOctree::IrradianceOctree(std::span<const IrradianceRecord> records, const Spacing& spacing, const Box& bounds)
-    : low_(bounds.low), spacing_(spacing) {
+}  // namespace
+
+void IrradianceOctree::add(std::span<const IrradianceRecord> groups) {
+    Entry entry{sum_of(groups), 0};
+    const float less = steepest(entry.record, spacing_, entry.reach);
+    const auto flatten = [&](IrradianceRecord& record) {
+        for (Vec3& moved : record.moved)
+            if (less != 1) moved = moved * less;
+    };
+    flatten(entry.record);
+    records_.push_back(entry);
+    if (groups_ == 1) return;
+    for (IrradianceRecord one : groups) {
+        flatten(one);
+        apart_.push_back(one);
+    }
+}
+
+IrradianceOctree::IrradianceOctree(std::span<const IrradianceRecord> records, const Spacing& spacing, const Box& bounds,
+                                   std::size_t groups)
+    : groups_(groups), low_(bounds.low), spacing_(spacing) {
     const Vec3 extent = bounds.high - bounds.low;
     size_ = std::max({extent.x, extent.y, extent.z}) * 1.001f;
-    records_.reserve(records.size());
-    for (const auto& record : records) records_.push_back(entry_of(record, spacing));
+    records_.reserve(records.size() / groups_);
+    for (std::size_t first = 0; first < records.size(); first += groups_) add(records.subspan(first, groups_));
     cells_.emplace_back();
     clamp_to_neighbours();
     cells_.assign(1, {});
@@ -125,16 +152,23 @@ float IrradianceOctree::weight(const Reach& entry, Vec3 position, Vec3 normal, f
 }
 
 std::optional<Rgb> IrradianceOctree::irradiance(Vec3 position, Vec3 normal, float stretch) const {
-    Rgb sum;
+    std::vector<Rgb> groups(groups_);
+    if (!irradiance(position, normal, stretch, groups)) return {};
+    return std::accumulate(groups.begin(), groups.end(), Rgb{});
+}
+
+bool IrradianceOctree::irradiance(Vec3 position, Vec3 normal, float stretch, std::span<Rgb> groups) const {
+    std::fill(groups.begin(), groups.end(), Rgb{});
     float weights = 0;
     for_all_near(position, [&](const Reach& entry) {
         const float w = weight(entry, position, normal, stretch);
         if (!(w > 0)) return;
-        sum += records_[entry.entry].record.at(position, normal) * w;
+        for (std::size_t g = 0; g < groups_; ++g) groups[g] += record(entry.entry, g).at(position, normal) * w;
         weights += w;
     });
-    if (!(weights > 0)) return {};
-    return sum / weights;
+    if (!(weights > 0)) return false;
+    for (Rgb& sum : groups) sum = sum / weights;
+    return true;
 }
 
 const IrradianceRecord* IrradianceOctree::nearest(Vec3 position, Vec3 normal, float within) const {

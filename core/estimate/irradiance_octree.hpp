@@ -26,13 +26,18 @@ public:
     /// Limits how far each record counts: by its own gradient (an estimate never changes by more than itself), and by
     /// its neighbours, as they see what it may have missed (Krivanek et al. 2006, "Making radiance and irradiance
     /// caching practical", section 3.1).
-    IrradianceOctree(std::span<const IrradianceRecord> records, const Spacing& spacing, const Box& bounds);
+    /// `groups` of lamps have a record each at a point, side by side: all count as far as that of their sum.
+    IrradianceOctree(std::span<const IrradianceRecord> records, const Spacing& spacing, const Box& bounds,
+                     std::size_t groups = 1);
 
+    /// How many points have records.
     std::size_t size() const { return records_.size(); }
     /// Irradiance at a point, between all records that reach it when their reach is `stretch` times what it is; none:
     /// there is none. The weight of a record falls to 0 where it ends, so that no border shows. Error: Ward et al.
     /// 1988, equation 5; weight: Tabellion & Lamorlette 2004.
     std::optional<Rgb> irradiance(Vec3 position, Vec3 normal, float stretch) const;
+    /// The same of each group. False: there is none.
+    bool irradiance(Vec3 position, Vec3 normal, float stretch, std::span<Rgb> groups) const;
     /// Does any record reach the point?
     bool covers(Vec3 position, Vec3 normal) const;
 
@@ -58,7 +63,10 @@ private:
         std::array<std::uint32_t, 8> children{};  // 0: none
         std::vector<Reach> entries;
     };
-    static Entry entry_of(IrradianceRecord record, const Spacing& spacing);
+    void add(std::span<const IrradianceRecord> groups);
+    const IrradianceRecord& record(std::uint32_t entry, std::size_t group) const {
+        return groups_ == 1 ? records_[entry].record : apart_[entry * groups_ + group];
+    }
     float weight(const Reach& entry, Vec3 position, Vec3 normal, float stretch) const;
     void clamp_to_neighbours();
     void insert(std::uint32_t entry);
@@ -66,7 +74,9 @@ private:
     template <class Function>
     void for_all_near(Vec3 position, Function function) const;
 
-    std::vector<Entry> records_;
+    std::size_t groups_;
+    std::vector<Entry> records_;           // of the sums
+    std::vector<IrradianceRecord> apart_;  // of each group, where there are several
     std::vector<Cell> cells_;
     Vec3 low_;
     float size_ = 0;

@@ -106,13 +106,13 @@ public:
         std::span<const Vec2> places;
     };
     /// Next event estimation: appends the shadow rays that ray_to_lamp() gives, their light times weight(path), to be
-    /// added to sum(path).
+    /// added to sum(path), or to one of those behind it: one for each group of lamps.
     template <class Weight, class Sum>
     void sample_lamps(const Numbers& numbers, Heuristic heuristic, ShadowRays& to, Weight&& weight, Sum&& sum) {
         const auto sample = [&](std::uint32_t path, const Gathering& at) {
             const float choice = numbers.choices.empty() ? 0 : numbers.choices[path];
             const auto found = ray_to_lamp(scene_, at, {choice, numbers.places[path]}, heuristic);
-            if (found) to.add(found->ray, weight(path) * found->light, sum(path));
+            if (found) to.add(found->ray, weight(path) * found->light, sum(path) + found->group);
         };
         if (!only_lamp_) return each(sample);
         for (const auto& visitor : visitors_) sample(visitor.path, gathering(visitor));
@@ -126,7 +126,7 @@ public:
             const Vec3 light = found.light[i];
             to.rays[end] = {found.origin[i], found.direction[i], found.far[i]};
             to.light[end] = weight(path) * Rgb{light.x, light.y, light.z};
-            to.sums[end] = sum(path);
+            to.sums[end] = sum(path) + only_lamp_->group;
             end += found.found[i];
         }
         to.resize(end);

@@ -12,7 +12,8 @@
 
 namespace lightnet {
 
-/// Made by PhotonShooter. Directions are rounded, to some 0.003° where light comes from and 0.5° for the surface.
+/// Made by PhotonShooter. Directions are rounded, to some 0.003° where light comes from and 0.5° for the surface. The
+/// group of the lamp that it left stands behind the latter.
 struct Photon {
     Vec3 position;
     Rgb flux;  // W
@@ -20,8 +21,12 @@ struct Photon {
     std::uint32_t surface = 0;
 
     Photon() = default;
-    Photon(Vec3 at, Rgb power, Vec3 towards_light, Vec3 normal)
-        : position(at), flux(power), incoming(packed_direction(towards_light)), surface(packed_normal(normal)) {}
+    Photon(Vec3 at, Rgb power, Vec3 towards_light, Vec3 normal, std::uint32_t group = 0)
+        : position(at),
+          flux(power),
+          incoming(packed_direction(towards_light)),
+          surface(packed_normal(normal) | group << 24) {}
+    static std::uint32_t group_in(std::uint32_t surface) { return surface >> 24; }
 
     /// Unit, away from the surface: where it came from.
     Vec3 towards_light() const { return unpacked_direction(incoming); }

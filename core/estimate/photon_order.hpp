@@ -19,7 +19,8 @@ namespace lightnet {
 /// By all that a photon is, so that the order can't depend on how the library sorts.
 inline bool comes_before(const Photon& a, const Photon& b) {
     const auto rank = [](const Photon& p) {
-        return std::tuple(p.position.x, p.position.y, p.position.z, p.incoming, p.flux.r, p.flux.g, p.flux.b);
+        return std::tuple(p.position.x, p.position.y, p.position.z, p.incoming, p.flux.r, p.flux.g, p.flux.b,
+                          p.surface);
     };
     return rank(a) < rank(b);
 }

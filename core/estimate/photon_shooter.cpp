@@ -50,6 +50,7 @@ struct PhotonShooter::PhotonPath {
     Samples samples;
     std::uint32_t index;  // counted from the first
     Rgb flux;
+    std::uint32_t group;          // of its lamp
     const Rgb* inside = nullptr;  // what fills the space that it crosses
     bool met_mirror = false, met_rough = false;
 };
@@ -111,7 +112,7 @@ void PhotonShooter::follow(std::uint64_t first, std::size_t count, float share, 
         if (chosen) chosen->push_back(choice);
         const auto light = scene_.emit(numbers[0], {numbers[1], numbers[2]}, {numbers[3], numbers[4]});
         if (!light || !(max_component(light->flux) > 0)) continue;
-        batch.paths.push_back({samples, static_cast<std::uint32_t>(i), light->flux * (weight * share)});
+        batch.paths.push_back({samples, static_cast<std::uint32_t>(i), light->flux * (weight * share), light->group});
         batch.rays.push_back({light->origin, light->direction});
     }
     for (std::uint32_t surface = 0; !batch.paths.empty() && surface < most_surfaces; ++surface) {
@@ -129,7 +130,7 @@ void PhotonShooter::follow(std::uint64_t first, std::size_t count, float share, 
 void PhotonShooter::shoot(std::uint64_t first, std::size_t count, double share, const Aim& aim,
                           std::vector<Photon>& out) const {
     const auto keep = [&](const PhotonPath& path, const SurfacePoint& point, Vec3 arriving) {
-        out.emplace_back(point.position, path.flux, arriving, point.normal);
+        out.emplace_back(point.position, path.flux, arriving, point.normal, path.group);
     };
     for (std::size_t done = 0; done < count; done += paths_at_once)
         follow(first + done, std::min(paths_at_once, count - done), float(share), aim, keep, nullptr);

@@ -17,8 +17,6 @@ constexpr std::size_t width = Nearest::width;  // photons of a leaf
 constexpr std::size_t fan = 8;                 // boxes in a box
 constexpr std::size_t least_shared = 1 << 15;  // photons that are worth a second builder
 constexpr std::size_t leaves_at_once = 128;    // whose photons stay in the nearest caches
-constexpr float height_counts = 15;            // of a height squared, beside its part of the distance: a flat ellipsoid
-constexpr float least_cosine = 0.7f;           // between normals of a surface that is taken for the same one
 constexpr float grazing = 0.02f;               // cosine below which light is taken to arrive at this one
 constexpr float nowhere = std::numeric_limits<float>::infinity(), visited = nowhere;
 
@@ -216,10 +214,8 @@ private:
         [[gnu::always_inline]] void work() {
             for (std::size_t i = 0; i < width; ++i) {
                 const Vec3 offset = Vec3{leaf.x[i], leaf.y[i], leaf.z[i]} - at;
-                const float height = dot(offset, normal);
-                const float counted = length_squared(offset) + height_counts * height * height;
-                const float cosine = std::fabs(Photon::cosine_between(leaf.surface[i], normal));
-                distance2[i] = counted + (cosine < least_cosine ? nowhere : 0);
+                const bool alike = turned_alike(Photon::cosine_between(leaf.surface[i], normal));
+                distance2[i] = PhotonTree::distance2(offset, normal) + (alike ? 0 : nowhere);
             }
         }
     };
@@ -307,13 +303,18 @@ struct Arrivals {
 }  // namespace
 
 Rgb PhotonTree::radiance(const Lookup& at, float radius, std::size_t most, Nearest& scratch) const {
-    if (!(at.bsdf.lobes() & at.lobes)) return {};
+    Rgb all;
+    radiance(at, radius, most, scratch, {&all, 1});
+    return all;
+}
+
+void PhotonTree::radiance(const Lookup& at, float radius, std::size_t most, Nearest& scratch, std::span<Rgb> to) const {
+    if (!(at.bsdf.lobes() & at.lobes)) return;
     const auto found = find({at.point.position, at.point.normal, radius, most}, scratch);
     const float r2 = most && found.size() == most ? found.back().distance2 : radius * radius;
-    if (found.empty() || !(r2 > 0)) return {};
+    if (found.empty() || !(r2 > 0)) return;
     const Rgb* albedo = at.bsdf.diffuse_albedo();
     Arrivals many(at, r2);
-    Rgb sum;
     for (std::size_t first = 0; first < found.size(); first += lanes) {
         many.count = std::min(lanes, found.size() - first);
         for (std::size_t i = 0; i < many.count; ++i) {
@@ -322,14 +323,16 @@ Rgb PhotonTree::radiance(const Lookup& at, float radius, std::size_t most, Neare
         }
         work_in_lanes(many);
         for (std::size_t i = 0; i < many.count; ++i) {
-            const Rgb flux = light_of(found[first + i].index).flux * many.share[i];
+            const auto index = found[first + i].index;
+            const Rgb flux = light_of(index).flux * many.share[i];
+            Rgb& sum = to.size() == 1 ? to[0] : to[Photon::group_in(leaf(index / width).surface[index % width])];
             if (albedo)
                 sum += flux * many.pdf[i];
             else
                 sum += flux * at.bsdf.evaluate(at.outgoing, many.incoming[i], at.lobes);
         }
     }
-    return sum * (albedo ? *albedo : Rgb{1, 1, 1}) * (2 / (pi * r2));
+    for (Rgb& sum : to) sum = sum * (albedo ? *albedo : Rgb{1, 1, 1}) * (2 / (pi * r2));
 }
 
 }  // namespace lightnet

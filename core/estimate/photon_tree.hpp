@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -17,8 +18,8 @@
 
 namespace lightnet {
 
-/// A balanced tree of bounding boxes, as wide as the processor compares at once. Immutable; any thread may ask. Its order
-/// depends on the photons alone.
+/// A balanced tree of bounding boxes, as wide as the processor compares at once. Immutable; any thread may ask. Its
+/// order depends on the photons alone.
 class PhotonTree {
 public:
     using Photons = std::vector<Photon, InLines<Photon>>;
@@ -30,6 +31,14 @@ public:
         : PhotonTree(Photons(photons.begin(), photons.end()), builders) {}
     explicit PhotonTree(std::span<const Photon> photons, OneBuilder alone = {})
         : PhotonTree(photons, static_cast<Builders&>(alone)) {}
+
+    /// How far a photon lies away for a point of a surface, squared, as a search counts it: heights above the surface
+    /// four times. And whether it lies on a surface that is taken for the same one, by the cosine between both.
+    static float distance2(Vec3 offset, Vec3 normal) {
+        const float height = dot(offset, normal);
+        return length_squared(offset) + height_counts * height * height;
+    }
+    static bool turned_alike(float cosine) { return std::fabs(cosine) >= least_cosine; }
 
     /// What `photons` may need beyond their number so that they need not be copied.
     static constexpr std::size_t room = Nearest::width;
@@ -58,8 +67,15 @@ public:
     /// 2 (1 - d²/r²) / (π r²), whose radius r is the distance of the farthest of `most` photons, or `radius` where
     /// there are fewer. Without bias where light is even on a plane larger than that.
     Rgb radiance(const Lookup& at, float radius, std::size_t most, Nearest& scratch) const;
+    /// The same, of each group of lamps by itself: among the photons nearest of all. All groups that photons have must
+    /// have a place; `to` comes zeroed.
+    void radiance(const Lookup& at, float radius, std::size_t most, Nearest& scratch, std::span<Rgb> to) const;
 
 private:
+    static constexpr float height_counts =
+        15;  // of a height squared, beside its part of the distance: a flat ellipsoid
+    static constexpr float least_cosine = 0.7f;  // between normals of a surface that is taken for the same one
+
     struct Light;
     struct Leaf;
     struct Boxes;

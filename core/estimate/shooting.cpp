@@ -9,12 +9,40 @@ namespace {
 
 constexpr std::size_t paths_per_shard = 16384;  // some 20 ms
 constexpr std::size_t trials_per_shard = 4096;  // and their results travel, useful or not
+constexpr double smallest_part = 0.02;          // of the scene, by its light, of which an error is told
+
+// Light paths for what is learnt beforehand.
+std::uint64_t an_eighth(const Shooting& shooting) {
+    constexpr std::uint64_t least = 8192, most = 65536;
+    return shooting.emitted ? std::clamp(shooting.emitted >> 3, least, most) : most;
+}
+
+std::uint64_t enough_paths(const Shooting& shooting, std::uint64_t pilot_paths, std::size_t pilot_kept, double missed) {
+    const double noise = 1 / (smallest_part * shooting.error * shooting.error);
+    const double off_surfaces = double(pilot_paths) * missed * missed / shooting.error;
+    const double per_path = double(pilot_kept) / double(pilot_paths), fit = 0.9 * double(shooting.planned_bytes);
+    const double most = std::min(4e9, fit / sizeof(Photon) / std::max(per_path, 1e-3));
+    return std::uint64_t(std::clamp(std::max(noise, off_surfaces), 1.0, std::max(1.0, most)));
+}
 
 void check_memory(std::size_t photons, const Shooting& shooting) {
     if (photons * sizeof(Photon) <= shooting.most_bytes) return;
     throw Error(std::to_string(photons) + " photons take " +
                 std::to_string((photons * sizeof(Photon) + 999999) / 1000000) +
                 " MB, more than its 'memory' allows: raise it, or send fewer 'photons'");
+}
+
+// What every machine is taken to have for them.
+std::size_t planned_memory(const NodeContext& here) {
+    const double given = here.number("memory") * 1e6;
+    return static_cast<std::size_t>(given > 0 ? given : 1e9);
+}
+
+// A budget: where it ends the run says so, and where it does not it changes nothing. So no number of photons may follow
+// from it, as machines differ.
+std::size_t memory_for_photons(const NodeContext& here) {
+    const std::size_t planned = planned_memory(here);
+    return here.number("memory") > 0 ? planned : std::max<std::size_t>(planned, here.whereabouts().memory / 4);
 }
 
 }  // namespace
@@ -24,17 +52,24 @@ Shooting Shooting::of(const NodeContext& here) {
             .emitted = static_cast<std::uint64_t>(here.integer("photons")),
             .aimed = here.flag("aim"),
             .key = child(mix(here.seed()), here.key()),
-            .most_bytes = static_cast<std::size_t>(here.number("memory") * 1e6)};
+            .most_bytes = memory_for_photons(here),
+            .planned_bytes = planned_memory(here)};
+}
+
+Shooting Shooting::with_error(const NodeContext& here) {
+    Shooting shooting = of(here);
+    shooting.error = here.number("error");
+    return shooting;
 }
 
 std::vector<Param> shooting_params(double photons, const std::string& help_of_photons) {
-    return {
+    std::vector<Param> params{
         {.name = "photons",
          .type = ParamType::integer,
          .help = help_of_photons,
          .unit = "photons",
          .initial = Value{photons},
-         .least = 1,
+         .least = photons > 0 ? 1.0 : 0.0,
          .most = 4e9},
         {.name = "paths",
          .type = ParamType::text,
@@ -47,12 +82,22 @@ std::vector<Param> shooting_params(double photons, const std::string& help_of_ph
          .initial = Value{true}},
         {.name = "memory",
          .type = ParamType::number,
-         .help = "that the photons may take; more is an error",
+         .help = "that the photons may take; more is an error; 0: a quarter of the machine's",
          .unit = "MB",
-         .initial = Value{1024.0},
+         .initial = Value{0.0},
          .least = 0,
          .most = 1e6},
     };
+    if (photons == 0)
+        params.insert(params.begin() + 1,
+                      {.name = "error",
+                       .type = ParamType::number,
+                       .help = "where it decides how many: how far the light of a part of the scene that gets a "
+                               "fiftieth of it may be off",
+                       .initial = Value{0.01},
+                       .least = 0.001,
+                       .most = 1});
+    return params;
 }
 
 Param gather_radius(const std::string& help) {
@@ -79,7 +124,7 @@ std::shared_ptr<const Aim> take_aim(Services& services, const Scene& scene, cons
     // An eighth of the photons, and a fourth: more would take longer than they save.
     for (const std::uint64_t round : {0, 1}) {
         const PhotonShooter shooter(scene, shooting.paths, child(shooting.key, key_of("trials"), round));
-        const std::uint64_t wanted = std::clamp<std::uint64_t>(shooting.emitted >> 3, 8192, 65536) << round;
+        const std::uint64_t wanted = an_eighth(shooting) << round;
         const auto trials = services.map<Trial>(
             (wanted + trials_per_shard - 1) / trials_per_shard, [&](std::size_t shard, std::vector<Trial>& out) {
                 shooter.attempt(shard * trials_per_shard, trials_per_shard, *aim, out);
@@ -94,11 +139,12 @@ std::size_t shards_each(const Shooting& shooting) {
 }
 
 Mapped<Photon> shoot(Services& services, const Scene& scene, const Shooting& shooting, const Aim& aim,
-                     std::size_t times) {
+                     PhotonMaps maps) {
     const std::size_t each = shards_each(shooting);
-    auto photons = services.map<Photon>(times * each, [&](std::size_t shard, std::vector<Photon>& out) {
+    auto photons = services.map<Photon>(maps.count * each, [&](std::size_t shard, std::vector<Photon>& out) {
         const std::uint64_t first = shard % each * paths_per_shard;
-        const PhotonShooter shooter(scene, shooting.paths, child(shooting.key, key_of("ways"), shard / each));
+        const PhotonShooter shooter(scene, shooting.paths,
+                                    child(shooting.key, key_of("ways"), maps.first + shard / each));
         shooter.shoot(first, std::min<std::uint64_t>(paths_per_shard, shooting.emitted - first),
                       1 / double(shooting.emitted), aim, out);
     });
@@ -106,13 +152,39 @@ Mapped<Photon> shoot(Services& services, const Scene& scene, const Shooting& sho
     return photons;
 }
 
+PhotonSpread take_spread(Services& services, const Scene& scene, Shooting& shooting, const Aim& aim, std::size_t gather,
+                         float radius) {
+    const std::uint64_t paths = an_eighth(shooting);
+    const PhotonShooter shooter(scene, shooting.paths, child(shooting.key, key_of("pilot")));
+    const auto photons = services.map<Photon>(
+        std::size_t((paths + trials_per_shard - 1) / trials_per_shard),
+        [&](std::size_t shard, std::vector<Photon>& out) {
+            const std::uint64_t first = shard * trials_per_shard;
+            shooter.shoot(first, std::min<std::uint64_t>(trials_per_shard, paths - first), 1 / double(paths), aim, out);
+        });
+    const auto pilot =
+        services.once<PhotonTree>([&](Builders& builders) { return PhotonTree(photons.all(), builders); });
+    if (shooting.emitted == 0) {
+        const PhotonSpread as_it_is(scene, pilot, gather, 1, radius);
+        const auto parts = services.map<PhotonSpread::Missed>(photons.shards(), [&](std::size_t shard, auto& out) {
+            out.push_back(as_it_is.missed(photons.shard(shard), child(shooting.key, key_of("missed"), shard)));
+        });
+        PhotonSpread::Missed sum;
+        for (const auto& part : parts) sum.missed += part.missed, sum.all += part.all;
+        shooting.emitted = enough_paths(shooting, paths, photons.size(), sum.all > 0 ? sum.missed / sum.all : 0);
+        services.say(std::to_string(shooting.emitted) + " light paths, as the error wants");
+    }
+    return {scene, pilot, gather, double(shooting.emitted) / double(paths), radius};
+}
+
 std::vector<Mapped<Photon>> shoot_near(Services& services, const Scene& scene, const Shooting& shooting, const Aim& aim,
-                                       float reach) {
+                                       const PhotonSpread& spread, float reach) {
     const PhotonShooter shooter(scene, shooting.paths, child(shooting.key, key_of("ways"), 0));
     const auto emit = [&](std::size_t shard, std::vector<Photon>& out) {
         const std::uint64_t first = shard * paths_per_shard;
         shooter.shoot(first, std::min<std::uint64_t>(paths_per_shard, shooting.emitted - first),
                       1 / double(shooting.emitted), aim, out);
+        spread.spread(out, child(shooting.key, key_of("spread"), shard));
     };
     auto photons = services.map_near<Photon>(shards_each(shooting), reach, emit,
                                              [](const Photon& photon) { return photon.position; });

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/estimate/photon_shooter.hpp"
+#include "core/estimate/photon_spread.hpp"
 #include "core/network/graph/kind.hpp"
 #include "core/network/light/mapped.hpp"
 #include "core/network/light/node_context.hpp"
@@ -21,13 +22,18 @@ struct Shooting {
     std::uint64_t emitted = 0;  // light paths that leave the lamps
     bool aimed = false;         // where they are of use, rather than everywhere alike
     Key key = 0;
-    std::size_t most_bytes = 0;  // that may be kept; more is an error
+    std::size_t most_bytes = 0;     // that may be kept; more is an error. Of this machine, where the graph says nothing
+    std::size_t planned_bytes = 0;  // that an `error` may lead to: the same on every machine
+    double error = 0;               // that decides how many are emitted, where nobody says so: emitted is 0
 
     /// As the node's parameters say: shooting_params().
     static Shooting of(const NodeContext& here);
+    /// The same where an `error` may decide how many.
+    static Shooting with_error(const NodeContext& here);
 };
 
-/// Parameters `photons`, `paths`, `aim` and `memory` for the schema of a kind.
+/// Parameters `photons`, `paths`, `aim` and `memory` for the schema of a kind. Where `photons` is 0 by itself, it has
+/// an `error`, too.
 std::vector<Param> shooting_params(double photons, const std::string& help_of_photons);
 /// The parameter `radius` of nodes that gather photons; 0: a twentieth of the scene's radius.
 Param gather_radius(const std::string& help);
@@ -38,16 +44,30 @@ std::vector<std::string> paths_of_photons(const Node& node);
 
 /// Learns where to aim, from trials: two rounds on all places. Even, unless it is asked for.
 std::shared_ptr<const Aim> take_aim(Services& services, const Scene& scene, const Shooting& shooting);
-/// Shoots on all places, so many times anew; photons come in the order of their paths. Shards (see Mapped) of each time
-/// stand together: shards_each() of them. Throws Error when that takes more memory than it may.
-Mapped<Photon> shoot(Services& services, const Scene& scene, const Shooting& shooting, const Aim& aim,
-                     std::size_t times = 1);
+/// Some of the maps that can be shot anew without end, each of other photons.
+struct PhotonMaps {
+    std::uint64_t first = 0;
+    std::size_t count = 1;
+};
+/// Shoots these on all places; photons come in the order of their paths. Shards (see Mapped) of each map stand
+/// together: shards_each() of them. Throws Error when that takes more memory than it may.
+Mapped<Photon> shoot(Services& services, const Scene& scene, const Shooting& shooting, const Aim& aim, PhotonMaps maps);
 std::size_t shards_each(const Shooting& shooting);
 
-/// Shoots once; photons in the order of their paths, but in several memories: where the node is sharded, only those
-/// that lie within `reach` (m) of where it may be asked. `most_bytes` bounds what this copy of the node gets.
+/// How photons are spread that the node has had sent, in discs of `gather` photons, no larger than `radius` (m): from
+/// some first ones, on all places. Where nobody says how many light paths are emitted, this decides it.
+///
+/// As many that a part of the scene that gets a fiftieth of them has them with the wanted error, of noise (1 / √n); and
+/// that discs lie off their surfaces by no more than its root. That part of their light is given back, so that what is
+/// left is of second order.
+PhotonSpread take_spread(Services& services, const Scene& scene, Shooting& shooting, const Aim& aim, std::size_t gather,
+                         float radius);
+
+/// Shoots once, and spreads; photons in the order of their paths, but in several memories: where the node is sharded,
+/// only those that lie within `reach` (m) of where it may be asked. `most_bytes` bounds what this copy of the node
+/// gets.
 std::vector<Mapped<Photon>> shoot_near(Services& services, const Scene& scene, const Shooting& shooting, const Aim& aim,
-                                       float reach);
+                                       const PhotonSpread& spread, float reach);
 /// Points where photons come to lie, about as densely: for RunTraits::landmarks.
 std::vector<Vec3> landmarks_of(const Scene& scene, const Shooting& shooting);
 

@@ -2,6 +2,7 @@
 
 #include <ImfChannelList.h>
 #include <ImfFloatAttribute.h>
+#include <ImfFloatVectorAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfIO.h>
@@ -9,6 +10,7 @@
 #include <ImfOutputFile.h>
 #include <ImfStringVectorAttribute.h>
 
+#include <algorithm>
 #include <cstring>
 #include <exception>
 #include <utility>
@@ -22,6 +24,7 @@ namespace {
 
 constexpr const char* layers_attribute = "layers";
 constexpr const char* shown_attribute = "shown";
+constexpr const char* gains_attribute = "gains";
 constexpr const char* done_attribute = "done";
 constexpr const char* samples_channel = "samples";
 
@@ -60,6 +63,21 @@ Imf::Slice slice(const float* first, const Imath::Box2i& window, std::size_t ste
                             step * static_cast<std::size_t>(window.max.x - window.min.x + 1));
 }
 
+// Nothing where all are 1.
+void insert_gains(Imf::Header& header, const std::vector<PictureLayer>& layers) {
+    Imf::FloatVector gains;
+    for (const auto& layer : layers) gains.insert(gains.end(), {layer.gain.r, layer.gain.g, layer.gain.b});
+    if (std::any_of(gains.begin(), gains.end(), [](float gain) { return gain != 1; }))
+        header.insert(gains_attribute, Imf::FloatVectorAttribute(gains));
+}
+
+void read_gains(const Imf::Header& header, std::vector<PictureLayer>& layers) {
+    const auto* gains = header.findTypedAttribute<Imf::FloatVectorAttribute>(gains_attribute);
+    if (!gains || gains->value().size() != 3 * layers.size()) return;
+    const float* next = gains->value().data();
+    for (auto& layer : layers) layer.gain = {next[0], next[1], next[2]}, next += 3;
+}
+
 Imf::Header header_of(const Picture& picture) {
     const auto box = [](std::uint32_t x, std::uint32_t y, std::uint32_t width, std::uint32_t height) {
         const auto left = static_cast<int>(x), top = static_cast<int>(y);
@@ -76,6 +94,7 @@ Imf::Header header_of(const Picture& picture) {
     };
     insert_names(layers_attribute, picture.layers);
     insert_names(shown_attribute, picture.shown);
+    insert_gains(header, picture.layers);
     if (picture.done < 1) header.insert(done_attribute, Imf::FloatAttribute(picture.done));
     return header;
 }
@@ -160,6 +179,7 @@ Picture read_exr(const std::filesystem::path& path) try {
     for (auto [attribute, layers] : {std::pair(layers_attribute, &picture.layers), {shown_attribute, &picture.shown}})
         if (const auto* names = file.header().findTypedAttribute<Imf::StringVectorAttribute>(attribute))
             for (const auto& name : names->value()) layers->push_back({name, read_layer(file, name)});
+    read_gains(file.header(), picture.layers);
     picture.samples = read_samples(file);
     read_place(file.header(), picture);
     if (const auto* done = file.header().findTypedAttribute<Imf::FloatAttribute>(done_attribute))

@@ -10,9 +10,10 @@ namespace lightnet {
 
 /// The bytes of an OpenEXR file of `picture`: one part; channels R, G, B are the beauty, `NAME.R`, `NAME.G`, `NAME.B`
 /// each layer, `samples` (where their number differs) the samples of each pixel; float32, ZIP. The attribute "layers"
-/// names the layers in the order in which they add up. The display window is the whole picture, the data window what of
-/// it is there. A preview says how much of it is done in the attribute "done". The same picture gives the same bytes:
-/// nothing of when, where or by whom it was made is in them.
+/// names the layers in the order in which they add up; "gains", where they are not all 1, has three numbers for each,
+/// times which it is in the beauty. The layers themselves are without them. The display window is the whole picture,
+/// the data window what of it is there. A preview says how much of it is done in the attribute "done". The same picture
+/// gives the same bytes: nothing of when, where or by whom it was made is in them.
 std::string exr_of(const Picture& picture);
 
 /// Writes it, whole or not at all. Throws Error.

@@ -342,13 +342,14 @@ Picture Film::picture(float scale) const {
     for (std::size_t k = 0; k < layers; ++k) {
         auto& among = k < format_.layers.size() ? picture.layers : picture.shown;
         auto& layer = among.emplace_back(PictureLayer{format_.name_of(k), std::vector<Rgb>(pixels)});
+        const float exposed = format_.facts.contains(layer.name) ? 1 : scale;
         for (std::size_t i = 0; i < pixels; ++i) {
             const std::uint32_t samples = samples_of_pixel(i);
-            if (samples) layer.pixels[i] = sums[from[i] * layers + k] / static_cast<float>(samples) * scale;
+            if (samples) layer.pixels[i] = sums[from[i] * layers + k] / static_cast<float>(samples) * exposed;
         }
     }
     // DECISIONS: beauty-is-the-sum
-    picture.beauty = sum_of(picture.layers);
+    for (std::size_t k = 0; k < format_.gains.size(); ++k) picture.layers[k].gain = format_.gains[k];
     blacken_overflow(picture);
     return picture;
 }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <tuple>
@@ -57,7 +58,9 @@ struct FilmFormat {
     std::uint32_t samples = 0;            // per pixel, at most
     std::optional<Window> crop{};         // what is wanted of the picture; none: all of it
     Refinement refinement{};
+    std::vector<Rgb> gains{};          // of the layers, in the beauty; empty: 1. What samples are spent on knows none
     std::vector<std::string> shown{};  // pictures beside the sum (AOVs): their colours come behind those of the layers
+    std::set<std::string> facts{};     // those of `shown` that are no light: exposure is not for them
 
     /// Of one pixel.
     std::size_t colours() const { return layers.size() + shown.size(); }
@@ -165,6 +168,11 @@ public:
     /// The mean over all samples, times `scale`. Of an incomplete film: what is there, over the samples of the blocks
     /// that each pixel has.
     Picture picture(float scale = 1) const;
+    /// The same, exposed as expose() said, of the pixels of a tile that has been added: a colour per pixel (row by row)
+    /// and layer, side by side. For looking at a picture while it grows.
+    std::vector<Rgb> so_far(const Tile& tile) const;
+    /// All that have been added, each place once.
+    std::vector<Tile> areas() const;
 
 private:
     struct Rectangle {
@@ -188,6 +196,7 @@ private:
     void end_if_open_group_is_there(Rectangle& rectangle, const Tile& tile);
     std::vector<Rgb> sum_of_open_group(const Rectangle& rectangle) const;
     std::vector<Rgb> sums_with_open_groups() const;
+    void add_open_group(const Tile& area, const Tile& among, std::span<Rgb> sums) const;
     void expect_can_wait(const FilmState::Part& part) const;
     void expect_nothing_elsewhere() const;
     void take_up(FilmState::Part part);

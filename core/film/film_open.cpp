@@ -58,6 +58,47 @@ std::vector<Rgb> Film::sums_with_open_groups() const {
     return sums;
 }
 
+// To the sums of `among`, of which `area` is a part.
+void Film::add_open_group(const Tile& area, const Tile& among, std::span<Rgb> sums) const {
+    const auto known = rectangles_.find({area.x, area.y, area.width, area.height});
+    if (known == rectangles_.end() || !ends_open(known->second)) return;
+    const std::size_t row = area.width * format_.colours();
+    const auto group = sum_of_open_group(known->second);
+    for (std::uint32_t y = 0; y < area.height; ++y) {
+        const std::size_t to = std::size_t{area.y - among.y + y} * among.width + area.x - among.x;
+        for (std::size_t i = 0; i < row; ++i) sums[to * format_.colours() + i] += group[y * row + i];
+    }
+}
+
+std::vector<Rgb> Film::so_far(const Tile& tile) const {
+    const std::size_t colours = format_.colours();
+    std::vector<Rgb> pixels(tile.pixels() * colours);
+    for (std::uint32_t y = 0; y < tile.height; ++y)
+        std::copy_n(sums_.begin() + std::ptrdiff_t(index(tile.x, tile.y + y) * colours), tile.width * colours,
+                    pixels.begin() + std::ptrdiff_t(y * tile.width * colours));
+    const auto areas = format_.adaptive() ? cells_of(tile) : std::vector<Tile>{tile};
+    for (const Tile& area : areas) add_open_group(area, tile, pixels);
+    std::vector<float> exposed(colours, scale_);
+    for (std::size_t k = 0; k < colours; ++k)
+        if (format_.facts.contains(format_.name_of(k))) exposed[k] = 1;
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        const std::size_t x = i / colours % tile.width, y = i / colours / tile.width;
+        const auto blocks = block_of_[index(tile.x + std::uint32_t(x), tile.y + std::uint32_t(y))];
+        const auto samples = static_cast<float>(std::min(blocks * samples_per_block, format_.samples));
+        if (blocks) pixels[i] = pixels[i] / samples * exposed[i % colours];
+    }
+    return pixels;
+}
+
+std::vector<Tile> Film::areas() const {
+    std::vector<Tile> areas;
+    for (const auto& [area, rectangle] : rectangles_) {
+        const auto& [x, y, width, height] = area;
+        areas.push_back({x, y, width, height});
+    }
+    return areas;
+}
+
 std::vector<std::uint64_t> Film::lost() const {
     auto lost = lost_;
     for (const auto& [area, rectangle] : rectangles_) {

@@ -13,6 +13,7 @@ namespace lightnet {
 struct PictureLayer {
     std::string name;
     std::vector<Rgb> pixels;  // row by row, row 0 on top
+    Rgb gain{1, 1, 1};        // so many times it is in the beauty
     friend bool operator==(const PictureLayer&, const PictureLayer&) = default;
 };
 
@@ -30,11 +31,15 @@ struct Picture {
     friend bool operator==(const Picture&, const Picture&) = default;
 };
 
-/// Makes pixels black, in all layers, whose beauty or a layer of it is not finite: many bright samples may add up to
-/// more than a float32 holds. Of what is shown beside the sum each layer stands for itself. Counts them.
+/// Makes pixels black, in all layers, whose layers or the plain sum of them are not finite: many bright samples may add
+/// up to more than a float32 holds. Of what is shown beside the sum each layer stands for itself. Counts them, and
+/// makes the beauty.
 void blacken_overflow(Picture& picture);
 
-/// The float32 sum of the layers, from the left to the right: beauty, exactly.
+/// The float32 sum of the layers, each times its gain, from the left to the right.
 std::vector<Rgb> sum_of(const std::vector<PictureLayer>& layers);
+
+/// The beauty: sum_of() the layers; a pixel whose gains take it beyond a float32 is black in it, and counted.
+void make_beauty(Picture& picture);
 
 }  // namespace lightnet

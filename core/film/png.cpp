@@ -2,6 +2,7 @@
 
 #include <png.h>
 
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -20,7 +21,23 @@ std::uint8_t srgb(float linear) {
     return static_cast<std::uint8_t>(std::lround(curve * 255));
 }
 
+// Halves the numbers between 0 and 1 as the integers that they are stored as, which have the same order.
+float least_of_level(int level) {
+    std::uint32_t below = 0, there = std::bit_cast<std::uint32_t>(1.0f);
+    while (there - below > 1) {
+        const auto middle = below + (there - below) / 2;
+        (srgb(std::bit_cast<float>(middle)) >= level ? there : below) = middle;
+    }
+    return std::bit_cast<float>(there);
+}
+
 }  // namespace
+
+std::array<float, 255> least_of_levels() {
+    std::array<float, 255> least{};
+    for (int level = 1; level <= 255; ++level) least[static_cast<std::size_t>(level) - 1] = least_of_level(level);
+    return least;
+}
 
 std::string png_of(const Picture& picture) {
     std::vector<std::uint8_t> values;

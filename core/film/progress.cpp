@@ -19,7 +19,7 @@ using namespace std::chrono_literals;
 constexpr auto bar_interval = 100ms, json_interval = 250ms, plain_interval = 10000ms;
 constexpr auto plain_silence = 3s;  // a phase that takes no longer needs no lines
 constexpr auto worth_a_line = 1s;   // a phase
-constexpr std::size_t longest_bar = 30, shortest_bar = 5, longest_label = 16;
+constexpr std::size_t longest_bar = 30, shortest_bar = 5, longest_label = 48;
 
 double seconds(Progress::Time::duration time) { return std::chrono::duration<double>(time).count(); }
 
@@ -64,6 +64,9 @@ Progress::Progress(std::uint64_t total, Style style, std::ostream& out, Time now
       work_begun_(now),
       reported_(now) {
     if (mode_ == ProgressMode::automatic) mode_ = style_.terminal ? ProgressMode::bar : ProgressMode::plain;
+    if (mode_ == ProgressMode::json)
+        out_ << nlohmann::ordered_json{{"event", "begin"}, {"format", "lightnet progress 1"}, {"total", total_}}.dump()
+             << std::endl;
 }
 
 double Progress::fraction() const {

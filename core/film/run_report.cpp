@@ -9,8 +9,30 @@ namespace lightnet {
 std::string to_json(const RunReport& report) {
     using Json = nlohmann::ordered_json;
     Json places = Json::array(), phases = Json::array();
-    for (const auto& [host, index, nodes] : report.places)
-        places.push_back({{"host", host}, {"index", index}, {"nodes", nodes}});
+    for (const auto& place : report.places)
+        places.push_back({{"host", place.host},
+                          {"index", place.index},
+                          {"nodes", place.nodes},
+                          {"seconds", place.seconds},
+                          {"waiting", place.waiting},
+                          {"idle", place.idle}});
+    Json nodes = Json::array(), edges = Json::array();
+    for (const auto& node : report.nodes)
+        nodes.push_back({{"name", node.name},
+                         {"kind", node.kind},
+                         {"questions", node.questions},
+                         {"answered", node.answered},
+                         {"bundles", node.bundles},
+                         {"seconds", node.seconds},
+                         {"own_seconds", node.own_seconds},
+                         {"latency", node.latency}});
+    for (const auto& edge : report.edges)
+        edges.push_back({{"from", edge.from},
+                         {"to", edge.to},
+                         {"asks", edge.asks},
+                         {"questions", edge.questions},
+                         {"called_seconds", edge.called_seconds},
+                         {"waiting_seconds", edge.waiting_seconds}});
     Json hosts = Json::array();
     for (const auto& host : report.hosts)
         hosts.push_back({{"host", host.host},
@@ -24,15 +46,26 @@ std::string to_json(const RunReport& report) {
                          {"places", host.places}});
     for (const auto& [name, seconds] : report.phases) phases.push_back({{"name", name}, {"seconds", seconds}});
 
+    Json preparing = Json::array();
+    for (const auto& [node, what, seconds] : report.preparing)
+        preparing.push_back({{"node", node}, {"what", what}, {"seconds", seconds}});
+
     Json json;
-    json["format"] = "lightnet run 1";
+    json["format"] = "lightnet run 2";
     json["outcome"] = report.outcome;
     json["graph"] = {{"file", report.graph}, {"hash", report.graph_hash}};
+    if (!report.network.empty()) {
+        json["graph"]["folder"] = report.folder;
+        json["graph"]["network"] = Json::parse(report.network);
+    }
     json["mode"] = report.mode;
     json["outputs"] = report.outputs;
     json["places"] = places;
+    json["nodes"] = nodes;
+    json["edges"] = edges;
     if (!report.hosts.empty()) json["hosts"] = hosts;
     json["phases"] = phases;
+    if (!report.preparing.empty()) json["preparing"] = preparing;
     json["counters"] = report.counters;
     json["settings"] = report.settings;
     json["versions"] = report.versions;

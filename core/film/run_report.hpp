@@ -12,14 +12,36 @@ namespace lightnet {
 
 /// One place, and the nodes that it held.
 struct PlaceReport {
-    std::string host;         // endpoint; "" for a place of the launcher's process
+    std::string host;         // endpoint; "here" for a place of the launcher's process
     std::uint32_t index = 0;  // among the places of its host
     std::vector<std::string> nodes;
+    double seconds = 0;  // for which it served; 0: it was lost, or is not done
+    double waiting = 0;  // of them: with nothing to do but wait for answers of others
+    double idle = 0;     // of them: with no work at all
+};
+
+/// A node of the graph, all places together. Seconds are those of threads.
+struct NodeReport {
+    std::string name, kind;
+    std::uint64_t questions = 0;  // that other nodes asked it
+    std::uint64_t answered = 0;   // of them, and of tiles (blocks) and shards: for other places, or the launcher
+    std::uint64_t bundles = 0;    // that took them there
+    double seconds = 0;           // that it ran, with the nodes that it called
+    double own_seconds = 0;       // without them
+    double latency = 0;           // seconds from sending a bundle to its answer, on average
+};
+
+/// Of the graph, all places together.
+struct EdgeReport {
+    std::string from, to;  // who asks whom
+    std::uint64_t asks = 0, questions = 0;
+    double called_seconds = 0;   // running in calls, with what was called from there
+    double waiting_seconds = 0;  // of askers, for answers from elsewhere; their places may have done other work
 };
 
 /// One host that took part, and its machine, as it said itself.
 struct HostReport {
-    std::string host;   // as in the places; "" for the launcher's process
+    std::string host;   // as in the places
     std::string state;  // at the end: "is ready", "is lost: …"
     std::string machine, cpu, isa, version;
     std::uint64_t cores = 0, memory = 0;  // bytes
@@ -32,16 +54,26 @@ struct PhaseReport {
     double seconds = 0;
 };
 
+/// What a node did while it prepared, as it said itself.
+struct PrepareReport {
+    std::string node, what;
+    double seconds = 0;
+};
+
 /// What ran where, for how long, and what was counted. All that changes from run to run stands here and never in the
 /// picture. A value.
 struct RunReport {
     std::string outcome = "done";      // "done", "failed", "cancelled"
     std::string graph, graph_hash;     // file as the user named it; hash of its canonical text
+    std::string network, folder;       // the graph as it was run, canonical JSON; where its file names are taken from
     std::string mode;                  // "serial", "threads", "network"
     std::vector<std::string> outputs;  // files written
     std::vector<PlaceReport> places;
+    std::vector<NodeReport> nodes;
+    std::vector<EdgeReport> edges;
     std::vector<HostReport> hosts;
     std::vector<PhaseReport> phases;
+    std::vector<PrepareReport> preparing;
     std::map<std::string, std::uint64_t> counters;  // questions, bundles, bytes, rays, tiles, lost, duplicates, …
     std::map<std::string, std::string> versions;    // of the program and the libraries
     std::map<std::string, std::string> settings;    // samples, size, seed, tone, …

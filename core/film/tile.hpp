@@ -49,6 +49,12 @@ struct Tile {
 
 static_assert(std::is_trivially_copyable_v<Tile>, "tiles travel as bytes");
 
+/// The samples of a picture are rendered in passes, where nodes learn anew for each: a block of samples is a pass.
+inline std::uint32_t pass_of(const Tile& tile) { return tile.block(); }
+/// How questions name their pass: never by 0, and alike only for passes that are so many apart.
+inline constexpr std::uint32_t pass_marks = 0xffff;
+constexpr std::uint16_t mark_of_pass(std::uint32_t pass) { return static_cast<std::uint16_t>(pass % pass_marks + 1); }
+
 /// The same work, block by block.
 std::vector<Tile> one_by_one(const Tile& tile);
 

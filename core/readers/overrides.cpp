@@ -108,6 +108,10 @@ void apply(const SceneOverrides& overrides, SceneData& scene, Files& files, cons
     if (overrides.clay) make_clay(scene);
     if (overrides.two_sided)
         for (auto& material : scene.materials) material.one_sided = false;
+    if (overrides.groups.empty()) return;
+    std::vector<Problem> problems;
+    for (auto& mistake : sort_lamps(scene, overrides.groups)) problems.push_back({where, "'groups': " + mistake});
+    if (!problems.empty()) throw UserError(std::move(problems));
 }
 
 }  // namespace lightnet

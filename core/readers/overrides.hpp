@@ -4,11 +4,13 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "core/base/error.hpp"
 #include "core/base/math/rgb.hpp"
 #include "core/base/math/vec.hpp"
 #include "core/readers/files.hpp"
+#include "core/scene/data/lamp_names.hpp"
 #include "core/scene/data/scene_data.hpp"
 
 namespace lightnet {
@@ -27,6 +29,7 @@ struct SceneOverrides {
     float exposure = 0;                                          // stops: doublings of the picture's brightness
     bool clay = false;                                           // all surfaces grey and diffuse
     bool two_sided = false;                                      // none is black from behind
+    std::vector<LampGroup> groups{};                             // of lamps
 };
 
 /// Changes the scene, the same on every host. Opens files only through `files`. Throws UserError, which names `where`.

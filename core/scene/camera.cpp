@@ -48,6 +48,17 @@ Ray Camera::ray(float x, float y, Vec2 lens) const {
     return {origin_ + aside, normalize(at * focus_ - aside)};
 }
 
+// Solves position - origin = corner w + right x + down y (perspective), or corner + right x + down y + axis d, by
+// Cramer's rule.
+Vec3 Camera::project(Vec3 position) const {
+    const Vec3 third = orthographic_ ? axis_ : corner_;
+    const Vec3 from = orthographic_ ? position - origin_ - corner_ : position - origin_;
+    const auto volume = [](Vec3 a, Vec3 b, Vec3 c) { return dot(a, cross(b, c)); };
+    const float all = volume(right_, down_, third);
+    const float x = volume(from, down_, third) / all, y = volume(right_, from, third) / all;
+    return {x, y, orthographic_ ? 1 : volume(right_, down_, from) / all};
+}
+
 CameraData camera_for(Vec3 low, Vec3 high, std::uint32_t width, std::uint32_t height) {
     constexpr float fov = 40, margin = 1.05f;
     const Vec3 center = (low + high) * 0.5f, half = (high - low) * 0.5f;

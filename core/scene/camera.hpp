@@ -24,6 +24,10 @@ public:
     /// rays of one position meet on the plane in focus.
     Ray ray(float x, float y, Vec2 lens) const;
 
+    /// Where in the picture `position` (world space) is seen from the middle of the lens, as homogeneous coordinates:
+    /// pixel (x / z, y / z) from the upper left corner. z is above 0 for what lies before the eye.
+    Vec3 project(Vec3 position) const;
+
 private:
     bool orthographic_ = false, has_lens_ = false;
     Vec3 origin_;                           // all in world space

@@ -30,7 +30,7 @@ std::optional<LampRay> ray_to_lamp(const Scene& scene, const Gathering& at, cons
     Rgb light = value * lamp->radiance * (weight / lamp->pdf);
     if (const Rgb* inside = filling(at.bsdf, at.point, at.outgoing, ray.direction, at.inside))
         light *= left_after(inside, ray.far);
-    return LampRay{ray, light};
+    return LampRay{ray, light, lamp->group};
 }
 
 Rgb light_by_bsdf(const Scene& scene, Vec3 from, const BsdfSample& sample, const SurfacePoint* end,

@@ -48,6 +48,7 @@ struct Gathering {
 struct LampRay {
     Ray ray;
     Rgb light;
+    std::uint32_t group = 0;  // of the lamp
 };
 
 /// The random numbers that choose a light and a point on it.
@@ -66,5 +67,9 @@ std::optional<LampRay> ray_to_lamp(const Scene& scene, const Gathering& at, cons
 /// weight of having found it by the BSDF. Without the sample's own weight.
 Rgb light_by_bsdf(const Scene& scene, Vec3 from, const BsdfSample& sample, const SurfacePoint* end,
                   Heuristic heuristic);
+/// Of which group of lamps that is.
+inline std::uint32_t group_by_bsdf(const Scene& scene, const SurfacePoint* end) {
+    return end ? scene.group_of(*end) : scene.environment_group();
+}
 
 }  // namespace lightnet

@@ -3,6 +3,7 @@
 #include "core/base/error.hpp"
 #include "core/scene/geometry/geometry.hpp"
 #include "core/scene/lamps/lights.hpp"
+#include "core/scene/ray_witness.hpp"
 #include "core/scene/scene_size.hpp"
 #include "core/scene/surfaces/placement.hpp"
 #include "core/scene/surfaces/shading.hpp"
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace lightnet {
@@ -68,7 +70,11 @@ Box finite_box(const Box& box) {
     return usable ? box : Box{{-0.5f, -0.5f, -0.5f}, {0.5f, 0.5f, 0.5f}};
 }
 
+thread_local RayWitness* witness = nullptr;
+
 }  // namespace
+
+RayWitness* watch_rays(RayWitness* next) { return std::exchange(witness, next); }
 
 struct Scene::Built {
     Built(SceneData given, const SceneOptions& options)
@@ -77,36 +83,58 @@ struct Scene::Built {
           geometry(data, shading, {options.isa, options.build_threads}),
           placements(placements_of(data)),
           box(finite_box(geometry.bounds())),
-          lights(data, shading, {box.center(), length(box.size()) / 2}),
           film(sized(data.film, options)),
           camera(data.camera_given ? data.camera : camera_for(box.low, box.high, film.width, film.height), film.width,
                  film.height) {}
+
+    std::unique_ptr<const Lights> lights(const Lights::Wanted& wanted) const {
+        return std::make_unique<const Lights>(data, shading, Lights::Ball{box.center(), length(box.size()) / 2},
+                                              wanted);
+    }
 
     SceneData data;
     Shading shading;
     Geometry geometry;
     std::vector<Placement> placements;  // by instance
     Box box;
-    Lights lights;
     FilmData film;
     Camera camera;
 };
 
 Scene::Scene(SceneData data, const SceneOptions& options)
-    : built_(std::make_unique<const Built>(std::move(data), options)) {}
+    : built_(std::make_shared<const Built>(std::move(data), options)), lights_(built_->lights({})) {}
+
+Scene::Scene(const Scene& whole, const LampView& lamps)
+    : built_(whole.built_), lights_(built_->lights({lamps.groups, lamps.apart})) {}
 
 Scene::~Scene() = default;
 
-std::optional<Hit> Scene::intersect(const Ray& ray) const { return built_->geometry.intersect(ray); }
+std::optional<Hit> Scene::intersect(const Ray& ray) const {
+    const auto hit = built_->geometry.intersect(ray);
+    if (witness) witness->met(ray, hit);
+    return hit;
+}
 
 void Scene::intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const {
     built_->geometry.intersect(rays, hits);
+    if (witness)
+        for (std::size_t i = 0; i < rays.size(); ++i) witness->met(rays[i], hits[i]);
 }
 
-bool Scene::occluded(const Ray& ray) const { return built_->geometry.occluded(ray); }
+bool Scene::occluded(const Ray& ray) const {
+    const bool hidden = built_->geometry.occluded(ray);
+    if (witness) witness->looked(ray, hidden);
+    return hidden;
+}
 
 void Scene::occluded(std::span<const Ray> rays, std::span<std::uint8_t> hidden) const {
     built_->geometry.occluded(rays, hidden);
+    if (witness)
+        for (std::size_t i = 0; i < rays.size(); ++i) witness->looked(rays[i], hidden[i] != 0);
+}
+
+std::optional<Hit> Scene::nearest(Vec3 position, Vec3 normal, float reach) const {
+    return built_->geometry.nearest({built_->data, built_->shading, built_->placements}, {position, normal, reach});
 }
 
 SurfacePoint Scene::surface(const Hit& hit) const {
@@ -134,33 +162,31 @@ Bsdf Scene::bsdf(const SurfacePoint& point) const { return built_->shading.bsdf(
 
 void Scene::add_bsdf(const SurfacePoint& point, std::vector<Bsdf>& to) const { built_->shading.add_bsdf(point, to); }
 
-Rgb Scene::emission(const SurfacePoint& point, Vec3 direction) const {
-    return built_->lights.emission(point, direction);
-}
+Rgb Scene::emission(const SurfacePoint& point, Vec3 direction) const { return lights_->emission(point, direction); }
 
-Rgb Scene::environment(Vec3 direction) const { return built_->lights.environment(direction); }
+Rgb Scene::environment(Vec3 direction) const { return lights_->environment(direction); }
 
 std::optional<LightSample> Scene::sample_light(Vec3 from, float choice, Vec2 u) const {
-    return built_->lights.sample(from, choice, u);
+    return lights_->sample(from, choice, u);
 }
 
-const FlatLamp* Scene::only_flat_lamp() const { return built_->lights.only_flat_lamp(); }
+const FlatLamp* Scene::only_flat_lamp() const { return lights_->only_flat_lamp(); }
 
 float Scene::light_pdf(Vec3 from, Vec3 direction, const SurfacePoint& on) const {
-    return built_->lights.pdf(from, direction, on);
+    return lights_->pdf(from, direction, on);
 }
 
-float Scene::environment_pdf(Vec3 direction) const { return built_->lights.environment_pdf(direction); }
-bool Scene::has_environment() const { return built_->lights.has_environment(); }
-bool Scene::has_lamps() const { return !built_->lights.empty(); }
-bool Scene::has_many_lamps() const { return built_->lights.many(); }
+float Scene::environment_pdf(Vec3 direction) const { return lights_->environment_pdf(direction); }
+bool Scene::has_environment() const { return lights_->has_environment(); }
+bool Scene::has_lamps() const { return !lights_->empty(); }
+bool Scene::has_many_lamps() const { return lights_->many(); }
 
 std::optional<Emission> Scene::emit(float choice, Vec2 position_sample, Vec2 direction_sample) const {
-    return built_->lights.emit(choice, position_sample, direction_sample);
+    return lights_->emit(choice, position_sample, direction_sample);
 }
 
 bool Scene::may_shine(const Ray& ray) const { return has_environment() || may_meet_lamp(ray); }
-bool Scene::may_meet_lamp(const Ray& ray) const { return built_->lights.may_meet_lamp(ray); }
+bool Scene::may_meet_lamp(const Ray& ray) const { return lights_->may_meet_lamp(ray); }
 
 Ray Scene::ray_to(const SurfacePoint& from, const LightSample& lamp) const {
     const Vec3 origin = from.origin_towards(lamp.direction);
@@ -169,12 +195,16 @@ Ray Scene::ray_to(const SurfacePoint& from, const LightSample& lamp) const {
 
 bool Scene::visible(const SurfacePoint& from, const LightSample& lamp) const { return !occluded(ray_to(from, lamp)); }
 
+std::size_t Scene::groups() const { return lights_->groups(); }
+std::uint32_t Scene::group_of(const SurfacePoint& lamp) const { return lights_->group_of(lamp); }
+std::uint32_t Scene::environment_group() const { return lights_->environment_group(); }
+
 const Camera& Scene::camera() const { return built_->camera; }
 const FilmData& Scene::film() const { return built_->film; }
 Box Scene::bounds() const { return built_->box; }
 float Scene::radius() const { return length(built_->box.size()) / 2; }
 
-SceneSize Scene::size() const { return size_of(built_->data, built_->geometry, built_->lights); }
+SceneSize Scene::size() const { return size_of(built_->data, built_->geometry, *lights_); }
 
 std::uint64_t Scene::rays_of_this_thread() { return Geometry::rays_of_this_thread(); }
 

@@ -1,6 +1,7 @@
 // A scene that can be asked: geometry in Embree, materials, lights, camera. Immutable after construction.
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -9,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/lamp_groups.hpp"
 #include "core/base/math/box.hpp"
 #include "core/base/query.hpp"
 #include "core/scene/bsdf/bsdf.hpp"
@@ -21,6 +23,8 @@
 #include "core/scene/surfaces/surface.hpp"
 
 namespace lightnet {
+
+class Lights;
 
 /// How the scene is built. The same values on every host of a run, as the bytes of its answers may depend on them.
 struct SceneOptions {
@@ -41,10 +45,20 @@ struct SceneSize {
     std::size_t light_bytes = 0;
 };
 
+/// Which lamps of a scene are looked for, and whether their groups are told apart.
+struct LampView {
+    GroupSet groups = all_groups;
+    bool apart = false;
+    friend auto operator<=>(const LampView&, const LampView&) = default;
+};
+
 /// Built once per process and shared by all its places: every member may be called from any thread.
 class Scene {
 public:
     explicit Scene(SceneData data, const SceneOptions& options = {});
+    /// The same scene, as if there were no other lamps. It shares all but what finds them, and what was a lamp is in
+    /// the way of light as before.
+    Scene(const Scene& whole, const LampView& lamps);
     ~Scene();
     Scene(const Scene&) = delete;
     Scene& operator=(const Scene&) = delete;
@@ -57,6 +71,11 @@ public:
     bool occluded(const Ray& ray) const;
     /// The same for many rays: `hidden[i]` is 1 where something is in the way of ray i, else 0.
     void occluded(std::span<const Ray> rays, std::span<std::uint8_t> hidden) const;
+
+    /// The surface point that is nearest to `position`, within `reach` (scene units); where several are, `normal` says
+    /// how the one lies that is meant: a surface at right angles to it counts as farther away, by `reach`. Unit, on
+    /// either side; zero: that is not known. The same on every host.
+    std::optional<Hit> nearest(Vec3 position, Vec3 normal, float reach) const;
 
     SurfacePoint surface(const Hit& hit) const;
     SurfacePoint surface(const Query& query) const { return surface(hit(query)); }
@@ -102,6 +121,13 @@ public:
     /// Is nothing between the surface point and a light?
     bool visible(const SurfacePoint& from, const LightSample& lamp) const;
 
+    /// How many groups of lamps are told apart, 1 or more: a light that is found says of which it is, by index.
+    std::size_t groups() const;
+    /// The group of the lamp that a surface point is on; 0 where it is on none.
+    std::uint32_t group_of(const SurfacePoint& lamp) const;
+    /// The group of all that comes from infinity without a direction of its own.
+    std::uint32_t environment_group() const;
+
     const Camera& camera() const;
     const FilmData& film() const;
     /// The box around everything that rays can meet.
@@ -115,7 +141,8 @@ public:
 
 private:
     struct Built;
-    std::unique_ptr<const Built> built_;
+    std::shared_ptr<const Built> built_;
+    std::unique_ptr<const Lights> lights_;
 };
 
 }  // namespace lightnet

@@ -94,6 +94,17 @@ bool is_right(const Vocabulary& known, const std::string& name) {
     return true;
 }
 
+// Names behind `services.` in backticks, with their lines.
+std::map<std::string, std::size_t> listed_services(const SourceFile& document, const std::string& variable) {
+    const std::regex listed("`" + variable + R"(\.(\w+))");
+    std::map<std::string, std::size_t> found;
+    const auto lines = lines_of(document.text);
+    for (std::size_t i = 0; i < lines.size(); ++i)
+        for (std::sregex_iterator at(lines[i].begin(), lines[i].end(), listed), end; at != end; ++at)
+            found.emplace((*at)[1], i + 1);
+    return found;
+}
+
 }  // namespace
 
 Complaints unknown_decisions(const SourceFile& file, const SourceFile& decisions) {
@@ -133,6 +144,44 @@ Complaints unknown_names(const SourceFile& document, const std::vector<SourceFil
         for (std::sregex_iterator at(lines[i].begin(), lines[i].end(), quoted), end; at != end; ++at)
             if (!is_right(known, (*at)[1]))
                 complaints.push_back(at_line(document, i + 1, "the code has no `" + (*at)[1].str() + "`"));
+    return complaints;
+}
+
+// As clang-format leaves it: members of a class begin in the fifth column.
+Offer offer_of(const SourceFile& header, const std::string& type, const std::string& variable) {
+    static const std::regex declaration(R"(^ {4}(?! )(?!static|explicit|template|friend|//).*?[\w>&*] [&*]?(\w+)\(.*)");
+    Offer offer{variable, {}};
+    bool inside = false, open = false;
+    std::smatch match;
+    for (const auto& line : lines_of(header.text)) {
+        if (line.starts_with("class " + type + " ")) inside = true;
+        if (line == "};") inside = false;
+        if (line == "public:" || line == "protected:" || line == "private:") open = line == "public:";
+        if (inside && open && std::regex_match(line, match, declaration)) offer.functions.push_back(match[1]);
+    }
+    return offer;
+}
+
+Complaints unlisted_services(const SourceFile& document, const Offer& offer) {
+    const auto listed = listed_services(document, offer.variable);
+    Complaints complaints;
+    for (const auto& function : offer.functions)
+        if (!listed.contains(function))
+            complaints.push_back(document.path + " says nothing of `" + offer.variable + "." + function + "()`");
+    return complaints;
+}
+
+Complaints idle_services(const SourceFile& document, const Offer& offer, const std::vector<SourceFile>& callers) {
+    Complaints complaints;
+    for (const auto& [name, line] : listed_services(document, offer.variable)) {
+        const std::regex call("\\b" + offer.variable + "_?\\." + name + "\\b");
+        if (std::ranges::find(offer.functions, name) == offer.functions.end())
+            complaints.push_back(at_line(document, line, "there is no `" + offer.variable + "." + name + "()`"));
+        else if (std::ranges::none_of(callers, [&](const SourceFile& file) {
+                     return std::regex_search(code_only(file.text), call);
+                 }))
+            complaints.push_back(at_line(document, line, "no node uses `" + offer.variable + "." + name + "()`"));
+    }
     return complaints;
 }
 

@@ -1,6 +1,7 @@
 // What documents say of the code is true: rules as functions from text to complaints.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "tests/architecture/rules.hpp"
@@ -20,5 +21,17 @@ Complaints unknown_names(const SourceFile& document, const std::vector<SourceFil
 
 /// Links of a document to files that are not there: `exists` knows those beside it.
 Complaints dead_links(const SourceFile& document, bool (*exists)(const std::string& path));
+
+/// What a class offers: its public functions, and how those who have an object of it call it.
+struct Offer {
+    std::string variable;  // "services"
+    std::vector<std::string> functions;
+};
+Offer offer_of(const SourceFile& header, const std::string& type, const std::string& variable);
+
+/// Functions of which the document says nothing (`services.map<T>(count, work)`).
+Complaints unlisted_services(const SourceFile& document, const Offer& offer);
+/// What it says of functions that are not offered, and of those that nobody calls (services.map or services_.map).
+Complaints idle_services(const SourceFile& document, const Offer& offer, const std::vector<SourceFile>& callers);
 
 }  // namespace lightnet::house

@@ -57,6 +57,37 @@ TEST(Documents, LinkToFilesThatAreThere) {
                 ElementsAre("docs/x.md:2: there is no word.md"));
 }
 
+TEST(Documents, ListTheServicesThatThereAreAndThatNodesUse) {
+    const SourceFile header{"s.hpp",
+                            "class Services {\npublic:\n    virtual ~Services() = default;\n    template <class T>\n"
+                            "    Mapped<T> map(int count) {\n        return more(count);\n    }\n"
+                            "    virtual const Hut& hut() const = 0;\nprotected:\n    virtual int inner() = 0;\n};\n"
+                            "class Other {\npublic:\n    int other();\n};\n"};
+    const Offer offer = offer_of(header, "Services", "services");
+    EXPECT_THAT(offer.functions, ElementsAre("map", "hut"));
+    const SourceFile document{"x.md", "`services.map<T>(count)` does.\n`services.hat()` too\n"};
+    EXPECT_THAT(unlisted_services(document, offer), ElementsAre("x.md says nothing of `services.hut()`"));
+    EXPECT_THAT(idle_services(document, offer, {{"n.cpp", "x = services.map<int>(3);"}}),
+                ElementsAre("x.md:2: there is no `services.hat()`"));
+    EXPECT_THAT(
+        idle_services({"x.md", "`services.map()`"}, offer, {{"n.cpp", "// services.map()\nservices.mapped();"}}),
+        ElementsAre("x.md:1: no node uses `services.map()`"));
+}
+
+// Whoever wraps old code uses what a node uses.
+TEST(Project, ListsTheServicesThatItsNodesUse) {
+    const SourceFile document = read("CONTRIBUTING.md");
+    const Offer services = offer_of(read("core/network/light/services.hpp"), "Services", "services");
+    const Offer here = offer_of(read("core/network/light/node_context.hpp"), "NodeContext", "here");
+    auto nodes = files_of("nodes");
+    std::ranges::move(files_of("core/estimate"), std::back_inserter(nodes));
+    nodes.push_back(read("core/network/light/wrap.cpp"));
+    EXPECT_GE(services.functions.size(), 7u);
+    EXPECT_THAT(unlisted_services(document, services), IsEmpty());
+    EXPECT_THAT(idle_services(document, services, nodes), IsEmpty());
+    EXPECT_THAT(idle_services(document, here, nodes), IsEmpty());
+}
+
 TEST(Project, CitesDecisionsThatAreThere) {
     const SourceFile decisions = read("DECISIONS.md");
     auto files = all_files();
@@ -76,8 +107,10 @@ TEST(Project, HasDocumentsThatNameWhatIsThere) {
 
 TEST(Project, HasDocumentsWhoseLinksLead) {
     const auto exists = [](const std::string& path) { return std::filesystem::exists(root() / path); };
-    for (const char* document : {"README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/engine.md", "docs/operators.md",
-                                 "docs/pbrt.md", "docs/scenes.md", "docs/trust.md", "docs/words.md"})
+    for (const char* document :
+         {"README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/engine.md", "docs/operators.md", "docs/benchmarks.md",
+          "docs/pbrt.md", "docs/plugins.md", "docs/scenes.md", "docs/start.md", "docs/trust.md", "docs/watch.md",
+          "docs/words.md"})
         EXPECT_THAT(dead_links(read(document), exists), IsEmpty());
 }
 

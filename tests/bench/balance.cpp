@@ -39,7 +39,6 @@ double light() {
     job.isa = usual_isa();
     job.graph.file = "balance.lua";
     job.graph.nodes = {emulated_light("light", microseconds), emulated_image(0, questions, {"light"})};
-    job.tuning.bundle = 128;
     const auto network = build_network(job, kinds, LoadedScene{});
     Plan plan{{{"", 0}, {"", 1}, {"", 2}, {"", 3}, {"", 4}}, {{1, 2, 3, 4}, {0}}};
     ThreadedRun run(network, run_id, plan, job.tuning);
@@ -62,8 +61,7 @@ double slowed() {
 void measure(const char* name, double (*ratio)(), double goal) {
     std::vector<double> ratios;
     for (int round = 0; round < rounds; ++round) ratios.push_back(ratio());
-    show(name, ratios);
-    figure(name, median(ratios), goal, false);
+    figure(name, ratios, goal, false);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "tests/bench/emulated.hpp"
 
+#include <atomic>
 #include <stdexcept>
 #include <thread>
 
@@ -9,6 +10,7 @@
 #include "core/run/runtime/fingerprint.hpp"
 #include "core/run/runtime/master_renderer.hpp"
 #include "tests/bench/figure.hpp"
+#include "transport/launcher/cluster.hpp"
 #include "transport/launcher/threaded_run.hpp"
 
 namespace lightnet::bench {
@@ -159,6 +161,33 @@ double seconds_of_places(std::uint32_t places, double milliseconds, std::size_t 
     if (slowness->slowed >= 0) slowness->slowed_at += Clock::now().time_since_epoch();
     const double seconds = seconds_of_emulated(*network, run_id, run.carrier(), all, tiles * places, 2);
     run.stop();
+    return seconds;
+}
+
+double seconds_of_hosts(const std::vector<std::string>& endpoints, const Picture& picture, std::size_t places,
+                        double milliseconds, std::size_t tiles) {
+    const Registry kinds = emulated_kinds(nullptr, "");
+    Cluster::Options options;
+    options.run = 1;
+    options.job.scene = picture.job.scene;  // a host serves no run without one
+    options.job.files = picture.job.files;
+    options.job.isa = picture.job.isa;
+    options.job.width = options.job.height = 1;
+    options.job.graph.file = "emulated.lua";
+    options.job.graph.nodes = {emulated_image(milliseconds, 0), {"scene", "Scene", {Value{picture.job.scene}}, {}, {}}};
+    options.job.graph.nodes[0].params["scene"] = Value{NodeRef{"scene"}};
+    options.files = picture.files;
+    options.endpoints = endpoints;
+    const Graph graph = options.job.graph;
+    options.plan = [&](const std::vector<HostOffer>& offers) { return plan(graph, kinds, {}, offers); };
+    const auto network = build_network(options.job, kinds, LoadedScene{});
+    Cluster cluster(std::move(options));
+    const std::atomic<bool> never{false};
+    cluster.gather(std::chrono::seconds(20), never);
+    cluster.adopt(cluster.plan());
+    if (cluster.plan().places.size() != places) throw std::runtime_error("not all hosts are there");
+    const double seconds = seconds_of_emulated(*network, 1, cluster, cluster.plan(), tiles * places, 2);
+    cluster.finish();
     return seconds;
 }
 

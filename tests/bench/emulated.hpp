@@ -12,6 +12,7 @@
 #include "core/network/graph/kind.hpp"
 #include "core/run/message/carrier.hpp"
 #include "core/run/runtime/job.hpp"
+#include "tests/bench/picture.hpp"
 
 namespace lightnet::bench {
 
@@ -41,5 +42,9 @@ double seconds_of_emulated(const Network& network, std::uint64_t run, Carrier& c
 /// Every place a renderer, nothing else: that many threads, and so many seconds for that many tiles each.
 double seconds_of_places(std::uint32_t places, double milliseconds, std::size_t tiles,
                          std::shared_ptr<Slowness> slowness = std::make_shared<Slowness>());
+
+/// The same on hosts that know emulated nodes, over tcp, from when all are ready.
+double seconds_of_hosts(const std::vector<std::string>& endpoints, const Picture& picture, std::size_t places,
+                        double milliseconds, std::size_t tiles);
 
 }  // namespace lightnet::bench

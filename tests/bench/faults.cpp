@@ -49,10 +49,10 @@ void read(const std::string& line, Outcome& outcome) {
 Outcome play(const Row& row) {
     Outcome outcome;
     outcome.row = &row;
-    const std::string command =
-        LIGHTNET_FAULTS_TEST " --gtest_brief=1 --gtest_filter=Faults." + std::string(row.test) + " 2>&1 </dev/null";
+    const std::string command = LIGHTNET_STARTS_FAULTS_TEST " --gtest_brief=1 --gtest_filter=Faults." +
+                                std::string(row.test) + " 2>&1 </dev/null";
     std::FILE* const said = ::popen(command.c_str(), "r");
-    if (!said) throw std::runtime_error("can't start " LIGHTNET_FAULTS_TEST);
+    if (!said) throw std::runtime_error("can't start " LIGHTNET_STARTS_FAULTS_TEST);
     std::string line;
     for (int c = std::fgetc(said); c != EOF; c = std::fgetc(said)) {
         if (c != '\n') {
@@ -78,7 +78,7 @@ void print(const Outcome& outcome, double seconds) {
     const auto text = [](std::string_view view) { return std::string(view); };
     std::cout << row.number << " " << row.name << ": " << text(row.fault) << " -> " << text(row.promise) << "\n";
     if (!outcome.ran) {
-        std::cout << "   not run: " << outcome.why_not << std::endl;
+        lightnet::bench::not_run("faults." + text(row.name), outcome.why_not);
         return;
     }
     std::cout << "   done: " << joined(outcome.done) << "\n   seen: " << joined(outcome.seen) << "\n";

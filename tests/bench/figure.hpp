@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <cstddef>
 #include <cstdio>
 #include <ctime>
 #include <exception>
@@ -26,32 +28,73 @@ inline double seconds_of(const std::function<void()>& work) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
 }
 
-/// Seconds that this thread has computed: what others do on the machine does not count.
-inline double thread_seconds() {
+inline double seconds_on(clockid_t clock) {
     timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    clock_gettime(clock, &now);
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// The middle, least and greatest of some ratios, for those who read along.
-inline void show(const char* name, const std::vector<double>& ratios) {
-    std::printf("  %s: median %.4f, least %.4f, greatest %.4f of %zu\n", name, median(ratios),
-                *std::min_element(ratios.begin(), ratios.end()), *std::max_element(ratios.begin(), ratios.end()),
-                ratios.size());
+/// Seconds that this thread, or all of this process, has computed: what others do on the machine does not count.
+inline double thread_seconds() { return seconds_on(CLOCK_THREAD_CPUTIME_ID); }
+inline double process_seconds() { return seconds_on(CLOCK_PROCESS_CPUTIME_ID); }
+
+/// What was measured over and over, as it is printed: the middle one, and how far the others are from it.
+struct Spread {
+    double middle, least, greatest;
+    std::size_t count;
+    explicit Spread(const std::vector<double>& values)
+        : middle(median(values)),
+          least(*std::min_element(values.begin(), values.end())),
+          greatest(*std::max_element(values.begin(), values.end())),
+          count(values.size()) {}
+};
+
+/// What is no figure, for those who read along.
+inline void show(const char* name, const std::vector<double>& values) {
+    const Spread spread(values);
+    std::printf("  %s: median %.4f, least %.4f, greatest %.4f of %zu\n", name, spread.middle, spread.least,
+                spread.greatest, spread.count);
 }
 
-/// The line that `./bench` collects. `value` and `goal` are percentages; `at_least`: more is better.
-inline void figure(const char* name, double value, double goal, bool at_least) {
-    const bool met = at_least ? value >= goal : value <= goal;
-    std::printf("%s %.*f%% %s%g%% %s\n", name, value < 0.1 ? 2 : 1, 100 * value, at_least ? ">=" : "<=", 100 * goal,
-                met ? "ok" : "short");
+/// How a figure is written: values times `factor`, with so many digits behind the point.
+struct Writing {
+    const char* sign;  // directly behind the value and the goal
+    const char* unit;  // in brackets at the end
+    double factor = 1;
+    int digits = 1;
+};
+
+/// The line that `./bench` collects: `NAME median [least greatest of count] goal ok|short`. `sound`: what was measured
+/// is what was meant; nothing that isn't meets a goal.
+inline void print_figure(const std::string& name, const std::vector<double>& values, const Writing& writing,
+                         double goal, bool at_least, bool sound = true) {
+    const Spread spread(values);
+    const bool met = sound && (at_least ? spread.middle >= goal : spread.middle <= goal);
+    const auto number = [&](double value) {
+        std::array<char, 64> text;
+        std::snprintf(text.data(), text.size(), "%.*f", writing.digits, value * writing.factor);
+        return std::string(text.data());
+    };
+    std::printf("%s %s%s [%s %s of %zu] %s%g%s %s%s\n", name.c_str(), number(spread.middle).c_str(), writing.sign,
+                number(spread.least).c_str(), number(spread.greatest).c_str(), spread.count,
+                at_least ? ">=" : "<=", goal * writing.factor, writing.sign, writing.unit, met ? "ok" : "short");
     std::fflush(stdout);
 }
 
-/// The same for a quantity that is no percentage.
-inline void quantity(const char* name, double value, const char* unit, double goal, bool at_least) {
-    const bool met = at_least ? value >= goal : value <= goal;
-    std::printf("%s %.1f %s%g (%s) %s\n", name, value, at_least ? ">=" : "<=", goal, unit, met ? "ok" : "short");
+/// Of parts, printed as percentages. `at_least`: more is better.
+inline void figure(const std::string& name, const std::vector<double>& values, double goal, bool at_least) {
+    print_figure(name, values, {"%", "", 100, median(values) < 0.1 ? 2 : 1}, goal, at_least);
+}
+
+/// Of what is no percentage.
+inline void quantity(const std::string& name, const std::vector<double>& values, const std::string& unit, double goal,
+                     bool at_least) {
+    print_figure(name, values, {"", ("(" + unit + ") ").c_str()}, goal, at_least);
+}
+
+/// A figure that can't be had here: `./bench` counts these at its end.
+inline void not_run(const std::string& name, const std::string& why) {
+    std::printf("%s not run: %s\n", name.c_str(), why.c_str());
     std::fflush(stdout);
 }
 

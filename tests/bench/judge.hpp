@@ -21,23 +21,24 @@ struct MemorySample {
 };
 
 /// How fast memory grows, bytes per second. What is taken for a moment and given back doesn't count: of each twelfth of
-/// the time the least counts, and of all slopes between those the middle one (Theil 1950, Sen 1968).
-inline double growth(const std::vector<MemorySample>& samples) {
+/// the time the least counts, and of all slopes between those the middle one (Theil 1950, Sen 1968), or the one that
+/// `part` of them are below.
+inline double growth(const std::vector<MemorySample>& samples, double part = 0.5) {
     constexpr std::size_t parts = 12;
     if (samples.size() < parts) return 0;
     std::vector<MemorySample> least;
-    for (std::size_t part = 0; part < parts; ++part) {
-        const auto begin = samples.begin() + static_cast<std::ptrdiff_t>(samples.size() * part / parts);
-        const auto end = samples.begin() + static_cast<std::ptrdiff_t>(samples.size() * (part + 1) / parts);
+    for (std::size_t i = 0; i < parts; ++i) {
+        const auto begin = samples.begin() + static_cast<std::ptrdiff_t>(samples.size() * i / parts);
+        const auto end = samples.begin() + static_cast<std::ptrdiff_t>(samples.size() * (i + 1) / parts);
         least.push_back(*std::min_element(begin, end, [](const auto& a, const auto& b) { return a.bytes < b.bytes; }));
     }
     std::vector<double> slopes;
     for (std::size_t i = 0; i < parts; ++i)
         for (std::size_t j = 0; j < i; ++j)
             slopes.push_back((least[i].bytes - least[j].bytes) / (least[i].seconds - least[j].seconds));
-    const auto middle = slopes.begin() + static_cast<std::ptrdiff_t>(slopes.size() / 2);
-    std::nth_element(slopes.begin(), middle, slopes.end());
-    return *middle;
+    const auto chosen = slopes.begin() + static_cast<std::ptrdiff_t>(static_cast<double>(slopes.size()) * part);
+    std::nth_element(slopes.begin(), chosen, slopes.end());
+    return *chosen;
 }
 
 }  // namespace lightnet::bench

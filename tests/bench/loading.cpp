@@ -1,9 +1,12 @@
 // How long a scene takes from its files to where rays can be asked, beside the bare build of the same triangles' tree
-// by Embree. Argument: a scene file; without one, a mesh of a million triangles, which has no files to read.
+// by Embree. A landscape of a million triangles is written to the disk first; other scenes are those that lie beside
+// the project. What Embree doesn't do, above all to read pictures, counts as well. Arguments: scene files, instead of
+// all these.
 #include <embree/rtcore.h>
 
-#include <cmath>
+#include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <variant>
@@ -12,29 +15,37 @@
 #include "core/readers/read_scene.hpp"
 #include "core/scene/scene.hpp"
 #include "tests/bench/figure.hpp"
+#include "tests/bench/landscape.hpp"
+#include "tests/bench/references.hpp"
+#include "tests/support/folder.hpp"
 
 namespace lightnet {
 namespace {
 
 constexpr int rounds = 3;
 
-SceneData waves() {
-    constexpr std::uint32_t side = 708;
-    Mesh mesh;
-    for (std::uint32_t y = 0; y <= side; ++y)
-        for (std::uint32_t x = 0; x <= side; ++x)
-            mesh.positions.push_back({float(x), std::sin(float(x) * 0.1f) * std::cos(float(y) * 0.07f), float(y)});
-    for (std::uint32_t y = 0; y < side; ++y)
-        for (std::uint32_t x = 0; x < side; ++x) {
-            const std::uint32_t corner = y * (side + 1) + x;
-            mesh.triangles.push_back({corner, corner + 1, corner + side + 1});
-            mesh.triangles.push_back({corner + 1, corner + side + 2, corner + side + 1});
-        }
-    SceneData scene;
-    scene.textures.emplace_back();
-    scene.materials.emplace_back();
-    scene.shapes.push_back({std::move(mesh), 0, std::nullopt, {}});
-    return scene;
+template <class T>
+void put(std::string& bytes, const T& value) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+/// A scene file, and beside it its mesh, as modellers write them: PLY, binary.
+std::string written_to(const test::Folder& folder) {
+    const Mesh mesh = bench::landscape();
+    std::string ply = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(mesh.positions.size()) +
+                      "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
+                      std::to_string(mesh.triangles.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
+    for (const auto& position : mesh.positions) put(ply, position);
+    for (const auto& triangle : mesh.triangles) {
+        put(ply, std::uint8_t{3});
+        put(ply, triangle);
+    }
+    folder.write("landscape.ply", ply);
+    return folder.write("landscape.pbrt",
+                        "LookAt 7.5 5.5 -7.5  0 1.8 0  0 1 0\nCamera \"perspective\" \"float fov\" 45\n"
+                        "WorldBegin\nLightSource \"infinite\" \"rgb L\" [1 1 1]\n"
+                        "Material \"diffuse\" \"rgb reflectance\" [.6 .6 .6]\n"
+                        "Shape \"plymesh\" \"string filename\" \"landscape.ply\"\n");
 }
 
 /// The tree that the scene has, and nothing else; objects that stand in a scene many times are built once.
@@ -63,29 +74,45 @@ double bare_seconds(const SceneData& scene) {
     return seconds;
 }
 
-void compare(const std::string& file) {
-    std::vector<double> reading, building, bare, ratios;
+void compare(const std::string& name, const std::string& file) {
+    std::vector<double> ratios;
     for (int round = 0; round < rounds; ++round) {
         SceneData data;
-        reading.push_back(bench::seconds_of([&] {
+        const double reading = bench::seconds_of([&] {
             DiskFiles files;
-            data = file.empty() ? waves() : read_scene(files, file);
-        }));
-        bare.push_back(bare_seconds(data));
+            data = read_scene(files, file);
+        });
+        const double bare = bare_seconds(data);
         std::size_t triangles = 0;
-        building.push_back(bench::seconds_of([&] { triangles = Scene(std::move(data)).size().triangles; }));
-        if (file.empty()) reading.back() = 0;  // there was nothing to read
-        ratios.push_back((reading.back() + building.back()) / bare.back());
-        std::printf("  %zu triangles: read in %.3f s, built in %.3f s, by Embree alone in %.3f s\n", triangles,
-                    reading.back(), building.back(), bare.back());
+        const double building = bench::seconds_of([&] { triangles = Scene(std::move(data)).size().triangles; });
+        ratios.push_back((reading + building) / bare);
+        std::printf("  %s: %zu triangles: read in %.3f s, built in %.3f s, by Embree alone in %.3f s\n", name.c_str(),
+                    triangles, reading, building, bare);
     }
-    bench::show("reading and building, over building alone", ratios);
-    bench::quantity("loading", bench::median(ratios), "times Embree's build", 2, false);
+    bench::quantity("loading." + name, ratios, "times Embree's build", 2, false);
+}
+
+void compare_all() {
+    const test::Folder folder;
+    compare("landscape", written_to(folder));
+    const std::pair<const char*, const char*> others[]{{"terrain", "reference/terrain.pbrt"},
+                                                       {"living-room", "scenes/living-room-pbrt/living-room.pbrt"},
+                                                       {"staircase2", "scenes/staircase2-pbrt/staircase2.pbrt"},
+                                                       {"veach-ajar", "scenes/veach-ajar-pbrt/veach-ajar.pbrt"},
+                                                       {"bmw-m6", "scenes/bmw-m6-pbrt/bmw-m6.pbrt"}};
+    for (const auto& [name, path] : others)
+        if (const auto file = bench::shared_file(path))
+            compare(name, file->string());
+        else
+            bench::not_run(std::string("loading.") + name, bench::is_not_here(path));
 }
 
 }  // namespace
 }  // namespace lightnet
 
 int main(int argc, char** argv) {
-    return lightnet::bench::run("loading", [&] { lightnet::compare(argc > 1 ? argv[1] : ""); });
+    return lightnet::bench::run("loading", [&] {
+        if (argc == 1) lightnet::compare_all();
+        for (int i = 1; i < argc; ++i) lightnet::compare(std::filesystem::path(argv[i]).stem(), argv[i]);
+    });
 }

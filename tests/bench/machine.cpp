@@ -13,8 +13,7 @@
 #include "core/base/math/frame.hpp"
 #include "core/base/math/random.hpp"
 #include "core/base/math/sampling.hpp"
-#include "core/readers/files.hpp"
-#include "core/readers/ply/mesh.hpp"
+#include "tests/bench/landscape.hpp"
 
 namespace lightnet::bench {
 namespace {
@@ -42,9 +41,8 @@ void set(R& ray, Vec3 origin, Vec3 direction) {
 
 }  // namespace
 
-Machine::Machine(const std::filesystem::path& terrain) : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
-    DiskFiles disk;
-    const Mesh mesh = read_ply(*disk.read(terrain.string()));
+Machine::Machine() : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
+    const Mesh mesh = landscape();
     const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh.positions.data(), sizeof(Vec3),
            mesh.positions.size());
@@ -64,7 +62,6 @@ Machine::~Machine() {
     rtcReleaseDevice(device_);
 }
 
-// As the camera of terrain.pbrt.
 Machine::Flights Machine::from_camera() const {
     const Vec3 eye{7.5f, 5.5f, -7.5f}, towards{0, 1.8f, 0};
     const Vec3 ahead = normalize(towards - eye), right = normalize(cross(ahead, {0, 1, 0})), up = cross(right, ahead);

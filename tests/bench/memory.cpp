@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <future>
 #include <map>
@@ -15,8 +14,10 @@
 #include <thread>
 #include <vector>
 
+#include "tests/bench/daemon.hpp"
 #include "tests/bench/figure.hpp"
 #include "tests/bench/judge.hpp"
+#include "tests/support/folder.hpp"
 #include "transport/launcher/ask_state.hpp"
 #include "transport/start/child.hpp"
 
@@ -29,12 +30,6 @@ constexpr auto warm_up = 10s, measured = 60s;  // the first checkpoint is writte
 constexpr double mib = 1 << 20;
 constexpr double bundles_of_credit = 8;  // that an asker has under way to one place, unless it is told otherwise
 
-std::string first_line(int in) {
-    std::string line;
-    for (char c = 0; read(in, &c, 1) == 1 && c != '\n';) line += c;
-    return line;
-}
-
 // Resident memory, bytes; 0: the process is gone.
 double resident(int process) {
     std::ifstream in("/proc/" + std::to_string(process) + "/statm");
@@ -45,30 +40,25 @@ double resident(int process) {
 
 // Bundles that have come to the host and are not answered.
 double waiting_at(const std::string& endpoint) {
-    const auto host = lightnet::ask_state({endpoint}, 3s).at(0);
+    const auto host = lightnet::ask_state({lightnet::AskedHost{endpoint}}, 3s).at(0);
     return static_cast<double>(host.bundles) - static_cast<double>(host.progress);
 }
 
 }  // namespace
 
 int main() {
-    const auto folder = std::filesystem::temp_directory_path() / ("lightnet-memory-" + std::to_string(getpid()));
-    std::filesystem::create_directories(folder);
-    const std::string before = "listening on ";
-    std::map<std::string, int> processes;
-    std::vector<std::string> endpoints;
-    for (const char* name : {"asker", "consumer"}) {
-        int out = -1;
-        processes[name] =
-            lightnet::spawn({LIGHTNET_DAEMON, "--places", "1", "--quiet", "--cache", folder / "cache"}, &out);
-        endpoints.push_back(first_line(out).substr(before.size()));
-    }
-    std::ofstream(folder / "hosts.lua") << "place '" << endpoints[0] << "' { image = 1, direct = 1, lighting = 1 }\n"
-                                        << "place '" << endpoints[1] << "' { bounce = 1 }\n";
+    const lightnet::test::Folder folder;
+    const std::string cache = folder / "cache";
+    const lightnet::bench::Daemon asker(LIGHTNET_STARTS_LIGHTNETD, 1, cache),
+        consumer(LIGHTNET_STARTS_LIGHTNETD, 1, cache);
+    std::map<std::string, int> processes{{"asker", asker.process()}, {"consumer", consumer.process()}};
+    std::ofstream(folder / "hosts.lua") << "place '" << asker.endpoint()
+                                        << "' { image = 1, direct = 1, lighting = 1 }\n"
+                                        << "place '" << consumer.endpoint() << "' { bounce = 1 }\n";
     int out = -1;
     processes["launcher"] = lightnet::spawn(
-        {LIGHTNET_LAUNCHER, "run", LIGHTNET_SOURCE_DIR "/graphs/cornell.lua", "--hosts", folder / "hosts.lua", "--size",
-         "512x512", "--samples", "4096", "-o", folder / "x.exr", "--progress", "none"},
+        {LIGHTNET_STARTS_LIGHTNET, "run", LIGHTNET_SOURCE_DIR "/graphs/cornell.lua", "--hosts", folder / "hosts.lua",
+         "--size", "512x512", "--samples", "4096", "-o", folder / "x.exr", "--progress", "none"},
         &out);
     // One hundredth of the time is left to the consumer; its lease lasts longer than it ever stops.
     const auto begun = Clock::now();
@@ -79,7 +69,7 @@ int main() {
         if (Clock::now() - begun > 1s) {
             kill(processes["consumer"], SIGSTOP);
             // Asked while it stands still, so that it says what has come together before it works any of that off.
-            if (round % 10 == 0) asked = std::async(std::launch::async, waiting_at, endpoints[1]);
+            if (round % 10 == 0) asked = std::async(std::launch::async, waiting_at, consumer.endpoint());
             std::this_thread::sleep_for(495ms);
             kill(processes["consumer"], SIGCONT);
         }
@@ -96,17 +86,17 @@ int main() {
             std::minmax_element(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.bytes < b.bytes; });
         std::printf("  %s: from %.1f to %.1f MiB\n", name.c_str(), least->bytes / mib, most->bytes / mib);
         gone |= least->bytes == 0;
-        lightnet::bench::quantity(("memory." + name).c_str(), lightnet::bench::growth(all) * 60 / mib, "MiB a minute",
-                                  1, false);
+        // The middle slope, and between which half of all slopes lie.
+        std::vector<double> per_minute;
+        for (const double part : {0.25, 0.5, 0.75}) per_minute.push_back(lightnet::bench::growth(all, part) * 60 / mib);
+        lightnet::bench::quantity("memory." + name, per_minute, "MiB a minute", 1, false);
     }
     // Else nobody was slow, and that nothing piled up says nothing.
-    lightnet::bench::quantity("memory.waiting", lightnet::bench::median(waiting), "bundles", bundles_of_credit / 2,
-                              true);
-    lightnet::bench::quantity("memory.piled_up", *std::max_element(waiting.begin(), waiting.end()), "bundles",
+    lightnet::bench::quantity("memory.waiting", waiting, "bundles", bundles_of_credit / 2, true);
+    lightnet::bench::quantity("memory.piled_up", {*std::max_element(waiting.begin(), waiting.end())}, "bundles",
                               bundles_of_credit, false);
-    for (const auto& [name, process] : processes) kill(process, SIGKILL);
-    for (const auto& [name, process] : processes) waitpid(process, nullptr, 0);
-    std::filesystem::remove_all(folder);
+    kill(processes["launcher"], SIGKILL);
+    waitpid(processes["launcher"], nullptr, 0);
     if (gone) std::fprintf(stderr, "memory: not all processes lived to the end\n");
     return gone ? 1 : 0;
 }

@@ -30,8 +30,7 @@ void measure_efficiency(const char* name, const Picture& picture, Carrier& carri
         const double together = seconds_of_master(picture, run_id, carrier, plan);
         efficiency.push_back(independent / together);
     }
-    show("efficiency of two places", efficiency);
-    figure(name, median(efficiency), 0.97, true);
+    figure(name, efficiency, 0.97, true);
 }
 
 }  // namespace
@@ -44,7 +43,7 @@ void measure_threads(const Picture& picture, const Registry& registry, const cha
 }
 
 void measure_network(const Picture& picture, const Registry& registry, const char* name) {
-    const LocalWorkers workers(LIGHTNET_DAEMON, 2, 1);
+    const LocalWorkers workers(LIGHTNET_STARTS_LIGHTNETD, 2, 1);
     Cluster::Options options;
     options.run = run_id;
     options.job = picture.job;

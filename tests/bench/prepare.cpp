@@ -1,11 +1,14 @@
-// What preparing costs: photons and a cache's rehearsal on two places beside one, and the way of ten million photons to
-// a host beside the same bytes through plain ZeroMQ, over a line of a gigabit per second and over loopback alone.
+// What preparing costs: photons and a cache's rehearsal on two places beside one that has the machine to itself; a
+// whole run of photon maps, from the command to the picture, on two daemons beside one; and the way of ten million
+// photons to a host beside the same bytes through plain ZeroMQ, over a line of a gigabit per second and over loopback
+// alone. Arguments: photons, rehearsal, command, distribution; without any, all of them.
 #include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -23,6 +26,8 @@
 #include "tests/support/bad_line.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/support/host_thread.hpp"
+#include "transport/start/child.hpp"
+#include "transport/start/local_workers.hpp"
 
 namespace lightnet::bench {
 namespace {
@@ -71,24 +76,65 @@ Graph graph_of(const std::string& lighting, std::uint32_t side) {
                        LIGHTNET_SOURCE_DIR "/graphs/prepare.lua");
 }
 
-/// Beside two that prepare the same with one place each, at the same time: so that what the cores of a machine take
-/// from each other, as they share its memory, is not counted.
 void measure_efficiency(const char* name, const Registry& registry, const Graph& graph) {
-    Stage stage(registry, graph), other(registry, graph);
+    Stage stage(registry, graph);
     std::vector<double> efficiency;
     for (int round = 0; round < rounds; ++round) {
-        const double alone = stage.in_threads(1).preparing;
-        double beside = 0, one = 0;
-        {
-            const std::jthread second([&] { beside = other.in_threads(1).preparing; });
-            one = stage.in_threads(1).preparing;
-        }
-        const double two = stage.in_threads(2).preparing;
-        std::printf("  %s: %.2f s at one place, %.2f and %.2f s at one each beside another, %.2f s at two\n", name,
-                    alone, one, beside, two);
-        efficiency.push_back((one + beside) / 2 / (2 * two));
+        const double one = stage.in_threads(1).preparing, two = stage.in_threads(2).preparing;
+        std::printf("  %s: %.2f s at one place, %.2f s at two\n", name, one, two);
+        efficiency.push_back(one / (2 * two));
     }
-    figure(name, median(efficiency), 0.95, true);
+    figure(name, efficiency, 0.95, true);
+}
+
+/// Seconds from the command to its picture, on daemons of one place each. What is prepared is found in no cache.
+double seconds_of_command(const test::Folder& folder, const std::vector<std::string>& daemons, int seed) {
+    std::string hosts;
+    for (const auto& daemon : daemons) hosts += "place '" + daemon + "' {}\n";
+    const auto graph =
+        folder.write("maps.lua", "scene = Scene { '" LIGHTNET_SOURCE_DIR
+                                 "/graphs/glass_ball.pbrt' }\n"
+                                 "direct = DirectLighting {}\n"
+                                 "caustics = PhotonMap { paths = 'caustic', photons = 1e6 }\n"
+                                 "diffuse = PhotonMap { paths = 'diffuse', photons = 4e6 }\n"
+                                 "lighting = Combine { direct, caustics, diffuse }\n"
+                                 "image = RayTracer { lighting, scene = scene, samples = 4, film = { 128, "
+                                 "128, file = 'maps.exr' } }\n");
+    const std::vector<std::string> words{LIGHTNET_STARTS_LIGHTNET,
+                                         "run",
+                                         graph,
+                                         "--hosts",
+                                         folder.write("hosts.lua", hosts),
+                                         "--seed",
+                                         std::to_string(seed),
+                                         "--cache",
+                                         "none",
+                                         "--forget",
+                                         "--progress",
+                                         "none",
+                                         "-o",
+                                         folder / "maps.exr"};
+    ProgramOutput output;
+    const double seconds = seconds_of([&] { output = run_program(words, "", 5min); });
+    if (output.code != 0)
+        throw std::runtime_error("the command ended with " + std::to_string(output.code) + ": " + output.text);
+    return seconds;
+}
+
+void measure_command() {
+    const test::Folder folder;
+    const LocalWorkers workers(LIGHTNET_STARTS_LIGHTNETD, 2, 1);
+    const auto both = workers.endpoints();
+    std::vector<double> efficiency;
+    int seed = 0;
+    seconds_of_command(folder, both, ++seed);  // files of the scene are brought
+    for (int round = 0; round < rounds; ++round) {
+        const double one = seconds_of_command(folder, {both[0]}, ++seed),
+                     two = seconds_of_command(folder, both, ++seed);
+        std::printf("  prepare.command: %.2f s on one daemon, %.2f s on two\n", one, two);
+        efficiency.push_back(one / (2 * two));
+    }
+    figure("prepare.command", efficiency, 0.95, true);
 }
 
 /// Results in memory.
@@ -155,7 +201,7 @@ void measure_distribution(const char* name, const Registry& registry, double lim
                     double(photons * sizeof(Photon)) * 1e-6, ours, wire);
         ratios.push_back(ours / wire);
     }
-    figure(name, median(ratios), 1.2, false);
+    figure(name, ratios, 1.2, false);
 }
 
 }  // namespace
@@ -175,6 +221,7 @@ int main(int argc, char** argv) {
                                       bench::graph_of("paths = PathTracing { paths = \"all\" }\n"
                                                       "lighting = IrradianceCache { paths, rays = 2048 }\n",
                                                       256));
+        if (only.empty() || only == "command") bench::measure_command();
         if (only.empty() || only == "distribution") {
             bench::measure_distribution("prepare.distribution", registry, bench::gigabit);
             bench::measure_distribution("prepare.distribution.loopback", registry, bench::unlimited);

@@ -1,16 +1,21 @@
-// How long pictures take until they are good: prepared and rendered with two places, beside reference pictures. The
-// references are not part of the project: LIGHTNET_SHARED names the folder that has them under reference/. Goals are
-// seconds of one machine; bare Embree tells, before and after each row, how fast this one is beside it.
+// How long pictures take until they are good, from the files of the scene on: its tree built, all prepared and rendered
+// with two places, beside reference pictures (references.hpp). Goals are seconds of one machine; bare Embree tells,
+// before and after each picture, how fast this one is beside it.
+// Rows without bias are rendered with three seeds, and their noise tells how long they would take to the target. Rows
+// with a bias have to be good as they are, with eight seeds, or they have no figure that counts.
 // Arguments: names of rows; without any, all of them. LIGHTNET_BENCH_SAMPLES changes the samples per pixel of rows that
 // have no bias.
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +24,7 @@
 #include "nodes/standard_nodes.hpp"
 #include "tests/bench/figure.hpp"
 #include "tests/bench/machine.hpp"
+#include "tests/bench/references.hpp"
 #include "tests/bench/stage.hpp"
 #include "transport/start/local_workers.hpp"
 
@@ -30,13 +36,15 @@ using namespace std::chrono_literals;
 
 constexpr std::uint32_t places = 2;
 constexpr double target = 1e-3;  // mean of d² / (reference² + 0.01)
+constexpr double most_off = 0.01, most_off_in_blocks = 0.03;
+constexpr std::uint64_t seeds_without_bias = 3, seeds_with_bias = 8;
 
 using Constants = std::map<std::string, std::string>;
 
 /// A line of the table: what is rendered, what it is compared with, and within how many seconds it should be good.
 struct Row {
     std::string name, graph, scene, reference;
-    Constants constants;  // of the graph; path_all.lua follows four paths for each sample
+    Constants constants;  // of the graph
     bool biased;          // noise doesn't fall in proportion to time: the picture has to be good as it is
     double noise;         // of the reference itself, in the same measure; subtracted
     double goal;          // seconds, on the machine of machine.hpp
@@ -44,19 +52,24 @@ struct Row {
 
 const std::vector<Row>& rows() {
     static const std::string grey = "cornell_grey.mits_path_2048.exr", indirect = "indirect.mits_path_2048.exr",
-                             caustic = "caustic.mits_bdpt_1280.exr";
-    // What is just good enough.
-    static const Constants quick_cache{{"rays", "128"}, {"samples", "8"}};
-    static const Constants quick_map{{"photons", "100000"}, {"rays", "128"}, {"samples", "12"}};
-    static const Constants quick_passes{{"passes", "64"}, {"photons", "120000"}};
+                             caustic = "caustic.mits_bdpt_1280.exr", terrain = "terrain.combined.exr";
+    static const Constants layers{{"samples", "64"}};
+    // What is just good enough with each of the seeds.
+    static const Constants quick_cache{{"rays", "128"}, {"samples", "8"}, {"wanted_error", "0.0625"}};
+    static const Constants dark_room_cache{{"rays", "1536"}, {"samples", "8"}, {"wanted_error", "0.0625"}};
+    static const Constants quick_map{
+        {"photons", "150000"}, {"rays", "192"}, {"samples", "12"}, {"wanted_error", "0.0625"}};
+    static const Constants quick_passes{{"samples", "64"}, {"photons", "120000"}};
     static const std::vector<Row> table{
-        {"cornell_grey", "path_all.lua", "cornell_grey.pbrt", grey, {}, false, 0, 3.5},
-        {"indirect", "path_all.lua", "indirect.pbrt", indirect, {}, false, 6e-4, 40},
-        {"terrain", "path_all.lua", "terrain.pbrt", "terrain.combined.exr", {}, false, 0, 5},
-        {"cornell_grey_layers", "path.lua", "cornell_grey.pbrt", grey, {{"samples", "64"}}, false, 0, 3.5},
-        {"indirect_cache", "irradiance_cache.lua", "indirect.pbrt", indirect, quick_cache, true, 6e-4, 0.8},
+        {"cornell_grey", "path.lua", "cornell_grey.pbrt", grey, layers, false, 0, 3.5},
+        {"indirect", "path.lua", "indirect.pbrt", indirect, layers, false, 6e-4, 40},
+        {"terrain", "path.lua", "terrain.pbrt", terrain, layers, false, 0, 5},
+        {"cornell_grey_one_node", "path_all.lua", "cornell_grey.pbrt", grey, {}, false, 0, 3.5},
+        {"indirect_one_node", "path_all.lua", "indirect.pbrt", indirect, {}, false, 6e-4, 40},
+        {"terrain_one_node", "path_all.lua", "terrain.pbrt", terrain, {}, false, 0, 5},
+        {"indirect_cache", "irradiance_cache.lua", "indirect.pbrt", indirect, dark_room_cache, true, 6e-4, 0.8},
         {"cornell_grey_cache", "irradiance_cache.lua", "cornell_grey.pbrt", grey, quick_cache, true, 0, 0.7},
-        {"caustic_map_cache", "figure5.lua", "caustic.pbrt", caustic, quick_map, true, 6e-4, 5},
+        {"caustic_map_cache", "paper/figure5.lua", "caustic.pbrt", caustic, quick_map, true, 6e-4, 5},
         {"caustic_progressive", "progressive.lua", "caustic.pbrt", caustic, quick_passes, true, 6e-4, 12},
     };
     return table;
@@ -72,50 +85,79 @@ const std::vector<NetworkedRow>& networked_rows() {
     static const std::vector<NetworkedRow> table{
         {"networked_path", "path_all.lua", {{"samples", "160"}}},
         {"networked_cache", "irradiance_cache.lua", {{"samples", "960"}}},
-        {"networked_map_cache", "figure5.lua", {{"samples", "960"}}},
+        {"networked_map_cache", "paper/figure5.lua", {{"samples", "960"}}},
     };
     return table;
 }
 
-void measure(const Row& row, const fs::path& folder, const Registry& registry, const Machine& machine) {
+bool is_good(const Difference& found, double error) {
+    const Rgb& mean = found.mean_ratio;
+    const double off =
+        std::max({std::abs(double{mean.r} - 1), std::abs(double{mean.g} - 1), std::abs(double{mean.b} - 1)});
+    return error <= target && off <= most_off && found.block_difference <= most_off_in_blocks;
+}
+
+/// Files of a row; none: it can't be run here.
+struct RowFiles {
+    fs::path scene, reference;
+};
+std::optional<RowFiles> files_of(const Row& row) {
+    for (const auto& name : {row.scene, row.reference})
+        if (!reference_file(name)) {
+            not_run("render." + row.name, is_not_here("reference/" + name));
+            return std::nullopt;
+        }
+    return RowFiles{*reference_file(row.scene), *reference_file(row.reference)};
+}
+
+void measure(const Row& row, const Registry& registry, const Machine& machine) {
+    const auto files = files_of(row);
+    if (!files) return;
     Constants constants = row.constants;
-    constants["file"] = (folder / row.scene).string();
+    constants["file"] = files->scene.string();
     if (const char* samples = std::getenv("LIGHTNET_BENCH_SAMPLES"); samples && !row.biased)
         constants["samples"] = samples;
     Stage stage(registry, row.graph, constants);
-    const double before = machine.speed();
-    const Rendered made = stage.in_threads(places);
-    const double speed = (before + machine.speed()) / 2;
-    const Difference found = compare(read_exr(folder / row.reference), made.picture);
-    const double error = std::max(0.0, found.relative_square - row.noise);
-    std::printf(
-        "  %s: %u samples per pixel in %.2f s, %.2f s of them to prepare (%.2f s of work per place; %.2f s to build "
-        "the "
-        "scene), %.2f M samples/s, %.2f M rays/s, %.2f rays per sample, relative square %.3g, mean %.4f\n",
-        row.name.c_str(), stage.samples_per_pixel(), made.seconds, made.preparing, made.cpu_seconds / places,
-        stage.building(), stage.samples() / made.seconds * 1e-6, made.rays / made.seconds * 1e-6,
-        made.rays / stage.samples(), found.relative_square, found.mean_ratio.g);
-    for (const auto& line : made.said) std::printf("  %s: %s\n", row.name.c_str(), line.c_str());
-    // Noise falls as samples grow: what it would take until it is at the target.
-    const double part = row.biased ? 1 : error / target;
-    std::printf("  %s: %.2f s of work per place to %g\n", row.name.c_str(), made.cpu_seconds / places * part,
-                row.biased ? error : target);
-    const double seconds = made.seconds * part, scaled = seconds * speed;
-    std::printf("  %s: %.2f s here, where bare Embree has %.2f of the speed for which the goal holds\n",
-                row.name.c_str(), seconds, speed);
-    const bool good = scaled <= row.goal && (!row.biased || error <= target);
-    std::printf("render.%s %.2fs%s <=%gs %s\n", row.name.c_str(), scaled,
-                row.biased && error > target ? ", but not good" : "", row.goal, good ? "ok" : "short");
-    std::fflush(stdout);
+    const auto reference = read_exr(files->reference);
+    std::printf("  %s: %s with %u samples per pixel\n", row.name.c_str(), row.graph.c_str(), stage.samples_per_pixel());
+    std::vector<double> scaled;
+    std::uint64_t good = 0;
+    const std::uint64_t seeds = row.biased ? seeds_with_bias : seeds_without_bias;
+    double before = machine.speed();
+    for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+        stage.use_seed(seed);
+        const Rendered made = stage.in_threads(places);
+        const double after = machine.speed(), speed = (before + after) / 2;
+        before = after;
+        const Difference found = compare(reference, made.picture);
+        const double error = std::max(0.0, found.relative_square - row.noise);
+        good += is_good(found, error);
+        // Noise falls as samples grow: what it would take until it is at the target.
+        const double seconds = made.building + made.seconds * (row.biased ? 1 : error / target);
+        std::printf(
+            "  seed %llu: %.2f s to build the scene, %.2f s to prepare, %.2f s to render (%.2f s of work per place), "
+            "%.2f M samples/s, %.2f M rays/s; relative square %.3g, mean %.4f, blocks %.2f %%; %.2f s here, where bare "
+            "Embree has %.2f of the speed for which the goal holds\n",
+            static_cast<unsigned long long>(seed), made.building, made.preparing, made.seconds - made.preparing,
+            made.cpu_seconds / places, stage.samples() / made.seconds * 1e-6, made.rays / made.seconds * 1e-6, error,
+            found.mean_ratio.g, 100 * found.block_difference, seconds, speed);
+        if (seed == 0)
+            for (const auto& line : made.said) std::printf("  %s\n", line.c_str());
+        scaled.push_back(seconds * speed);
+    }
+    if (row.biased)
+        std::printf("  %s: %llu of %llu seeds are good\n", row.name.c_str(), static_cast<unsigned long long>(good),
+                    static_cast<unsigned long long>(seeds));
+    print_figure("render." + row.name, scaled, {"s", "", 1, 2}, row.goal, false, !row.biased || good == seeds);
 }
 
 /// Warm daemons: they have the scene, as a run before this one brought it.
-void measure_networked(const NetworkedRow& row, const fs::path& folder, const Registry& registry) {
+void measure_networked(const NetworkedRow& row, const Registry& registry) {
     constexpr int rounds = 5;
     Constants constants = row.constants;
-    constants["file"] = (folder / "cornell_grey.pbrt").string();
+    constants["file"] = reference_file("cornell_grey.pbrt").value().string();
     Stage stage(registry, row.graph, constants);
-    const LocalWorkers workers(LIGHTNET_DAEMON, 2, 1);
+    const LocalWorkers workers(LIGHTNET_STARTS_LIGHTNETD, 2, 1);
     std::uint64_t run = 0;
     const auto networked = [&] {
         Cluster cluster(stage.options(workers.endpoints(), ++run));
@@ -139,25 +181,19 @@ void measure_networked(const NetworkedRow& row, const fs::path& folder, const Re
                     made[0].seconds, made[0].preparing, made[1].seconds, made[1].preparing);
         more.push_back(made[1].seconds / made[0].seconds - 1);
     }
-    figure(("render." + row.name).c_str(), median(more), 0.01, false);
+    figure("render." + row.name, more, 0.01, false);
 }
 
 void measure_all(const std::vector<std::string>& names) {
-    const char* shared = std::getenv("LIGHTNET_SHARED");
-    const fs::path folder = fs::path(shared ? shared : "") / "reference";
-    if (!shared || !fs::exists(folder)) {
-        std::printf("  the reference pictures are not here: LIGHTNET_SHARED names the folder above reference/\n");
-        return;
-    }
     const Registry registry{standard_nodes()};
     const auto wanted = [&](const std::string& name) {
         return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
     };
-    const Machine machine(folder / "terrain.ply");
+    const Machine machine;
     for (const Row& row : rows())
-        if (wanted(row.name)) measure(row, folder, registry, machine);
+        if (wanted(row.name)) measure(row, registry, machine);
     for (const NetworkedRow& row : networked_rows())
-        if (wanted(row.name)) measure_networked(row, folder, registry);
+        if (wanted(row.name)) measure_networked(row, registry);
 }
 
 }  // namespace

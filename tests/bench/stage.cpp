@@ -1,7 +1,6 @@
 #include "tests/bench/stage.hpp"
 
 #include <chrono>
-#include <ctime>
 #include <utility>
 
 #include "core/base/hash.hpp"
@@ -10,6 +9,7 @@
 #include "core/run/runtime/conductor.hpp"
 #include "core/run/runtime/fingerprint.hpp"
 #include "core/run/runtime/master_renderer.hpp"
+#include "core/run/runtime/tiles_by_pass.hpp"
 #include "lua/load_graph.hpp"
 #include "tests/bench/figure.hpp"
 #include "transport/launcher/threaded_run.hpp"
@@ -20,12 +20,6 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::uint32_t tile_size = 32;  // as the launcher cuts them
-
-double process_seconds() {
-    timespec now{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 }  // namespace
 
@@ -61,30 +55,36 @@ void Stage::lead(Carrier& carrier, const Plan& plan, std::uint64_t run, const st
     options.say = [&](const std::string& text) { made.said.push_back(text); };
     Conductor conductor(std::move(options), carrier);
     conductor.propose(plan);
-    made.preparing = seconds_of([&] {
-        while (!conductor.prepare(50ms)) check();
-    });
-    MasterRenderer master({run,
-                           static_cast<std::uint32_t>(image_),
-                           static_cast<std::uint32_t>(format_.layers.size()),
-                           tiles_of(job_.width, job_.height, tile_size, format_.samples),
-                           {2, 2 * MasterRenderer::most_together}},
-                          conductor, [&](const Tile& tile, std::span<const Rgb> pixels) { film.add(tile, pixels); });
-    master.use(conductor.in_force());
-    while (!master.work(50ms)) check();
+    TilesByPass passes(job_.graph, registry_, tiles_of(job_.width, job_.height, tile_size, format_.samples));
+    while (!passes.empty()) {
+        auto tiles = passes.begin_next();
+        conductor.begin_pass(passes.pass());
+        made.preparing += seconds_of([&] {
+            while (!conductor.prepare(50ms)) check();
+        });
+        MasterRenderer master({run,
+                               static_cast<std::uint32_t>(image_),
+                               static_cast<std::uint32_t>(format_.layers.size()),
+                               std::move(tiles),
+                               {2, 2 * MasterRenderer::most_together}},
+                              conductor,
+                              [&](const Tile& tile, std::span<const Rgb> pixels) { film.add(tile, pixels); });
+        master.use(conductor.in_force());
+        while (!master.work(50ms)) check();
+    }
     made.picture = film.picture(scale_);
 }
 
 Rendered Stage::in_threads(std::uint32_t places) {
     // Anew each time: values that places share would be there already.
     std::shared_ptr<const Network> network;
-    building_ = seconds_of([&] {
-        DiskFiles disk;
-        network = build_network(job_, registry_, disk);
-    });
     const Plan whole = plan(job_.graph, registry_, {}, {{"", places}});
     Rendered made;
     const double cpu = process_seconds();
+    made.building = seconds_of([&] {
+        DiskFiles disk;
+        network = build_network(job_, registry_, disk);
+    });
     made.seconds = seconds_of([&] {
         ThreadedRun run(network, 1, whole, job_.tuning);
         lead(

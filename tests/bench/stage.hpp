@@ -22,7 +22,8 @@ namespace lightnet::bench {
 /// One rendering: its picture, and what it took.
 struct Rendered {
     Picture picture;
-    double preparing = 0, seconds = 0;  // the latter includes the former
+    double building = 0;                // seconds until the scene is read and its tree built
+    double preparing = 0, seconds = 0;  // after that; the latter includes the former
     double cpu_seconds = 0;             // of this process
     double rays = 0;
     std::vector<std::string> said;
@@ -35,15 +36,16 @@ public:
     /// One of graphs/, with constants.
     Stage(const Registry& registry, const std::string& graph, const std::map<std::string, std::string>& constants);
 
-    double building() const { return building_; }
     double samples() const { return double(job_.width) * job_.height * format_.samples; }
     std::uint32_t samples_per_pixel() const { return format_.samples; }
 
-    /// Everything that a run does when the scene is built: begins places, prepares, renders, ends.
+    /// Everything that a run does: builds the scene, begins places, prepares, renders, ends.
     Rendered in_threads(std::uint32_t places);
-    /// The same on hosts that have the scene: gather() has returned. Without its end.
+    /// On hosts that have the scene: gather() has returned. Without its end.
     Rendered on(Cluster& cluster, std::uint64_t run);
     Cluster::Options options(std::vector<std::string> endpoints, std::uint64_t run) const;
+    /// Of all random numbers, from now on.
+    void use_seed(std::uint64_t seed) { job_.seed = seed; }
     /// Where what is prepared is kept, from now on. It outlives this.
     void use(ResultCache& cache) { cache_ = &cache; }
 
@@ -58,7 +60,6 @@ private:
     ResultCache* cache_ = nullptr;
     std::size_t image_ = 0;
     float scale_ = 1;
-    double building_ = 0;
 };
 
 }  // namespace lightnet::bench

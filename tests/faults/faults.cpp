@@ -1,6 +1,9 @@
 #include "tests/faults/faults.hpp"
 
+#include <arpa/inet.h>
 #include <fmt/format.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -161,6 +164,16 @@ void Faults::figure(const std::string& name, double value, const std::string& un
     std::cout << fmt::format("faults.{}.{} {:.2f} {}{:g} ({}) {}\n", row_->name, name, value,
                              at_least ? ">=" : "<=", goal, unit, met ? "ok" : "short")
               << std::flush;
+}
+
+int connect_to(const std::string& endpoint) {
+    const int file = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(std::stoi(endpoint.substr(endpoint.rfind(':') + 1))));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    if (file >= 0) (void)::connect(file, reinterpret_cast<const sockaddr*>(&address), sizeof address);
+    return file;
 }
 
 }  // namespace lightnet::test

@@ -42,6 +42,9 @@ struct OddDaemon {
 };
 Words daemon_words(const std::string& cache, const Words& more = {});
 
+/// A TCP connection that was begun, and says nothing by itself; below 0: there are no descriptors left.
+int connect_to(const std::string& endpoint);
+
 /// One row, one test. It says what it does by done() and seen(); a limit of its own ends it.
 class Faults : public ::testing::Test {
 protected:

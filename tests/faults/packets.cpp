@@ -1,8 +1,6 @@
 // Damaged and oversized packets, and connections that are none of ours.
-#include <arpa/inet.h>
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <netinet/in.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -107,16 +105,6 @@ int damage(const std::string& daemon, int count, unsigned seed) {
     }
     stranger.receive();
     return count;
-}
-
-int connect_to(const std::string& endpoint) {
-    const int file = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(static_cast<std::uint16_t>(std::stoi(endpoint.substr(endpoint.rfind(':') + 1))));
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    if (file >= 0) (void)::connect(file, reinterpret_cast<const sockaddr*>(&address), sizeof address);
-    return file;
 }
 
 // ZMTP without libzmq, which would not send what follows: the parts of one message, and no last one.

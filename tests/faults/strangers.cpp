@@ -1,7 +1,9 @@
 // Peers that are of another version, have no key, or give orders that are not theirs to give.
 #include <fmt/format.h>
 
+#include <array>
 #include <csignal>
+#include <optional>
 #include <random>
 
 #include "core/base/build_info.hpp"
@@ -10,6 +12,9 @@
 #include "tests/faults/faults.hpp"
 #include "tests/modes/stranger.hpp"
 #include "tests/support/liar.hpp"
+#include "transport/keys/key_file.hpp"
+#include "transport/zmq/doorkeeper.hpp"
+#include "transport/zmq/socket.hpp"
 
 namespace lightnet::test {
 namespace {
@@ -59,9 +64,95 @@ TEST_F(Faults, OfVersionsAreRefusedByName) {
     figure("refused", slowest, "s", 0.1, false);
 }
 
-TEST_F(Faults, OfKeysLetNobodyIn) { NOT_RUN("there are no keys yet"); }
+// Each packet that there is.
+std::vector<Packet> all_packets() {
+    std::vector<Packet> all;
+    for (std::uint8_t type = 1; type <= static_cast<std::uint8_t>(Type::last); ++type)
+        all.push_back(packet::pack(static_cast<Type>(type), 0, Fields{}.set("build", build_id()).set("isa", "sse4.2")));
+    return all;
+}
 
-TEST_F(Faults, OfTheGatekeeperLetNobodyIn) { NOT_RUN("there are no keys yet"); }
+// Knocks with wrong keys of each kind, over and over, while a run goes on.
+TEST_F(Faults, OfKeysLetNobodyIn) {
+    const auto user = load_or_make_key(folder.file("user.key")), door = load_or_make_key(folder.file("door.key"));
+    const OddDaemon daemon(daemon_words(folder.file("cache"), {"--key", folder.file("door.key"), "--allow",
+                                                               folder.write("allow", user.open.text() + " user\n")}));
+    const auto hosts =
+        folder.write("keyed.lua", "place '" + daemon.endpoint + "' { key = '" + door.open.text() + "' }\n");
+    const Words keyed{"--hosts", hosts, "--key", folder.file("user.key")};
+    reference(usual);
+    const auto files = descriptors_of(daemon.process->id());
+    const auto run = start(usual, keyed);
+    EXPECT_TRUE(run->wait_for("\"event\":\"progress\"")) << run->output();
+    const int tries = 300;
+    int answered = 0;
+    const auto packets = all_packets();
+    for (int i = 0; i < tries; ++i) {
+        const std::array<std::optional<LineKeys>, 3> wrong{LineKeys{KeyPair::random(), door.open},
+                                                           LineKeys{user, KeyPair::random().open}, std::nullopt};
+        Stranger stranger(daemon.endpoint, 10, wrong[static_cast<std::size_t>(i) % wrong.size()]);
+        for (const auto& packet : packets) stranger.send(packet);
+        answered += stranger.receive().first != Type::ping;
+    }
+    expect_same(*run, usual);
+    EXPECT_EQ(answered, 0);
+    int told = 0;
+    double slowest = 0;
+    for (const auto* kind : {"unknown", "wrong", "none"}) {
+        const bool unknown = std::string(kind) == "unknown";
+        load_or_make_key(folder.file("other.key"));
+        const auto theirs = std::string(kind) == "wrong" ? user.open.text() : door.open.text();
+        const auto place = "place '" + daemon.endpoint + "' { " +
+                           (std::string(kind) == "none" ? "" : "key = '" + theirs + "'") + " }\n";
+        const auto begun = Clock::now();
+        const auto refused = start(brief, {"--hosts", folder.write("wrong.lua", place), "--key",
+                                           folder.file(unknown ? "other.key" : "user.key")});
+        told += refused->wait(slowdown * seconds(10)) == 4;
+        slowest = std::max(slowest, seconds_since(begun));
+    }
+    EXPECT_EQ(told, 3);
+    const auto end = Clock::now() + slowdown * seconds(10);
+    while (descriptors_of(daemon.process->id()) > files + 10 && Clock::now() < end)
+        std::this_thread::sleep_for(milliseconds(50));
+    EXPECT_LE(descriptors_of(daemon.process->id()), files + 10);
+    expect_same(*start(brief, keyed), brief);
+    done(fmt::format("{} connections with wrong keys, unknown keys and none, each packet on each", tries));
+    seen(fmt::format("{} were answered; launchers end with code 4 and a reason after {:.1f} s at most", answered,
+                     slowest));
+    figure("told", slowest, "s", 2, false);
+}
+
+TEST_F(Faults, OfTheGatekeeperLetNobodyIn) {
+    const auto own = KeyPair::random(), known = KeyPair::random();
+    const SocketContext context;
+    std::optional<Doorkeeper> keeper(std::in_place, context,
+                                     Doorkeeper::Keys{own, [&](const PublicKey& key) { return key == known.open; }});
+    auto door = door_socket(context);
+    keeper->guard(door);
+    door.bind("tcp://127.0.0.1:*");
+    const auto comes_in = [&](const std::optional<LineKeys>& keys) {
+        Stranger caller(door.endpoint(), 10, keys);
+        caller.send(packet::pack(Type::hello, 0, {}));
+        for (const auto end = Clock::now() + milliseconds(keeper ? 2000 : 100); Clock::now() < end;) {
+            if (keeper) keeper->tick();
+            if (door.receive()) return true;
+            std::this_thread::sleep_for(milliseconds(1));
+        }
+        return false;
+    };
+    EXPECT_TRUE(comes_in(LineKeys{known, own.open})) << "or the test shows nothing";
+    keeper.reset();
+    int in = 0;
+    const int tries = 60;
+    for (int i = 0; i < tries; ++i) {
+        const std::array<std::optional<LineKeys>, 3> keys{LineKeys{known, own.open},
+                                                          LineKeys{KeyPair::random(), own.open}, std::nullopt};
+        in += comes_in(keys[static_cast<std::size_t>(i) % keys.size()]);
+    }
+    EXPECT_EQ(in, 0);
+    done(fmt::format("the handler of keys is ended, then {} callers, a third of them with a known key", tries));
+    seen(fmt::format("{} got in", in));
+}
 
 // The number of the run that a stranger finds out by asking nicely; 0: nobody tells.
 std::uint64_t learn_run(const std::string& daemon, const std::string& launcher) {

@@ -185,6 +185,10 @@ TEST(Film, KeepsWhatIsShownOutOfTheSum) {
     EXPECT_EQ(picture.beauty, (std::vector<Rgb>{{2, 4, 0}}));
     ASSERT_EQ(picture.shown.size(), 1u);
     EXPECT_EQ(picture.shown[0].pixels, (std::vector<Rgb>{{0, 0, 18}}));
+    one.facts = {"seen"};
+    Film facts(one);
+    facts.add({0, 0, 1, 1, 0, 1}, std::vector<Rgb>{{1, 0, 0}, {0, 2, 0}, {0, 0, 9}});
+    EXPECT_EQ(facts.picture(2).shown[0].pixels, (std::vector<Rgb>{{0, 0, 9}})) << "exposure is for light";
     one.shown = {"a"};
     EXPECT_THROW(Film{one}, Error) << "a name stands for one picture";
 }
@@ -254,6 +258,26 @@ TEST(Film, SaysWhatIsTooLargeForTheMemory) {
     } catch (const Error& error) {
         EXPECT_THAT(error.what(), ::testing::HasSubstr("4194304x4194304 pixels of 1 layers take"));
     }
+}
+
+// What is seen of a film while it grows.
+std::vector<Rgb> seen(const Film& film, const Tile& tile) {
+    std::vector<Rgb> colours;
+    const auto picture = film.picture(2);
+    for (std::uint32_t y = tile.y; y < tile.y + tile.height; ++y)
+        for (std::uint32_t x = tile.x; x < tile.x + tile.width; ++x)
+            for (const auto& layer : picture.layers) colours.push_back(layer.pixels[y * picture.width + x]);
+    return colours;
+}
+
+TEST(Film, ShowsOfATileWhatItsPictureWouldAtAnyTime) {
+    Film film(format);
+    film.expose(2);
+    for (const Tile& tile : tiles(16)) {
+        film.add(tile, rendered(tile));
+        EXPECT_EQ(film.so_far(tile), seen(film, tile)) << tile.x << "," << tile.y << " from " << tile.first_sample;
+    }
+    EXPECT_TRUE(film.complete());
 }
 
 }  // namespace

@@ -95,13 +95,14 @@ TEST(Progress, SpeaksJsonByTheLine) {
     progress.update(4, start + 4s);
     progress.finish(start + 4s);
     const auto lines = lines_of(out.str());
-    ASSERT_EQ(lines.size(), 5u);
-    const auto second = nlohmann::json::parse(lines[1]);
+    ASSERT_EQ(lines.size(), 6u);
+    EXPECT_EQ(nlohmann::json::parse(lines[0])["format"], "lightnet progress 1");
+    const auto second = nlohmann::json::parse(lines[2]);
     EXPECT_EQ(second["event"], "progress");
     EXPECT_EQ(second["done"], 1);
     EXPECT_EQ(second["seconds_left"], 6.0);
-    EXPECT_EQ(nlohmann::json::parse(lines[2])["text"], "a \"quoted\" word");
-    EXPECT_EQ(nlohmann::json::parse(lines[4])["event"], "finish");
+    EXPECT_EQ(nlohmann::json::parse(lines[3])["text"], "a \"quoted\" word");
+    EXPECT_EQ(nlohmann::json::parse(lines[5])["event"], "finish");
 }
 
 TEST(Progress, GivesEachPhaseOneLine) {

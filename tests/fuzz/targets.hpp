@@ -45,9 +45,17 @@ Target checkpoints();
 /// Graph files and hosts files in Lua, and what check() says to them.
 Target graphs();
 
+/// Lists of keys, and keys themselves. What is accepted must come back the same.
+Target keys();
+/// Packets as they come to a host's door that asks for keys: a byte says from whom, the rest is the header.
+Target gates();
+
+/// What comes to the server of a watched run: HTTP, and a WebSocket.
+Target watched();
+
 inline std::vector<Target> all_targets() {
     return {packets(), scenes(),     meshes(),   texts(), mitsuba(),     gltf(),
-            obj(),     serialized(), pictures(), jobs(),  checkpoints(), graphs()};
+            obj(),     serialized(), pictures(), jobs(),  checkpoints(), graphs(),   keys(), gates(), watched()};
 }
 
 }  // namespace lightnet::fuzz

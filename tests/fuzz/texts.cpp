@@ -5,6 +5,7 @@
 #include "core/network/graph/graph.hpp"
 #include "core/network/graph/hosts.hpp"
 #include "core/network/graph/plan.hpp"
+#include "core/run/message/figures.hpp"
 #include "core/run/runtime/job.hpp"
 #include "tests/fuzz/targets.hpp"
 
@@ -28,6 +29,8 @@ void read(std::span<const std::byte> bytes) {
     read_with(plan_from_json, text);
     read_with(hosts_from_json, text);
     read_with(job_from_json, text);
+    if (const auto figures = figures_from(text); figures && figures_from(to_text(*figures)) != figures)
+        throw std::logic_error("figures do not come back");
 }
 
 Graph graph() {
@@ -51,7 +54,8 @@ std::vector<std::string> seeds() {
     job.scene = "box.pbrt";
     job.files = {{"box.pbrt", content_hash(std::string("x")), 1}};
     job.isa = "avx2";
-    return {to_json(graph()), to_json(plan), to_json(hosts), to_json(job)};
+    return {to_json(graph()), to_json(plan), to_json(hosts), to_json(job),
+            to_text(HostFigures{{{1, 2, 3, 4}}, {{5, 6, 7, 8, 9, 10, 11}}, {12, 13}})};
 }
 
 }  // namespace

@@ -23,6 +23,15 @@ TEST(LoadHosts, MakesAnEntryOfEachPlace) {
                              {"tcp://c:7777", {}, 0, {"hosts.lua", 3}}}}));
 }
 
+TEST(LoadHosts, KeepsEveryEntryForThisProcess) {
+    const Hosts hosts = parse_hosts("for i = 1, 3 do place 'here' { sky = 1 } end place 'tcp://a:7'", "hosts.lua");
+    ASSERT_EQ(hosts.hosts.size(), 4u);
+    EXPECT_TRUE(hosts.hosts[2].is_here());
+    EXPECT_EQ(hosts.hosts[2].host(), "");
+    EXPECT_EQ(hosts.hosts[3].host(), "tcp://a:7");
+    EXPECT_EQ(hosts_from_json(to_json(hosts)), hosts);
+}
+
 TEST(LoadHosts, ComputesHosts) {
     const Hosts hosts = parse_hosts("for i = 1, 3 do place('tcp://onyx' .. i .. ':7777') { sky = i } end", "hosts.lua");
     ASSERT_EQ(hosts.hosts.size(), 3u);

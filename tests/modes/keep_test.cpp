@@ -37,12 +37,13 @@ protected:
     std::string graph(const std::string& name, const std::string& more, const std::string& camera = "") {
         for (const char* scene : {"glass_ball.pbrt", "cornell_box.pbrt"})
             std::ofstream(folder / scene) << bytes_of(graph_file(scene));
-        auto text = bytes_of(graph_file("figure5.lua"));
+        auto text = bytes_of(graph_file("paper/figure5.lua"));
         const auto put = [&](const std::string& before, const std::string& what) {
             const auto at = text.find(before);
             ASSERT_NE(at, std::string::npos) << before;
             text.insert(at + before.size(), what);
         };
+        text.replace(text.find("../glass"), 3, "");  // the scene lies beside it
         put("rays = rays", more);
         put("Scene           { file", camera);
         std::ofstream(folder / name) << text;

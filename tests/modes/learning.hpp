@@ -21,6 +21,7 @@
 #include "core/run/runtime/fingerprint.hpp"
 #include "core/run/runtime/job.hpp"
 #include "core/run/runtime/serial.hpp"
+#include "core/run/runtime/tiles_by_pass.hpp"
 #include "nodes/standard_nodes.hpp"
 #include "tests/support/bad_line.hpp"
 #include "tests/support/host_thread.hpp"
@@ -143,13 +144,19 @@ public:
         work.run = 1;
         work.image = static_cast<std::uint32_t>(renderer_of(network->graph, registry));
         work.width = static_cast<std::uint32_t>(colours_of(network->layers));
-        work.tiles = tiles;
-        MasterRenderer master(work, conductor, [&](const Tile& tile, std::span<const Rgb> colours) {
-            const auto index = std::find(tiles.begin(), tiles.end(), tile) - tiles.begin();
-            pixels[static_cast<std::size_t>(index)].assign(colours.begin(), colours.end());
-        });
-        master.use(conductor.in_force());
-        EXPECT_TRUE(master.work(slowdown * std::chrono::seconds(30))) << "rendering hangs";
+        TilesByPass passes(network->graph, registry, tiles);
+        while (!passes.empty()) {
+            work.tiles = passes.begin_next();
+            conductor.begin_pass(passes.pass());
+            EXPECT_TRUE(conductor.prepare(slowdown * std::chrono::seconds(30))) << "preparing hangs";
+            if (between_passes) between_passes(passes.pass());
+            MasterRenderer master(work, conductor, [&](const Tile& tile, std::span<const Rgb> colours) {
+                const auto index = std::find(tiles.begin(), tiles.end(), tile) - tiles.begin();
+                pixels[static_cast<std::size_t>(index)].assign(colours.begin(), colours.end());
+            });
+            master.use(conductor.in_force());
+            EXPECT_TRUE(master.work(slowdown * std::chrono::seconds(30))) << "rendering hangs";
+        }
         return pixels;
     }
 
@@ -158,8 +165,9 @@ public:
     std::map<std::string, Bytes> files;
     std::shared_ptr<const Network> network;
     std::vector<Tile> tiles;
-    mutable std::vector<std::string> said;  // by the nodes of the last run
-    mutable Counters counted;               // in the last run with threads
+    std::function<void(std::uint32_t pass)> between_passes;  // when one is prepared
+    mutable std::vector<std::string> said;                   // by the nodes of the last run
+    mutable Counters counted;                                // in the last run with threads
 };
 
 inline Cluster::Options cluster_of(const Learning& learning, std::vector<std::string> endpoints) {

@@ -80,6 +80,17 @@ TEST_F(Loss, OfAKilledDaemonChangesNoByte) {
     EXPECT_NE(end.said.find("is lost"), std::string::npos) << end.said;
 }
 
+TEST_F(Loss, OfADaemonThatDealsToItsPlacesChangesNoByte) {
+    const Daemon one(folder), two(folder);
+    const auto run = start({"\"" + one.endpoint + "\" { image = 2, bounce = 2, direct = 1 }",
+                            "\"" + two.endpoint + "\" { image = 2, bounce = 2, lighting = 2 }"});
+    ASSERT_TRUE(in_the_middle(*run));
+    one.process->signal(SIGKILL);
+    const auto end = expect_same(*run);
+    EXPECT_GT(counter(end.report, "asked_again"), 0) << end.report;
+    EXPECT_GT(counter(end.report, "dealt"), 0) << end.report;
+}
+
 TEST_F(Loss, OfALocalWorkerIsNoticedAtOnce) {
     auto words = some_seconds;
     words.insert(words.end(), {"--local-workers", "2"});

@@ -21,8 +21,9 @@ protected:
     std::string keeping_graph(const std::string& keep) const {
         for (const char* scene : {"glass_ball.pbrt", "cornell_box.pbrt"})
             folder.write(std::string("graphs/") + scene, bytes_of(graph_file(scene)));
-        auto text = bytes_of(graph_file("figure5.lua"));
+        auto text = bytes_of(graph_file("paper/figure5.lua"));
         text.insert(text.find("rays = rays") + 11, ", keep = '" + keep + "'");
+        text.replace(text.find("../glass"), 3, "");
         return folder.write("graphs/keeps.lua", text);
     }
     const Words small{"--size", "16x16", "--samples", "1"};

@@ -29,7 +29,8 @@ public:
     Graph graph() {
         graph_ = {};
         graph_.file = LIGHTNET_SOURCE_DIR "/graphs/random.lua";
-        graph_.nodes.push_back({"scene", "Scene", {Value{"cornell_box.pbrt"}}, {}, {}});
+        graph_.nodes.push_back(
+            {"scene", "Scene", {Value{"cornell_box.pbrt"}}, {{"groups", Value{Table{{}, {{"all", Value{"*"}}}}}}}, {}});
         const std::size_t count = 1 + below(6);
         for (std::size_t i = 0; i < count; ++i) add_light("n" + std::to_string(i), i);
         graph_.nodes.push_back({"image",
@@ -49,7 +50,8 @@ private:
     void add_light(const std::string& name, std::size_t others) {
         std::vector<const Kind*> possible;
         for (const auto& kind : registry_.kinds())
-            if (kind.role == Role::light && !kind.run.prepares && (kind.inputs.least == 0 || others > 0))
+            if (kind.role == Role::light && !kind.light.facts && !kind.run.prepares &&
+                (kind.inputs.least == 0 || others > 0))
                 possible.push_back(&kind);
         const Kind& kind = *possible[below(possible.size())];
         Node node{name, kind.name, {}, {}, {}};
@@ -67,7 +69,9 @@ private:
     void add_param(Node& node, const Param& param) {
         if (param.type == ParamType::integer)
             node.params[param.name] = Value{std::max(param.least, 0.0) + double(below(3))};
-        if (param.type == ParamType::flag) node.params[param.name] = Value{below(2) == 1};
+        // who keeps groups apart needs inputs that all do
+        if (param.type == ParamType::flag)
+            node.params[param.name] = Value{below(2) == 1 && (param.name != "groups" || node.entries.empty())};
         if (param.type == ParamType::text && !param.choices.empty())
             node.params[param.name] = Value{param.choices[below(param.choices.size())]};
     }
@@ -88,10 +92,22 @@ protected:
         });
         return pixels;
     }
-    Pixels threaded() const {
+    Pixels threaded() const { return threaded_by(plan(network_->graph, registry_, {}, {{"", 2}})); }
+    // Each node at one place of the process or several, as a hosts file may say, so that questions cross its sockets.
+    Pixels spread_over_threads(std::mt19937& random) const {
+        Hosts hosts{"hosts.lua", std::vector<HostEntry>(2 + random() % 3, {std::string(own_process), {}, 1, {}})};
+        for (const auto& node : network_->graph.nodes) {
+            if (node.kind == "Scene") continue;
+            for (auto& entry : hosts.hosts)
+                if (random() % 3 == 0) entry.replicas[node.name] = 1;
+        }
+        hosts.hosts[random() % hosts.hosts.size()].replicas["image"] = 1;
+        std::erase_if(hosts.hosts, [](const HostEntry& entry) { return entry.replicas.empty(); });
+        return threaded_by(plan(network_->graph, registry_, hosts, {{"", 1}}));
+    }
+    Pixels threaded_by(const Plan& where) const {
         Pixels pixels(tiles_.size());
-        const Plan two = plan(network_->graph, registry_, {}, {{"", 2}});
-        ThreadedRun run(network_, 1, two, {});
+        ThreadedRun run(network_, 1, where, {});
         MasterRenderer::Job job;
         job.run = 1;
         job.image = static_cast<std::uint32_t>(renderer_of(network_->graph, registry_));
@@ -100,7 +116,7 @@ protected:
         MasterRenderer master(job, run.carrier(), [&](const Tile& tile, std::span<const Rgb> colours) {
             pixels[index_of(tile)].assign(colours.begin(), colours.end());
         });
-        master.use(two);
+        master.use(where);
         EXPECT_TRUE(master.work(test::slowdown * std::chrono::seconds(30))) << "it hangs";
         run.stop();
         return pixels;
@@ -116,6 +132,7 @@ protected:
 
 TEST_P(RandomGraphs, AreNumbersAndTheSameInEveryMode) {
     Author author(registry_, GetParam());
+    std::mt19937 layouts(GetParam());
     for (int i = 0; i < 8; ++i) {
         Job job;
         job.graph = check(author.graph(), registry_);
@@ -133,6 +150,7 @@ TEST_P(RandomGraphs, AreNumbersAndTheSameInEveryMode) {
                 << to_json(job.graph);
         EXPECT_TRUE(oracle() == serial) << to_json(job.graph);
         EXPECT_TRUE(threaded() == serial) << to_json(job.graph);
+        EXPECT_TRUE(spread_over_threads(layouts) == serial) << to_json(job.graph);
     }
 }
 

@@ -122,6 +122,31 @@ INSTANTIATE_TEST_SUITE_P(Mitsuba, References,
                                            from_mitsuba(strict("furnace08", "analytic", 32))),
                          name_of);
 
+#ifdef LIGHTNET_LARGE
+// Tungsten's picture of this file has direct light only, and the laws of facets and masking that Mitsuba has: strip by
+// strip, the metal plates must be as bright.
+TEST(VeachMis, HasThePlatesOfAnotherRenderersPicture) {
+    const char* shared = std::getenv("LIGHTNET_SHARED");
+    const fs::path scene = fs::path(shared ? shared : "") / "scenes/veach-mis-mitsuba";
+    if (!shared || !fs::exists(scene / "TungstenRender.exr")) GTEST_SKIP() << "the scene is not here";
+    const Folder folder;
+    folder.write("graph.lua", "scene = Scene { '" + (scene / "scene.xml").string() +
+                                  "' }\nlight = DirectLighting {}\nimage = RayTracer { light, scene = scene, "
+                                  "samples = 16, film = { 1280, 720, file = 'picture.exr' } }\n");
+    const auto run = launch(folder / "graph.lua", folder, {"--progress", "none"}, slowdown * std::chrono::minutes(5));
+    ASSERT_EQ(run.code, 0) << run.said;
+    const Picture ours = read_exr(folder / "picture.exr"), theirs = read_exr(scene / "TungstenRender.exr");
+    ASSERT_EQ(ours.beauty.size(), theirs.beauty.size());
+    const std::size_t strip = std::size_t{1280} * 40;
+    for (std::size_t first = 0; first < ours.beauty.size(); first += strip) {
+        double a = 0, b = 0;
+        for (std::size_t i = first; i < first + strip; ++i)
+            a += luminance(ours.beauty[i]), b += luminance(theirs.beauty[i]);
+        EXPECT_NEAR(a / b, 1, 0.006) << "from row " << first / 1280;
+    }
+}
+#endif
+
 #ifndef LIGHTNET_LARGE
 INSTANTIATE_TEST_SUITE_P(Strict, References,
                          ::testing::Values(strict("cornell_grey", "mits_path_2048", 64),

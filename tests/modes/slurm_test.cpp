@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "tests/modes/daemons.hpp"
+#include "transport/keys/key_file.hpp"
 
 namespace lightnet::test {
 namespace {
@@ -86,6 +87,17 @@ TEST_F(Slurm, StartsDaemonsAndIsRidOfThemAtTheEnd) {
     EXPECT_NE(run->output().find("Slurm has taken job"), std::string::npos) << run->output();
 }
 
+TEST_F(Slurm, SpoolsNoSecretAndLeavesNone) {
+    const auto run = start("64", {"--slurm", "2"});
+    ASSERT_TRUE(run->wait_for("Slurm has taken job")) << run->output();
+    Process spooled({"/usr/bin/grep", "-rl", "secret-", (*lab / "state").string(), (*lab / "spool").string()});
+    EXPECT_EQ(spooled.wait(seconds(10)), 1) << spooled.output();
+    EXPECT_TRUE(processes_with("secret-").empty());
+    expect_same(*run, "64");
+    for (const auto& file : std::filesystem::directory_iterator(std::filesystem::path(usual_key_file()).parent_path()))
+        EXPECT_NE(file.path().filename().string().substr(0, 6), "slurm-") << file.path();
+}
+
 TEST_F(Slurm, IsRidOfThemAfterAnInterruptToo) {
     const auto run = start("4096", {"--slurm", "2"});
     ASSERT_TRUE(run->wait_for("\"event\":\"progress\"", seconds(30))) << run->output();
@@ -120,11 +132,16 @@ TEST_F(Slurm, StartsAnewWhatANodeHasLost) {
 }
 
 TEST_F(Slurm, RunsTheScriptThatPeopleRead) {
+    const auto farm = load_or_make_key(folder.file("farm")), user = load_or_make_key(folder.file("user"));
+    folder.write("farm.keys", farm.open.text() + " slurm-*\n");
     Process run(launch_words(graph_file("cornell.lua"), out,
-                             {"--size", "64x64", "--samples", "64", "--listen", "tcp://127.0.0.1:*"}));
+                             {"--size", "64x64", "--samples", "64", "--listen", "tcp://127.0.0.1:*", "--key",
+                              folder.file("user"), "--allow", folder.file("farm.keys")}));
     const auto launcher = join_endpoint(run);
     Process submit({"/usr/bin/sbatch", "--output=/dev/null", "--array=1-2",
-                    LIGHTNET_SOURCE_DIR "/tools/slurm/lightnet.sbatch", launcher, program("lightnetd")});
+                    "--export=ALL,LIGHTNET_FARM_KEY=" + folder.file("farm"),
+                    LIGHTNET_SOURCE_DIR "/tools/slurm/lightnet.sbatch", launcher, user.open.text(),
+                    program("lightnetd")});
     EXPECT_EQ(submit.wait(seconds(20)), 0) << submit.output();
     const auto end = finish(run, out);
     EXPECT_EQ(end.code, 0) << end.said;

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <zmq.hpp>
 
 #include "tests/support/slowdown.hpp"
+#include "transport/keys/key.hpp"
 #include "transport/wire/packet.hpp"
 
 namespace lightnet::test {
@@ -15,8 +17,15 @@ namespace lightnet::test {
 /// Speaks to a daemon as a launcher would, or worse.
 class Stranger {
 public:
-    explicit Stranger(const std::string& endpoint, int patience_ms = 5000)
+    explicit Stranger(const std::string& endpoint, int patience_ms = 5000,
+                      const std::optional<LineKeys>& keys = std::nullopt)
         : socket_(context_, zmq::socket_type::dealer) {
+        if (keys) {
+            const auto text = [](const auto& bytes) { return std::string(bytes.begin(), bytes.end()); };
+            socket_.set(zmq::sockopt::curve_publickey, text(keys->own.open.bytes));
+            socket_.set(zmq::sockopt::curve_secretkey, text(keys->own.secret));
+            socket_.set(zmq::sockopt::curve_serverkey, text(keys->theirs.bytes));
+        }
         socket_.set(zmq::sockopt::linger, 0);
         socket_.set(zmq::sockopt::rcvtimeo, slowdown * patience_ms);
         socket_.connect(endpoint);

@@ -42,6 +42,17 @@ TEST(CheckHosts, TakesNamesOfHostsThatJoinByThemselves) {
     EXPECT_EQ(problems_with_hosts("place 'onyx1' {}\nplace 'slurm-12_3.a' {}"), "");
 }
 
+TEST(CheckHosts, TakesThisProcessAsOftenAsOneLikes) {
+    EXPECT_EQ(problems_with_hosts("place 'here' { sky = 2 }\nplace 'here' { image = 1, places = 1 }\nplace 'here'"),
+              "");
+    EXPECT_EQ(problems_with_hosts("place 'here' {}\nplace 'here' { skye = 1 }"),
+              "hosts.lua:2: place 'here': no node called 'skye' (did you mean 'sky'?)");
+    EXPECT_THAT(problems_with_hosts("place 'here' { sky = 3, places = 2 }"),
+                HasSubstr("place 'here': 3 replicas of 'sky' need as many places, but it has 2"));
+    EXPECT_THAT(problems_with_hosts("place 'this process' {}"), HasSubstr("this process is called here"));
+    EXPECT_FALSE(is_joining_name("here"));
+}
+
 TEST(CheckHosts, WantsEachHostOnce) {
     EXPECT_THAT(problems_with_hosts("place 'tcp://a:7' {}\nplace 'tcp://a:7' {}"),
                 HasSubstr("hosts.lua:2: place 'tcp://a:7': the host stands here twice"));

@@ -90,15 +90,42 @@ TEST(Dot, DrawsAPlan) {
 }
 
 TEST(Dot, ShowsMultiplexersWhereAnAskerHasAChoice) {
+    const std::string dot = dot_with(
+        "place 'tcp://w:1' { lighting = 1, image = 1, places = 1 }\nplace 'tcp://x:1' { a = 1, image = 1, "
+        "places = 1 }\nplace 'tcp://y:1' { a = 1, b = 1, image = 1, places = 1 }",
+        {{"tcp://w:1", 1}, {"tcp://x:1", 1}, {"tcp://y:1", 1}});
+    EXPECT_THAT(dot, HasSubstr("choose_image [shape=trapezium, style=solid, label=\"image × 3\"];"));
+    EXPECT_THAT(dot, HasSubstr("launcher -> choose_image [label=\"Tile → Pixels\\ncall\"];"));
+    EXPECT_THAT(dot, HasSubstr("choose_image -> node_image_1 [label=\"Tile → Pixels\\ntcp\"];"));
+    EXPECT_THAT(dot, HasSubstr("node_lighting_0 -> choose_a_0 [label=\"Query → Rgb\\ncall\"];"));
+    EXPECT_THAT(dot, HasSubstr("choose_a_0 -> node_a_1 [label=\"Query → Rgb\\ntcp bundles\"];"));
+    EXPECT_THAT(dot, Not(HasSubstr("deal_")));
+}
+
+TEST(Dot, ShowsThatAHostChoosesAmongItsPlaces) {
     const std::string dot =
         dot_with("place 'tcp://x:1' { a = 2, b = 1 }\nplace 'tcp://y:1' { lighting = 1, image = 2 }",
                  {{"tcp://x:1", 1}, {"tcp://y:1", 1}});
-    EXPECT_THAT(dot, HasSubstr("choose_a_2 [shape=trapezium, style=solid, label=\"a × 2\"];"));
-    EXPECT_THAT(dot, HasSubstr("node_lighting_2 -> choose_a_2 [label=\"Query → Rgb\\ncall\"];"));
-    EXPECT_THAT(dot, HasSubstr("choose_a_2 -> node_a_0 [label=\"Query → Rgb\\ntcp bundles\"];"));
-    EXPECT_THAT(dot, HasSubstr("choose_a_2 -> node_a_1 [label=\"Query → Rgb\\ntcp bundles\"];"));
-    EXPECT_THAT(dot, HasSubstr("launcher -> choose_image [label=\"Tile → Pixels\\ncall\"];"));
+    EXPECT_THAT(dot, HasSubstr("    deal_a_0 [shape=trapezium, style=solid, label=\"a × 2\"];\n  }"))
+        << "in its host, beside its places";
+    EXPECT_THAT(dot, HasSubstr("node_lighting_2 -> deal_a_0 [label=\"Query → Rgb\\ntcp bundles\"];"));
+    EXPECT_THAT(dot, HasSubstr("deal_a_0 -> node_a_1 [label=\"Query → Rgb\\ninproc bundles\"];"));
+    EXPECT_THAT(dot, HasSubstr("launcher -> deal_image_2 [label=\"Tile → Pixels\\ntcp\"];"));
+    EXPECT_THAT(dot, HasSubstr("deal_image_2 -> node_image_3 [label=\"Tile → Pixels\\ninproc\"];"));
     EXPECT_THAT(dot, HasSubstr("node_image_3 -> node_lighting_2 [label=\"Query → 2 × Rgb\\ninproc bundles\"];"));
+    EXPECT_THAT(dot, Not(HasSubstr("choose_"))) << "there is but one host to ask";
+}
+
+TEST(Dot, ShowsPlacesOfThisProcessAndWhatTheyAskEachOther) {
+    const std::string dot = dot_with(
+        "place 'here' { a = 2 }\nplace 'tcp://x:1' { b = 1 }\nplace 'here' { lighting = 1, image = 1, places = 1 }",
+        {{"", 1}, {"tcp://x:1", 1}});
+    EXPECT_THAT(dot, HasSubstr("label=\"this process\""));
+    EXPECT_THAT(dot, HasSubstr("cluster_host_1"));
+    EXPECT_THAT(dot, Not(HasSubstr("cluster_host_2"))) << "its entries are one host";
+    EXPECT_THAT(dot, HasSubstr("launcher -> node_image_2 [label=\"Tile → Pixels\\ninproc\"];"));
+    EXPECT_THAT(dot, HasSubstr("choose_a_2 -> node_a_1 [label=\"Query → Rgb\\ninproc bundles\"];"));
+    EXPECT_THAT(dot, HasSubstr("node_lighting_2 -> node_b_3 [label=\"Query → Rgb\\ntcp bundles\"];"));
 }
 
 TEST(Dot, ShowsOnePlaceNextToTheOther) {

@@ -19,8 +19,10 @@ TEST(Layers, AreTheTerminalsOfAdditivePathsInGraphOrder) {
         "lighting = Combine { bounce, first }");
     const Layers layers = layers_of(graph, fake_registry());
     EXPECT_THAT(layers.film, ElementsAre("emission", "direct", "caustics", "bounce"));
-    EXPECT_THAT(layers.of_node, ElementsAre(ElementsAre(0), ElementsAre(1), ElementsAre(0, 1), ElementsAre(3),
-                                            ElementsAre(0, 1, 3), ElementsAre(), ElementsAre(0, 1, 3)));
+    const Terminal direct{0}, caustics{1}, bounce{3};
+    EXPECT_THAT(layers.of_node, ElementsAre(ElementsAre(direct), ElementsAre(caustics), ElementsAre(direct, caustics),
+                                            ElementsAre(bounce), ElementsAre(direct, caustics, bounce), ElementsAre(),
+                                            ElementsAre(direct, caustics, bounce)));
 }
 
 TEST(Layers, CountANodeOnceHoweverManyWaysLeadToIt) {
@@ -32,7 +34,7 @@ TEST(Layers, LeaveOutWhatANodeKeepsToItself) {
     const Graph graph = sound_graph("a = Ambient {} sum = Combine { a, a } lighting = Cache { sum }");
     const Layers layers = layers_of(graph, fake_registry());
     EXPECT_THAT(layers.film, ElementsAre("emission", "lighting"));
-    EXPECT_THAT(layers.of_node[1], ElementsAre(1)) << "inside, a sum is one colour";
+    EXPECT_THAT(layers.of_node[1], ElementsAre(Terminal{1})) << "inside, a sum is one colour";
 }
 
 TEST(Layers, HaveWhatIsShownBesideTheSum) {

@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "core/network/graph/layout.hpp"
 #include "tests/support/parse.hpp"
 
 namespace lightnet::plan_test {
@@ -101,6 +102,39 @@ TEST(Plan, SaysHowAskersChoose) {
     EXPECT_EQ(where.strategy_of(0), Strategy::affinity);
     EXPECT_EQ(where.strategy_of(1), Strategy::round_robin);
     EXPECT_EQ(plan_from_json(to_json(where)), where);
+}
+
+TEST(Plan, GivesEachEntryForThisProcessPlacesOfItsOwn) {
+    const Plan where = plan_for(
+        "place 'here' { a = 2 }\nplace 'tcp://x:1' { b = 1 }\nplace 'here' { lighting = 1, image = 1, places = 1 }",
+        {{"", 1}, {"tcp://x:1", 1}});
+    EXPECT_THAT(where.places, ElementsAre(PlaceAt{"", 0}, PlaceAt{"", 1}, PlaceAt{"", 2}, PlaceAt{"tcp://x:1", 0}));
+    EXPECT_THAT(where.places_of,
+                ElementsAre(ElementsAre(0, 1), ElementsAre(3), ElementsAre(2), IsEmpty(), ElementsAre(2)));
+    EXPECT_EQ(places_of_host(where, ""), 3u);
+    EXPECT_EQ(places_of_host(where, "tcp://x:1"), 1u);
+}
+
+TEST(Plan, DealsOutNodesOfThisProcessAsItDoesThoseOfHosts) {
+    for (const char* entry : {"{ a = 3, b = 1, lighting = 1, image = 1 }", "{ a = 1, b = 1, image = 2, places = 2 }",
+                              "{ places = 3 }", "{}"}) {
+        Plan here = plan_for("place 'here' " + std::string(entry), {{"", 2}});
+        for (auto& place : here.places) place.host = "tcp://x:1";
+        EXPECT_EQ(here, plan_for("place 'tcp://x:1' " + std::string(entry), {{"tcp://x:1", 2}})) << entry;
+    }
+}
+
+TEST(Plan, GivesEachEntryForThisProcessSectorsOfItsOwn) {
+    const Hosts hosts =
+        parse_hosts("layout { a = 'sharded' } place 'here' { a = 1, image = 1 } place 'here' { a = 2 }", "hosts.lua");
+    const Graph cut = sharded(graph(), shards_of(graph(), fake_registry(), hosts));
+    ASSERT_EQ(cut.sectors.size(), 3u);
+    const Plan where = plan(cut, fake_registry(), hosts, {{"", 2}});
+    const auto sectors = sectors_of(cut, 0);
+    EXPECT_THAT(where.places_of[sectors[0]], SizeIs(1));
+    for (const auto sector : sectors)
+        EXPECT_EQ(where.places_of[sector][0] < 2, sector == sectors[0]) << "two places, then two";
+    EXPECT_NE(where.places_of[sectors[1]], where.places_of[sectors[2]]);
 }
 
 TEST(Plan, WantsAPlace) { EXPECT_THROW(plan(graph(), fake_registry(), {}, {}), Error); }

@@ -8,6 +8,7 @@
 
 #include "core/base/error.hpp"
 #include "core/network/light/light_op.hpp"
+#include "core/network/light/locks.hpp"
 #include "core/network/light/renderer.hpp"
 #include "core/run/fiber/fiber.hpp"
 #include "core/run/fiber/rounds.hpp"
@@ -208,6 +209,41 @@ TEST_F(WrapTest, CatchesAClassWhoseHistoryChangesAnswers) {
     } catch (const Error& error) {
         EXPECT_THAT(error.what(), testing::HasSubstr("what the class remembers must not change answers"));
     }
+}
+
+TEST_F(WrapTest, AnswersBlackAndCountsWhereThereIsNoSurfaceToAskAbout) {
+    std::uint64_t count = 0;
+    const NodeContext context = here({.off_surface = &count});
+    OneByOne inputs(context);
+    inputs.begin(1, 0);
+    EXPECT_EQ(inputs.ask(0, std::optional(Query{.primitive = 3})), (Rgb{30, 0, 0}));
+    EXPECT_EQ(count, 0u);
+    EXPECT_EQ(inputs.ask(0, std::optional<Query>{}), (Rgb{}));
+    EXPECT_EQ(count, 1u);
+}
+
+// Tells by whom it is held.
+class Watched final : public Locks {
+public:
+    std::vector<std::string> names;
+    int held = 0;
+
+protected:
+    const void* worker() const override { return nullptr; }
+    void wait_for(const std::string& name) override { names.push_back(name), ++held; }
+    void give_back(const std::string&) noexcept override { --held; }
+};
+
+TEST_F(WrapTest, LetsCallsOfAProcessThatShareGlobalsGoOnOneAtATime) {
+    Watched locks;
+    const Kind kind = wrap<old::Picky>("Picky", {.help = "x", .alone = "globals"});
+    EXPECT_TRUE(kind.run.locks);
+    EXPECT_FALSE(wrap<old::Picky>("Picky", {}).run.locks);
+    const auto light = kind.make_light(
+        here({.locks = &locks, .whereabouts = [] { return Whereabouts{.process = "onyx1 4711"}; }}));
+    EXPECT_EQ(answers_of(*light, questions(5)).size(), 5u);
+    EXPECT_EQ(locks.names, std::vector<std::string>{"globals of onyx1 4711"}) << "once for all questions of a call";
+    EXPECT_EQ(locks.held, 0);
 }
 
 TEST_F(WrapTest, MakesARendererOfAClassThatSeesOneRayAtATime) {

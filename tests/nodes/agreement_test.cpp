@@ -61,7 +61,7 @@ void paths_and_cache(SmallNetwork& network) {
 
 void progressive(SmallNetwork& network) {
     network.add("direct", "DirectLighting")
-        .add("photons", "ProgressivePhotonMapping", {}, {{"paths", word("indirect")}, {"passes", number(32)}})
+        .add("photons", "ProgressivePhotonMapping", {}, {{"paths", word("indirect")}})
         .add("lighting", "Combine", {"direct", "photons"});
 }
 

@@ -3,103 +3,15 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
-#include <deque>
 #include <optional>
 #include <string>
 
 #include "core/network/graph/check.hpp"
 #include "core/network/light/mapped.hpp"
-#include "tests/support/learner.hpp"
+#include "tests/run/places_by_hand.hpp"
 
 namespace lightnet::conductor_test {
 namespace {
-
-using Nodes = std::vector<Node>;
-
-// Keeps what is asked until somebody answers.
-class ByHand final : public Carrier {
-public:
-    struct Asked {
-        PlaceAt place;
-        Message message;
-        const Step* step() const {
-            const auto* steps = std::get_if<Questions<Step>>(&message.questions);
-            return steps ? &(*steps)->front() : nullptr;
-        }
-        bool of_kind(Step::Kind kind) const { return step() && step()->kind == kind; }
-        bool of_tiles() const { return std::holds_alternative<Questions<Tile>>(message.questions); }
-    };
-    bool ask(const PlaceAt& to, Message& message) override {
-        asked.push_back({to, message});
-        return true;
-    }
-    void reply(Message) override {}
-    std::optional<Message> receive() override {
-        if (arrived.empty()) return std::nullopt;
-        Message message = std::move(arrived.front());
-        arrived.pop_front();
-        return message;
-    }
-    void wait(std::chrono::nanoseconds) override {}
-    void forget(const PlaceAt&) override {}
-    bool take_out(const std::string& host, const std::string& why) override {
-        taken_out.push_back(host + ": " + why);
-        return true;
-    }
-    const Counters& counters() const override { return counters_; }
-
-    Asked take() {
-        if (asked.empty()) throw std::runtime_error("nothing was asked");
-        Asked first = std::move(asked.front());
-        asked.pop_front();
-        return first;
-    }
-    template <class T>
-    void answer(Asked to, const T& data) {
-        Message message = reply_to(to.message);
-        std::vector<std::byte> bytes(sizeof data);
-        std::memcpy(bytes.data(), &data, sizeof data);
-        message.data = std::make_shared<const std::vector<std::byte>>(std::move(bytes));
-        arrived.push_back(std::move(message));
-    }
-    void answer_tiles(Asked to) { arrived.push_back(reply_to(to.message)); }
-
-    void fail(Asked to, const std::string& why) {
-        Message message = reply_to(to.message);
-        message.type = Message::Type::failure;
-        message.trouble = {why, to.place.host};
-        arrived.push_back(std::move(message));
-    }
-
-    std::deque<Asked> asked;
-    std::deque<Message> arrived;
-    std::vector<std::string> taken_out;
-
-private:
-    Counters counters_;
-};
-
-Node node(std::string name, std::string kind, std::vector<Value> entries, std::map<std::string, Value> params = {}) {
-    return {std::move(name), std::move(kind), std::move(entries), std::move(params), {"test.lua", 1}};
-}
-
-Query at(std::uint32_t primitive) {
-    Query question;
-    question.primitive = primitive;
-    return question;
-}
-
-// A picture by a node that learns from rehearsals.
-Graph learning(const Registry& kinds) {
-    return check(
-        {"test.lua",
-         Nodes{node("scene", "Scene", {Value{std::string("none.pbrt")}}), node("direct", "DirectLighting", {}),
-               node("learned", "Learner", {Value{NodeRef{"direct"}}}),
-               node("image", "RayTracer", {Value{NodeRef{"learned"}}},
-                    {{"scene", Value{NodeRef{"scene"}}}, {"film", Value{Table{{Value{24.0}, Value{16.0}}, {}}}}})}},
-        kinds);
-}
 
 // What one node computes fills the pauses of another that it can't ask; who asks both waits for them.
 TEST(Conductor, PreparesNodesThatDoNotAskEachOtherAtTheSameTime) {
@@ -269,6 +181,88 @@ TEST_F(ConductorTrouble, OfAHostThatSaysNonsenseIsThatHosts) {
     auto shards = places.take();
     ASSERT_TRUE(shards.of_kind(Step::Kind::shards));
     EXPECT_EQ(shards.place.host, "b") << "which goes on alone";
+}
+
+// The host that does it dies, and comes back as another process, again and again.
+TEST_F(ConductorTrouble, OfAShardThatKillsWhoeverDoesItEndsTheRun) {
+    constexpr std::uint32_t shards = 12, poison = 4;
+    const std::vector<std::vector<std::uint32_t>> at_a(graph.nodes.size(), {0});
+    const auto host_is_back = [&](std::uint64_t process) {
+        conductor->propose({{}, std::vector<std::vector<std::uint32_t>>(graph.nodes.size())});
+        places.asked.clear();
+        places.arrived.clear();
+        conductor->propose({{{"a", 0}}, at_a, {}, {}, {{"a", process}}});
+    };
+    std::string ended;
+    try {
+        for (std::uint64_t process = 2; process < 100; ++process) {
+            host_is_back(process);
+            for (bool alive = true; alive;) {
+                conductor->prepare(std::chrono::milliseconds(1));
+                if (places.asked.empty()) continue;
+                auto asked = places.take();
+                const Step& step = *asked.step();
+                if (step.kind == Step::Kind::prepare) {
+                    places.answer(std::move(asked), StepReport{StepReport::Kind::map, 0, shards});
+                    continue;
+                }
+                ASSERT_EQ(step.kind, Step::Kind::shards);
+                alive = !(step.first <= poison && poison < step.first + step.count);
+                if (!alive) continue;
+                Message results = reply_to(asked.message);
+                const std::vector<std::vector<std::byte>> nothing(step.count);
+                results.data = join_shards(nothing);
+                places.arrived.push_back(results);
+            }
+        }
+    } catch (const Error& error) {
+        ended = error.what();
+    }
+    EXPECT_EQ(ended,
+              "caustics: shard 4 of what it prepares is set aside: hosts died of it, with nothing else to do: a, a, a");
+}
+
+// Those who learn anew are asked again, also one that is still at the pass before, and the others are not.
+TEST(Conductor, GoesOnToTheNextPassWithAllWhoLearnAnew) {
+    const Registry kinds = test::with_learner();
+    const Graph graph = check(
+        {"test.lua",
+         Nodes{node("scene", "Scene", {Value{std::string("none.pbrt")}}), node("caustics", "PhotonMap", {}),
+               node("maps", "ProgressivePhotonMapping", {}),
+               node("both", "Combine", {Value{NodeRef{"caustics"}}, Value{NodeRef{"maps"}}}),
+               node("image", "RayTracer", {Value{NodeRef{"both"}}},
+                    {{"scene", Value{NodeRef{"scene"}}}, {"film", Value{Table{{Value{24.0}, Value{16.0}}, {}}}}})}},
+        kinds);
+    const std::size_t maps = 2;
+    ByHand places;
+    Conductor::Options options;
+    options.run = 1;
+    options.graph = &graph;
+    options.registry = &kinds;
+    Conductor conductor(options, places);
+    const auto prepared = [&] { return conductor.prepare(std::chrono::milliseconds(2)); };
+    conductor.propose({{{"a", 0}}, std::vector<std::vector<std::uint32_t>>(graph.nodes.size(), {0})});
+    for (int i = 0; i < 2; ++i) places.answer(places.take(), StepReport{StepReport::Kind::done, 0, 0});
+    EXPECT_TRUE(prepared());
+    conductor.propose({{{"a", 0}, {"b", 0}}, std::vector<std::vector<std::uint32_t>>(graph.nodes.size(), {0, 1})});
+    places.answer(places.take(), StepReport{StepReport::Kind::done, 0, 0});
+    const auto late = places.take();  // b prepares `maps` for a pass that is soon over
+    EXPECT_EQ(late.message.node, maps);
+
+    conductor.begin_pass(1);
+    auto of_a = places.take(), of_b = places.take();
+    EXPECT_TRUE(places.asked.empty());
+    for (const auto* asked : {&of_a, &of_b}) {
+        ASSERT_TRUE(asked->of_kind(Step::Kind::prepare));
+        EXPECT_EQ(asked->message.node, maps);
+        EXPECT_EQ(asked->step()->call, first_call_of(1));
+    }
+    const StepReport done{StepReport::Kind::done, first_call_of(1), 0};
+    places.answer(of_a, done);
+    places.answer(late, StepReport{StepReport::Kind::done, 0, 0});
+    EXPECT_FALSE(prepared()) << "what b says of the pass before does not count";
+    places.answer(of_b, done);
+    EXPECT_TRUE(prepared());
 }
 
 // Two epochs for each rehearsal: one of it, and one of what follows it.

@@ -83,6 +83,18 @@ TEST(Rehearsal, GivesEachQuestionOnceInAnOrderOfItsOwn) {
     EXPECT_THAT(rehearsal.end(), ElementsAre());
 }
 
+// A second copy of a tile, which nobody waits for any more, asks on while the next pass rehearses.
+TEST(Rehearsal, NotesNoQuestionsOfAnotherPass) {
+    Rehearsal rehearsal;
+    const Query before{.stream = 1, .pass = 1}, now{.stream = 2, .pass = 2};
+    rehearsal.begin(2);
+    for (const auto& q : {before, now}) rehearsal.note(q);
+    EXPECT_THAT(rehearsal.end(), ElementsAre(now));
+    rehearsal.begin();
+    for (const auto& q : {before, now}) rehearsal.note(q);
+    EXPECT_THAT(rehearsal.end(), ElementsAre(before, now));
+}
+
 TEST(RehearsalTiles, CoverTheFilm) {
     const auto registry = test::with_learner();
     std::size_t pixels = 0;
@@ -145,6 +157,21 @@ TEST(Recipes, DependOnWhatANodeAsksAndOnNothingAboveIt) {
     EXPECT_NE(a.of(2, 0, false), c.of(2, 0, false));
     EXPECT_NE(a.of(2, 0, false), d.of(2, 0, false));
     EXPECT_NE(a.of(2, 0, false), a.of(2, 1, false));
+}
+
+TEST(Recipes, DependOnWhatTheGraphChangesAboutTheScene) {
+    const auto registry = test::with_learner();
+    const auto graph = learning_graph(registry);
+    const auto changed = [&](const char* param, Value value) {
+        auto other = graph;
+        for (auto& node : other.nodes)
+            if (node.kind == "Scene") node.params[param] = value;
+        return Recipes(other, "scene").of(2, 0, false);
+    };
+    const Hash plain = Recipes(graph, "scene").of(2, 0, false);
+    EXPECT_NE(changed("material", Value{std::string("clay")}), plain);
+    EXPECT_NE(changed("groups", Value{Table{{}, {{"key", Value{std::string("spot")}}}}}), plain);
+    EXPECT_EQ(changed("camera", Value{Table{{}, {{"fov", Value{30.0}}}}}), plain) << "who looks changes nothing";
 }
 
 TEST(SerialRun, PreparesOnceAndTakesTheRestFromTheCache) {

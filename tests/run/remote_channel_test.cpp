@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 namespace lightnet::remote_channel_test {
 namespace {
 
@@ -83,7 +85,7 @@ Plan plan_of(std::vector<PlaceAt> there, std::vector<std::uint32_t> holding) {
 
 TEST_F(RemoteChannelTest, AreOpenedAndClosedAsThePlanWantsIt) {
     const PlaceAt one{"one", 0}, two{"two", 0};
-    RemoteChannels<Query> channels(carrier, 1, 0, counters);
+    RemoteChannels<Query> channels(carrier, 1, {}, counters);
     RemoteChannels<Query>::Edge edge{0, {}, {}};
     Multiplexer<Query> replicas;
     channels.connect(edge, replicas, plan_of({one, two}, {0, 1}));
@@ -100,7 +102,7 @@ TEST_F(RemoteChannelTest, AreOpenedAndClosedAsThePlanWantsIt) {
 
 TEST_F(RemoteChannelTest, ToAPlaceThatHoldsTheNodeNoMoreStaysOpenForItsAnswers) {
     const PlaceAt one{"one", 0}, two{"two", 0};
-    RemoteChannels<Query> channels(carrier, 1, 0, counters);
+    RemoteChannels<Query> channels(carrier, 1, {}, counters);
     RemoteChannels<Query>::Edge edge{0, {}, {}};
     Multiplexer<Query> replicas;
     channels.connect(edge, replicas, plan_of({one}, {0}));
@@ -112,6 +114,61 @@ TEST_F(RemoteChannelTest, ToAPlaceThatHoldsTheNodeNoMoreStaysOpenForItsAnswers) 
     channels.arrived(reply);
     EXPECT_EQ(owner.answers, (std::vector<std::uint64_t>{1}));
     EXPECT_EQ(counters.asked_again, 0u);
+}
+
+TEST_F(RemoteChannelTest, IsOneToEachOtherHostAndOneToEachPlaceBeside) {
+    RemoteChannels<Query> channels(carrier, 1, {"own", 9}, counters);
+    RemoteChannels<Query>::Edge edge{0, {2, 100, 1000}, {}};
+    Multiplexer<Query> replicas;
+    const Plan plan = plan_of({{"own", 0}, {"own", 1}, {"four", 0}, {"four", 1}, {"four", 2}, {"four", 3}, {"one", 5}},
+                              {0, 1, 2, 3, 4, 5, 6});
+    channels.connect(edge, replicas, plan);
+    EXPECT_EQ(edge.known.size(), 4u) << "channels";
+    EXPECT_EQ(replicas.size(), 4u);
+    EXPECT_EQ(replicas.places(), 7u);
+    EXPECT_EQ(replicas.credit(), (Credit{14, 700, 7000})) << "as much as the places together";
+    for (std::uint64_t i = 1; i <= 14; ++i) replicas.send(bundle(i));
+    std::map<PlaceAt, int> asked;
+    for (const auto& where : carrier.where) ++asked[where];
+    EXPECT_EQ(asked,
+              (std::map<PlaceAt, int>{{{"own", 0}, 2}, {{"own", 1}, 2}, {{"four", any_place}, 8}, {{"one", 5}, 2}}))
+        << "a host with one place for it has nothing to choose";
+}
+
+TEST_F(RemoteChannelTest, ToAHostLastsWhileItsPlacesChange) {
+    RemoteChannels<Query> channels(carrier, 1, {}, counters);
+    RemoteChannels<Query>::Edge edge{0, {1, 100, 1000}, {}};
+    Multiplexer<Query> replicas;
+    const std::vector<PlaceAt> there{{"host", 0}, {"host", 1}, {"host", 2}};
+    channels.connect(edge, replicas, plan_of(there, {1}));
+    replicas.send(bundle(1)), replicas.send(bundle(2));
+    EXPECT_EQ(carrier.where, (std::vector<PlaceAt>{{"host", 1}}));
+    channels.connect(edge, replicas, plan_of(there, {0, 1, 2}));
+    replicas.send(bundle(3));
+    EXPECT_EQ(carrier.where, (std::vector<PlaceAt>{{"host", 1}, {"host", any_place}, {"host", any_place}}));
+    channels.connect(edge, replicas, plan_of(there, {2}));
+    EXPECT_EQ(replicas.places(), 1u);
+    for (auto& ask : carrier.asked) {
+        auto reply = reply_for(ask);
+        channels.arrived(reply);
+    }
+    EXPECT_EQ(owner.answers, (std::vector<std::uint64_t>{1, 2, 3}));
+    EXPECT_EQ(counters.asked_again + counters.late_replies, 0u);
+}
+
+TEST_F(RemoteChannelTest, OfTwoKindsShareACarrier) {
+    RemoteChannels<Query> first(carrier, 1, {}, counters), second(carrier, 1, {"", 0, 1u << 31}, counters);
+    RemoteChannels<Query>::Edge edge{0, {}, {}}, other{0, {}, {}};
+    Multiplexer<Query> replicas, others;
+    first.connect(edge, replicas, plan_of({{"one", 0}}, {0}));
+    second.connect(other, others, plan_of({{"one", 0}}, {0}));
+    others.send(bundle(4));
+    auto reply = reply_for(carrier.asked[0]);
+    auto stray = reply;
+    first.arrived(stray);
+    EXPECT_TRUE(owner.answers.empty());
+    second.arrived(reply);
+    EXPECT_EQ(owner.answers, (std::vector<std::uint64_t>{4}));
 }
 
 }  // namespace

@@ -93,7 +93,9 @@ TEST(ServiceTimes, AssumeTheMeanOfWhatIsNotMeasured) {
 
 // ---- Ledger ----
 
-Ledger::Copy copy_of(Ledger::WorkId work, Ledger::Time overdue = 1) { return {0, work, 10, 100, 0, 0, overdue}; }
+Ledger::Copy copy_of(Ledger::WorkId work, Ledger::Time overdue = 1) {
+    return {.work = work, .questions = 10, .bytes = 100, .overdue = overdue};
+}
 
 TEST(Ledger, GivesCreditBackWithTheCopy) {
     Ledger ledger;
@@ -169,15 +171,17 @@ TEST(Suspects, AreClearedWhenTheHostHadNotDied) {
 TEST(Stragglers, KnowTheFirstAndTheLastOfAllReplicas) {
     Stragglers stragglers;
     EXPECT_EQ(stragglers.next_overdue(), Lowest::none);
-    stragglers.set(0, {.overdue = 9, .first = 3, .last = 4});
-    stragglers.set(1, {.overdue = 8, .first = 2, .last = 2});
+    stragglers.set(0, {.overdue = 9, .late = 3, .last = 4});
+    stragglers.set(1, {.overdue = 8, .late = 2, .last = 2});
     stragglers.set(2, {.overdue = 7});
     EXPECT_EQ(stragglers.overdue_at(), 2u);
-    EXPECT_EQ(stragglers.first_at(), 1u);
+    EXPECT_EQ(stragglers.late(), 2);
+    EXPECT_EQ(stragglers.late_at(), 1u);
     EXPECT_EQ(stragglers.last_at(), 0u);
     EXPECT_EQ(stragglers.last(), 4);
     stragglers.set(0, {}), stragglers.set(1, {});
-    EXPECT_FALSE(stragglers.any());
+    EXPECT_EQ(stragglers.late(), Lowest::none);
+    EXPECT_EQ(stragglers.last(), -Lowest::none);
 }
 
 }  // namespace

@@ -1,18 +1,15 @@
 #include "core/run/schedule/scheduler.hpp"
 
-#include <gtest/gtest.h>
-
 #include <map>
 #include <set>
+
+#include "tests/run/scheduler_story.hpp"
 
 namespace lightnet::scheduler_test {
 namespace {
 
-// Tells a scheduler stories, and collects what it does.
-class SchedulerTest : public ::testing::Test {
+class SchedulerTest : public test::SchedulerStory {
 protected:
-    using Replicas = std::vector<Scheduler::Replica>;
-
     void use(Scheduler::Rules rules) { scheduler = Scheduler(rules); }
     void join(Scheduler::Replica replica, Credit credit = {1, 1000, 1 << 20}) { join_on(replica, replica, credit); }
     void join_on(Scheduler::Host host, Scheduler::Replica replica, Credit credit = {1, 1000, 1 << 20},
@@ -22,34 +19,19 @@ protected:
     void add(Scheduler::WorkId work, std::size_t bytes = 0, std::uint64_t region = 0) {
         tell(Scheduler::Added{work, 1, bytes, region});
     }
-    // The replicas to which a tick sends.
-    Replicas tick() {
-        tell(Scheduler::Tick{});
-        Replicas to;
-        for (const auto& action : actions)
-            if (const auto* send = std::get_if<Scheduler::Send>(&action)) {
-                copies[{send->work, send->replica}] = send->copy;
-                to.push_back(send->replica);
-            }
-        return to;
-    }
-    void reply(Scheduler::WorkId work, Scheduler::Replica from, double service = 0, std::size_t fill = 0) {
-        tell(Scheduler::Replied{copies.at({work, from}), fill, service});
-    }
-    void tell(const Scheduler::Event& event) {
-        actions.clear();
-        scheduler.on(event, now, actions);
-    }
-    template <class Action>
-    bool did() const {
-        return !actions.empty() && std::holds_alternative<Action>(actions.front());
-    }
-
-    Scheduler scheduler{{}};
-    double now = 0;
-    std::vector<Scheduler::Action> actions;
-    std::map<std::pair<Scheduler::WorkId, Scheduler::Replica>, Scheduler::CopyId> copies;
 };
+
+// Work that waited for the reserve, as that would be done sooner, would be sent to nobody.
+TEST_F(SchedulerTest, HoldsNothingBackForTheReserveHoweverFastThatIs) {
+    join(0);
+    tell(Scheduler::Joined{1, 1, 2, {1, 1000, 1 << 20}, 0, 1, true});
+    add(1), add(2);
+    EXPECT_EQ(tick(), (Replicas{0, 1})) << "the reserve, when no other is free";
+    now = 1;
+    reply(2, 1, 0.001), reply(1, 0, 1);
+    add(3);
+    EXPECT_EQ(tick(), (Replicas{0}));
+}
 
 TEST_F(SchedulerTest, GivesCreditBackWithTheReply) {
     join(0);

@@ -20,84 +20,58 @@ Bytes results(const std::vector<int>& values) {
     return join_shards(shards);
 }
 
-constexpr Shards only(std::uint32_t shard) { return {shard, 1}; }
+// One place does all shards, which are asked for one by one where there are few.
+class Worker {
+public:
+    explicit Worker(ServiceCall& call) : call_(call) { take_more(); }
+    // Under which number a shard went.
+    ShardDealer::CopyId operator[](std::uint32_t shard) {
+        take_more();
+        return ids_.at(shard);
+    }
+    void take_more() {
+        call_.dealer().join({{"a", 0}, 0}, 1, 0);
+        for (const auto& deal : call_.dealer().deal(1, 0)) ids_[deal.shards.first] = deal.id;
+    }
 
-TEST(ServiceCall, HandsEachShardOutOnceAndTheLastOnesToThoseWhoAreIdle) {
-    ServiceCall call({StepReport::Kind::map, 0, 5}, false);
-    EXPECT_EQ(call.hand_out({0, 2}), only(0));
-    EXPECT_EQ(call.hand_out({1, 2}), only(1));
-    EXPECT_EQ(call.hand_out({2, 2}), std::nullopt) << "two at a time";
-    EXPECT_EQ(call.hand_out({0, 2}), only(2));
-    EXPECT_EQ(call.hand_out({1, 2}), std::nullopt) << "as many are left as there are places";
-    EXPECT_EQ(call.hand_out({0, 2}), only(3));
-    EXPECT_EQ(call.hand_out({0, 2}), only(4));
-    EXPECT_EQ(call.hand_out({0, 2}), std::nullopt) << "nobody is late";
-}
-
-TEST(ServiceCall, HandsOutOnceMoreWhatSomebodyIsLateWith) {
-    ServiceCall call({StepReport::Kind::map, 0, 3}, false);
-    for (std::uint32_t shard = 0; shard < 3; ++shard) EXPECT_EQ(call.hand_out({0, 3, 10}), only(shard));
-    call.answer(only(0), results({0}), 10.1);
-    EXPECT_EQ(call.hand_out({0, 3, 10.15}), std::nullopt) << "it takes as long as the first, and half as long again";
-    EXPECT_EQ(call.hand_out({1, 3, 10.25}), std::nullopt) << "only who is idle does what others are at";
-    EXPECT_EQ(call.hand_out({0, 3, 10.25}), only(1));
-    EXPECT_EQ(call.hand_out({0, 3, 10.25}), only(2));
-    EXPECT_EQ(call.hand_out({0, 3, 20}), std::nullopt) << "no shard is done three times at once";
-}
-
-TEST(ServiceCall, WaitsForTheFirstShardsWithPatience) {
-    ServiceCall call({StepReport::Kind::map, 0, 1}, false);
-    EXPECT_EQ(call.hand_out({0, 2, 10}), only(0));
-    EXPECT_EQ(call.hand_out({0, 2, 10.9}), std::nullopt);
-    EXPECT_EQ(call.hand_out({0, 2, 11.1}), only(0));
-}
+private:
+    ServiceCall& call_;
+    std::map<std::uint32_t, ShardDealer::CopyId> ids_;
+};
 
 TEST(ServiceCall, PutsShardsTogetherInTheirOrderAndCountsTheFirstAnswerOnly) {
-    ServiceCall call({StepReport::Kind::map, 0, 2}, false);
-    call.hand_out({0}), call.hand_out({0}), call.hand_out({0, 1, 100});
-    EXPECT_FALSE(call.answer(only(1), results({1})));
-    EXPECT_FALSE(call.answer(only(1), results({9})));
-    EXPECT_TRUE(call.answer(only(0), results({0})));
+    ServiceCall call({StepReport::Kind::map, 0, 3}, false);
+    Worker worker(call);
+    EXPECT_FALSE(call.answer(worker[1], results({1}), 0));
+    EXPECT_FALSE(call.answer(worker[1], results({9}), 0));
+    EXPECT_FALSE(call.answer(worker[0], results({0}), 0));
+    EXPECT_TRUE(call.answer(worker[2], results({2}), 0));
     call.complete_from_shards();
     const Mapped<std::uint8_t> result(call.result());
-    EXPECT_THAT(result.all(), testing::ElementsAre(0, 1));
-    EXPECT_FALSE(call.answer(only(0), results({5}))) << "too late";
+    EXPECT_THAT(result.all(), testing::ElementsAre(0, 1, 2));
+    EXPECT_FALSE(call.answer(worker[0], results({5}), 0)) << "too late";
 }
 
-TEST(ServiceCall, HandsOutAgainWhatALostPlaceHad) {
-    ServiceCall call({StepReport::Kind::map, 0, 2}, false);
-    call.hand_out({0}), call.hand_out({0});
-    call.take_back(only(1));
-    EXPECT_EQ(call.hand_out({0}), only(1));
-    EXPECT_EQ(call.hand_out({0, 1, 100}), only(0)) << "doubled";
-    call.take_back(only(0));
-    EXPECT_EQ(call.hand_out({0, 1, 0.5}), std::nullopt) << "another place is still at it";
-}
-
-// Fewer towards the end; what is not answered goes to somebody else.
-TEST(ServiceCall, HandsOutSeveralShardsTogetherWhileThereAreMany) {
+TEST(ServiceCall, TakesNoResultsThatAreNotOfTheShardsThatWereAskedFor) {
     ServiceCall call({StepReport::Kind::map, 0, 20}, false);
-    EXPECT_EQ(call.hand_out({0, 2}), (Shards{0, 3}));
-    EXPECT_EQ(call.hand_out({1, 2}), (Shards{3, 2}));
-    EXPECT_FALSE(call.answer({0, 3}, results({0, 1})));
+    call.dealer().join({{"a", 0}, 0}, 1, 0);
+    const auto deal = call.dealer().deal(1, 0).front();
+    ASSERT_GT(deal.shards.count, 2u);
+    EXPECT_THROW(call.answer(deal.id, results({}), 0), Error);
+    EXPECT_THROW(call.answer(deal.id, results(std::vector<int>(deal.shards.count + 1)), 0), Error);
+    EXPECT_THROW(call.answer(deal.id, one_byte(3), 0), Error);
+    EXPECT_FALSE(call.answer(deal.id, results({0, 1}), 0)) << "some of them are welcome";
     EXPECT_EQ(call.missing(), 18u);
-    EXPECT_EQ(call.hand_out({0, 2}), (Shards{2, 1})) << "those that follow it are under way";
-    call.take_back({3, 2});
-    EXPECT_EQ(call.hand_out({0, 2}), (Shards{3, 2}));
-    EXPECT_THROW(call.answer({3, 2}, results({})), Error);
-    EXPECT_THROW(call.answer({3, 2}, results({3, 4, 5})), Error);
-    EXPECT_THROW(call.answer({3, 2}, one_byte(3)), Error);
-    std::vector<int> all{0, 1};
-    for (int i = 2; i < 20; ++i) all.push_back(i);
-    EXPECT_FALSE(call.answer({2, 1}, results({2})));
-    EXPECT_FALSE(call.answer({3, 2}, results({3, 4})));
-    while (const auto some = call.hand_out({0, 2})) {
-        const std::vector<int> values(all.begin() + some->first, all.begin() + some->first + some->count);
-        if (call.answer(*some, results(values))) call.complete_from_shards();
-    }
-    ASSERT_TRUE(call.done());
-    const Mapped<std::uint8_t> result(call.result());
-    EXPECT_EQ(std::vector<int>(result.begin(), result.end()), all);
+}
+
+TEST(ServiceCall, DropsWhatWasComputedBeforeItBeganAgain) {
+    ServiceCall call({StepReport::Kind::map, 0, 1}, false);
+    const auto before = Worker(call)[0];
+    call.begin_again();
+    Worker worker(call);
+    EXPECT_NE(worker[0], before);
+    EXPECT_FALSE(call.answer(before, results({7}), 0));
+    EXPECT_TRUE(call.answer(worker[0], results({1}), 0));
 }
 
 TEST(ServiceCalls, NamesANodeThatDoesNotPrepareAlikeEverywhere) {
@@ -135,11 +109,10 @@ std::vector<int> values(const Bytes& result) {
 
 TEST(ServiceCall, GivesEachSectorItsOwnPartInTheOrderOfShards) {
     ServiceCall call({StepReport::Kind::sectors, 0, 2}, false, 2);
-    call.hand_out({0}), call.hand_out({0});
-    EXPECT_THROW(call.answer(only(0), results({})), Error);
-    EXPECT_THROW(call.answer(only(0), done({results({})})), Error) << "of no sector";
-    EXPECT_FALSE(call.answer(only(1), done({two_lists(3, 4)})));
-    EXPECT_TRUE(call.answer(only(0), done({two_lists(1, 2)})));
+    Worker worker(call);
+    EXPECT_THROW(call.answer(worker[0], done({results({})}), 0), Error) << "of no sector";
+    EXPECT_FALSE(call.answer(worker[0], done({two_lists(1, 2)}), 0));
+    EXPECT_TRUE(call.answer(worker[1], done({two_lists(3, 4)}), 0));
     call.complete_from_shards();
     EXPECT_EQ(values(call.result(0)), (std::vector{1, 3}));
     EXPECT_EQ(values(call.result(1)), (std::vector{2, 4}));
@@ -171,16 +144,12 @@ protected:
     void do_all() {
         auto& call = calls->reported(1, at);
         EXPECT_EQ(&call, &calls->reported(2, at)) << "their calls are the same";
-        while (const auto some = call.hand_out({0})) {
-            std::vector<Bytes> lists;
-            for (auto shard = some->first; shard < some->first + some->count; ++shard)
-                lists.push_back(two_lists(static_cast<int>(shard), 10 + static_cast<int>(shard)));
-            if (call.answer(*some, done(lists))) {
+        Worker worker(call);
+        for (int shard = 0; shard < 3; ++shard)
+            if (call.answer(worker[static_cast<std::uint32_t>(shard)], done({two_lists(shard, 10 + shard)}), 0)) {
                 call.complete_from_shards();
                 calls->keep(0, 0);
-                return;
             }
-        }
     }
     const StepReport at{StepReport::Kind::sectors, 0, 3};
     Graph graph;
@@ -211,7 +180,8 @@ TEST_F(SectorCalls, ComputeAgainWhatTheDiskHasLostOrSpoiled) {
 TEST_F(SectorCalls, StayInMemoryWhereNothingElseKeepsThem) {
     ServiceCalls alone(graph, "", nullptr);
     auto& call = alone.reported(1, at);
-    for (std::uint32_t shard = 0; shard < 3; ++shard) call.answer(only(shard), done({two_lists(1, 2)}));
+    Worker worker(call);
+    for (std::uint32_t shard = 0; shard < 3; ++shard) call.answer(worker[shard], done({two_lists(1, 2)}), 0);
     call.complete_from_shards();
     alone.all_have(0, 0);
     EXPECT_NE(alone.result(2, 0), nullptr);

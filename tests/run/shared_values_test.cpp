@@ -18,9 +18,20 @@ TEST(SharedValues, AreMadeOnce) {
     SharedValues values;
     int made = 0;
     const auto make = [&](Builders&) { return std::make_shared<const int>(++made); };
-    EXPECT_EQ(*std::static_pointer_cast<const int>(values.get(3, 0, make)), 1);
-    EXPECT_EQ(*std::static_pointer_cast<const int>(values.get(3, 0, make)), 1);
-    EXPECT_EQ(*std::static_pointer_cast<const int>(values.get(3, 1, make)), 2);
+    EXPECT_EQ(*std::static_pointer_cast<const int>(values.get(3, 0, {}, make)), 1);
+    EXPECT_EQ(*std::static_pointer_cast<const int>(values.get(3, 0, {}, make)), 1);
+    EXPECT_EQ(*std::static_pointer_cast<const int>(values.get(3, 1, {}, make)), 2);
+}
+
+TEST(SharedValues, OfPassesThatAreOverAreLetGo) {
+    SharedValues values;
+    int made = 0;
+    const auto make = [&](Builders&) { return std::make_shared<const int>(++made); };
+    values.get(2, 0, {}, make);
+    for (std::uint32_t pass = 0; pass < 20; ++pass)
+        for (const std::uint32_t index : {0, 1}) values.get(3, index, {}, make, pass);
+    EXPECT_EQ(made, 41);
+    EXPECT_EQ(values.size(), 3u) << "two of the last pass, and one of another node";
 }
 
 TEST(SharedValues, AreBuiltByAllWhoWaitForThem) {
@@ -38,7 +49,7 @@ TEST(SharedValues, AreBuiltByAllWhoWaitForThem) {
     {
         std::vector<std::jthread> places;
         for (int i = 0; i < 3; ++i)
-            places.emplace_back([&] { EXPECT_EQ(*std::static_pointer_cast<const int>(values.get(0, 0, make)), 7); });
+            places.emplace_back([&] { EXPECT_EQ(*std::static_pointer_cast<const int>(values.get(0, 0, {}, make)), 7); });
     }
     EXPECT_EQ(std::set(builders.begin(), builders.end()).size(), 3u);
 }
@@ -52,7 +63,7 @@ TEST(SharedValues, HaveEachPieceDoneOnceHoweverManyHelp) {
     };
     {
         std::vector<std::jthread> places;
-        for (int i = 0; i < 4; ++i) places.emplace_back([&] { values.get(0, 0, make); });
+        for (int i = 0; i < 4; ++i) places.emplace_back([&] { values.get(0, 0, {}, make); });
     }
     for (const auto& times : done) EXPECT_EQ(times, 1);
 }
@@ -67,7 +78,7 @@ TEST(SharedValues, ThrowWhatAPieceThrowsToAllWhoAsk) {
         });
         return nullptr;
     };
-    for (int i = 0; i < 2; ++i) EXPECT_THROW(values.get(0, 0, make), std::runtime_error);
+    for (int i = 0; i < 2; ++i) EXPECT_THROW(values.get(0, 0, {}, make), std::runtime_error);
     EXPECT_EQ(begun, 1u) << "and no more is begun";
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <memory>
 #include <queue>
 #include <random>
 #include <set>
@@ -16,35 +17,14 @@
 #include <vector>
 
 #include "core/run/runtime/master_renderer.hpp"
+#include "tests/run/simulated_dispatcher.hpp"
+#include "tests/run/simulated_world.hpp"
 
 namespace lightnet::test {
 
-/// What may happen in a simulated run, and how often.
-struct World {
-    std::uint64_t seed = 1;
-    std::uint32_t hosts = 4;
-    std::uint32_t places_per_host = 2;
-    std::size_t tiles = 60;
-    std::uint32_t blocks = 1;     // of samples, of each tile: at most a group of them
-    double seconds_per_tile = 1;  // and block, of the fastest; others take up to eight times as long
-    double delay = 0.005;         // of each message, at most
-    double loss = 0;              // part of all messages
-    double twice = 0;             // part of all replies
-    double deaths = 0;            // per host and simulated second; a host comes back after some seconds
-    double cuts = 0;              // likewise: only its line is gone
-    double drains = 0;            // likewise, in good order
-    double calm_after = 1e9;      // seconds; then nobody dies any more
-    double hangs = 0;             // likewise: answers nothing for some time, and is never missed
-    bool stand_ins = false;       // only the first host is lost, and asked while it is there; the others stand in
-    std::set<std::uint32_t> poisonous{};  // tiles (by x) that kill the host that renders them
-    Strategy strategy = Strategy::fastest;
-    Credit credit{3, 3};
-    bool remember = true;  // keep the story, for comparing
-    std::size_t most_events = 2'000'000;
-};
-
-/// Carries between a master and simulated hosts, on a clock of its own: waiting makes time pass. Not a test: its rules
-/// are those of real carriers, where only a reply proves anything.
+/// Carries between a master and simulated hosts, on a clock of its own: waiting makes time pass. Hosts of several
+/// places have real dispatchers, which deal to simulated places. Not a test: its rules are those of real carriers,
+/// where only a reply proves anything.
 class Simulator final : public Carrier {
 public:
     explicit Simulator(World world) : world_(std::move(world)), random_(world_.seed) {
@@ -52,6 +32,7 @@ public:
             hosts_.push_back({});
             hosts_.back().seconds_per_tile = world_.seconds_per_tile * (1 + 7 * part());
             hosts_.back().busy_until.assign(world_.places_per_host, 0);
+            open(host);
             if (world_.stand_ins && host > 0) continue;  // nothing happens to those
             for (const auto& [kind, rate] : rates()) plan_next(kind, host, rate);
         }
@@ -80,6 +61,15 @@ public:
     std::string story() const { return story_.str(); }
     std::size_t events() const { return events_; }
     std::size_t asks() const { return asks_; }
+    /// Of them, those that left the place to the host; and what its dispatcher asked of its places.
+    std::size_t asked_of_hosts() const { return asked_of_hosts_; }
+    std::size_t dealt() const { return dealt_; }
+    /// Of all places together, when nothing happens to them.
+    double tiles_per_second() const {
+        double sum = 0;
+        for (const auto& host : hosts_) sum += world_.places_per_host / host.seconds_per_tile;
+        return sum;
+    }
     /// In how many deaths each tile was under way on the host, and in how many as the only one.
     const std::map<std::uint32_t, int>& died_with() const { return died_with_; }
     const std::map<std::uint32_t, int>& died_alone() const { return died_alone_; }
@@ -96,6 +86,7 @@ public:
         tiles.clear();
         for (const Tile& tile : *std::get<Questions<Tile>>(message.questions)) tiles.push_back(tile.x);
         ++asks_;
+        if (to.index == any_place) ++asked_of_hosts_;
         if (lost()) return true;
         schedule({arrival(), Event::Kind::ask, host, hosts_[host].life, to.index, message});
         return true;
@@ -118,6 +109,8 @@ public:
 private:
     enum class State { there, draining, gone };
     struct Host {
+        std::unique_ptr<SimulatedDispatcher> dispatcher{};
+        bool ticks = false;  // its next tick is to come
         State state = State::there;
         std::uint64_t life = 1;     // messages to an earlier one are lost
         std::uint64_t process = 1;  // it is another one after each death, but not after a cut
@@ -126,7 +119,7 @@ private:
         std::vector<double> busy_until;  // by place
     };
     struct Event {
-        enum class Kind { ask, done, reply, plan, death, cut, drain, hang, leave, back };
+        enum class Kind { ask, done, reply, tick, plan, death, cut, drain, hang, leave, back };
         double time;
         Kind kind;
         std::uint32_t host = 0;
@@ -134,6 +127,7 @@ private:
         std::uint32_t place = 0;
         Message message;
         std::uint64_t order = 0;
+        bool dealt = false;                         // by the dispatcher, which gets the answer
         bool operator<(const Event& other) const {  // the earliest is on top
             return time != other.time ? time > other.time : order > other.order;
         }
@@ -174,7 +168,10 @@ private:
         auto& host = hosts_[event.host];
         switch (event.kind) {
             case Event::Kind::ask:
-                if (event.life == host.life && host.state != State::gone) begin(event, host);
+                if (event.life == host.life && host.state != State::gone) take(event, host);
+                break;
+            case Event::Kind::tick:
+                if (event.life == host.life) host.ticks = false, tick(event.host);
                 break;
             case Event::Kind::done:
                 if (event.life == host.life) finish(event, host);
@@ -232,6 +229,42 @@ private:
         return *std::get<Questions<Tile>>(event.message.questions);
     }
 
+    void open(std::uint32_t number) {
+        hosts_[number].ticks = false;
+        hosts_[number].dispatcher = std::make_unique<SimulatedDispatcher>(
+            name(number), world_.places_per_host, world_.strategy,
+            SimulatedDispatcher::Hooks{[this, number](std::uint32_t place, Message& ask) { deal(number, place, ask); },
+                                       [this, number](Message reply) {
+                                           send_reply({now_, Event::Kind::reply, number, 0, 0, std::move(reply)});
+                                       },
+                                       [this] { return now_; }});
+    }
+    void take(Event& event, Host& host) {
+        if (event.place != any_place) return begin(event, host);
+        host.dispatcher->hear(std::move(event.message));
+        tick(event.host);
+    }
+    // Time passes for a dispatcher as long as somebody waits for it.
+    void tick(std::uint32_t number) {
+        auto& host = hosts_[number];
+        host.dispatcher->step();
+        if (out_[number].empty() || std::exchange(host.ticks, true)) return;
+        schedule({now_ + 1, Event::Kind::tick, number, host.life, 0, {}, 0});
+    }
+    void deal(std::uint32_t number, std::uint32_t place, Message& message) {
+        ++dealt_;
+        auto& host = hosts_[number];
+        Event event{now_, Event::Kind::ask, number, host.life, place, std::move(message), 0, true};
+        begin(event, host);
+    }
+    void send_reply(Event event) {
+        const int copies = lost() ? 0 : 1 + (world_.twice > 0 && part() < world_.twice);
+        for (int copy = 0; copy < copies; ++copy) {
+            event.time = arrival();
+            schedule(event);
+        }
+    }
+
     void begin(Event& event, Host& host) {
         auto& busy = host.busy_until[event.place];
         busy = std::max({busy, now_, host.hangs_until}) +
@@ -246,21 +279,16 @@ private:
             event.time = host.hangs_until + world_.delay;
             return schedule(std::move(event));
         }
-        Message reply;
+        Message reply = reply_to(event.message);
         for (const Tile& tile : tiles_of(event)) {
             if (world_.poisonous.contains(tile.x)) return die(event.host);
             reply.answers.push_back({static_cast<float>(tile.x), 1, 0});
         }
-        reply.type = Message::Type::reply;
-        reply.channel = event.message.channel, reply.bundle = event.message.bundle;
         reply.load = {0, static_cast<std::uint32_t>(std::min(4e9, host.seconds_per_tile * 1e9))};
+        if (event.dealt) return host.dispatcher->hear(std::move(reply));
         event.kind = Event::Kind::reply;
         event.message = std::move(reply);
-        const int copies = lost() ? 0 : 1 + (world_.twice > 0 && part() < world_.twice);
-        for (int copy = 0; copy < copies; ++copy) {
-            event.time = arrival();
-            schedule(event);
-        }
+        send_reply(std::move(event));
     }
 
     void die(std::uint32_t host) {
@@ -284,6 +312,8 @@ private:
         host.state = State::gone;
         ++host.life;
         host.busy_until.assign(world_.places_per_host, 0);
+        over_.push_back(std::move(host.dispatcher));  // it may be what called us
+        open(number);
         if (!died_.contains(number)) out_[number].clear();
         plan_changed(noticed_after);
         schedule({now_ + noticed_after + 0.1 + 5 * part(), Event::Kind::back, number, 0, 0, {}, 0});
@@ -299,9 +329,10 @@ private:
     std::set<std::uint32_t> died_;                                                      // and nobody knows
     std::map<std::uint32_t, int> died_with_, died_alone_;
     std::uint64_t next_order_ = 1;
-    std::size_t events_ = 0, asks_ = 0;
+    std::size_t events_ = 0, asks_ = 0, asked_of_hosts_ = 0, dealt_ = 0;
     std::ostringstream story_;
     Counters counters_;
+    std::vector<std::unique_ptr<SimulatedDispatcher>> over_;  // of hosts that have gone
 };
 
 /// How a simulated run ended.
@@ -312,8 +343,10 @@ struct Told {
     Counters counters;
     std::size_t outstanding = 0;
     double seconds = 0;
+    double finished = 0;          // when the last pixels were there, seconds
+    double tiles_per_second = 0;  // of all places together
     std::map<std::uint32_t, int> died_with, died_alone;
-    std::size_t events = 0, asks = 0;
+    std::size_t events = 0, asks = 0, asked_of_hosts = 0, dealt = 0;
     std::string story;
 };
 
@@ -335,6 +368,8 @@ inline Told play(const World& world, double most = 1e6) {
     });
     master.use(simulator.plan());
     master.work(std::chrono::nanoseconds(static_cast<std::int64_t>(most * 1e9)));
+    told.finished = simulator.now();
+    told.tiles_per_second = simulator.tiles_per_second();
     for (const auto& [tile, value] : pixels) told.sum += value;
     told.set_aside = master.set_aside_tiles();
     told.seconds = simulator.now();
@@ -348,6 +383,8 @@ inline Told play(const World& world, double most = 1e6) {
     told.died_alone = simulator.died_alone();
     told.events = simulator.events();
     told.asks = simulator.asks();
+    told.asked_of_hosts = simulator.asked_of_hosts();
+    told.dealt = simulator.dealt();
     told.story = simulator.story();
     return told;
 }

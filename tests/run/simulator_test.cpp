@@ -145,6 +145,30 @@ TEST(SimulatedRun, SetsAsideTilesThatKillHostsAndNoOthers) {
     });
 }
 
+TEST(SimulatedRun, KnowsHostsAndLetsEachDealToItsPlaces) {
+    for_every_seed([](std::uint64_t seed) {
+        World world{.seed = seed, .places_per_host = 4, .loss = 0.02, .twice = 0.1, .deaths = 0.01, .hangs = 0.01};
+        world.strategy = static_cast<Strategy>(seed % strategy_names.size());
+        const auto told = expect_sound(world);
+        EXPECT_EQ(told.asked_of_hosts, told.asks) << "no place by its number";
+        EXPECT_GE(told.dealt + told.asks / 2, told.asks) << "but what was lost with hosts";
+        world.places_per_host = 1;
+        EXPECT_EQ(expect_sound(world).asked_of_hosts, 0u) << "nothing to choose";
+    });
+}
+
+// Ideal: as many places as there are, each at work all the time.
+TEST(SimulatedRun, KeepsAllPlacesOfHostsAtWork) {
+    double ideal = 0, took = 0;
+    for_every_seed([&](std::uint64_t seed) {
+        const World world{.seed = seed, .hosts = 3, .places_per_host = 8, .tiles = 600, .seconds_per_tile = 0.1};
+        const auto told = expect_sound(world);
+        ideal += double(world.tiles) / told.tiles_per_second;
+        took += told.finished;
+    });
+    EXPECT_GT(ideal / took, 0.85);
+}
+
 TEST(SimulatedRun, HandsOutQuickTilesTogether) {
     for_every_seed([](std::uint64_t seed) {
         World world{.seed = seed, .tiles = 1500, .seconds_per_tile = 0.001};

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "core/base/error.hpp"
 #include "core/run/runtime/job.hpp"
 
 namespace lightnet::tuning_test {
@@ -56,6 +57,18 @@ TEST(Tuning, TravelsAsFarAsPlacesMustKnowOfIt) {
         turn(knob, job.tuning);
         const bool came = job_from_json(to_json(job)).tuning == job.tuning;
         EXPECT_EQ(came, knob.where == Knob::Where::places) << knob.name;
+    }
+}
+
+TEST(Tuning, OutOfItsRangeInAJobIsRefused) {
+    for (const auto& knob : knobs) {
+        auto* const number = std::get_if<std::uint32_t Tuning::*>(&knob.member);
+        if (!number || knob.where != Knob::Where::places) continue;
+        Job job;
+        job.tuning.** number = static_cast<std::uint32_t>(knob.most);
+        EXPECT_EQ(job_from_json(to_json(job)).tuning, job.tuning) << knob.name;
+        job.tuning.** number = static_cast<std::uint32_t>(knob.most + 1);
+        EXPECT_THROW(job_from_json(to_json(job)), Error) << knob.name;
     }
 }
 

@@ -24,6 +24,25 @@ TEST(Camera, OpensItsAngleAcrossTheShorterSide) {
     EXPECT_NEAR(length(Camera(data, 100, 200).ray(50, 200).direction - normalize({0, -2, -1})), 0, 1e-6f);
 }
 
+TEST(Camera, KnowsWhereInThePictureAPositionIs) {
+    CameraData data = test::camera({1, 2, 3}, {4, 1, -2}, 50);
+    for (const bool orthographic : {false, true}) {
+        data.orthographic = orthographic;
+        const Camera camera(data, 90, 70);
+        for (const auto& [x, y] : {std::pair{45.f, 35.f}, {0.f, 0.f}, {89.f, 12.f}}) {
+            const Ray ray = camera.ray(x, y);
+            const Vec3 seen = camera.project(ray.origin + ray.direction * 3.5f);
+            EXPECT_GT(seen.z, 0);
+            EXPECT_NEAR(seen.x / seen.z, x, 1e-3);
+            EXPECT_NEAR(seen.y / seen.z, y, 1e-3);
+        }
+        const Ray ray = camera.ray(10, 20);
+        if (!orthographic) {
+            EXPECT_LT(camera.project(ray.origin - ray.direction).z, 0) << "behind the eye";
+        }
+    }
+}
+
 TEST(Camera, TakesAScreenThatIsGiven) {
     CameraData data = test::camera({0, 0, 0}, {0, 0, -1}, 90);
     data.screen = {0, 1, -1, 0};

@@ -64,13 +64,14 @@ struct Way {
         return size > 0 || (size < 0 && (errno == EAGAIN || errno == EINTR));
     }
     // False: the receiver is gone.
-    bool pass_on(Clock::time_point now, std::atomic<std::uint64_t>& count) {
+    bool pass_on(Clock::time_point now, std::atomic<std::uint64_t>& count, std::string* heard) {
         while (!under_way.empty() && under_way.front().due <= now) {
             auto& chunk = under_way.front();
             const auto size =
                 send(to, chunk.bytes.data() + chunk.sent, chunk.bytes.size() - chunk.sent, MSG_DONTWAIT | MSG_NOSIGNAL);
             if (size < 0) return errno == EAGAIN || errno == EINTR;
             count += static_cast<std::uint64_t>(size);
+            if (heard) heard->append(chunk.bytes.data() + chunk.sent, static_cast<std::size_t>(size));
             chunk.sent += static_cast<std::size_t>(size);
             if (chunk.sent < chunk.bytes.size()) return true;
             under_way.pop_front();
@@ -127,6 +128,11 @@ DelayingProxy::~DelayingProxy() {
 
 std::string DelayingProxy::endpoint() const { return "tcp://127.0.0.1:" + std::to_string(port_); }
 
+bool DelayingProxy::has_heard(const std::string& text) const {
+    const std::lock_guard lock(heard_mutex_);
+    return heard_.find(text) != std::string::npos;
+}
+
 bool DelayingProxy::lose_one() {
     const bool lost = std::uniform_real_distribution<>()(random_) < loss_.share;
     losses_ += lost;
@@ -138,13 +144,14 @@ void DelayingProxy::serve(const std::stop_token& stop) {
     while (!stop.stop_requested()) {
         wait(listener_, connections);
         const auto now = Clock::now();
+        const std::lock_guard lock(heard_mutex_);
         for (auto at = connections.begin(); at != connections.end();) {
             bool alive = true;
             for (auto& way : at->ways) {
                 const auto before = way.under_way.size();
                 alive = alive && way.take(now + delay_);
                 if (way.under_way.size() > before && lose_one()) way.under_way.back().due += loss_.delay;
-                alive = alive && way.pass_on(now, bytes_);
+                alive = alive && way.pass_on(now, bytes_, listens_ ? &heard_ : nullptr);
             }
             at = alive ? std::next(at) : connections.erase(at);
         }

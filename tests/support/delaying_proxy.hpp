@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <mutex>
 #include <random>
 #include <string>
 #include <thread>
@@ -31,6 +32,10 @@ public:
     std::string endpoint() const;
     /// Bytes passed on so far, both directions.
     std::uint64_t bytes() const { return bytes_; }
+    /// Keeps what it passes on from now on.
+    void listen_in() { listens_ = true; }
+    /// Has it passed on this text since?
+    bool has_heard(const std::string& text) const;
     /// Pieces that were lost and sent again.
     std::uint64_t losses() const { return losses_; }
 
@@ -45,6 +50,9 @@ private:
     std::uint16_t to_ = 0, port_ = 0;
     int listener_ = -1;
     std::atomic<std::uint64_t> bytes_{0};
+    std::atomic<bool> listens_{false};
+    mutable std::mutex heard_mutex_;
+    std::string heard_;
     std::jthread thread_;
 };
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "transport/daemon/host.hpp"
 
@@ -15,6 +16,7 @@ class HostThread {
 public:
     explicit HostThread(const Registry& kinds, std::uint32_t places = 1, const std::string& cache = "")
         : host_(options(places, cache), kinds) {}
+    HostThread(const Registry& kinds, Host::Options options) : host_(std::move(options), kinds) {}
     ~HostThread() { leave(); }
     HostThread(const HostThread&) = delete;
     HostThread& operator=(const HostThread&) = delete;

@@ -21,7 +21,8 @@ namespace lightnet::test {
 class Learner final : public LightOp {
 public:
     explicit Learner(const NodeContext& here)
-        : inputs_(here.inputs()),
+        : here_(here),
+          inputs_(here.inputs()),
           rehearsal_(here.rehearsal()),
           stride_(static_cast<std::uint32_t>(here.integer("stride"))) {}
 
@@ -41,7 +42,7 @@ public:
             });
             for (std::size_t i = 0; i < noted.size(); ++i) known_.push_back({noted[i], lit.all()[i]});
         }
-        services.say(std::to_string(known_.size()) + " points at " + std::to_string(services.whereabouts().places) +
+        services.say(std::to_string(known_.size()) + " points at " + std::to_string(here_.whereabouts().places) +
                      " places");
         order_ = services.once<std::vector<std::uint32_t>>([&] {
             std::vector<std::uint32_t> order(known_.size());
@@ -75,6 +76,7 @@ private:
         return best;
     }
 
+    NodeContext here_;
     Inputs inputs_;
     Rehearsal& rehearsal_;
     std::uint32_t stride_;

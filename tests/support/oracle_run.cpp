@@ -87,7 +87,8 @@ Counters run_oracle(const std::shared_ptr<const Network>& network, const std::ve
     const Plan plan{{PlaceAt{}}, std::vector<std::vector<std::uint32_t>>(network->graph.nodes.size(), {0})};
     OracleCarrier carrier(tiles, static_cast<std::uint32_t>(image),
                           static_cast<std::uint32_t>(network->width_of(image)), done);
-    Place place(*network, PlaceAt{}, plan, 0, rules, carrier);
+    Gauge gauge(network->graph.nodes.size(), asking_edges(network->graph, network->layers, network->registry).size());
+    Place place(*network, PlaceAt{}, plan, 0, rules, carrier, gauge);
     const std::atomic<bool> never{false};
     std::atomic<std::uint64_t> progress{0};
     place.serve(never, progress);

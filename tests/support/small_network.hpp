@@ -49,6 +49,15 @@ public:
         return *this;
     }
 
+    /// The scene has these groups of lamps, whose names it was sorted by (sort_lamps); the renderer keeps them apart.
+    SmallNetwork& groups(const std::vector<std::string>& names) {
+        Table groups;
+        for (const auto& name : names) groups.named[name] = Value{std::string("*")};
+        nodes_.front().params["groups"] = Value{groups};
+        grouped_ = true;
+        return *this;
+    }
+
     /// Mean radiance per pixel, all layers added.
     std::vector<Rgb> picture(std::uint32_t samples, std::uint64_t seed = 1) const {
         std::vector<Rgb> sum(std::size_t{width_} * height_);
@@ -78,11 +87,12 @@ private:
     Network assembled(std::uint64_t seed) const {
         auto nodes = nodes_;
         const Value film{Table{{Value{double(width_)}, Value{double(height_)}}, {}}};
-        nodes.push_back({"image",
-                         "RayTracer",
-                         {Value{NodeRef{lit_by_.empty() ? nodes_.back().name : lit_by_}}},
-                         {{"scene", Value{NodeRef{"scene"}}}, {"film", film}, {"show", Value{shown_}}},
-                         {"test.lua", 1}});
+        nodes.push_back(
+            {"image",
+             "RayTracer",
+             {Value{NodeRef{lit_by_.empty() ? nodes_.back().name : lit_by_}}},
+             {{"scene", Value{NodeRef{"scene"}}}, {"film", film}, {"show", Value{shown_}}, {"groups", Value{grouped_}}},
+             {"test.lua", 1}});
         return {check({"test.lua", std::move(nodes)}, registry_), registry_, scene_, seed};
     }
 
@@ -111,6 +121,7 @@ private:
     std::vector<Node> nodes_;
     std::string lit_by_;
     Table shown_;
+    bool grouped_ = false;
 };
 
 inline double mean_of(const std::vector<Rgb>& pixels) {

@@ -98,7 +98,7 @@ TEST_F(CompareVerb, WritesPicturesOfTheDifference) {
     EXPECT_EQ(compare({reference, other, "--difference", folder_ / "d.exr", "--flip-map", folder_ / "f.png"}), 0)
         << err;
     const Picture difference = read_exr(folder_ / "d.exr");
-    const auto& before = noisy_picture(40, 20).layers[1].pixels[7];
+    const Rgb before = noisy_picture(40, 20).layers[1].pixels[7];
     EXPECT_NEAR(difference.layers.at(1).pixels[7].r, before.r / 2, 1e-4f * before.r);
     EXPECT_TRUE(content_of(folder_ / "f.png").starts_with("\x89PNG"));
     EXPECT_EQ(compare({reference, other, "--difference", folder_ / "d.png"}), 0) << err;

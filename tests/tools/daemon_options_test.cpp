@@ -55,6 +55,11 @@ TEST(DaemonOptions, AreTaken) {
     EXPECT_EQ(options.host.cache_size, 500u << 20);
 }
 
+TEST(DaemonOptions, NameNoHostAsHostsFilesCallTheLaunchersProcess) {
+    EXPECT_THAT(daemon_mistake({"--join", "tcp://127.0.0.1:7000", "--name", "here"}),
+                HasSubstr("'here' is what hosts files call the launcher's own process"));
+}
+
 TEST(DaemonOptions, SuggestTheFlagYouMeant) {
     EXPECT_EQ(daemon_mistake({"--lisen", "x"}),
               "lightnetd: there is no option '--lisen' (did you mean '--listen'?)\ntry: lightnetd --help\n");
@@ -93,7 +98,7 @@ TEST(DaemonOptions, ShowExamplesThatWork) {
         daemon_options_of({words.begin() + 1, words.end()});
         ++examples;
     }
-    EXPECT_EQ(examples, 2);
+    EXPECT_EQ(examples, 4);
 }
 
 TEST(LogLine, SaysWhen) {

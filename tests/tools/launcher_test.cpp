@@ -141,6 +141,39 @@ TEST(Launcher, KnowsTheHosts) {
     EXPECT_EQ(lightnet.runs[0].hosts.hosts.at(0).endpoint, "tcp://127.0.0.1:7777");
 }
 
+TEST(Launcher, KnowsThePlacesOfThisProcess) {
+    Bench lightnet;
+    const auto run_on = [&](const std::string& hosts, std::vector<std::string> more = {}) -> RunRequest {
+        more.insert(more.begin(), {"run", lightnet.graph, "--hosts", lightnet.write("h.lua", hosts)});
+        lightnet(more);
+        return lightnet.runs.empty() ? RunRequest{} : lightnet.runs.back();
+    };
+    const auto alone = run_on("place 'here' { lighting = 2 }\nplace 'here' { image = 1 }");
+    EXPECT_EQ(alone.mode, Mode::threads) << lightnet.err;
+    EXPECT_EQ(alone.threads, 3u);
+    const auto one = run_on("place 'here' { places = 1 }");
+    EXPECT_EQ(one.mode, Mode::threads) << "as the file says, even where it makes no difference";
+    EXPECT_EQ(one.threads, 1u);
+    const auto cores = std::max(1u, std::thread::hardware_concurrency());
+    EXPECT_EQ(run_on("place 'here' {}").threads, cores);
+    EXPECT_EQ(run_on("place 'here' {}\nplace 'here' { lighting = 1 }").threads, cores + 1);
+    const auto mixed = run_on("place 'here' { image = 1 }\nplace 'tcp://127.0.0.1:7777' {}");
+    EXPECT_EQ(mixed.mode, Mode::network);
+    EXPECT_EQ(mixed.threads, 1u);
+    const auto helped = run_on("place 'here' { image = 1 }", {"--local-workers", "1"});
+    EXPECT_EQ(helped.mode, Mode::network);
+    EXPECT_EQ(helped.threads, 1u);
+}
+
+TEST(Launcher, WantsThePlacesOfThisProcessSaidOnce) {
+    Bench lightnet;
+    const auto hosts = lightnet.write("h.lua", "place 'tcp://127.0.0.1:7777' {}\nplace 'here' { image = 1 }");
+    EXPECT_EQ(lightnet({"run", lightnet.graph, "--hosts", hosts, "--threads", "4"}), 2);
+    EXPECT_THAT(lightnet.err, HasSubstr("h.lua:2: place 'here': this file says which places this process has, and so "
+                                        "--threads 4 can't; leave it out, or write places = 4 here"));
+    EXPECT_THAT(lightnet.runs, IsEmpty());
+}
+
 TEST(Launcher, RunsNothingThatIsWrong) {
     Bench lightnet;
     const std::string bad = lightnet.write("bad.lua",
@@ -206,6 +239,10 @@ TEST(Launcher, DrawsGraphsAndPlans) {
                         lightnet.write("h.lua", "place 'tcp://onyx1:7777' { places = 2 }")}),
               0);
     EXPECT_THAT(lightnet.out, HasSubstr("label=\"tcp://onyx1:7777\""));
+    EXPECT_EQ(lightnet({"dot", lightnet.graph, "--hosts",
+                        lightnet.write("h.lua", "place 'here' { lighting = 1 } place 'here' { image = 1 }")}),
+              0);
+    EXPECT_THAT(lightnet.out, HasSubstr("node_image_1 -> node_lighting_0 [label=\"Query → Rgb\\ninproc bundles\"];"));
 }
 
 TEST(Launcher, ShowsAndRunsWhatIsSharded) {

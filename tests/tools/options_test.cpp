@@ -119,6 +119,18 @@ TEST(Options, ChooseHowProgressIsShown) {
     EXPECT_THAT(usage_error({"run", "g.lua", "--progress", "loud"}), HasSubstr("--progress"));
 }
 
+TEST(Options, HaveARunWatchedOnThisMachineUnlessTold) {
+    EXPECT_FALSE(options_of({"run", "g.lua"}).running.watch);
+    EXPECT_EQ(options_of({"run", "g.lua", "--watch"}).running.watch, WatchAddress{});
+    EXPECT_EQ(options_of({"run", "g.lua", "--watch", "8080", "--seed", "7"}).running.watch,
+              (WatchAddress{"127.0.0.1", 8080}));
+    EXPECT_THAT(usage_error({"run", "g.lua", "--watch", "0.0.0.0:8080"}), HasSubstr("say --insecure if"));
+    EXPECT_TRUE(options_of({"run", "g.lua", "--watch", "0.0.0.0:8080", "--insecure"}).running.watch);
+    EXPECT_EQ(options_of({"run", "--watch", "g.lua"}).graph.file, "g.lua");
+    EXPECT_THAT(usage_error({"run", "g.lua", "--watch", "farm"}), HasSubstr("at an address like 127.0.0.1:8080"));
+    EXPECT_THAT(usage_error({"run", "g.lua", "--report", "run.json"}), HasSubstr("a report is a file like run.html"));
+}
+
 TEST(Options, SuggestTheVerbYouMeant) {
     EXPECT_EQ(usage_error({"rnu", "g.lua"}),
               "lightnet: there is no verb 'rnu' (did you mean 'run'?)\ntry: lightnet --help\n");

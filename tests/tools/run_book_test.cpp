@@ -21,7 +21,7 @@ TEST(RunBook, NamesTheNodeThatMadeWhatIsNotFinite) {
     Counters counters;
     counters.not_finite = {{"bounce", 2}, {"light", 2}};
     book.count(counters);
-    book.name_not_finite(graph);
+    book.name_bad_light(graph);
     const test::Folder folder;
     book.write_report(folder / "x.exr", "done");
     std::ifstream file(folder / "x.run.json");

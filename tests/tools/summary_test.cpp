@@ -16,7 +16,7 @@ protected:
         report.outputs = {"/tmp/x.exr", "/tmp/x.png"};
         report.phases = {{"load", 0.25}, {"render", 12}};
         report.settings = {{"size", "64x48"}, {"samples", "16"}};
-        report.places = {{"", 0, {}}, {"", 1, {}}};
+        report.places = {{"here", 0, {}}, {"here", 1, {}}};
     }
     std::string text() const { return summary_of({report, {"emission", "direct"}, asked, brightness, exposure}); }
 
@@ -41,14 +41,15 @@ TEST_F(Summary, SaysHowManySamplesThereAreWhereCellsDecide) {
 
 TEST_F(Summary, NamesHostsThatTookPartWereLostOrNeverCame) {
     report.hosts = {{"tcp://a:1", "is ready", {}, {}, {}, {}, 4, 0, 4},
-                    {"", "is ready", {}, {}, {}, {}, 2, 0, 1},
+                    {"here", "is ready", {}, {}, {}, {}, 2, 0, 1},
                     {"tcp://b:1", "is lost: it does not answer", {}, {}, {}, {}, 0, 0, 0},
                     {"tcp://c:1", "does not answer", {}, {}, {}, {}, 0, 0, 0},
                     {"tcp://d:1", "is busy: it serves another run, of anna@vm (lab.lua)", {}, {}, {}, {}, 0, 0, 0}};
     asked.hosts = {{"tcp://a:1", {}, 0, {}},
                    {"tcp://c:1", {{"bounce", 2}, {"image", 1}}, 0, {}},
                    {"tcp://d:1", {}, 0, {}},
-                   {"onyx1", {{"direct", 1}}, 0, {}}};
+                   {"onyx1", {{"direct", 1}}, 0, {}},
+                   {"here", {{"image", 1}}, 1, {}}};
     EXPECT_THAT(text(), HasSubstr("on    2 of 6 hosts with 5 places: tcp://a:1 (4 places), this process (1 place)\n"));
     EXPECT_THAT(text(), HasSubstr("\n      tcp://b:1 is lost: it does not answer\n"));
     EXPECT_THAT(text(), HasSubstr("\n      tcp://c:1 never came: it does not answer; it was to hold bounce, image\n"));

@@ -14,6 +14,8 @@
 #include "core/base/error.hpp"
 #include "tests/support/slowdown.hpp"
 #include "transport/places/descriptors.hpp"
+#include "transport/wire/packet.hpp"
+#include "transport/zmq/handshake_watch.hpp"
 
 namespace lightnet::doorkeeper_test {
 namespace {
@@ -94,6 +96,102 @@ TEST_F(DoorkeeperTest, LetsNobodyInWhileItIsNotThere) {
     keeper.reset();
     const auto one = caller();
     EXPECT_FALSE(is_let_in(*one, 1s));
+}
+
+class KeyedDoorTest : public ::testing::Test {
+protected:
+    KeyedDoorTest() {
+        keeper.emplace(context, Doorkeeper::Keys{own, [this](const PublicKey& key) { return key == known.open; },
+                                                 [this](const PublicKey& key, const std::string&) { told = key; },
+                                                 [this] { ++without; }});
+        door.emplace(door_socket(context));
+        keeper->guard(*door);
+        door->bind("tcp://127.0.0.1:*");
+    }
+    struct Caller {
+        Socket socket;
+        HandshakeWatch watch;
+    };
+    Caller caller(const std::optional<LineKeys>& keys) {
+        auto socket = unconnected_asking_socket(outside, door->endpoint(), keys);
+        HandshakeWatch watch(outside, socket);
+        socket.connect(door->endpoint());
+        return {std::move(socket), std::move(watch)};
+    }
+    // How the handshake ends; none: not at all.
+    std::optional<Handshake> handshake_of(Caller& caller, std::chrono::milliseconds most = test::slowdown * 2s) {
+        const auto end = std::chrono::steady_clock::now() + most;
+        while (std::chrono::steady_clock::now() < end) {
+            if (keeper) keeper->tick();
+            if (const auto seen = caller.watch.look()) return seen;
+            std::this_thread::sleep_for(1ms);
+        }
+        return std::nullopt;
+    }
+    // Does the door get what it sends?
+    std::optional<Frames> arrives(Caller& caller, std::chrono::milliseconds most) {
+        const auto end = std::chrono::steady_clock::now() + most;
+        while (std::chrono::steady_clock::now() < end) {
+            if (keeper) keeper->tick();
+            caller.socket.receive();
+            auto frames = frames_of(packet::pack(packet::Type::hello, 0, {}));
+            caller.socket.send(frames);
+            if (auto arrived = door->receive()) return arrived;
+            std::this_thread::sleep_for(1ms);
+        }
+        return std::nullopt;
+    }
+
+    SocketContext context, outside;
+    const KeyPair own = KeyPair::random(), known = KeyPair::random(), stranger = KeyPair::random();
+    std::optional<Doorkeeper> keeper;
+    std::optional<Socket> door;
+    std::optional<PublicKey> told;
+    int without = 0;
+};
+
+TEST_F(KeyedDoorTest, KnowsByItsKeyWhoSendsWhat) {
+    auto friendly = caller(LineKeys{known, own.open});
+    EXPECT_EQ(handshake_of(friendly), Handshake::made);
+    const auto frames = arrives(friendly, test::slowdown * 2s);
+    ASSERT_TRUE(frames);
+    for (std::size_t i = 1; i < frames->size(); ++i) EXPECT_EQ((*frames)[i].peer_key(), known.open.text()) << i;
+    EXPECT_NO_THROW(keeper->try_out(*door));
+}
+
+TEST_F(KeyedDoorTest, TurnsAwayWrongKeysUnknownKeysAndNone) {
+    auto unknown = caller(LineKeys{stranger, own.open});
+    EXPECT_EQ(handshake_of(unknown), Handshake::refused);
+    EXPECT_EQ(told, stranger.open);
+    auto mistaken = caller(LineKeys{known, stranger.open});
+    EXPECT_EQ(handshake_of(mistaken), Handshake::abandoned);
+    auto plain = caller(std::nullopt);
+    EXPECT_THAT(handshake_of(plain), testing::AnyOf(Handshake::mismatched, Handshake::abandoned))
+        << "who sees it first";
+    EXPECT_GT(without, 0);
+    for (auto* one : {&unknown, &mistaken, &plain}) EXPECT_FALSE(arrives(*one, 300ms));
+}
+
+TEST_F(KeyedDoorTest, LetsNobodyInWhenItsKeeperIsGone) {
+    keeper.reset();
+    for (const auto& keys : {LineKeys{known, own.open}, LineKeys{stranger, own.open}}) {
+        auto one = caller(keys);
+        EXPECT_FALSE(arrives(one, 500ms));
+    }
+}
+
+TEST_F(KeyedDoorTest, IsNotUsedWhenAStrangerGetsIn) {
+    const SocketContext elsewhere;
+    Doorkeeper careless(elsewhere, Doorkeeper::Keys{own, [](const PublicKey&) { return true; }});
+    auto open_door = door_socket(elsewhere);
+    careless.guard(open_door);
+    open_door.bind("tcp://127.0.0.1:*");
+    try {
+        careless.try_out(open_door);
+        FAIL() << "nobody noticed";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("lets strangers in"), std::string::npos) << error.what();
+    }
 }
 
 TEST(MostPeers, LeavesDescriptorsForOwnWork) {

@@ -30,8 +30,8 @@ protected:
             joiners.watch(poll);
             poll.wait(std::chrono::milliseconds(20));
             broken += joiners.receive(
-                {[this](const std::string& endpoint) { called.push_back(endpoint); },
-                 [this](const std::string& name, std::unique_ptr<JoinedConnection> made) {
+                {[this](const std::string& endpoint, const auto&) { called.push_back(endpoint); },
+                 [this](const std::string& name, std::unique_ptr<JoinedConnection> made, const auto&) {
                      connections[name] = std::move(made);
                  },
                  [this](const std::string& name, const std::string& why) { lost.push_back(name + ": " + why); },

@@ -42,7 +42,8 @@ protected:
     Relays::Handlers handlers() {
         return {[this](const std::string& host, Frames& frames, std::uint32_t place) {
                     if (host != "there") return false;
-                    asked.push_back(unseal(bytes_of(frames[0]))->host + " asks place " + std::to_string(place));
+                    passed_on = *unseal(bytes_of(frames[0]));
+                    asked.push_back(passed_on.host + " asks place " + std::to_string(place));
                     return true;
                 },
                 [this](const RelayAddress& asker, Frames&) {
@@ -61,6 +62,7 @@ protected:
 
     Counters counters;
     std::vector<std::string> asked, answered, told;
+    RelayAddress passed_on;  // the last ask
     int damaged = 0;
     Relays relays{counters, handlers()};
     const Relays::Time begin = Relays::Time{} + std::chrono::hours(1);
@@ -75,10 +77,40 @@ TEST_F(RelaysTest, TellsTheAnswererWhoAsks) {
 }
 
 TEST_F(RelaysTest, BringsAReplyToThePlaceThatAsked) {
-    auto frames = frames_of({"here", "p"}, reply());
+    auto frames = frames_of({"there", "p"}, ask());
+    relays.forward("here", frames);
+    frames = frames_of(passed_on, reply());
     relays.forward("there", frames);
     EXPECT_THAT(answered, ElementsAre("p"));
-    EXPECT_THAT(asked, IsEmpty());
+    EXPECT_THAT(told_by({}), IsEmpty());
+}
+
+TEST_F(RelaysTest, BringsNoReplyOfAHostThatWasNotAsked) {
+    auto frames = frames_of({"there", "p"}, ask());
+    relays.forward("here", frames);
+    const auto answer = [&](const std::string& from, const RelayAddress& address, const Message& message) {
+        auto reply = frames_of(address, message);
+        relays.forward(from, reply);
+    };
+    answer("liar", passed_on, reply());  // who has overheard the address
+    answer("there", {"here", "p"}, reply());
+    answer("there", {"here", "q", passed_on.tag}, reply());
+    auto other = reply();
+    other.bundle = 8;
+    answer("there", passed_on, other);
+    other = reply();
+    other.run = 2;
+    answer("there", passed_on, other);
+    other = reply();
+    other.channel = 3;
+    answer("there", passed_on, other);
+    EXPECT_THAT(answered, IsEmpty());
+    EXPECT_EQ(counters.broken_packets, 6u);
+    Counters none;
+    Relays next_run{none, handlers()};
+    auto late = frames_of(passed_on, reply());
+    next_run.forward("there", late);
+    EXPECT_THAT(answered, IsEmpty()) << "each run has a key of its own";
 }
 
 TEST_F(RelaysTest, TellsTheAskerOfAHostThatIsGone) {
@@ -130,7 +162,7 @@ TEST_F(RelaysTest, SaysItNoMoreOftenThanIsUseful) {
 }
 
 TEST(RelayAddress, IsReadBackAndAnyFlippedBitIsNoticed) {
-    const RelayAddress address{"onyx1", std::string("\0abc", 4)};
+    const RelayAddress address{"onyx1", std::string("\0abc", 4), "tag"};
     const auto sealed = seal(address);
     EXPECT_EQ(unseal(std::as_bytes(std::span(sealed))), address);
     for (std::size_t bit = 0; bit < sealed.size() * 8; ++bit) {

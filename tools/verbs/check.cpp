@@ -27,7 +27,7 @@ void describe_check(CLI::App& app, CheckOptions& options) {
     add_hosts(app, options.hosts);
     when_taken_apart(app,
                      [&options] { return mistaken_scene(options.graph.file, "to look at it: lightnet scene info"); });
-    add_examples(app, {"lightnet check graphs/figure5.lua"});
+    add_examples(app, {"lightnet check graphs/paper/figure5.lua"});
 }
 
 void print_sound(const Loaded& loaded, const Registry& registry, std::ostream& out) {

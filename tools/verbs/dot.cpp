@@ -37,7 +37,7 @@ void describe_dot(CLI::App& app, DotOptions& options) {
         ->type_name("PICTURE.exr");
     when_taken_apart(app,
                      [&options] { return mistaken_scene(options.graph.file, "to look at it: lightnet scene info"); });
-    add_examples(app, {"lightnet dot graphs/figure8.lua | dot -Tsvg > figure8.svg"});
+    add_examples(app, {"lightnet dot graphs/paper/figure8.lua | dot -Tsvg > figure8.svg"});
 }
 
 // What hosts will offer isn't known before they are asked: at least what the file says of them.
@@ -45,7 +45,8 @@ std::vector<HostOffer> likely_offers(const DotOptions& options, const Hosts& hos
     if (options.threads) return {{"", *options.threads}};
     std::vector<HostOffer> offers;
     for (const auto& host : hosts.hosts)
-        offers.push_back({host.endpoint, static_cast<std::uint32_t>(std::max(host.places, 1))});
+        if (!host.is_here()) offers.push_back({host.endpoint, static_cast<std::uint32_t>(std::max(host.places, 1))});
+    if (offers.size() < hosts.hosts.size()) offers.insert(offers.begin(), {"", 1});  // its entries say how many places
     return offers;
 }
 

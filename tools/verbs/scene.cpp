@@ -6,13 +6,17 @@
 #include <fstream>
 #include <map>
 #include <ostream>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
+#include "core/base/joined.hpp"
 #include "core/readers/read_scene.hpp"
 #include "core/readers/statistics.hpp"
 #include "core/run/runtime/fingerprint.hpp"
+#include "core/scene/data/lamp_names.hpp"
 #include "core/scene/scene.hpp"
 #include "tools/command_line.hpp"
 #include "tools/exit_code.hpp"
@@ -63,6 +67,24 @@ void line(std::ostream& out, std::string_view what, const std::string& text) {
     out << fmt::format("{:<14} {}\n", what, text);
 }
 
+/// What graphs may call things by: Select's `material` and `object`, the groups of lamps.
+void print_names(const SceneData& scene, std::ostream& out) {
+    for (const auto& lamp : lamps_of(scene)) {
+        const std::vector<std::string> others(lamp.names.begin() + 1, lamp.names.end());
+        line(out, "lamp",
+             fmt::format("{} ({}{}{})", lamp.names.front(), lamp.what,
+                         lamp.count > 1 ? fmt::format(", {} times", lamp.count) : "",
+                         others.empty() ? "" : ", also " + joined(others)));
+    }
+    std::set<std::string> materials, objects;
+    for (const auto& shape : scene.shapes)
+        materials.insert(scene.materials[shape.material].name), objects.insert(shape.name);
+    for (const auto& object : scene.objects) objects.insert(object.name);
+    for (const auto& [what, names] : {std::pair("material", &materials), std::pair("object", &objects)})
+        for (const auto& name : *names)
+            if (!name.empty()) line(out, what, name);
+}
+
 void print(const SceneData& scene, const SceneStatistics& found, std::ostream& out) {
     line(out, "triangles",
          fmt::format("{} in {} meshes, {} with all instances", found.triangles, found.meshes,
@@ -71,6 +93,7 @@ void print(const SceneData& scene, const SceneStatistics& found, std::ostream& o
          fmt::format("{} spheres, {} objects, {} instances", found.spheres, found.objects, found.instances));
     line(out, "materials", counts_text(found.materials));
     line(out, "lights", counts_text(found.lights));
+    print_names(scene, out);
     line(out, "textures", fmt::format("{}, {} images, {}", found.textures, found.images, mebibytes(found.image_bytes)));
     line(out, "bounds", point_text(found.bounds.low) + " to " + point_text(found.bounds.high));
     line(out, "camera", camera_text(scene));

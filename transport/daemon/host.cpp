@@ -1,9 +1,12 @@
 #include "transport/daemon/host.hpp"
 
 #include <algorithm>
+#include <set>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "transport/daemon/host_service.hpp"
+#include "transport/store/cache_folder.hpp"
 #include "transport/wire/relay_address.hpp"
 
 namespace lightnet {
@@ -15,22 +18,48 @@ using packet::Type;
 
 constexpr auto launcher_lease = std::chrono::seconds(4);               // without a word, its run is over
 constexpr auto quiet_before_leaving = std::chrono::milliseconds(300);  // askers may not know yet that it leaves
+constexpr std::size_t most_told = 1000;                                // strangers, one by one
 constexpr auto goodbye_deadline = std::chrono::milliseconds(500);
 
-HostDoor::Options door_options(const Host::Options& options, const Machine& machine, std::uint64_t process) {
-    HostDoor::Options door{options.listen, options.join, options.name.empty() ? machine.name : options.name, process};
-    if (!options.join.empty()) door.pass = Pass::of(options.pass.empty() ? Pass::usual_file() : options.pass);
-    door.log = options.log;
-    return door;
+// Says who was turned away, and what would let him in; once, as there may be floods.
+std::function<void(const PublicKey&, const std::string&)> teller_of_strangers(const Host::Options& options,
+                                                                              const std::string& list) {
+    const auto told = std::make_shared<std::set<PublicKey>>();
+    return [told, list, log = options.log](const PublicKey& key, const std::string& address) {
+        if (told->size() >= most_told || !told->insert(key).second) return;
+        log("turns away " + address + ": its key (fingerprint " + key.fingerprint() + ") is not on the list (" + list +
+            "); to let it in, append this line: " + key.text() + " NAME");
+    };
 }
 
 }  // namespace
+
+HostDoor::Options Host::Service::door_options() const {
+    HostDoor::Options made{options.listen, options.join, options.name.empty() ? machine.name : options.name, process};
+    made.log = options.log;
+    made.line_life = options.line_life;
+    const bool with_keys = rights.asks_for_keys();
+    if (with_keys && !options.key) throw Error("a host that asks for keys needs one of its own");
+    if (with_keys)
+        made.keys = {*options.key, [this](const PublicKey& key) { return rights.knows(key); },
+                     teller_of_strangers(options, rights.list_name()),
+                     [log = options.log, told = std::make_shared<bool>(false)] {
+                         if (!std::exchange(*told, true))
+                             log("turns away somebody who has no key, or takes this host for another");
+                     }};
+    if (options.launcher_key)
+        made.launcher = LineKeys{*options.key, *options.launcher_key};
+    else if (!options.join.empty())
+        made.pass = Pass::of(options.pass.empty() ? Pass::usual_file() : options.pass);
+    return made;
+}
 
 Host::Service::Service(Options given_options, const Registry& kinds)
     : options(std::move(given_options)),
       registry(kinds),
       cache(options.cache.empty() ? default_cache_folder() : options.cache, options.cache_size),
-      door(*context, door_options(options, machine, process)) {
+      rights(options.allow, options.launcher_key),
+      door(*context, door_options()) {
     if (!options.places) options.places = static_cast<std::uint32_t>(machine.cores);
     cache.trim();
 }
@@ -38,6 +67,10 @@ Host::Service::Service(Options given_options, const Registry& kinds)
 Host::Host(Options options, const Registry& registry)
     : service_(std::make_unique<Service>(std::move(options), registry)) {}
 Host::~Host() = default;
+DaemonFigures Host::figures() const {
+    const std::lock_guard lock(service_->shown_mutex);
+    return service_->shown;
+}
 std::string Host::endpoint() const { return service_->door.endpoint(); }
 
 void Host::serve(const std::atomic<bool>& stop) {
@@ -45,10 +78,14 @@ void Host::serve(const std::atomic<bool>& stop) {
     s.needed = Clock::now();
     while (true) {
         const auto now = Clock::now();
-        if (stop && !s.leaving) s.leave(now);
-        if (s.leaving && s.gone(now)) break;
+        if (stop && (!s.leaving || !s.leaving->for_good)) s.leave(now, true);
+        if (s.leaving && s.gone(now)) {
+            if (s.leaving->for_good) break;
+            if (s.run) s.drop_run("it was told to leave it");
+            s.leaving.reset();
+        }
         const auto readable = s.wait();
-        for (const auto place : readable.places) s.forward_replies(place);
+        for (const auto line : readable.lines) s.forward_replies(line);
         s.door.let_in();
         if (readable.door)
             while (auto frames = s.door.receive(Clock::now())) s.arrived(std::move(*frames));
@@ -58,9 +95,11 @@ void Host::serve(const std::atomic<bool>& stop) {
         if (s.peers && (readable.peers || s.peers->due(now))) s.peers->tick(now);
         if (readable.news || (s.run && !s.run->serving())) s.advance();
         if (readable.news) s.tell_found(), s.tell_failures();
+        if (s.rights.owner_is_gone(now, s.options.log)) s.drop_owner();
         if (s.run && now - s.heard > launcher_lease) s.drop_run("its launcher is silent");
         if (!s.leaving) s.door.keep_in_touch(now);
         if (s.run) s.needed = now;
+        s.show_figures(now);
         if (s.options.patience && now - s.needed > *s.options.patience) {
             s.options.log("nobody needs it any more");
             break;
@@ -81,6 +120,11 @@ void Host::Service::arrived(Frames frames) {
     const auto header_bytes = bytes_of(frames[frames.size() - 2]);
     const auto header = packet::peek_header(header_bytes);
     const bool plain = frames.size() == 3;
+    const auto key = door.key_of(frames);
+    if (header && !rights.may(key, header->type, run && header->run == run->id())) {
+        ++broken_packets;
+        return;
+    }
     if (header && plain && packet::is_ask(header->type)) return work(*header, std::move(frames));
     if (header && frames.size() == 4 && header->type < Type::hello) return from_another(*header, std::move(frames));
     const auto body = bytes_of(frames.back());
@@ -100,7 +144,7 @@ void Host::Service::arrived(Frames frames) {
         if (piece)
             take_blob(route, header->run, *piece);
         else
-            control(route, *header, *fields);
+            control({route, key}, *header, *fields);
     } catch (const std::exception& error) {
         door.send(route, Type::broken, header->run, Fields{}.set("text", error.what()));
         if (run && run->id() == header->run) drop_run(error.what());
@@ -152,9 +196,9 @@ void Host::Service::advance() {
     }
 }
 
-void Host::Service::forward_replies(std::uint32_t place) {
+void Host::Service::forward_replies(std::size_t line) {
     if (!run || !run->serving()) return;
-    while (auto frames = run->transport()->receive(place)) {
+    while (auto frames = run->transport()->receive(line)) {
         if (frames->size() < 3) continue;
         const auto header = packet::peek_header(bytes_of((*frames)[frames->size() - 2]));
         answered += !header || header->width > 0;  // as in work()
@@ -183,10 +227,14 @@ void Host::Service::tell_failures() {
     }
 }
 
-void Host::Service::leave(Clock::time_point now) {
-    leaving = Leaving{now, now, false, std::nullopt};
+void Host::Service::leave(Clock::time_point now, bool for_good) {
+    if (leaving) {  // the run alone, so far
+        leaving->for_good = true;
+        return;
+    }
+    leaving = Leaving{now, now, false, std::nullopt, for_good};
     if (!run) return;
-    options.log("finishes what it has, then stops");
+    options.log(for_good ? "finishes what it has, then stops" : "finishes what it has of this run");
     door.send(launcher, Type::leaving, run->id(), {});
     if (run->serving()) return;
     drop_run("this host is stopping");
@@ -230,7 +278,7 @@ Host::Service::Readable Host::Service::wait() {
     readable.news = poll.any_readable(gateway_item + 1, first_place);
     if (readable.news) run->clear_news();
     for (std::size_t item = first_place; item < poll.size(); ++item)
-        if (poll.readable(item)) readable.places.push_back(static_cast<std::uint32_t>(item - first_place));
+        if (poll.readable(item)) readable.lines.push_back(item - first_place);
     return readable;
 }
 

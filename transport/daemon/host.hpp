@@ -10,9 +10,22 @@
 #include <string>
 
 #include "core/network/graph/kind.hpp"
-#include "transport/store/cache_folder.hpp"
+#include "core/run/message/counters.hpp"
+#include "core/run/message/tuning.hpp"
+#include "transport/keys/key.hpp"
 
 namespace lightnet {
+
+/// What a host is at, and has done since it was started. A value.
+struct DaemonFigures {
+    std::uint32_t places = 0;    // threads that render
+    bool serves = false;         // a run, now
+    bool leaves = false;         // it was told to stop
+    std::uint64_t runs = 0;      // that it began to serve
+    std::uint64_t answered = 0;  // bundles and tiles, up to now
+    std::uint64_t broken_packets = 0;
+    Counters ended;  // of runs that have ended; without traces
+};
 
 /// Listens on one port, or dials out to a launcher and lets nobody in. The thread of serve() owns its sockets: it
 /// answers heartbeats, takes in the job and its files, and hands packets on to its places without looking inside.
@@ -24,8 +37,12 @@ public:
         std::string join;                          // endpoint of a launcher to report to; empty: wait to be asked
         std::string name;                          // under which it joins; empty: that of the machine
         std::string pass;                          // file with what it must know to join; empty: Pass::usual_file()
-        std::uint32_t places = 0;                  // 0: one per core
-        std::string cache;                         // folder for blobs; empty: default_cache_folder()
+        std::optional<KeyPair> key;                // its own; to be had where it asks for keys or has `launcher_key`
+        std::string allow;                         // whose keys it lets in, see AllowFile; "": it asks for none
+        std::optional<PublicKey> launcher_key;     // of the launcher that it joins; none: that has no key
+        std::chrono::milliseconds line_life = usual_line_life;  // of one with keys
+        std::uint32_t places = 0;                               // 0: one per core
+        std::string cache;                                      // folder for blobs; empty: default_cache_folder()
         std::uint64_t cache_size = usual_cache_size;
         std::chrono::milliseconds drain{20'000};            // to answer what it has when it is told to stop
         std::optional<std::chrono::milliseconds> patience;  // it leaves when nobody needs it for so long
@@ -42,6 +59,8 @@ public:
     /// Serves until `stop` is set; then takes no more work, answers what it has, and returns, after `drain` at the
     /// latest.
     void serve(const std::atomic<bool>& stop);
+    /// As they were a quarter of a second ago at most. May be called by any thread.
+    DaemonFigures figures() const;
     /// Some of its own work hangs, in a file system that does not answer for instance. Destroying the host would wait
     /// for it; a program that is to end had better do so at once.
     bool hangs() const;

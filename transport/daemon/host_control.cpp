@@ -5,6 +5,9 @@
 
 #include "core/base/build_info.hpp"
 #include "core/base/error.hpp"
+#include "core/base/joined.hpp"
+#include "core/network/graph/plugin_use.hpp"
+#include "core/base/this_machine.hpp"
 #include "core/run/runtime/fingerprint.hpp"
 #include "transport/daemon/host_service.hpp"
 
@@ -18,29 +21,28 @@ using packet::Type;
 
 }  // namespace
 
-void Host::Service::control(const std::string& route, const packet::Header& header, const Fields& fields) {
+void Host::Service::control(const Sender& sender, const packet::Header& header, const Fields& fields) {
     const bool ours = run && header.run == run->id();
+    const auto& route = sender.route;
     switch (header.type) {
         case Type::hello:
             return greet(route, fields);
         case Type::begin:
-            return begin(route, header.run, fields);
+            return begin(sender, header.run, fields);
         case Type::ping:
-            return door.send(route, Type::pong, header.run,
-                             Fields{}
-                                 .set("process", process)
-                                 .set("run", ours ? run->id() : 0)
-                                 .set("sent", fields.number("sent"))
-                                 .set("line", door.tally().line)
-                                 .set("taken", door.tally().taken)
-                                 .set("told", door.tally().told)
-                                 .set("progress", run && run->places() ? run->places()->progress() : 0));
+            return door.send(route, Type::pong, header.run, answer_to_ping(fields, ours));
         case Type::plan:
             if (ours) use(plan_from_json(fields.text("plan")));
             if (ours && leaving) leaving->known = true;
             return;
+        case Type::leaving:
+            if (ours && !leaving) leave(std::chrono::steady_clock::now(), false);
+            return;
+        case Type::members:
+            if (ours) rights.use_members(AllowList::parse_what_can_be(fields.text("members")));
+            return;
         case Type::status:
-            return tell_state(route);
+            return tell_state(sender);
         case Type::expect:
             if (const auto hash = hash_from_hex(fields.text("hash")); ours && hash)
                 run->expect(*hash, fields.number("size"));
@@ -50,6 +52,23 @@ void Host::Service::control(const std::string& route, const packet::Header& head
         default:
             return;
     }
+}
+
+Fields Host::Service::answer_to_ping(const Fields& ping, bool ours) {
+    Fields pong;
+    pong.set("process", process)
+        .set("run", ours ? run->id() : 0)
+        .set("sent", ping.number("sent"))
+        .set("asked_at", ping.number("asked_at"))
+        .set("clock", steady_nanoseconds())
+        .set("line", door.tally().line)
+        .set("taken", door.tally().taken)
+        .set("told", door.tally().told)
+        .set("progress", run && run->places() ? run->places()->progress() : 0)
+        .set("doing", ours && run->places() ? to_text(run->places()->doing()) : "");
+    if (!ours || !run->serving() || !ping.number("watch")) return pong;
+    run->places()->watch();
+    return pong.set("figures", to_text(run->places()->figures()));
 }
 
 void Host::Service::greet(const std::string& route, const Fields& fields) {
@@ -72,7 +91,7 @@ void Host::Service::greet(const std::string& route, const Fields& fields) {
 
 std::string Host::Service::busy_with() const {
     if (!run && ending) return "it still ends the run before";
-    return "it serves another run" + (who.empty() ? "" : ", of " + who);
+    return "it serves another run" + (who.empty() || rights.asks_for_keys() ? "" : ", of " + who);
 }
 
 void Host::Service::refuse(const std::string& route, std::uint64_t id, const std::string& why) {
@@ -80,10 +99,15 @@ void Host::Service::refuse(const std::string& route, std::uint64_t id, const std
     door.send(route, Type::broken, id, Fields{}.set("text", why));
 }
 
-void Host::Service::begin(const std::string& route, std::uint64_t id, const Fields& fields) {
+void Host::Service::begin(const Sender& sender, std::uint64_t id, const Fields& fields) {
     if (leaving) return;
-    if (run && run->id() == id) return go_on(route, plan_from_json(fields.text("plan")));
-    if (arriving && arriving->id == id) {
+    const auto& route = sender.route;
+    auto members = AllowList::parse_what_can_be(fields.text("members"));
+    if (run && run->id() == id) {
+        rights.use_members(std::move(members));
+        return go_on(route, plan_from_json(fields.text("plan")));
+    }
+    if (arriving && arriving->id == id && arriving->key == sender.key) {
         arriving->route = route;
         return;
     }
@@ -96,7 +120,8 @@ void Host::Service::begin(const std::string& route, std::uint64_t id, const Fiel
         if (!fits(arrival.plan, arrival.job.graph)) throw Error("the plan does not fit the graph");
         return arrival;
     });
-    arriving = Arriving{id, route, fields.text("you"), fields.text("who"), std::move(read)};
+    arriving =
+        Arriving{id, route, sender.key, fields.text("you"), fields.text("who"), std::move(members), std::move(read)};
 }
 
 void Host::Service::look_at_arriving() {
@@ -114,24 +139,42 @@ void Host::Service::look_at_arriving() {
 void Host::Service::start(const Arriving& job, Arrival read) {
     if (leaving) return;
     // a hosts file may ask for more places than there are cores
-    const auto mine = static_cast<std::uint32_t>(std::count_if(
-        read.plan.places.begin(), read.plan.places.end(), [&](const PlaceAt& place) { return place.host == job.you; }));
+    const auto mine = places_of_host(read.plan, job.you);
     const auto most = std::max(options.places, most_places);
     if (mine > most)
         throw Error("the plan asks for " + std::to_string(mine) + " places of this host, which gives at most " +
                     std::to_string(most));
     HostedRun::Assignment assignment{job.id, job.you, std::max(options.places, mine), read.plan, std::move(read.job)};
     run = std::make_unique<HostedRun>(context, cache, registry, std::move(assignment));
+    rights.serve(job.key);
+    rights.use_members(job.members);
     gateway.emplace(*context, job.id);
     peers.emplace(
         *context, job.you,
         PeerConnections::Handlers{[this](const std::string& place, Frames& frames) { gateway->forward(place, frames); },
                                   [this](const std::string& host) { gateway->request_resend(host); },
-                                  [this](Frames& frames) { forward_to_launcher(frames); }});
+                                  [this](Frames& frames) { forward_to_launcher(frames); },
+                                  [this](const std::string& host) { return keys_to(host); }},
+        options.line_life);
     who = job.who;
     given = answered = 0;
+    ++figures.runs;
     options.log("serves a run" + (who.empty() ? "" : " of " + who));
     go_on(job.route, read.plan);
+}
+
+// Hosts of a run that have keys know each other by them; some have none.
+std::optional<LineKeys> Host::Service::keys_to(const std::string& host) const {
+    const auto theirs = rights.members().key_of(host);
+    if (!options.key || !theirs) return std::nullopt;
+    return LineKeys{*options.key, *theirs};
+}
+
+void Host::Service::drop_owner() {
+    if (!run) return;
+    const std::string why = "the key of its launcher was taken off the list";
+    door.send(launcher, Type::broken, run->id(), Fields{}.set("text", why));
+    drop_run(why);
 }
 
 void Host::Service::use(const Plan& plan) {
@@ -144,7 +187,8 @@ void Host::Service::go_on(const std::string& route, const Plan& plan) {
     launcher = route;
     door.count(route);
     heard = std::chrono::steady_clock::now();
-    use(plan);
+    run->expect(plan);
+    peers->use(plan);
     run->expect_files_anew();
     gateway->request_resend("");
     if (run->state() != HostedRun::State::looking) tell_needs();
@@ -163,7 +207,8 @@ void Host::Service::tell_found() {
         door.send(launcher, here ? Type::here : Type::lacks, run->id(), Fields{}.set("hash", to_hex(hash)));
 }
 
-void Host::Service::tell_state(const std::string& route) {
+// Who shares this host with others is not told of their work.
+void Host::Service::tell_state(const Sender& sender) {
     Fields fields;
     set(fields, machine);
     fields.set("name", options.name.empty() ? machine.name : options.name).set("places", options.places);
@@ -171,13 +216,16 @@ void Host::Service::tell_state(const std::string& route) {
                         : run    ? run->words()
                         : ending ? "ends a run"
                                  : "is free")
-        .set("who", run ? who : "");
+        .set("who", run && rights.is_owner(sender.key) ? who : "");
+    fields.set("plugins", joined(plugins_of(registry), ", "));
+    fields.set("clock", static_cast<std::uint64_t>(
+                            std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count()));
     fields.set("broken_packets", broken_packets);
-    if (run) {
+    if (run && rights.is_owner(sender.key)) {
         fields.set("nodes", run->nodes()).set("bundles", given);
         fields.set("progress", run->places() ? run->places()->progress() : 0);
     }
-    door.send(route, Type::state, 0, fields);
+    door.send(sender.route, Type::state, 0, fields);
 }
 
 void Host::Service::take_blob(const std::string& route, std::uint64_t id, const packet::Piece& piece) {
@@ -190,6 +238,8 @@ void Host::Service::take_blob(const std::string& route, std::uint64_t id, const 
 // Its threads end when they have done what they are at, which may take a while: somebody else waits for them.
 void Host::Service::stop_run(const std::string& route) {
     const auto id = run->id();
+    rights.serve({});
+    if (run->places()) figures.answered += run->places()->progress();
     peers.reset();
     gateway.reset();
     run->begin_to_stop();
@@ -210,15 +260,42 @@ void Host::Service::stop_run(const std::string& route) {
     look_at_ending();
 }
 
+// Places of all runs come together, as there may be many runs.
+void Host::Service::add_ended(const Counters& counters) {
+    auto& sum = figures.ended;
+    for (const auto& [name, count] : Counters::all) sum.*count += counters.*count;
+    if (sum.places.empty()) sum.places.emplace_back();
+    for (const auto& place : counters.places) {
+        sum.places[0].lived_ns += place.lived_ns;
+        sum.places[0].waited_ns += place.waited_ns;
+        sum.places[0].idle_ns += place.idle_ns;
+    }
+}
+
+void Host::Service::show_figures(Time now) {
+    if (now - told_figures < std::chrono::milliseconds(250)) return;
+    told_figures = now;
+    DaemonFigures next = figures;
+    next.places = options.places;
+    next.serves = run != nullptr, next.leaves = leaving.has_value();
+    next.answered += run && run->places() ? run->places()->progress() : 0;
+    next.broken_packets = broken_packets + figures.ended.broken_packets;
+    const std::lock_guard lock(shown_mutex);
+    shown = std::move(next);
+}
+
 void Host::Service::look_at_ending() {
     if (!ending || ending->counters.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
     auto over = std::move(*ending);
     ending.reset();
     auto counters = over.counters.get();
     counters.broken_packets += std::exchange(broken_packets, 0);
+    add_ended(counters);
     if (over.route.empty()) return;
     Fields fields;
     for (const auto& [name, count] : counters.named()) fields.set(name, count);
+    fields.set("places", to_text(counters.places));
+    if (!counters.traces.empty()) fields.set("traces", to_bytes(counters.traces));
     door.send(over.route, Type::ended, over.id, fields);
 }
 

@@ -12,6 +12,7 @@ using packet::Fields;
 using packet::Type;
 
 constexpr auto join_interval = 500ms;
+constexpr int abandoned_for_sure = 3;  // handshakes: a line may be cut in the middle of one
 constexpr auto shortest_silence = 2000ms, longest_silence = 10'000ms;
 
 // ZeroMQ's own routes begin with a zero.
@@ -28,11 +29,12 @@ bool is_counted(const Frames& frames) {
 HostDoor::HostDoor(const SocketContext& context, Options options)
     : context_(context), options_(std::move(options)), silence_(shortest_silence) {
     if (!options_.listen.empty()) {
-        keeper_.emplace(context_);
+        keeper_.emplace(context_, options_.keys);
         port_.emplace(door_socket(context_));
         try {
             keeper_->guard(*port_);
             port_->bind(options_.listen);
+            keeper_->try_out(*port_);
         } catch (const SocketError& error) {
             throw Error(options_.listen, std::string("can't listen there: ") + error.what());
         }
@@ -43,12 +45,15 @@ HostDoor::HostDoor(const SocketContext& context, Options options)
 std::string HostDoor::endpoint() const { return port_ ? port_->endpoint() : std::string(); }
 
 void HostDoor::dial(Time now) {
+    handshakes_.reset();
     launcher_.reset();  // first: there may be no descriptors for both
     challenge_.clear();
     heard_ = dialled_ = now;
     next_join_ = {};
     try {
-        launcher_.emplace(asking_socket(context_, options_.join));
+        launcher_.emplace(unconnected_asking_socket(context_, options_.join, options_.launcher));
+        handshakes_.emplace(context_, *launcher_);
+        launcher_->connect(options_.join);
     } catch (const SocketError& error) {
         if (error.out_of_descriptors()) return;  // later, then
         throw Error(options_.join, std::string("can't be dialled: ") + error.what());
@@ -68,6 +73,32 @@ void HostDoor::take_challenge(const Frames& frames) {
     if (challenge_ == fields->text("challenge")) return;
     challenge_ = fields->text("challenge");
     next_join_ = {};
+}
+
+// Once: it goes on dialling, as a launcher may learn its key, or another may come.
+void HostDoor::look_at_handshake() {
+    const auto seen = handshakes_ ? handshakes_->look() : std::nullopt;
+    if (!seen) return;
+    abandoned_ = *seen == Handshake::abandoned ? abandoned_ + 1 : 0;
+    if (*seen == Handshake::made) told_trouble_ = false;
+    const bool for_sure = *seen == Handshake::mismatched || abandoned_ >= abandoned_for_sure;
+    std::string trouble;
+    if (*seen == Handshake::refused && options_.launcher)
+        trouble = "does not know the key of this host (fingerprint " + options_.launcher->own.open.fingerprint() +
+                  "); to be let in, its user appends to the list of --allow: " + options_.launcher->own.open.text() +
+                  " " + options_.name;
+    else if (for_sure && options_.launcher)
+        trouble = "has another key than --launcher-key says (fingerprint " + options_.launcher->theirs.fingerprint() +
+                  "), or none";
+    else if (for_sure)
+        trouble = "asks for keys: say --launcher-key KEY, which its user knows (lightnet key)";
+    if (!trouble.empty() && !std::exchange(told_trouble_, true))
+        options_.log("the launcher at " + options_.join + " " + trouble);
+}
+
+std::string HostDoor::key_of(const Frames& frames) const {
+    if (text_of(frames.front()) != launcher_route) return std::string(frames.back().peer_key());
+    return options_.launcher ? options_.launcher->theirs.text() : std::string();
 }
 
 std::optional<Frames> HostDoor::from_launcher(Time now) {
@@ -110,6 +141,9 @@ void HostDoor::send(const std::string& route, Type type, std::uint64_t run, cons
 
 void HostDoor::keep_in_touch(Time now) {
     if (options_.join.empty()) return;
+    look_at_handshake();
+    // DECISIONS: lines-are-renewed
+    if (options_.launcher && now - dialled_ > options_.line_life) dial(now);
     if (now - heard_ > silence_) {
         // Half of the connection may be gone without a word.
         silence_ = std::min<std::chrono::milliseconds>(2 * silence_, longest_silence);
@@ -139,6 +173,7 @@ void HostDoor::watch(Poll& poll) const {
     if (keeper_) keeper_->watch(poll);
     for (const auto* socket : {&port_, &launcher_})
         if (*socket) poll.add(**socket);
+    if (handshakes_) handshakes_->watch(poll);
 }
 
 }  // namespace lightnet

@@ -10,6 +10,7 @@
 #include "transport/wire/packet.hpp"
 #include "transport/wire/pass.hpp"
 #include "transport/zmq/doorkeeper.hpp"
+#include "transport/zmq/handshake_watch.hpp"
 #include "transport/zmq/socket.hpp"
 
 namespace lightnet {
@@ -23,7 +24,10 @@ public:
         std::string join;    // of a launcher; empty: none is dialled
         std::string name;    // under which it joins
         std::uint64_t process = 0;
-        std::optional<Pass> pass{};  // by which it proves that it belongs there; to be had when it joins
+        std::optional<Pass> pass{};              // by which it proves that it belongs there; to be had when it joins
+        std::optional<Doorkeeper::Keys> keys{};  // of its port; none: who comes in is asked for none
+        std::optional<LineKeys> launcher{};      // to the launcher that it dials; none: without
+        std::chrono::milliseconds line_life = usual_line_life;  // of one with keys
         std::function<void(const std::string&)> log = [](const std::string&) {};
     };
     /// Throws Error when the port can't be had.
@@ -31,6 +35,8 @@ public:
 
     /// Where it listens, with the port that the system chose; empty: nowhere.
     std::string endpoint() const;
+    /// The key, as text, of whom a message came from; empty: it came without.
+    std::string key_of(const Frames& frames) const;
     /// What arrived, if anything.
     std::optional<Frames> receive(Time now);
     void send(const std::string& route, packet::Type type, std::uint64_t run, const packet::Fields& fields);
@@ -54,6 +60,7 @@ public:
 private:
     void dial(Time now);
     void take_challenge(const Frames& frames);
+    void look_at_handshake();
     std::optional<Frames> from_launcher(Time now);
     std::optional<Frames> from_anyone(Time now);
 
@@ -61,6 +68,9 @@ private:
     Options options_;
     std::optional<Doorkeeper> keeper_;
     std::optional<Socket> port_, launcher_;
+    std::optional<HandshakeWatch> handshakes_;  // with that launcher
+    int abandoned_ = 0;                         // of them, in a row
+    bool told_trouble_ = false;
     std::string challenge_;  // of the launcher that was dialled
     bool turned_down_ = false;
     Time heard_{}, dialled_{}, next_join_{};

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <future>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "transport/daemon/background_work.hpp"
 #include "transport/daemon/host.hpp"
 #include "transport/daemon/host_door.hpp"
+#include "transport/daemon/host_rights.hpp"
 #include "transport/daemon/hosted_run.hpp"
 #include "transport/daemon/peer_connections.hpp"
 #include "transport/store/blob_cache.hpp"
@@ -30,8 +32,13 @@ struct Host::Service {
     Machine machine = this_machine();
     std::uint64_t process = process_number();
     std::shared_ptr<const SocketContext> context = std::make_shared<const SocketContext>();
+    HostRights rights;
     HostDoor door;
     std::uint64_t broken_packets = 0;
+    // Who has sent a packet: how to answer, and his key as text.
+    struct Sender {
+        std::string route, key;
+    };
     // A job that is being read, in the background: whoever sent it may be nobody's friend.
     struct Arrival {
         Job job;
@@ -39,8 +46,9 @@ struct Host::Service {
     };
     struct Arriving {
         std::uint64_t id = 0;
-        std::string route;
+        std::string route, key;
         std::string you, who;  // as the launcher calls this host, and itself
+        AllowList members;     // of the run
         std::future<Arrival> read;
     };
     std::optional<Arriving> arriving;
@@ -58,32 +66,41 @@ struct Host::Service {
     std::string launcher;                   // route to it
     Time heard{};                           // from it
     std::uint64_t given = 0, answered = 0;  // asks of others
-    Time needed{};                          // last, by anyone
+    DaemonFigures figures;                    // of runs that have ended, and how many began
+    Time told_figures{};
+    mutable std::mutex shown_mutex;
+    DaemonFigures shown;
+    Time needed{};  // last, by anyone
 
     // Leaving: told to stop, the launcher gives no more work, what was given is answered, it says farewell.
     struct Leaving {
         Time since, last_work;
         bool known = false;  // to the launcher
         std::optional<Time> farewell;
+        bool for_good = true;  // else it stays, for other runs
     };
     std::optional<Leaving> leaving;
     BackgroundWork background;  // last: what it does looks at the rest
 
     Service(Options given, const Registry& kinds);
+    HostDoor::Options door_options() const;
     void arrived(Frames frames);
     void damaged(const std::string& route);
     void work(const packet::Header& header, Frames frames);
     void from_another(const packet::Header& header, Frames frames);
-    void control(const std::string& route, const packet::Header& header, const packet::Fields& fields);
+    void control(const Sender& sender, const packet::Header& header, const packet::Fields& fields);
+    packet::Fields answer_to_ping(const packet::Fields& ping, bool ours);
     void greet(const std::string& route, const packet::Fields& fields);
-    void begin(const std::string& route, std::uint64_t id, const packet::Fields& fields);
+    void begin(const Sender& sender, std::uint64_t id, const packet::Fields& fields);
     void look_at_arriving();
     void start(const Arriving& job, Arrival read);
     void go_on(const std::string& route, const Plan& plan);
     void use(const Plan& plan);
+    void drop_owner();
+    std::optional<LineKeys> keys_to(const std::string& host) const;
     std::string busy_with() const;
     void tell_needs();
-    void tell_state(const std::string& route);
+    void tell_state(const Sender& sender);
     void tell_found();
     void take_blob(const std::string& route, std::uint64_t id, const packet::Piece& piece);
     void stop_run(const std::string& route);
@@ -96,14 +113,16 @@ struct Host::Service {
     // Who has something to be read. Looking at an empty socket costs a system call, so only these are looked at.
     struct Readable {
         bool door = false, peers = false, gateway = false;
-        bool news = false;  // of the run
-        std::vector<std::uint32_t> places;
+        bool news = false;               // of the run
+        std::vector<std::size_t> lines;  // of places and the dispatcher
     };
     Readable wait();
-    void forward_replies(std::uint32_t place);
+    void forward_replies(std::size_t line);
     void forward_asks();
     void forward_to_launcher(Frames& frames);
-    void leave(Time now);
+    void show_figures(Time now);
+    void add_ended(const Counters& counters);
+    void leave(Time now, bool for_good);
     bool gone(Time now);
 };
 

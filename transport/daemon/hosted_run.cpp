@@ -10,7 +10,7 @@ namespace lightnet {
 HostedRun::HostedRun(std::shared_ptr<const SocketContext> context, BlobCache& cache, const Registry& registry,
                      Assignment assignment)
     : context_(std::move(context)), cache_(cache), registry_(registry), assignment_(std::move(assignment)) {
-    use(assignment_.plan);
+    expect(assignment_.plan);
     looking_ = background_.start([this] {
         std::set<Hash> missing;
         for (const auto& file : assignment_.job.files)
@@ -105,19 +105,29 @@ bool HostedRun::advance() {
         auto network = building_.get();
         const auto& [id, me, places, plan, job] = assignment_;
         transport_ = std::make_unique<ZmqPlaceTransport>(context_, id, me, places);
-        places_ = std::make_unique<PlaceThreads>(*transport_, std::move(network), id, me, places, plan, job.tuning);
+        places_ = std::make_unique<PlaceThreads>(*transport_, std::move(network), id, me, places, plan, job.tuning,
+                                                 PlaceThreads::AskedFrom::other_hosts);
         state_ = State::starting;
     } else if (places_ && places_->ready() && state_ == State::starting) {  // throws what a place has died of
-        places_->use(assignment_.plan);                                     // it may have changed meanwhile
+        places_->expect(assignment_.plan);                                  // it may have changed meanwhile
         state_ = State::serving;
     }
     return state_ != before;
 }
 
 void HostedRun::use(const Plan& plan) {
+    take_plan(plan);
+    if (serving()) places_->use(plan);
+}
+
+void HostedRun::expect(const Plan& plan) {
+    take_plan(plan);
+    if (serving()) places_->expect(plan);
+}
+
+void HostedRun::take_plan(const Plan& plan) {
     if (!fits(plan, assignment_.job.graph)) throw Error("the plan does not fit the graph");
     assignment_.plan = plan;
-    if (serving()) places_->use(plan);
 }
 
 void HostedRun::begin_to_stop() {

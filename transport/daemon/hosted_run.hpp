@@ -65,7 +65,10 @@ public:
     PlaceThreads* places() { return places_.get(); }
     /// The way to them; null as long.
     ZmqPlaceTransport* transport() { return transport_.get(); }
+    /// The plan that is in force from now on.
     void use(const Plan& plan);
+    /// The plan that is going to be, as far as is known.
+    void expect(const Plan& plan);
     /// Its threads end when they have done what they are at.
     void begin_to_stop();
     /// Waits until they have. The only thing that another thread may do, and then nothing else.
@@ -82,6 +85,7 @@ private:
         std::optional<Hasher> hasher;
     };
 
+    void take_plan(const Plan& plan);
     std::uint64_t size_of(const Hash& hash) const;
     void take_result(const packet::Piece& piece, IncomingResult& result);
 

@@ -13,19 +13,26 @@ constexpr auto look_interval = std::chrono::milliseconds(200);
 
 }  // namespace
 
-PeerConnections::PeerConnections(const SocketContext& context, std::string me, Handlers handlers)
-    : context_(context), me_(std::move(me)), handlers_(std::move(handlers)) {}
+PeerConnections::PeerConnections(const SocketContext& context, std::string me, Handlers handlers,
+                                 std::chrono::milliseconds line_life)
+    : context_(context), me_(std::move(me)), handlers_(std::move(handlers)), line_life_(line_life) {}
 
 PeerConnections::Peer& PeerConnections::peer(const std::string& host) {
     const auto [found, fresh] = peers_.try_emplace(host);
     auto& to = found->second;
     if (!fresh) return to;
     try {
-        if (calls_directly(me_, host)) to.socket.emplace(asking_socket(context_, host));
+        if (calls_directly(me_, host)) open(host, to);
     } catch (const SocketError&) {  // out of descriptors, say: the launcher has a connection already
     }
     to.relayed = !to.socket;
     return to;
+}
+
+void PeerConnections::open(const std::string& host, Peer& to) {
+    to.socket.reset();  // first: there may be no descriptors for both
+    to.socket.emplace(asking_socket(context_, host, handlers_.keys(host)));
+    to.opened = std::chrono::steady_clock::now();
 }
 
 bool PeerConnections::send(Peer& to, Frames& frames) {
@@ -48,7 +55,8 @@ void PeerConnections::tick(Time now) {
         if (!to.socket) continue;
         while (auto frames = to.socket->receive()) take(host, to, *frames);
         while (!to.relayed && !to.waiting.empty() && send(to, to.waiting.front())) to.waiting.pop_front();
-        if (look && !to.relayed) look_whether_reachable(host, to, now);
+        if (look) renew_old(host, to, now);
+        if (look && to.socket && !to.relayed) look_whether_reachable(host, to, now);
     }
 }
 
@@ -65,6 +73,17 @@ void PeerConnections::take(const std::string& host, Peer& to, Frames& frames) {
     if (!address || frames[1].size() == 0) return handlers_.request_resend(host);
     frames.erase(frames.begin());
     handlers_.reply(address->place, frames);
+}
+
+// The greeting on the new line has all asked again that is under way.
+// DECISIONS: lines-are-renewed
+void PeerConnections::renew_old(const std::string& host, Peer& to, Time now) {
+    if (now - to.opened <= line_life_ || !handlers_.keys(host)) return;
+    try {
+        open(host, to);
+    } catch (const SocketError&) {  // out of descriptors, say
+        to.relayed = true;
+    }
 }
 
 void PeerConnections::look_whether_reachable(const std::string& host, Peer& to, Time now) {

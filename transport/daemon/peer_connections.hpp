@@ -20,12 +20,14 @@ class PeerConnections {
 public:
     using Time = std::chrono::steady_clock::time_point;
     struct Handlers {
-        std::function<void(const std::string& place, Frames& frames)> reply;  // [header][body], for a place of ours
-        std::function<void(const std::string& host)> request_resend;          // what was under way to it may be lost
-        std::function<void(Frames& frames)> launcher;                         // [place][host][header][body]
+        std::function<void(const std::string& place, Frames& frames)> reply;   // [header][body], for a place of ours
+        std::function<void(const std::string& host)> request_resend;           // what was under way to it may be lost
+        std::function<void(Frames& frames)> launcher;                          // [place][host][header][body]
+        std::function<std::optional<LineKeys>(const std::string& host)> keys;  // by which it is called; none: without
     };
     /// `me`: this host, as in plans.
-    PeerConnections(const SocketContext& context, std::string me, Handlers handlers);
+    PeerConnections(const SocketContext& context, std::string me, Handlers handlers,
+                    std::chrono::milliseconds line_life = usual_line_life);
     PeerConnections(const PeerConnections&) = delete;
     PeerConnections& operator=(const PeerConnections&) = delete;
 
@@ -43,20 +45,24 @@ public:
 
 private:
     struct Peer {
-        std::optional<Socket> socket{};     // none could be had, or may be
-        bool greeted = false;               // doors greet each connection with an empty message: the first is expected
+        std::optional<Socket> socket{};  // none could be had, or may be
+        bool greeted = false;            // doors greet each connection with an empty message: the first is expected
+        Time opened{};
         bool relayed = false;               // its host can't be reached from here
         std::optional<Time> unreachable{};  // since when
         std::deque<Frames> waiting{};       // as for ask()
     };
     Peer& peer(const std::string& host);
+    void open(const std::string& host, Peer& to);
     bool send(Peer& to, Frames& frames);
     void take(const std::string& host, Peer& to, Frames& frames);
+    void renew_old(const std::string& host, Peer& to, Time now);
     void look_whether_reachable(const std::string& host, Peer& to, Time now);
 
     const SocketContext& context_;
     std::string me_;
     Handlers handlers_;
+    std::chrono::milliseconds line_life_;
     std::map<std::string, Peer> peers_;  // by host
     Time looked_{};
 };

@@ -50,14 +50,15 @@ struct Asked {
 
 }  // namespace
 
-std::vector<HostAnswer> ask_state(const std::vector<std::string>& endpoints, std::chrono::milliseconds patience) {
+std::vector<HostAnswer> ask_state(const std::vector<AskedHost>& hosts, std::chrono::milliseconds patience) {
     const SocketContext context;
     std::vector<Asked> asked;
-    for (const auto& endpoint : endpoints) {
-        if (std::any_of(asked.begin(), asked.end(), [&](const auto& one) { return one.endpoint == endpoint; }))
+    for (const auto& [endpoint, keys] : hosts) {
+        if (std::any_of(asked.begin(), asked.end(),
+                        [&, &it = endpoint](const auto& one) { return one.endpoint == it; }))
             continue;
         try {
-            asked.push_back({endpoint, asking_socket(context, endpoint), false, false, {}});
+            asked.push_back({endpoint, asking_socket(context, endpoint, keys), false, false, {}});
         } catch (const SocketError& error) {
             throw Error(endpoint, std::string("can't be called: ") + error.what());
         }

@@ -3,9 +3,11 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "transport/keys/key.hpp"
 #include "transport/wire/machine.hpp"
 
 namespace lightnet {
@@ -24,8 +26,14 @@ struct HostAnswer {
     std::uint64_t broken_packets = 0;  // dropped
 };
 
-/// Asks all endpoints together, each once. One that does not answer within `patience` has the state "does not answer".
+/// Somebody to ask, and by which keys; none: without.
+struct AskedHost {
+    std::string endpoint;
+    std::optional<LineKeys> keys{};
+};
+
+/// Asks all of them together, each once. One that does not answer within `patience` has the state "does not answer".
 /// A launcher answers for all its hosts.
-std::vector<HostAnswer> ask_state(const std::vector<std::string>& endpoints, std::chrono::milliseconds patience);
+std::vector<HostAnswer> ask_state(const std::vector<AskedHost>& hosts, std::chrono::milliseconds patience);
 
 }  // namespace lightnet

@@ -28,6 +28,8 @@ void Cluster::gather(Patience patience, const std::atomic<bool>& cancelled, cons
         const auto now = Clock::now();
         const auto verdict = host_wait.look(all, now);
         if (verdict == HostWait::Verdict::begin) return;
+        if (verdict == HostWait::Verdict::nobody && links_->all_unknown())
+            throw NobodyKnown("no worker that we know, and that knows us:" + links_->reasons());
         if (verdict == HostWait::Verdict::nobody) throw NoWorker("no worker can be reached:" + links_->reasons());
         if (host_wait.should_speak(now)) links_->say_what_is_missing(now - begun);
     }
@@ -35,7 +37,7 @@ void Cluster::gather(Patience patience, const std::atomic<bool>& cancelled, cons
 
 const Plan& Cluster::plan() const { return links_->plan; }
 
-void Cluster::call(const std::string& endpoint) { links_->call(endpoint); }
+void Cluster::call(const std::string& endpoint, const HostKey& key) { links_->call(endpoint, key); }
 
 void Cluster::lost(const std::string& name) {
     if (auto* link = links_->find(name); link && link->state() != State::calling)
@@ -49,6 +51,26 @@ bool Cluster::ready(const std::string& name) const {
 }
 
 std::vector<HostState> Cluster::hosts() const { return links_->hosts(); }
+
+bool Cluster::drain(const std::string& name) {
+    auto* link = links_->find(name);
+    return link && link->state() == State::ready && links_->offers(true).size() > 1 && link->drain();
+}
+
+void Cluster::watch() { links_->watched = true; }
+
+Doings Cluster::doing() const {
+    Doings all;
+    for (const auto& link : links_->links)
+        if (link->takes_part()) all.merge(link->doing());
+    return all;
+}
+
+std::uint64_t Cluster::renewed_lines() const {
+    std::uint64_t all = 0;
+    for (const auto& link : links_->links) all += link->renewed_lines();
+    return all;
+}
 
 std::map<std::string, std::string> Cluster::missing() const {
     std::map<std::string, std::string> missing;

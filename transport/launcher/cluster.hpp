@@ -7,12 +7,16 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/network/graph/plan.hpp"
 #include "core/run/message/carrier.hpp"
+#include "core/run/message/figures.hpp"
+#include "core/run/prepare/activity.hpp"
 #include "core/run/runtime/job.hpp"
+#include "transport/keys/allow_list.hpp"
 #include "transport/wire/machine.hpp"
 
 namespace lightnet {
@@ -25,6 +29,13 @@ struct HostState {
     std::uint32_t places = 0;
     std::uint64_t progress = 0;  // bundles and tiles answered, as of its last heartbeat
     Machine machine;
+    HostFigures figures{};  // see Cluster::watch()
+};
+
+/// Whose hosts may join a run.
+struct JoinKeys {
+    std::optional<AllowFile> file;  // may change while the run lasts
+    AllowList more;                 // that the run was told of otherwise
 };
 
 /// Brings hosts into the run, keeps their leases, and carries the master's asks to them, and those that hosts can't
@@ -35,9 +46,13 @@ class Cluster final : public Carrier {
 public:
     struct Options {
         std::uint64_t run = 0;
-        std::string who;                         // runs it, for those who have to wait
-        std::vector<std::string> endpoints;      // of hosts to call
-        std::string listen;                      // where hosts may join; empty: nowhere
+        std::string who;                             // runs it, for those who have to wait
+        std::vector<std::string> endpoints;          // of hosts to call
+        std::string listen;                          // where hosts may join; empty: nowhere
+        std::optional<KeyPair> key;                  // ours; to be had where hosts have one
+        std::map<std::string, PublicKey> host_keys;  // of those to call that have one, by endpoint
+        std::optional<JoinKeys> join_keys;  // of those that may join; none: they show by the pass that they belong here
+        std::chrono::milliseconds line_life = usual_line_life;  // of one with keys
         std::string pass;                        // file with what they must know; empty: Pass::usual_file()
         std::vector<std::string> expected;       // names of hosts that are to join before the work begins
         std::uint32_t threads = 0;               // places of this process, called "" in plans
@@ -48,6 +63,8 @@ public:
         std::function<void(const std::string&)> say = [](const std::string&) {};
     };
     explicit Cluster(Options options);
+    /// What `call()` is told of whoever it calls.
+    using HostKey = std::optional<PublicKey>;
     ~Cluster() override;
 
     /// How long to wait for hosts before the work begins.
@@ -67,11 +84,20 @@ public:
     /// What is proposed now.
     const Plan& plan() const;
     /// Calls another host.
-    void call(const std::string& endpoint);
+    void call(const std::string& endpoint, const HostKey& key = std::nullopt);
     /// A host whose process is known to have ended.
     void lost(const std::string& name);
     bool ready(const std::string& name) const;
     std::vector<HostState> hosts() const;
+    /// From now on, hosts are asked, too, what their places are at: it then stands in hosts().
+    void watch();
+    /// A host finishes what it has and then leaves the run for good; its daemon stays for others. False: it does not,
+    /// as it is not there, can't, or would leave nobody.
+    bool drain(const std::string& name);
+    /// What nodes say that they do while they prepare, on whichever hosts.
+    Doings doing() const;
+    /// Lines that took the place of others, which were old.
+    std::uint64_t renewed_lines() const;
     /// Hosts that were named and take no part now → why.
     std::map<std::string, std::string> missing() const;
     /// Where hosts may join, with the port that the system chose.
@@ -99,6 +125,11 @@ private:
 class NoWorker : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
+};
+/// The same, as we and they don't know each other by our keys (exit code 4).
+class NobodyKnown final : public NoWorker {
+public:
+    using NoWorker::NoWorker;
 };
 
 }  // namespace lightnet

@@ -13,6 +13,7 @@ constexpr std::size_t most_hosts = 4096;
 
 RunOffer offer_of(const Cluster::Options& options) {
     RunOffer offer{options.run, options.who, options.job.isa, fingerprint(options.job.isa), to_json(options.job), {}};
+    offer.line_life = options.line_life;
     for (const auto& file : options.job.files) offer.blobs[file.hash] = options.files.at(file.path);
     return offer;
 }
@@ -21,16 +22,40 @@ RunOffer offer_of(const Cluster::Options& options) {
 
 Cluster::Links::Links(Options given) : options(std::move(given)), offer(offer_of(options)) {
     plan.places_of.resize(options.job.graph.nodes.size());
-    constexpr std::size_t per_host = 4;  // two sockets with a connection each
+    constexpr std::size_t per_host = 5;  // two sockets with a connection each, and what watches one
     want_descriptors(per_host * options.endpoints.size(),
                      "a run on " + std::to_string(options.endpoints.size()) + " hosts");
-    if (!options.listen.empty())
+    if (!options.listen.empty() && options.join_keys)
+        joiners.emplace(*context, options.listen, Joiners::Door{options.key.value(), *options.join_keys, options.say});
+    else if (!options.listen.empty())
         joiners.emplace(*context, options.listen, Pass::of(options.pass.empty() ? Pass::usual_file() : options.pass));
-    for (const auto& endpoint : options.endpoints) call(endpoint);
+    for (const auto& endpoint : options.endpoints) {
+        const auto key = options.host_keys.find(endpoint);
+        call(endpoint, key == options.host_keys.end() ? HostKey() : key->second);
+    }
     if (options.threads)
         links.insert(links.begin(),
                      std::make_unique<OwnHost>(context, options.network, options.run, options.threads,
                                                options.plan({{"", options.threads}}), options.job.tuning));
+}
+
+void Cluster::Links::call(const std::string& endpoint, const HostKey& key) {
+    if (find(endpoint)) return;
+    const auto keys = key ? std::optional(LineKeys{options.key.value(), *key}) : std::nullopt;
+    add(endpoint, std::make_unique<CalledConnection>(*context, endpoint, keys), key);
+}
+
+// Others are told its key before it can ask them anything.
+void Cluster::Links::add(const std::string& name, std::unique_ptr<HostConnection> connection, const HostKey& key) {
+    links.push_back(std::make_unique<RemoteHost>(offer, counters, name, std::move(connection)));
+    if (!key) return;
+    members.add(*key, name);
+    offer.members = members.text();
+    for (auto& link : links) link->tell_members();
+}
+
+bool Cluster::Links::all_unknown() const {
+    return !links.empty() && std::all_of(links.begin(), links.end(), [](const auto& link) { return link->unknown(); });
 }
 
 std::vector<HostOffer> Cluster::Links::offers(bool ready_only) const {
@@ -68,6 +93,7 @@ void Cluster::Links::look() {
         // What has come counts before the lease is looked at: we may have been busy ourselves.
         while (link->receive(now, handlers)) {
         }
+        if (watched) link->watch_places();
         link->tick(now, expected_plan);
         if (const auto counted = link->take_ended()) ended += *counted;
     }
@@ -101,11 +127,11 @@ void Cluster::Links::wait(std::chrono::nanoseconds most) {
 void Cluster::Links::take_joiners(Clock::time_point now) {
     if (!joiners) return;
     const Joiners::Handlers handlers{
-        [&](const std::string& endpoint) {
-            if (links.size() < most_hosts) call(endpoint);
+        [&](const std::string& endpoint, const HostKey& key) {
+            if (links.size() < most_hosts) call(endpoint, key);
         },
-        [&](const std::string& name, std::unique_ptr<JoinedConnection> connection) {
-            add(name, std::move(connection));
+        [&](const std::string& name, std::unique_ptr<JoinedConnection> connection, const HostKey& key) {
+            add(name, std::move(connection), key);
         },
         [&](const std::string& name, const std::string& why) {
             if (auto* link = find(name)) link->lose(now, why);
@@ -142,6 +168,9 @@ Relays::Handlers Cluster::Links::relay_handlers() {
 
 void Cluster::Links::tell_changes() {
     bool changed = false;
+    for (auto& link : links)
+        if (link->unknown() && unknown.insert(link->name()).second)
+            options.say(link->name() + " takes no part: " + link->reason());
     for (auto& link : links) {
         const auto before = states.contains(link->name()) ? states[link->name()] : State::calling;
         const auto state = states[link->name()] = link->state();
@@ -169,8 +198,8 @@ void Cluster::Links::tell_changes() {
 std::vector<HostState> Cluster::Links::hosts() const {
     std::vector<HostState> hosts;
     for (const auto& link : links)
-        hosts.push_back(
-            {link->name(), link->words(), link->takes_part(), link->places(), link->progress(), link->machine()});
+        hosts.push_back({link->name(), link->words(), link->takes_part(), link->places(), link->progress(),
+                         link->machine(), link->figures()});
     return hosts;
 }
 
@@ -197,7 +226,8 @@ void Cluster::Links::say_what_is_missing(Clock::duration waited) const {
 bool Cluster::Links::absent() const {
     return std::any_of(options.expected.begin(), options.expected.end(),
                        [&](const auto& name) { return !find(name); }) ||
-           std::any_of(links.begin(), links.end(), [](const auto& link) { return link->state() == State::calling; });
+           std::any_of(links.begin(), links.end(),
+                       [](const auto& link) { return link->state() == State::calling && !link->unknown(); });
 }
 
 HostWait::Standing Cluster::Links::standing() const {

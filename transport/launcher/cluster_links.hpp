@@ -36,7 +36,10 @@ struct Cluster::Links {
     Plan plan;                            // proposed
     std::optional<WrittenPlan> in_force;  // that hosts are to go by
     std::deque<Message> arrived;
+    AllowList members;                  // those with keys, by name
+    std::set<std::string> unknown;      // said already
     std::set<std::string> turned_down;  // who wanted to join
+    bool watched = false;
     Counters counters, ended;
     Relays relays{counters, relay_handlers()};
     Clock::time_point hold_until{};  // nobody begins before all are greeted: places make their nodes by the first plan
@@ -48,22 +51,17 @@ struct Cluster::Links {
             if (link->name() == name) return link.get();
         return nullptr;
     }
-    void call(const std::string& endpoint) {
-        if (!find(endpoint)) add(endpoint, std::make_unique<CalledConnection>(*context, endpoint));
-    }
-    void add(const std::string& name, std::unique_ptr<HostConnection> connection) {
-        links.push_back(std::make_unique<RemoteHost>(offer, counters, name, std::move(connection)));
-    }
+    void call(const std::string& endpoint, const HostKey& key);
+    void add(const std::string& name, std::unique_ptr<HostConnection> connection, const HostKey& key);
+    // Hosts are there, but they and we don't know each other's keys.
+    bool all_unknown() const;
 
     // Offers of all hosts that are at least so far, in the order in which they were named.
     std::vector<HostOffer> offers(bool ready_only) const;
 
     // Hosts that leave hold no node any more, but are still there: their askers wait for what is under way.
     Plan plan_for(const std::vector<HostOffer>& there) const;
-    std::uint32_t places_before(const HostLink& link) const {
-        return static_cast<std::uint32_t>(std::count_if(plan.places.begin(), plan.places.end(),
-                                                        [&](const auto& at) { return at.host == link.name(); }));
-    }
+    std::uint32_t places_before(const HostLink& link) const { return places_of_host(plan, link.name()); }
 
     void look();
 

@@ -3,18 +3,30 @@
 #include <utility>
 
 namespace lightnet {
+namespace {
 
-CalledConnection::CalledConnection(const SocketContext& context, std::string endpoint)
-    : context_(context), endpoint_(std::move(endpoint)) {
-    for (auto* lane : {&work_, &files_}) lane->socket.emplace(asking_socket(context_, endpoint_));
+constexpr auto old_line_lasts = std::chrono::seconds(10);  // for replies that are under way
+
+}  // namespace
+
+CalledConnection::CalledConnection(const SocketContext& context, std::string endpoint, std::optional<LineKeys> keys)
+    : context_(context), endpoint_(std::move(endpoint)), keys_(std::move(keys)) {
+    for (auto* lane : {&work_, &files_}) connect(*lane);
+}
+
+void CalledConnection::connect(Lane& lane) {
+    lane = Lane{unconnected_asking_socket(context_, endpoint_, keys_), false};
+    if (&lane == &work_ || &lane == &next_) lane.handshakes.emplace(context_, *lane.socket);
+    lane.socket->connect(endpoint_);
 }
 
 bool CalledConnection::open(Lane& lane) {
     if (lane.socket) return true;
     try {
-        lane = Lane{asking_socket(context_, endpoint_), false};
+        connect(lane);
         return true;
     } catch (const SocketError&) {  // out of descriptors, say
+        lane = {};
         return false;
     }
 }
@@ -31,18 +43,39 @@ std::optional<Frames> CalledConnection::Lane::receive() {
 }
 
 std::optional<Frames> CalledConnection::receive() {
-    auto frames = work_.receive();
-    return frames ? std::move(frames) : files_.receive();
+    for (auto* lane : {&work_, &old_, &files_})
+        if (auto frames = lane->receive()) return frames;
+    return std::nullopt;
+}
+
+std::optional<Handshake> CalledConnection::look_at_handshake() {
+    return work_.handshakes ? work_.handshakes->look() : std::nullopt;
+}
+
+void CalledConnection::open_next() {
+    if (!next_.socket) open(next_);
+}
+
+bool CalledConnection::send_on_next(Frames& frames) {
+    if (!next_.socket || !next_.socket->send(frames)) return false;
+    old_ = std::exchange(work_, std::exchange(next_, {}));
+    old_since_ = std::chrono::steady_clock::now();
+    return true;
+}
+
+bool CalledConnection::has_old(std::chrono::steady_clock::time_point now) {
+    if (old_.socket && now - old_since_ > old_line_lasts) old_ = {};
+    return old_.socket.has_value();
 }
 
 void CalledConnection::renew() {
     // The old ones go first: there may be no descriptors for both.
-    for (auto* lane : {&work_, &files_}) *lane = {};
+    for (auto* lane : {&work_, &files_, &next_, &old_}) *lane = {};
     for (auto* lane : {&work_, &files_}) open(*lane);
 }
 
 void CalledConnection::watch(Poll& poll) const {
-    for (const auto* lane : {&work_, &files_})
+    for (const auto* lane : {&work_, &files_, &next_, &old_})
         if (lane->socket) poll.add(*lane->socket);
 }
 

@@ -1,11 +1,13 @@
 // The connection between the launcher and one host, whoever opened it.
 #pragma once
 
+#include <chrono>
 #include <deque>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "transport/zmq/handshake_watch.hpp"
 #include "transport/zmq/poll.hpp"
 #include "transport/zmq/socket.hpp"
 
@@ -21,6 +23,17 @@ public:
     virtual std::optional<Frames> receive() = 0;
     /// Nothing that was meant for the host before may reach it from now on.
     virtual void renew() = 0;
+    /// A second line to the same host is opened, beside the first.
+    virtual void open_next() {}
+    /// Sends this on it, as soon as it is there: false before. From then on it is the line; what is under way on the
+    /// old one still arrives, for a while.
+    virtual bool send_on_next(Frames&) { return false; }
+    /// The old one is still looked at. `now`: of the steady clock.
+    virtual bool has_old(std::chrono::steady_clock::time_point) { return false; }
+    /// What became of its handshakes, the last one since the last call; none: there was none.
+    virtual std::optional<Handshake> look_at_handshake() { return std::nullopt; }
+    /// Whom it expects at the other end, and who we are there; none: neither has a key.
+    virtual std::optional<LineKeys> keys() const { return std::nullopt; }
     /// Adds the sockets of its own.
     virtual void watch(Poll& poll) const = 0;
 };
@@ -29,23 +42,32 @@ public:
 class CalledConnection final : public HostConnection {
 public:
     /// Throws SocketError.
-    CalledConnection(const SocketContext& context, std::string endpoint);
+    CalledConnection(const SocketContext& context, std::string endpoint, std::optional<LineKeys> keys);
     bool send(Frames& frames, bool files) override;
     std::optional<Frames> receive() override;
     void renew() override;
     void watch(Poll& poll) const override;
+    std::optional<Handshake> look_at_handshake() override;
+    void open_next() override;
+    bool send_on_next(Frames& frames) override;
+    bool has_old(std::chrono::steady_clock::time_point now) override;
+    std::optional<LineKeys> keys() const override { return keys_; }
 
 private:
     // Doors greet each connection with an empty message: the first is expected, others tell of a cut.
     struct Lane {
         std::optional<Socket> socket{};  // none: the system had none to give; tried again when it is needed
         bool greeted = false;
+        std::optional<HandshakeWatch> handshakes{};
         std::optional<Frames> receive();
     };
     bool open(Lane& lane);
+    void connect(Lane& lane);
     const SocketContext& context_;
     std::string endpoint_;
-    Lane work_, files_;
+    std::optional<LineKeys> keys_;
+    Lane work_, files_, next_, old_;
+    std::chrono::steady_clock::time_point old_since_{};
 };
 
 /// The host has dialled in at the launcher's port, and everything goes over that one connection.

@@ -13,7 +13,9 @@
 #include "core/base/hash.hpp"
 #include "core/network/graph/plan.hpp"
 #include "core/run/message/counters.hpp"
+#include "core/run/message/figures.hpp"
 #include "core/run/message/message.hpp"
+#include "core/run/prepare/activity.hpp"
 #include "transport/wire/machine.hpp"
 #include "transport/wire/relay_address.hpp"
 #include "transport/zmq/message_frame.hpp"
@@ -65,6 +67,8 @@ public:
     const std::string& reason() const { return reason_; }
     /// It says that it can't do its part of the job.
     bool broken() const { return broken_; }
+    /// It and we don't know each other by our keys: it can't be called, as long as nobody mends that.
+    bool unknown() const { return unknown_; }
     /// It serves another run, and will be free at some time.
     bool busy() const { return state_ == State::greeted && !reason_.empty(); }
     /// It is neither ready nor out of the question.
@@ -75,6 +79,14 @@ public:
     const Machine& machine() const { return machine_; }
     /// Bundles and tiles that it has answered.
     virtual std::uint64_t progress() const = 0;
+    /// Lines to it that took the place of others, which were old.
+    virtual std::uint64_t renewed_lines() const { return 0; }
+    /// What its nodes say that they do while they prepare.
+    virtual Doings doing() const = 0;
+    /// From now on, what its places are at is wanted, too.
+    virtual void watch_places() = 0;
+    /// As far as is known.
+    virtual HostFigures figures() const = 0;
     /// What other hosts failed at, as it says, since the last call.
     std::vector<Failure> take_failures() { return std::exchange(failures_, {}); }
     /// Its counters, once after it has ended the run.
@@ -98,12 +110,16 @@ public:
     virtual bool forward_reply(const RelayAddress& asker, Frames& frames) = 0;
     /// Has it send again what it has asked others through the launcher, as it may be lost.
     virtual void request_resend() = 0;
+    /// Tells it the keys of all hosts of the run, which have changed.
+    virtual void tell_members() {}
     /// It asks by this plan from now on.
     virtual void use(const WrittenPlan& plan) = 0;
     /// Sees to it that the host has these bytes. True when it has.
     virtual bool bring(const Hash& name, const Bytes& bytes) = 0;
     /// It gets no more of this run. False: it must stay.
     virtual bool take_out(const std::string& why) = 0;
+    /// It answers what it has, gets no more of this run, and stays away. False: it can't.
+    virtual bool drain() = 0;
     /// It is gone, or what was under way to it; it is called again.
     virtual void lose(Time now, const std::string& why) = 0;
     /// Tells it that the run ends. See take_ended().
@@ -115,7 +131,7 @@ protected:
     std::string name_;
     State state_ = State::calling;
     std::string reason_;
-    bool broken_ = false;
+    bool broken_ = false, unknown_ = false;
     std::uint32_t places_ = 0;
     std::uint64_t process_ = 0;
     Machine machine_;

@@ -26,20 +26,69 @@ std::string callable(const std::string& endpoint, const std::string& address) {
 
 // A name that can't be taken for an endpoint, nor for the launcher.
 bool is_name(const std::string& text) {
-    return !text.empty() && text.size() <= longest_name &&
+    return !text.empty() && text != own_process && text.size() <= longest_name &&
            std::all_of(text.begin(), text.end(), [](unsigned char c) { return c > ' ' && c < 127 && c != '/'; });
 }
 
 }  // namespace
 
 Joiners::Joiners(const SocketContext& context, const std::string& endpoint, Pass pass)
-    : keeper_(context), socket_(door_socket(context)), pass_(std::move(pass)) {
+    : Joiners(context, endpoint, std::optional(std::move(pass)), std::nullopt) {}
+
+Joiners::Joiners(const SocketContext& context, const std::string& endpoint, Door door)
+    : Joiners(context, endpoint, std::nullopt, std::optional(std::move(door))) {}
+
+Joiners::Joiners(const SocketContext& context, const std::string& endpoint, std::optional<Pass> pass,
+                 std::optional<Door> door)
+    : pass_(std::move(pass)), door_(std::move(door)), keeper_(context, keys_of_door()), socket_(door_socket(context)) {
     try {
         keeper_.guard(socket_);
         socket_.bind(endpoint);
+        keeper_.try_out(socket_);
     } catch (const SocketError& error) {
         throw Error(endpoint, std::string("can't listen there: ") + error.what());
     }
+}
+
+std::optional<Doorkeeper::Keys> Joiners::keys_of_door() {
+    if (!door_) return std::nullopt;
+    return Doorkeeper::Keys{
+        door_->own, [this](const PublicKey& key) { return key == door_->own.open || listed_name(key); },
+        [this](const PublicKey& key, const std::string& address) {
+            if (told_.size() >= most_joined || !told_.insert(key).second) return;
+            door_->say("turned away " + address + ": its key (fingerprint " + key.fingerprint() +
+                       ") is not on the list; to let it in, append this line to that of --allow: " + key.text() +
+                       " NAME");
+        }};
+}
+
+std::optional<std::string> Joiners::listed_name(const PublicKey& key) const {
+    const auto& [file, more] = door_->keys;
+    const auto name = more.name_of(key);
+    return name || !file ? name : file->list().name_of(key);
+}
+
+// DECISIONS: rights-by-key
+Joiners::Sender Joiners::sender_of(const Frames& frames) const {
+    if (!door_) return {};
+    const auto key = PublicKey::from(frames.back().peer_key());
+    if (!key) return {std::nullopt, {}, Party::stranger};
+    if (*key == door_->own.open) return {key, {}, Party::user};
+    const auto name = listed_name(*key);
+    return {key, name.value_or(""), name ? Party::host : Party::stranger};
+}
+
+bool Joiners::may_say(const Sender& sender, const Frames& frames) const {
+    if (!door_) return true;
+    const auto header = frames.size() >= 3 ? packet::peek_header(bytes_of(frames[frames.size() - 2])) : std::nullopt;
+    return header ? may(sender.party, header->type) : sender.party == Party::host;
+}
+
+// Whose key is taken off the list is a stranger from then on.
+void Joiners::look_at_list(const Handlers& handlers) {
+    if (!door_ || !door_->keys.file || !door_->keys.file->refresh(Clock::now(), door_->say)) return;
+    for (const auto& [name, host] : joined_)
+        if (host.key && !listed_name(*host.key)) handlers.lost(name, "its key was taken off the list");
 }
 
 void Joiners::watch(Poll& poll) const {
@@ -48,10 +97,16 @@ void Joiners::watch(Poll& poll) const {
 }
 
 std::uint64_t Joiners::receive(const Handlers& handlers) {
+    look_at_list(handlers);
     keeper_.tick();
     std::uint64_t broken = 0;
     while (auto frames = socket_.receive()) {
-        if (frames->size() == 3 && control(*frames, handlers)) continue;
+        const auto sender = sender_of(*frames);
+        if (!may_say(sender, *frames)) {
+            ++broken;
+            continue;
+        }
+        if (frames->size() == 3 && control(*frames, sender, handlers)) continue;
         const auto from = by_route_.find(text_of(frames->front()));
         if (from == by_route_.end()) {
             ++broken;
@@ -66,52 +121,63 @@ std::uint64_t Joiners::receive(const Handlers& handlers) {
 }
 
 // What concerns the port itself. False: it is for a host's connection.
-bool Joiners::control(Frames& frames, const Handlers& handlers) {
+bool Joiners::control(Frames& frames, const Sender& sender, const Handlers& handlers) {
     const auto header = packet::peek_header(bytes_of(frames[1]));
     if (!header || (header->type != Type::join && header->type != Type::status)) return false;
     if (!packet::read_header(bytes_of(frames[1]), bytes_of(frames[2]))) return false;
     const auto fields = packet::unpack_fields(bytes_of(frames[2]));
     if (!fields) return false;
     const auto route = text_of(frames[0]);
-    if (header->type == Type::status) {
-        tell_state(route, handlers.hosts());
-    } else if (const bool expected = is_expected(*fields); !expected) {
-        const bool turned_down = !fields->text("proof").empty();
-        send(route, Type::joined, Fields{}.set("challenge", challenge_).set("turned_down", turned_down));
-        if (turned_down && is_name(fields->text("name")))
-            handlers.turned_down(fields->text("name"), frames[2].peer_address());
-        return fields->number("process") != 0;
-    } else if (const auto& endpoint = fields->text("endpoint"); !endpoint.empty()) {
-        if (!endpoint.starts_with("tcp://")) return false;
-        try {
-            handlers.call(callable(endpoint, frames[2].peer_address()));
-        } catch (const SocketError&) {  // not an endpoint at all
-            return false;
-        }
-        send(route, Type::joined, Fields{}.set("challenge", challenge_));
-    } else if (fields->number("process")) {
-        join(route, *fields, handlers);
-    } else {
-        return false;
-    }
+    if (header->type == Type::join) return take_join(route, *fields, frames[2].peer_address(), sender, handlers);
+    tell_state(route, handlers.hosts(), !door_ || sender.party == Party::user);
     return true;
 }
 
-bool Joiners::is_expected(const Fields& fields) const {
-    const Pass::Claim claim{fields.text("name"), fields.number("process"), fields.text("endpoint")};
-    return pass_.proves(challenge_, claim, fields.text("proof"));
+bool Joiners::take_join(const std::string& route, const Fields& fields, const std::string& address,
+                        const Sender& sender, const Handlers& handlers) {
+    const auto& endpoint = fields.text("endpoint");
+    if (!is_expected(fields)) {
+        challenge(route, fields, address, handlers);
+        return fields.number("process") != 0;
+    }
+    if (endpoint.empty()) {
+        if (fields.number("process")) join(route, fields, sender, handlers);
+        return fields.number("process") != 0;
+    }
+    if (!endpoint.starts_with("tcp://")) return false;
+    try {
+        handlers.call(callable(endpoint, address), sender.key);
+    } catch (const SocketError&) {  // not an endpoint at all
+        return false;
+    }
+    send(route, Type::joined, Fields{}.set("challenge", challenge_));
+    return true;
 }
 
-void Joiners::join(const std::string& route, const Fields& fields, const Handlers& handlers) {
+void Joiners::challenge(const std::string& route, const Fields& fields, const std::string& address,
+                        const Handlers& handlers) {
+    const bool turned_down = !fields.text("proof").empty();
+    send(route, Type::joined, Fields{}.set("challenge", challenge_).set("turned_down", turned_down));
+    if (turned_down && is_name(fields.text("name"))) handlers.turned_down(fields.text("name"), address);
+}
+
+// Whose key is on the list has proved it by coming in.
+bool Joiners::is_expected(const Fields& fields) const {
+    const Pass::Claim claim{fields.text("name"), fields.number("process"), fields.text("endpoint")};
+    return !pass_ || pass_->proves(challenge_, claim, fields.text("proof"));
+}
+
+void Joiners::join(const std::string& route, const Fields& fields, const Sender& sender, const Handlers& handlers) {
     const auto process = fields.number("process");
     send(route, Type::joined, Fields{}.set("challenge", challenge_));
-    const auto name = name_for(fields.text("name"), process);
+    const auto name = name_for(sender.key ? called(sender.listed, fields.text("name")) : fields.text("name"), process);
     if (!name || (!joined_.contains(*name) && joined_.size() >= most_joined)) return;
     auto& known = joined_[*name];
+    known.key = sender.key;
     if (!known.connection) {
         auto connection = std::make_unique<JoinedConnection>(socket_, route);
         known.connection = connection.get();
-        handlers.add(*name, std::move(connection));
+        handlers.add(*name, std::move(connection), sender.key);
     } else if (known.connection->route() != route) {
         by_route_.erase(known.connection->route());
         known.connection->use(route);
@@ -140,14 +206,16 @@ std::optional<std::string> Joiners::name_for(std::string wanted, std::uint64_t p
     }
 }
 
-void Joiners::tell_state(const std::string& route, const std::vector<HostState>& hosts) {
-    for (std::size_t i = 0; i < hosts.size(); ++i) {
+// `all`: what is nobody's business but the user's, too.
+void Joiners::tell_state(const std::string& route, const std::vector<HostState>& hosts, bool all) {
+    for (std::size_t i = 0; i < hosts.size() && all; ++i) {
         Fields fields;
         set(fields, hosts[i].machine);
         fields.set("name", hosts[i].name).set("state", hosts[i].state).set("left", hosts.size() - 1 - i);
         fields.set("places", hosts[i].places).set("progress", hosts[i].progress);
         send(route, Type::state, fields);
     }
+    if (!all) return send(route, Type::state, Fields{}.set("state", "a launcher"));
     if (hosts.empty()) send(route, Type::state, Fields{}.set("state", "a launcher without hosts"));
 }
 

@@ -9,7 +9,7 @@ OwnHost::OwnHost(const std::shared_ptr<const SocketContext>& context, std::share
     : HostLink(""),
       gateway_(*context, run),
       transport_(context, run, "", places),
-      threads_(transport_, std::move(network), run, "", places, plan, rules) {
+      threads_(transport_, std::move(network), run, "", places, plan, rules, PlaceThreads::AskedFrom::other_hosts) {
     state_ = State::building;
     places_ = places;
     machine_ = this_machine();
@@ -31,8 +31,8 @@ bool OwnHost::receive(Time, const Handlers& handlers) {
     if (!threads_.ready()) return false;
     state_ = State::ready;
     while (auto frames = gateway_.receive()) relay_ask(*frames, handlers);
-    for (std::uint32_t place = 0; place < places_; ++place)
-        while (auto frames = transport_.receive(place)) {
+    for (std::size_t line = 0; line < transport_.lines(); ++line)
+        while (auto frames = transport_.receive(line)) {
             if (frames->size() == 1)
                 handlers.work(take_message(frames->front()));
             else if (frames->size() == 3)
@@ -64,6 +64,10 @@ bool OwnHost::forward_ask(Frames& frames, std::uint32_t place) {
 bool OwnHost::forward_reply(const RelayAddress& asker, Frames& frames) {
     frames.erase(frames.begin());
     return gateway_.forward(asker.place, frames);
+}
+
+void OwnHost::watch_places() {
+    if (state_ == State::ready) threads_.watch();
 }
 
 void OwnHost::use(const WrittenPlan& plan) {

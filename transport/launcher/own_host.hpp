@@ -24,6 +24,9 @@ public:
     std::string title() const override { return "this process"; }
     std::string ready_words() const override { return "places of this process are ready"; }
     std::uint64_t progress() const override { return threads_.progress(); }
+    Doings doing() const override { return threads_.doing(); }
+    void watch_places() override;
+    HostFigures figures() const override { return threads_.figures(); }
     void watch(Poll& poll) override;
     void tick(Time, const ExpectedPlan&) override {}
     bool receive(Time now, const Handlers& handlers) override;
@@ -34,6 +37,7 @@ public:
     void use(const WrittenPlan& plan) override;
     bool bring(const Hash&, const Bytes&) override { return true; }  // by pointer
     bool take_out(const std::string&) override { return false; }
+    bool drain() override { return false; }
     void lose(Time, const std::string&) override {}
     void send_end() override;
     Counters wait_for_end() override { return threads_.stop(); }

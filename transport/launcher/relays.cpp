@@ -11,6 +11,16 @@ constexpr auto request_interval = std::chrono::milliseconds(100);
 
 }  // namespace
 
+// DECISIONS: relays-are-tagged
+std::string Relays::tag_text(const std::string& asker, const std::string& place, const std::string& answerer,
+                             const packet::Header& header) const {
+    std::string text;
+    for (const auto& part : {asker, place, answerer}) text += std::to_string(part.size()) + ":" + part;
+    for (const auto number : {header.run, header.bundle, std::uint64_t{header.channel}})
+        text += std::to_string(number) + ",";
+    return text;
+}
+
 void Relays::forward(const std::string& from, Frames& frames) {
     const auto address = unseal(bytes_of(frames[0]));
     const auto header = packet::peek_header(bytes_of(frames[1]));
@@ -22,10 +32,15 @@ void Relays::forward(const std::string& from, Frames& frames) {
     }
     counters_.relayed_bytes += frames[1].size() + frames[2].size();
     if (packet::is_reply(header->type)) {
+        if (!mac_.fits(tag_text(address->host, address->place, from, *header), address->tag)) {
+            ++counters_.broken_packets;
+            return;
+        }
         if (!handlers_.reply(*address, frames)) must_resend(address->host);
         return;
     }
-    frames[0] = MessageFrame(seal({from, address->place}));
+    frames[0] =
+        MessageFrame(seal({from, address->place, mac_.tag(tag_text(from, address->place, address->host, *header))}));
     if (!handlers_.ask(address->host, frames, header->place)) must_resend(from);
 }
 

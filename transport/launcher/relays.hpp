@@ -7,13 +7,16 @@
 #include <string>
 
 #include "core/run/message/counters.hpp"
+#include "transport/keys/mac.hpp"
+#include "transport/wire/packet.hpp"
 #include "transport/wire/relay_address.hpp"
 #include "transport/zmq/message_frame.hpp"
 
 namespace lightnet {
 
 /// Looks at the fixed header and at the sealed address only. What can't be passed on is not kept: its asker hears that
-/// it must send it again. One thread's.
+/// it must send it again. An ask that is passed on bears a tag that binds its reply to asker, answerer, bundle and run,
+/// so that no other host can answer it. One thread's.
 class Relays {
 public:
     using Time = std::chrono::steady_clock::time_point;
@@ -34,6 +37,10 @@ public:
     void request_resends(Time now);
 
 private:
+    std::string tag_text(const std::string& asker, const std::string& place, const std::string& answerer,
+                         const packet::Header& header) const;
+
+    const Mac mac_{};  // made for one run
     Counters& counters_;
     Handlers handlers_;
     std::set<std::string> to_resend_;

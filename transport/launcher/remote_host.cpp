@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/build_info.hpp"
+#include "core/base/this_machine.hpp"
 
 namespace lightnet {
 namespace {
@@ -14,6 +15,8 @@ constexpr auto call_interval = std::chrono::milliseconds(200);
 constexpr auto connect_interval = std::chrono::milliseconds(5);
 constexpr auto busy_interval = std::chrono::seconds(1);
 constexpr auto ping_interval = std::chrono::milliseconds(400);
+constexpr int abandoned_for_sure = 3;  // handshakes: a line may be cut in the middle of one
+constexpr auto renewal_interval = std::chrono::seconds(1);
 constexpr auto lease = std::chrono::milliseconds(1500);
 constexpr auto longest_piece = std::chrono::seconds(15);  // for a piece of a file to be taken
 constexpr std::size_t piece_size = 256 << 10;
@@ -35,8 +38,63 @@ bool RemoteHost::send(Type type, const Fields& fields) {
     return sent;
 }
 
+std::string RemoteHost::why_unknown(Handshake seen) const {
+    const auto keys = connection_->keys();
+    if (!keys)
+        return "it asks for keys, or closes each connection: the hosts file says which key it has, as in place \"" +
+               name_ + "\" { key = \"…\" } (lightnetd --print-key shows it there)";
+    if (seen == Handshake::refused)
+        return "it does not know our key (fingerprint " + keys->own.open.fingerprint() +
+               "); to be let in, append this line to its list (lightnetd --allow): " + keys->own.open.text() + " NAME";
+    return "it has another key than expected (fingerprint " + keys->theirs.fingerprint() +
+           "), or none; lightnetd --print-key shows it there";
+}
+
+void RemoteHost::look_at_handshake(Time now) {
+    const auto seen = connection_->look_at_handshake();
+    if (!seen) return;
+    abandoned_ = *seen == Handshake::abandoned ? abandoned_ + 1 : 0;
+    if (*seen == Handshake::made) unknown_ = false;
+    if (*seen == Handshake::made || state_ != State::calling) return;
+    if (*seen == Handshake::abandoned && abandoned_ < abandoned_for_sure) return;
+    unknown_ = true;
+    reason_ = why_unknown(*seen);
+    if (*seen != Handshake::abandoned) next_renewal_ = now + renewal_interval;  // ZeroMQ tries no more by itself
+}
+
+Fields RemoteHost::job_with(const std::string& plan) const {
+    return Fields{}
+        .set("job", offer_.job)
+        .set("plan", plan)
+        .set("you", name_)
+        .set("who", offer_.who)
+        .set("members", offer_.members);
+}
+
+// A connection never gets new keys, so it gets a successor: the host is begun with on that as if it had been lost, and
+// goes on with what it has.
+// DECISIONS: lines-are-renewed
+void RemoteHost::look_at_line(Time now, const ExpectedPlan& plan) {
+    if (state_ != State::ready || !connection_->keys()) return line_ends_.reset();
+    if (!line_ends_) line_ends_ = now + offer_.line_life;
+    if (now < *line_ends_ || connection_->has_old(now)) return;
+    connection_->open_next();
+    const auto expected = plan();
+    if (!expected) return;
+    auto frames = frames_of(packet::pack(Type::begin, offer_.run, job_with(*expected)));
+    if (!connection_->send_on_next(frames)) return;
+    ++renewed_lines_;
+    line_ends_ = now + offer_.line_life;
+}
+
 void RemoteHost::tick(Time now, const ExpectedPlan& plan) {
     if (state_ == State::refused) return;
+    look_at_handshake(now);
+    look_at_line(now, plan);
+    if (next_renewal_ && now >= *next_renewal_) {
+        next_renewal_.reset();
+        connection_->renew();
+    }
     if (state_ != State::calling) heartbeat(now);
     if (now >= next_call_ && state_ == State::calling) {
         const bool connected = send(Type::hello, Fields{}.set("build", build_id()).set("isa", offer_.isa));
@@ -44,9 +102,7 @@ void RemoteHost::tick(Time now, const ExpectedPlan& plan) {
     } else if (now >= next_call_ && state_ == State::greeted) {
         const auto expected = plan();
         next_call_ = now + (expected ? std::chrono::milliseconds(busy_interval) : connect_interval);
-        if (expected)
-            send(Type::begin,
-                 Fields{}.set("job", offer_.job).set("plan", *expected).set("you", name_).set("who", offer_.who));
+        if (expected) send(Type::begin, job_with(*expected));
     }
     if (pieces_out_ > 0 && now - piece_taken_ > longest_piece) return lose(now, "it takes no files");
     if (!pieces_.empty()) send_blobs(now);
@@ -56,12 +112,18 @@ void RemoteHost::heartbeat(Time now) {
     if (now - heard_ > lease) return lose(now, "it does not answer");
     if (now < next_ping_) return;
     next_ping_ = now + ping_interval;
-    send(Type::ping, Fields{}.set("sent", sent_));
+    // Figures are worth less than what they cost, so every other heartbeat does without.
+    ask_figures_ = watched_ && !ask_figures_;
+    auto fields = Fields{}.set("sent", sent_).set("asked_at", steady_nanoseconds());
+    if (ask_figures_) fields.set("watch", 1);
+    send(Type::ping, fields);
 }
 
 // A flipped bit can make a message vanish without a trace.
 bool RemoteHost::lacks_something(const Fields& pong) {
     const Between now{pong.number("line"), pong.number("taken") - pong.number("sent"), pong.number("told") - received_};
+    // What is under way on a line that has a successor is counted by one end only.
+    if (connection_->has_old(std::chrono::steady_clock::now())) between_.reset();
     if (!between_ || between_->line != now.line) between_ = now;
     return *between_ != now;
 }
@@ -73,6 +135,11 @@ bool RemoteHost::take_out(const std::string& why) {
     pieces_.clear();
     brought_.clear();
     return true;
+}
+
+bool RemoteHost::drain() {
+    drained_ = state_ == State::ready && send(Type::leaving, {});
+    return drained_;
 }
 
 void RemoteHost::lose(Time now, const std::string& why) {
@@ -177,6 +244,7 @@ void RemoteHost::control(Type type, const Fields& fields, Time now) {
         case Type::pong:
             if (state_ == State::calling || state_ == State::refused) return;
             arrived_ = fields.number("sent");
+            compare_clocks(fields.number("asked_at"), fields.number("clock"));
             if (fields.number("process") != process_)
                 lose(now, "it was started anew");
             else if (state_ != State::greeted && fields.number("run") != offer_.run)
@@ -184,6 +252,8 @@ void RemoteHost::control(Type type, const Fields& fields, Time now) {
             else if (fields.number("run") == offer_.run && lacks_something(fields))
                 lose(now, "a message to or from it was lost");
             progress_ = fields.number("progress");
+            doing_ = doings_from(fields.text("doing"));
+            if (auto figures = figures_from(fields.text("figures"))) figures_ = std::move(*figures);
             return;
         case Type::leaving:
             if (state_ == State::ready)
@@ -192,8 +262,10 @@ void RemoteHost::control(Type type, const Fields& fields, Time now) {
                 lose(now, "it was told to stop");
             return;
         case Type::ended: {
-            ended_ = Counters::from(fields.numbers);
-            if (state_ == State::leaving) {
+            take_end(fields);
+            if (state_ == State::leaving && drained_)
+                take_out("somebody who watched the run wanted it so");
+            else if (state_ == State::leaving) {
                 send_end();
                 lose(now, "it was told to stop");
             }
@@ -204,12 +276,37 @@ void RemoteHost::control(Type type, const Fields& fields, Time now) {
     }
 }
 
+// The host read its clock between our question and its answer: what took least time tells most.
+void RemoteHost::compare_clocks(std::uint64_t asked_at, std::uint64_t its_clock) {
+    const auto now = steady_nanoseconds();
+    if (asked_at > now || (now - asked_at) / 2 >= clock_error_) return;
+    clock_error_ = (now - asked_at) / 2;
+    clock_ahead_ = static_cast<std::int64_t>(its_clock - (asked_at + clock_error_));
+}
+
+// What places did is for the report: one that can't be read is no reason to fail.
+void RemoteHost::take_end(const Fields& fields) {
+    ended_ = Counters::from(fields.numbers);
+    if (fields.text("places").empty()) return;
+    try {
+        ended_->places = place_records_from(fields.text("places"));
+        for (auto& record : ended_->places) record.host = name_;
+        ended_->traces = place_traces_from(fields.text("traces"));
+        for (auto& trace : ended_->traces)
+            trace.host = name_, trace.clock_ahead = clock_ahead_, trace.clock_error = clock_error_;
+    } catch (const Error&) {
+        ++counters_.broken_packets;
+    }
+}
+
 void RemoteHost::welcome(const Fields& fields) {
     if (fields.number("fingerprint") != offer_.fingerprint) {
         state_ = State::refused;
         reason_ = "it computes differently (its rays or its mathematical library give other last bits)";
         return;
     }
+    unknown_ = false;
+    reason_.clear();
     places_ = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(fields.number("places"), 1, 1024));
     process_ = fields.number("process");
     machine_ = machine_from(fields);
@@ -288,6 +385,12 @@ bool RemoteHost::forward(Frames& frames) {
 void RemoteHost::request_resend() {
     auto frames = empty_message();
     forward(frames);
+}
+
+// Who is not told now is told when it is begun with.
+void RemoteHost::tell_members() {
+    const bool begun = state_ != State::calling && state_ != State::greeted && state_ != State::refused;
+    if (begun) send(Type::members, Fields{}.set("members", offer_.members));
 }
 
 void RemoteHost::use(const WrittenPlan& plan) { send(Type::plan, Fields{}.set("plan", plan.text)); }

@@ -27,6 +27,8 @@ struct RunOffer {
     std::uint64_t fingerprint = 0;
     std::string job;  // as text
     std::map<Hash, Bytes> blobs;
+    std::chrono::milliseconds line_life{};  // after which a line with keys gets new ones
+    std::string members{};                  // keys of all its hosts, see AllowList; changes as they come
 };
 
 /// Greets a host, sends it the job and the files that it lacks, waits until its places are ready, and keeps its lease:
@@ -37,6 +39,10 @@ public:
     RemoteHost(const RunOffer& offer, Counters& counters, std::string name, std::unique_ptr<HostConnection> connection);
 
     std::uint64_t progress() const override { return progress_; }  // as of its last heartbeat
+    Doings doing() const override { return doing_; }               // the same
+    void watch_places() override { watched_ = true; }
+    HostFigures figures() const override { return figures_; }      // the same
+    std::uint64_t renewed_lines() const override { return renewed_lines_; }
     void watch(Poll& poll) override { connection_->watch(poll); }
     void tick(Time now, const ExpectedPlan& plan) override;
     bool receive(Time now, const Handlers& handlers) override;
@@ -44,9 +50,11 @@ public:
     bool forward_ask(Frames& frames, std::uint32_t) override { return forward(frames); }
     bool forward_reply(const RelayAddress&, Frames& frames) override { return forward(frames); }
     void request_resend() override;
+    void tell_members() override;
     void use(const WrittenPlan& plan) override;
     bool bring(const Hash& name, const Bytes& bytes) override;
     bool take_out(const std::string& why) override;
+    bool drain() override;
     void lose(Time now, const std::string& why) override;
     void send_end() override;
     Counters wait_for_end() override { return {}; }
@@ -56,18 +64,33 @@ private:
     bool send(packet::Type type, const packet::Fields& fields);
     void control(packet::Type type, const packet::Fields& fields, Time now);
     void welcome(const packet::Fields& fields);
+    void compare_clocks(std::uint64_t asked_at, std::uint64_t its_clock);
+    void take_end(const packet::Fields& fields);
     void queue_blobs(const std::string& hashes);
     void queue_blob(const Hash& hash);
     Bytes blob(const Hash& hash) const;
     void send_blobs(Time now);
     void heartbeat(Time now);
+    void look_at_handshake(Time now);
+    void look_at_line(Time now, const ExpectedPlan& plan);
+    packet::Fields job_with(const std::string& plan) const;
+    std::string why_unknown(Handshake seen) const;
     bool lacks_something(const packet::Fields& pong);
     void damaged(Time now, std::span<const std::byte> header);
 
     const RunOffer& offer_;
     Counters& counters_;
     std::unique_ptr<HostConnection> connection_;
+    Doings doing_;
+    std::int64_t clock_ahead_ = 0;                   // of ours; nanoseconds
+    std::uint64_t clock_error_ = ~std::uint64_t{0};  // at most
+    HostFigures figures_;
+    bool watched_ = false, ask_figures_ = false;
+    bool drained_ = false;  // see drain()
     std::uint64_t progress_ = 0;
+    std::optional<Time> next_renewal_{};  // of the connection, which is broken
+    std::optional<Time> line_ends_{};     // of the line, which is not
+    std::uint64_t renewed_lines_ = 0;
     Time heard_{}, next_call_{}, next_ping_{}, piece_taken_{};
     // Messages that this end and the other have counted. What lies between their counts is the same on an undamaged
     // connection at each heartbeat.
@@ -89,6 +112,7 @@ private:
     };
     std::map<Hash, Brought> brought_;
     std::size_t pieces_out_ = 0;
+    int abandoned_ = 0;  // handshakes, in a row
 };
 
 }  // namespace lightnet

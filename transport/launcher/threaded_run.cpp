@@ -28,6 +28,9 @@ Carrier& ThreadedRun::carrier() { return *parts_->carrier; }
 
 void ThreadedRun::check() { parts_->places.ready(); }
 
+void ThreadedRun::watch() { parts_->places.watch(); }
+HostFigures ThreadedRun::figures() const { return parts_->places.figures(); }
+
 Counters ThreadedRun::stop() { return parts_->places.stop(); }
 
 }  // namespace lightnet

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "core/run/message/carrier.hpp"
+#include "core/run/message/figures.hpp"
 #include "core/run/prepare/assembly.hpp"
 #include "core/run/runtime/place.hpp"
 #include "transport/places/place_transport.hpp"
@@ -23,6 +24,9 @@ public:
     Carrier& carrier();
     /// Throws Error when a place has died.
     void check();
+    /// From now on, looks at what the places are at.
+    void watch();
+    HostFigures figures() const;
     /// Stops all places and returns what they counted.
     Counters stop();
 

@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <atomic>
+#include <deque>
 #include <mutex>
 #include <system_error>
 #include <thread>
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/run/message/place_name.hpp"
+#include "core/run/prepare/looker.hpp"
+#include "core/run/runtime/dispatcher.hpp"
+#include "core/run/runtime/place_tracer.hpp"
 #include "transport/places/wakeup.hpp"
 
 namespace lightnet {
@@ -22,13 +27,24 @@ struct PlaceThreads::Threads {
         std::string died_of;
     };
 
+    // Where a run is traced: one thread's, in the order in which they are needed.
+    struct Tracing {
+        Tracing(const Graph& graph, std::size_t most_events, Carrier& traced)
+            : tracer(graph, most_events), carrier(traced, tracer) {}
+        PlaceTracer tracer;
+        TracingCarrier carrier;
+    };
+
     PlaceTransport& transport;
     std::shared_ptr<const Network> network;
     std::uint64_t run;
     std::string host;
     Plan plan;
     Tuning rules;
-    std::vector<Life> lives;  // by place
+    std::uint32_t count;         // of places
+    std::vector<Life> lives;     // by place; behind them, the dispatcher's
+    std::deque<Gauge> gauges{};  // by place
+    std::unique_ptr<Looker> looker{};
     Wakeup news{};
     bool all_serve = false;
     std::atomic<bool> stop{false};
@@ -37,9 +53,12 @@ struct PlaceThreads::Threads {
     std::vector<std::jthread> threads{};
 
     void serve(std::uint32_t index);
+    std::unique_ptr<Tracing> trace(Carrier& carrier) const;
+    void serve_place(std::uint32_t index, Life& life);
+    void dispatch(Life& life);
     void change(Life& life, State state);
-    void start(std::uint32_t count);
-    void tell_all(Message::Type type, std::shared_ptr<const Plan> plan);
+    void start();
+    void tell(std::size_t end, Message::Type type, std::shared_ptr<const Plan> plan);
 };
 
 void PlaceThreads::Threads::change(Life& life, State state) {
@@ -49,53 +68,84 @@ void PlaceThreads::Threads::change(Life& life, State state) {
 
 void PlaceThreads::Threads::serve(std::uint32_t index) {
     auto& life = lives[index];
+    const bool is_place = index < count;
     try {
-        const auto at_fault = [this](const Failure& failure) {
-            const std::lock_guard lock(failures_mutex);
-            failures.push_back(failure);
-            news.notify();
-        };
-        const auto carrier = transport.carrier_of(index, at_fault);
-        Place place(*network, {host, index}, plan, run, rules, *carrier);
-        change(life, State::serving);
-        place.serve(stop, life.progress);
-        life.counters = place.counters();
+        is_place ? serve_place(index, life) : dispatch(life);
         change(life, State::ended);
     } catch (const std::exception& error) {
-        life.died_of = "place " + std::to_string(index) + ": " + error.what();
+        life.died_of = (is_place ? "place " + std::to_string(index) : "the dispatcher") + ": " + error.what();
         change(life, State::died);
     }
 }
 
+std::unique_ptr<PlaceThreads::Threads::Tracing> PlaceThreads::Threads::trace(Carrier& carrier) const {
+    if (!rules.trace) return nullptr;
+    constexpr std::size_t of_process = 1 << 19, most = 1 << 15, least = 1 << 10;  // events; 32 bytes each
+    return std::make_unique<Tracing>(network->graph, std::clamp(of_process / lives.size(), least, most), carrier);
+}
+
+void PlaceThreads::Threads::serve_place(std::uint32_t index, Life& life) {
+    const auto at_fault = [this](const Failure& failure) {
+        const std::lock_guard lock(failures_mutex);
+        failures.push_back(failure);
+        news.notify();
+    };
+    const auto carrier = transport.carrier_of(index, at_fault);
+    auto tracing = trace(*carrier);
+    Place place(*network, {host, index}, plan, run, rules, tracing ? tracing->carrier : *carrier,
+                gauges[index]);
+    if (tracing) place.trace(tracing->tracer);
+    change(life, State::serving);
+    place.serve(stop, life.progress);
+    life.counters = place.counters();
+    if (tracing) life.counters.traces.push_back(tracing->tracer.take(host, index));
+}
+
+void PlaceThreads::Threads::dispatch(Life& life) {
+    const auto carrier = transport.carrier_of(any_place, [](const Failure&) {});
+    auto tracing = trace(*carrier);
+    Dispatcher dispatcher(host, run, network->graph.nodes.size(), rules, tracing ? tracing->carrier : *carrier);
+    change(life, State::serving);
+    dispatcher.serve(stop);
+    life.counters = dispatcher.counters();
+    if (tracing) life.counters.traces.push_back(tracing->tracer.take(host, any_place));
+}
+
 // A system may have no more threads for us. Then those that began must hear that they are to end, before they are
 // joined.
-void PlaceThreads::Threads::start(std::uint32_t count) {
+void PlaceThreads::Threads::start() {
     try {
-        for (std::uint32_t index = 0; index < count; ++index) threads.emplace_back([this, index] { serve(index); });
+        for (std::uint32_t index = 0; index < lives.size(); ++index)
+            threads.emplace_back([this, index] { serve(index); });
     } catch (const std::system_error& error) {
         const auto made = threads.size();
         stop = true;
         threads.clear();
-        throw Error("only " + std::to_string(made) + " threads of " + std::to_string(count) + " could be made (" +
-                    error.what() + "); fewer places, or a higher limit of threads (ulimit -u, TasksMax), would help");
+        throw Error("only " + std::to_string(made) + " threads of " + std::to_string(lives.size()) +
+                    " could be made (" + error.what() +
+                    "); fewer places, or a higher limit of threads (ulimit -u, TasksMax), would help");
     }
 }
 
-void PlaceThreads::Threads::tell_all(Message::Type type, std::shared_ptr<const Plan> told_plan) {
-    for (std::uint32_t place = 0; all_serve && place < lives.size(); ++place) {
+// The first of them.
+void PlaceThreads::Threads::tell(std::size_t end, Message::Type type, std::shared_ptr<const Plan> told_plan) {
+    for (std::uint32_t index = 0; all_serve && index < end; ++index) {
         Message message;
         message.type = type;
         message.run = run;
         message.plan = told_plan;
-        transport.tell(place, std::move(message));
+        transport.tell(index < count ? index : any_place, std::move(message));
     }
 }
 
 PlaceThreads::PlaceThreads(PlaceTransport& transport, std::shared_ptr<const Network> network, std::uint64_t run,
-                           std::string host, std::uint32_t count, Plan plan, Tuning rules)
-    : threads_(new Threads{transport, std::move(network), run, std::move(host), std::move(plan), rules,
-                           std::vector<Threads::Life>(count)}) {
-    threads_->start(count);
+                           std::string host, std::uint32_t count, Plan plan, Tuning rules, AskedFrom askers)
+    : threads_(new Threads{transport, std::move(network), run, std::move(host), std::move(plan), rules, count,
+                           std::vector<Threads::Life>(count + (askers == AskedFrom::other_hosts))}) {
+    const auto& its = *threads_->network;
+    const auto edges = asking_edges(its.graph, its.layers, its.registry).size();
+    for (std::uint32_t i = 0; i < count; ++i) threads_->gauges.emplace_back(its.graph.nodes.size(), edges);
+    threads_->start();
 }
 
 PlaceThreads::~PlaceThreads() {
@@ -124,12 +174,16 @@ void PlaceThreads::wait_until_ready() {
 }
 
 void PlaceThreads::use(const Plan& plan) {
-    threads_->tell_all(Message::Type::plan, std::make_shared<const Plan>(plan));
+    threads_->tell(threads_->lives.size(), Message::Type::plan, std::make_shared<const Plan>(plan));
+}
+
+void PlaceThreads::expect(const Plan& plan) {
+    threads_->tell(threads_->count, Message::Type::plan, std::make_shared<const Plan>(plan));
 }
 
 void PlaceThreads::begin_to_stop() {
     if (threads_->stop.exchange(true)) return;
-    threads_->tell_all(Message::Type::stop, nullptr);  // wakes those that wait for messages
+    threads_->tell(threads_->lives.size(), Message::Type::stop, nullptr);  // wakes those that wait for messages
 }
 
 bool PlaceThreads::over() const {
@@ -153,13 +207,24 @@ std::vector<Failure> PlaceThreads::failures() {
     return std::exchange(threads_->failures, {});
 }
 
-std::uint32_t PlaceThreads::count() const { return static_cast<std::uint32_t>(threads_->lives.size()); }
+void PlaceThreads::watch() {
+    if (threads_->looker) return;
+    std::vector<const Gauge*> gauges;
+    for (const auto& gauge : threads_->gauges) gauges.push_back(&gauge);
+    threads_->looker = std::make_unique<Looker>(std::move(gauges));
+}
+
+HostFigures PlaceThreads::figures() const { return threads_->looker ? threads_->looker->figures() : HostFigures{}; }
+
+std::uint32_t PlaceThreads::count() const { return threads_->count; }
 
 std::uint64_t PlaceThreads::progress() const {
     std::uint64_t sum = 0;
     for (const auto& life : threads_->lives) sum += life.progress.load(std::memory_order_relaxed);
     return sum;
 }
+
+Doings PlaceThreads::doing() const { return threads_->network->activity->all(); }
 
 int PlaceThreads::news() const { return threads_->news.handle(); }
 

@@ -6,18 +6,23 @@
 #include <string>
 #include <vector>
 
+#include "core/run/message/figures.hpp"
 #include "core/run/prepare/assembly.hpp"
 #include "core/run/runtime/place.hpp"
 #include "transport/places/place_transport.hpp"
 
 namespace lightnet {
 
-/// Starts a thread per place of `host`, and stops them. Used by one thread.
+/// Starts a thread per place of `host`, and stops them. Where other hosts ask, one more is their Dispatcher. Used by
+/// one thread.
 class PlaceThreads {
 public:
-    /// `transport` outlives it. Throws Error when there are not enough threads to be had; none is left behind then.
+    /// Who asks the places: those of this process alone, or other hosts, too.
+    enum class AskedFrom { here, other_hosts };
+    /// `transport` outlives it; `plan`: that places make their nodes by. Throws Error when there are not enough threads
+    /// to be had; none is left behind then.
     PlaceThreads(PlaceTransport& transport, std::shared_ptr<const Network> network, std::uint64_t run, std::string host,
-                 std::uint32_t count, Plan plan, Tuning rules);
+                 std::uint32_t count, Plan plan, Tuning rules, AskedFrom askers = AskedFrom::here);
     /// Stops and joins.
     ~PlaceThreads();
     PlaceThreads(const PlaceThreads&) = delete;
@@ -29,6 +34,8 @@ public:
     void wait_until_ready();
     /// Tells every place who answers for which node from now on. Only when they are ready.
     void use(const Plan& plan);
+    /// Tells every place who is going to, as far as is known: nobody is asked by it yet. Likewise.
+    void expect(const Plan& plan);
     /// Tells all places to stop, and returns at once.
     void begin_to_stop();
     /// All threads are done with their work.
@@ -39,6 +46,12 @@ public:
     std::uint32_t count() const;
     /// Bundles and tiles answered so far, by all.
     std::uint64_t progress() const;
+    /// From now on, looks at what they are at.
+    void watch();
+    /// What was seen since then.
+    HostFigures figures() const;
+    /// What their nodes say that they do while they prepare.
+    Doings doing() const;
     /// Hosts that failed at what places of this process had asked them, since the last call.
     std::vector<Failure> failures();
     /// To be polled: readable when ready(), over() or failures() may have changed since clear_news().

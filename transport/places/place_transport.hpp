@@ -17,12 +17,13 @@ public:
     using AtFault = std::function<void(const Failure&)>;
 
     virtual ~PlaceTransport() = default;
-    /// The carrier of a place, made on the place's thread, and used by no other. From then on others may ask that
-    /// place. `at_fault` is told of hosts that failed.
+    /// The carrier of a place, or of the dispatcher (any_place), made on its thread, and used by no other. From then on
+    /// others may ask it. `at_fault` is told of hosts that failed.
     virtual std::unique_ptr<Carrier> carrier_of(std::uint32_t place, AtFault at_fault) = 0;
     /// A carrier that asks places and answers nobody, as the master does.
     virtual std::unique_ptr<Carrier> asking_carrier() = 0;
-    /// Brings a place a message to which there is no reply: a plan, or a stop. The place has its carrier by then.
+    /// Brings a place, or the dispatcher, a message to which there is no reply: a plan, or a stop. The place has its
+    /// carrier by then.
     virtual void tell(std::uint32_t place, Message message) = 0;
 };
 

@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <utility>
 
 #include "core/base/error.hpp"
 
@@ -29,19 +30,23 @@ int file_of(const std::string& text) {
     return file;
 }
 
-pid_t start(std::vector<std::string>& words, int in, bool errors_too, int* out) {
+pid_t start(std::vector<std::string>& words, std::vector<std::string> more, int in, bool errors_too, int* out) {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) throw Error(std::string("no pipe to a program: ") + std::strerror(errno));
     std::vector<char*> argv;
     for (auto& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
+    std::vector<char*> environment;
+    for (auto& word : more) environment.push_back(word.data());
+    for (char** word = environ; *word; ++word) environment.push_back(*word);
+    environment.push_back(nullptr);
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
     if (errors_too) posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
     if (in >= 0) posix_spawn_file_actions_adddup2(&actions, in, STDIN_FILENO);
     pid_t process = 0;
-    const int error = posix_spawnp(&process, words[0].c_str(), &actions, nullptr, argv.data(), environ);
+    const int error = posix_spawnp(&process, words[0].c_str(), &actions, nullptr, argv.data(), environment.data());
     posix_spawn_file_actions_destroy(&actions);
     close(ends[1]);
     if (error) {
@@ -54,14 +59,16 @@ pid_t start(std::vector<std::string>& words, int in, bool errors_too, int* out) 
 
 }  // namespace
 
-int spawn(std::vector<std::string> words, int* out) { return start(words, -1, false, out); }
+int spawn(std::vector<std::string> words, int* out, std::vector<std::string> more) {
+    return start(words, std::move(more), -1, false, out);
+}
 
 ProgramOutput run_program(std::vector<std::string> words, const std::string& input, std::chrono::milliseconds most) {
     const int in = file_of(input);
     int out = -1;
     pid_t process = 0;
     try {
-        process = start(words, in, true, &out);
+        process = start(words, {}, in, true, &out);
     } catch (...) {
         close(in);
         throw;

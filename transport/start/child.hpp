@@ -8,8 +8,8 @@
 namespace lightnet {
 
 /// Starts a program (looked for in PATH when it has no slash) whose standard output comes back through `*out`. Returns
-/// its process. Throws Error.
-int spawn(std::vector<std::string> words, int* out);
+/// its process. `more`: of its environment, beside ours: "NAME=value". Throws Error.
+int spawn(std::vector<std::string> words, int* out, std::vector<std::string> more = {});
 
 /// What a program said, to both outputs, and how it ended.
 struct ProgramOutput {

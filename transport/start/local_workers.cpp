@@ -9,6 +9,7 @@
 #include <poll.h>
 
 #include "core/base/error.hpp"
+#include "transport/keys/key_file.hpp"
 #include "transport/start/child.hpp"
 
 namespace lightnet {
@@ -40,12 +41,16 @@ std::string read_endpoint(int in) {
 }  // namespace
 
 int LocalWorkers::start(const std::string& listen, int* out) const {
-    return spawn(
-        {program_, "--listen", listen, "--places", std::to_string(places_), "--parent", std::to_string(getpid())}, out);
+    std::vector<std::string> words{
+        program_, "--listen", listen, "--places", std::to_string(places_), "--parent", std::to_string(getpid())};
+    if (!keys_) return spawn(std::move(words), out);
+    words.insert(words.end(), {"--allow", keys_->launcher.text()});
+    // Nobody but this user reads the environment of a process.
+    return spawn(std::move(words), out, {std::string(secret_key_variable) + "=" + keys_->workers.secret_text()});
 }
 
-LocalWorkers::LocalWorkers(std::string program, std::uint32_t count, std::uint32_t places)
-    : program_(std::move(program)), places_(places) {
+LocalWorkers::LocalWorkers(std::string program, std::uint32_t count, std::uint32_t places, std::optional<Keys> keys)
+    : program_(std::move(program)), places_(places), keys_(std::move(keys)) {
     std::vector<int> outs;
     try {
         for (std::uint32_t i = 0; i < count; ++i) {  // all start together

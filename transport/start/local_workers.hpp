@@ -4,8 +4,11 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "transport/keys/key.hpp"
 
 namespace lightnet {
 
@@ -16,9 +19,15 @@ class LocalWorkers {
 public:
     using Time = std::chrono::steady_clock::time_point;
 
-    /// Starts `count` daemons of `places` places each, and waits until each says where it listens. Throws Error when
-    /// one does not.
-    LocalWorkers(std::string program, std::uint32_t count, std::uint32_t places);
+    /// By which they and the launcher know each other: other users of the machine can reach their ports, too.
+    struct Keys {
+        KeyPair workers = KeyPair::random();
+        PublicKey launcher;
+    };
+    /// Starts `count` daemons of `places` places each, and waits until each says where it listens. Without `keys` they
+    /// ask for none. Throws Error when one does not.
+    LocalWorkers(std::string program, std::uint32_t count, std::uint32_t places,
+                 std::optional<Keys> keys = std::nullopt);
     /// SIGTERM, then, after a second, SIGKILL.
     ~LocalWorkers();
     LocalWorkers(const LocalWorkers&) = delete;
@@ -48,6 +57,7 @@ private:
 
     std::string program_;
     std::uint32_t places_;
+    std::optional<Keys> keys_;
     std::vector<Worker> workers_;
 };
 

@@ -21,6 +21,14 @@ std::string as_shell_word(const std::string& word) {
     return text + "'";
 }
 
+// By what the daemon is let in.
+std::string way_in(const SlurmWorkers::Request& request) {
+    if (request.keys)
+        return " --key " + as_shell_word(request.keys->file) + " --launcher-key " + request.keys->launcher.text();
+    return (request.pass.empty() ? "" : " --pass " + as_shell_word(request.pass)) +
+           (stays_on_this_machine(request.join) ? "" : " --insecure");
+}
+
 }  // namespace
 
 std::string slurm_script(const SlurmWorkers::Request& request) {
@@ -30,8 +38,7 @@ std::string slurm_script(const SlurmWorkers::Request& request) {
            "exec " +
            as_shell_word(request.program) + " --join " + as_shell_word(request.join) +
            " --name \"$name\" --single \"$name\" --places \"${SLURM_CPUS_ON_NODE:-0}\" --leave-after 60" +
-           (request.pass.empty() ? "" : " --pass " + as_shell_word(request.pass)) +
-           (stays_on_this_machine(request.join) ? "" : " --insecure") + "\n";
+           way_in(request) + "\n";
 }
 
 SlurmWorkers::SlurmWorkers(const Request& request) {

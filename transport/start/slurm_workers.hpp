@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "transport/keys/key.hpp"
 
 namespace lightnet {
 
@@ -17,6 +20,13 @@ public:
         std::uint32_t daemons = 1;
         std::string partition;               // "": Slurm's usual one
         std::vector<std::string> arguments;  // more words for sbatch
+        // By which the daemons and the launcher know each other; none: by the pass.
+        struct Keys {
+            std::string
+                file;  // with the daemons' secret key, as the nodes find it: the script itself lies in Slurm's spool
+            PublicKey launcher;
+        };
+        std::optional<Keys> keys{};
         std::string pass{};  // file with what they must know to join, as the nodes find it; "": the usual one
     };
     /// Submits the array. Throws Error with what sbatch said when it doesn't take it.

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "transport/store/cache_folder.hpp"
 #include "transport/store/recipes.hpp"
 
 namespace lightnet {

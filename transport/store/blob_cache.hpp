@@ -10,8 +10,8 @@
 
 #include "core/base/hash.hpp"
 #include "core/readers/files.hpp"
+#include "core/run/message/tuning.hpp"
 #include "core/run/runtime/job.hpp"
-#include "transport/store/cache_folder.hpp"
 
 namespace lightnet {
 

@@ -1,16 +1,12 @@
 // The folder of a cache: whose it is, and which of its files are ours.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace lightnet {
-
-/// Bytes that a cache may keep, when nothing else is said.
-inline constexpr std::uint64_t usual_cache_size = std::uint64_t{4} << 30;
 
 /// Makes the folder (mode 0700) and marks it as a cache, or takes one that is marked or empty, as it is. Throws Error:
 /// it holds other things, as files of a cache are removed when it is full, or it can't be made.

@@ -6,6 +6,7 @@
 #include <thread>
 #include <vector>
 
+#include "core/run/message/tuning.hpp"
 #include "core/run/prepare/prepared.hpp"
 #include "transport/store/blob_cache.hpp"
 

@@ -18,10 +18,9 @@ bool stays_on_this_machine(std::string_view endpoint) {
     return host == "localhost" || host == "[::1]";
 }
 
-std::string beyond_this_machine(const std::string& what) {
-    return what +
-           " goes beyond this machine, and packets are neither encrypted nor signed; say --insecure if that network is "
-           "yours alone";
+std::string beyond_this_machine(const std::string& what, const std::string& with_keys) {
+    return what + " goes beyond this machine: " + with_keys +
+           ", or say --insecure if that network is yours alone, as packets are then neither encrypted nor signed";
 }
 
 }  // namespace lightnet

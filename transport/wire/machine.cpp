@@ -1,13 +1,11 @@
 #include "transport/wire/machine.hpp"
 
-#include <unistd.h>
-
-#include <array>
 #include <fstream>
 #include <random>
 #include <thread>
 
 #include "core/base/build_info.hpp"
+#include "core/base/this_machine.hpp"
 #include "core/run/runtime/fingerprint.hpp"
 
 namespace lightnet {
@@ -25,14 +23,12 @@ std::string model_of_cpu() {
 
 Machine this_machine() {
     Machine machine;
-    std::array<char, 256> name{};
-    if (gethostname(name.data(), name.size() - 1) == 0) machine.name = name.data();
+    machine.name = machine_name();
     machine.cpu = model_of_cpu();
     machine.isa = usual_isa();
     machine.version = build_id();
     machine.cores = std::max(1u, std::thread::hardware_concurrency());
-    const long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGE_SIZE);
-    if (pages > 0 && size > 0) machine.memory = static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(size);
+    machine.memory = machine_memory();
     return machine;
 }
 

@@ -47,18 +47,18 @@ enum class Type : std::uint8_t {
     hello = 16,  // version, build, isa
     welcome,     //                             places, process, fingerprint
     refuse,      //                             text: what differs, or who is being served
-    begin,       // graph, plan, seed, rules, manifest of the scene's files, who
+    begin,       // graph, plan, seed, rules, manifest of the scene's files, who, members
     need,        //                             hashes that are not in the host's cache
     blob,        // hash, offset, bytes
     blob_taken,  //                             hash, offset
     ready,       //                             all places are assembled
     broken,      //                             text: the run can't be served here
-    ping,        // heartbeat; sent: messages so far, see is_counted()
-    pong,        //                          process, run, progress, sent (as in the ping), taken, told, line
+    ping,        // heartbeat; sent: messages so far, see is_counted(); watch: figures are wanted
+    pong,        //                          process, run, progress, sent (as in the ping), taken, told, line, figures
     plan,        // who answers for which node from now on
     end,         // of the run
     ended,       //                             counters
-    leaving,     //                             it was told to stop: it answers what it has, then ends the run
+    leaving,     // it is to leave the run           it was told to: it answers what it has, then ends the run
     join,    //                             name, process, endpoint, proof: "I am here", from a host that dialled out
     joined,  // to such a host: challenge, see pass.hpp; turned_down
     expect,  // hash, size: bytes that a step will name
@@ -67,8 +67,9 @@ enum class Type : std::uint8_t {
     fault,   //                             host, text: another host that failed at what this one asked of it
     // anyone → a host or a launcher
     status,
-    state,  // a host in words; `left` more follow
-    last = state,
+    state,    // a host in words; `left` more follow
+    members,  // launcher → host: the keys of the run's hosts, see AllowList, for this run only
+    last = members,
 };
 
 constexpr bool is_ask(Type type) {
@@ -80,6 +81,7 @@ constexpr bool is_counted(Type type) {
         case Type::need:
         case Type::ready:
         case Type::plan:
+        case Type::members:
         case Type::leaving:
         case Type::expect:
         case Type::lacks:

@@ -1,5 +1,6 @@
 #include "transport/wire/relay_address.hpp"
 
+#include <array>
 #include <cstdint>
 #include <cstring>
 #define XXH_INLINE_ALL
@@ -18,21 +19,27 @@ std::string checksum(std::string_view text) {
 }  // namespace
 
 std::string seal(const RelayAddress& address) {
-    const auto size = static_cast<std::uint32_t>(address.host.size());
-    std::string text(reinterpret_cast<const char*>(&size), sizeof size);
-    text += address.host + address.place;
+    std::string text;
+    for (const auto* part : {&address.host, &address.place}) {
+        const auto size = static_cast<std::uint32_t>(part->size());
+        text.append(reinterpret_cast<const char*>(&size), sizeof size);
+    }
+    text += address.host + address.place + address.tag;
     return checksum(text) + text;
 }
 
 std::optional<RelayAddress> unseal(std::span<const std::byte> frame) {
-    constexpr std::size_t sum = sizeof(std::uint64_t), before = sum + sizeof(std::uint32_t);
+    constexpr std::size_t sum = sizeof(std::uint64_t);
+    std::array<std::uint32_t, 2> sizes{};
+    constexpr std::size_t before = sum + sizeof sizes;
     if (frame.size() < before) return std::nullopt;
-    const std::string_view all(reinterpret_cast<const char*>(frame.data()), frame.size());
+    std::string_view all(reinterpret_cast<const char*>(frame.data()), frame.size());
     if (checksum(all.substr(sum)) != all.substr(0, sum)) return std::nullopt;
-    std::uint32_t size = 0;
-    std::memcpy(&size, all.data() + sum, sizeof size);
-    if (size > all.size() - before) return std::nullopt;
-    return RelayAddress{std::string(all.substr(before, size)), std::string(all.substr(before + size))};
+    std::memcpy(sizes.data(), all.data() + sum, sizeof sizes);
+    all.remove_prefix(before);
+    if (std::size_t{sizes[0]} + sizes[1] > all.size()) return std::nullopt;
+    return RelayAddress{std::string(all.substr(0, sizes[0])), std::string(all.substr(sizes[0], sizes[1])),
+                        std::string(all.substr(sizes[0] + sizes[1]))};
 }
 
 // DECISIONS: who-calls-whom

@@ -14,6 +14,7 @@ namespace lightnet {
 struct RelayAddress {
     std::string host;   // as in PlaceAt
     std::string place;  // how the gateway of the asker calls the place that asked
+    std::string tag{};  // of the launcher, to whoever answers through it, and back: see Relays
     friend bool operator==(const RelayAddress&, const RelayAddress&) = default;
 };
 

@@ -2,11 +2,13 @@
 
 #include <zmq.h>
 #include <algorithm>
-#include <atomic>
 #include <cstring>
 #include <utility>
 
+#include "core/base/error.hpp"
 #include "transport/places/descriptors.hpp"
+#include "transport/zmq/door_trial.hpp"
+#include "transport/zmq/handshake_watch.hpp"
 
 namespace lightnet {
 namespace {
@@ -16,10 +18,8 @@ constexpr const char* authentication = "inproc://zeromq.zap.01";  // the name is
 constexpr int enforce_domain = 93;  // ZMQ_ZAP_ENFORCE_DOMAIN: without a doorkeeper nobody gets in; not in all headers
 constexpr std::size_t for_own_work = 64, most_let_in = 4096, least_let_in = 8;
 
-std::string events_endpoint() {
-    static std::atomic<unsigned> number{0};
-    return "inproc://door-events-" + std::to_string(number++);
-}
+constexpr int watched = ZMQ_EVENT_ACCEPTED | ZMQ_EVENT_DISCONNECTED | ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL |
+                        ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL | ZMQ_EVENT_HANDSHAKE_FAILED_AUTH;
 
 }  // namespace
 
@@ -27,18 +27,28 @@ std::size_t most_peers(std::size_t left) {
     return std::clamp(left > for_own_work ? (left - for_own_work) / 2 : 0, least_let_in, most_let_in);
 }
 
-Doorkeeper::Doorkeeper(const SocketContext& context) : context_(context), requests_(context, ZMQ_REP) {
+Doorkeeper::Doorkeeper(const SocketContext& context, std::optional<Keys> keys)
+    : context_(context), keys_(std::move(keys)), requests_(context, ZMQ_REP) {
     requests_.bind(authentication);
 }
 
 void Doorkeeper::guard(Socket& door) {
     door.set(ZMQ_ZAP_DOMAIN, "lightnet");
     const int on = 1;
-    zmq_setsockopt(door.library(), enforce_domain, &on, sizeof on);  // older libraries don't know it
-    const auto endpoint = events_endpoint();
-    if (zmq_socket_monitor(door.library(), endpoint.c_str(), ZMQ_EVENT_ACCEPTED | ZMQ_EVENT_DISCONNECTED) != 0)
-        throw SocketError();
+    // older libraries don't know it
+    const bool enforced = zmq_setsockopt(door.library(), enforce_domain, &on, sizeof on) == 0;
+    if (keys_ && !enforced) throw Error("this libzmq can't be trusted with keys: it lacks ZMQ_ZAP_ENFORCE_DOMAIN");
+    if (keys_) door.answer_with(keys_->own);
+    const auto endpoint = fresh_events_endpoint();
+    if (zmq_socket_monitor(door.library(), endpoint.c_str(), watched) != 0) throw SocketError();
     events_.emplace_back(context_, ZMQ_PAIR).connect(endpoint);
+}
+
+void Doorkeeper::try_out(const Socket& door) {
+    if (!keys_) return;
+    on_trial_ = true;
+    try_door(door.endpoint(), keys_->own.open, [this] { tick(); });
+    on_trial_ = false;
 }
 
 void Doorkeeper::watch(Poll& poll) const {
@@ -51,18 +61,13 @@ void Doorkeeper::tick() {
     while (auto request = requests_.receive()) answer(*request);
 }
 
-// An event is two frames: a number of 16 bits and a value of 32, then the address.
 void Doorkeeper::note_events(Socket& events) {
-    while (auto frames = events.receive()) {
-        std::uint16_t event = 0;
-        std::int32_t descriptor = 0;
-        if (frames->front().size() < sizeof event + sizeof descriptor) continue;
-        std::memcpy(&event, frames->front().data(), sizeof event);
-        std::memcpy(&descriptor, static_cast<const char*>(frames->front().data()) + sizeof event, sizeof descriptor);
-        if (event == ZMQ_EVENT_ACCEPTED)
-            peers_.insert(descriptor);
-        else
-            peers_.erase(descriptor);
+    while (const auto frames = events.receive()) {
+        const auto event = event_in(*frames);
+        if (!event) continue;
+        if (event->number == ZMQ_EVENT_ACCEPTED) peers_.insert(event->value);
+        if (event->number == ZMQ_EVENT_DISCONNECTED) peers_.erase(event->value);
+        if (event->number == ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL && keys_) keys_->no_key();
     }
 }
 
@@ -76,17 +81,37 @@ std::size_t Doorkeeper::most_now() {
     return most_;
 }
 
-// [version][request][domain][address][identity][mechanism]… → [version][request][code][text][user][metadata]
+// The code by which it is answered, and who it is.
+const char* Doorkeeper::verdict(const Frames& request, std::string& who) {
+    constexpr std::size_t mechanism = 5, key = 6;
+    if (request.size() <= mechanism || text_of(request[0]) != "1.0") return "400";
+    if (peers_.size() > most_now()) {
+        ++turned_away_;
+        // With keys it is to try again; 400 would say that its key is not known.
+        return keys_ ? "300" : "400";
+    }
+    if (!keys_) return "200";
+    PublicKey theirs;
+    if (text_of(request[mechanism]) != "CURVE" || request.size() <= key || request[key].size() != theirs.bytes.size())
+        return "400";
+    std::memcpy(theirs.bytes.data(), request[key].data(), theirs.bytes.size());
+    who = theirs.text();
+    if (keys_->knows(theirs)) return "200";
+    ++turned_away_;
+    if (!on_trial_) keys_->turned_away(theirs, text_of(request[3]));
+    return "400";
+}
+
+// [version][request][domain][address][identity][mechanism][key]… → [version][request][code][text][user][metadata]
 void Doorkeeper::answer(Frames& request) {
-    const bool sound = request.size() >= 6 && text_of(request[0]) == "1.0";
-    const bool room = peers_.size() <= most_now();
-    turned_away_ += !room;
+    std::string who;
+    const std::string code = verdict(request, who);
     Frames reply;
     reply.emplace_back("1.0");
-    reply.push_back(sound ? std::move(request[1]) : MessageFrame());
-    reply.emplace_back(sound && room ? "200" : "400");
-    reply.emplace_back(room ? "" : "too many connections");
-    reply.emplace_back("");
+    reply.push_back(request.size() > 1 ? std::move(request[1]) : MessageFrame());
+    reply.emplace_back(code);
+    reply.emplace_back(code == "200" ? "" : "not let in");
+    reply.emplace_back(code == "200" ? who : "");
     reply.emplace_back("");
     requests_.send(reply);
 }

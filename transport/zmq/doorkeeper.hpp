@@ -3,26 +3,42 @@
 
 #include <chrono>
 #include <cstddef>
+#include <functional>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "transport/keys/key.hpp"
 #include "transport/zmq/poll.hpp"
 #include "transport/zmq/socket.hpp"
 
 namespace lightnet {
 
 /// Admission control: answers for every connection to the doors of one context whether it may be made (ZeroMQ's
-/// authentication protocol, RFC 27), and turns those away that would be too many. Made before the doors are bound, used
-/// by their thread, and looked after as often as they are: nobody gets in meanwhile.
+/// authentication protocol, RFC 27), and turns those away that would be too many or whose key is not known. What comes
+/// in then bears the key of its sender (MessageFrame::peer_key()). Made before the doors are bound, used by their
+/// thread, and looked after as often as they are: nobody gets in meanwhile.
 class Doorkeeper {
 public:
-    explicit Doorkeeper(const SocketContext& context);
+    /// Whom it lets in.
+    struct Keys {
+        KeyPair own;  // of the doors
+        std::function<bool(const PublicKey&)> knows;
+        std::function<void(const PublicKey&, const std::string& address)> turned_away = [](auto&, auto&) {};
+        /// Somebody without a key, or who takes the door for another one.
+        std::function<void()> no_key = [] {};
+    };
+    /// Without `keys`: everybody, as long as there is room.
+    explicit Doorkeeper(const SocketContext& context, std::optional<Keys> keys = std::nullopt);
     Doorkeeper(const Doorkeeper&) = delete;
     Doorkeeper& operator=(const Doorkeeper&) = delete;
 
-    /// This door is in its care from now on. To be called before it is bound.
+    /// This door is in its care from now on. To be called before it is bound. Throws Error when the library is too old
+    /// to be trusted with keys.
     void guard(Socket& door);
+    /// After it was bound: sees that no stranger gets in. Throws Error when one does.
+    void try_out(const Socket& door);
     /// Answers those who wait.
     void tick();
     void watch(Poll& poll) const;
@@ -33,13 +49,16 @@ public:
 private:
     void note_events(Socket& events);
     void answer(Frames& request);
+    const char* verdict(const Frames& request, std::string& who);
     std::size_t most_now();
 
     const SocketContext& context_;
+    std::optional<Keys> keys_;
     Socket requests_;
     std::vector<Socket> events_;  // of the doors
     std::set<int> peers_;         // descriptors of their connections
     std::size_t turned_away_ = 0, most_ = 0;
+    bool on_trial_ = false;
     std::chrono::steady_clock::time_point counted_{};
 };
 

@@ -89,6 +89,11 @@ std::string MessageFrame::peer_address() const {
     return address ? address : "";
 }
 
+std::string_view MessageFrame::peer_key() const {
+    const char* key = zmq_msg_gets(library(), "User-Id");
+    return key ? key : "";
+}
+
 bool is_empty(const Frames& frames) {
     return frames.size() <= 2 && std::all_of(frames.begin(), frames.end(), [](const auto& f) { return f.size() == 0; });
 }

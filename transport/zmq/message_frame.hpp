@@ -38,6 +38,8 @@ public:
     const void* data() const;
     /// The network address that it came from; empty: not from a network.
     std::string peer_address() const;
+    /// The public key, as text, of whom it came from; empty: it came without.
+    std::string_view peer_key() const;
     /// The library's own, for sockets.
     zmq_msg_t* library();
 

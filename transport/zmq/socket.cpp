@@ -98,16 +98,33 @@ void Socket::set(int option, const std::string& value) {
     if (zmq_setsockopt(socket_, option, value.data(), value.size()) != 0) throw SocketError();
 }
 
-bool Socket::send(Frames& frames) {
+void Socket::set_bytes(int option, const std::array<unsigned char, PublicKey::size>& bytes) {
+    if (zmq_setsockopt(socket_, option, bytes.data(), bytes.size()) != 0) throw SocketError();
+}
+
+void Socket::call_with(const LineKeys& keys) {
+    set_bytes(ZMQ_CURVE_PUBLICKEY, keys.own.open.bytes);
+    set_bytes(ZMQ_CURVE_SECRETKEY, keys.own.secret);
+    set_bytes(ZMQ_CURVE_SERVERKEY, keys.theirs.bytes);
+}
+
+void Socket::answer_with(const KeyPair& own) {
+    set(ZMQ_CURVE_SERVER, 1);
+    set_bytes(ZMQ_CURVE_SECRETKEY, own.secret);
+}
+
+SendResult Socket::try_send(Frames& frames) {
     happens_before_receiving();
     for (std::size_t i = 0; i < frames.size(); ++i) {
         const int more = i + 1 < frames.size() ? ZMQ_SNDMORE : 0;
         if (zmq_msg_send(frames[i].library(), socket_, more | ZMQ_DONTWAIT) >= 0) continue;
         const int error = zmq_errno();
-        if (error == EHOSTUNREACH || error == EAGAIN || error == EINTR) return false;  // only the first can be refused
+        // only the first can be refused
+        if (error == EHOSTUNREACH) return SendResult::peer_is_gone;
+        if (error == EAGAIN || error == EINTR) return SendResult::line_is_full;
         throw SocketError(error);
     }
-    return true;
+    return SendResult::sent;
 }
 
 std::optional<Frames> Socket::receive() {
@@ -140,13 +157,20 @@ Socket door_socket(const SocketContext& context) {
     return socket;
 }
 
-Socket asking_socket(const SocketContext& context, const std::string& endpoint) {
+Socket unconnected_asking_socket(const SocketContext& context, const std::string& endpoint,
+                                 const std::optional<LineKeys>& keys) {
     Socket socket(context, ZMQ_DEALER);
     common_options(socket);
     socket.set(ZMQ_IMMEDIATE, 1);
     socket.set(ZMQ_RECONNECT_IVL, 50);
     socket.set(ZMQ_RECONNECT_IVL_MAX, 1000);
     if (!endpoint.starts_with("inproc://")) heartbeat_options(socket);  // a silent peer looks connected for ever
+    if (keys) socket.call_with(*keys);
+    return socket;
+}
+
+Socket asking_socket(const SocketContext& context, const std::string& endpoint, const std::optional<LineKeys>& keys) {
+    auto socket = unconnected_asking_socket(context, endpoint, keys);
     socket.connect(endpoint);
     return socket;
 }

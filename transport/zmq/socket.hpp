@@ -1,14 +1,19 @@
 // Sockets as this project uses them: with the options that make them safe, and nothing else of the library.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <stdexcept>
 #include <string>
 
+#include "transport/keys/key.hpp"
 #include "transport/zmq/message_frame.hpp"
 
 namespace lightnet {
+
+/// What became of a message.
+enum class SendResult { sent, line_is_full, peer_is_gone };
 
 /// What the library refuses: an endpoint that is none or is taken, or one socket more.
 class SocketError : public std::runtime_error {
@@ -57,7 +62,9 @@ public:
     /// Where it is bound, with the port that the system chose.
     std::string endpoint() const;
     /// Sends all frames or none. False: the peer is gone or its queue is full.
-    bool send(Frames& frames);
+    bool send(Frames& frames) { return try_send(frames) == SendResult::sent; }
+    /// The same, and why not.
+    SendResult try_send(Frames& frames);
     /// One whole message, if there is one.
     std::optional<Frames> receive();
     /// A peer is there, and has room for more.
@@ -65,9 +72,13 @@ public:
     /// Options of the library, by its numbers.
     void set(int option, int value);
     void set(int option, const std::string& value);
+    /// Encrypts what passes, and shows who we are, or asks who comes (CURVE, RFC 26). Before bind() and connect().
+    void call_with(const LineKeys& keys);
+    void answer_with(const KeyPair& own);
     void* library() const { return socket_; }
 
 private:
+    void set_bytes(int option, const std::array<unsigned char, PublicKey::size>& bytes);
     void* socket_;
 };
 
@@ -77,8 +88,12 @@ Socket answering_socket(const SocketContext& context);
 /// knows that what was under way may be lost. Who does not answer its heartbeats is cut off.
 Socket door_socket(const SocketContext& context);
 /// A socket that connects and asks: one peer only, sends nothing before the peer is there, says hello by itself after
-/// each reconnection.
-Socket asking_socket(const SocketContext& context, const std::string& endpoint);
+/// each reconnection. Without `keys` nothing is encrypted, and nobody knows who the other is.
+Socket asking_socket(const SocketContext& context, const std::string& endpoint,
+                     const std::optional<LineKeys>& keys = std::nullopt);
+/// The same, to be connected by the caller, who may look after it before.
+Socket unconnected_asking_socket(const SocketContext& context, const std::string& endpoint,
+                                 const std::optional<LineKeys>& keys);
 
 /// Sizes that were agreed on (flow control by credit) never fill a queue of this many messages; if one is full,
 /// something is wrong, and counted.

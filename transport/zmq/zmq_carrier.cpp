@@ -203,7 +203,8 @@ void ZmqCarrier::reply(Message message) {
     } else {
         frames.emplace_back(std::move(message));
     }
-    if (!sockets_->answering->socket.send(frames)) ++sockets_->counters.refused_sends;
+    // Who has gone meanwhile wants no answer: it was asked of several, or the run is over.
+    if (sockets_->answering->socket.try_send(frames) == SendResult::line_is_full) ++sockets_->counters.refused_sends;
 }
 
 std::optional<Message> ZmqCarrier::receive() {

@@ -26,20 +26,23 @@ public:
     std::unique_ptr<Carrier> asking_carrier() override;
     void tell(std::uint32_t place, Message message) override;
 
-    /// Frames for a place that serves; replies to it come back by receive(). False: there is no such place, or it has
-    /// ended.
+    /// Frames for a place that serves, or for the dispatcher (any_place); replies to it come back by receive().
+    /// False: there is no such place, or it has ended.
     bool forward(std::uint32_t place, Frames& frames);
-    std::optional<Frames> receive(std::uint32_t place);
-    /// All places, in their order.
+    /// What came from one line, of so many: one per place, in their order, and the dispatcher's.
+    std::optional<Frames> receive(std::size_t line);
+    std::size_t lines() const { return to_.size(); }
+    /// All lines, in their order.
     void watch(Poll& poll);
 
 private:
-    Socket& socket_to(std::uint32_t place);
+    std::size_t line_to(std::uint32_t place) const;
+    Socket& socket_of(std::size_t line);
 
     std::shared_ptr<const SocketContext> context_;
     std::uint64_t run_;
     std::string host_;
-    std::vector<std::optional<Socket>> to_;  // by place
+    std::vector<std::optional<Socket>> to_;  // by line
 };
 
 /// For a run that stays within this process: see MakePlaceTransport.

@@ -11,8 +11,11 @@
 #include "core/base/problem_list.hpp"
 #include "core/network/graph/check_hosts.hpp"
 #include "core/network/graph/check_params.hpp"
+#include "core/network/graph/graph_film.hpp"
+#include "core/network/graph/lamp_groups.hpp"
 #include "core/network/graph/layout.hpp"
 #include "core/network/graph/light_paths.hpp"
+#include "core/network/graph/plan.hpp"
 
 namespace lightnet {
 namespace {
@@ -43,6 +46,8 @@ public:
         check_ranks();
         check_renderers();
         found_.problems = problems_.take();
+        if (found_.problems.empty()) found_.problems = mistaken_groups(found_.graph, registry_);
+        if (found_.problems.empty()) check_gains();
         return std::move(found_);
     }
 
@@ -62,6 +67,15 @@ private:
             if (node.name == "emission")
                 complain(node, "the name is reserved for the layer of light that the renderer sees itself");
         }
+    }
+
+    // Which layers there are is known when all the rest is sound.
+    void check_gains() {
+        const auto& gains = film_of(found_.graph, registry_).gains;
+        const Node& renderer = found_.graph.nodes[renderer_of(found_.graph, registry_)];
+        for (const auto& mistake : mistakes_in(gains, layers_of(found_.graph, registry_).film))
+            found_.problems.push_back(
+                {renderer.where, renderer.kind + " " + in_quotes(renderer.name) + ": 'gains' of its film: " + mistake});
     }
 
     void check_node(std::size_t index) {
@@ -138,6 +152,9 @@ private:
         const auto input = given_.find(ref->name);
         if (!input) return complain(node, "no node called " + in_quotes(ref->name) + suggest(ref->name, names_));
         const Kind* gives = registry_.find(given_.nodes[*input].kind);
+        if (gives && gives->light.facts)
+            return complain(node, which + ", " + in_quotes(ref->name) +
+                                      ", gives facts about surfaces and no light: name it in the renderer's 'show'");
         if (!kind || !gives || gives->role == Role::light) return;
         const std::string hint = gives->role == Role::scene ? " (write scene = " + ref->name + ")" : "";
         complain(node, which + ", " + in_quotes(ref->name) + ", gives " +

@@ -118,7 +118,7 @@ std::optional<Address> address_of(std::string_view endpoint) {
 }
 
 bool is_joining_name(std::string_view name) {
-    return !name.empty() && name.size() <= 200 &&
+    return !name.empty() && name != own_process && name.size() <= 200 &&
            name.find_first_not_of(
                "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQ"
                "RSTUVWXYZ0123456789-_.") == name.npos;
@@ -131,9 +131,11 @@ void check_hosts(const Hosts& hosts, const Graph& graph, const Registry& registr
     std::set<std::string> seen;
     for (const auto& entry : hosts.hosts) {
         const EntryCheck check(entry, problems);
-        if (!address_of(entry.endpoint) && !is_joining_name(entry.endpoint))
-            check.complain("a host is named like tcp://host:7777 (or, when it joins by itself, like onyx1)");
-        if (!seen.insert(entry.endpoint).second) check.complain("the host stands here twice");
+        if (!entry.is_here() && !address_of(entry.endpoint) && !is_joining_name(entry.endpoint))
+            check.complain(
+                "a host is named like tcp://host:7777 (when it joins by itself, like onyx1; this process is called "
+                "here)");
+        if (!entry.is_here() && !seen.insert(entry.endpoint).second) check.complain("the host stands here twice");
         if (entry.places < 0 || entry.places > most_places)
             check.complain("'places' must be 1 … " + std::to_string(most_places));
         for (const auto& [name, count] : entry.replicas) {

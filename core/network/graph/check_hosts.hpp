@@ -23,7 +23,7 @@ struct Address {
     int port = 0;
 };
 std::optional<Address> address_of(std::string_view endpoint);
-/// "onyx1": a host that is not called, but joins under that name.
+/// "onyx1": a host that is not called, but joins under that name. None is called like this process.
 bool is_joining_name(std::string_view name);
 
 }  // namespace lightnet

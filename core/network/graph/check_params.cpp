@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/base/in_quotes.hpp"
+#include "core/base/joined.hpp"
 #include "core/base/suggestion.hpp"
 #include "core/network/graph/graph_film.hpp"
 
@@ -12,12 +13,6 @@ namespace lightnet {
 namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
-
-std::string joined(const std::vector<std::string>& words) {
-    std::string text;
-    for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
-    return text;
-}
 
 std::string_view wanted(ParamType type) {
     switch (type) {
@@ -43,6 +38,10 @@ std::string_view wanted(ParamType type) {
             return "a node";
         case ParamType::nodes:
             return "a list of nodes";
+        case ParamType::names:
+            return "a name or a list of names";
+        case ParamType::named_lists:
+            return "a table like { key = \"spot*\", fill = { \"panel1\", \"panel2\" } }";
     }
     return "";
 }
@@ -96,6 +95,12 @@ public:
                 break;
             case ParamType::nodes:
                 nodes(value);
+                break;
+            case ParamType::names:
+                if (!are_names(value)) wrong_type(value);
+                break;
+            case ParamType::named_lists:
+                named_lists(value);
                 break;
         }
     }
@@ -182,6 +187,23 @@ private:
         if (!sound) complain_(in_quotes(param_.name) + " must be " + std::string(wanted(param_.type)));
     }
 
+    static bool are_names(const Value& value) {
+        const auto is_text = [](const Value& one) { return std::holds_alternative<std::string>(one.data); };
+        const auto* list = std::get_if<Table>(&value.data);
+        return list ? list->named.empty() && std::all_of(list->list.begin(), list->list.end(), is_text)
+                    : is_text(value);
+    }
+
+    void named_lists(const Value& value) const {
+        const auto* given = as<Table>(value);
+        if (!given) return;
+        if (!given->list.empty()) complain_(in_quotes(param_.name) + " must be " + std::string(wanted(param_.type)));
+        for (const auto& [name, entry] : given->named)
+            if (!are_names(entry))
+                complain_(in_quotes(param_.name) + ": " + in_quotes(name) + " must be " +
+                          std::string(wanted(ParamType::names)) + ", not " + std::string(type_name(entry)));
+    }
+
     void surrounding(const Value& value) const {
         if (std::holds_alternative<std::string>(value.data)) return;
         const auto* colour = as<Table>(value);
@@ -208,9 +230,11 @@ private:
         for (const auto& [name, entry] : table->named) {
             if (name == "crop")
                 crop(entry, table->list);
+            else if (name == "gains")
+                gains(entry);
             else if (name != "file")
                 complain_(in_quotes(param_.name) + " has an unknown entry " + in_quotes(name) +
-                          suggest(name, {"file", "crop"}));
+                          suggest(name, {"file", "crop", "gains"}));
             else if (!std::holds_alternative<std::string>(entry.data))
                 complain_("'file' of " + in_quotes(param_.name) + " must be a text, not " +
                           std::string(type_name(entry)));
@@ -218,6 +242,24 @@ private:
     }
 
     // Edges in pixels of the whole image, the last column and row excluded. Sides that are wrong were said.
+    void gains(const Value& value) const {
+        const auto number = [](const Value& one) {
+            const auto* found = std::get_if<double>(&one.data);
+            return found && std::isfinite(float(*found)) && *found >= 0;
+        };
+        const auto* given = std::get_if<Table>(&value.data);
+        if (!given || !given->list.empty())
+            return complain_("'gains' of " + in_quotes(param_.name) + " must be a table like { direct = 0.5 }");
+        for (const auto& [layer, gain] : given->named) {
+            const auto* colour = std::get_if<Table>(&gain.data);
+            const bool sound = colour ? colour->named.empty() && colour->list.size() == 3 &&
+                                            std::all_of(colour->list.begin(), colour->list.end(), number)
+                                      : number(gain);
+            if (!sound)
+                complain_("the gain of " + in_quotes(layer) + " must be a number or { red, green, blue }, 0 or more");
+        }
+    }
+
     void crop(const Value& value, const List& sides) const {
         const auto* given = std::get_if<Table>(&value.data);
         const auto edge = [&](std::size_t i) {
@@ -269,9 +311,14 @@ void check_params(Node& node, const Kind& kind, const Graph& graph, const Compla
     const Complain complain = [&](const std::string& what) { complain_of(what), sound = false; };
     std::vector<std::string> names;
     for (const auto& param : kind.params) names.push_back(param.name);
-    for (const auto& [name, value] : node.params)
-        if (std::find(names.begin(), names.end(), name) == names.end())
+    for (const auto& [name, value] : node.params) {
+        if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+        const auto gone = kind.gone.find(name);
+        if (gone != kind.gone.end())
+            complain("there is no parameter " + in_quotes(name) + " any more: " + gone->second);
+        else
             complain("unknown parameter " + in_quotes(name) + suggest(name, names));
+    }
     for (const auto& param : kind.params) {
         const auto given = node.params.find(param.name);
         if (given != node.params.end())

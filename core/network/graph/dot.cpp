@@ -146,7 +146,8 @@ private:
     std::string id(std::size_t node) const { return "node_" + graph_.nodes[node].name; }
 };
 
-/// The graph as it runs: one box per replica, and a multiplexer wherever an asker has a choice.
+/// The graph as it runs: one box per replica, and a multiplexer wherever an asker has a choice among places of its host
+/// and other hosts, or a host among its places.
 class PlanDrawing : Drawing {
 public:
     PlanDrawing(const Graph& graph, const Registry& registry, const Plan& plan, const Texts& host_labels,
@@ -158,8 +159,10 @@ public:
         draw_hosts();
         draw_tiles();
         for (std::uint32_t place = 0; place < plan_.places.size(); ++place)
-            for (std::size_t node = 0; node < graph_.nodes.size(); ++node)
+            for (std::size_t node = 0; node < graph_.nodes.size(); ++node) {
                 if (holds(place, node)) draw_asks(place, node);
+                if (begins_host(place) && is_dealt(plan_.places[place].host, node)) draw_dealt(place, node);
+            }
         return take();
     }
 
@@ -173,6 +176,11 @@ private:
     std::string router_id(std::size_t node, std::uint32_t place) const {
         return "route_" + plain_name(node) + "_" + std::to_string(place);
     }
+    std::string dealer_id(std::size_t node, const std::string& host) const {
+        std::uint32_t first = 0;
+        while (plan_.places[first].host != host) ++first;
+        return "deal_" + plain_name(node) + "_" + std::to_string(first);
+    }
     // "photons_of_3" for the sector called "photons#3".
     std::string plain_name(std::size_t node) const {
         const auto* sector = sector_at(graph_, node);
@@ -185,9 +193,48 @@ private:
         return std::find(places.begin(), places.end(), place) != places.end();
     }
 
+    // The places of a host that hold a node.
+    std::vector<std::uint32_t> holders(const std::string& host, std::size_t node) const {
+        std::vector<std::uint32_t> places;
+        for (const auto place : plan_.places_of[node])
+            if (plan_.places[place].host == host) places.push_back(place);
+        return places;
+    }
+
+    bool begins_host(std::uint32_t place) const {
+        return place == 0 || plan_.places[place - 1].host != plan_.places[place].host;
+    }
+
+    // Whether other hosts leave it to this one which of its places answers.
+    bool is_dealt(const std::string& host, std::size_t node) const {
+        if (holders(host, node).size() < 2) return false;
+        if (node == renderer_ && !host.empty()) return true;
+        for (std::uint32_t place = 0; place < plan_.places.size(); ++place)
+            if (plan_.places[place].host != host && !holds(place, node) && asked_at(place, node)) return true;
+        return false;
+    }
+
+    // Whom somebody on `host` asks for a node: places beside it, and other hosts. What is asked, and how it gets there.
+    struct Answerer {
+        std::string id, carried_by;
+    };
+    std::vector<Answerer> answerers(const std::string& host, std::size_t node) const {
+        std::vector<Answerer> all;
+        for (const auto place : plan_.places_of[node]) {
+            const auto& other = plan_.places[place].host;
+            if (other == host)
+                all.push_back({id(node, place), "inproc"});
+            else if (holders(other, node).size() == 1)
+                all.push_back({id(node, place), "tcp"});
+            else if (holders(other, node).front() == place)
+                all.push_back({dealer_id(node, other), "tcp"});
+        }
+        return all;
+    }
+
     // Whether a node of the place asks `node`, and has several replicas to choose from, none beside it.
     bool chooses(std::uint32_t place, std::size_t node) const {
-        return !holds(place, node) && plan_.places_of[node].size() >= 2 && asked_at(place, node);
+        return !holds(place, node) && asked_at(place, node) && answerers(plan_.places[place].host, node).size() >= 2;
     }
 
     // Whether a node of the place asks `node`, or the one whose sector it stands for.
@@ -201,10 +248,6 @@ private:
         return std::find(inputs.begin(), inputs.end(), whole_of(graph_, node)) != inputs.end();
     }
 
-    const char* carried_by(std::uint32_t from, std::uint32_t to) const {
-        return plan_.places[from].host == plan_.places[to].host ? "inproc bundles" : "tcp bundles";
-    }
-
     std::string host_label(const std::string& host) const {
         const auto label = host_labels_.find(host);
         if (label != host_labels_.end()) return label->second;
@@ -214,14 +257,20 @@ private:
     void draw_hosts() {
         for (std::uint32_t place = 0; place < plan_.places.size(); ++place) {
             const std::string& host = plan_.places[place].host;
-            if (place == 0 || plan_.places[place - 1].host != host) {
+            if (begins_host(place)) {
                 if (place > 0) line(1, "}");
                 line(1, "subgraph cluster_host_" + std::to_string(hosts_drawn_++) + " {");
                 line(2, "label=" + escaped(host_label(host)) + "; style=filled; color=lightgrey;");
             }
             draw_place(place);
+            if (place + 1 == plan_.places.size() || begins_host(place + 1)) draw_dealers(host);
         }
         if (!plan_.places.empty()) line(1, "}");
+    }
+
+    void draw_dealers(const std::string& host) {
+        for (std::size_t node = 0; node < graph_.nodes.size(); ++node)
+            if (is_dealt(host, node)) draw_multiplexer(2, dealer_id(node, host), node, holders(host, node).size());
     }
 
     void draw_place(std::uint32_t place) {
@@ -230,14 +279,16 @@ private:
                     "; style=\"filled,rounded\"; color=white;");
         for (std::size_t node = 0; node < graph_.nodes.size(); ++node) {
             if (holds(place, node)) draw_node(3, id(node, place), node);
-            if (chooses(place, node)) draw_multiplexer(3, multiplexer_id(node, place), node);
+            if (chooses(place, node))
+                draw_multiplexer(3, multiplexer_id(node, place), node,
+                                 answerers(plan_.places[place].host, node).size());
             if (!sectors_of(graph_, node).empty() && asked_at(place, node)) draw_router(3, place, node);
         }
         line(2, "}");
     }
 
-    void draw_multiplexer(int depth, const std::string& id, std::size_t node) {
-        const std::string label = graph_.nodes[node].name + " × " + std::to_string(plan_.places_of[node].size());
+    void draw_multiplexer(int depth, const std::string& id, std::size_t node, std::size_t choices) {
+        const std::string label = graph_.nodes[node].name + " × " + std::to_string(choices);
         line(depth, id + " [shape=trapezium, style=solid, label=" + escaped(label) + "];");
     }
 
@@ -249,16 +300,21 @@ private:
     }
 
     void draw_tiles() {
-        const auto& places = plan_.places_of[renderer_];
+        const auto all = answerers("", renderer_);
         std::string from = "launcher";
-        if (places.size() > 1) {
+        if (all.size() > 1) {
             from = "choose_" + graph_.nodes[renderer_].name;
-            draw_multiplexer(1, from, renderer_);
+            draw_multiplexer(1, from, renderer_, all.size());
             edge("launcher", from, std::string(tiles) + "\ncall");
         }
-        for (const auto place : places)
-            edge(from, id(renderer_, place),
-                 std::string(tiles) + "\n" + (plan_.places[place].host.empty() ? "inproc" : "tcp"));
+        for (const auto& [to, carried_by] : all) edge(from, to, std::string(tiles) + "\n" + carried_by);
+    }
+
+    // What a host does with what it is asked as a whole; `place`: its first.
+    void draw_dealt(std::uint32_t place, std::size_t node) {
+        const auto& host = plan_.places[place].host;
+        const std::string what = node == renderer_ ? std::string(tiles) + "\ninproc" : light(node) + "\ninproc bundles";
+        for (const auto holder : holders(host, node)) edge(dealer_id(node, host), id(node, holder), what);
     }
 
     void draw_asks(std::uint32_t place, std::size_t node) {
@@ -281,19 +337,21 @@ private:
     }
 
     void draw_way(std::uint32_t place, const std::string& from, std::size_t input) {
-        const auto& replicas = plan_.places_of[input];
         if (holds(place, input))
             edge(from, id(input, place), light(input) + "\ncall");
-        else if (replicas.size() == 1)
-            edge(from, id(input, replicas[0]), light(input) + "\n" + carried_by(place, replicas[0]));
-        else
+        else if (chooses(place, input))
             edge(from, multiplexer_id(input, place), light(input) + "\ncall");
+        else
+            draw_bundles(from, place, input);
+    }
+
+    void draw_bundles(const std::string& from, std::uint32_t place, std::size_t input) {
+        for (const auto& [to, carried_by] : answerers(plan_.places[place].host, input))
+            edge(from, to, light(input) + "\n" + carried_by + " bundles");
     }
 
     void draw_choices(std::uint32_t place, std::size_t input) {
-        if (!chooses(place, input)) return;
-        for (const auto replica : plan_.places_of[input])
-            edge(multiplexer_id(input, place), id(input, replica), light(input) + "\n" + carried_by(place, replica));
+        if (chooses(place, input)) draw_bundles(multiplexer_id(input, place), place, input);
     }
 
     std::size_t first_asker(std::uint32_t place, std::size_t input) const {

@@ -60,8 +60,12 @@ Node node_of(const Json& json) {
 }
 
 HostEntry host_of(const Json& json) {
-    json.object(4);
-    HostEntry host{json.at("endpoint").text(), {}, json.at("places").whole<int>(), where_of(json.at("where"))};
+    json.object(5);
+    HostEntry host{json.at("endpoint").text(),
+                   {},
+                   json.at("places").whole<int>(),
+                   where_of(json.at("where")),
+                   json.at("key").text()};
     for (const auto& [name, count] : json.at("replicas").object()) host.replicas.emplace(name, count.whole<int>());
     return host;
 }

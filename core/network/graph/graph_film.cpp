@@ -17,6 +17,14 @@ const Value& param_of(const Graph& graph, const Registry& registry, ParamType ty
     throw Error(renderer.name, "has no " + std::string(to_string(type)));
 }
 
+// A number, or one for each channel.
+Rgb gain_in(const Value& value) {
+    const auto number = [](const Value& one) { return static_cast<float>(std::get<double>(one.data)); };
+    if (const auto* table = std::get_if<Table>(&value.data))
+        return {number(table->list.at(0)), number(table->list.at(1)), number(table->list.at(2))};
+    return {number(value), number(value), number(value)};
+}
+
 }  // namespace
 
 GraphFilm film_of(const Graph& graph, const Registry& registry) {
@@ -29,6 +37,9 @@ GraphFilm film_of(const Graph& graph, const Registry& registry) {
         const auto edge = [&](std::size_t i) { return static_cast<std::uint32_t>(std::get<double>(edges[i].data)); };
         made.crop = Window{edge(0), edge(1), edge(2) - edge(0), edge(3) - edge(1)};
     }
+    if (const auto gains = film.named.find("gains"); gains != film.named.end())
+        for (const auto& [layer, value] : std::get<Table>(gains->second.data).named)
+            made.gains.push_back({layer, gain_in(value)});
     return made;
 }
 

@@ -10,12 +10,21 @@
 
 namespace lightnet {
 
-/// `place "tcp://onyx1:7777" { direct = 1, caustics = 2 }`
+/// What a hosts file calls the launcher's own process, where an endpoint would stand. In plans it is "".
+inline constexpr std::string_view own_process = "here";
+
+/// `place "tcp://onyx1:7777" { direct = 1, caustics = 2, key = "…" }`. Each entry has places of its own, also where
+/// several stand for this process.
 struct HostEntry {
-    std::string endpoint;                 // "tcp://host:port"
+    std::string endpoint;                 // "tcp://host:port", the name of a host that joins, or own_process
     std::map<std::string, int> replicas;  // node name → how many places of this host hold it; empty: the whole network
     int places = 0;                       // 0: one per core that the host offers
     SourceLine where;
+    std::string key{};  // its public key, as text; "": none is known
+
+    bool is_here() const { return endpoint == own_process; }
+    /// As plans call it.
+    std::string host() const { return is_here() ? std::string() : endpoint; }
     friend bool operator==(const HostEntry&, const HostEntry&) = default;
 };
 

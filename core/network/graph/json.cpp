@@ -86,6 +86,7 @@ std::string to_json(const Hosts& hosts) {
     Tree list = Tree::array();
     for (const auto& host : hosts.hosts)
         list.push_back({{"endpoint", host.endpoint},
+                        {"key", host.key},
                         {"replicas", host.replicas},
                         {"places", host.places},
                         {"where", json_of(host.where)}});

@@ -60,6 +60,10 @@ Kind scene_kind() {
          .help = "clay: all surfaces are grey and diffuse; lamps and cut-outs stay",
          .choices = {"clay"},
          .optional = true},
+        {.name = "groups",
+         .type = ParamType::named_lists,
+         .help = "groups of lamps, each the names of its lamps, * for any part of one; what is in none is in 'rest'",
+         .optional = true},
         {.name = "two_sided",
          .type = ParamType::flag,
          .help =
@@ -68,14 +72,34 @@ Kind scene_kind() {
     return kind;
 }
 
+// What all kinds that have to do with lamps have.
+void add_lamp_params(Kind& kind) {
+    if (kind.light.lamps)
+        kind.params.push_back({.name = "lamps",
+                               .type = ParamType::names,
+                               .help = "groups of the scene's lamps that it looks for; none: all lamps",
+                               .initial = Value{Table{}}});
+    if (kind.light.groups)
+        kind.params.push_back({.name = "groups",
+                               .type = ParamType::flag,
+                               .help = "keeps the scene's groups of lamps apart: a layer for each",
+                               .initial = Value{false}});
+}
+
 }  // namespace
 
 std::function<std::vector<std::string>(const Node&)> always(std::vector<std::string> paths) {
     return [paths = std::move(paths)](const Node&) { return paths; };
 }
 
-Registry::Registry(std::vector<Kind> kinds) : kinds_(std::move(kinds)) {
-    kinds_.push_back(scene_kind());
+Registry::Registry(std::vector<Kind> kinds) {
+    kinds.push_back(scene_kind());
+    add(std::move(kinds));
+}
+
+void Registry::add(std::vector<Kind> kinds) {
+    std::ranges::for_each(kinds, add_lamp_params);
+    std::ranges::move(kinds, std::back_inserter(kinds_));
     std::sort(kinds_.begin(), kinds_.end(), by_name);
     assert(std::adjacent_find(kinds_.begin(), kinds_.end(),
                               [](const Kind& a, const Kind& b) { return a.name == b.name; }) == kinds_.end() &&
@@ -123,6 +147,10 @@ std::string_view to_string(ParamType type) {
             return "node";
         case ParamType::nodes:
             return "list of nodes";
+        case ParamType::names:
+            return "name or list of names";
+        case ParamType::named_lists:
+            return "table of names";
     }
     return "";
 }

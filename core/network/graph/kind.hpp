@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -34,8 +35,10 @@ enum class ParamType {
     surrounding,  // the name of a file, or a colour { r, g, b }
     film,
     scene,
-    node,  // a node whose frozen state is taken: `choices` says of what
-    nodes  // a list of nodes that give light
+    node,        // a node whose frozen state is taken: `choices` says of what
+    nodes,       // a list of nodes that give light
+    names,       // a name, or a list of them
+    named_lists  // entries with names, each a name or a list of them
 };
 
 std::string_view to_string(Role role);
@@ -65,9 +68,14 @@ struct InputCount {
 
 /// What nodes of a kind do with light.
 struct LightTraits {
-    bool linear = false;    // answers with a weighted sum of its inputs: layers pass through
-    bool merges = false;    // of a renderer: its inputs' light can't be told apart, its image is one layer
-    bool partial = false;   // passes on a part of its inputs' light, on purpose
+    bool linear = false;   // answers with a weighted sum of its inputs: layers pass through
+    bool merges = false;   // of a renderer: its inputs' light can't be told apart, its image is one layer
+    bool partial = false;  // passes on a part of its inputs' light, on purpose
+    bool facts = false;    // answers with facts about the first surface that a sample meets: asked once for each, about
+                           // any surface, and taken as it is, without weight or exposure. For `show` only
+    bool lamps = false;    // looks for lamps: has a parameter `lamps`, and its scene has no others than those
+    bool groups = false;  // can keep groups of lamps apart: has a parameter `groups`. Its scene says how many there are
+                          // (Scene::groups(), 1 where nobody asks), and so many colours does it answer with
     bool converts = false;  // gives the light of the node whose frozen state it takes, in another representation
     /// Which light paths a node (defaults filled in) counts by itself, as sets for PathSet::parse(): from the light to
     /// the point asked about, whose own scattering is the last letter. An empty list: what it answers is no light.
@@ -82,8 +90,10 @@ std::function<std::vector<std::string>(const Node&)> always(std::vector<std::str
 
 /// What nodes of a kind ask of a run, and what they leave to it.
 struct RunTraits {
-    bool prepares = false;     // learns something before the first question: LightOp::prepare()
-    bool rehearses = false;    // asks for rehearsals meanwhile: Services::rehearse()
+    bool prepares = false;   // learns something before the first question: LightOp::prepare()
+    bool rehearses = false;  // asks for rehearsals meanwhile: Services::rehearse()
+    bool passes = false;     // learns anew for each pass of samples: NodeContext::pass(); so do those that prepare and
+                             // ask or take it. It is then made anew, and its memory does not grow with the samples
     std::string freezes = {};  // what it keeps for good when it has prepared, for nodes that take it: "photons"
     bool keeps = false;        // the result of its last call while preparing goes to the file that its parameter `keep`
                                // names; `extend` names such a file, whose content is in SceneData::kept
@@ -101,8 +111,10 @@ struct Kind {
     std::string name;  // "DirectLighting"
     Role role = Role::light;
     std::string help;  // what it does, one line
+    std::string plugin = {};  // that it comes from: name, version and hash of the library; "": the program itself
     InputCount inputs = {};
     std::vector<Param> params = {};
+    std::map<std::string, std::string> gone = {};  // parameters that it had once, and what to write instead
     /// What is wrong with a node whose parameters fit the schema, one sentence each. `scene`: what it will be made
     /// with; null as long as that has not been read.
     std::function<std::vector<std::string>(const Node&, const SceneData* scene)> mistakes = {};
@@ -117,6 +129,8 @@ struct Kind {
 class Registry {
 public:
     explicit Registry(std::vector<Kind> kinds);
+    /// Kinds from elsewhere, beside those. Names must be new.
+    void add(std::vector<Kind> kinds);
     const Kind* find(std::string_view name) const;
     const std::vector<Kind>& kinds() const { return kinds_; }
 

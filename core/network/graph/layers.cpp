@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "core/network/graph/lamp_groups.hpp"
 #include "core/network/graph/plan.hpp"
 
 namespace lightnet {
@@ -14,13 +15,21 @@ std::size_t renderer_of(const Graph& graph, const Registry& registry) {
 
 namespace {
 
-using Nodes = std::vector<std::size_t>;
+using Terminals = std::vector<Terminal>;
 
 // Linear nodes and the renderer pass on what their inputs keep apart; all others are terminals themselves.
 bool is_terminal(const Kind& kind) { return !kind.light.linear && kind.role == Role::light; }
 
+// A node's own light, each group of lamps apart if it keeps them.
+Terminals own_terminals(std::size_t node, const Layers& layers) {
+    Terminals own;
+    for (std::uint32_t g = 0; g < (layers.by_group[node] ? layers.groups : 1); ++g) own.push_back({node, g});
+    return own;
+}
+
 /// Per node, the terminals below it, in graph order: for the nodes on additive paths from `top` only.
-std::vector<Nodes> terminals_below(std::size_t top, const Graph& graph, const Registry& registry) {
+std::vector<Terminals> terminals_below(std::size_t top, const Graph& graph, const Registry& registry,
+                                       const Layers& layers) {
     const Edges edges = edges_of(graph);
     const auto kind_of = [&](std::size_t node) -> const Kind& {
         const Kind* kind = registry.find(graph.nodes[node].kind);
@@ -33,12 +42,12 @@ std::vector<Nodes> terminals_below(std::size_t top, const Graph& graph, const Re
     for (auto node = order.rbegin(); node != order.rend(); ++node)
         if (additive[*node] && !is_terminal(kind_of(*node)))
             for (const auto input : edges.inputs[*node]) additive[input] = true;
-    std::vector<Nodes> below(graph.nodes.size());
+    std::vector<Terminals> below(graph.nodes.size());
     for (const auto node : order) {
         if (!additive[node]) continue;
-        Nodes& all = below[node];
+        Terminals& all = below[node];
         if (is_terminal(kind_of(node)))
-            all = {node};
+            all = own_terminals(node, layers);
         else
             for (const auto input : edges.inputs[node]) all.insert(all.end(), below[input].begin(), below[input].end());
         std::sort(all.begin(), all.end());
@@ -55,15 +64,29 @@ std::vector<std::string> shown_names(const Layers& layers, const Graph& graph) {
     return names;
 }
 
+std::string name_of(const Terminal& terminal, const Layers& layers, const Graph& graph, const Registry& registry) {
+    const std::string& node = graph.nodes[terminal.node].name;
+    return layers.by_group[terminal.node] ? node + "." + lamp_groups(graph, registry)[terminal.group] : node;
+}
+
 Layers layers_of(const Graph& graph, const Registry& registry) {
     const std::size_t renderer = renderer_of(graph, registry);
-    Layers layers{{"emission"}, {}, {}};
+    const auto groups = lamp_groups(graph, registry);
+    Layers layers;
+    layers.groups = std::max<std::size_t>(1, groups.size());
+    layers.by_group = keep_groups(graph, registry);
+    const auto add = [&](const std::string& name, bool by_group, std::uint32_t group) {
+        layers.film.push_back(by_group ? name + "." + groups[group] : name);
+    };
     if (registry.find(graph.nodes[renderer].kind)->light.merges) {
         layers.film = {graph.nodes[renderer].name};
         layers.of_node.resize(graph.nodes.size());
     } else {
-        layers.of_node = terminals_below(renderer, graph, registry);
-        for (const auto terminal : layers.of_node[renderer]) layers.film.push_back(graph.nodes[terminal].name);
+        layers.emission = own_terminals(renderer, layers).size();
+        for (std::uint32_t g = 0; g < layers.emission; ++g) add("emission", layers.by_group[renderer], g);
+        layers.of_node = terminals_below(renderer, graph, registry, layers);
+        for (const auto [node, group] : layers.of_node[renderer])
+            add(graph.nodes[node].name, layers.by_group[node], group);
     }
     for (const std::size_t shown : graph.shown_by(renderer)) {
         const auto is_there = [&](const auto& all, const auto& one) {
@@ -72,10 +95,11 @@ Layers layers_of(const Graph& graph, const Registry& registry) {
         if (!is_there(layers.film, graph.nodes[shown].name) && !is_there(layers.shown, shown))
             layers.shown.push_back(shown);
     }
-    // a node on no additive path answers with one colour of its own
+    // a node on no additive path answers with the light of all below it as its own
     for (std::size_t node = 0; node < graph.nodes.size(); ++node) {
         const Kind* kind = registry.find(graph.nodes[node].kind);
-        if (layers.of_node[node].empty() && kind->role == Role::light) layers.of_node[node] = {node};
+        if (layers.of_node[node].empty() && kind->role == Role::light)
+            layers.of_node[node] = own_terminals(node, layers);
     }
     return layers;
 }

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/base/in_quotes.hpp"
+#include "core/network/graph/lamp_groups.hpp"
 #include "core/network/graph/plan.hpp"
 
 namespace lightnet {
@@ -13,11 +14,12 @@ namespace {
 /// Paths that arrive from one node, by one way of being passed on.
 struct Share {
     PathSet paths;
-    std::string who;     // "'direct'", "'bounce' of 'direct'"
-    int times = 1;       // how often it arrives; 2 stands for more as well
-    bool part = false;   // of all that light: who divided it knows why
-    bool known = true;   // its paths are stated
-    std::size_t origin;  // the node that it comes from
+    std::string who;              // "'direct'", "'bounce' of 'direct'"
+    int times = 1;                // how often it arrives; 2 stands for more as well
+    bool part = false;            // of all that light: who divided it knows why
+    bool known = true;            // its paths are stated
+    std::size_t origin;           // the node that it comes from
+    GroupSet lamps = all_groups;  // of which lamps it is
 };
 using Shares = std::vector<Share>;
 
@@ -46,7 +48,11 @@ private:
 class Book {
 public:
     Book(const Graph& graph, const Registry& registry)
-        : graph_(graph), registry_(registry), edges_(edges_of(graph)), of_(graph.nodes.size()) {}
+        : graph_(graph),
+          registry_(registry),
+          groups_(lamp_groups(graph, registry)),
+          edges_(edges_of(graph)),
+          of_(graph.nodes.size()) {}
 
     /// Node by node from the leaves up, so that a long chain of nodes doesn't cost the stack.
     const Shares& of(std::size_t top) {
@@ -65,9 +71,10 @@ private:
         const auto& inputs = edges_.inputs[index];
         const bool passes = kind.light.linear || kind.light.onward;
         Gathered shares;
+        const GroupSet lamps = kind.light.lamps ? groups_wanted(node, groups_) : all_groups;
         if (kind.light.paths)
             for (const auto& text = kind.light.paths(node); const auto& own : text)
-                shares.add({PathSet::parse(own), in_quotes(node.name), 1, false, true, index});
+                shares.add({PathSet::parse(own), in_quotes(node.name), 1, false, true, index, lamps});
         if ((!kind.light.paths && !passes && !kind.light.converts) || (!inputs.empty() && !passes))
             shares.add({{}, in_quotes(node.name), 1, false, false, index});
         if (kind.light.converts)
@@ -109,12 +116,31 @@ private:
 
     const Graph& graph_;
     const Registry& registry_;
+    const std::vector<std::string> groups_;
     const Edges edges_;
     std::vector<Shares> of_;
 };
 
+// Those that there are: one for all lamps, where nobody has sorted them.
+GroupSet present(const std::vector<std::string>& groups) {
+    return groups.empty() ? 1 : all_groups >> (most_groups - std::min(most_groups, groups.size()));
+}
+
+// " from lamps of 'key'": whose it is, where that is not all.
+std::string whose(GroupSet lamps, const std::vector<std::string>& groups) {
+    std::string text;
+    bool all = true;
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        const bool is_in = lamps >> g & 1;
+        all = all && is_in;
+        if (is_in) text += (text.empty() ? "" : ", ") + in_quotes(groups[g]);
+    }
+    return all || text.empty() ? "" : " from lamps of " + text;
+}
+
 // The first share that a later one has a path in common with is named with it, and no third one: one mistake, one line.
-void find_doubles(const Graph& graph, const Node& renderer, const Shares& shares, std::vector<Problem>& problems) {
+void find_doubles(const Graph& graph, const Node& renderer, const std::vector<std::string>& groups,
+                  const Shares& shares, std::vector<Problem>& problems) {
     const auto say = [&](const Share& share, const std::string& what) {
         const Node& node = graph.nodes[share.origin];
         problems.push_back(
@@ -127,9 +153,10 @@ void find_doubles(const Graph& graph, const Node& renderer, const Shares& shares
             say(later, "light is counted more than once, as more than one way leads from it to the image: " +
                            *PathSet::common(later.paths, later.paths) + ", for one");
         for (std::size_t j = 0; j < i; ++j) {
-            if (shares[j].part) continue;
+            const GroupSet both = shares[j].lamps & later.lamps & present(groups);
+            if (shares[j].part || !both) continue;
             if (const auto path = PathSet::common(shares[j].paths, later.paths)) {
-                say(later, *path + " is counted by " + shares[j].who + " and " + later.who);
+                say(later, *path + whose(both, groups) + " is counted by " + shares[j].who + " and " + later.who);
                 break;
             }
         }
@@ -145,19 +172,25 @@ PathReport report_paths(const Graph& graph, const Registry& registry) {
     const Shares& shares = book.of(image);
     const Node& renderer = graph.nodes[image];
     PathReport report;
-    find_doubles(graph, renderer, shares, report.doubles);
-    PathSet all;
+    const auto groups = lamp_groups(graph, registry);
+    find_doubles(graph, renderer, groups, shares, report.doubles);
     bool known = true, light = false;
     for (const Share& share : shares) {
-        all = all.with(share.paths);
         known = known && share.known;
         light = light || (share.origin != image && !share.paths.empty());
     }
     // An image of something else than light misses nothing.
     if (!known || !light) return report;
-    if (const auto path = PathSet::missing(PathSet::parse("L(S|D)*E"), all))
-        report.missing.push_back(
-            {renderer.where, renderer.kind + " " + in_quotes(renderer.name) + ": no node counts " + *path});
+    std::map<std::string, GroupSet> missing;  // path, and whose
+    for (std::size_t g = 0; g < std::max<std::size_t>(1, groups.size()); ++g) {
+        PathSet all;
+        for (const Share& share : shares)
+            if (share.lamps >> g & 1) all = all.with(share.paths);
+        if (const auto path = PathSet::missing(PathSet::parse("L(S|D)*E"), all)) missing[*path] |= GroupSet{1} << g;
+    }
+    for (const auto& [path, lamps] : missing)
+        report.missing.push_back({renderer.where, renderer.kind + " " + in_quotes(renderer.name) + ": no node counts " +
+                                                      path + whose(lamps, groups)});
     return report;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <set>
 
 #include "core/network/graph/layout.hpp"
@@ -13,36 +14,44 @@ namespace {
 class Planner {
 public:
     Planner(const Graph& graph, const Registry& registry, const Hosts& hosts)
-        : graph_(graph), placed_(graph.nodes.size(), false) {
+        : graph_(graph), hosts_(hosts), sectors_(hosts.hosts.size()), placed_(graph.nodes.size(), false) {
         plan_.places_of.resize(graph.nodes.size());
         const auto used = used_nodes(graph, renderer_of(graph, registry));
         for (std::size_t node = 0; node < graph.nodes.size(); ++node)
             placed_[node] = used[whole_of(graph, node)] && sectors_of(graph, node).empty() &&
                             registry.find(graph.nodes[node].kind)->role != Role::scene;
-        give_sectors(hosts);
+        give_sectors();
     }
 
-    /// Every place of the host holds every node, but of sharded nodes only the sectors that are the host's.
-    void whole_network(const std::string& host, std::uint32_t places) {
+    /// What follows is about places of this host, until the next one begins.
+    void begin_host(const std::string& host) {
+        host_ = host;
+        host_first_ = plan_.places.size();
+    }
+
+    /// Every place holds every node, but of sharded nodes only the sectors that are those of the entry; none: of a host
+    /// that the file doesn't name.
+    void whole_network(std::optional<std::size_t> entry, std::uint32_t places) {
         for (std::uint32_t index = 0; index < places; ++index) {
-            const auto place = add_place(host, index);
+            const auto place = add_place();
             for (std::size_t node = 0; node < placed_.size(); ++node)
-                if (placed_[node] && (!sector_at(graph_, node) || sectors_[host].contains(node))) hold(node, place);
+                if (placed_[node] && (!sector_at(graph_, node) || (entry && sectors_[*entry].contains(node))))
+                    hold(node, place);
         }
     }
 
-    /// Deals the named nodes out to the places of the host, the least busy place first; places without a node are
+    /// Deals the named nodes out to the places of the entry, the least busy place first; places without a node are
     /// not made.
-    void named_nodes(const HostEntry& entry, std::uint32_t places) {
+    void named_nodes(std::size_t entry, std::uint32_t places) {
         const std::size_t first = plan_.places.size();
+        const auto& wanted_of = hosts_.hosts[entry].replicas;
         for (std::size_t node = 0; node < placed_.size(); ++node) {
-            const auto wanted = entry.replicas.find(graph_.nodes[whole_of(graph_, node)].name);
-            if (wanted == entry.replicas.end() || !placed_[node]) continue;
+            const auto wanted = wanted_of.find(graph_.nodes[whole_of(graph_, node)].name);
+            if (wanted == wanted_of.end() || !placed_[node]) continue;
             places = std::max(places, static_cast<std::uint32_t>(wanted->second));
             const bool sector = sector_at(graph_, node);
-            const int replicas = sector ? sectors_[entry.endpoint].contains(node) : wanted->second;
-            for (int replica = 0; replica < replicas; ++replica)
-                hold(node, least_busy(entry.endpoint, first, places, node));
+            const int replicas = sector ? sectors_[entry].contains(node) : wanted->second;
+            for (int replica = 0; replica < replicas; ++replica) hold(node, least_busy(first, places, node));
         }
     }
 
@@ -70,8 +79,8 @@ public:
     }
 
     /// Names that are no strategy, or no node, have been complained of by check_hosts().
-    void choose_strategies(const Hosts& hosts) {
-        for (const auto& entry : hosts.strategies) {
+    void choose_strategies() {
+        for (const auto& entry : hosts_.strategies) {
             const auto strategy = strategy_called(entry.name);
             const auto node = graph_.find(entry.node);
             if (strategy && entry.node.empty())
@@ -96,20 +105,20 @@ private:
     }
 
     // Whose a sector is follows from the file alone, so that it stays where it is when other hosts come and go.
-    void give_sectors(const Hosts& hosts) {
+    void give_sectors() {
         for (std::size_t node = 0; node < written_nodes(graph_); ++node) {
             const auto sectors = sectors_of(graph_, node);
             if (sectors.empty()) continue;
-            const auto counts = sectors_by_host(hosts, graph_.nodes[node].name);
+            const auto counts = sectors_by_host(hosts_, graph_.nodes[node].name);
             auto next = sectors.begin();
-            for (std::size_t host = 0; host < counts.size(); ++host)
-                for (std::uint32_t i = 0; i < counts[host] && next != sectors.end(); ++i)
-                    sectors_[hosts.hosts[host].endpoint].insert(*next++);
+            for (std::size_t entry = 0; entry < counts.size(); ++entry)
+                for (std::uint32_t i = 0; i < counts[entry] && next != sectors.end(); ++i)
+                    sectors_[entry].insert(*next++);
         }
     }
 
-    std::uint32_t add_place(const std::string& host, std::uint32_t index) {
-        plan_.places.push_back({host, index});
+    std::uint32_t add_place() {
+        plan_.places.push_back({host_, static_cast<std::uint32_t>(plan_.places.size() - host_first_)});
         held_.push_back(0);
         return static_cast<std::uint32_t>(plan_.places.size() - 1);
     }
@@ -119,10 +128,9 @@ private:
         ++held_[place];
     }
 
-    // A place of the host that doesn't hold `node` yet: a new one while there may be more, else the least busy one.
-    std::uint32_t least_busy(const std::string& host, std::size_t first, std::uint32_t most, std::size_t node) {
-        const auto count = static_cast<std::uint32_t>(plan_.places.size() - first);
-        if (count < most) return add_place(host, count);
+    // A place from `first` on that doesn't hold `node` yet: a new one while there may be more, else the least busy one.
+    std::uint32_t least_busy(std::size_t first, std::uint32_t most, std::size_t node) {
+        if (plan_.places.size() - first < most) return add_place();
         const auto& holders = plan_.places_of[node];
         std::size_t best = plan_.places.size();
         for (std::size_t place = first; place < plan_.places.size(); ++place) {
@@ -133,10 +141,13 @@ private:
     }
 
     const Graph& graph_;
+    const Hosts& hosts_;
     Plan plan_;
-    std::map<std::string, std::set<std::size_t>> sectors_;  // by host: those that the hosts file gives it
-    std::vector<bool> placed_;                              // per node: the image needs it, and a place must hold it
-    std::vector<std::size_t> held_;                         // per place: how many nodes it holds
+    std::string host_;                            // whose places are made now ...
+    std::size_t host_first_ = 0;                  // ... and the first of them
+    std::vector<std::set<std::size_t>> sectors_;  // by entry of the hosts file: those that it gives it
+    std::vector<bool> placed_;                    // per node: the image needs it, and a place must hold it
+    std::vector<std::size_t> held_;               // per place: how many nodes it holds
 };
 
 }  // namespace
@@ -144,20 +155,30 @@ private:
 Plan plan(const Graph& graph, const Registry& registry, const Hosts& hosts, const std::vector<HostOffer>& offers) {
     Planner planner(graph, registry, hosts);
     for (const auto& offer : offers) {
-        const auto entry = std::find_if(hosts.hosts.begin(), hosts.hosts.end(),
-                                        [&](const HostEntry& host) { return host.endpoint == offer.endpoint; });
-        const bool named = entry != hosts.hosts.end();
-        const auto places = named && entry->places > 0 ? static_cast<std::uint32_t>(entry->places) : offer.places;
-        if (named && !entry->replicas.empty())
-            planner.named_nodes(*entry, places);
-        else
-            planner.whole_network(offer.endpoint, places);
+        planner.begin_host(offer.endpoint);
+        bool named = false;
+        for (std::size_t i = 0; i < hosts.hosts.size(); ++i) {
+            const auto& entry = hosts.hosts[i];
+            if (entry.host() != offer.endpoint) continue;
+            named = true;
+            const auto places = entry.places > 0 ? static_cast<std::uint32_t>(entry.places) : offer.places;
+            if (entry.replicas.empty())
+                planner.whole_network(i, places);
+            else
+                planner.named_nodes(i, places);
+        }
+        if (!named) planner.whole_network(std::nullopt, offer.places);
     }
-    if (planner.empty()) throw Error("no host offers a place");
+    if (planner.empty()) throw Error("no host offers a place for a node that the picture needs");
     planner.rescue_homeless();
     planner.keep_together();
-    planner.choose_strategies(hosts);
+    planner.choose_strategies();
     return planner.take();
+}
+
+std::uint32_t places_of_host(const Plan& plan, std::string_view host) {
+    return static_cast<std::uint32_t>(std::count_if(plan.places.begin(), plan.places.end(),
+                                                    [&](const PlaceAt& place) { return place.host == host; }));
 }
 
 bool fits(const Plan& plan, const Graph& graph) {

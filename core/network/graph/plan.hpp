@@ -16,12 +16,22 @@
 
 namespace lightnet {
 
+/// A colour that is kept apart from all others: the light of a node, or of a group of lamps by way of it.
+struct Terminal {
+    std::size_t node = 0;
+    std::uint32_t group = 0;  // of lamps; 0 where the node keeps none apart
+    friend auto operator<=>(const Terminal&, const Terminal&) = default;
+};
+
 /// What the image's layers are, and which of them pass through each node. Depends on the graph alone.
 struct Layers {
-    std::vector<std::string> film;   // "emission", then the terminals of the additive paths, graph order
+    std::vector<std::string> film;   // "emission", then the terminals of the additive paths, graph order: "direct". Of
+                                     // what keeps groups of lamps apart, one for each: "direct.key", "direct.rest"
     std::vector<std::size_t> shown;  // nodes whose images stand beside the sum, behind the layers of the film
-    std::vector<std::vector<std::size_t>>
-        of_node;  // per node: the terminals (node indices) that its answers keep apart
+    std::vector<std::vector<Terminal>> of_node;  // per node: the terminals that its answers keep apart
+    std::size_t emission = 1;                    // how many layers the renderer's own light has, the first ones
+    std::size_t groups = 1;                      // of lamps, that nodes keep apart who do
+    std::vector<bool> by_group;                  // per node: its answers keep them apart
 };
 
 /// How many colours a pixel has: one per layer, and one per image beside the sum.
@@ -32,6 +42,8 @@ std::vector<std::string> shown_names(const Layers& layers, const Graph& graph);
 /// Layers of a checked graph. A linear node on an additive path from the renderer keeps its terminals apart; every
 /// other node answers with one colour.
 Layers layers_of(const Graph& graph, const Registry& registry);
+/// Of its light as a layer: "direct", "direct.key".
+std::string name_of(const Terminal& terminal, const Layers& layers, const Graph& graph, const Registry& registry);
 
 /// Names one place: the same on every host, and in order.
 struct PlaceAt {
@@ -70,11 +82,15 @@ struct HostOffer {
 };
 
 /// Spreads the graph over the hosts that are there. Without a hosts file (or where an entry names no nodes) each place
-/// holds the whole network. A node whose hosts are all absent is put on the place that holds the fewest nodes. Sectors
+/// holds the whole network. Several entries for this process have their places one behind the other, in the order of
+/// the file. A node whose hosts are all absent is put on the place that holds the fewest nodes. Sectors
 /// of sharded nodes go to the hosts of the file in its order; hosts that it doesn't name hold only those that have lost
 /// theirs, and nobody holds the sharded node itself. Who takes a node's frozen state has that node beside it on all its
 /// places.
 Plan plan(const Graph& graph, const Registry& registry, const Hosts& hosts, const std::vector<HostOffer>& offers);
+
+/// How many places a host has.
+std::uint32_t places_of_host(const Plan& plan, std::string_view host);
 
 /// Every node of the graph has a row, and every place that is named is there. Plans that arrive are checked.
 bool fits(const Plan& plan, const Graph& graph);

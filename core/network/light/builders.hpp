@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <utility>
 
 namespace lightnet {
 
@@ -14,16 +15,28 @@ public:
 
     virtual ~Builders() = default;
     /// Has all pieces done, in parallel where there are several builders. Returns when all have ended. Throws what one
-    /// of those threw that threw anything, and then begins no more. Not to be called from a piece.
+    /// of those threw that threw anything, and then begins no more; Cancelled when nobody wants the value any more. A
+    /// piece that takes more than a tenth of a second looks by itself: Services::look(). Not to be called from a piece.
     virtual void each(std::size_t count, const Piece& piece) = 0;
 };
 
 /// Does one piece after the other.
 class OneBuilder final : public Builders {
 public:
+    /// Is told before every piece how many are done; may throw to end the work.
+    using Watch = std::function<void(std::size_t done, std::size_t count)>;
+
+    OneBuilder() = default;
+    explicit OneBuilder(Watch watch) : watch_(std::move(watch)) {}
     void each(std::size_t count, const Piece& piece) override {
-        for (std::size_t i = 0; i < count; ++i) piece(i);
+        for (std::size_t i = 0; i < count; ++i) {
+            if (watch_) watch_(i, count);
+            piece(i);
+        }
     }
+
+private:
+    Watch watch_;
 };
 
 }  // namespace lightnet

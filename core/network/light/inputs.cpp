@@ -33,6 +33,13 @@ Part empty_part(const Inputs& inputs, std::size_t index, std::size_t questions) 
 
 }  // namespace
 
+Inputs Inputs::which(bool facts) const {
+    std::vector<Input> some;
+    for (const auto& input : inputs_)
+        if (input.facts == facts) some.push_back(input);
+    return {std::move(some), layers_};
+}
+
 std::vector<Part> ask_all(const Inputs& inputs, std::span<const Query> questions) {
     std::vector<Part> parts;
     parts.reserve(inputs.size());

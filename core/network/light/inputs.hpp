@@ -17,6 +17,8 @@ struct Input {
     Port* port = nullptr;                  // owned by the place
     std::vector<std::uint32_t> layers{0};  // which of the asker's layers each colour of an answer belongs to
 
+    bool facts = false;  // gives no light: see LightTraits
+
     std::size_t width() const { return layers.size(); }
 };
 
@@ -31,6 +33,8 @@ public:
     const Input& operator[](std::size_t i) const { return inputs_[i]; }
     auto begin() const { return inputs_.begin(); }
     auto end() const { return inputs_.end(); }
+    /// Those that give facts, or those that give light.
+    Inputs which(bool facts) const;
     /// How many colours an answer of the node itself has: one per layer of the image that it adds to.
     std::size_t layers() const { return layers_; }
 

@@ -7,8 +7,8 @@
 
 namespace lightnet {
 
-/// One node's access to the locks of the run. At most one call in the whole run holds a lock of a name, on whatever host
-/// it runs; the others wait. Asking an input while holding one is an error, as it could make places wait for each
+/// One node's access to the locks of the run. At most one call in the whole run holds a lock of a name, on whatever
+/// host it runs; the others wait. Asking an input while holding one is an error, as it could make places wait for each
 /// other. What a lock protects must not decide what is answered.
 class Locks {
 public:

@@ -1,6 +1,7 @@
 #include "core/network/light/node_context.hpp"
 
 #include "core/base/error.hpp"
+#include "core/film/tile.hpp"
 #include "core/network/light/locks.hpp"
 #include "core/network/light/rehearsal.hpp"
 
@@ -30,6 +31,10 @@ NodeContext::NodeContext(const Node& node, Inputs inputs, const Scene& scene, st
 void NodeContext::each(std::size_t count, std::size_t at_once, const Concurrent::Work& work) const {
     if (services_.concurrent) return services_.concurrent->each(node_.name.c_str(), count, at_once, work);
     for (std::size_t piece = 0; piece < count; ++piece) work(piece);
+}
+
+std::uint16_t NodeContext::pass_mark(std::uint32_t sample) const {
+    return services_.has_passes ? mark_of_pass(sample / samples_per_block) : 0;
 }
 
 const Value& NodeContext::value(const std::string& param) const {

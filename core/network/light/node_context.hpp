@@ -12,6 +12,7 @@
 #include "core/network/graph/graph.hpp"
 #include "core/network/light/concurrent.hpp"
 #include "core/network/light/inputs.hpp"
+#include "core/network/light/whereabouts.hpp"
 
 namespace lightnet {
 
@@ -21,14 +22,18 @@ class Rehearsal;
 class Scene;
 
 /// What a place gives each node beside its inputs. Null: a rehearsal that is never on, locks that are always free, one
-/// piece of work after the other.
+/// piece of work after the other, one place.
 struct NodeServices {
     Rehearsal* rehearsal = nullptr;
     Locks* locks = nullptr;
     Concurrent* concurrent = nullptr;
+    std::function<Whereabouts()> whereabouts = {};
+    std::uint64_t* off_surface = nullptr;  // counts points asked about that no surface is near
     bool checking = false;  // is this a run that looks for wrapped classes with a memory?
     std::function<const LightOp&(const std::string& node)> taken = {};  // a node of the same place
     Bytes kept = nullptr;                                               // by an earlier run
+    bool has_passes = false;  // does a node of the graph learn anew for each pass?
+    std::uint32_t pass = 0;   // that the node is made for, if it is one of those
 };
 
 /// Handed to a node's constructor. Parameters have passed the schema of the node's kind and defaults are filled in,
@@ -47,6 +52,12 @@ public:
     Rehearsal& rehearsal() const { return *services_.rehearsal; }
     /// For nodes whose kind says that it locks. Lives as long as the node.
     Locks& locks() const { return *services_.locks; }
+    /// For display, budgets and names of locks alone.
+    Whereabouts whereabouts() const { return services_.whereabouts ? services_.whereabouts() : Whereabouts{}; }
+    /// The node asks about a point that no surface is near: the run says how often it did.
+    void count_off_surface() const {
+        if (services_.off_surface) ++*services_.off_surface;
+    }
 
     /// The node that a parameter of type node names, at the same place. It has prepared when this one prepares:
     /// frozen() gives what it has learnt.
@@ -56,6 +67,13 @@ public:
     const Bytes& kept() const { return services_.kept; }
 
     bool checking() const { return services_.checking; }
+
+    /// The pass that the node is made for: a block of samples_per_block samples of the picture. Nodes whose kind says
+    /// RunTraits::passes, and those that prepare and depend on one, are made and prepared anew for each.
+    std::uint32_t pass() const { return services_.pass; }
+    /// For Query::pass, of a question that a renderer asks for this sample of a pixel. Other nodes hand on the pass of
+    /// the question that they answer.
+    std::uint16_t pass_mark(std::uint32_t sample) const;
 
     /// Calls `work` for each of `count` pieces, one after the other or concurrently: see Concurrent. From light() only.
     void each(std::size_t count, std::size_t at_once, const Concurrent::Work& work) const;

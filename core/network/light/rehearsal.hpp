@@ -1,6 +1,7 @@
 // What a node could not answer well, noted down while a rehearsal is on.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "core/base/query.hpp"
@@ -14,11 +15,13 @@ public:
     /// True while notes are taken. The answers given meanwhile reach no image.
     bool on() const { return on_; }
     void note(const Query& question) {
-        if (on_) noted_.push_back(question);
+        if (on_ && (pass_ == 0 || question.pass == pass_)) noted_.push_back(question);
     }
 
     // For those who run the rehearsal.
-    void begin() { on_ = true; }
+    /// `pass`: the mark of the only pass whose questions count; 0: all do. A second copy of a tile of the pass before,
+    /// which nobody waits for any more, may still ask.
+    void begin(std::uint16_t pass = 0) { on_ = true, pass_ = pass; }
     /// Ends it. All that was noted, sorted, each question once.
     std::vector<Query> end();
     /// The same while it goes on.
@@ -26,6 +29,7 @@ public:
 
 private:
     bool on_ = false;
+    std::uint16_t pass_ = 0;
     std::vector<Query> noted_;
 };
 

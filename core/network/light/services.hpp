@@ -18,12 +18,6 @@
 
 namespace lightnet {
 
-/// Where a node runs: for display. What a node computes must not depend on it.
-struct Whereabouts {
-    std::string place;       // "tcp://onyx1:7777 place 2"; "this thread" in a serial run
-    std::size_t places = 1;  // that hold the node
-};
-
 /// Handed to LightOp::prepare(). Preparing is collective: every place that holds the node runs the same prepare(),
 /// which makes the same calls here in the same order, and each call returns the same to all. A place that comes later
 /// gets what was computed before it came. Works alike in a run of one thread.
@@ -90,10 +84,18 @@ public:
     /// image. Strides of later calls must divide those of earlier ones.
     virtual std::vector<Query> rehearse(std::uint32_t stride) = 0;
 
-    virtual Whereabouts whereabouts() const = 0;
     /// A line for the user: how many photons were kept, how large a cache is. What several places say alike is shown
     /// once.
     virtual void say(const std::string& text) = 0;
+
+    /// What the node does from now on ("builds its tree"), and how much of it is done, in any unit; 0 of 0: the calls
+    /// here know best, or nobody. It is shown while the node prepares, and the report tells how long each took. For
+    /// display alone; may be called as often as you like, from prepare() and from what once() makes.
+    virtual void doing(const std::string& what, std::uint64_t done = 0, std::uint64_t total = 0) = 0;
+    /// Ends the work when nobody wants it any more: throws Cancelled. The calls here look by themselves; who computes
+    /// for more than a tenth of a second between them calls this now and then. Costs next to nothing, and may be called
+    /// from anywhere: from prepare(), shards, what once() makes, and pieces of it.
+    virtual void look() const = 0;
 
 protected:
     using Make = std::function<std::shared_ptr<const void>(Builders& builders)>;

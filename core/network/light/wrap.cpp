@@ -11,6 +11,7 @@
 #include "core/network/light/cancelled.hpp"
 #include "core/network/light/describe_question.hpp"
 #include "core/network/light/light_op.hpp"
+#include "core/network/light/locks.hpp"
 #include "core/network/light/renderer.hpp"
 
 namespace lightnet {
@@ -80,6 +81,7 @@ public:
         : here_(here),
           at_once_(wrapping.at_once),
           check_(here.checking() && wrapping.reproducible),
+          alone_(wrapping.alone.empty() ? "" : wrapping.alone + " of " + here.whereabouts().process),
           pool_(here_, std::move(make)) {}
 
     template <class QuestionAt>
@@ -89,11 +91,20 @@ public:
             answers[i] = ask_named(*instance, question_at(i));
             pool_.give_back(std::move(instance));
         };
-        here_.each(answers.size(), at_once_, std::ref(work));
+        std::optional<Locks::Held> held;
+        if (!alone_.empty()) held.emplace(here_.locks().hold(alone_));
+        each(answers.size(), work);
         if (check_) check(question_at, answers);
     }
 
 private:
+    // Who is alone asks nobody: nothing can go on while it waits.
+    template <class Work>
+    void each(std::size_t count, Work& work) const {
+        if (alone_.empty()) return here_.each(count, at_once_, std::ref(work));
+        for (std::size_t i = 0; i < count; ++i) work(i);
+    }
+
     // Asks a sample once more, in another order, each question of an instance that has answered nothing yet.
     template <class QuestionAt>
     void check(const QuestionAt& question_at, std::span<const Rgb> answers) const {
@@ -106,12 +117,13 @@ private:
                 throw Error(describe(question),
                             "a fresh instance answers differently: what the class remembers must not change answers");
         };
-        here_.each(order.size(), at_once_, std::ref(work));
+        each(order.size(), work);
     }
 
     NodeContext here_;
     std::size_t at_once_;
     bool check_;
+    std::string alone_;  // a lock; empty: none
     Pool pool_;
 };
 
@@ -132,7 +144,7 @@ private:
 class WrappedRenderer final : public Renderer {
 public:
     WrappedRenderer(const NodeContext& here, const Wrapping& wrapping, MakeInstance make)
-        : seed_(here.seed()), wrapped_(std::make_unique<Wrapped>(here, wrapping, std::move(make))) {}
+        : here_(here), wrapped_(std::make_unique<Wrapped>(here, wrapping, std::move(make))) {}
 
     void render_block(const Tile& tile, std::span<Rgb> pixels) const override {
         std::vector<std::size_t> wanted;
@@ -148,13 +160,13 @@ private:
     PixelSample sample_at(const Tile& tile, std::size_t pixel, std::size_t i) const {
         const auto x = tile.x + static_cast<std::uint32_t>(pixel % tile.width);
         const auto y = tile.y + static_cast<std::uint32_t>(pixel / tile.width);
-        const Key key = pixel_key(seed_, x, y);
+        const Key key = pixel_key(here_.seed(), x, y);
         const auto sample = tile.first_sample + static_cast<std::uint32_t>(i);
         const Vec2 u = Samples(key, sample).next_2d();
-        return {float(x) + u.x, float(y) + u.y, key, sample};
+        return {float(x) + u.x, float(y) + u.y, key, sample, here_.pass_mark(sample)};
     }
 
-    std::uint64_t seed_;
+    NodeContext here_;
     std::unique_ptr<Wrapped> wrapped_;
 };
 
@@ -166,19 +178,28 @@ Kind kind_of(std::string name, const Wrapping& wrapping) {
     kind.params = wrapping.params;
     kind.run.whole_calls = true;
     kind.run.reproducible = wrapping.reproducible;
+    kind.run.locks = !wrapping.alone.empty();
     return kind;
 }
 
 }  // namespace
 
-void OneByOne::begin(Key stream, std::uint32_t sample) {
+void OneByOne::begin(Key stream, std::uint32_t sample, std::uint16_t pass) {
     stream_ = child(stream, key_, sample);
+    pass_ = pass;
     asked_ = 0;
 }
 
 Rgb OneByOne::ask(std::size_t index, Query question) {
     question.stream = child(stream_, key_, ++asked_);
+    question.pass = pass_;
     return ask_one(inputs_[index], question);
+}
+
+Rgb OneByOne::ask(std::size_t index, const std::optional<Query>& question) {
+    if (question) return ask(index, *question);
+    here_.count_off_surface();
+    return {};
 }
 
 Rgb WrappedInstance::light(const Query&) { throw Error("a renderer was asked for light"); }
@@ -186,6 +207,7 @@ Rgb WrappedInstance::sample(const PixelSample&) { throw Error("a light operator 
 
 Kind wrapped_light(std::string name, Wrapping wrapping, MakeInstance make) {
     Kind kind = kind_of(std::move(name), wrapping);
+    kind.light.lamps = true;
     kind.make_light = [wrapping = std::move(wrapping), make = std::move(make)](const NodeContext& here) {
         return std::make_unique<WrappedLight>(here, wrapping, make);
     };

@@ -7,6 +7,7 @@
 #include <concepts>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,6 +26,7 @@ struct PixelSample {
     float x = 0, y = 0;        // on the image, in pixels from the upper left corner
     Key stream = 0;            // root of all random numbers of this sample
     std::uint32_t sample = 0;  // of the pixel
+    std::uint16_t pass = 0;    // for Query::pass
 };
 
 /// Asks the inputs of a node on behalf of one instance: one question at a time, and the answer is there when it
@@ -32,20 +34,24 @@ struct PixelSample {
 /// else.
 class OneByOne {
 public:
-    explicit OneByOne(const NodeContext& here) : inputs_(here.inputs()), key_(here.key()) {}
+    explicit OneByOne(const NodeContext& here) : here_(here), inputs_(here.inputs()), key_(here.key()) {}
 
     std::size_t inputs() const { return inputs_.size(); }
-    /// How bright is it there, says input `index`. Sets the question's stream.
+    /// How bright is it there, says input `index`. Sets the question's stream and pass.
     Rgb ask(std::size_t index, Query question);
+    /// The same where there may be no surface to ask about: black then, and counted. See SurfaceLookup::question().
+    Rgb ask(std::size_t index, const std::optional<Query>& question);
     /// Seed for the random numbers that the class draws by itself while it answers what it is asked now.
     Key seed() const { return child(stream_, key_, 0); }
-    /// An answer begins: `stream` is the root of its random numbers, for its sample with that index.
-    void begin(Key stream, std::uint32_t sample);
+    /// An answer begins: `stream` is the root of its random numbers, for its sample with that index, in that pass.
+    void begin(Key stream, std::uint32_t sample, std::uint16_t pass = 0);
 
 private:
+    const NodeContext& here_;
     Inputs inputs_;
     Key key_;
     Key stream_ = 0;
+    std::uint16_t pass_ = 0;
     std::uint64_t asked_ = 0;
 };
 
@@ -75,6 +81,9 @@ struct Wrapping {
     std::vector<Param> params = {};
     bool reproducible = true;    // false: it draws random numbers that can't be seeded; the run says so
     std::size_t at_once = 2048;  // instances that a call may have waiting at a time
+    /// Of all calls of a process whose kinds name the same here, one at a time goes on: for libraries that change global
+    /// variables. Such a class asks no inputs. Empty: calls don't disturb each other.
+    std::string alone = {};
 };
 
 /// One instance of a wrapped class, whatever the class is. Used by one call at a time.
@@ -102,14 +111,14 @@ Kind wrap(std::string name, Wrapping wrapping) {
         explicit InstanceOfT(const NodeContext& here) : one_by_one_(here), bridge_(here, one_by_one_) {}
         Rgb light([[maybe_unused]] const Query& question) override {
             if constexpr (AnswersQuestions<T>) {
-                one_by_one_.begin(question.stream, question.sample);
+                one_by_one_.begin(question.stream, question.sample, question.pass);
                 return bridge_.light(question);
             }
             return WrappedInstance::light(question);
         }
         Rgb sample([[maybe_unused]] const PixelSample& at) override {
             if constexpr (SamplesPixels<T>) {
-                one_by_one_.begin(at.stream, at.sample);
+                one_by_one_.begin(at.stream, at.sample, at.pass);
                 return bridge_.sample(at);
             }
             return WrappedInstance::sample(at);

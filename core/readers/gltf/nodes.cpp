@@ -79,7 +79,8 @@ public:
                     names.try_emplace(*mesh, node["name"].text(""));
                 }
             if (node["camera"]) camera(node["camera"], to_world);
-            if (const At light = node["extensions"]["KHR_lights_punctual"]["light"]) this->light(light, to_world);
+            if (const At light = node["extensions"]["KHR_lights_punctual"]["light"])
+                this->light(light, to_world, node["name"].text(""));
         }
         for (const auto& [mesh, where] : places)
             if (!assets_.report().full()) add(document_.root()["meshes"][mesh], where, names[mesh]);
@@ -247,7 +248,8 @@ private:
         return true;
     }
 
-    void light(const At& index, const Matrix& to_world) {
+    /// It goes by the name of its node, or else by its own.
+    void light(const At& index, const Matrix& to_world, const std::string& node) {
         const At list = document_.root()["extensions"]["KHR_lights_punctual"]["lights"];
         const auto which = index.index(list.size());
         if (!which) return;
@@ -258,14 +260,16 @@ private:
         if (!finite(position)) return index.error("stands at no finite place");
         const std::string type = at["type"].text("");
         auto& lights = assets_.scene().lights;
+        const LampLabel label{node.empty() ? at["name"].text("") : node};
         if (type == "point") {
-            lights.push_back(PointLight{position, strength});
+            lights.push_back(PointLight{position, strength, label});
         } else if (type == "directional") {
-            lights.push_back(DirectionalLight{ahead, strength});
+            lights.push_back(DirectionalLight{ahead, strength, label});
         } else if (type == "spot") {
             const float outer = std::clamp(at["spot"]["outerConeAngle"].real(0.785398f), 1e-4f, 1.570796f);
             const float inner = std::clamp(at["spot"]["innerConeAngle"].real(0), 0.0f, outer);
-            lights.push_back(SpotLight{position, ahead, strength, inner, outer, SpotLight::Falloff::squared_linear});
+            lights.push_back(
+                SpotLight{position, ahead, strength, inner, outer, SpotLight::Falloff::squared_linear, label});
         } else {
             at["type"].error("must be point, spot or directional");
         }

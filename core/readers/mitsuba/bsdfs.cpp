@@ -111,14 +111,16 @@ std::vector<const Node*> Bsdfs::nested(Properties& properties, std::size_t count
 /// α from alpha, or from alpha_u and alpha_v.
 Roughness Bsdfs::roughness(Properties& properties, float fallback) {
     const std::string distribution = properties.text("distribution", "beckmann");
-    if (distribution != "ggx")
+    const bool beckmann = distribution == "beckmann";
+    if (!beckmann && distribution != "ggx")
         context_.warn(properties.node(),
                       fmt::format("distribution '{}' is taken as 'ggx'", distribution.substr(0, 32)));
+    const FacetLaw law{beckmann ? FacetLaw::Normals::beckmann : FacetLaw::Normals::ggx, FacetLaw::Masking::independent};
     properties.ignore({"sample_visible"});
-    Roughness rough{fallback, fallback, {}, Roughness::Means::alpha};
+    Roughness rough{fallback, fallback, {}, Roughness::Means::alpha, law};
     const Node* alpha = properties.find("alpha");
     if (alpha && !is_colour(*alpha)) {
-        rough = {1, 1, textures_.of(*alpha), Roughness::Means::alpha};
+        rough = {1, 1, textures_.of(*alpha), Roughness::Means::alpha, law};
     } else {
         rough.u = rough.v = properties.number("alpha", fallback);
         const auto one = [&](const char* name, float other) {

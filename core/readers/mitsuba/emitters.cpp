@@ -38,11 +38,13 @@ Matrix rotation_of(Matrix t) {
     return t;
 }
 
+LampLabel label(const Properties& properties) { return {properties.node().id}; }
+
 void point(Properties& properties, SceneData& scene) {
     const Matrix to_world = transform_of(properties);
     const Vec3 origin = transform_point(to_world, {0, 0, 0});
-    scene.lights.push_back(
-        PointLight{properties.point("position", origin), colour_of(properties, "intensity", {1, 1, 1})});
+    scene.lights.push_back(PointLight{properties.point("position", origin),
+                                      colour_of(properties, "intensity", {1, 1, 1}), label(properties)});
 }
 
 void spot(Properties& properties, SceneData& scene) {
@@ -55,6 +57,7 @@ void spot(Properties& properties, SceneData& scene) {
     const float beam = std::clamp(properties.number("beam_width", cutoff * 0.75f), 0.0f, cutoff);
     light.outer = cutoff * to_radians, light.inner = beam * to_radians;
     light.falloff = SpotLight::Falloff::linear;
+    light.label = label(properties);
     if (properties.has("texture"))
         properties.context().warn(properties.node(), "the texture of a spot light is left out");
     scene.lights.push_back(light);
@@ -64,7 +67,8 @@ void directional(Properties& properties, SceneData& scene) {
     const Matrix to_world = transform_of(properties);
     const Vec3 ahead = properties.has("direction") ? properties.point("direction", {0, 0, 1})
                                                    : transform_direction(to_world, {0, 0, 1});
-    scene.lights.push_back(DirectionalLight{unit(ahead, {0, 0, 1}), colour_of(properties, "irradiance", {1, 1, 1})});
+    scene.lights.push_back(
+        DirectionalLight{unit(ahead, {0, 0, 1}), colour_of(properties, "irradiance", {1, 1, 1}), label(properties)});
 }
 
 void constant(Properties& properties, SceneData& scene) {
@@ -96,6 +100,7 @@ void sun_and_sky(Properties& properties, SceneData& scene) {
     sky.turbidity = std::clamp(properties.number("turbidity", 3), 1.7f, 10.0f);
     sky.to_sun = unit(properties.point("sun_direction", {0, 0.7071f, 0.7071f}), {0, 1, 0});
     sky.to_world = rotation_of(transform_of(properties));
+    sky.sun = properties.node().id;
     if (properties.has("year") || properties.has("hour") || properties.has("latitude"))
         context.warn(properties.node(), "the time and place of a sun are left out: give its 'sunDirection'");
     const float scale = properties.number("scale", 1);

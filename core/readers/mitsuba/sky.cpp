@@ -114,7 +114,7 @@ void add_sun(const Sky& sky, float scale, SceneData& scene) {
     const Rgb irradiance{white.r * float(through(0.61)), white.g * float(through(0.55)),
                          white.b * float(through(0.465))};
     const Vec3 towards = transform_direction(sky.to_world, sky.to_sun);
-    scene.lights.push_back(DirectionalLight{normalize(-towards), irradiance * strength});
+    scene.lights.push_back(DirectionalLight{normalize(-towards), irradiance * strength, {sky.sun}});
 }
 
 }  // namespace lightnet::mitsuba

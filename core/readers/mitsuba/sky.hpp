@@ -1,6 +1,8 @@
 // A clear sky in daytime, and its sun.
 #pragma once
 
+#include <string>
+
 #include "core/scene/data/scene_data.hpp"
 
 namespace lightnet::mitsuba {
@@ -9,6 +11,7 @@ struct Sky {
     Vec3 to_sun{0, 1, 0};  // unit, before `to_world`; y is up
     float turbidity = 3;   // 2: very clear … 10: hazy
     Matrix to_world{};     // a rotation
+    std::string sun{};     // how the sun is called
 };
 
 /// The analytic model of Preetham, Shirley & Smits 1999, "A Practical Analytic Model for Daylight", as an environment.

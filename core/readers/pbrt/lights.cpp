@@ -32,6 +32,9 @@ std::optional<Rgb> strength(Parameters& parameters, const Sources& sources, cons
     return std::nullopt;
 }
 
+/// Not of pbrt, whose files name no light; pbrt lets it pass in an Attribute statement.
+LampLabel label_of(Parameters& parameters) { return {parameters.text("name", "")}; }
+
 /// An image and a colour exclude each other.
 std::string picture_file(Parameters& parameters, const char* colour) {
     const std::string file = parameters.text("filename", "");
@@ -60,6 +63,7 @@ struct Making {
     const Sources& sources;
     const Matrix& to_world;
     SceneData& scene;
+    LampLabel label;
 };
 
 /// Where the axis of a light goes in the world. None: reported.
@@ -75,7 +79,7 @@ void point_light(const Making& making) {
     auto colour = strength(making.parameters, making.sources, "I");
     const Vec3 from = transform_point(making.to_world, point(making.parameters, "from", {}));
     if (const auto power = power_of(making.parameters); power && colour) *colour *= *power / (4 * float_pi);
-    if (colour) making.scene.lights.push_back(PointLight{from, *colour});
+    if (colour) making.scene.lights.push_back(PointLight{from, *colour, making.label});
 }
 
 void spot_light(const Making& making) {
@@ -96,7 +100,7 @@ void spot_light(const Making& making) {
         *colour *= *power / (2 * float_pi * ((1 - start) + (start - end) / 2));
     }
     if (!colour || !axis) return;
-    light.axis = *axis, light.intensity = *colour;
+    light.axis = *axis, light.intensity = *colour, light.label = making.label;
     making.scene.lights.push_back(light);
 }
 
@@ -105,7 +109,7 @@ void distant_light(const Making& making) {
     const Vec3 from = point(making.parameters, "from", {}), to = point(making.parameters, "to", {0, 0, 1});
     const auto axis = axis_of(making, from, to);
     if (const float lux = making.parameters.number("illuminance", -1); lux > 0 && colour) *colour *= lux;
-    if (colour && axis) making.scene.lights.push_back(DirectionalLight{*axis, *colour});
+    if (colour && axis) making.scene.lights.push_back(DirectionalLight{*axis, *colour, making.label});
 }
 
 /// Of the matrix of an environment, what turns (and perhaps mirrors) it.
@@ -158,7 +162,7 @@ void goniometric_light(const Making& making) {
     }
     const auto power = power_of(parameters);
     if (colour) *colour *= power ? *power / (4 * float_pi) : mean;
-    if (colour) making.scene.lights.push_back(PointLight{transform_point(making.to_world, {}), *colour});
+    if (colour) making.scene.lights.push_back(PointLight{transform_point(making.to_world, {}), *colour, making.label});
 }
 
 void projection_light(const Making& making) {
@@ -175,6 +179,7 @@ void projection_light(const Making& making) {
     parameters.warn("a projection light is taken as a spot light with the mean colour of its image");
     SpotLight light;
     light.position = transform_point(making.to_world, {});
+    light.label = making.label;
     light.axis = *axis;
     light.outer = light.inner = fov / 2 * float_pi / 180;
     light.intensity = *colour * mean_colour(*image);
@@ -222,6 +227,7 @@ std::optional<AreaLight> make_area_light(const std::string& type, Parameters& pa
         }
         if (picture.image) light.emission.texture = textures.add({{1, 1, 1}, std::move(picture), false});
     }
+    light.emission.label = label_of(parameters);
     if (!colour) return std::nullopt;
     light.emission.radiance = *colour;
     return light;
@@ -230,7 +236,7 @@ std::optional<AreaLight> make_area_light(const std::string& type, Parameters& pa
 void add_light(const std::string& type, Parameters& parameters, Textures& textures, const Sources& sources,
                const Matrix& to_world, SceneData& scene) {
     if (const auto maker = light_makers().find(type); maker != light_makers().end())
-        return maker->second({parameters, textures, sources, to_world, scene});
+        return maker->second({parameters, textures, sources, to_world, scene, label_of(parameters)});
     std::vector<std::string> known;
     for (const auto& [name, maker] : light_makers()) known.push_back(name);
     parameters.error(fmt::format("unknown light '{}'{}", type, did_you_mean(type, known)));

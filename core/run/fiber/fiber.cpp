@@ -91,6 +91,7 @@ public:
     ExceptionState exceptions;
     SanitizerView view;
     Ticks entered = 0, ran = 0;
+    std::uint16_t doing = 0;
     [[maybe_unused]] void* tsan = nullptr;
 };
 
@@ -106,6 +107,8 @@ struct Fibers::Shared {
     const Clock::time_point began = Clock::now();
     const Ticks began_ticks = ticks_now();
     Ticks stint = 0, stint_ran = 0;
+    std::atomic<std::uint16_t>* doing = nullptr;
+    std::uint16_t outside_doing = 0;
     [[maybe_unused]] void* tsan = nullptr;
 };
 
@@ -158,14 +161,17 @@ void Fibers::start(const char* owner, std::function<void()> work) {
     fiber->work = std::move(work);
     fiber->cancelled = false;
     fiber->ran = 0;
+    fiber->doing = shared_->outside_doing;
     ++alive_;
     switch_to(fiber);
 }
 
 void Fibers::switch_to(Fiber* fiber) {
+    if (watcher_) watcher_->enters();
     current_ = fiber;
     fiber->parked = false;
     shared_->running = {fiber->stack, fiber->owner};
+    if (shared_->doing) shared_->doing->store(fiber->doing, std::memory_order_relaxed);
     const Ticks began = fiber->entered = ticks_now();
     shared_->exceptions = std::exchange(ExceptionState::here(), fiber->exceptions);
     shared_->view.leave(fiber->stack.lowest, fiber->stack.size);
@@ -179,8 +185,13 @@ void Fibers::switch_to(Fiber* fiber) {
     const Ticks ended = std::max(ticks_now(), fiber->entered);  // the counters of two processors may differ by a little
     fiber->ran += ended - fiber->entered;
     shared_->stint_ran += ended - std::min(began, ended);
+    if (shared_->doing) {  // nobody else writes it, so no exchange is needed, which would cost more
+        fiber->doing = shared_->doing->load(std::memory_order_relaxed);
+        shared_->doing->store(shared_->outside_doing, std::memory_order_relaxed);
+    }
     shared_->running = {};
     current_ = nullptr;
+    if (watcher_) watcher_->left(fiber, fiber->owner, !fiber->work);
 }
 
 void Fibers::park() {
@@ -256,6 +267,15 @@ void Fibers::give_time_to(Fiber* other) {
     other->ran += ticks_of(current_);
     current_->ran = 0;
     current_->entered = ticks_now();
+}
+
+void Fibers::show(std::atomic<std::uint16_t>& doing, std::uint16_t outside) {
+    shared_->doing = &doing;
+    shared_->outside_doing = outside;
+}
+
+void Fibers::do_as(const Fiber* other) {
+    if (shared_->doing) shared_->doing->store(other->doing, std::memory_order_relaxed);
 }
 
 const char* Fibers::rename(const char* owner) {

@@ -1,6 +1,7 @@
 // Fibers: work that may wait without holding up its thread.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -17,6 +18,8 @@ inline constexpr std::size_t usual_stack_size = 1024 * 1024;  // what a sanitize
 #else
 inline constexpr std::size_t usual_stack_size = 256 * 1024;
 #endif
+
+class FiberWatcher;
 
 /// All fibers of one thread. Fibers never change threads. Work runs until it parks or ends; then another may run.
 class Fibers {
@@ -60,6 +63,13 @@ public:
     bool stint_over() const;
     /// Names the current fiber anew, should its stack run out. Returns the name that it had.
     const char* rename(const char* owner);
+    /// Is told from now on when fibers run; null: nobody is.
+    void watch(FiberWatcher* watcher) { watcher_ = watcher; }
+    /// `doing` says what this thread is at, for other threads to look at. While a fiber does not run, what it was at is
+    /// kept for it; between fibers it is `outside`. It must outlive the fibers.
+    void show(std::atomic<std::uint16_t>& doing, std::uint16_t outside);
+    /// The current fiber works for `other`, and so is at what that is at.
+    void do_as(const Fiber* other);
     /// Is there room for one more fiber, as far as the process is concerned?
     bool roomy() const;
 
@@ -77,6 +87,17 @@ private:
     std::vector<Fiber*> idle_;
     Fiber* current_ = nullptr;
     std::size_t alive_ = 0;
+    FiberWatcher* watcher_ = nullptr;
+};
+
+/// Is told which fiber runs, on its thread.
+class FiberWatcher {
+public:
+    virtual ~FiberWatcher() = default;
+    /// A fiber begins to run, or goes on.
+    virtual void enters() = 0;
+    /// It has parked, or has `ended`; `owner` is its name.
+    virtual void left(const Fibers::Fiber* fiber, const char* owner, bool ended) = 0;
 };
 
 }  // namespace lightnet

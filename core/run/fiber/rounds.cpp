@@ -101,6 +101,7 @@ void Rounds::help(Round& round) {
         }
     };
     const Leaving leaving{*this, round};
+    fibers_.do_as(round.caller);
     work_on(round);
 }
 

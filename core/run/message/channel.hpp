@@ -44,6 +44,10 @@ public:
     virtual bool send(const Bundle<Question>& bundle) = 0;
     /// How much may be under way on it.
     virtual Credit credit() const { return {}; }
+    /// How many places stand behind it, and answer at the same time.
+    virtual std::uint32_t places() const { return 1; }
+    /// Is it the asker itself, to be asked only when others can't be, or are late?
+    virtual bool reserve() const { return false; }
     /// How busy the answerer was when it last replied.
     virtual Load load() const { return {}; }
     /// The host of the answerer; places of one host are lost together. "": this process.

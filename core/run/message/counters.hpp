@@ -6,6 +6,10 @@
 #include <map>
 #include <string>
 #include <utility>
+#include <vector>
+
+#include "core/run/message/place_record.hpp"
+#include "core/run/message/place_trace.hpp"
 
 namespace lightnet {
 
@@ -14,7 +18,8 @@ struct Counters {
     std::uint64_t rays = 0;             // traced
     std::uint64_t local_questions = 0;  // answered by a call
     std::uint64_t questions = 0;        // sent to another place
-    std::uint64_t bundles = 0;          // sent to another place
+    std::uint64_t bundles = 0;          // sent to another place, or to another host for any of its places
+    std::uint64_t dealt = 0;            // bundles and tiles that dispatchers of hosts gave to one of its places
     std::uint64_t bytes = 0;            // sent and received over sockets between hosts
     std::uint64_t relayed_bytes = 0;    // passed on by the launcher between hosts that can't call each other
     std::uint64_t file_bytes = 0;       // of scene files, sent to hosts that did not have them
@@ -33,17 +38,26 @@ struct Counters {
     std::uint64_t late_replies = 0;    // of bundles that were answered already; dropped
     std::uint64_t refused_sends = 0;   // at a full line; tried again. 0, as credit leaves room
     std::uint64_t broken_packets = 0;  // dropped
-    std::map<std::string, std::uint64_t> not_finite;  // answers that were infinite or no numbers, by node
+    std::map<std::string, std::uint64_t> not_finite;   // answers that were infinite or no numbers, by node
+    std::map<std::string, std::uint64_t> off_surface;  // points that no surface is near, by the node that asked; black
+
+    std::vector<PlaceRecord> places;  // what each place did
+    std::vector<PlaceTrace> traces;   // where runs are traced
 
     Counters& operator+=(const Counters& more) {
         for (const auto& [name, count] : all) this->*count += more.*count;
-        for (const auto& [node, count] : more.not_finite) not_finite[node] += count;
+        for (const auto& [name, counts] : by_node)
+            for (const auto& [node, count] : more.*counts) (this->*counts)[node] += count;
+        places.insert(places.end(), more.places.begin(), more.places.end());
+        traces.insert(traces.end(), more.traces.begin(), more.traces.end());
         return *this;
     }
+    /// All but `places` and `traces`.
     std::map<std::string, std::uint64_t> named() const {
         std::map<std::string, std::uint64_t> counts;
         for (const auto& [name, count] : all) counts[name] = this->*count;
-        for (const auto& [node, count] : not_finite) counts[not_finite_of + node] = count;
+        for (const auto& [name, of_nodes] : by_node)
+            for (const auto& [node, count] : this->*of_nodes) counts[name + ("." + node)] = count;
         return counts;
     }
     /// From what named() gave; other names are left out.
@@ -52,23 +66,25 @@ struct Counters {
         for (const auto& [name, count] : all)
             if (const auto found = named.find(name); found != named.end()) counters.*count = found->second;
         for (const auto& [name, count] : named)
-            if (name.starts_with(not_finite_of)) counters.not_finite[name.substr(not_finite_of.size())] = count;
+            for (const auto& [kind, of_nodes] : by_node)
+                if (const auto beginning = kind + std::string("."); name.starts_with(beginning))
+                    (counters.*of_nodes)[name.substr(beginning.size())] = count;
         return counters;
     }
 
-    /// Stands before the name of a node.
-    static inline const std::string not_finite_of = "not_finite.";
-
-    /// Every other count and its name, as in x.run.json and on the wire.
-    static const std::array<std::pair<const char*, std::uint64_t Counters::*>, 22> all;
+    /// Every count and its name, as in x.run.json and on the wire; with the name of a node behind it, and a dot between
+    /// them, where each node has its own.
+    static const std::array<std::pair<const char*, std::uint64_t Counters::*>, 23> all;
+    static const std::array<std::pair<const char*, std::map<std::string, std::uint64_t> Counters::*>, 2> by_node;
     friend bool operator==(const Counters&, const Counters&) = default;
 };
 
-inline constexpr std::array<std::pair<const char*, std::uint64_t Counters::*>, 22> Counters::all{{
+inline constexpr std::array<std::pair<const char*, std::uint64_t Counters::*>, 23> Counters::all{{
     {"rays", &Counters::rays},
     {"local_questions", &Counters::local_questions},
     {"questions", &Counters::questions},
     {"bundles", &Counters::bundles},
+    {"dealt", &Counters::dealt},
     {"bytes", &Counters::bytes},
     {"relayed_bytes", &Counters::relayed_bytes},
     {"file_bytes", &Counters::file_bytes},
@@ -88,5 +104,10 @@ inline constexpr std::array<std::pair<const char*, std::uint64_t Counters::*>, 2
     {"refused_sends", &Counters::refused_sends},
     {"broken_packets", &Counters::broken_packets},
 }};
+inline constexpr std::array<std::pair<const char*, std::map<std::string, std::uint64_t> Counters::*>, 2>
+    Counters::by_node{{
+        {"not_finite", &Counters::not_finite},
+        {"off_surface", &Counters::off_surface},
+    }};
 
 }  // namespace lightnet

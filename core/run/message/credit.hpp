@@ -5,9 +5,11 @@
 
 namespace lightnet {
 
-/// What an asker may have under way to one place, for one node. It keeps room for as much of replies, and gets credit
-/// back with each reply. So a place holds at most (askers × nodes asked × this, and one bundle each beyond it), and an
-/// asker at most (nodes asked × replicas × the same), whatever the network does; ZeroMQ's queues are never the limit.
+/// What an asker may have under way to one place, for one node; to a host, as many times that as it has places for the
+/// node. It keeps room for as much of replies, and gets credit back with each reply. So a place holds at most (askers
+/// × nodes asked × this, and one bundle each beyond it), where the places of other hosts are one asker, their
+/// dispatcher; a dispatcher holds at most (askers × nodes asked × places × this), and an asker (nodes asked × places ×
+/// this), whatever the network does; ZeroMQ's queues are never the limit.
 struct Credit {
     std::size_t bundles = 8;
     std::size_t questions = 8192;

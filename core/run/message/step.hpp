@@ -8,10 +8,16 @@
 
 namespace lightnet {
 
+/// The calls of a node's prepare() go by numbers that are never used again when it prepares for another pass.
+inline constexpr std::uint32_t calls_per_pass = 1u << 12;
+constexpr std::uint32_t first_call_of(std::uint32_t pass) { return pass * calls_per_pass; }
+constexpr std::uint32_t pass_of_call(std::uint32_t call) { return call / calls_per_pass; }
+constexpr bool is_first_call(std::uint32_t call) { return call % calls_per_pass == 0; }
+
 /// One thing that a place is asked to do for a node. Travels as a question; bytes answer it.
 struct Step {
     enum class Kind : std::uint32_t {
-        prepare,  // begin prepare(); answered by a StepReport when it first waits, or ends
+        prepare,  // begin prepare() for the pass of call `call`; answered by a StepReport when it first waits, or ends
         go_on,    // the result of call `call` is there: `data` names it. Answered by the next StepReport
         shards,   // do `count` shards of call `call`, from `first` on; answered by join_shards() of their results
         collect,  // answered by what the node has noted in the rehearsal that is call `call`; `first` is the asker's

@@ -8,15 +8,18 @@
 
 namespace lightnet {
 
+/// Bytes that a cache may keep, the launcher's or a daemon's, when nothing else is said.
+inline constexpr std::uint64_t usual_cache_size = std::uint64_t{4} << 30;
+
 /// A value. Each member has a line in `knobs`, which serves the command line, the job that hosts are sent, and the
 /// report.
 struct Tuning {
     std::uint32_t tile = 32;
-    std::uint32_t bundle = 512;
+    std::uint32_t bundle = 1024;
     std::uint32_t credit = 8;
     std::uint32_t checkpoint = 5;
     std::string cache;
-    std::uint64_t cache_size = std::uint64_t{4} << 30;
+    std::uint64_t cache_size = usual_cache_size;
     std::uint32_t spare_fibers = 16;
     std::uint32_t side_fibers = 2048;
     bool check_answers = false;
@@ -25,6 +28,7 @@ struct Tuning {
     std::uint32_t credit_questions = 8192;
     std::uint64_t credit_bytes = std::uint64_t{8} << 20;
     bool call_own_nodes = true;
+    bool trace = false;
     friend bool operator==(const Tuning&, const Tuning&) = default;
 };
 
@@ -46,7 +50,7 @@ struct Knob {
     const char* help;
 };
 
-inline constexpr std::array<Knob, 14> knobs{{
+inline constexpr std::array<Knob, 15> knobs{{
     {"tile", &Tuning::tile, Knob::By::users, Knob::Where::launcher, 1, 256, "N", "pixels along a side of a tile"},
     {"bundle", &Tuning::bundle, Knob::By::users, Knob::Where::places, 1, 65536, "N", "questions in a full bundle"},
     {"credit", &Tuning::credit, Knob::By::users, Knob::Where::places, 1, 1024, "N",
@@ -55,7 +59,7 @@ inline constexpr std::array<Knob, 14> knobs{{
      "seconds between two checkpoints"},
     {"cache", &Tuning::cache, Knob::By::users, Knob::Where::launcher, 0, 0, "FOLDER",
      "where what nodes prepare is kept from run to run; 'none': nowhere"},
-    {"cache_size", &Tuning::cache_size, Knob::By::users, Knob::Where::launcher, 0, 0, "SIZE",
+    {"cache_size", &Tuning::cache_size, Knob::By::users, Knob::Where::launcher, 0, std::uint64_t{1} << 60, "SIZE",
      "bytes that the cache may keep, like 500M"},
     {"spare_fibers", &Tuning::spare_fibers, Knob::By::users, Knob::Where::places, 0, 4096, "N",
      "fibers of a place beside one per node"},
@@ -63,16 +67,18 @@ inline constexpr std::array<Knob, 14> knobs{{
      "fibers of a place for questions that wrapped code asks"},
     {"check_answers", &Tuning::check_answers, Knob::By::users, Knob::Where::places, 0, 0, "",
      "ask wrapped classes some questions twice, and compare all that is answered twice, bit by bit"},
-    {"oldest_us", &Tuning::oldest_us, Knob::By::tests, Knob::Where::places, 0, 0, "N",
+    {"oldest_us", &Tuning::oldest_us, Knob::By::tests, Knob::Where::places, 0, 3'600'000'000, "N",
      "microseconds after which a question leaves in a bundle that is not full"},
-    {"eager", &Tuning::eager, Knob::By::tests, Knob::Where::places, 0, 0, "N",
+    {"eager", &Tuning::eager, Knob::By::tests, Knob::Where::places, 0, 1024, "N",
      "a place with nothing else to do sends bundles that are not full while fewer than these are under way"},
-    {"credit_questions", &Tuning::credit_questions, Knob::By::tests, Knob::Where::places, 0, 0, "N",
+    {"credit_questions", &Tuning::credit_questions, Knob::By::tests, Knob::Where::places, 1, 1 << 26, "N",
      "questions under way to one place, per node asked"},
-    {"credit_bytes", &Tuning::credit_bytes, Knob::By::tests, Knob::Where::places, 0, 0, "SIZE",
+    {"credit_bytes", &Tuning::credit_bytes, Knob::By::tests, Knob::Where::places, 1, std::uint64_t{1} << 40, "SIZE",
      "bytes under way to one place, per node asked, with the room for answers"},
     {"call_own_nodes", &Tuning::call_own_nodes, Knob::By::tests, Knob::Where::places, 0, 0, "",
      "call a node of the same place, rather than send it bundles"},
+    {"trace", &Tuning::trace, Knob::By::tests, Knob::Where::places, 0, 0, "",
+     "record what every place is busy with; --trace FILE turns it on"},
 }};
 
 /// How a knob is set: "512", "true", "/tmp/cache".

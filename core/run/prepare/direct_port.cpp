@@ -2,6 +2,7 @@
 
 #include <xmmintrin.h>
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,8 @@ DirectPort::DirectPort(Callee node, std::size_t width, std::uint64_t& count, std
     : node_(node), width_(width), count_(count), pause_(std::move(pause)) {}
 
 Port::Ticket DirectPort::begin(std::span<const Query> questions, std::span<Rgb> answers) {
+    std::optional<Turned> turned;
+    if (node_.gauge) turned.emplace(*node_.gauge, node_.doing);
     const std::size_t most = node_.whole ? questions.size() : chunk;
     for (std::size_t first = 0; first < questions.size(); first += most) {
         const std::size_t n = std::min(most, questions.size() - first);
@@ -63,9 +66,12 @@ void answer(const Callee& node, std::size_t width, std::span<const Query> questi
         std::vector<Rgb> apart(questions.size() * node.layers);
         node.light.light(questions, apart);
         for (std::size_t q = 0; q < questions.size(); ++q) {
-            Rgb sum = apart[q * node.layers];
-            for (std::size_t k = 1; k < node.layers; ++k) sum += apart[q * node.layers + k];
-            answers[q] = sum;
+            // one for all, or for each group of lamps: those of each light that is kept apart follow one another
+            for (std::size_t k = 0; k < node.layers; ++k) {
+                const Rgb& one = apart[q * node.layers + k];
+                Rgb& sum = answers[q * width + k % width];
+                sum = k < width ? one : sum + one;
+            }
         }
     }
     check_float_mode();

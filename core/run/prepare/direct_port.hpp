@@ -7,6 +7,7 @@
 
 #include "core/network/light/light_op.hpp"
 #include "core/network/light/port.hpp"
+#include "core/run/prepare/gauge.hpp"
 
 namespace lightnet {
 
@@ -17,6 +18,8 @@ struct Callee {
     std::size_t layers = 1;               // colours per answer when nothing is added up
     bool whole = false;                   // it looks at the sockets by itself: long asks are not cut
     std::uint64_t* not_finite = nullptr;  // counts its answers that are infinite or no numbers
+    Gauge* gauge = nullptr;               // of the place: says when it is at work
+    Gauge::Doing doing = Gauge::asking;   // what it then says
 };
 
 /// Calls the node. Long asks are cut into chunks, between which the place may look at its sockets; an answer does not

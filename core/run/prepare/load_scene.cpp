@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/network/graph/graph_film.hpp"
+#include "core/network/graph/lamp_groups.hpp"
 #include "core/readers/read_scene.hpp"
 
 namespace lightnet {
@@ -54,6 +55,9 @@ SceneOverrides scene_overrides(const Graph& graph, const Registry& registry) {
     overrides.clay = params.contains("material");
     const auto two_sided = params.find("two_sided");
     overrides.two_sided = two_sided != params.end() && std::get<bool>(two_sided->second.data);
+    if (const auto groups = params.find("groups"); groups != params.end())
+        for (const auto& [name, lamps] : std::get<Table>(groups->second.data).named)
+            overrides.groups.push_back({name, names_in(lamps)});
     return overrides;
 }
 

@@ -34,7 +34,20 @@ std::vector<std::size_t> stages_of(const std::vector<std::size_t>& nodes, const 
     return stages;
 }
 
-std::vector<Tile> rehearsal_tiles(const Graph& graph, const Registry& registry, std::uint32_t stride) {
+std::vector<bool> renewed_nodes(const Graph& graph, const Registry& registry) {
+    const Edges edges = edges_of(graph);
+    std::vector<bool> changes(graph.nodes.size()), renewed(graph.nodes.size());
+    for (const auto node : leaves_first(edges)) {
+        const auto& needed = edges.needed[node];
+        const auto& run = registry.find(graph.nodes[node].kind)->run;
+        changes[node] = run.passes || std::any_of(needed.begin(), needed.end(), [&](auto i) { return changes[i]; });
+        renewed[node] = changes[node] && run.prepares;
+    }
+    return renewed;
+}
+
+std::vector<Tile> rehearsal_tiles(const Graph& graph, const Registry& registry, std::uint32_t stride,
+                                  std::uint32_t pass) {
     if (stride == 0) throw Error("a rehearsal's stride must be at least 1");
     const auto film = film_of(graph, registry);
     constexpr std::uint32_t wanted_pixels = 16, longest = 256;
@@ -42,7 +55,8 @@ std::vector<Tile> rehearsal_tiles(const Graph& graph, const Registry& registry, 
     std::vector<Tile> tiles;
     for (std::uint32_t y = 0; y < film.height; y += side)
         for (std::uint32_t x = 0; x < film.width; x += side)
-            tiles.push_back({x, y, std::min(side, film.width - x), std::min(side, film.height - y), 0, 1, stride});
+            tiles.push_back({x, y, std::min(side, film.width - x), std::min(side, film.height - y),
+                             pass * samples_per_block, 1, stride});
     return tiles;
 }
 
@@ -61,16 +75,28 @@ std::string text_of(Graph graph) {
     return to_json(graph);
 }
 
+// What the graph changes about the scene, without who looks.
+std::string scene_text(const Graph& graph) {
+    Graph scenes;
+    for (Node node : graph.nodes) {
+        if (node.kind != "Scene") continue;
+        node.params.erase("camera");
+        scenes.nodes.push_back(std::move(node));
+    }
+    return text_of(std::move(scenes));
+}
+
 }  // namespace
 
 Recipes::Recipes(const Graph& graph, std::string made_from)
     : graph_(graph), made_from_(std::move(made_from)), whole_(text_of(written(graph))) {
+    const std::string scenes = scene_text(graph);
     for (std::size_t node = 0; node < written_nodes(graph); ++node) {
         const auto used = used_nodes(graph, node);
         Graph part;
         for (std::size_t i = 0; i < written_nodes(graph); ++i)
             if (used[i]) part.nodes.push_back(graph.nodes[i]);
-        subgraph_.push_back(text_of(std::move(part)));
+        subgraph_.push_back(text_of(std::move(part)) + '\n' + scenes);
     }
 }
 

@@ -24,9 +24,14 @@ std::vector<std::size_t> preparing_nodes(const Graph& graph, const Registry& reg
 /// not depend on how far others are.
 std::vector<std::size_t> stages_of(const std::vector<std::size_t>& nodes, const Graph& graph, const Registry& registry);
 
+/// Per node, whether it is made and prepared anew for each pass: its kind says so, or it prepares and depends on such a
+/// node.
+std::vector<bool> renewed_nodes(const Graph& graph, const Registry& registry);
+
 /// The pixels of a rehearsal: every `stride`-th of every `stride`-th row of the graph's film. Throws Error when stride
-/// is 0.
-std::vector<Tile> rehearsal_tiles(const Graph& graph, const Registry& registry, std::uint32_t stride);
+/// is 0. They belong to that pass.
+std::vector<Tile> rehearsal_tiles(const Graph& graph, const Registry& registry, std::uint32_t stride,
+                                  std::uint32_t pass = 0);
 
 /// What a rehearsal gives: the questions that were noted, sorted.
 Bytes rehearsal_result(const std::vector<Query>& noted);

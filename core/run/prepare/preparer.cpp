@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/film/tile.hpp"
 #include "core/network/light/rehearsal.hpp"
 #include "core/network/light/services.hpp"
 
@@ -25,12 +26,17 @@ const Step& step_of(const Message& ask) { return std::get<Questions<Step>>(ask.q
 /// One node's services at this place, and where its prepare() is.
 class Preparer::Node final : public Services {
 public:
-    Node(Preparer& preparer, std::size_t index) : preparer_(preparer), index_(index) {}
+    Node(Preparer& preparer, std::size_t index, std::uint32_t pass)
+        : preparer_(preparer), index_(index), pass_(pass), call_(first_call_of(pass)) {}
+
+    const char* name() const { return preparer_.network_.graph.nodes[index_].name.c_str(); }
+    std::uint32_t pass() const { return pass_; }
 
     void prepare() {
+        if (cancelled_) return;
         fiber_ = preparer_.fibers_.current();
         try {
-            preparer_.assembly_.prepare(index_, *this);
+            preparer_.assembly_.prepare(index_, *this, pass_);
         } catch (const Cancelled&) {
             throw;
         } catch (const std::exception& error) {
@@ -40,6 +46,15 @@ public:
         at_ = {StepReport::Kind::done, call_, 0};
         waiting_ = true;
         report();
+    }
+
+    // Another pass has begun: nobody waits for this one any more.
+    void cancel() {
+        cancelled_ = true;
+        asked_.reset();
+        if (!waiting_ || at_.kind == StepReport::Kind::done) return;
+        waiting_ = false;
+        resume_if_free();
     }
 
     // What is answered as soon as prepare() waits or has ended.
@@ -85,6 +100,7 @@ public:
         const auto end = Clock::now() + worth_the_way;
         std::size_t bytes = 0;
         for (std::uint32_t i = 0; i < step.count && waiting_; ++i) {
+            look();
             std::vector<std::byte> results;
             (*work_)(step.first + i, results);
             joined.add(results);
@@ -96,13 +112,18 @@ public:
 
     std::vector<Query> rehearse(std::uint32_t stride) override {
         auto& rehearsal = preparer_.assembly_.rehearsal(index_);
-        rehearsal.begin();
+        rehearsal.begin(preparer_.network_.renewed[index_] ? mark_of_pass(pass_) : std::uint16_t{0});
         const Mapped<Query> noted(wait(StepReport::Kind::rehearse, stride));
         rehearsal.end();
         return {noted.begin(), noted.end()};
     }
-    Whereabouts whereabouts() const override { return {preparer_.place_.name, preparer_.place_.places_of(index_)}; }
     void say(const std::string& text) override { said_ += text + '\n'; }
+    void doing(const std::string& what, std::uint64_t done, std::uint64_t total) override {
+        look();
+        counts_ = total > 0;
+        preparer_.network_.activity->set(written_name(), {what, done, total});
+    }
+    void look() const override { preparer_.place_.look(); }
 
 protected:
     Bytes map_bytes(std::size_t count, const Shard& work) override {
@@ -120,10 +141,20 @@ protected:
         return near;
     }
     std::shared_ptr<const void> once_any(const Make& make) override {
-        return preparer_.network_.shared->get(index_, values_++, make);
+        const auto watch = [this](std::size_t done, std::size_t count) {
+            look();
+            if (!counts_) preparer_.network_.activity->set(written_name(), done, count);
+        };
+        return preparer_.network_.shared->get(index_, values_++, watch, make, pass_);
     }
 
 private:
+    // A sector goes by the name that the user wrote.
+    const std::string& written_name() const {
+        const auto& graph = preparer_.network_.graph;
+        return graph.nodes[whole_of(graph, index_)].name;
+    }
+
     // What a sector costs in memory is why nodes are sharded.
     void say_what_it_has() {
         const auto* sector = sector_at(preparer_.network_.graph, index_);
@@ -132,10 +163,14 @@ private:
     }
 
     Bytes wait(StepReport::Kind kind, std::uint32_t count) {
+        if (!counts_) preparer_.network_.activity->set(written_name(), 0, 0);  // the launcher counts
+        if (cancelled_) throw Cancelled{};
         at_ = {kind, call_++, count};
+        if (is_first_call(call_)) throw Error("it calls its services too often");
         waiting_ = true;
         report();
         preparer_.fibers_.park();
+        if (cancelled_) throw Cancelled{};
         return std::exchange(result_, nullptr);
     }
 
@@ -165,15 +200,18 @@ private:
 
     Preparer& preparer_;
     std::size_t index_;
+    std::uint32_t pass_;
+    bool cancelled_ = false;
     Fibers::Fiber* fiber_ = nullptr;
     std::optional<Message> asked_;  // the step that the next report answers
     StepReport at_;
+    bool counts_ = false;   // it says itself how much is done
     bool waiting_ = false;  // at at_, for a result, or for nothing more
     std::string failure_, said_;
     const Shard* work_ = nullptr;
     std::size_t shards_ = 0;  // that are being done
     Bytes result_;
-    std::uint32_t call_ = 0, values_ = 0;
+    std::uint32_t call_, values_ = 0;
     std::shared_ptr<const Sectors> sectors_;
     std::size_t near_bytes_ = 0;  // of results of its sector
 };
@@ -185,10 +223,13 @@ Preparer::~Preparer() = default;
 
 void Preparer::take(Message ask) {
     const std::size_t index = ask.node;
+    const auto pass = pass_of_call(step_of(ask).call);
     auto& known = nodes_[index];
-    if (!known) {
-        known = std::make_unique<Node>(*this, index);
-        to_start_.push_back(index);
+    if (known && pass < known->pass()) return;  // nobody waits for the answer any more
+    if (!known || pass > known->pass()) {
+        if (known) known->cancel();
+        known = std::make_shared<Node>(*this, index, pass);
+        to_start_.push_back(known);
     }
     switch (step_of(ask).kind) {
         case Step::Kind::go_on:
@@ -202,16 +243,17 @@ void Preparer::take(Message ask) {
 
 bool Preparer::start_next() {
     if (to_start_.empty()) return false;
-    const auto index = to_start_.front();
+    const auto node = to_start_.front();
     to_start_.pop_front();
-    fibers_.start(network_.graph.nodes[index].name.c_str(), [this, index] { nodes_[index]->prepare(); });
+    fibers_.start(node->name(), [node] { node->prepare(); });
     return true;
 }
 
 Bytes Preparer::shards(std::size_t node, const Step& step) {
     const auto found = nodes_.find(node);
     if (found == nodes_.end()) throw Error("it has not begun to prepare");
-    return found->second->shards(step);
+    const auto preparing = found->second;  // stays while it works, whatever pass begins meanwhile
+    return preparing->shards(step);
 }
 
 }  // namespace lightnet

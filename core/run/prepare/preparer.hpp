@@ -25,7 +25,7 @@ public:
         std::string name;
         std::function<void(Fibers::Fiber*)> resume;  // as soon as the place gets to it
         std::function<void(Message)> reply;
-        std::function<std::size_t(std::size_t node)> places_of;
+        std::function<void()> look;  // throws Cancelled when the place is to stop; any thread
     };
     Preparer(const Network& network, Assembly& assembly, Fibers& fibers, PlaceHooks place);
     ~Preparer();
@@ -47,8 +47,8 @@ private:
     Assembly& assembly_;
     Fibers& fibers_;
     PlaceHooks place_;
-    std::map<std::size_t, std::unique_ptr<Node>> nodes_;
-    std::deque<std::size_t> to_start_;
+    std::map<std::size_t, std::shared_ptr<Node>> nodes_;  // as they prepare for the latest pass
+    std::deque<std::shared_ptr<Node>> to_start_;
     std::uint64_t result_bytes_ = 0;
 };
 

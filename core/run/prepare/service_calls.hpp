@@ -3,10 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <map>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -16,14 +14,9 @@
 #include "core/network/light/mapped.hpp"
 #include "core/run/message/step.hpp"
 #include "core/run/prepare/prepared.hpp"
+#include "core/run/prepare/shard_dealer.hpp"
 
 namespace lightnet {
-
-/// Shards of a call, one behind the other.
-struct Shards {
-    std::uint32_t first = 0, count = 0;
-    friend bool operator==(const Shards&, const Shards&) = default;
-};
 
 /// One call of a node's prepare(), which is the same on all its places.
 class ServiceCall {
@@ -44,21 +37,12 @@ public:
     /// Does it take shards?
     bool shared_out() const { return what_.kind == StepReport::Kind::map || what_.kind == StepReport::Kind::sectors; }
 
-    /// A place that wants shards.
-    struct Asker {
-        std::size_t under_way = 0;  // asks for shards that it has
-        std::size_t places = 1;     // that share them
-        double now = 0;             // seconds
-    };
-    /// Shards for it: some that nobody does, or, for a place that has nothing else to do, one that another place is at
-    /// for long. They count as handed out.
-    std::optional<Shards> hand_out(const Asker& asker);
-    /// They were not handed out after all, or their place is lost.
-    void take_back(const Shards& shards);
-    /// The results of the first of these shards, or of more of them, by join_shards(); the others are taken back. True
-    /// when none is missing any more. Throws Error when they are not what was asked for, or have not as many parts as
-    /// they should.
-    bool answer(const Shards& shards, const Bytes& joined, double now = 0);
+    /// Who does which of its shards.
+    ShardDealer& dealer() { return dealer_; }
+    /// The results of the first of the shards that went under this number, or of more of them, by join_shards(); what
+    /// comes late is dropped. True when none is missing any more. Throws Error when they are not what was asked for, or
+    /// have not as many parts as they should.
+    bool answer(ShardDealer::CopyId id, const Bytes& joined, double now);
     void complete(const Bytes& result) { complete({Result{content_hash(*result), result}}); }
     void complete(const std::vector<Result>& parts);
     void complete_from_shards();
@@ -75,28 +59,23 @@ private:
         std::span<const std::byte> own;
     };
     std::vector<std::span<const std::byte>> parts_of(const Results& shard) const;
-    void take(const Results& results, std::uint32_t shard, double now);
     void join_what_is_next();
-    bool is_late(std::uint32_t shard, double now) const;
 
     StepReport what_;
     bool rehearsed_ = false;
     std::vector<Bytes> kept_ = std::vector<Bytes>(1);  // results, by part
     std::vector<std::weak_ptr<const std::vector<std::byte>>> lent_ =
         std::vector<std::weak_ptr<const std::vector<std::byte>>>(1);
-    std::vector<Hash> names_;           // of all parts, or none
-    std::vector<Results> shards_;       // that wait for those before them
-    std::vector<std::uint8_t> copies_;  // under way, by shard
+    std::vector<Hash> names_;  // of all parts, or none
+    ShardDealer dealer_;
+    std::vector<Results> shards_;  // that wait for those before them
     std::vector<bool> answered_;
-    std::vector<double> begun_;  // when it was handed out first
-    double seconds_ = 0;         // that those took that were answered
     struct Joined {
         ShardJoiner results;
         Hasher hasher;
     };
     std::vector<Joined> joined_;  // by part: of shards that came before next_
     std::size_t next_ = 0;
-    std::deque<std::uint32_t> to_do_;
     std::size_t missing_ = 0;
 };
 
@@ -104,9 +83,9 @@ private:
 /// are that node's.
 class ServiceCalls {
 public:
-    /// `cache` may be null.
-    ServiceCalls(const Graph& graph, std::string made_from, ResultCache* cache)
-        : graph_(graph), recipes_(graph, std::move(made_from)), cache_(cache) {}
+    /// `cache` may be null. `renewed`: renewed_nodes(), whose results nobody wants in a later run.
+    ServiceCalls(const Graph& graph, std::string made_from, ResultCache* cache, std::vector<bool> renewed = {})
+        : graph_(graph), recipes_(graph, std::move(made_from)), cache_(cache), renewed_(std::move(renewed)) {}
 
     /// The call that a place reports; begun, or found in the cache, when nobody has reported it before. Throws Error
     /// when another place has reported something else.
@@ -118,6 +97,8 @@ public:
     Bytes result(std::size_t node, std::uint32_t number);
     /// Which part of a call's result a node gets.
     std::uint32_t part_of(std::size_t node, const ServiceCall& call) const;
+    /// The node will make other calls, for another pass.
+    void forget(std::size_t node);
     /// Keeps its result for later runs.
     void keep(std::size_t node, std::uint32_t number);
     /// Every copy of the node has its part: what is large and on disk need not be in memory as well.
@@ -128,13 +109,19 @@ public:
     Bytes last_result(std::size_t node) const;
     /// The call of the node that has no result yet.
     const ServiceCall* unfinished(std::size_t node) const;
+    /// All of the node's calls with shards to be done, by number. Those that somebody has gone past may be among them.
+    std::vector<std::pair<std::uint32_t, ServiceCall*>> dealt_out(std::size_t node);
 
 private:
+    ResultCache* cache_for(std::size_t whole) const {
+        return whole < renewed_.size() && renewed_[whole] ? nullptr : cache_;
+    }
     Hash recipe_of(std::size_t whole, std::uint32_t number, const ServiceCall& call, std::uint32_t part) const;
 
     const Graph& graph_;
     Recipes recipes_;
     ResultCache* cache_;
+    std::vector<bool> renewed_;
     std::map<std::pair<std::size_t, std::uint32_t>, ServiceCall> calls_;
 };
 

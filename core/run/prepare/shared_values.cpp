@@ -2,11 +2,11 @@
 
 namespace lightnet {
 
-SharedValue::Value SharedValue::get(const Make& make) {
+SharedValue::Value SharedValue::get(const Watch& watch, const Make& make) {
     Lock lock(mutex_);
     if (!std::exchange(begun_, true)) {
         lock.unlock();
-        make_it(make);
+        make_it(watch, make);
         lock.lock();
     }
     while (!made_)
@@ -18,7 +18,8 @@ SharedValue::Value SharedValue::get(const Make& make) {
     return value_;
 }
 
-void SharedValue::make_it(const Make& make) {
+void SharedValue::make_it(const Watch& watch, const Make& make) {
+    watch_ = &watch;
     Value value;
     std::exception_ptr failure;
     try {
@@ -45,12 +46,13 @@ void SharedValue::each(std::size_t count, const Piece& piece) {
 }
 
 void SharedValue::do_next(Lock& lock) {
-    const std::size_t i = next_++;
+    const std::size_t i = next_++, count = count_;
     ++under_way_;
     const Piece& piece = *piece_;
     lock.unlock();
     std::exception_ptr failure;
     try {
+        if (*watch_) (*watch_)(i, count);
         piece(i);
     } catch (...) {
         failure = std::current_exception();
@@ -63,13 +65,22 @@ void SharedValue::do_next(Lock& lock) {
     if (--under_way_ == 0) changed_.notify_all();
 }
 
-SharedValue::Value SharedValues::get(std::size_t node, std::uint32_t index, const SharedValue::Make& make) {
-    SharedValue* value = nullptr;
+SharedValue::Value SharedValues::get(std::size_t node, std::uint32_t index, const SharedValue::Watch& watch,
+                                     const SharedValue::Make& make, std::uint32_t pass) {
+    std::shared_ptr<SharedValue> value;
     {
         const std::lock_guard lock(mutex_);
-        value = &values_[{node, index}];  // stays where it is
+        values_.erase(values_.lower_bound({node, 0, 0}), values_.lower_bound({node, pass, 0}));
+        auto& known = values_[{node, pass, index}];
+        if (!known) known = std::make_shared<SharedValue>();
+        value = known;
     }
-    return value->get(make);
+    return value->get(watch, make);
+}
+
+std::size_t SharedValues::size() {
+    const std::lock_guard lock(mutex_);
+    return values_.size();
 }
 
 }  // namespace lightnet

@@ -82,18 +82,42 @@ std::chrono::nanoseconds BundlePort::patience() const {
     return std::clamp<std::chrono::nanoseconds>(answer_time_ / 2, rules_.oldest, 16 * rules_.oldest);
 }
 
+// Of a full bundle. Costly questions go in smaller ones: what takes long anyway loses nothing by another message, and
+// large pieces of work are dealt out badly among replicas.
+// DECISIONS: full-by-work
+std::size_t BundlePort::full() const {
+    constexpr double enough_work = 0.01;  // seconds at a replica
+    const double each = replicas_.scheduler().service();
+    if (each <= 0) return rules_.questions;
+    return std::clamp<std::size_t>(static_cast<std::size_t>(std::min(enough_work / each, 1e9)), 1, rules_.questions);
+}
+
 bool BundlePort::due(Clock::time_point now, bool idle) {
     if (waiting_ == 0) return false;
-    if (waiting_ >= rules_.questions) return true;
+    if (waiting_ >= full()) return true;
     if (now - oldest_ >= patience()) return true;
-    return idle && replicas_.bundles_outstanding() < rules_.eager * replicas_.size();
+    return idle && replicas_.bundles_outstanding() < rules_.eager * replicas_.places();
+}
+
+// A place that has something to do will ask more, and one that only waits for many answers, too. Where it waits for a
+// few, work has run out: what is slow to come may be asked of idle replicas as well.
+void BundlePort::foresee(bool idle) {
+    const std::size_t more = waiting_ + (idle && replicas_.half_idle() ? 0 : 1);
+    if (more != std::exchange(foreseen_, more)) replicas_.foresee(more);
 }
 
 bool BundlePort::flush(Clock::time_point now, bool idle) {
+    foresee(idle);
     bool sent = (idle || replicas_.has_waiting()) && replicas_.tick();
     while ((!again_.empty() || due(now, idle)) && replicas_.has_credit()) {
         if (again_.empty()) again_.push_back(make_bundle(now));
+        const std::size_t asked = again_.front().questions->size();
         if (!replicas_.send(again_.front())) break;
+        if (count_) {
+            count_->bundles.add(1);
+            count_->questions.add(asked);
+            count_->bytes.add(asked * sizeof(Query));
+        }
         again_.pop_front();
         sent = true;
     }
@@ -134,14 +158,15 @@ Bundle<Query> BundlePort::make_bundle(Clock::time_point now) {
     const std::uint64_t number = open_slices();
     slices_[slot_of(number)].sent = now;
     auto& slices = slices_[slot_of(number)].all;
-    while (first_ < unbundled_.size() && questions->size() < rules_.questions) {
+    const std::size_t most = full();
+    while (first_ < unbundled_.size() && questions->size() < most) {
         const Ticket ticket = unbundled_[first_];
         auto* const ask = find(ticket);
         if (!ask) {  // given up meanwhile
             ++first_;
             continue;
         }
-        const std::size_t count = std::min(rules_.questions - questions->size(), ask->questions.size() - ask->bundled);
+        const std::size_t count = std::min(most - questions->size(), ask->questions.size() - ask->bundled);
         const auto slice = ask->questions.subspan(ask->bundled, count);
         questions->insert(questions->end(), slice.begin(), slice.end());
         slices.push_back({ticket, ask->bundled, count});
@@ -179,6 +204,11 @@ void BundlePort::answered(const Bundle<Query>& bundle, std::vector<Rgb> answers)
     auto* const slices = slices_of(bundle);
     if (!slices) return;
     const auto took = std::chrono::nanoseconds(Clock::now() - slices->sent);
+    if (count_) {
+        count_->answered.add(1);
+        count_->nanoseconds.add(static_cast<std::uint64_t>(took.count()));
+        count_->bytes.add(answers.size() * sizeof(Rgb));
+    }
     answer_time_ = answer_time_ == answer_time_.zero() ? took : (3 * answer_time_ + took) / 4;
     auto from = answers.begin();
     for (const auto& slice : slices->all) {

@@ -14,15 +14,16 @@
 #include "core/network/light/port.hpp"
 #include "core/run/fiber/fiber.hpp"
 #include "core/run/message/channel.hpp"
+#include "core/run/prepare/gauge.hpp"
 #include "core/run/schedule/multiplexer.hpp"
 
 namespace lightnet {
 
 /// When a bundle goes.
 struct BundleRules {
-    std::size_t questions = 512;             // it is full
-    std::chrono::microseconds oldest{1000};  // a question has waited so long, and half of what an answer takes
-    std::size_t eager = 2;                   // else only when the place has nothing else to do and fewer are out
+    std::size_t questions;             // it is full
+    std::chrono::microseconds oldest;  // a question has waited so long, and half of what an answer takes
+    std::size_t eager;                 // else only when the place has nothing else to do and fewer are out
     friend bool operator==(const BundleRules&, const BundleRules&) = default;
 };
 
@@ -34,11 +35,16 @@ public:
     using Clock = std::chrono::steady_clock;
     using Wake = std::function<void(Fibers::Fiber*)>;
 
-    BundlePort(Fibers& fibers, Wake wake, std::size_t width, BundleRules rules)
-        : fibers_(fibers), wake_(std::move(wake)), width_(width), rules_(rules) {}
+    /// What goes through it is counted in `count`, if given, which must outlive it.
+    BundlePort(Fibers& fibers, Wake wake, std::size_t width, BundleRules rules, Gauge::Node* count = nullptr)
+        : fibers_(fibers), wake_(std::move(wake)), width_(width), rules_(rules), count_(count) {}
 
     /// Where the bundles go.
     Multiplexer<Query>& replicas() { return replicas_; }
+    /// That pass until one more question is answered, when all replicas are at work. 0: not known.
+    double seconds_of_one() const { return replicas_.scheduler().pace(); }
+    /// Questions that are not answered, in bundles or not.
+    std::size_t unanswered() const { return waiting_ + replicas_.unanswered(); }
 
     Ticket begin(std::span<const Query> questions, std::span<Rgb> answers) override;
     void finish(Ticket ticket) override;
@@ -82,7 +88,9 @@ private:
     Ask* find(Ticket ticket);
     void close(Ticket ticket);
     std::chrono::nanoseconds patience() const;
+    std::size_t full() const;
     bool due(Clock::time_point now, bool idle);
+    void foresee(bool idle);
     Bundle<Query> make_bundle(Clock::time_point now);
     Buffer empty_buffer();
     std::uint64_t open_slices();
@@ -94,12 +102,14 @@ private:
     Wake wake_;
     std::size_t width_;
     BundleRules rules_;
+    Gauge::Node* count_;
     Multiplexer<Query> replicas_;
     std::deque<Ask> asks_;               // stay where they are
     std::vector<std::uint32_t> closed_;  // slots
     std::vector<Ticket> unbundled_;      // asks with questions in no bundle yet, from first_ on
     std::size_t first_ = 0;
     std::size_t waiting_ = 0;                  // questions in no bundle yet
+    std::size_t foreseen_ = 0;                 // as the replicas were told last
     std::chrono::nanoseconds answer_time_{0};  // from sending a bundle to its answer, smoothed
     Clock::time_point oldest_;                 // since when the first of them has waited, at most
     std::deque<Slices> slices_;                // by slot in the number of the bundle

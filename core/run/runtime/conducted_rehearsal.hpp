@@ -2,7 +2,6 @@
 #pragma once
 
 #include <chrono>
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <set>
@@ -10,16 +9,10 @@
 
 #include "core/base/bytes.hpp"
 #include "core/base/query.hpp"
+#include "core/run/prepare/shard_dealer.hpp"
 #include "core/run/runtime/master_renderer.hpp"
 
 namespace lightnet {
-
-/// A node at one place; a place may hold several of those that stand for the sectors of one.
-struct NodeCopy {
-    PlaceAt place;
-    std::size_t node;
-    friend auto operator<=>(const NodeCopy&, const NodeCopy&) = default;
-};
 
 /// One rehearsal of one node, with the copies that held it when it began; who comes later does not take part. It is
 /// broken when a copy is lost, and with it what it had noted: then it has to begin again. Belongs to the launcher's

@@ -11,18 +11,26 @@ namespace {
 
 constexpr std::uint32_t own_channel = 0xffffffff;  // no master's: see Epoch::most_channels
 
+std::string describe(const ShardDealer::Convicted& convicted) {
+    std::string hosts;
+    for (const auto& host : convicted.hosts) hosts += (hosts.empty() ? "" : ", ") + host;
+    return "shard " + std::to_string(convicted.shard) +
+           " of what it prepares is set aside: hosts died of it, with nothing else to do: " + hosts;
+}
+
 }  // namespace
 
 Conductor::Conductor(Options options, Carrier& carrier)
     : options_(std::move(options)),
       carrier_(carrier),
-      calls_(*options_.graph, options_.made_from, options_.cache),
+      calls_(*options_.graph, options_.made_from, options_.cache, renewed_nodes(*options_.graph, *options_.registry)),
       order_(preparing_nodes(*options_.graph, *options_.registry)),
-      stages_(stages_of(order_, *options_.graph, *options_.registry)) {
+      stages_(stages_of(order_, *options_.graph, *options_.registry)),
+      renewed_(renewed_nodes(*options_.graph, *options_.registry)) {
     const auto& nodes = options_.graph->nodes;
     if (std::any_of(nodes.begin(), nodes.end(),
                     [&](const Node& node) { return options_.registry->find(node.kind)->run.locks; }))
-        locks_.emplace([this](const PlaceAt& place, const Step& step) { return send({place, 0}, 0, step); });
+        locks_.emplace([this](const PlaceAt& place, const Step& step) { return send({{place, 0}, 0, step}); });
     proposal_.places_of.resize(options_.graph->nodes.size());
     in_force_ = proposal_;
 }
@@ -36,6 +44,7 @@ void Conductor::propose(const Plan& plan) {
     for (const auto& place : plan.places) gone.erase(place);
     proposal_ = plan;
     lose(gone);
+    keep_dealing();
     if (rehearsal_ && !std::all_of(rehearsal_->copies().begin(), rehearsal_->copies().end(),
                                    [&](const auto& copy) { return is_there(copy, done_); }))
         rehearsal_->break_off();  // nobody will ask a place that holds the node no more what it has noted
@@ -50,8 +59,6 @@ void Conductor::lose(const std::set<PlaceAt>& gone) {
             ++sent;
             continue;
         }
-        const auto& [to, position, step] = sent->second;
-        if (step.kind == Step::Kind::shards) calls_.of(order_[position], step.call).take_back({step.first, step.count});
         sent = sent_.erase(sent);
     }
     std::erase_if(followers_, [&](const auto& follower) { return gone.contains(follower.first.place); });
@@ -138,6 +145,7 @@ void Conductor::advance() {
             if (more) ++done_;
         }
     }
+    for (std::size_t position = 0; position < led(); ++position) deal(position);
     collect();
     enforce();
     attend();
@@ -154,32 +162,44 @@ void Conductor::lead(const NodeCopy& copy, std::size_t position) {
         for (std::size_t before = 0; before < stages_[position]; ++before)
             for (const auto& earlier : copies(before))
                 if (earlier.place == copy.place && !is_done(earlier)) return;
-        if (send(copy, position, {.kind = Step::Kind::prepare})) follower.state = Follower::State::asked;
+        const auto first = first_call_of(is_renewed(position) ? pass_ : 0);
+        if (send({copy, position, {.kind = Step::Kind::prepare, .call = first}}))
+            follower.state = Follower::State::asked;
     } else if (follower.state == Follower::State::waiting) {
         auto& call = calls_.reported(copy.node, follower.at);
         const auto result = calls_.result(copy.node, follower.at.call);
         if (!result) {
-            if (call.shared_out()) hand_out(copy, position, call);
+            if (call.shared_out()) call.dealer().join(copy, proposal_.process_of(copy.place.host), steady_seconds());
             return;
         }
         const Hash& name = call.name(calls_.part_of(copy.node, call));
         if (carrier_.bring(copy.place, name, result) &&
-            send(copy, position, {.kind = Step::Kind::go_on, .call = follower.at.call, .data = name}, result))
+            send({copy, position, {.kind = Step::Kind::go_on, .call = follower.at.call, .data = name}}, result))
             follower.state = Follower::State::asked;
     }
 }
 
-void Conductor::hand_out(const NodeCopy& copy, std::size_t position, ServiceCall& call) {
-    auto& follower = followers_[copy];
-    const std::size_t places = copies(position).size();
-    while (const auto shards = call.hand_out({follower.asks, places, steady_seconds()})) {
-        const Step step{Step::Kind::shards, follower.at.call, shards->first, shards->count};
-        if (!send(copy, position, step)) return call.take_back(*shards);
-        ++follower.asks;
-    }
+void Conductor::deal(std::size_t position) {
+    for (const auto& [number, call] : calls_.dealt_out(order_[position]))
+        for (const auto& [id, to, shards] : call->dealer().deal(copies(position).size(), steady_seconds())) {
+            const Step step{Step::Kind::shards, number, shards.first, shards.count};
+            if (!send({to, position, step, id})) call->dealer().refused(id, steady_seconds());
+        }
 }
 
-bool Conductor::send(const NodeCopy& to, std::size_t position, Step step, const Bytes& data) {
+// With those of the proposal.
+void Conductor::keep_dealing() {
+    for (std::size_t position = 0; position < led(); ++position)
+        for (const auto& [number, call] : calls_.dealt_out(order_[position])) {
+            const auto all = copies(position);
+            auto& dealer = call->dealer();
+            dealer.keep(proposal_, {all.begin(), all.end()}, steady_seconds());
+            if (const auto& convicted = dealer.convicted()) throw Error(name_of(position), describe(*convicted));
+        }
+}
+
+bool Conductor::send(const Sent& sent, const Bytes& data) {
+    const auto& [to, position, step, shards] = sent;
     Message message;
     message.run = options_.run;
     message.channel = own_channel;
@@ -189,7 +209,7 @@ bool Conductor::send(const NodeCopy& to, std::size_t position, Step step, const 
     message.questions = std::make_shared<const std::vector<Step>>(1, step);
     message.data = data;
     if (!carrier_.ask(to.place, message)) return false;
-    sent_[next_++] = {to, position, step};
+    sent_[next_++] = sent;
     return true;
 }
 
@@ -201,10 +221,8 @@ void Conductor::take(Message message) {
     const Sent sent = found->second;
     sent_.erase(found);
     const bool shards = sent.step.kind == Step::Kind::shards;
-    if (shards) {
-        --followers_[sent.to].asks;
-        if (calls_.of(order_[sent.position], sent.step.call).done()) return;  // another place was first
-    }
+    if (shards && !calls_.of(order_[sent.position], sent.step.call).dealer().shards_of(sent.shards))
+        return;  // another place was first
     if (message.type == Message::Type::failure) return failed(sent, message.trouble.why);
     if (sent.step.kind == Step::Kind::attend) {
         if (locks_) locks_->hear(sent.to.place, message.data);
@@ -222,7 +240,10 @@ void Conductor::take(Message message) {
 
 // A host that can't do its part of preparing is left out; what a second one can't do either is the run's own fault.
 void Conductor::failed(const Sent& sent, const std::string& why) {
-    const auto& [to, position, step] = sent;
+    const auto& [to, position, step, shards] = sent;
+    if (step.kind == Step::Kind::shards &&
+        !calls_.of(order_[position], step.call).dealer().failed(shards, steady_seconds()))
+        return;  // another place was first
     const auto& host = to.place.host;
     auto& hosts = failed_at_[{position, step.kind, step.call, step.first}];
     hosts.insert(host);
@@ -230,7 +251,6 @@ void Conductor::failed(const Sent& sent, const std::string& why) {
     const bool others =
         std::any_of(all.begin(), all.end(), [&](const NodeCopy& copy) { return !hosts.contains(copy.place.host); });
     if (hosts.size() > 1 || !others) throw Error(why);
-    if (step.kind == Step::Kind::shards) calls_.of(order_[position], step.call).take_back({step.first, step.count});
     if (!carrier_.take_out(host, why)) throw Error(why);
 }
 
@@ -250,7 +270,7 @@ void Conductor::reported(const Sent& sent, const Bytes& data) {
 
 // A copy has got past the calls before this one; others may be behind.
 void Conductor::let_go_of_taken(std::size_t position, std::uint32_t before) {
-    if (before == 0) return;
+    if (is_first_call(before)) return;
     const auto all = copies(position);
     const bool taken = std::all_of(all.begin(), all.end(), [&](const NodeCopy& copy) {
         const auto& follower = followers_[copy];
@@ -274,15 +294,11 @@ void Conductor::shards_done(const Sent& sent, const Bytes& data) {
     auto& call = calls_.of(order_[sent.position], sent.step.call);
     bool complete = false;
     try {
-        complete = call.answer({sent.step.first, sent.step.count}, data, steady_seconds());
+        complete = call.answer(sent.shards, data, steady_seconds());
     } catch (const Error& error) {
         return failed(sent, "'" + name_of(sent.position) + "' on " + sent.to.place.host + ": " + error.what());
     }
-    if (!complete) {
-        if (is_there(sent.to, sent.position))
-            hand_out(sent.to, sent.position, call);  // who was told to stop gets no more
-        return;
-    }
+    if (!complete) return deal(sent.position);
     call.complete_from_shards();
     calls_.keep(order_[sent.position], sent.step.call);
     advance();

@@ -53,6 +53,9 @@ public:
     /// Leads on for about `most`. True when every node is prepared on every place of the proposal. Throws Error when a
     /// node failed.
     bool prepare(std::chrono::nanoseconds most);
+    /// What is prepared from now on is for this pass of the picture: nodes that learn anew for each do so, and those
+    /// that are prepared already stay. Work of the pass before must be done, and its master gone.
+    void begin_pass(std::uint32_t pass);
     /// What can be asked now.
     const Plan& in_force() const { return in_force_; }
     /// How far preparing is. Of nodes that prepare at the same time, the first one.
@@ -79,14 +82,15 @@ private:
         enum class State { idle, asked, waiting, done };
         State state = State::idle;
         StepReport at;
-        std::size_t asks = 0;  // for shards, handed out and not answered
     };
     /// A step that was sent and not answered.
     struct Sent {
         NodeCopy to;
         std::size_t position;
         Step step;
+        ShardDealer::CopyId shards = 0;  // as they were dealt out
     };
+    bool is_renewed(std::size_t position) const { return renewed_[order_[position]]; }
     std::vector<std::size_t> nodes_at(std::size_t position) const;
     std::vector<NodeCopy> copies(std::size_t position) const;
     bool is_there(const NodeCopy& copy, std::size_t position) const;
@@ -95,11 +99,12 @@ private:
     void advance();
     std::size_t led() const;
     void lead(const NodeCopy& copy, std::size_t position);
-    void hand_out(const NodeCopy& copy, std::size_t position, ServiceCall& call);
+    void deal(std::size_t position);
+    void keep_dealing();
     void collect();
     void begin_rehearsal(std::uint32_t call);
     void end_rehearsal();
-    bool send(const NodeCopy& to, std::size_t position, Step step, const Bytes& data = nullptr);
+    bool send(const Sent& sent, const Bytes& data = nullptr);
     void take(Message message);
     void failed(const Sent& sent, const std::string& why);
     void reported(const Sent& sent, const Bytes& data);
@@ -117,6 +122,8 @@ private:
     ServiceCalls calls_;
     std::vector<std::size_t> order_;  // nodes that prepare; what stands for their sectors is found by nodes_at()
     std::vector<std::size_t> stages_;
+    std::vector<bool> renewed_;  // by node
+    std::uint32_t pass_ = 0;
     std::optional<LockKeeper> locks_;  // none: nobody in the graph locks
     Plan proposal_, in_force_;
     std::deque<Message> arrived_;

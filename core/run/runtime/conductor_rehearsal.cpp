@@ -28,7 +28,7 @@ void Conductor::collect() {
     }
     for (const auto& copy : rehearsal_->copies())
         if (rehearsal_->wants_notes_of(copy) &&
-            send(copy, done_, {.kind = Step::Kind::collect, .call = rehearsal_->call(), .first = epoch_.number()}))
+            send({copy, done_, {.kind = Step::Kind::collect, .call = rehearsal_->call(), .first = epoch_.number()}}))
             rehearsal_->asked(copy);
 }
 
@@ -37,7 +37,8 @@ void Conductor::begin_rehearsal(std::uint32_t call) {
     job.run = options_.run;
     job.image = static_cast<std::uint32_t>(renderer_of(*options_.graph, *options_.registry));
     job.width = options_.width;
-    job.tiles = rehearsal_tiles(*options_.graph, *options_.registry, calls_.of(order_[done_], call).what().count);
+    job.tiles = rehearsal_tiles(*options_.graph, *options_.registry, calls_.of(order_[done_], call).what().count,
+                                pass_of_call(call));
     job.credit = {tiles_per_place, tiles_per_place * MasterRenderer::most_together};
     job.double_tail = false;  // what is still under way at its end would note questions in the next rehearsal
     epoch_.begin_next();

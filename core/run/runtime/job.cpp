@@ -7,6 +7,7 @@
 #include "core/network/graph/check.hpp"
 #include "core/network/graph/graph_film.hpp"
 #include "core/network/graph/json.hpp"
+#include "core/network/graph/plugin_use.hpp"
 
 namespace lightnet {
 
@@ -34,18 +35,21 @@ nlohmann::json json_of(const Tuning& tuning) {
     return json;
 }
 
-void take(const Json& json, const char* name, std::string& text) { text = json.at(name).text(); }
-void take(const Json& json, const char* name, bool& flag) { flag = json.at(name).flag(); }
+void take(const Json& json, const Knob& knob, std::string& text) { text = json.at(knob.name).text(); }
+void take(const Json& json, const Knob& knob, bool& flag) { flag = json.at(knob.name).flag(); }
 template <class Integer>
-void take(const Json& json, const char* name, Integer& number) {
-    number = count_of<Integer>(json, name);
+void take(const Json& json, const Knob& knob, Integer& number) {
+    number = count_of<Integer>(json, knob.name);
+    if (number < knob.least || number > knob.most)  // a stranger's job may ask for any number of fibers
+        not_a_job(std::string("'") + knob.name + "' is " + std::to_string(number) + ", and goes from " +
+                  std::to_string(knob.least) + " to " + std::to_string(knob.most));
 }
 
 Tuning tuning_of(const Json& json) {
     Tuning tuning;
     for (const auto& knob : knobs)
         if (knob.where == Knob::Where::places)
-            std::visit([&](const auto& member) { take(json, knob.name, tuning.*member); }, knob.member);
+            std::visit([&](const auto& member) { take(json, knob, tuning.*member); }, knob.member);
     return tuning;
 }
 
@@ -61,14 +65,16 @@ std::string to_json(const Job& job) {
     nlohmann::json files = nlohmann::json::array();
     for (const auto& file : job.files)
         files.push_back({{"path", file.path}, {"hash", to_hex(file.hash)}, {"size", file.size}});
-    const auto rest = nlohmann::json{{"scene", job.scene},
-                                     {"files", std::move(files)},
-                                     {"seed", job.seed},
-                                     {"isa", job.isa},
-                                     {"width", job.width},
-                                     {"height", job.height},
-                                     {"tuning", json_of(job.tuning)}}
-                          .dump();
+    const auto rest = nlohmann::json{
+        {"scene", job.scene},
+        {"files", std::move(files)},
+        {"seed", job.seed},
+        {"isa", job.isa},
+        {"width", job.width},
+        {"height", job.height},
+        {"tuning", json_of(job.tuning)},
+        {"plugins",
+         job.plugins}}.dump();
     return "{\"graph\":" + to_json(job.graph) + "," + rest.substr(1);  // which is text already
 }
 
@@ -83,6 +89,7 @@ Job job_from_json(std::string_view text) {
     job.width = count_of<std::uint32_t>(json, "width");
     job.height = count_of<std::uint32_t>(json, "height");
     job.tuning = tuning_of(json.at("tuning"));
+    for (const auto& plugin : json.at("plugins").list()) job.plugins.push_back(plugin.text());
     return job;
 }
 
@@ -90,6 +97,7 @@ Job read_job(std::string_view text, const Registry& registry) {
     Job job = job_from_json(text);
     const auto is_side = [](std::uint32_t pixels) { return 1 <= pixels && pixels <= longest_side; };
     if (!is_side(job.width) || !is_side(job.height)) not_a_job("its picture has a side that no picture has");
+    if (const auto why = why_plugins_differ(job.plugins, registry); !why.empty()) throw Error(why);
     try {
         job.graph = check(job.graph, registry);
     } catch (const UserError& error) {
@@ -123,6 +131,7 @@ std::shared_ptr<const Network> build_network(const Job& job, const Registry& reg
 std::string made_from(const Job& job) {
     std::string text = build_id() + '\n' + job.isa + '\n' + std::to_string(job.seed) + '\n' + job.scene;
     for (const auto& file : job.files) text += '\n' + file.path + ' ' + to_hex(file.hash);
+    for (const auto& plugin : job.plugins) text += '\n' + plugin;
     return text;
 }
 

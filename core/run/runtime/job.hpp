@@ -35,6 +35,7 @@ struct Job {
     std::string isa;                      // of Embree
     std::uint32_t width = 0, height = 0;  // of the picture, pixels
     Tuning tuning;                        // what places must know of it travels
+    std::vector<std::string> plugins;     // that the graph needs: see plugins_of()
     friend bool operator==(const Job&, const Job&) = default;
 };
 

@@ -19,7 +19,7 @@ MasterRenderer::MasterRenderer(Job job, Carrier& carrier, Done done)
     : job_(std::move(job)),
       carrier_(carrier),
       done_(std::move(done)),
-      channels_(carrier, job_.run, 0, counters_),
+      channels_(carrier, job_.run, {}, counters_),
       edge_{job_.image, job_.credit, {}},
       left_(work_in(job_.tiles)),
       unanswered_(left_) {}
@@ -28,6 +28,7 @@ void MasterRenderer::use(const Plan& plan) {
     if (!std::exchange(planned_, true)) {
         MultiplexerRules rules;
         rules.scheduling.strategy = plan.strategy_of(job_.image);
+        rules.scheduling.last_to_idle = true;
         rules.scheduling.double_tail = job_.double_tail;
         rules.clock = job_.clock;
         rules.at_fault = [this](const Failure& failure) { carrier_.take_out(failure.host, failure.why); };
@@ -47,9 +48,9 @@ void MasterRenderer::append(const std::vector<Tile>& tiles) {
 // How many blocks of samples go together: fewer towards the end.
 // DECISIONS: quick-tiles-together
 MasterRenderer::Together MasterRenderer::together() const {
-    const double seconds = replicas_.scheduler().service() * double(replicas_.size());  // of one block at one place
+    const double seconds = replicas_.scheduler().service();  // of one block at one place
     const auto most =
-        std::min(job_.credit.questions / job_.credit.bundles, guided_share(left_, replicas_.size(), shares));
+        std::min(job_.credit.questions / job_.credit.bundles, guided_share(left_, replicas_.places(), shares));
     if (seconds <= 0 || most < 2) return {};
     const auto within = [&](double time) { return std::size_t(std::max(1.0, std::min(time / seconds, double(most)))); };
     return {within(worth_the_way), within(soon_enough)};
@@ -97,6 +98,7 @@ void MasterRenderer::hand_out() {
     while (left_ > 0 && replicas_.has_credit()) {
         auto tiles = std::make_shared<const std::vector<Tile>>(take_next());
         left_ -= work_in(*tiles);
+        if (job_.handed_out) job_.handed_out(*tiles);
         replicas_.foresee(left_);
         replicas_.send({std::move(tiles), this, 0, job_.width});
     }

@@ -27,6 +27,7 @@ public:
         bool double_tail = true;     // idle places do the last tiles once more
         bool check_answers = false;  // tiles that are done twice must have the same bits
         std::function<double()> clock = steady_seconds;
+        std::function<void(const std::vector<Tile>&)> handed_out = {};  // is told, for display
     };
     MasterRenderer(Job job, Carrier& carrier, Done done);
     /// As many blocks of samples as should go together at most, for the credit of jobs.
@@ -49,7 +50,7 @@ public:
     /// Blocks of samples that are not there yet.
     std::size_t unanswered() const { return unanswered_; }
     /// Places that render now.
-    std::size_t renderers() const { return replicas_.size(); }
+    std::size_t renderers() const { return replicas_.places(); }
     /// Tiles that seem to kill hosts, and on which hosts they did: one sentence each.
     const std::vector<std::string>& set_aside_tiles() const { return set_aside_; }
     const Counters& counters() const { return counters_; }

@@ -10,24 +10,37 @@
 #include "core/scene/scene.hpp"
 
 namespace lightnet {
+namespace {
+
+std::uint64_t nanoseconds_since(std::chrono::steady_clock::time_point begun) {
+    return static_cast<std::uint64_t>(std::chrono::nanoseconds(std::chrono::steady_clock::now() - begun).count());
+}
+
+}  // namespace
+
 Place::Place(const Network& network, const PlaceAt& me, const Plan& plan, std::uint64_t run, const Tuning& tuning,
-             Carrier& carrier)
+             Carrier& carrier, Gauge& gauge)
     : network_(network),
       me_(me),
       plan_(plan),
       run_(run),
       tuning_(tuning),
       carrier_(carrier),
+      gauge_(gauge),
       rays_before_(Scene::rays_of_this_thread()),
       rounds_(fibers_, tuning.side_fibers, wake()),
       inboxes_(network.graph.nodes.size()),
       by_rank_(network.graph.nodes.size()),
-      channels_(carrier, run, name_of(me), counters_),
+      channels_(carrier, run, {me.host, name_of(me)}, counters_),
       locks_(fibers_, wake(), reply()),
+      meter_(gauge, asking_edges(network.graph, network.layers, network.registry),
+             [this] { return fibers_.current() ? fibers_.running_time(fibers_.current()) : std::chrono::nanoseconds{}; }),
       assembly_(network, [this](std::size_t node, std::size_t width) { return port_to(node, width); },
-                {.locks = &locks_, .concurrent = &rounds_}),
-      preparer_(network, assembly_, fibers_,
-                {my_name(), wake(), reply(), [this](std::size_t node) { return plan_.places_of[node].size(); }}) {
+                {.locks = &locks_, .concurrent = &rounds_, .whereabouts = [this] { return whereabouts(); }},
+                meter_.tap()),
+      preparer_(network, assembly_, fibers_, {my_name(), wake(), reply(), [this] { look(); }}) {
+    assembly_.show(gauge);
+    fibers_.show(gauge.shown(), Gauge::asking);
     const auto rank = ranks_of(network.graph);
     std::iota(by_rank_.begin(), by_rank_.end(), 0);
     std::stable_sort(by_rank_.begin(), by_rank_.end(), [&](auto a, auto b) { return rank[a] < rank[b]; });
@@ -59,6 +72,12 @@ std::string Place::my_name() const {
     return me_.host.empty() ? "place " + std::to_string(me_.index) : me_.host + " place " + std::to_string(me_.index);
 }
 
+Whereabouts Place::whereabouts() const {
+    std::set<std::string> hosts;
+    for (const auto& place : plan_.places) hosts.insert(place.host);
+    return {.place = my_name(), .places = plan_.places.size(), .hosts = hosts.size()};
+}
+
 Port* Place::port_to(std::size_t node, std::size_t width) {
     return sectors_of(network_.graph, node).empty() ? port_to_one(node, width) : port_to_sectors(node, width);
 }
@@ -77,13 +96,11 @@ Port* Place::port_to_one(std::size_t node, std::size_t width) {
     auto& port = ports_[{node, width}];
     if (!port) {
         port = std::make_unique<PlannedPort>([=, this] { return direct_port_to(node, width); },
-                                             [=, this] { return bundle_port_to(node, width); });
-        port->use(called_here(node));
+                                             [=, this] { return bundle_port_to(node, width); }, width);
+        use(node, width, *port);
     }
     return port.get();
 }
-
-bool Place::called_here(std::size_t node) const { return tuning_.call_own_nodes && holds(node); }
 
 Port* Place::direct_port_to(std::size_t node, std::size_t width) {
     direct_ports_.push_back(
@@ -95,17 +112,28 @@ Port* Place::bundle_port_to(std::size_t node, std::size_t width) {
     auto& remote = remotes_[{node, width}];
     const Credit credit{tuning_.credit, tuning_.credit_questions, tuning_.credit_bytes};
     const BundleRules bundles{tuning_.bundle, std::chrono::microseconds(tuning_.oldest_us), tuning_.eager};
-    remote.edge = {static_cast<std::uint32_t>(node), credit, {}};
-    remote.port = std::make_unique<BundlePort>(fibers_, wake(), width, bundles);
+    remote.edge = {static_cast<std::uint32_t>(node), credit, {}, {}};
+    if (tuning_.call_own_nodes) remote.edge.reserve = me_;
+    remote.port = std::make_unique<BundlePort>(fibers_, wake(), width, bundles, &gauge_.nodes[node]);
     remote.port->replicas().follow(multiplexer_rules(node), &counters_);
-    channels_.connect(remote.edge, remote.port->replicas(), plan_);
+    channels_.connect(remote.edge, remote.port->replicas(), plan_for(node));
     return remote.port.get();
+}
+
+// Itself, or somebody whom it asks: what is still under way when a rehearsal is over would be noted in the next.
+bool Place::may_rehearse(std::size_t node) const {
+    const auto needed = used_nodes(network_.graph, node);
+    for (std::size_t other = 0; other < needed.size(); ++other)
+        if (needed[other] && network_.kind_of(other).run.rehearses) return true;
+    return false;
 }
 
 MultiplexerRules Place::multiplexer_rules(std::size_t node) {
     MultiplexerRules rules;
     rules.scheduling.strategy = plan_.strategy_of(node);
     rules.scheduling.usual = tuning_.bundle;
+    rules.scheduling.double_tail = !may_rehearse(node);
+    rules.scheduling.tail_part = 0.01;  // others want answers, too
     rules.at_fault = [this](const Failure& failure) { carrier_.take_out(failure.host, failure.why); };
     if (tuning_.check_answers) rules.differs = [](const std::string& what) { throw Error(what); };
     return rules;
@@ -113,16 +141,15 @@ MultiplexerRules Place::multiplexer_rules(std::size_t node) {
 
 void Place::use(const Plan& plan) {
     const auto before = std::exchange(plan_, plan);
-    for (auto& [key, port] : ports_) port->use(called_here(key.first));
-    for (auto& [key, remote] : remotes_) channels_.connect(remote.edge, remote.port->replicas(), plan_);
+    relieved_.clear();
+    for (auto& [key, port] : ports_) use(key.first, key.second, *port);
+    for (auto& [key, remote] : remotes_) channels_.connect(remote.edge, remote.port->replicas(), plan_for(key.first));
     cancel_asks_of_lost(before);
 }
 
-// Nobody waits any more for answers to a place that is gone. One that this place has not heard of yet is not gone.
+// Nobody waits any more for answers to a place that is gone.
 void Place::cancel_asks_of_lost(const Plan& before) {
-    std::set<std::uint64_t> lost;
-    for (const auto& place : before.places) lost.insert(name_of(place));
-    for (const auto& place : plan_.places) lost.erase(name_of(place));
+    const auto lost = lost_names(before, plan_);
     if (lost.empty()) return;
     for (auto& inbox : inboxes_) {
         counters_.cancelled +=
@@ -135,11 +162,13 @@ void Place::cancel_asks_of_lost(const Plan& before) {
 void Place::serve(const std::atomic<bool>& stop, std::atomic<std::uint64_t>& progress) {
     stop_ = &stop;
     progress_ = &progress;
+    const auto begun = Clock::now();
+    gauge_.turn_to(Gauge::asking);
     while (!stopping_ && !stop.load(std::memory_order_relaxed)) {
         take_in();
         flush(false);
         if (!step()) {
-            if (!flush(true) && !stopping_) carrier_.wait(patience());
+            if (!flush(true) && !stopping_) wait();
             continue;
         }
         // Each look at the sockets costs system calls: what has come together is worked off together.
@@ -147,7 +176,16 @@ void Place::serve(const std::atomic<bool>& stop, std::atomic<std::uint64_t>& pro
         }
     }
     stopping_ = true;
+    record_.lived_ns = nanoseconds_since(begun);
     fibers_.cancel_all();
+    gauge_.turn_to(Gauge::idle);
+}
+
+void Place::wait() {
+    const auto begun = Clock::now();
+    const Turned turned(gauge_, fibers_.alive() > 0 ? Gauge::waiting : Gauge::idle);
+    carrier_.wait(patience());
+    (fibers_.alive() ? record_.waited_ns : record_.idle_ns) += nanoseconds_since(begun);
 }
 
 // Runs one thing: a fiber whose answers are there, else a bundle of the lowest rank, else one more piece of what nodes
@@ -160,8 +198,18 @@ bool Place::step() {
         fibers_.resume(fiber);
         return true;
     };
-    return resume_first_of(ready_) || preparer_.start_next() || start_next(false) || rounds_.start_one() ||
-           resume_first_of(paused_) || start_next(true);
+    const auto as = [this](TraceKind kind) {
+        if (tracer_) tracer_->next_is(kind);
+        return true;
+    };
+    return resume_first_of(ready_) || (as(TraceKind::prepare) && preparer_.start_next()) || start_next(false) ||
+           (as(TraceKind::light) && rounds_.start_one()) || resume_first_of(paused_) || start_next(true);
+}
+
+void Place::trace(PlaceTracer& tracer) {
+    tracer_ = &tracer;
+    fibers_.watch(&tracer);
+    meter_.trace(&tracer);
 }
 
 bool Place::may_start(std::size_t node) const {
@@ -173,6 +221,10 @@ bool Place::start_next(bool images) {
     for (const auto node : by_rank_) {
         if (!may_start(node) || (network_.kind_of(node).role == Role::image) != images) continue;
         auto asks = std::make_shared<std::vector<Message>>(next_asks(node));
+        if (tracer_)
+            tracer_->next_is(images                                                             ? TraceKind::tiles
+                             : std::holds_alternative<Questions<Step>>(asks->front().questions) ? TraceKind::prepare
+                                                                                                : TraceKind::light);
         fibers_.start(network_.graph.nodes[node].name.c_str(), [this, asks] { answer(*asks); });
         return true;
     }
@@ -182,6 +234,11 @@ bool Place::start_next(bool images) {
 void Place::take_in() {
     while (auto message = carrier_.receive()) take(std::move(*message));
     last_look_ = Clock::now();
+    if (tracer_) {
+        std::size_t waiting = 0;
+        for (const auto& inbox : inboxes_) waiting += inbox.questions - inbox.answering;
+        tracer_->waiting(waiting);
+    }
     fibers_.begin_stint(std::chrono::microseconds(50));
 }
 
@@ -211,7 +268,20 @@ void Place::take(Message message) {
 void Place::queue(Message message) {
     auto& inbox = inboxes_[message.node];
     inbox.questions += work_in(message);
+    gauge_.nodes[message.node].waiting.set(inbox.questions);
     inbox.waiting.push_back(std::move(message));
+}
+
+// Other threads may call it for us.
+void Place::look() const {
+    if (stop_ && stop_->load(std::memory_order_relaxed)) throw Cancelled{};
+}
+
+// Is there anything to go on with, or to begin of nodes of this role?
+bool Place::has_more(Role role) const {
+    return !ready_.empty() || std::any_of(by_rank_.begin(), by_rank_.end(), [&](auto node) {
+        return may_start(node) && network_.kind_of(node).role == role;
+    });
 }
 
 // Called by running work at every ask of a node of this place: a busy place still serves others.
@@ -221,17 +291,16 @@ void Place::pause() {
     const auto now = Clock::now();
     if (now - last_look_ < std::chrono::microseconds(200)) return;
     take_in();
-    if (stopping_ || (stop_ && stop_->load(std::memory_order_relaxed))) throw Cancelled{};
+    look();
+    if (stopping_) throw Cancelled{};
     flush(false);
-    const bool others = !ready_.empty() || std::any_of(by_rank_.begin(), by_rank_.end(), [&](auto node) {
-        return may_start(node) && network_.kind_of(node).role == Role::light;
-    });
-    if (!others) return;
+    if (!has_more(Role::light)) return;
     paused_.push_back(fiber);
     fibers_.park();
 }
 
 bool Place::flush(bool idle) {
+    if (!relieved_.empty()) relieve();
     const auto now = Clock::now();
     bool sent = false;
     for (auto& [key, remote] : remotes_) sent |= remote.port->flush(now, idle);
@@ -249,9 +318,27 @@ Counters Place::counters() const {
     Counters counters = counters_;
     counters += carrier_.counters();
     counters.not_finite = assembly_.not_finite();
+    counters.off_surface = assembly_.off_surface();
     counters.prepared_bytes = preparer_.result_bytes();
     counters.rays = Scene::rays_of_this_thread() - rays_before_;
+    counters.places.push_back(record());
     return counters;
+}
+
+PlaceRecord Place::record() const {
+    PlaceRecord record = record_;
+    record.host = me_.host, record.index = me_.index;
+    meter_.write(network_.graph, record);
+    const auto& nodes = network_.graph.nodes;
+    for (std::size_t node = 0; node < inboxes_.size(); ++node)
+        if (inboxes_[node].figures.answered) record.nodes[nodes[node].name] = inboxes_[node].figures;
+    for (std::size_t node = 0; node < gauge_.nodes.size(); ++node) {
+        const auto& sent = gauge_.nodes[node];
+        if (!sent.bundles.get()) continue;
+        auto& to = record.nodes[nodes[node].name];
+        to.bundles = sent.bundles.get(), to.replies = sent.answered.get(), to.latency_ns = sent.nanoseconds.get();
+    }
+    return record;
 }
 
 }  // namespace lightnet

@@ -19,9 +19,12 @@
 #include "core/run/message/tuning.hpp"
 #include "core/run/prepare/assembly.hpp"
 #include "core/run/prepare/direct_port.hpp"
+#include "core/run/prepare/gauge.hpp"
 #include "core/run/prepare/lock_desk.hpp"
 #include "core/run/prepare/preparer.hpp"
 #include "core/run/runtime/bundle_port.hpp"
+#include "core/run/runtime/edge_meter.hpp"
+#include "core/run/runtime/place_tracer.hpp"
 #include "core/run/schedule/planned_port.hpp"
 #include "core/run/schedule/remote_channels.hpp"
 #include "core/run/schedule/sector_port.hpp"
@@ -29,6 +32,7 @@
 namespace lightnet {
 
 /// Answers for its nodes until it is told to stop. Nothing is shared between places but the network, which is constant.
+/// What it is at can be read off its gauge, which outlives it.
 ///
 /// No graph can make places wait for each other for ever: a bundle whose node has no fiber running is always given
 /// one, bundles of the lowest rank (the longest way down to a node that asks nobody) go first, and the asker has kept
@@ -37,11 +41,13 @@ namespace lightnet {
 class Place {
 public:
     Place(const Network& network, const PlaceAt& me, const Plan& plan, std::uint64_t run, const Tuning& tuning,
-          Carrier& carrier);
+          Carrier& carrier, Gauge& gauge);
     ~Place();
     Place(const Place&) = delete;
     Place& operator=(const Place&) = delete;
 
+    /// Tells `tracer` from now on what it is busy with.
+    void trace(PlaceTracer& tracer);
     /// Serves until a stop message arrives or `stop` is set. Once, on the thread that made the place. Counts the
     /// bundles and tiles that it answers in `progress`: a sign of life for other threads.
     void serve(const std::atomic<bool>& stop, std::atomic<std::uint64_t>& progress);
@@ -55,12 +61,20 @@ private:
         std::size_t answering = 0;  // that fibers answer now
         std::size_t fibers = 0;     // that answer for this node now
         double service_ns = 0;      // per question, smoothed
+        NodeRecord figures;
     };
 
     // The port to a node of other places, and its channels to each of them.
     struct Remote {
         std::unique_ptr<BundlePort> port;
         RemoteChannels<Query>::Edge edge;
+    };
+
+    // A port to a node of this place whose questions others could answer, too.
+    struct Relieved {
+        std::size_t node, width;
+        PlannedPort* port;
+        std::size_t helpers;
     };
 
     std::function<void(Fibers::Fiber*)> wake();
@@ -71,10 +85,15 @@ private:
     Port* port_to_one(std::size_t node, std::size_t width);
     Port* port_to_sectors(std::size_t node, std::size_t width);
     bool called_here(std::size_t node) const;
+    std::vector<std::uint32_t> helpers(std::size_t node) const;
+    Plan plan_for(std::size_t node) const;
+    void use(std::size_t node, std::size_t width, PlannedPort& port);
+    void relieve();
     Port* direct_port_to(std::size_t node, std::size_t width);
     Port* bundle_port_to(std::size_t node, std::size_t width);
     void use(const Plan& plan);
     void cancel_asks_of_lost(const Plan& before);
+    bool may_rehearse(std::size_t node) const;
     MultiplexerRules multiplexer_rules(std::size_t node);
     void take_in();
     void take(Message message);
@@ -82,6 +101,7 @@ private:
     bool step();
     bool start_next(bool images);
     bool may_start(std::size_t node) const;
+    bool has_more(Role role) const;
     std::vector<Message> next_asks(std::size_t node);
     void answer(std::vector<Message>& asks);
     bool answer_together(const std::vector<Message>& asks, std::vector<Message>& replies);
@@ -89,10 +109,14 @@ private:
     std::vector<Rgb> light_answers(std::size_t node, std::size_t width, std::span<const Query> questions);
     std::vector<Rgb> pixel_answers(const Message& message, const Tile*& at);
     void pause();
+    void look() const;
     bool flush(bool idle);
     std::chrono::nanoseconds patience() const;
+    void wait();
+    PlaceRecord record() const;
     Load load_of(std::size_t node) const;
     std::string my_name() const;
+    Whereabouts whereabouts() const;
 
     const Network& network_;
     PlaceAt me_;
@@ -100,6 +124,7 @@ private:
     std::uint64_t run_;
     Tuning tuning_;
     Carrier& carrier_;
+    Gauge& gauge_;
     Counters counters_;
     std::uint64_t rays_before_;
     const std::atomic<bool>* stop_ = nullptr;
@@ -116,11 +141,15 @@ private:
     std::vector<Inbox> inboxes_;                                                         // by node
     std::vector<std::size_t> by_rank_;                                                   // nodes, lowest rank first
     std::map<std::pair<std::size_t, std::size_t>, std::unique_ptr<PlannedPort>> ports_;  // by node and width
+    std::vector<Relieved> relieved_;
     std::vector<std::unique_ptr<DirectPort>> direct_ports_;
     std::vector<std::unique_ptr<SectorPort>> sector_ports_;
     std::map<std::pair<std::size_t, std::size_t>, Remote> remotes_;  // by node and width
     RemoteChannels<Query> channels_;
     PlaceLocks locks_;
+    EdgeMeter meter_;
+    PlaceRecord record_;
+    PlaceTracer* tracer_ = nullptr;
     Assembly assembly_;
     Preparer preparer_;
 };

@@ -30,6 +30,7 @@ std::vector<Message> Place::next_asks(std::size_t node) {
 
 void Place::answer(std::vector<Message>& asks) {
     auto& inbox = inboxes_[asks.front().node];
+    gauge_.turn_to(Gauge::at(asks.front().node));
     const bool spare = inbox.fibers++ > 0;
     spare_in_use_ += spare;
     std::size_t questions = 0;
@@ -41,18 +42,22 @@ void Place::answer(std::vector<Message>& asks) {
     if (asks.size() == 1 || !answer_together(asks, replies))
         for (std::size_t i = 0; i < asks.size(); ++i) answer_alone(asks[i], replies[i]);
 
-    const double ns = static_cast<double>(fibers_.running_time(fiber).count()) / static_cast<double>(questions);
+    const auto ran = fibers_.running_time(fiber);
+    inbox.figures.answered += questions;
+    inbox.figures.busy_ns += static_cast<std::uint64_t>(ran.count());
+    const double ns = static_cast<double>(ran.count()) / static_cast<double>(questions);
     inbox.service_ns = inbox.service_ns > 0 ? 0.8 * inbox.service_ns + 0.2 * ns : ns;
     inbox.questions -= questions;
     inbox.answering -= questions;
+    gauge_.nodes[asks.front().node].waiting.set(inbox.questions);
     --inbox.fibers;
     spare_in_use_ -= spare;
     const auto node = asks.front().node;
     asks.clear();  // before the replies: an asker may use the memory of its questions again
     for (auto& reply : replies) {
         reply.load = load_of(node);
+        progress_->fetch_add(1, std::memory_order_relaxed);  // before: the run may end with this reply
         carrier_.reply(std::move(reply));
-        progress_->fetch_add(1, std::memory_order_relaxed);
     }
 }
 
@@ -101,8 +106,7 @@ void Place::answer_alone(const Message& ask, Message& reply) {
 }
 
 std::vector<Rgb> Place::light_answers(std::size_t node, std::size_t width, std::span<const Query> questions) {
-    const std::size_t layers = network_.width_of(node);
-    if (network_.kind_of(node).role != Role::light || (width != 1 && width != layers))
+    if (network_.kind_of(node).role != Role::light || !network_.answers_with(node, width))
         throw Error("was asked for light in a way that its graph does not have");
     std::vector<Rgb> answers(questions.size() * width);
     lightnet::answer(assembly_.callee(node), width, questions, answers);

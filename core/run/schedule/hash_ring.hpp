@@ -14,12 +14,12 @@ class HashRing {
 public:
     using Owner = std::uint32_t;
 
-    /// `name` decides which keys it gets.
-    void add(Owner owner, std::uint64_t name) {
-        for (std::uint64_t i = 0; i < points_of_each; ++i) points_.emplace(child(name, 0, i), owner);
+    /// `name` decides which keys it gets; one of twice the weight gets about twice as many.
+    void add(Owner owner, std::uint64_t name, std::uint32_t weight = 1) {
+        for (std::uint64_t i = 0; i < weight * points_of_each; ++i) points_.emplace(child(name, 0, i), owner);
     }
-    void remove(Owner owner, std::uint64_t name) {
-        for (std::uint64_t i = 0; i < points_of_each; ++i) {
+    void remove(Owner owner, std::uint64_t name, std::uint32_t weight = 1) {
+        for (std::uint64_t i = 0; i < weight * points_of_each; ++i) {
             const auto point = points_.find(child(name, 0, i));
             if (point != points_.end() && point->second == owner) points_.erase(point);
         }

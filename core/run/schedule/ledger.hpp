@@ -21,10 +21,11 @@ public:
     using Replica = ScheduleIds::Replica;
 
     struct Copy {
-        CopyId id;
-        WorkId work;
-        std::size_t questions, bytes;
-        Time sent, expected, overdue;
+        CopyId id = 0;
+        WorkId work = 0;
+        std::size_t questions = 0, bytes = 0;
+        Time sent = 0, expected = 0;  // Lowest::none: nothing is known
+        Time late = 0, overdue = 0;
     };
     /// Of one replica.
     struct Account {
@@ -49,6 +50,11 @@ public:
 
     /// A copy is sent; its `id` is given here.
     CopyId open(Replica replica, Copy copy);
+    /// Changes when copies of a replica are expected: revise(copy).
+    template <class Revise>
+    void expect(Replica replica, const Revise& revise) {
+        for (auto& copy : accounts_[replica].copies) revise(copy);
+    }
     /// It comes back, or never will: it is forgotten. None: it was already.
     std::optional<Closed> close(CopyId copy);
     /// Of the copy that is overdue first; only where there is one.

@@ -39,13 +39,15 @@ struct MultiplexerRules {
     std::function<void(const std::string& what)> differs;
     /// Told of work that failed at a host and is asked of another.
     std::function<void(const Failure& failure)> at_fault = [](const Failure&) {};
+    bool names_host = false;  // what fails for good keeps the host where it did: for who only passes questions on
     std::function<double()> clock = steady_seconds;
 };
 
 /// Does what its Scheduler decides. Serves light and rendering, threads and hosts alike, and may be made of
-/// multiplexers. Bundles that are large for what they cost are cut up, so that idle replicas share them; with affinity,
-/// every replica gets the questions of its regions. Bundles come back to their owner answered, failed or set aside,
-/// never returned: what a lost replica had is asked again here. Does not own its channels; used by one thread.
+/// multiplexers: whoever asks other hosts deals to hosts, and each of those to its places. Bundles that are large for
+/// what they cost are cut up, so that idle replicas share them; with affinity, every replica gets the questions of its
+/// regions. Bundles come back to their owner answered, failed or set aside, never returned: what a lost replica had is
+/// asked again here. Does not own its channels; used by one thread.
 template <class Question>
 class Multiplexer final : public Channel<Question>, private BundleOwner<Question> {
 public:
@@ -69,15 +71,22 @@ public:
     void use(std::vector<Channel<Question>*> channels, const std::vector<Channel<Question>*>& draining = {});
     /// So many more questions will come: until then it is not the end of a phase.
     void foresee(std::size_t questions) { tell(Scheduler::Foreseen{questions}); }
+    /// Are as many replicas idle as have something to do?
+    bool half_idle() const { return scheduler_.half_idle(); }
     /// Nobody wants any more what is not under way.
     void drop_waiting() { tell(Scheduler::Dropped{}); }
+    /// Nobody wants this bundle any more, under way or not. It doesn't come back to its owner.
+    void forget(const Bundle<Question>& bundle);
 
+    /// Replicas.
     std::size_t size() const { return scheduler_.replicas(); }
     /// May a bundle be sent that would leave at once?
     bool has_credit() const { return scheduler_.has_room(); }
     /// Is anything waiting for credit, or to be tried again?
     bool has_waiting() const { return scheduler_.has_waiting(); }
     std::size_t outstanding() const { return scheduler_.questions_out(); }
+    /// The same, and those that wait for credit.
+    std::size_t unanswered() const { return scheduler_.questions_out() + scheduler_.questions_waiting(); }
     std::size_t bundles_outstanding() const { return scheduler_.copies_out(); }
     const Scheduler& scheduler() const { return scheduler_; }
 
@@ -90,12 +99,15 @@ public:
 
     Credit credit() const override;
     Load load() const override;
+    /// Of all replicas together.
+    std::uint32_t places() const override { return static_cast<std::uint32_t>(scheduler_.places()); }
 
 private:
     struct Slot {
         Channel<Question>* channel = nullptr;
         bool draining = false;
         std::string host;
+        std::uint32_t places = 1;
     };
     // A bundle that was cut up.
     struct Whole {
@@ -109,7 +121,7 @@ private:
         std::shared_ptr<Whole> whole;      // null: the bundle is its own
         std::vector<std::uint32_t> where;  // index in the whole, of each question
         std::vector<Scheduler::CopyId> copies;
-        std::string failure{};  // the last
+        Failure failure{};  // the last
     };
 
     void answered(const Bundle<Question>& bundle, std::vector<Rgb> answers) override {
@@ -127,7 +139,7 @@ private:
     void replied(const Bundle<Question>& bundle, std::vector<Rgb> answers);
     bool fits(const Bundle<Question>& bundle, const std::vector<Rgb>& answers) const;
     void deliver(Entry entry, std::vector<Rgb> answers);
-    void give_up(const Entry& entry, const std::string& why, bool set_aside);
+    void give_up(const Entry& entry, const Failure& failure, bool set_aside);
     void settle(const std::vector<Scheduler::Action>& actions);
     void set_aside_work(const Scheduler::SetAside& verdict);
     void compare_later(const Entry& entry, Scheduler::CopyId first, const std::vector<Rgb>& answers);

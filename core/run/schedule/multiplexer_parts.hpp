@@ -29,7 +29,12 @@ void Multiplexer<Question>::use(std::vector<Channel<Question>*> channels,
         if (known.insert(channel).second) add_replica(channel);
     for (Scheduler::Replica replica = 0; replica < slots_.size(); ++replica) {
         auto& slot = slots_[replica];
-        if (!slot.channel || slot.draining == leaving.contains(slot.channel)) continue;
+        if (!slot.channel) continue;
+        if (const auto places = slot.channel->places(); places != slot.places) {
+            slot.places = places;
+            tell(Scheduler::Resized{replica, places, slot.channel->credit()});
+        }
+        if (slot.draining == leaving.contains(slot.channel)) continue;
         slot.draining = !slot.draining;
         tell(Scheduler::Draining{replica, slot.draining});
     }
@@ -46,9 +51,9 @@ void Multiplexer<Question>::add_replica(Channel<Question>* channel) {
     const auto host_name = channel->host();
     const auto [host, is_new] = hosts_.emplace(host_name, static_cast<Scheduler::Host>(host_names_.size()));
     if (is_new) host_names_.push_back(host_name);
-    slots_[replica] = {channel, false, host_name};
+    slots_[replica] = {channel, false, host_name, channel->places()};
     tell(Scheduler::Joined{replica, host->second, channel->name() ? channel->name() : replica + 1, channel->credit(),
-                           channel->process()});
+                           channel->process(), channel->places(), channel->reserve()});
 }
 
 // ---- the way there ----
@@ -89,10 +94,9 @@ template <class Question>
 std::vector<std::vector<std::uint32_t>> Multiplexer<Question>::cut(const std::vector<Question>& questions) const {
     if (!std::is_same_v<Question, Query> || questions.size() < 2 * rules_.least_piece || size() < 2) return {};
     if (rules_.scheduling.strategy == Strategy::affinity) return by_home(questions);
-    const double service = scheduler_.service() * static_cast<double>(size());  // of one replica, on average
     const auto most = questions.size() / rules_.least_piece;
     const auto count = std::min(scheduler_.idle(), most);
-    if (count < 2 || service * static_cast<double>(questions.size()) < rules_.worth_cutting) return {};
+    if (count < 2 || scheduler_.service() * static_cast<double>(questions.size()) < rules_.worth_cutting) return {};
     std::vector<std::vector<std::uint32_t>> pieces(count);
     for (std::size_t piece = 0; piece < count; ++piece) {
         const auto first = questions.size() * piece / count, end = questions.size() * (piece + 1) / count;
@@ -186,7 +190,7 @@ template <class Question>
 void Multiplexer<Question>::failed(const Bundle<Question>& bundle, const Failure& failure) {
     const auto work = scheduler_.work_of(bundle.number);
     if (const auto entry = work ? entries_.find(*work) : entries_.end(); entry != entries_.end())
-        entry->second.failure = failure.why;
+        entry->second.failure = failure;
     std::vector<Scheduler::Action> actions;
     scheduler_.on(Scheduler::Failed{bundle.number}, rules_.clock(), actions);
     expected_.erase(bundle.number);
@@ -237,13 +241,26 @@ void Multiplexer<Question>::deliver(Entry entry, std::vector<Rgb> answers) {
 }
 
 template <class Question>
-void Multiplexer<Question>::give_up(const Entry& entry, const std::string& why, bool set_aside) {
+void Multiplexer<Question>::give_up(const Entry& entry, const Failure& failure, bool set_aside) {
     if (entry.whole && std::exchange(entry.whole->given_up, true)) return;
     const auto& bundle = entry.whole ? entry.whole->bundle : entry.bundle;
     if (set_aside)
-        bundle.owner->set_aside(bundle, why);
+        bundle.owner->set_aside(bundle, failure.why);
     else
-        bundle.owner->failed(bundle, {why, {}});
+        bundle.owner->failed(bundle, {failure.why, rules_.names_host ? failure.host : std::string()});
+}
+
+template <class Question>
+void Multiplexer<Question>::forget(const Bundle<Question>& bundle) {
+    std::vector<Scheduler::WorkId> all;
+    for (const auto& [work, entry] : entries_) {
+        const auto& own = entry.whole ? entry.whole->bundle : entry.bundle;
+        if (own.owner == bundle.owner && own.number == bundle.number) all.push_back(work);
+    }
+    for (const auto work : all) {
+        tell(Scheduler::Forgotten{work});
+        entries_.erase(work);
+    }
 }
 
 template <class Question>
@@ -252,9 +269,10 @@ void Multiplexer<Question>::set_aside_work(const Scheduler::SetAside& verdict) {
     std::string hosts;
     for (const auto host : verdict.died) hosts += (hosts.empty() ? "" : ", ") + host_names_[host];
     if (counters_) ++counters_->set_aside;
-    give_up(entry,
-            describe(*entry.bundle.questions) + " is set aside: hosts died of it, with nothing else to do: " + hosts,
-            true);
+    give_up(
+        entry,
+        {describe(*entry.bundle.questions) + " is set aside: hosts died of it, with nothing else to do: " + hosts, {}},
+        true);
 }
 
 template <class Question>
@@ -299,7 +317,7 @@ Credit Multiplexer<Question>::credit() const {
 
 template <class Question>
 Load Multiplexer<Question>::load() const {
-    return {static_cast<std::uint32_t>(outstanding()),
+    return {static_cast<std::uint32_t>(scheduler_.questions_ahead()),
             static_cast<std::uint32_t>(std::clamp(scheduler_.service() * 1e9, 0.0, 4e9))};
 }
 

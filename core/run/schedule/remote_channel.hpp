@@ -1,10 +1,11 @@
-// The channel to one node at one other place.
+// The channel to one node at one other place, or at another host.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/run/message/carrier.hpp"
 #include "core/run/message/channel.hpp"
@@ -22,12 +23,19 @@ public:
         std::uint64_t run = 0;
         std::uint32_t channel = 0;  // number among the channels of this place
         std::uint32_t node = 0;     // who is asked
-        PlaceAt place;              // where
+        PlaceAt place;              // where; any_place: wherever its host chooses
         std::uint64_t process = 0;  // see Channel
         std::uint64_t asker = 0;    // name_of() the place that asks; 0: the launcher
+        bool reserve = false;       // see Channel
     };
     RemoteChannel(Carrier& carrier, Address address, Credit credit, Counters& counters)
-        : carrier_(carrier), address_(std::move(address)), credit_(credit), counters_(counters) {}
+        : carrier_(carrier), address_(std::move(address)), to_(address_.place), credit_(credit), counters_(counters) {}
+
+    /// The places behind it, by index. Where it is one, that is asked itself: there is nothing to choose.
+    void use(const std::vector<std::uint32_t>& places) {
+        places_ = static_cast<std::uint32_t>(places.size());
+        to_.index = places_ == 1 ? places.front() : any_place;
+    }
 
     bool send(const Bundle<Question>& bundle) override {
         Message message;
@@ -39,17 +47,21 @@ public:
         message.width = bundle.width;
         message.asker = address_.asker;
         message.questions = bundle.questions;
-        if (!carrier_.ask(address_.place, message)) return false;
+        if (!carrier_.ask(to_, message)) return false;
         owner_ = bundle.owner;
         counters_.bundles += 1;
         counters_.questions += bundle.questions->size();
         return true;
     }
 
-    Credit credit() const override { return credit_; }
+    Credit credit() const override {
+        return {places_ * credit_.bundles, places_ * credit_.questions, places_ * credit_.bytes};
+    }
+    std::uint32_t places() const override { return places_; }
     Load load() const override { return load_; }
     std::string host() const override { return address_.place.host; }
     std::uint64_t process() const override { return address_.process; }
+    bool reserve() const override { return address_.reserve; }
     std::uint64_t name() const override { return name_of(address_.place); }
 
     /// A reply or a failure that names this channel.
@@ -71,13 +83,15 @@ public:
     void close() {
         closed_ = true;
         carrier_.give_up(address_.channel);
-        carrier_.forget(address_.place);
+        carrier_.forget(to_);
     }
 
 private:
     Carrier& carrier_;
     Address address_;
-    Credit credit_;
+    PlaceAt to_;
+    std::uint32_t places_ = 1;
+    Credit credit_;  // of one place
     Counters& counters_;
     Load load_;
     BundleOwner<Question>* owner_ = nullptr;  // of all that is under way

@@ -19,7 +19,8 @@ void Scheduler::happens(const Added& event, Time) {
     items_.emplace(event.work, Item{.work = event, .waiting = true});
     waiting_.push_back(event.work);
     questions_waiting_ += event.questions;
-    ++added_;
+    questions_added_ += event.questions;
+    questions_wanted_ += event.questions;
 }
 
 void Scheduler::happens(const Dropped&, Time) {
@@ -28,6 +29,10 @@ void Scheduler::happens(const Dropped&, Time) {
             if (waiting_item(work)) finish(work);
     foreseen_ = 0;
     rules_.double_tail = false;  // what is left is waited for, and not worth doing twice
+}
+
+void Scheduler::happens(const Forgotten& event, Time) {
+    if (items_.contains(event.work)) finish(event.work);
 }
 
 Scheduler::Item* Scheduler::waiting_item(WorkId work) {
@@ -50,6 +55,7 @@ void Scheduler::wait_again(Item& item) {
 void Scheduler::finish(WorkId work) {
     const Item item = std::move(items_.extract(work).mapped());  // it may stand in a queue; it is skipped there
     if (item.waiting) questions_waiting_ -= item.work.questions;
+    questions_wanted_ -= item.work.questions;
     suspects_.forget(work);
     for (const auto copy : item.copies) refresh_due(*ledger_.replica_of(copy));
 }
@@ -66,13 +72,34 @@ void Scheduler::happens(const Joined& event, Time) {
     replica.name = event.name;
     replica.process = event.process;
     replica.credit = event.credit;
+    replica.places = event.places;
+    replica.reserve = event.reserve;
+    if (event.reserve) reserve_ = event.replica;
     replica.patience = rules_.patience;
     times_.forget(event.replica);
     hosts_[event.host].insert(event.replica);
     ++present_;
+    places_ += event.places;
     for (const auto work : suspects_.came_back(event.host, event.process))
         if (waiting_item(work)) waiting_.push_front(work);
-    homes_.add(event.replica, event.name);
+    at_home(event.replica);
+    refresh(event.replica);
+}
+
+// Regions belong to it from now on: where they count. What the asker keeps in reserve is nobody's home.
+void Scheduler::at_home(Replica replica) {
+    const auto& state = replicas_[replica];
+    if (rules_.strategy == Strategy::affinity && !state.reserve) homes_.add(replica, state.name, state.places);
+}
+
+void Scheduler::happens(const Resized& event, Time) {
+    auto& replica = replicas_.at(event.replica);
+    if (!replica.present) return;
+    homes_.remove(event.replica, replica.name, replica.places);
+    places_ = places_ - replica.places + event.places;
+    replica.places = event.places;
+    replica.credit = event.credit;
+    if (!replica.draining) at_home(event.replica);
     refresh(event.replica);
 }
 
@@ -81,9 +108,9 @@ void Scheduler::happens(const Draining& event, Time) {
     if (!replica.present || replica.draining == event.draining) return;
     replica.draining = event.draining;
     if (event.draining)
-        homes_.remove(event.replica, replica.name);
+        homes_.remove(event.replica, replica.name, replica.places);
     else
-        homes_.add(event.replica, replica.name);
+        at_home(event.replica);
     refresh(event.replica);
 }
 
@@ -108,9 +135,11 @@ void Scheduler::go(Replica replica, bool died, bool alone) {
         if (const auto item = items_.find(work); item != items_.end()) std::erase(item->second.written_off, copy);
     const Suspects::Loss loss{state.host, state.process, alone};
     if (died) suspects_.lost(loss.host, loss.process);
-    homes_.remove(replica, state.name);
+    homes_.remove(replica, state.name, state.places);
     state.present = false;
+    if (state.reserve) reserve_.reset();
     --present_;
+    places_ -= state.places;
     auto& of_host = hosts_.at(loss.host);
     of_host.erase(replica);
     if (of_host.empty()) {
@@ -155,6 +184,7 @@ void Scheduler::happens(const Replied& event, Time now) {
     if (!closed) return actions_->push_back(Drop{event.copy});
     auto& replica = replicas_[closed->replica];
     if (closed->copy) measure(closed->replica, *closed->copy, event, now);
+    const bool is_first = !times_.any();
     const auto& account = ledger_.of(closed->replica);
     replica.others = event.fill > account.questions ? event.fill - account.questions : 0;
     replica.last_reply = now;
@@ -163,15 +193,30 @@ void Scheduler::happens(const Replied& event, Time now) {
     Item* item = item_of(*closed);
     if (item) std::erase(closed->copy ? item->copies : item->written_off, event.copy);
     refresh(closed->replica);
+    if (is_first && times_.any()) expect_again(now);
     if (!item) return actions_->push_back(Drop{event.copy});
     actions_->push_back(Accept{event.copy, closed->work});
     finish(closed->work);
 }
 
-// A replica that was never idle has spent on this copy what has passed since its last reply.
+// The first answer tells about how long what was sent before it will take.
+void Scheduler::expect_again(Time now) {
+    for (Replica replica = 0; replica < replicas_.size(); ++replica) {
+        if (ledger_.of(replica).copies.empty()) continue;
+        ledger_.expect(replica, [&](Ledger::Copy& copy) {
+            copy.expected = now + completion_time(replica, 0);
+            copy.late = copy.sent + late_after(copy.expected - copy.sent);
+        });
+        refresh_due(replica);
+    }
+}
+
+// A replica that was never idle has spent on this copy what has passed since its last reply: so many places at once.
 void Scheduler::measure(Replica replica, const Ledger::Copy& copy, const Replied& reply, Time now) {
     const double seconds = std::max(now - std::max(copy.sent, replicas_[replica].last_reply), 0.0);
-    times_.measure(replica, seconds, copy.questions, reply.service);
+    const auto at_work = std::min<std::size_t>(replicas_[replica].places, ledger_.of(replica).copies.size() + 1);
+    times_.measure(replica, static_cast<double>(at_work) * seconds, reply.answered ? reply.answered : copy.questions,
+                   reply.service);
 }
 
 void Scheduler::happens(const Failed& event, Time now) {
@@ -214,7 +259,7 @@ void Scheduler::happens(const Tick& event, Time now) {
     test_suspects(now);
     retry(now);
     hand_out(now);
-    if (rules_.double_tail) double_tail(now);
+    double_tail(now);
 }
 
 void Scheduler::send(Item& item, Replica replica, Time now) {
@@ -223,11 +268,16 @@ void Scheduler::send(Item& item, Replica replica, Time now) {
     auto& state = replicas_[replica];
     const bool known = times_.any();
     const double seconds = completion_time(replica, item.work.questions);
-    const double patience = known ? std::max(state.patience, rules_.late_factor * seconds)
-                                  : std::max(state.patience, rules_.patience_at_first);
-    const CopyId id = ledger_.open(replica, {0, item.work.work, item.work.questions, item.work.bytes, now,
-                                             known ? now + seconds : Lowest::none, now + patience});
-    state.turn = ++turn_;
+    const double expected = known ? seconds : rules_.guess;
+    const double patience = known ? rules_.late_factor * seconds : rules_.patience_at_first;
+    const CopyId id = ledger_.open(replica, {.work = item.work.work,
+                                             .questions = item.work.questions,
+                                             .bytes = item.work.bytes,
+                                             .sent = now,
+                                             .expected = known ? now + expected : Lowest::none,
+                                             .late = now + late_after(expected),
+                                             .overdue = now + std::max(state.patience, patience)});
+    if (++state.in_turn >= state.places) state.turn = ++turn_, state.in_turn = 0;
     item.copies.push_back(id);
     refresh(replica);
     for (const auto other : item.copies)

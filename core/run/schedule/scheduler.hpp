@@ -1,6 +1,7 @@
 // Who is to answer what, and what to do when answers stay away: all decisions of one asker, and nothing else.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -26,12 +27,13 @@ namespace lightnet {
 /// A pure state machine: it is told what happens and when, and says what is to be done. It has no clock, socket, thread
 /// or random number, so the same events always give the same actions. Every decision takes O(log replicas).
 ///
-/// Work is a bundle or a tile, handed out in copies: one, as a rule. A second copy goes to another replica when the
-/// first is overdue (its place may hang, or the network has lost it), or when a phase ends and a replica is idle
-/// (speculative execution, see Stragglers). The first answer counts. Work that fails at one host is asked of another,
-/// once. Copies on a host that dies make their work suspect: it is asked again alone, with nothing else on its host,
-/// and set aside after its third death alone, see Suspects. With affinity, a region of scene or picture has a home, by
-/// consistent hashing, see HashRing.
+/// Work is a bundle of questions, some tiles, or some shards of preparing: all three follow these rules. It is handed
+/// out in copies: one, as a rule. A second copy goes to another replica when the first is overdue (its place may hang,
+/// or the network has lost it), or when work runs out and a replica is idle (speculative execution, see Stragglers).
+/// The first answer counts. Work that fails at one host is asked of another, once. Copies on a host that dies make
+/// their work suspect: it is asked again alone, with nothing else on its host, and set aside after its third death
+/// alone, see Suspects. With affinity, a region of scene or picture has a home, by consistent hashing, see HashRing.
+/// A replica is a place, or a host with several, which work at the same time.
 class Scheduler {
 public:
     using Time = ScheduleIds::Time;
@@ -43,11 +45,16 @@ public:
     struct Rules {
         Strategy strategy = Strategy::fastest;
         std::size_t usual = 1;          // questions of usual work: replicas are compared by when they would finish it
+        bool last_to_idle = false;      // the end of its phases is foreseen: who is busy gets nothing of the last work
         bool double_tail = false;       // idle replicas do what is left once more
-        double tail_part = 0.05;        // of all work may be done twice so
+        std::size_t tail_least = 4;     // pieces of work may always be done twice so ...
+        double tail_part = 0.05;        // ... and such a part of all questions
+        double late = 2;                // times as long as expected: then an idle replica does it once more
+        double worth = 0.01;            // seconds: what saves less is not worth it
         double patience = 2;            // seconds that any work may take ...
         double late_factor = 8;         // ... or so many times as long as expected, before it counts as overdue
-        double patience_at_first = 30;  // as long as nothing is known of a replica's speed
+        double guess = 1;               // seconds that work is expected to take as long as nothing is known ...
+        double patience_at_first = 30;  // ... and how long it may
         int deaths_alone = 3;           // that convict
     };
 
@@ -64,9 +71,16 @@ public:
     struct Joined {  // a replica that may be asked from now on
         Replica replica;
         Host host;
-        std::uint64_t name;  // of the place: the same whenever it comes back
+        std::uint64_t name;  // of the place or host: the same whenever it comes back
         Credit credit;
         std::uint64_t process = 0;  // of the host: one that is back had not died. 0: not known
+        std::uint32_t places = 1;   // behind it, which work at the same time
+        bool reserve = false;       // the asker itself: asked only when others can't be, or are late
+    };
+    struct Resized {  // it has other places behind it, or more or fewer
+        Replica replica;
+        std::uint32_t places;
+        Credit credit;
     };
     struct Draining {  // it answers what it has, and is asked no more, until it is not draining any more
         Replica replica;
@@ -78,8 +92,9 @@ public:
     };
     struct Replied {
         CopyId copy;
-        std::size_t fill = 0;  // questions that wait at the answerer
-        double service = 0;    // seconds per question, as measured there; 0: not known
+        std::size_t fill = 0;      // questions that wait at the answerer
+        double service = 0;        // seconds per question of one of its places, as measured there; 0: not known
+        std::size_t answered = 0;  // so many of its questions, if not all; the rest is work of its own. 0: all
     };
     struct Failed {  // by an error at its host, or a wrong answer
         CopyId copy;
@@ -88,10 +103,14 @@ public:
         CopyId copy;
     };
     struct Dropped {};  // nobody wants any more what is not under way
-    struct Tick {       // time to decide. `again`: at once after the last one, as something was refused
+    struct Forgotten {  // nobody wants this work any more, under way or not
+        WorkId work;
+    };
+    struct Tick {  // time to decide. `again`: at once after the last one, as something was refused
         bool again = false;
     };
-    using Event = std::variant<Added, Foreseen, Joined, Draining, Gone, Replied, Failed, Refused, Dropped, Tick>;
+    using Event = std::variant<Added, Foreseen, Joined, Resized, Draining, Gone, Replied, Failed, Refused, Dropped,
+                               Forgotten, Tick>;
 
     // ---- what is to be done ----
     struct Send {
@@ -148,18 +167,30 @@ public:
     /// Something was refused, and is to be tried again soon.
     bool refused() const { return !refused_.empty(); }
     /// When a Tick is due though nothing else happens. Lowest::none: never.
-    Time next_tick() const { return stragglers_.next_overdue(); }
+    Time next_tick() const {
+        const bool watches = idle_one() && is_tail() && may_be_afforded(1);
+        return watches ? std::min(stragglers_.next_overdue(), stragglers_.late()) : stragglers_.next_overdue();
+    }
     /// Replicas that have not gone.
     std::size_t replicas() const { return present_; }
-    /// Of them, those that are open and have nothing to do.
-    std::size_t idle() const { return idle_; }
+    /// Places behind them.
+    std::size_t places() const { return places_; }
+    /// Of them, those that are open and have a place with nothing to do; the reserve does not count.
+    std::size_t idle() const { return idle_count_; }
+    /// Are as many idle as have something to do? The reserve counts as idle.
+    bool half_idle() const { return 2 * (idle_count_ + reserve_.has_value()) >= present_; }
+    /// Seconds per question at one place, on average; 0: not known.
+    double service() const { return times_.mean(); }
     /// Seconds per question that is answered by all together; 0: not known.
-    double service() const { return times_.any() ? 1 / times_.rate() : 0; }
+    double pace() const { return times_.any() ? 1 / times_.rate() : 0; }
     /// When `replica` would have answered `questions` more, in seconds from now, as far as is known.
     double completion_time(Replica replica, std::size_t questions) const;
     /// The replica to which a region belongs; only when there is one.
     Replica home(std::uint64_t region) const { return homes_.owner_of(region); }
     std::size_t questions_out() const { return ledger_.questions(); }
+    /// That are not answered: under way, not sent yet, and those of others that wait at the replicas.
+    std::size_t questions_ahead() const;
+    std::size_t questions_waiting() const { return questions_waiting_; }
     std::size_t copies_out() const { return ledger_.copies(); }
     /// Where a copy is that is not forgotten.
     std::optional<Replica> replica_of(CopyId copy) const { return ledger_.replica_of(copy); }
@@ -183,25 +214,30 @@ private:
     struct ReplicaState {
         bool present = false, draining = false, refused = false;
         bool silent = false;  // something is overdue, and no reply has come since it was sent
+        bool reserve = false;
         Host host = 0;
         std::uint64_t name = 0, process = 0;
         Credit credit;
+        std::uint32_t places = 1;
         std::size_t others = 0;  // questions that others have waiting there
         double patience = 0;
         Time last_reply = 0;
         std::uint64_t turn = 0;
+        std::uint32_t in_turn = 0;  // sent since its last turn
         bool counted_idle = false;
     };
 
     void happens(const Added& event, Time now);
     void happens(const Foreseen& event, Time) { foreseen_ = event.questions; }
     void happens(const Joined& event, Time now);
+    void happens(const Resized& event, Time now);
     void happens(const Draining& event, Time now);
     void happens(const Gone& event, Time now);
     void happens(const Replied& event, Time now);
     void happens(const Failed& event, Time now);
     void happens(const Refused& event, Time now);
     void happens(const Dropped& event, Time now);
+    void happens(const Forgotten& event, Time now);
     void happens(const Tick& event, Time now);
 
     void send(Item& item, Replica replica, Time now);
@@ -214,6 +250,8 @@ private:
     Item* waiting_item(WorkId work);
     std::size_t under_way(Host host) const;
     bool is_busy(Host host) const;
+    void expect_again(Time now);
+    double late_after(double expected) const { return std::max(rules_.late * expected, expected + rules_.worth); }
     void measure(Replica replica, const Ledger::Copy& copy, const Replied& reply, Time now);
     void write_off_overdue(Time now);
     void hand_out(Time now);
@@ -225,14 +263,21 @@ private:
     void put_in_quarantine(Host host);
     void release_hosts();
     void double_tail(Time now);
+    bool is_tail() const { return rules_.double_tail && waiting_.empty() && suspects_.empty() && foreseen_ == 0; }
+    std::optional<Replica> idle_one() const;
+    bool may_be_afforded(std::size_t questions) const;
     bool may_be_doubled(const Ledger::Copy& copy) const;
     const Ledger::Copy* worth_doubling(Replica idle, Time now) const;
 
+    void at_home(Replica replica);
+    bool has_idle_place(Replica replica) const;
+    double ahead(Replica replica) const;
     bool open(Replica replica) const;
     double order(Replica replica) const;
     std::optional<Replica> choose(const Item& item);
     Replica best_for(const Item& item);
     bool better_held_back(const Item& item, Replica replica) const;
+    bool waits_for_idle(const Item& item, Replica replica) const;
     void refresh(Replica replica);
     void refresh_due(Replica replica);
 
@@ -250,10 +295,14 @@ private:
     Suspects suspects_;
     HashRing homes_;  // affinity: to whom regions belong
     Lowest open_;     // replicas that take more work, by the order of the strategy
+    Lowest idle_;     // those of them that have nothing to do, but for the reserve
     Lowest all_;      // replicas with known speed, open or not, by completion of usual work
-    std::size_t present_ = 0, idle_ = 0;
+    std::optional<Replica> reserve_;
+    std::size_t present_ = 0, places_ = 0, idle_count_ = 0;
     std::size_t questions_waiting_ = 0, foreseen_ = 0;
-    std::uint64_t added_ = 0, turn_ = 0;
+    std::size_t questions_wanted_ = 0;  // of work that is not done
+    std::size_t questions_added_ = 0, questions_doubled_ = 0;
+    std::uint64_t turn_ = 0;
     Counts counts_;
 };
 

@@ -7,15 +7,32 @@
 namespace lightnet {
 namespace {
 
-constexpr double overloaded = 4;  // times the completion of the best: then work leaves its home
+constexpr double overloaded = 4;     // times the completion of the best: then work leaves its home
+constexpr double behind_all = 1e15;  // in any order of replicas
 
 }  // namespace
 
 // ---- what a replica is worth ----
 
+// What is ahead is shared by all places, and one of them does the new work.
 double Scheduler::completion_time(Replica replica, std::size_t questions) const {
-    return static_cast<double>(ledger_.of(replica).questions + replicas_[replica].others + questions) *
-           times_.assumed(replica);
+    return (ahead(replica) + static_cast<double>(questions)) * times_.assumed(replica);
+}
+
+bool Scheduler::has_idle_place(Replica replica) const {
+    return ledger_.of(replica).copies.size() < replicas_[replica].places;
+}
+
+// Questions of each of its places.
+double Scheduler::ahead(Replica replica) const {
+    const auto& state = replicas_[replica];
+    return static_cast<double>(ledger_.of(replica).questions + state.others) / static_cast<double>(state.places);
+}
+
+std::size_t Scheduler::questions_ahead() const {
+    std::size_t questions = ledger_.questions() + questions_waiting_;
+    for (const auto& replica : replicas_) questions += replica.present ? replica.others : 0;
+    return questions;
 }
 
 bool Scheduler::open(Replica replica) const {
@@ -28,15 +45,16 @@ bool Scheduler::open(Replica replica) const {
 }
 
 double Scheduler::order(Replica replica) const {
-    const auto ahead = static_cast<double>(ledger_.of(replica).questions + replicas_[replica].others);
+    if (replicas_[replica].reserve) return behind_all;
     switch (rules_.strategy) {
         case Strategy::round_robin:
             return static_cast<double>(replicas_[replica].turn);
         case Strategy::least_loaded:
-            return ahead;
+            return ahead(replica);
         default: {
             const double service = times_.of(replica);
-            return (ahead + static_cast<double>(rules_.usual)) * (service > 0 ? service : ServiceTimes::unknown);
+            return (ahead(replica) + static_cast<double>(rules_.usual)) *
+                   (service > 0 ? service : ServiceTimes::unknown);
         }
     }
 }
@@ -47,13 +65,15 @@ void Scheduler::refresh(Replica replica) {
     auto& state = replicas_[replica];
     const bool is_open = open(replica);
     open_.set(replica, is_open ? order(replica) : Lowest::none);
-    const bool idle = is_open && ledger_.of(replica).copies.empty();
-    idle_ = idle_ + idle - std::exchange(state.counted_idle, idle);
+    const bool idle = is_open && !state.reserve && has_idle_place(replica);
+    idle_.set(replica, idle ? order(replica) : Lowest::none);
+    idle_count_ = idle_count_ + idle - std::exchange(state.counted_idle, idle);
 
     const bool works =
         state.present && !state.draining && !state.silent && !state.refused && !suspects_.in_quarantine(state.host);
-    times_.take_part(replica, works);
-    const bool known = works && times_.of(replica) > 0;
+    times_.take_part(replica, works ? state.places : 0);
+    // Nothing waits for the reserve, which is asked when the others can't be: it may be the fastest of all.
+    const bool known = works && !state.reserve && times_.of(replica) > 0;
     all_.set(replica, known ? completion_time(replica, rules_.usual) : Lowest::none);
     refresh_due(replica);
 }
@@ -63,8 +83,8 @@ void Scheduler::refresh_due(Replica replica) {
     for (const auto& copy : ledger_.of(replica).copies) {
         due.overdue = std::min(due.overdue, copy.overdue);
         if (!rules_.double_tail || !may_be_doubled(copy)) continue;
-        due.first = std::min(due.first, copy.expected);
-        due.last = std::max(due.last, copy.expected);
+        due.late = std::min(due.late, copy.late);
+        if (copy.expected < Lowest::none) due.last = std::max(due.last, copy.expected);
     }
     stragglers_.set(replica, due);
 }
@@ -73,7 +93,11 @@ void Scheduler::refresh_due(Replica replica) {
 
 std::optional<Scheduler::Replica> Scheduler::choose(const Item& item) {
     if (!open_.any()) return std::nullopt;
-    const auto best = best_for(item);
+    auto best = best_for(item);
+    if (rules_.last_to_idle && waits_for_idle(item, best)) {
+        if (!idle_.any()) return std::nullopt;
+        best = static_cast<Replica>(idle_.first());
+    }
     if (rules_.strategy == Strategy::affinity && !homes_.empty()) {
         const auto at_home = home(item.work.region);
         const auto questions = item.work.questions;
@@ -106,48 +130,68 @@ Scheduler::Replica Scheduler::best_for(const Item& item) {
 bool Scheduler::better_held_back(const Item& item, Replica replica) const {
     if (!item.written_off.empty()) return false;  // the fast ones have had their chance
     if (times_.of(replica) == 0 || !all_.any() || all_.first() == replica) return false;
-    const auto left = static_cast<double>(ledger_.questions() + questions_waiting_ + foreseen_);
+    const auto left = static_cast<double>(questions_wanted_ + foreseen_);
     const auto questions = item.work.questions;
     const double sooner = completion_time(static_cast<Replica>(all_.first()), questions);
     return completion_time(replica, questions) > std::max(left / times_.rate(), sooner);
+}
+
+// Behind other work, the last of a phase would keep all waiting: it is better off with who is idle next.
+// DECISIONS: last-to-idle
+bool Scheduler::waits_for_idle(const Item& item, Replica replica) const {
+    if (rules_.strategy == Strategy::affinity || !item.written_off.empty() || has_idle_place(replica)) return false;
+    if (questions_waiting_ + foreseen_ > places_) return false;
+    return !times_.any() || completion_time(replica, 0) > rules_.worth;
 }
 
 // ---- speculative execution ----
 
 bool Scheduler::may_be_doubled(const Ledger::Copy& copy) const {
     const auto found = items_.find(copy.work);
-    return found != items_.end() && !suspects_.is_suspect(copy.work) && found->second.copies.size() == 1 &&
-           copy.expected < Lowest::none;
+    return found != items_.end() && !suspects_.is_suspect(copy.work) && found->second.copies.size() == 1;
 }
 
-// What `idle` could do: a copy that is late by half of its time, else the one that is expected last, if that is later
-// than `idle` would need.
+bool Scheduler::may_be_afforded(std::size_t questions) const {
+    return counts_.doubled < rules_.tail_least || static_cast<double>(questions_doubled_ + questions) <
+                                                      rules_.tail_part * static_cast<double>(questions_added_);
+}
+
+// What `idle` could do: a copy that is late, if `idle` takes no longer than it was to take; else the one that is
+// expected last, if `idle` would win more time than it spends.
 const Ledger::Copy* Scheduler::worth_doubling(Replica idle, Time now) const {
-    const auto find = [&](Replica replica, Time expected) -> const Ledger::Copy* {
+    const auto find = [&](Replica replica, const auto& is_meant) -> const Ledger::Copy* {
         for (const auto& copy : ledger_.of(replica).copies)
-            if (may_be_doubled(copy) && copy.expected == expected &&
+            if (may_be_doubled(copy) && is_meant(copy) &&
                 !items_.at(copy.work).failed_at.contains(replicas_[idle].host))
                 return &copy;
         return nullptr;
     };
-    if (!stragglers_.any()) return nullptr;
-    const auto* first = find(stragglers_.first_at(), stragglers_.first());
-    if (first && now > first->expected + 0.5 * (first->expected - first->sent)) return first;
-    const auto* last = find(stragglers_.last_at(), stragglers_.last());
-    return last && now + 1.1 * completion_time(idle, last->questions) < last->expected ? last : nullptr;
+    const auto needs = [&](const Ledger::Copy& copy) { return completion_time(idle, copy.questions); };
+    if (const Time late = stragglers_.late(); late <= now)
+        if (const auto* copy = find(stragglers_.late_at(), [&](const auto& one) { return one.late == late; });
+            copy && needs(*copy) <= copy->expected - copy->sent)
+            return copy;
+    const Time last = stragglers_.last();
+    if (times_.of(idle) == 0 || last == -Lowest::none) return nullptr;
+    const auto* copy = find(stragglers_.last_at(), [&](const auto& one) { return one.expected == last; });
+    return copy && now + 2 * needs(*copy) + rules_.worth < last ? copy : nullptr;
 }
 
-// At the end of a phase idle replicas do once more what will otherwise come last.
+// Who could do something once more; the reserve comes last.
+std::optional<Scheduler::Replica> Scheduler::idle_one() const {
+    if (idle_.any()) return static_cast<Replica>(idle_.first());
+    return reserve_ && open(*reserve_) && has_idle_place(*reserve_) ? reserve_ : std::nullopt;
+}
+
+// When work runs out, idle replicas do once more what will otherwise come last.
 void Scheduler::double_tail(Time now) {
-    if (!waiting_.empty() || !suspects_.empty() || foreseen_ > 0) return;
-    const auto most = std::max(4.0, rules_.tail_part * static_cast<double>(added_));
-    while (open_.any() && static_cast<double>(counts_.doubled) < most) {
-        const auto idle = static_cast<Replica>(open_.first());
-        if (!ledger_.of(idle).copies.empty() || times_.of(idle) == 0) return;
-        const auto* copy = worth_doubling(idle, now);
-        if (!copy) return;
+    while (is_tail()) {
+        const auto idle = idle_one();
+        const auto* copy = idle ? worth_doubling(*idle, now) : nullptr;
+        if (!copy || !may_be_afforded(copy->questions)) return;
         ++counts_.doubled;
-        send(items_.at(copy->work), idle, now);
+        questions_doubled_ += copy->questions;
+        send(items_.at(copy->work), *idle, now);
     }
 }
 

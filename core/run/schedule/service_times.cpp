@@ -15,7 +15,7 @@ ServiceTimes::Measured& ServiceTimes::at(Replica replica) {
 }
 
 void ServiceTimes::forget(Replica replica) {
-    take_part(replica, false);
+    take_part(replica, 0);
     at(replica) = {};
 }
 
@@ -26,13 +26,15 @@ void ServiceTimes::measure(Replica replica, double seconds, std::size_t question
     if (reported > 0) measured.reported = reported;
 }
 
-void ServiceTimes::take_part(Replica replica, bool works) {
+void ServiceTimes::take_part(Replica replica, std::uint32_t places) {
     auto& measured = at(replica);
-    const double service = works ? of(replica) : 0;
-    const double rate = service > 0 ? 1 / service : 0;
-    known_ = known_ + (rate > 0) - (measured.counted > 0);
+    const double service = of(replica);
+    if (service <= 0) places = 0;
+    const double rate = places > 0 ? places / service : 0;
+    known_ = known_ + places - measured.counted_for;
     rate_ = known_ > 0 ? rate_ + rate - measured.counted : 0;
     measured.counted = rate;
+    measured.counted_for = places;
 }
 
 double ServiceTimes::of(Replica replica) const {
@@ -45,7 +47,7 @@ double ServiceTimes::of(Replica replica) const {
 double ServiceTimes::assumed(Replica replica) const {
     const double known = of(replica);
     if (known != 0) return known;
-    return any() ? static_cast<double>(known_) / rate_ : unknown;
+    return any() ? mean() : unknown;
 }
 
 }  // namespace lightnet

@@ -8,8 +8,8 @@
 
 namespace lightnet {
 
-/// Keeps a service time (seconds per question) for each replica, as a mean in which the past fades: what the asker sees
-/// of it, with all waiting of its own, or what it says of itself, whichever is more.
+/// Keeps a service time (seconds per question of one place) for each replica, as a mean in which the past fades: what
+/// the asker sees of it, with all waiting of its own, or what it says of itself, whichever is more.
 class ServiceTimes {
 public:
     using Replica = ScheduleIds::Replica;
@@ -22,8 +22,8 @@ public:
     /// It has spent so many seconds on so many questions; `reported`: seconds per question by its own account, 0: it
     /// said nothing.
     void measure(Replica replica, double seconds, std::size_t questions, double reported);
-    /// Whether its rate is a part of that of all.
-    void take_part(Replica replica, bool works);
+    /// How many places of it are a part of the rate of all; 0: none.
+    void take_part(Replica replica, std::uint32_t places);
 
     /// Seconds per question; 0: not known.
     double of(Replica replica) const;
@@ -31,6 +31,8 @@ public:
     double assumed(Replica replica) const;
     /// Does any replica that takes part have a known rate?
     bool any() const { return rate_ > 0; }
+    /// Of those that take part, on average; 0: not known.
+    double mean() const { return any() ? static_cast<double>(known_) / rate_ : 0; }
     /// Questions per second of all that take part; 0: not known.
     double rate() const { return rate_; }
 
@@ -38,13 +40,14 @@ private:
     struct Measured {
         double seconds = 0, questions = 0;  // recent ones
         double reported = 0;
-        double counted = 0;  // its part in rate_
+        double counted = 0;             // its part in rate_
+        std::uint32_t counted_for = 0;  // places
     };
     Measured& at(Replica replica);
 
     std::vector<Measured> measured_;  // by replica
     double rate_ = 0;
-    std::size_t known_ = 0;  // have a part in rate_
+    std::size_t known_ = 0;  // places that have a part in rate_
 };
 
 }  // namespace lightnet

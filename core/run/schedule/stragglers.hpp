@@ -17,12 +17,12 @@ public:
     /// Of one replica's copies. Lowest::none, and -Lowest::none for the last: it has no such copy.
     struct Due {
         Time overdue = Lowest::none;  // when the first of them is
-        Time first = Lowest::none;    // when the first that may be done once more is expected
-        Time last = -Lowest::none;    // and when the last
+        Time late = Lowest::none;     // when the first that may be done once more is late
+        Time last = -Lowest::none;    // when the last of those is expected
     };
     void set(Replica replica, const Due& due) {
         overdue_.set(replica, due.overdue);
-        first_.set(replica, due.first);
+        late_.set(replica, due.late);
         last_.set(replica, -due.last);
     }
 
@@ -30,15 +30,15 @@ public:
     Time next_overdue() const { return overdue_.least(); }
     Replica overdue_at() const { return static_cast<Replica>(overdue_.first()); }
 
-    /// Is there a copy that may be done once more?
-    bool any() const { return first_.any(); }
-    Time first() const { return first_.least(); }
-    Replica first_at() const { return static_cast<Replica>(first_.first()); }
+    /// When a copy that may be done once more is late; Lowest::none: never.
+    Time late() const { return late_.least(); }
+    Replica late_at() const { return static_cast<Replica>(late_.first()); }
+    /// When the last that may be done once more is expected; -Lowest::none: there is none.
     Time last() const { return -last_.least(); }
     Replica last_at() const { return static_cast<Replica>(last_.first()); }
 
 private:
-    Lowest overdue_, first_;
+    Lowest overdue_, late_;
     Lowest last_;  // backwards
 };
 

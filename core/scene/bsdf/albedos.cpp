@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/scene/bsdf/fresnel.hpp"
-#include "core/scene/bsdf/ggx.hpp"
+#include "core/scene/bsdf/microfacets.hpp"
 #include "core/scene/bsdf/scattering.hpp"
 
 namespace lightnet {
@@ -48,7 +48,7 @@ GgxAlbedo of_mirror(float cosine) {
 GgxAlbedo integrated(float alpha, float cosine) {
     if (is_specular(alpha, alpha)) return of_mirror(cosine);
     constexpr int grid = 24;
-    const Ggx facets{alpha, alpha};
+    const Microfacets facets{alpha, alpha};
     const Vec3 w{std::sqrt(std::max(0.0f, 1 - cosine * cosine)), 0, cosine};
     double low = 0, high = 0;
     for (int i = 0; i < grid; ++i)

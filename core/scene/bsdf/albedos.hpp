@@ -10,7 +10,8 @@ struct GgxAlbedo {
     float low = 0, high = 0;
     float operator()(float f0, float f90) const { return low * f0 + high * f90; }
 };
-/// For light from direction `cosine`; α as of Ggx, up to 1; below the limit of smooth surfaces those of a mirror.
+/// For light from direction `cosine`; α as of Microfacets, up to 1; below the limit of smooth surfaces those of a
+/// mirror.
 GgxAlbedo ggx_albedo(float alpha, float cosine);
 /// Its mean over diffuse light.
 GgxAlbedo ggx_mean_albedo(float alpha);

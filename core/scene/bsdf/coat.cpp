@@ -15,7 +15,7 @@ constexpr std::size_t roughnesses = 12;
 /// Calls add(w, facet, weight) for facets that directions `w` of that cosine see, as often as they do. Where the
 /// surface isn't alike all around its normal, neither are the directions. The weights sum up to 1.
 template <class Add>
-void over_visible(const Ggx& facets, float cosine, std::uint32_t count, Key key, Add add) {
+void over_visible(const Microfacets& facets, float cosine, std::uint32_t count, Key key, Add add) {
     const float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
     const bool grooved = facets.alpha_u != facets.alpha_v;
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -33,7 +33,7 @@ float left_of(float thickness, float cosine) { return thickness > 0 ? std::exp(-
 struct Outer {
     float reflected, passed;
 };
-Outer outer_of(const Ggx& facets, float eta, float thickness, float cosine, Key key) {
+Outer outer_of(const Microfacets& facets, float eta, float thickness, float cosine, Key key) {
     double reflected = 0, passed = 0;
     over_visible(facets, cosine, 1024, key, [&](Vec3 w, Vec3 m, float weight) {
         const float fresnel = fresnel_dielectric(dot(w, m), eta), seen = facets.visible(w);
@@ -45,7 +45,7 @@ Outer outer_of(const Ggx& facets, float eta, float thickness, float cosine, Key 
 }
 
 /// What the facets send back of light from within, from the base and to the base again.
-float inner_of(const Ggx& facets, float eta, float thickness, float cosine, Key key) {
+float inner_of(const Microfacets& facets, float eta, float thickness, float cosine, Key key) {
     double back = 0;
     over_visible(facets, cosine, 512, key, [&](Vec3 w, Vec3 m, float weight) {
         const Vec3 out = reflect(w, m);
@@ -58,16 +58,18 @@ float inner_of(const Ggx& facets, float eta, float thickness, float cosine, Key 
 
 }  // namespace
 
-Coat::Coat(float eta, const Ggx& facets, CoatLayer layer) : eta_(eta), layer_(layer), rows_{row_of(facets)} {}
-
-Coat::Coat(float eta, CoatLayer layer) : eta_(eta), layer_(layer) {
+Coat::Coat(float eta, const FacetRange& facets, CoatLayer layer) : eta_(eta), layer_(layer) {
+    if (!facets.varies) {
+        rows_.push_back(row_of(facets.facets));
+        return;
+    }
     for (std::size_t i = 0; i < roughnesses; ++i) {
         const float root = float(i) / (roughnesses - 1), alpha = root * root;
-        rows_.push_back(row_of({alpha, alpha}));
+        rows_.push_back(row_of({alpha, alpha, facets.facets.law}));
     }
 }
 
-Coat::Row Coat::row_of(const Ggx& facets) const {
+Coat::Row Coat::row_of(const Microfacets& facets) const {
     const bool smooth = is_specular(facets.alpha_u, facets.alpha_v);
     Row row;
     for (std::size_t i = 0; i <= steps; ++i) {
@@ -97,7 +99,7 @@ float Coat::at(const std::array<float, steps + 1>& by_cosine, float cosine) {
     return by_cosine[low] * (1 - share) + by_cosine[low + 1] * share;
 }
 
-Coat::Between Coat::between(const Ggx& facets) const {
+Coat::Between Coat::between(const Microfacets& facets) const {
     if (rows_.size() == 1) return {0, 0};
     const float root = std::sqrt(std::sqrt(facets.alpha_u * facets.alpha_v));
     const float at = std::min(root, 1.0f) * float(rows_.size() - 1);
@@ -105,18 +107,18 @@ Coat::Between Coat::between(const Ggx& facets) const {
     return {low, at - float(low)};
 }
 
-float Coat::of_rows(const Ggx& facets, float cosine, std::array<float, steps + 1> Row::*values) const {
+float Coat::of_rows(const Microfacets& facets, float cosine, std::array<float, steps + 1> Row::*values) const {
     const auto [low, share] = between(facets);
     const float first = at(rows_[low].*values, cosine);
     return share == 0 ? first : first * (1 - share) + at(rows_[low + 1].*values, cosine) * share;
 }
 
-float Coat::reflectance(const Ggx& facets, float cosine) const {
+float Coat::reflectance(const Microfacets& facets, float cosine) const {
     if (is_specular(facets.alpha_u, facets.alpha_v)) return fresnel_dielectric(cosine, eta_);
     return of_rows(facets, cosine, &Row::reflected);
 }
 
-float Coat::transmittance(const Ggx& facets, float cosine) const {
+float Coat::transmittance(const Microfacets& facets, float cosine) const {
     if (is_specular(facets.alpha_u, facets.alpha_v))
         return (1 - fresnel_dielectric(cosine, eta_)) * left_within(cosine);
     return of_rows(facets, cosine, &Row::passed);
@@ -133,7 +135,7 @@ float Coat::series(float reflectance, float back) const {
     return layer_.bounces ? sum * (1 - std::pow(back, float(layer_.bounces))) : sum;
 }
 
-float Coat::inner_reflectance(const Ggx& facets) const {
+float Coat::inner_reflectance(const Microfacets& facets) const {
     const auto [low, share] = between(facets);
     return share == 0 ? rows_[low].inner : rows_[low].inner * (1 - share) + rows_[low + 1].inner * share;
 }

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/scene/bsdf/ggx.hpp"
+#include "core/scene/bsdf/roughness.hpp"
 #include "core/scene/textures/members.hpp"
 
 namespace lightnet {
@@ -26,22 +26,17 @@ void visit_members(Is<CoatLayer> auto& layer, const auto& visit) {
 /// any thread may ask.
 class Coat {
 public:
-    /// Of one roughness.
-    Coat(float eta, const Ggx& facets, CoatLayer layer);
-    Coat(float eta, const Ggx& facets) : Coat(eta, facets, CoatLayer{}) {}
-    /// Of any roughness (the same along both tangents), for those that change over a surface.
-    Coat(float eta, CoatLayer layer);
-    explicit Coat(float eta) : Coat(eta, CoatLayer{}) {}
+    Coat(float eta, const FacetRange& facets, CoatLayer layer = {});
 
     float eta() const { return eta_; }
     const CoatLayer& layer() const { return layer_; }
     /// Share of light from direction `cosine` that the coat itself reflects.
-    float reflectance(const Ggx& facets, float cosine) const;
+    float reflectance(const Microfacets& facets, float cosine) const;
     /// Share of light from direction `cosine` that reaches the base; also of diffuse light from the base that leaves
     /// into that direction, where radiance shrinks by η².
-    float transmittance(const Ggx& facets, float cosine) const;
+    float transmittance(const Microfacets& facets, float cosine) const;
     /// Share of diffuse light from the base that the coat sends back, and that reaches the base again.
-    float inner_reflectance(const Ggx& facets) const;
+    float inner_reflectance(const Microfacets& facets) const;
     /// Share of light that is left on the way from a smooth coat's surface to the base; `cosine` above the coat.
     float left_within(float cosine) const;
     /// All ways off a base of that reflectance, of which the coat sends `back` that share each time.
@@ -54,14 +49,14 @@ private:
         float inner = 0;
     };
     static float at(const std::array<float, steps + 1>& by_cosine, float cosine);
-    float of_rows(const Ggx& facets, float cosine, std::array<float, steps + 1> Row::*values) const;
-    Row row_of(const Ggx& facets) const;
+    float of_rows(const Microfacets& facets, float cosine, std::array<float, steps + 1> Row::*values) const;
+    Row row_of(const Microfacets& facets) const;
     /// Where among the rows a roughness lies: index of the lower one, and the share of the next.
     struct Between {
         std::size_t low;
         float share;
     };
-    Between between(const Ggx& facets) const;
+    Between between(const Microfacets& facets) const;
 
     float eta_;
     CoatLayer layer_;

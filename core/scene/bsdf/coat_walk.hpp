@@ -16,7 +16,7 @@ namespace lightnet {
 /// and what it sends down again are both followed, so that chance enters by the facets alone.
 class CoatWalk {
 public:
-    CoatWalk(const Coat& coat, const Ggx& above, const Ggx& below, Samples samples)
+    CoatWalk(const Coat& coat, const Microfacets& above, const Microfacets& below, Samples samples)
         : coat_(coat), above_(above), below_(below), samples_(samples) {}
 
     /// Calls add(n, share): that share of the light leaves when it has met the metal n + 1 times. `outgoing` lies
@@ -36,12 +36,12 @@ public:
     }
 
 private:
-    Vec3 facet(const Ggx& facets, Vec3 w) {
+    Vec3 facet(const Microfacets& facets, Vec3 w) {
         const Vec2 u = samples_.next_2d();
         return smooth(facets) ? Vec3{0, 0, 1} : facets.sample_visible(w, u);
     }
-    static bool smooth(const Ggx& facets) { return is_specular(facets.alpha_u, facets.alpha_v); }
-    static float seen(const Ggx& facets, Vec3 from, Vec3 to) {
+    static bool smooth(const Microfacets& facets) { return is_specular(facets.alpha_u, facets.alpha_v); }
+    static float seen(const Microfacets& facets, Vec3 from, Vec3 to) {
         return smooth(facets) ? 1 : facets.visible(from, to) / facets.visible(from);
     }
     float left(float cosine) const {
@@ -71,7 +71,7 @@ private:
     }
 
     const Coat& coat_;
-    Ggx above_, below_;
+    Microfacets above_, below_;
     Samples samples_;
     Vec3 w_;  // where the light goes
     float share_ = 0;

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/scene/bsdf/coats.hpp"
+#include "core/scene/bsdf/facets.hpp"
 #include "core/scene/bsdf/fresnel.hpp"
-#include "core/scene/bsdf/microfacets.hpp"
 
 namespace lightnet {
 
@@ -92,13 +92,13 @@ std::optional<BsdfSample> CoatedConductorBsdf::sample(Vec3 outgoing, float choic
 }
 
 Coating CoatedConductorMaterial::coating(Coats& coats) const {
-    const auto above = only_facets_of(coat), below = only_facets_of(roughness);
+    const auto above = facet_range_of(coat), below = facet_range_of(roughness);
     const Coat& one = coats.coat(coat_eta, above, layer);
     return {&one, coats.over_metal(one, above, below)};
 }
 
 CoatedConductorBsdf CoatedConductorMaterial::at(const MaterialInputs& inputs) const {
-    const Ggx above = inputs.facets(coat), below = inputs.facets(roughness);
+    const Microfacets above = inputs.facets(coat), below = inputs.facets(roughness);
     ConductorBsdf under = metal.at(inputs, seen_through(below, above, coat_eta));
     under.eta = under.eta / coat_eta;
     under.k = under.k / coat_eta;

@@ -17,9 +17,9 @@ struct CoatedConductorBsdf {
     static constexpr bool chooses = true;
     ConductorBsdf metal;                   // its index relative to the coat, its facets as they look through it
     const Coat* coat = nullptr;            // lives as long as the scene
-    Ggx facets{};                          // of the coat
+    Microfacets facets{};                  // of the coat
     const CoatedMetal* between = nullptr;  // as long; not needed if all is smooth
-    Ggx below{};                           // the metal's own facets
+    Microfacets below{};                   // the metal's own facets
 
     bool smooth() const { return is_specular(facets.alpha_u, facets.alpha_v); }
     std::uint8_t lobes() const {

@@ -1,8 +1,8 @@
 #include "core/scene/bsdf/coated_diffuse.hpp"
 
 #include "core/scene/bsdf/coats.hpp"
+#include "core/scene/bsdf/facets.hpp"
 #include "core/scene/bsdf/fresnel.hpp"
-#include "core/scene/bsdf/microfacets.hpp"
 
 namespace lightnet {
 
@@ -54,7 +54,7 @@ std::optional<BsdfSample> CoatedDiffuseBsdf::sample(Vec3 outgoing, float choice,
 }
 
 Coating CoatedDiffuseMaterial::coating(Coats& coats) const {
-    return {&coats.coat(eta, only_facets_of(roughness), layer)};
+    return {&coats.coat(eta, facet_range_of(roughness), layer)};
 }
 
 CoatedDiffuseBsdf CoatedDiffuseMaterial::at(const MaterialInputs& inputs) const {

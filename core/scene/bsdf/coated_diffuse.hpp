@@ -18,7 +18,7 @@ struct CoatedDiffuseBsdf {
     static constexpr bool chooses = true;
     Rgb albedo;                  // of the base
     const Coat* coat = nullptr;  // lives as long as the scene
-    Ggx facets{};                // of the coat
+    Microfacets facets{};        // of the coat
     Rgb tint{1, 1, 1};           // of the coat's reflection
     bool base_colours_repeat = true;
 

@@ -10,19 +10,19 @@ namespace {
 
 constexpr std::size_t metal_roughnesses = 6;
 
-bool smooth(const Ggx& facets) { return is_specular(facets.alpha_u, facets.alpha_v); }
+bool smooth(const Microfacets& facets) { return is_specular(facets.alpha_u, facets.alpha_v); }
 
-Ggx at_least_rough(const Ggx& facets) {
-    return {std::max(facets.alpha_u, specular_alpha), std::max(facets.alpha_v, specular_alpha)};
+Microfacets at_least_rough(const Microfacets& facets) {
+    return {std::max(facets.alpha_u, specular_alpha), std::max(facets.alpha_v, specular_alpha), facets.law};
 }
 
 Vec3 from_above(float cosine) { return {std::sqrt(std::max(0.0f, 1 - cosine * cosine)), 0, cosine}; }
 
 /// By the square root of α, where there is more than one.
-std::optional<Ggx> roughness(std::size_t index, const std::optional<Ggx>& only) {
-    if (only) return only;
+Microfacets roughness(std::size_t index, const FacetRange& range) {
+    if (!range.varies) return range.facets;
     const float root = float(index) / (metal_roughnesses - 1), alpha = root * root;
-    return Ggx{alpha, alpha};
+    return {alpha, alpha, range.facets.law};
 }
 
 /// Where among `count` roughnesses one lies.
@@ -30,7 +30,7 @@ struct TablePosition {
     std::size_t low = 0;
     float share = 0;
 };
-TablePosition place(const Ggx& facets, std::size_t count) {
+TablePosition place(const Microfacets& facets, std::size_t count) {
     if (count == 1) return {};
     const float root = std::sqrt(std::sqrt(facets.alpha_u * facets.alpha_v));
     const float at = std::min(root, 1.0f) * float(count - 1);
@@ -63,12 +63,12 @@ float CoatedMetal::Returned::factor_with(const Returned& other, float reflectanc
 
 float CoatedMetal::Returned::albedo(float reflectance) const { return series(energy, again, reflectance); }
 
-CoatedMetal::CoatedMetal(const Coat& coat, std::optional<Ggx> above, std::optional<Ggx> below)
-    : coat_(coat), rows_(above ? 1 : metal_roughnesses), columns_(below ? 1 : metal_roughnesses) {
+CoatedMetal::CoatedMetal(const Coat& coat, const FacetRange& above, const FacetRange& below)
+    : coat_(coat), rows_(above.varies ? metal_roughnesses : 1), columns_(below.varies ? metal_roughnesses : 1) {
     const std::uint32_t walks = rows_ * columns_ == 1 ? 1 << 11 : 1 << 9;
     for (std::size_t i = 0; i < rows_; ++i)
         for (std::size_t j = 0; j < columns_; ++j)
-            tables_.push_back(made(*roughness(i, above), *roughness(j, below), walks));
+            tables_.push_back(made(roughness(i, above), roughness(j, below), walks));
 }
 
 float CoatedMetal::node(std::size_t step) { return std::max(5e-3f, float(step) / steps); }
@@ -82,7 +82,7 @@ CoatedMetal::Between CoatedMetal::between(float cosine) {
 // A factor per direction and order such that the lobe, times those of both its directions, gives each direction the
 // energy that its walks have: Sinkhorn's way of scaling a symmetric kernel to given sums.
 // DECISIONS: coats-from-tables
-CoatedMetal::ByCosine CoatedMetal::made(const Ggx& above, const Ggx& below, std::uint32_t walks) const {
+CoatedMetal::ByCosine CoatedMetal::made(const Microfacets& above, const Microfacets& below, std::uint32_t walks) const {
     ByCosine result;
     walk(above, below, walks, result);
     const Kernel kernel = lobe(above, below, walks);
@@ -101,7 +101,8 @@ CoatedMetal::ByCosine CoatedMetal::made(const Ggx& above, const Ggx& below, std:
     return result;
 }
 
-void CoatedMetal::walk(const Ggx& above, const Ggx& below, std::uint32_t walks, ByCosine& result) const {
+void CoatedMetal::walk(const Microfacets& above, const Microfacets& below, std::uint32_t walks,
+                       ByCosine& result) const {
     std::array<float, steps + 1> more{};
     float last = 0, all = 0;  // of the last order
     for (std::size_t step = 0; step <= steps; ++step) {
@@ -122,9 +123,9 @@ void CoatedMetal::walk(const Ggx& above, const Ggx& below, std::uint32_t walks, 
 }
 
 /// How much of one direction's light the metal's lobe through the coat gives to the others.
-CoatedMetal::Kernel CoatedMetal::lobe(const Ggx& above, const Ggx& below, std::uint32_t samples) const {
+CoatedMetal::Kernel CoatedMetal::lobe(const Microfacets& above, const Microfacets& below, std::uint32_t samples) const {
     Kernel kernel{};
-    const Ggx facets = at_least_rough(seen_through(below, above, coat_.eta()));
+    const Microfacets facets = at_least_rough(seen_through(below, above, coat_.eta()));
     for (std::size_t step = 0; step <= steps; ++step) {
         const Vec3 o = into_coat(from_above(node(step)), coat_.eta());
         const float enters = coat_.transmittance(above, node(step));
@@ -142,7 +143,7 @@ CoatedMetal::Kernel CoatedMetal::lobe(const Ggx& above, const Ggx& below, std::u
     return kernel;
 }
 
-CoatedMetal::Returned CoatedMetal::returned(const Ggx& above, const Ggx& below, float cosine) const {
+CoatedMetal::Returned CoatedMetal::returned(const Microfacets& above, const Microfacets& below, float cosine) const {
     const Between angle = between(cosine);
     const TablePosition row = place(above, rows_), column = place(below, columns_);
     Returned sum;
@@ -160,13 +161,13 @@ CoatedMetal::Returned CoatedMetal::returned(const Ggx& above, const Ggx& below, 
 }
 
 // A facet's slope s turns what it reflects by 2 s, and what it refracts by (1 - 1/η) s; light passes the coat twice.
-Ggx seen_through(const Ggx& metal, const Ggx& coat, float eta) {
+Microfacets seen_through(const Microfacets& metal, const Microfacets& coat, float eta) {
     const float turn = (1 - 1 / eta) / 2;
     const auto blurred = [&](float below, float above) {
         return std::sqrt(below * below + 2 * turn * turn * above * above);
     };
-    const Ggx both{blurred(metal.alpha_u, coat.alpha_u), blurred(metal.alpha_v, coat.alpha_v)};
-    return smooth(both) ? Ggx{} : at_least_rough(both);
+    const Microfacets both{blurred(metal.alpha_u, coat.alpha_u), blurred(metal.alpha_v, coat.alpha_v), metal.law};
+    return smooth(both) ? Microfacets{} : at_least_rough(both);
 }
 
 Vec3 into_coat(Vec3 w, float eta) {

@@ -16,9 +16,8 @@ namespace lightnet {
 /// direction's sum is that of its walks. Made once per material; any thread may ask.
 class CoatedMetal {
 public:
-    /// Keeps looking at `coat`. None: of any roughness (the same along both tangents), for those that change over a
-    /// surface.
-    CoatedMetal(const Coat& coat, std::optional<Ggx> above, std::optional<Ggx> below);
+    /// Keeps looking at `coat`.
+    CoatedMetal(const Coat& coat, const FacetRange& above, const FacetRange& below);
 
     static constexpr std::size_t orders = 4;  // met once, twice, thrice, and more often
     /// Of one direction.
@@ -32,7 +31,7 @@ public:
         float albedo(float reflectance) const;
     };
     /// Of light from direction `cosine` above the coat.
-    Returned returned(const Ggx& above, const Ggx& below, float cosine) const;
+    Returned returned(const Microfacets& above, const Microfacets& below, float cosine) const;
 
 private:
     static constexpr std::size_t steps = 24;
@@ -44,9 +43,9 @@ private:
     };
     static float node(std::size_t step);
     static Between between(float cosine);
-    ByCosine made(const Ggx& above, const Ggx& below, std::uint32_t walks) const;
-    void walk(const Ggx& above, const Ggx& below, std::uint32_t walks, ByCosine& result) const;
-    Kernel lobe(const Ggx& above, const Ggx& below, std::uint32_t samples) const;
+    ByCosine made(const Microfacets& above, const Microfacets& below, std::uint32_t walks) const;
+    void walk(const Microfacets& above, const Microfacets& below, std::uint32_t walks, ByCosine& result) const;
+    Kernel lobe(const Microfacets& above, const Microfacets& below, std::uint32_t samples) const;
 
     const Coat& coat_;
     std::size_t rows_, columns_;  // by roughness above and below
@@ -54,7 +53,7 @@ private:
 };
 
 /// The metal's facets, as they look through those of a coat.
-Ggx seen_through(const Ggx& metal, const Ggx& coat, float eta);
+Microfacets seen_through(const Microfacets& metal, const Microfacets& coat, float eta);
 /// The direction within a smooth coat that belongs to one above it (both upwards), and the way back: none where all is
 /// reflected.
 Vec3 into_coat(Vec3 w, float eta);

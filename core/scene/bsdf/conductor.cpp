@@ -1,7 +1,7 @@
 #include "core/scene/bsdf/conductor.hpp"
 
+#include "core/scene/bsdf/facets.hpp"
 #include "core/scene/bsdf/fresnel.hpp"
-#include "core/scene/bsdf/microfacets.hpp"
 
 namespace lightnet {
 
@@ -33,7 +33,7 @@ Rgb absorption_for(Rgb reflectance) {
     return {of(reflectance.r), of(reflectance.g), of(reflectance.b)};
 }
 
-ConductorBsdf Metal::at(const MaterialInputs& inputs, const Ggx& facets) const {
+ConductorBsdf Metal::at(const MaterialInputs& inputs, const Microfacets& facets) const {
     if (reflectance) return {{1, 1, 1}, absorption_for(inputs.colour(*reflectance)), facets};
     return {inputs.colour(eta), inputs.colour(k), facets};
 }

@@ -1,10 +1,10 @@
-// Metal: a mirror, or GGX microfacets of mirror. Single scattering: rough metals lose some energy, as in pbrt.
+// Metal: a mirror, or microfacets of mirror. Single scattering: rough metals lose some energy, as in pbrt.
 #pragma once
 
 #include <optional>
 
-#include "core/scene/bsdf/ggx.hpp"
 #include "core/scene/bsdf/material_inputs.hpp"
+#include "core/scene/bsdf/microfacets.hpp"
 #include "core/scene/bsdf/scattering.hpp"
 
 namespace lightnet {
@@ -13,7 +13,7 @@ struct ConductorBsdf {
     static constexpr bool two_sided = true;
     static constexpr bool chooses = false;
     Rgb eta, k;  // complex index of refraction
-    Ggx facets{};
+    Microfacets facets{};
     Rgb tint{1, 1, 1};
 
     bool smooth() const { return is_specular(facets.alpha_u, facets.alpha_v); }
@@ -30,7 +30,7 @@ struct Metal {
     TextureId eta = 0, k = 0;
     std::optional<TextureId> reflectance{};  // given instead of eta and k
 
-    ConductorBsdf at(const MaterialInputs& inputs, const Ggx& facets) const;
+    ConductorBsdf at(const MaterialInputs& inputs, const Microfacets& facets) const;
 };
 void visit_members(Is<Metal> auto& metal, const auto& visit) {
     auto& [eta, k, reflectance] = metal;

@@ -1,7 +1,7 @@
 #include "core/scene/bsdf/dielectric.hpp"
 
+#include "core/scene/bsdf/facets.hpp"
 #include "core/scene/bsdf/fresnel.hpp"
-#include "core/scene/bsdf/microfacets.hpp"
 
 namespace lightnet {
 

@@ -1,11 +1,11 @@
-// Glass: reflects and refracts, smooth or with GGX microfacets (Walter et al. 2007). The normal points outside.
+// Glass: reflects and refracts, smooth or with microfacets (Walter et al. 2007). The normal points outside.
 #pragma once
 
 #include <optional>
 #include <variant>
 
-#include "core/scene/bsdf/ggx.hpp"
 #include "core/scene/bsdf/material_inputs.hpp"
+#include "core/scene/bsdf/microfacets.hpp"
 #include "core/scene/bsdf/scattering.hpp"
 
 namespace lightnet {
@@ -26,7 +26,7 @@ struct DielectricBsdf {
     static constexpr bool two_sided = false;
     static constexpr bool chooses = true;
     float eta = 1.5f;  // inside over outside
-    Ggx facets{};
+    Microfacets facets{};
     GlassTints tints{};
 
     bool smooth() const { return eta == 1 || is_specular(facets.alpha_u, facets.alpha_v); }

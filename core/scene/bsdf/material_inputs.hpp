@@ -54,7 +54,7 @@ public:
     float share(float value, std::optional<TextureId> texture) const {
         return std::clamp(times(value, texture), 0.0f, 1.0f);
     }
-    Ggx facets(const Roughness& roughness) const { return facets_of(roughness, times(1, roughness.texture)); }
+    Microfacets facets(const Roughness& roughness) const { return facets_of(roughness, times(1, roughness.texture)); }
     /// That which the material made by its coating().
     const Coating& coating() const { return coating_; }
 

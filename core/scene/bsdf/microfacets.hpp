@@ -1,42 +1,60 @@
-// Reflection and refraction by GGX microfacets, without Fresnel's terms: what rough models share. Walter et al. 2007.
+// The microfacets of a rough surface: how their normals lie, and which of them are seen. All directions are local: the
+// surface's normal is +z.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 
-#include "core/scene/bsdf/fresnel.hpp"
+#include "core/base/math/sampling.hpp"
+#include "core/base/math/vec.hpp"
+#include "core/scene/bsdf/beckmann.hpp"
 #include "core/scene/bsdf/ggx.hpp"
 
 namespace lightnet {
 
-/// What microfacets send from `incoming` to `outgoing`, were they perfect mirrors or perfect windows.
-struct Facets {
-    float value = 0;   // f × |cos incoming|, sr⁻¹; 0: no facet does
-    float pdf = 0;     // of `incoming`, by visible normals, per steradian
-    float cosine = 0;  // between outgoing and the facet's normal; below 0 from behind the surface
+/// The law that the facets' normals follow, and how what hides a facet from one direction has to do with what hides it
+/// from another: by its height (pbrt), or not at all (Mitsuba).
+struct FacetLaw {
+    enum class Normals : std::uint8_t { ggx, beckmann } normals = Normals::ggx;
+    enum class Masking : std::uint8_t { by_height, independent } masking = Masking::by_height;
+    friend bool operator==(const FacetLaw&, const FacetLaw&) = default;
+
+    /// use(GgxLaw) or use(BeckmannLaw).
+    template <class Use>
+    auto with_normals(Use use) const {
+        return normals == Normals::ggx ? use(GgxLaw{}) : use(BeckmannLaw{});
+    }
 };
 
-/// Both directions lie above the surface.
-inline Facets reflection(const Ggx& facets, Vec3 outgoing, Vec3 incoming) {
-    const Vec3 m = normalize(outgoing + incoming);
-    const float cosine = dot(outgoing, m);
-    if (!(cosine > 0)) return {};
-    const float both = facets.density(m) / (4 * outgoing.z);
-    const float lambda_o = facets.lambda(outgoing), lambda_i = facets.lambda(incoming);
-    return {both / (1 + lambda_o + lambda_i), both / (1 + lambda_o), cosine};
-}
+/// Walter et al. 2007 and Heitz 2014; anisotropic. A value.
+struct Microfacets {
+    float alpha_u = 0, alpha_v = 0;
+    FacetLaw law{};
 
-/// The directions lie on different sides; `eta` inside over outside. The value holds the squeezing of radiance.
-inline Facets refraction(const Ggx& facets, Vec3 outgoing, Vec3 incoming, float eta) {
-    const float relative = outgoing.z > 0 ? eta : 1 / eta;
-    Vec3 m = incoming * relative + outgoing;
-    if (length_squared(m) == 0) return {};
-    m = normalize(m);
-    if (m.z < 0) m = -m;
-    const float o_m = dot(outgoing, m), i_m = dot(incoming, m);
-    if (o_m * outgoing.z <= 0 || i_m * incoming.z <= 0) return {};  // the facet is seen from behind
-    const float root = i_m + o_m / relative;
-    const float both = facets.density(m) * std::fabs(i_m * o_m / (root * root * outgoing.z));
-    return {both * facets.visible(outgoing, incoming) / (relative * relative), both * facets.visible(outgoing), o_m};
-}
+    /// Density of normals `m`, per steradian.
+    float density(Vec3 m) const {
+        const float x = m.x / alpha_u, y = m.y / alpha_v;
+        return law.with_normals([&](auto l) { return l.density(x * x + y * y, m.z * m.z); }) / (alpha_u * alpha_v);
+    }
+    /// Smith's Λ: 1/(1 + Λ) of the microfacets facing `w` are visible from it.
+    float lambda(Vec3 w) const {
+        const float x = alpha_u * w.x, y = alpha_v * w.y, z2 = w.z * w.z;
+        return z2 == 0 ? 1e18f : law.with_normals([&](auto l) { return l.lambda(x * x + y * y, z2); });
+    }
+    float visible(Vec3 w) const { return 1 / (1 + lambda(w)); }
+    /// Seen from both directions, whose Λ are these (Heitz 2014, eq. 98 and 99).
+    float visible_to_both(float a, float b) const {
+        return law.masking == FacetLaw::Masking::by_height ? 1 / (1 + a + b) : 1 / ((1 + a) * (1 + b));
+    }
+    float visible(Vec3 a, Vec3 b) const { return visible_to_both(lambda(a), lambda(b)); }
+    /// A visible normal.
+    Vec3 sample_visible(Vec3 w, Vec2 u) const {
+        Vec3 stretched = normalize({alpha_u * w.x, alpha_v * w.y, w.z});
+        if (stretched.z < 0) stretched = -stretched;
+        const Vec3 n = law.with_normals([&](auto l) { return l.sample_visible(stretched, u); });
+        return normalize({alpha_u * n.x, alpha_v * n.y, std::max(1e-6f, n.z)});
+    }
+};
 
 }  // namespace lightnet

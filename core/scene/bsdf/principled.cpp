@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/scene/bsdf/albedos.hpp"
+#include "core/scene/bsdf/facets.hpp"
 #include "core/scene/bsdf/fresnel.hpp"
-#include "core/scene/bsdf/microfacets.hpp"
 
 namespace lightnet {
 namespace {
@@ -218,7 +218,7 @@ std::optional<BsdfSample> PrincipledBsdf::upright_sample(Vec3 o, float choice, V
     if (choice < by.coat) {
         if (smooth_coat()) return mirror(o, grey(coat * schlick(coat_f0, 1, o.z)), by.coat);
         result->lobe = lobe::glossy;
-        result->incoming = normalize(reflect(o, Ggx{coat_alpha, coat_alpha}.sample_visible(o, u)));
+        result->incoming = normalize(reflect(o, Microfacets{coat_alpha, coat_alpha}.sample_visible(o, u)));
         if (result->incoming.z <= 0) return {};
     } else if ((choice -= by.coat) < by.sheen) {
         result->incoming = cone(u, 1);

@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "core/scene/bsdf/ggx.hpp"
 #include "core/scene/bsdf/material_inputs.hpp"
+#include "core/scene/bsdf/microfacets.hpp"
 #include "core/scene/bsdf/scattering.hpp"
 
 namespace lightnet {
@@ -18,7 +18,7 @@ struct PrincipledBsdf {
     static constexpr bool chooses = true;
     Rgb base;
     float metallic = 0, transmission = 0;
-    Ggx facets{};
+    Microfacets facets{};
     float eta = 1.5f;  // inside over outside
     Rgb f0;            // of the dielectric's reflection, head-on
     float f90 = 1;     // and at grazing angles

@@ -22,15 +22,16 @@ float alpha_of(float value, Roughness::Means means) {
 }  // namespace
 
 // Roughness of a surface that isn't a perfect mirror in both directions must not be one in either.
-Ggx facets_of(const Roughness& roughness, float factor) {
+Microfacets facets_of(const Roughness& roughness, float factor) {
     const float alpha_u = alpha_of(roughness.u * factor, roughness.means),
                 alpha_v = alpha_of(roughness.v * factor, roughness.means);
     if (is_specular(alpha_u, alpha_v)) return {};
-    return {std::max(alpha_u, specular_alpha), std::max(alpha_v, specular_alpha)};
+    return {std::max(alpha_u, specular_alpha), std::max(alpha_v, specular_alpha), roughness.law};
 }
 
-std::optional<Ggx> only_facets_of(const Roughness& roughness) {
-    return roughness.texture ? std::nullopt : std::optional(facets_of(roughness, 1));
+FacetRange facet_range_of(const Roughness& roughness) {
+    if (roughness.texture) return {{0, 0, roughness.law}, true};
+    return {facets_of(roughness, 1)};
 }
 
 }  // namespace lightnet

@@ -18,14 +18,21 @@
 
 namespace lightnet {
 
+/// What a lamp is known by: nothing of what shines.
+struct LampLabel {
+    std::string name{};       // as in the file; may be empty: see lamps_of()
+    std::uint32_t group = 0;  // index into SceneData::groups
+};
+
 /// Emission of a shape: radiance in W·sr⁻¹·m⁻² on the side of its normal, or on both.
 struct AreaEmission {
     Rgb radiance;
     bool two_sided = false;
     std::optional<TextureId> texture{};  // times this
+    LampLabel label{};
 };
 void visit_members(Is<AreaEmission> auto& emission, const auto& visit) {
-    auto& [radiance, two_sided, texture] = emission;
+    auto& [radiance, two_sided, texture, label] = emission;
     visit(radiance, two_sided, texture);
 }
 
@@ -120,9 +127,10 @@ void visit_members(Is<EnvironmentData> auto& environment, const auto& visit) {
 struct PointLight {
     Vec3 position;
     Rgb intensity;  // W·sr⁻¹
+    LampLabel label{};
 };
 void visit_members(Is<PointLight> auto& light, const auto& visit) {
-    auto& [position, intensity] = light;
+    auto& [position, intensity, label] = light;
     visit(position, intensity);
 }
 
@@ -132,18 +140,20 @@ struct SpotLight {
     Rgb intensity;                 // W·sr⁻¹, on the axis
     float inner = 0, outer = 0;
     enum class Falloff { smoothstep, linear, squared_linear } falloff = Falloff::smoothstep;  // in cos, angle, cos
+    LampLabel label{};
 };
 void visit_members(Is<SpotLight> auto& light, const auto& visit) {
-    auto& [position, axis, intensity, inner, outer, falloff] = light;
+    auto& [position, axis, intensity, inner, outer, falloff, label] = light;
     visit(position, axis, intensity, inner, outer, falloff);
 }
 
 struct DirectionalLight {
     Vec3 direction{0, 0, -1};  // in which it shines, unit
     Rgb irradiance;            // W·m⁻², on a plane across it
+    LampLabel label{};
 };
 void visit_members(Is<DirectionalLight> auto& light, const auto& visit) {
-    auto& [direction, irradiance] = light;
+    auto& [direction, irradiance, label] = light;
     visit(direction, irradiance);
 }
 
@@ -157,14 +167,17 @@ struct SceneData {
     std::vector<Texture> textures;
     std::vector<EnvironmentData> environments;  // their radiances add up
     std::vector<BareLight> lights;              // that no ray can meet
+    std::vector<std::string> groups{};          // of lamps, which their labels name by index; none: all are one
+    std::uint32_t environment_group = 0;        // of all environments
     CameraData camera;
     bool camera_given = false;  // else Scene looks at everything from where all of it is seen
     FilmData film;
     std::vector<Problem> warnings;  // what was approximated or left out
 };
-/// Without those who look (camera, film), and without what was said or learnt of it.
+/// Without those who look (camera, film), without how its lamps are sorted, and without what was said or learnt of it.
 void visit_members(Is<SceneData> auto& scene, const auto& visit) {
-    auto& [shapes, objects, instances, materials, textures, environments, lights, camera, camera_given, film, warnings] = scene;
+    auto& [shapes, objects, instances, materials, textures, environments, lights, groups, environment_group, camera,
+           camera_given, film, warnings] = scene;
     visit(shapes, objects, instances, materials, textures, environments, lights);
 }
 

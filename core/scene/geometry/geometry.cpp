@@ -372,6 +372,10 @@ void Geometry::occluded(std::span<const Ray> rays, std::span<std::uint8_t> hidde
                    : look_through<Four>(tracer_->scene, rays, hidden);
 }
 
+std::optional<Hit> Geometry::nearest(const PlacedSurfaces& surfaces, const SurfaceWish& wish) const {
+    return nearest_surface(tracer_->scene, surfaces, wish);
+}
+
 Box Geometry::bounds() const {
     RTCBounds box;
     rtcGetSceneBounds(tracer_->scene, &box);

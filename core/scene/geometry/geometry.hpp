@@ -1,4 +1,4 @@
-// What rays meet. The only home of Embree is the .cpp of this header.
+// What rays meet. The home of Embree is this folder.
 #pragma once
 
 #include <cstddef>
@@ -10,6 +10,7 @@
 
 #include "core/base/math/box.hpp"
 #include "core/scene/data/scene_data.hpp"
+#include "core/scene/geometry/nearest_surface.hpp"
 #include "core/scene/surfaces/ray.hpp"
 #include "core/scene/surfaces/shading.hpp"
 
@@ -35,6 +36,9 @@ public:
     void intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const;
     bool occluded(const Ray& ray) const;
     void occluded(std::span<const Ray> rays, std::span<std::uint8_t> hidden) const;
+
+    /// What is nearest to a point, see nearest_surface(). `surfaces` are those that it was made of.
+    std::optional<Hit> nearest(const PlacedSurfaces& surfaces, const SurfaceWish& wish) const;
 
     /// Around all that rays can meet.
     Box bounds() const;

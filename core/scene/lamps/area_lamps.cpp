@@ -28,18 +28,18 @@ bool inside(const Sphere& sphere, float distance2) { return distance2 <= sphere.
 
 bool shines_towards(bool two_sided, Vec3 normal, Vec3 direction) { return two_sided || dot(normal, direction) > 0; }
 
-bool shines(const SceneData& data, const Shape& shape) {
-    return shape.emission && !is_black(shape.emission->radiance) &&
+bool shines(const SceneData& data, const Shape& shape, GroupSet groups) {
+    return shape.emission && (groups >> shape.emission->label.group & 1) && !is_black(shape.emission->radiance) &&
            !std::holds_alternative<NoMaterial>(data.materials[shape.material].model);
 }
 
 }  // namespace
 
-AreaLamps::AreaLamps(const SceneData& data, const Shading& shading)
-    : data_(data), shading_(shading), places_(data.shapes.size()) {
+AreaLamps::AreaLamps(const SceneData& data, const Shading& shading, GroupSet groups, bool apart)
+    : data_(data), shading_(shading), apart_(apart), places_(data.shapes.size()) {
     for (std::uint32_t s = 0; s < data.shapes.size(); ++s) {
         const Shape& shape = data.shapes[s];
-        if (!shines(data, shape)) continue;
+        if (!shines(data, shape, groups)) continue;
         places_[s].lamp = std::uint32_t(lamps_.size());
         if (const auto* mesh = std::get_if<Mesh>(&shape.geometry)) {
             add_mesh(s, *mesh);
@@ -91,6 +91,7 @@ void AreaLamps::add_lamp(std::uint32_t shape, std::uint32_t first, std::uint32_t
     lamp.facets = facets;
     lamp.radiance = emission.radiance;
     lamp.two_sided = emission.two_sided;
+    lamp.group = group_of(shape);
     lamp.uniform = !emission.texture && !shading_.has_holes(shape);
     for (std::uint32_t f = first; f < first + facets; ++f)
         lamp.area += 0.5f * length(cross(facets_[f].first_edge, facets_[f].second_edge));
@@ -199,14 +200,15 @@ std::optional<LightSample> AreaLamps::from_mesh(const Lamp& lamp, Vec3 from, Vec
         if (!is_there(lamp, point)) return {};
         radiance = radiance_at(lamp, point);
     }
-    return LightSample{position, direction, radiance, pdf, false, false};
+    return LightSample{position, direction, radiance, pdf, false, false, lamp.group};
 }
 
 std::optional<FlatLamp> AreaLamps::flat(std::size_t index) const {
     const Lamp& lamp = lamps_[index];
     const bool whole = lamp.whole != none;
     if (!lamp.uniform || (!whole && lamp.facets != 1)) return {};
-    return FlatLamp{whole ? wholes_[lamp.whole] : facets_[lamp.first], whole, lamp.area, lamp.radiance, lamp.two_sided};
+    const Facet& facet = whole ? wholes_[lamp.whole] : facets_[lamp.first];
+    return FlatLamp{facet, whole, lamp.area, lamp.radiance, lamp.two_sided, lamp.group};
 }
 
 std::optional<LightSample> AreaLamps::from_sphere(const Lamp& lamp, Vec3 from, Vec2 u) const {
@@ -235,7 +237,7 @@ std::optional<LightSample> AreaLamps::from_sphere(const Lamp& lamp, Vec3 from, V
     const Vec3 direction = way / std::sqrt(way2);
     if (pdf == 0) pdf = way2 / (lamp.area * std::max(1e-6f, std::fabs(dot(outwards, direction))));
     if (!shines_towards(lamp.two_sided, point.normal, -direction) || !is_there(lamp, point)) return {};
-    return LightSample{point.position, direction, radiance_at(lamp, point), pdf, false, false};
+    return LightSample{point.position, direction, radiance_at(lamp, point), pdf, false, false, lamp.group};
 }
 
 float AreaLamps::pdf(std::size_t index, Vec3 from, Vec3 direction, const SurfacePoint& on) const {
@@ -293,7 +295,8 @@ std::optional<Emission> AreaLamps::emit(std::size_t index, Vec2 position_sample,
     if (!is_there(lamp, start)) return {};
     const SurfacePoint point = shading_.point(lamp.shape, start.primitive, start.u, start.v);
     const Vec3 direction = Frame::around(start.normal).to_world(cosine_hemisphere(direction_sample));
-    return Emission{point.origin_towards(direction), direction, radiance_at(lamp, start) * (pi * lamp.area * sides)};
+    return Emission{point.origin_towards(direction), direction, radiance_at(lamp, start) * (pi * lamp.area * sides),
+                    lamp.group};
 }
 
 // Where a mask has holes a lamp does not shine.

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/lamp_groups.hpp"
 #include "core/base/math/rgb.hpp"
 #include "core/base/math/vec.hpp"
 #include "core/scene/data/scene_data.hpp"
@@ -23,8 +24,8 @@ namespace lightnet {
 /// fills. Any thread may ask.
 class AreaLamps {
 public:
-    /// Looks at both while it lives.
-    AreaLamps(const SceneData& data, const Shading& shading);
+    /// Those of some groups, which are told apart or are all one. Looks at data and shading while it lives.
+    AreaLamps(const SceneData& data, const Shading& shading, GroupSet groups, bool apart);
 
     std::size_t size() const { return lamps_.size(); }
     /// A point on a lamp that is chosen for certain. None: it sends no light this way.
@@ -35,6 +36,8 @@ public:
     float pdf(std::size_t lamp, Vec3 from, Vec3 direction, const SurfacePoint& on) const;
     /// The lamp that a point of a surface belongs to.
     std::optional<std::size_t> lamp_at(const SurfacePoint& point) const;
+    /// Of the shape that a lamp is: 0 where groups are one.
+    std::uint32_t group_of(std::uint32_t shape) const { return apart_ ? data_.shapes[shape].emission->label.group : 0; }
     /// Radiance that a point of a surface emits into `direction` (unit, away from it).
     Rgb radiance(const SurfacePoint& point, Vec3 direction) const;
     /// Could the ray meet a lamp? False is certain.
@@ -58,6 +61,7 @@ private:
         bool uniform = true;         // neither texture nor holes
         std::uint32_t whole = none;  // into wholes_
         Rgb mean{1, 1, 1};           // of the texture
+        std::uint32_t group = 0;
     };
     struct Ball {
         Vec3 center;
@@ -84,6 +88,7 @@ private:
 
     const SceneData& data_;
     const Shading& shading_;
+    const bool apart_;
     std::vector<Lamp> lamps_;
     std::vector<Facet> facets_;
     std::vector<float> ends_;    // by facet: share of its lamp's area up to and with it

@@ -1,6 +1,8 @@
 // Samples of light: directions towards lights, and light that leaves them.
 #pragma once
 
+#include <cstdint>
+
 #include "core/base/math/rgb.hpp"
 #include "core/base/math/vec.hpp"
 
@@ -15,12 +17,14 @@ struct LightSample {
                         // of its choice
     bool bare = false;  // no ray can meet this light: no other way finds it
     bool from_infinity = false;
+    std::uint32_t group = 0;  // of the lamp: see Scene::groups()
 };
 
 /// Light that leaves a lamp.
 struct Emission {
-    Vec3 origin, direction;  // of the ray, off the lamp's surface; direction: unit
-    Rgb flux;                // W, over the density of all choices: its mean over samples is the power of all lights
+    Vec3 origin, direction;   // of the ray, off the lamp's surface; direction: unit
+    Rgb flux;                 // W, over the density of all choices: its mean over samples is the power of all lights
+    std::uint32_t group = 0;  // as for samples
 };
 
 }  // namespace lightnet

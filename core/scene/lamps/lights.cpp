@@ -26,14 +26,20 @@ float within(float choice, float start, float share) {
 
 }  // namespace
 
-Lights::Lights(const SceneData& data, const Shading& shading, const Ball& around)
-    : around_(around), lamps_(data, shading) {
+Lights::Lights(const SceneData& data, const Shading& shading, const Ball& around, const Wanted& wanted)
+    : around_(around),
+      groups_(wanted.apart ? std::max<std::size_t>(1, data.groups.size()) : 1),
+      environment_group_(groups_ > 1 ? data.environment_group : 0),
+      lamps_(data, shading, wanted.groups, groups_ > 1) {
+    const auto is_wanted = [&](std::uint32_t group) { return (wanted.groups >> group & 1) != 0; };
     for (const auto& light : data.lights) {
+        if (!std::visit([&](const auto& one) { return is_wanted(one.label.group); }, light)) continue;
         const auto* directional = std::get_if<DirectionalLight>(&light);
         directional ? far_.push_back(*directional) : near_.push_back(light);
     }
     std::vector<double> light_of_maps;
     for (const auto& each : data.environments) {
+        if (!is_wanted(data.environment_group)) break;
         const Environment& environment = environments_.emplace_back(each);
         has_environment_ |= !is_black(environment.total());
         if (!environment.has_map()) constant_ += each.radiance;
@@ -84,9 +90,13 @@ std::optional<LightSample> Lights::from_tree(Vec3 from, float choice, Vec2 u) co
     const auto chosen = tree_.choose(from, choice);
     if (!chosen || !(chosen->chance > 0)) return {};
     const std::size_t light = chosen->light;
-    auto sample = light < lamps_.size()
-                      ? lamps_.sample(light, from, u)
-                      : near_light(near_[light - lamps_.size()], [&](const auto& l) { return light_from(l, from); });
+    const auto from_near = [&](const auto& one) {
+        auto found = light_from(one, from);
+        if (found) found->group = group(one.label);
+        return found;
+    };
+    auto sample =
+        light < lamps_.size() ? lamps_.sample(light, from, u) : near_light(near_[light - lamps_.size()], from_near);
     if (sample) sample->pdf *= chosen->chance;
     return sample;
 }
@@ -94,7 +104,11 @@ std::optional<LightSample> Lights::from_tree(Vec3 from, float choice, Vec2 u) co
 // `choice` counts the directional lights, and all maps as the last of them.
 std::optional<LightSample> Lights::from_infinity(Vec3 from, float choice, Vec2 u) const {
     const auto light = std::size_t(std::max(0.0f, choice));
-    if (light < far_.size()) return light_from(far_[light], from);
+    if (light < far_.size()) {
+        auto sun = light_from(far_[light], from);
+        if (sun) sun->group = group(far_[light].label);
+        return sun;
+    }
     return maps_.empty() ? std::nullopt : from_map(within(choice, float(far_.size()), 1), u);
 }
 
@@ -105,7 +119,7 @@ std::optional<LightSample> Lights::from_map(float choice, Vec2 u) const {
     for (std::size_t i = 0; i < maps_.size(); ++i)
         density += share_of(map_ends_, i) * environments_[maps_[i]].pdf(direction);
     if (!(density > 0)) return {};  // by rounding, at the border of a cell
-    return LightSample{{}, direction, environment(direction), density, false, true};
+    return LightSample{{}, direction, environment(direction), density, false, true, environment_group_};
 }
 
 float Lights::pdf(Vec3 from, Vec3 direction, const SurfacePoint& on) const {
@@ -148,18 +162,26 @@ std::optional<Emission> Lights::emit(float choice, Vec2 position_sample, Vec2 di
     if (power_ends_.empty()) return {};
     std::size_t light = pick(power_ends_, choice);
     const float chance = share_of(power_ends_, light);
-    const auto weighted = [&](std::optional<Emission> one) {
-        if (one) one->flux *= 1 / chance;
+    const auto weighted = [&](Emission one, std::uint32_t group) {
+        one.flux *= 1 / chance;
+        one.group = group;
         return one;
     };
-    if (light < lamps_.size()) return weighted(lamps_.emit(light, position_sample, direction_sample));
+    if (light < lamps_.size()) {
+        const auto one = lamps_.emit(light, position_sample, direction_sample);
+        return one ? std::optional(weighted(*one, one->group)) : std::nullopt;
+    }
     light -= lamps_.size();
     if (light < near_.size())
-        return weighted(near_light(near_[light], [&](const auto& l) { return emission_of(l, direction_sample); }));
+        return near_light(near_[light],
+                          [&](const auto& l) { return weighted(emission_of(l, direction_sample), group(l.label)); });
     light -= near_.size();
-    if (light < far_.size())
-        return weighted(through_ball(far_[light].direction, far_[light].irradiance, position_sample));
-    return weighted(from_sky(environments_[light - far_.size()], position_sample, direction_sample));
+    if (light < far_.size()) {
+        const auto& sun = far_[light];
+        return weighted(through_ball(sun.direction, sun.irradiance, position_sample), group(sun.label));
+    }
+    const auto& sky = environments_[light - far_.size()];
+    return weighted(from_sky(sky, position_sample, direction_sample), environment_group_);
 }
 
 Emission Lights::from_sky(const Environment& environment, Vec2 position_sample, Vec2 direction_sample) const {
@@ -173,7 +195,7 @@ Emission Lights::through_ball(Vec3 direction, Rgb irradiance, Vec2 position_samp
     const Frame frame = Frame::around(direction);
     const Vec2 at = disk(position_sample);
     return {around_.center + (frame.x * at.x + frame.y * at.y - direction) * around_.radius, direction,
-            irradiance * (pi * around_.radius * around_.radius)};
+            irradiance * (pi * around_.radius * around_.radius), 0};
 }
 
 std::size_t Lights::memory() const {

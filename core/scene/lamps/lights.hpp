@@ -29,8 +29,21 @@ public:
         Vec3 center;
         float radius = 1;
     };
+    /// Which lamps, and whether their groups are told apart; else all are of group 0.
+    struct Wanted {
+        GroupSet groups = all_groups;
+        bool apart = false;
+    };
     /// Looks at data and shading while it lives.
-    Lights(const SceneData& data, const Shading& shading, const Ball& around);
+    Lights(const SceneData& data, const Shading& shading, const Ball& around, const Wanted& wanted);
+
+    /// How many are told apart.
+    std::size_t groups() const { return groups_; }
+    /// Of a lamp that a point of a surface belongs to.
+    std::uint32_t group_of(const SurfacePoint& lamp) const {
+        return groups_ > 1 && lamps_.lamp_at(lamp) ? lamps_.group_of(lamp.geometry) : 0;
+    }
+    std::uint32_t environment_group() const { return environment_group_; }
 
     /// There is nothing that sample() could find.
     bool empty() const { return choices_ == 0; }
@@ -72,7 +85,11 @@ private:
     Emission from_sky(const Environment& environment, Vec2 position_sample, Vec2 direction_sample) const;
     Emission through_ball(Vec3 direction, Rgb irradiance, Vec2 position_sample) const;
 
+    std::uint32_t group(const LampLabel& label) const { return groups_ > 1 ? label.group : 0; }
+
     Ball around_;
+    std::size_t groups_;
+    std::uint32_t environment_group_;
     AreaLamps lamps_;
     std::vector<BareLight> near_;  // points and spots
     std::vector<DirectionalLight> far_;

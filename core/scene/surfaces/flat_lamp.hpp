@@ -41,6 +41,7 @@ struct FlatLamp {
     float area = 0;      // m²
     Rgb radiance;
     bool two_sided = false;
+    std::uint32_t group = 0;
 };
 
 }  // namespace lightnet

@@ -46,6 +46,11 @@ Vec3 Placement::point_to_world(Vec3 p) const {
     return direction_to_world(p) + Vec3{columns_[9], columns_[10], columns_[11]};
 }
 
+Vec3 Placement::point_to_object(Vec3 p) const {
+    const Vec3 from_origin = p - Vec3{columns_[9], columns_[10], columns_[11]};
+    return {dot(inverse_[0], from_origin), dot(inverse_[1], from_origin), dot(inverse_[2], from_origin)};
+}
+
 SurfacePoint Placement::place(const SurfacePoint& point) const {
     // Normals go by the inverse transpose, which keeps them on their side of the surface.
     const auto normal_to_world = [&](Vec3 n) { return inverse_[0] * n.x + inverse_[1] * n.y + inverse_[2] * n.z; };

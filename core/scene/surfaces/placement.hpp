@@ -19,9 +19,10 @@ public:
     const std::array<float, 12>& columns() const { return columns_; }
     /// A point of the object's surface, in world space.
     SurfacePoint place(const SurfacePoint& point) const;
+    Vec3 point_to_world(Vec3 p) const;
+    Vec3 point_to_object(Vec3 p) const;
 
 private:
-    Vec3 point_to_world(Vec3 p) const;
     Vec3 direction_to_world(Vec3 v) const;
 
     std::array<float, 12> columns_;

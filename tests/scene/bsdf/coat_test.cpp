@@ -67,8 +67,8 @@ class OfACoat : public testing::TestWithParam<Layers> {};
 
 TEST_P(OfACoat, OnADiffuseBaseTheAlbedoIsThatOfAWalkBetweenTheLayers) {
     const auto [alpha, reflectance, layer, tolerance, of_metal] = GetParam();
-    const Ggx facets{alpha, alpha};
-    const Coat coat(1.5f, facets, layer), any(1.5f, layer);
+    const Microfacets facets{alpha, alpha};
+    const Coat coat(1.5f, {facets}, layer), any(1.5f, {{}, true}, layer);
     const DiffuseBsdf base{{reflectance, reflectance, reflectance}};
     for (const float cosine : {0.95f, 0.6f, 0.25f, 0.1f}) {
         const double expected = walked_albedo({1.5f, facets}, base, layer, from_above(cosine));
@@ -81,12 +81,12 @@ TEST_P(OfACoat, OnADiffuseBaseTheAlbedoIsThatOfAWalkBetweenTheLayers) {
 
 TEST_P(OfACoat, OnMetalTheAlbedoIsThatOfAWalkBetweenTheLayers) {
     const auto [alpha, reflectance, layer, of_diffuse, tolerance] = GetParam();
-    const Ggx above{alpha, alpha};
-    const Coat coat(1.5f, above, layer);
+    const Microfacets above{alpha, alpha};
+    const Coat coat(1.5f, {above}, layer);
     const Rgb k = absorption_for({reflectance, reflectance, reflectance});
-    for (const Ggx below : {Ggx{0.1f, 0.1f}, Ggx{0.3f, 0.3f}, Ggx{}}) {
+    for (const Microfacets below : {Microfacets{0.1f, 0.1f}, Microfacets{0.3f, 0.3f}, Microfacets{}}) {
         const ConductorBsdf metal{{1, 1, 1}, k, below}, seen{{1, 1, 1}, k, seen_through(below, above, 1.5f)};
-        const CoatedMetal both(coat, above, below);
+        const CoatedMetal both(coat, {above}, {below});
         for (const float cosine : {0.95f, 0.6f, 0.25f, 0.1f}) {
             const double expected = walked_albedo({1.5f, above}, metal, layer, from_above(cosine));
             EXPECT_NEAR(albedo(CoatedConductorBsdf{seen, &coat, above, &both, below}, from_above(cosine)), expected,
@@ -108,15 +108,16 @@ INSTANTIATE_TEST_SUITE_P(Layers, OfACoat,
 
 TEST(Coats, AreMadeOncePerKind) {
     Coats coats;
-    const Ggx rough{0.2f, 0.2f};
+    const FacetRange rough{{0.2f, 0.2f}};
     const Coat& first = coats.coat(1.5f, rough, {0.01f, 5});
     EXPECT_EQ(&first, &coats.coat(1.5f, rough, {0.01f, 5}));
     EXPECT_NE(&first, &coats.coat(1.5f, rough, {0.01f, 4}));
-    EXPECT_NE(&first, &coats.coat(1.5f, std::nullopt, {0.01f, 5}));
+    EXPECT_NE(&first, &coats.coat(1.5f, {{}, true}, {0.01f, 5}));
+    EXPECT_NE(&first, &coats.coat(1.5f, {{0.2f, 0.2f, {FacetLaw::Normals::beckmann}}}, {0.01f, 5}));
     const CoatedMetal* over = coats.over_metal(first, rough, rough);
     EXPECT_EQ(over, coats.over_metal(first, rough, rough));
-    EXPECT_NE(over, coats.over_metal(first, rough, Ggx{}));
-    EXPECT_EQ(coats.over_metal(coats.coat(1.5f, Ggx{}, {}), Ggx{}, Ggx{}), nullptr);
+    EXPECT_NE(over, coats.over_metal(first, rough, {}));
+    EXPECT_EQ(coats.over_metal(coats.coat(1.5f, {}, {}), {}, {}), nullptr);
 }
 
 }  // namespace

@@ -13,18 +13,21 @@
 namespace lightnet::models_test {
 namespace {
 
-const Coat smooth_coat(1.5f, Ggx{}), rough_coat(1.5f, Ggx{0.3f, 0.3f}), any_coat(1.5f),
-    grooved_coat(1.5f, Ggx{0.1f, 0.5f});
-const CoatedMetal mirror_below(smooth_coat, Ggx{}, Ggx{}), metal_below(smooth_coat, Ggx{}, Ggx{0.2f, 0.2f}),
-    grooves_below(rough_coat, Ggx{0.3f, 0.3f}, Ggx{0.2f, 0.4f}), any_below(any_coat, std::nullopt, std::nullopt);
+constexpr FacetLaw beckmann{FacetLaw::Normals::beckmann},
+    mitsubas{FacetLaw::Normals::beckmann, FacetLaw::Masking::independent};
+const FacetRange any_ggx{{}, true};
+const Coat smooth_coat(1.5f, {}), rough_coat(1.5f, {{0.3f, 0.3f}}), any_coat(1.5f, any_ggx),
+    grooved_coat(1.5f, {{0.1f, 0.5f}}), beckmann_coat(1.5f, {{0.3f, 0.3f, mitsubas}});
+const CoatedMetal mirror_below(smooth_coat, {}, {}), metal_below(smooth_coat, {}, {{0.2f, 0.2f}}),
+    grooves_below(rough_coat, {{0.3f, 0.3f}}, {{0.2f, 0.4f}}), any_below(any_coat, any_ggx, any_ggx);
 const ConductorBsdf copper{{0.2f, 0.9f, 1.1f}, {3.9f, 2.4f, 2.2f}};
 
-Bsdf::Model lacquered(const Coat& coat, const CoatedMetal& both, Ggx below, Ggx above = {}) {
+Bsdf::Model lacquered(const Coat& coat, const CoatedMetal& both, Microfacets below, Microfacets above = {}) {
     const ConductorBsdf metal{copper.eta / 1.5f, copper.k / 1.5f, seen_through(below, above, 1.5f)};
     return CoatedConductorBsdf{metal, &coat, above, &both, below};
 }
 
-PrincipledBsdf principled(float metallic, float transmission, Ggx facets, bool thin = true) {
+PrincipledBsdf principled(float metallic, float transmission, Microfacets facets, bool thin = true) {
     PrincipledBsdf model;
     model.base = {0.8f, 0.5f, 0.2f};
     model.metallic = metallic;
@@ -74,9 +77,15 @@ const std::vector<Case> cases{
     {"mirror", ConductorBsdf{{1, 1, 1}, absorption_for({0.9f, 0.8f, 0.7f}), {}}},
     {"rough_conductor", ConductorBsdf{copper.eta, copper.k, {0.3f, 0.3f}}},
     {"anisotropic_conductor", ConductorBsdf{copper.eta, copper.k, {0.1f, 0.5f}}},
+    {"beckmann_conductor", ConductorBsdf{copper.eta, copper.k, {0.3f, 0.3f, beckmann}}},
+    {"very_rough_beckmann_conductor", ConductorBsdf{copper.eta, copper.k, {0.9f, 0.9f, beckmann}}},
+    {"anisotropic_beckmann_conductor", ConductorBsdf{copper.eta, copper.k, {0.1f, 0.5f, mitsubas}}},
+    {"conductor_of_independent_masking",
+     ConductorBsdf{copper.eta, copper.k, {0.4f, 0.4f, {FacetLaw::Normals::ggx, FacetLaw::Masking::independent}}}},
     {"tinted_conductor", ConductorBsdf{copper.eta, copper.k, {0.6f, 0.6f}, {0.5f, 0.7f, 1}}},
     {"glass", DielectricBsdf{1.5f, {}}},
     {"rough_glass", DielectricBsdf{1.5f, {0.3f, 0.3f}}},
+    {"beckmann_glass", DielectricBsdf{1.5f, {0.3f, 0.3f, mitsubas}}},
     {"anisotropic_glass", DielectricBsdf{1.5f, {0.15f, 0.4f}}},
     {"tinted_glass", DielectricBsdf{1.5f, {}, {{0.5f, 0.6f, 0.7f}, {0.9f, 0.8f, 0.3f}}}},
     {"tinted_rough_glass", DielectricBsdf{1.33f, {0.3f, 0.3f}, {{0.5f, 0.6f, 0.7f}, {0.9f, 0.8f, 0.3f}}}},
@@ -84,6 +93,7 @@ const std::vector<Case> cases{
     {"tinted_pane", ThinDielectricBsdf{1.5f, {{0.5f, 0.6f, 0.7f}, {0.9f, 0.8f, 0.3f}}}},
     {"plastic", CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &smooth_coat}},
     {"rough_plastic", CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &rough_coat, {0.3f, 0.3f}}},
+    {"beckmann_plastic", CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &beckmann_coat, {0.3f, 0.3f, mitsubas}}},
     {"plastic_of_any_roughness", CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &any_coat, {0.2f, 0.2f}, {0.9f, 0.8f, 0.7f}}},
     {"plastic_of_one_hue", CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &smooth_coat, {}, {1, 1, 1}, false}},
     {"plastic_with_grooves", CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &grooved_coat, {0.1f, 0.5f}}},
@@ -190,7 +200,7 @@ TEST_P(EveryModel, WeightIsValueOverDensity) {
 
 // Pearson's test on cells of equal solid angle; cells with few expected samples are put together.
 TEST_P(EveryModel, PassesTheChiSquareTest) {
-    constexpr int rows = 20, columns = 20, fine = 8;
+    constexpr int rows = 20, columns = 20, fine = 16;
     for (const Vec3 o : outgoing()) {
         std::vector<double> seen(rows * columns), expected(rows * columns);
         for (std::uint32_t i = 0; i < tries; ++i) {

@@ -43,7 +43,7 @@ TEST(Dielectric, RefractsBySnellAndSqueezesRadiance) {
 }
 
 TEST(CoatedDiffuse, WhiteBaseUnderASmoothCoatReflectsAll) {
-    const Coat coat(1.5f, Ggx{});
+    const Coat coat(1.5f, {});
     const Bsdf bsdf(upright, {0, 0, 1}, CoatedDiffuseBsdf{{1, 1, 1}, &coat});
     for (const float cosine : {0.9f, 0.5f, 0.2f}) {
         double sum = 0;

@@ -1,0 +1,45 @@
+// What the places of a host are at and have done so far: for those who watch a run.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lightnet {
+
+/// How often, when a place was looked at, it worked on a node, on its own messages, waited for answers, or had nothing
+/// to do.
+struct PlaceFigures {
+    std::uint64_t busy = 0, asking = 0, waiting = 0, idle = 0;
+    friend bool operator==(const PlaceFigures&, const PlaceFigures&) = default;
+};
+
+/// Of one node, over all places of a host.
+struct NodeFigures {
+    std::uint64_t looks = 0;    // at places that worked on it, and on nobody whom it called
+    std::uint64_t waiting = 0;  // questions now
+    // What places of this host sent to it elsewhere.
+    std::uint64_t bundles = 0, questions = 0;
+    std::uint64_t bytes = 0;        // of questions and answers, as they lie in memory
+    std::uint64_t nanoseconds = 0;  // from sending to the answer, over all bundles that are answered
+    std::uint64_t answered = 0;     // bundles
+
+    NodeFigures& operator+=(const NodeFigures& more);
+    friend bool operator==(const NodeFigures&, const NodeFigures&) = default;
+};
+
+/// A value. Counts only grow, but for what waits.
+struct HostFigures {
+    std::vector<PlaceFigures> places;  // by index
+    std::vector<NodeFigures> nodes;    // as in the graph
+    std::vector<std::uint64_t> edges;  // questions asked along each, called or sent; see asking_edges()
+    friend bool operator==(const HostFigures&, const HostFigures&) = default;
+};
+
+/// As they ride on heartbeats, and back. None: damaged, or larger than any host's.
+std::string to_text(const HostFigures& figures);
+std::optional<HostFigures> figures_from(std::string_view text);
+
+}  // namespace lightnet

@@ -1,0 +1,45 @@
+#include "core/run/message/place_record.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/json.hpp"
+
+namespace lightnet {
+
+// Lists of numbers in the order of the members: many hosts send one at the same time.
+std::string to_text(const std::vector<PlaceRecord>& records) {
+    using Tree = nlohmann::json;
+    Tree all = Tree::array();
+    for (const auto& record : records) {
+        Tree nodes = Tree::array(), edges = Tree::array();
+        for (const auto& [name, node] : record.nodes)
+            nodes.push_back({name, node.answered, node.busy_ns, node.bundles, node.replies, node.latency_ns});
+        for (const auto& [ends, edge] : record.edges)
+            edges.push_back({ends.first, ends.second, edge.asks, edge.questions, edge.called_ns, edge.waited_ns});
+        all.push_back({record.host, record.index, record.lived_ns, record.waited_ns, record.idle_ns, std::move(nodes),
+                       std::move(edges)});
+    }
+    return all.dump(-1, ' ', false, Tree::error_handler_t::replace);
+}
+
+std::vector<PlaceRecord> place_records_from(std::string_view text) {
+    std::vector<PlaceRecord> records;
+    const auto count = [](const Json& json) { return json.whole<std::uint64_t>(); };
+    const Json json = parse_json(text);
+    for (const auto& place : json.list()) {
+        const auto& part = place.list(7);
+        auto& record = records.emplace_back(PlaceRecord{
+            part[0].text(), part[1].whole<std::uint32_t>(), count(part[2]), count(part[3]), count(part[4]), {}, {}});
+        for (const auto& node : part[5].list()) {
+            const auto& one = node.list(6);
+            record.nodes[one[0].text()] = {count(one[1]), count(one[2]), count(one[3]), count(one[4]), count(one[5])};
+        }
+        for (const auto& edge : part[6].list()) {
+            const auto& one = edge.list(6);
+            record.edges[{one[0].text(), one[1].text()}] = {count(one[2]), count(one[3]), count(one[4]), count(one[5])};
+        }
+    }
+    return records;
+}
+
+}  // namespace lightnet

@@ -1,0 +1,47 @@
+// What one place did in a run: per node and per edge of the graph.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace lightnet {
+
+/// From a node to one that it asks.
+struct EdgeRecord {
+    std::uint64_t asks = 0;       // calls of the asker that asked
+    std::uint64_t questions = 0;  // in them
+    std::uint64_t called_ns = 0;  // running, in a node of this place that was called, and those that it called
+    std::uint64_t waited_ns = 0;  // for answers of other places; others may have run meanwhile
+    friend bool operator==(const EdgeRecord&, const EdgeRecord&) = default;
+};
+
+struct NodeRecord {
+    std::uint64_t answered = 0;    // work that other places, or the launcher, asked: questions, blocks of tiles, shards
+    std::uint64_t busy_ns = 0;     // running for it, with the nodes that were called
+    std::uint64_t bundles = 0;     // that this place sent to others for this node
+    std::uint64_t replies = 0;     // that were answered
+    std::uint64_t latency_ns = 0;  // from sending to the answer, of all of them together
+    friend bool operator==(const NodeRecord&, const NodeRecord&) = default;
+};
+
+/// A value; travels as text. Times are nanoseconds.
+struct PlaceRecord {
+    std::string host;  // as in plans; "": the launcher's process
+    std::uint32_t index = 0;
+    std::uint64_t lived_ns = 0;   // serving
+    std::uint64_t waited_ns = 0;  // of it: with work that waits for answers of others, and nothing else to do
+    std::uint64_t idle_ns = 0;    // of it: with no work at all
+    std::map<std::string, NodeRecord> nodes;
+    std::map<std::pair<std::string, std::string>, EdgeRecord> edges;  // asker, asked
+    friend bool operator==(const PlaceRecord&, const PlaceRecord&) = default;
+};
+
+std::string to_text(const std::vector<PlaceRecord>& records);
+/// Reads it back. Throws Error on anything else.
+std::vector<PlaceRecord> place_records_from(std::string_view text);
+
+}  // namespace lightnet

@@ -1,0 +1,76 @@
+// What a place is at, for others to look at while it works.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/network/graph/kind.hpp"
+#include "core/network/graph/plan.hpp"
+
+namespace lightnet {
+
+/// Who asks whom.
+struct AskingEdge {
+    std::size_t from = 0, to = 0;  // nodes
+    friend bool operator==(const AskingEdge&, const AskingEdge&) = default;
+};
+/// Of a checked graph: node by node, its inputs, and what the renderer shows beside them.
+std::vector<AskingEdge> asking_edges(const Graph& graph, const Layers& layers, const Registry& registry);
+
+/// Written by one thread, the place's, and read by any: each number for itself, none of them waits for another. Costs
+/// the writer hardly more than ordinary variables.
+class Gauge {
+public:
+    /// What a place is at: a node (from first_node on), or one of these.
+    enum Doing : std::uint16_t { idle, waiting, asking, first_node };
+    static Doing at(std::size_t node) { return static_cast<Doing>(first_node + node); }
+
+    class Count {
+    public:
+        void add(std::uint64_t more) { set(get() + more); }
+        void set(std::uint64_t value) { value_.store(value, std::memory_order_relaxed); }
+        std::uint64_t get() const { return value_.load(std::memory_order_relaxed); }
+
+    private:
+        std::atomic<std::uint64_t> value_{0};
+    };
+    /// See NodeFigures.
+    struct Node {
+        Count waiting, bundles, questions, bytes, nanoseconds, answered;
+    };
+
+    Gauge(std::size_t node_count, std::size_t edge_count) : nodes(node_count), edges(edge_count) {}
+
+    /// Returns what it was at.
+    Doing turn_to(Doing doing) {
+        const Doing before = this->doing();
+        doing_.store(doing, std::memory_order_relaxed);
+        return before;
+    }
+    Doing doing() const { return static_cast<Doing>(doing_.load(std::memory_order_relaxed)); }
+    /// For Fibers::show().
+    std::atomic<std::uint16_t>& shown() { return doing_; }
+
+    std::vector<Node> nodes;
+    std::vector<Count> edges;  // questions, by asking_edges()
+
+private:
+    std::atomic<std::uint16_t> doing_{idle};
+};
+
+/// Until the end of a block, a place is at something else.
+class Turned {
+public:
+    Turned(Gauge& gauge, Gauge::Doing doing) : gauge_(gauge), before_(gauge.turn_to(doing)) {}
+    ~Turned() { gauge_.turn_to(before_); }
+    Turned(const Turned&) = delete;
+    Turned& operator=(const Turned&) = delete;
+
+private:
+    Gauge& gauge_;
+    Gauge::Doing before_;
+};
+
+}  // namespace lightnet

@@ -1,0 +1,169 @@
+#include "core/run/prepare/shard_dealer.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/run/schedule/guided.hpp"
+
+namespace lightnet {
+namespace {
+
+constexpr Credit credit_of_each{2, ~std::size_t{0}, ~std::size_t{0}};  // an ask to work at, and one that waits
+constexpr std::size_t shares = 3;                                      // for each copy, see guided_share()
+constexpr int bits_of_a_copy = 40;
+
+Scheduler::Rules rules_of_shards() {
+    Scheduler::Rules rules;
+    rules.last_to_idle = true;
+    rules.double_tail = true;
+    rules.tail_part = 1;  // nobody has anything else to do
+    return rules;
+}
+
+}  // namespace
+
+ShardDealer::ShardDealer() : scheduler_(rules_of_shards()) {}
+
+void ShardDealer::begin(std::uint32_t count) {
+    const auto round = rounds_ + 1;
+    *this = ShardDealer();
+    rounds_ = round;
+    for (std::uint32_t shard = 0; shard < count; ++shard) to_do_.push_back(shard);
+}
+
+ShardDealer::Actions ShardDealer::tell(const Scheduler::Event& event, Time now) {
+    Actions actions;
+    scheduler_.on(event, now, actions);
+    for (const auto& action : actions)
+        if (const auto* verdict = std::get_if<Scheduler::SetAside>(&action)) set_aside(*verdict);
+    return actions;
+}
+
+// ---- who does them ----
+
+void ShardDealer::join(const NodeCopy& copy, std::uint64_t process, Time now) {
+    if (const auto known = joined_.find(copy); known != joined_.end()) {
+        if (draining_.erase(copy)) tell(Scheduler::Draining{known->second, false}, now);
+        return;
+    }
+    const auto replica = static_cast<Scheduler::Replica>(copies_.size());
+    copies_.push_back(copy);
+    joined_.emplace(copy, replica);
+    auto host = std::find(hosts_.begin(), hosts_.end(), copy.place.host);
+    if (host == hosts_.end()) host = hosts_.insert(host, copy.place.host);
+    tell(Scheduler::Joined{replica, static_cast<Scheduler::Host>(host - hosts_.begin()), replica + 1, credit_of_each,
+                           process},
+         now);
+}
+
+void ShardDealer::keep(const Plan& plan, const std::set<NodeCopy>& there, Time now) {
+    const std::set<PlaceAt> places(plan.places.begin(), plan.places.end());
+    Scheduler::Gone died{{}, true}, left{{}, false};
+    for (auto entry = joined_.begin(); entry != joined_.end();) {
+        const auto& [copy, replica] = *entry;
+        const bool stays = there.contains(copy);
+        if (places.contains(copy.place)) {
+            if (!stays && draining_.insert(copy).second) tell(Scheduler::Draining{replica, true}, now);
+            if (stays && draining_.erase(copy)) tell(Scheduler::Draining{replica, false}, now);
+            ++entry;
+            continue;
+        }
+        (draining_.erase(copy) ? left : died).replicas.push_back(replica);
+        entry = joined_.erase(entry);
+    }
+    for (const auto& gone : {left, died})
+        if (!gone.replicas.empty()) tell(gone, now);
+}
+
+// ---- the way there ----
+
+std::vector<ShardDealer::Deal> ShardDealer::deal(std::size_t copies, Time now) {
+    std::vector<Deal> deals;
+    for (bool more = true; more;) {
+        more = (!to_do_.empty() || !alone_.empty()) && scheduler_.has_room();
+        if (more) {
+            const Shards some = take_next(copies);
+            works_.emplace(next_work_, some);
+            tell(Scheduler::Added{next_work_++, some.count}, now);
+        }
+        tell(Scheduler::Foreseen{to_do_.size() + alone_.size()}, now);
+        for (const auto& action : tell(Scheduler::Tick{}, now))
+            if (const auto* send = std::get_if<Scheduler::Send>(&action))
+                deals.push_back(
+                    {rounds_ << bits_of_a_copy | send->copy, copies_[send->replica], works_.at(send->work)});
+    }
+    return deals;
+}
+
+Shards ShardDealer::take_next(std::size_t copies) {
+    if (!alone_.empty()) {
+        const Shards some{alone_.back(), 1};
+        alone_.pop_back();
+        return some;
+    }
+    const auto most = std::max<std::size_t>(1, guided_share(to_do_.size(), std::max<std::size_t>(1, copies), shares));
+    Shards some{to_do_.front(), 0};
+    while (!to_do_.empty() && to_do_.front() == some.first + some.count && some.count < most) {
+        to_do_.pop_front();
+        ++some.count;
+    }
+    return some;
+}
+
+void ShardDealer::put_back(const Shards& shards) {
+    for (auto shard = shards.first + shards.count; shard-- > shards.first;) to_do_.push_front(shard);
+}
+
+void ShardDealer::refused(CopyId id, Time now) {
+    if (const auto copy = known(id)) tell(Scheduler::Refused{*copy}, now);
+}
+
+// ---- the way back ----
+
+std::optional<Scheduler::CopyId> ShardDealer::known(CopyId id) const {
+    const Scheduler::CopyId copy = id & ((CopyId{1} << bits_of_a_copy) - 1);
+    return id >> bits_of_a_copy == rounds_ && scheduler_.work_of(copy) ? std::optional(copy) : std::nullopt;
+}
+
+std::optional<Shards> ShardDealer::shards_of(CopyId id) const {
+    const auto copy = known(id);
+    const auto work = copy ? works_.find(*scheduler_.work_of(*copy)) : works_.end();
+    return work == works_.end() ? std::nullopt : std::optional(work->second);
+}
+
+bool ShardDealer::answered(CopyId id, std::uint32_t done, Time now) {
+    const auto copy = known(id);
+    if (!copy) return false;
+    for (const auto& action : tell(Scheduler::Replied{.copy = *copy, .answered = done}, now))
+        if (const auto* accept = std::get_if<Scheduler::Accept>(&action)) {
+            const Shards shards = works_.extract(accept->work).mapped();
+            put_back({shards.first + done, shards.count - done});
+            return true;
+        }
+    return false;
+}
+
+bool ShardDealer::failed(CopyId id, Time now) {
+    const auto copy = known(id);
+    if (!copy) return false;
+    for (const auto& action : tell(Scheduler::Failed{*copy}, now)) {
+        if (std::holds_alternative<Scheduler::Drop>(action)) return false;
+        // Nobody else has joined so far.
+        if (const auto* hopeless = std::get_if<Scheduler::GiveUp>(&action))
+            put_back(works_.extract(hopeless->work).mapped());
+    }
+    return true;
+}
+
+// Of several, one may be to blame: each is tried alone.
+void ShardDealer::set_aside(const Scheduler::SetAside& verdict) {
+    const Shards shards = works_.extract(verdict.work).mapped();
+    if (shards.count > 1) {
+        for (auto shard = shards.first + shards.count; shard-- > shards.first;) alone_.push_back(shard);
+        return;
+    }
+    convicted_ = Convicted{shards.first, {}};
+    for (const auto host : verdict.died) convicted_->hosts.push_back(hosts_[host]);
+}
+
+}  // namespace lightnet

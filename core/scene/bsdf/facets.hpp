@@ -1,0 +1,42 @@
+// Reflection and refraction by microfacets, without Fresnel's terms: what rough models share. Walter et al. 2007.
+#pragma once
+
+#include <cmath>
+
+#include "core/scene/bsdf/fresnel.hpp"
+#include "core/scene/bsdf/microfacets.hpp"
+
+namespace lightnet {
+
+/// What microfacets send from `incoming` to `outgoing`, were they perfect mirrors or perfect windows.
+struct Facets {
+    float value = 0;   // f × |cos incoming|, sr⁻¹; 0: no facet does
+    float pdf = 0;     // of `incoming`, by visible normals, per steradian
+    float cosine = 0;  // between outgoing and the facet's normal; below 0 from behind the surface
+};
+
+/// Both directions lie above the surface.
+inline Facets reflection(const Microfacets& facets, Vec3 outgoing, Vec3 incoming) {
+    const Vec3 m = normalize(outgoing + incoming);
+    const float cosine = dot(outgoing, m);
+    if (!(cosine > 0)) return {};
+    const float both = facets.density(m) / (4 * outgoing.z);
+    const float lambda_o = facets.lambda(outgoing), lambda_i = facets.lambda(incoming);
+    return {both * facets.visible_to_both(lambda_o, lambda_i), both / (1 + lambda_o), cosine};
+}
+
+/// The directions lie on different sides; `eta` inside over outside. The value holds the squeezing of radiance.
+inline Facets refraction(const Microfacets& facets, Vec3 outgoing, Vec3 incoming, float eta) {
+    const float relative = outgoing.z > 0 ? eta : 1 / eta;
+    Vec3 m = incoming * relative + outgoing;
+    if (length_squared(m) == 0) return {};
+    m = normalize(m);
+    if (m.z < 0) m = -m;
+    const float o_m = dot(outgoing, m), i_m = dot(incoming, m);
+    if (o_m * outgoing.z <= 0 || i_m * incoming.z <= 0) return {};  // the facet is seen from behind
+    const float root = i_m + o_m / relative;
+    const float both = facets.density(m) * std::fabs(i_m * o_m / (root * root * outgoing.z));
+    return {both * facets.visible(outgoing, incoming) / (relative * relative), both * facets.visible(outgoing), o_m};
+}
+
+}  // namespace lightnet

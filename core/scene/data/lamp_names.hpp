@@ -1,0 +1,38 @@
+// How lamps are called, and sorted into groups.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/scene/data/scene_data.hpp"
+
+namespace lightnet {
+
+/// Lamps that a user can't tell apart by name, as one.
+struct NamedLamp {
+    std::vector<std::string> names;  // it goes by any of them; the first is how it is called
+    std::string what;                // "shape", "spot", "point", "sun", "environment"
+    std::size_t count = 1;
+    std::uint32_t group = 0;  // index into SceneData::groups
+};
+
+/// All lamps of a scene: shapes that shine in the order of the file, then lights without a shape, then what is around
+/// the scene, which is one lamp called `environment`. A shape goes by the name of its emitter, by its own and by that
+/// of its material. What has no name is called by what it is: lamp, spot, point, sun; the second one spot2, and so on.
+std::vector<NamedLamp> lamps_of(const SceneData& scene);
+
+/// Lamps whose light is kept apart, or looked for alone.
+struct LampGroup {
+    std::string name;
+    std::vector<std::string> lamps;  // names, * for any part of one
+};
+
+/// Sorts all lamps into these groups, behind which comes `rest`. Returns what is wrong, one sentence each: a name that
+/// no lamp has, a group without a lamp, a lamp in two groups.
+std::vector<std::string> sort_lamps(SceneData& scene, const std::vector<LampGroup>& groups);
+
+/// Is the name the one that is asked for, or of its form ("chair*")?
+bool goes_by(const std::string& name, const std::string& wanted);
+
+}  // namespace lightnet

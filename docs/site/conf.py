@@ -1,0 +1,11 @@
+# How the site is made: tools/site.sh.
+project = "lightnet"
+extensions = ["myst_parser"]
+html_theme = "furo"
+html_title = "lightnet"
+html_copy_source = False
+html_show_sphinx = False
+myst_heading_anchors = 4
+# What is no page of the site, but of the tree, is named by its path in the text; links to folders and code stay as they are.
+suppress_warnings = ["myst.header"]
+pygments_style = "friendly"

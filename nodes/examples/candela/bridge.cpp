@@ -1,0 +1,183 @@
+// Introduces the library Candela, which stays as it is, to lightnet: once for all of its classes, then a line for each.
+#include "core/network/light/wrap.hpp"
+#include "core/scene/scene.hpp"
+#include "core/scene/surface_lookup.hpp"
+#include "nodes/examples/candela/candela.hpp"
+#include "nodes/examples/candela/candela_kinds.hpp"
+
+namespace lightnet {
+namespace {
+
+candela::Vec theirs(Vec3 v) { return {v.x, v.y, v.z}; }
+candela::Colour theirs(Rgb c) { return {c.r, c.g, c.b}; }
+Vec3 ours(const candela::Vec& v) { return {float(v.x), float(v.y), float(v.z)}; }
+Rgb ours(const candela::Colour& c) { return {float(c.red), float(c.green), float(c.blue)}; }
+
+/// `outgoing` leads to where it is seen from.
+candela::Spot spot_of(const Scene& scene, const SurfacePoint& point, Vec3 outgoing) {
+    const Bsdf bsdf = scene.bsdf(point);
+    const Vec3 normal = dot(point.shading.z, outgoing) < 0 ? -point.shading.z : point.shading.z;
+    candela::Spot spot;
+    spot.where = theirs(point.position);
+    spot.normal = theirs(normal);
+    spot.paint = theirs(bsdf.evaluate(normal, normal, lobe::rough) * pi);
+    if (const auto mirrored = bsdf.sample(outgoing, 0, {}, lobe::specular))
+        if (dot(mirrored->incoming, normal) > 0) spot.gloss = theirs(mirrored->weight);
+    spot.shine = theirs(scene.emission(point, outgoing));
+    return spot;
+}
+
+/// The library's view of a scene.
+class World final : public candela::Tracer, public candela::Lamps {
+public:
+    World(const Scene& scene, SurfaceLookup& lookup) : scene_(scene), lookup_(lookup) {}
+
+    bool nearest(const candela::Vec& from, const candela::Vec& towards, candela::Spot& spot) override {
+        const Vec3 direction = normalize(ours(towards));
+        const auto hit = scene_.intersect(Ray{lookup_.origin(ours(from), direction), direction});
+        if (hit) spot = spot_of(scene_, lookup_.point(*hit), -direction);
+        return hit.has_value();
+    }
+    bool blocked(const candela::Vec& from, const candela::Vec& to) override {
+        const Vec3 direction = normalize(ours(to) - ours(from));
+        return scene_.occluded(ray_between(lookup_.origin(ours(from), direction), ours(to), direction));
+    }
+    candela::Colour sky(const candela::Vec& towards) override { return theirs(scene_.environment(ours(towards))); }
+
+    bool choose(const candela::Vec& from, const double (&numbers)[3], candela::LampPoint& point) override {
+        const auto lamp = scene_.sample_light(ours(from), float(numbers[0]), {float(numbers[1]), float(numbers[2])});
+        if (lamp) point = {theirs(lamp->position), theirs(lamp->direction), theirs(lamp->radiance), lamp->pdf};
+        return lamp.has_value();
+    }
+
+private:
+    const Scene& scene_;
+    SurfaceLookup& lookup_;
+};
+
+/// An input of the node, as the library knows it: asked about one spot at a time.
+class InputGlow final : public candela::Glow {
+public:
+    InputGlow(OneByOne& inputs, const SurfaceLookup& lookup) : inputs_(inputs), lookup_(lookup) {}
+    candela::Colour glow(const candela::Spot& spot, const candela::Vec& towards_eye) override {
+        const Vec3 outgoing = normalize(ours(towards_eye));
+        return theirs(inputs_.ask(0, lookup_.question(ours(spot.where), ours(spot.normal), outgoing)));
+    }
+
+private:
+    OneByOne& inputs_;
+    const SurfaceLookup& lookup_;
+};
+
+/// What an instance of any of its classes finds around it.
+struct Surroundings {
+    Surroundings(const NodeContext& here, OneByOne& inputs)
+        : lookup(here.scene()), world(here.scene(), lookup), input(inputs, lookup) {}
+    SurfaceLookup lookup;
+    World world;
+    InputGlow input;
+    candela::Dice dice;
+};
+
+template <class T>
+T made(const NodeContext& here, Surroundings& around);
+
+template <>
+candela::OpenGlow made(const NodeContext& here, Surroundings& around) {
+    return {around.world, static_cast<int>(here.integer("rays")), here.number("near")};
+}
+template <>
+candela::DirectGlow made(const NodeContext& here, Surroundings& around) {
+    return {around.world, around.world, around.dice, static_cast<int>(here.integer("rays"))};
+}
+template <>
+candela::GatheredGlow made(const NodeContext& here, Surroundings& around) {
+    return {around.world, around.input, around.dice, static_cast<int>(here.integer("rays"))};
+}
+template <>
+candela::DimmedGlow made(const NodeContext& here, Surroundings& around) {
+    return {around.input, here.number("strength"), here.number("limit")};
+}
+template <>
+candela::Eye made(const NodeContext& here, Surroundings& around) {
+    return {around.world, around.input, static_cast<int>(here.integer("mirrors"))};
+}
+
+}  // namespace
+
+/// All classes of the library that glow.
+template <std::derived_from<candela::Glow> T>
+struct Bridge<T> {
+    Bridge(const NodeContext& here, OneByOne& inputs)
+        : scene_(here.scene()), inputs_(inputs), around_(here, inputs), instance_(made<T>(here, around_)) {}
+
+    Rgb light(const Query& question) {
+        around_.lookup.forget();
+        if constexpr (std::same_as<T, candela::OpenGlow>)
+            candela::seed_chance(inputs_.seed());
+        else
+            around_.dice.seed(inputs_.seed());
+        const candela::Spot spot = spot_of(scene_, around_.lookup.point(question), question.outgoing);
+        return ours(instance_.glow(spot, theirs(question.outgoing)));
+    }
+
+private:
+    const Scene& scene_;
+    OneByOne& inputs_;
+    Surroundings around_;
+    T instance_;
+};
+
+template <>
+struct Bridge<candela::Eye> {
+    Bridge(const NodeContext& here, OneByOne& inputs)
+        : scene_(here.scene()), around_(here, inputs), instance_(made<candela::Eye>(here, around_)) {}
+
+    Rgb sample(const PixelSample& at) {
+        around_.lookup.forget();
+        const Ray ray = scene_.camera().ray(at.x, at.y);
+        return ours(instance_.see(theirs(ray.origin), theirs(ray.direction)));
+    }
+
+private:
+    const Scene& scene_;
+    Surroundings around_;
+    candela::Eye instance_;
+};
+
+namespace {
+
+Param count(const char* name, const char* help, double initial) {
+    return {
+        .name = name, .type = ParamType::integer, .help = help, .initial = Value{initial}, .least = 1, .most = 65536};
+}
+Param amount(const char* name, const char* help, double initial) {
+    return {.name = name, .help = help, .initial = Value{initial}, .least = 0};
+}
+
+}  // namespace
+
+std::vector<Kind> candela_kinds() {
+    return {
+        wrap<candela::DirectGlow>("CandelaDirect",
+                                  {.help = "wrapped example: light straight from lamps, on matt surfaces",
+                                   .params = {count("rays", "points on lamps per question", 1)}}),
+        wrap<candela::GatheredGlow>("CandelaGathered",
+                                    {.help = "wrapped example: light that matt surroundings scatter once",
+                                     .inputs = {1, 1},
+                                     .params = {count("rays", "directions per question", 16)}}),
+        wrap<candela::DimmedGlow>("CandelaDimmed", {.help = "wrapped example: a part of its input, up to a limit",
+                                                    .inputs = {1, 1},
+                                                    .params = {amount("strength", "the part", 1),
+                                                               amount("limit", "the most radiance", 1000)}}),
+        wrap<candela::OpenGlow>("CandelaOpen", {.help = "wrapped example: how open it is around a point",
+                                                .params = {count("rays", "directions per question", 8),
+                                                           amount("near", "what keeps light off, scene units", 100)},
+                                                .alone = "chance"}),
+        wrap<candela::Eye>("CandelaEye", {.help = "wrapped example: follows one ray at a time, through mirrors",
+                                          .inputs = {1, 1},
+                                          .params = {count("mirrors", "in a row that are followed", 8)}}),
+    };
+}
+
+}  // namespace lightnet

@@ -1,0 +1,99 @@
+// LIGHTNET_BENCH_SAMPLES changes the samples per pixel.
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <thread>
+
+#include "lua/load_graph.hpp"
+#include "nodes/standard_nodes.hpp"
+#include "tests/bench/daemon.hpp"
+#include "tests/bench/figure.hpp"
+#include "tests/bench/processor_group.hpp"
+#include "tests/bench/stage.hpp"
+#include "tests/bench/table3.hpp"
+#include "tests/support/folder.hpp"
+
+namespace lightnet::bench {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr int rounds = 3;
+// Of the machine's processors; the rest is for the launcher and the system.
+constexpr double part_for_hosts = 0.875;
+
+double capacity() { return part_for_hosts * std::max(1u, std::thread::hardware_concurrency()); }
+
+/// A daemon that computes as quickly as so many of the seven processors.
+struct SlowDaemon {
+    ProcessorGroup group;  // outlives who is in it
+    std::unique_ptr<Daemon> daemon;
+
+    SlowDaemon(const std::string& name, std::uint32_t places, const test::Folder& folder)
+        : group(name, capacity() * places / 7) {
+        if (!group.there()) return;
+        daemon = std::make_unique<Daemon>(LIGHTNET_STARTS_LIGHTNETD, places, folder / name);
+        group.take(daemon->process());
+    }
+};
+
+/// Seconds that one processor computes, while another does the same: cores of a machine share its memory.
+double seconds_of_work(const Registry& registry, const Graph& graph, std::uint64_t seed) {
+    const auto alone = [&] {
+        Stage stage(registry, graph);
+        stage.use_seed(seed);
+        stage.in_threads(1);
+    };
+    const double begun = process_seconds();
+    {
+        const std::jthread beside(alone);
+        alone();
+    }
+    return (process_seconds() - begun) / 2;
+}
+
+double seconds_of_run(Stage& stage, const Registry& registry, const std::vector<std::string>& endpoints,
+                      const Hosts& hosts, std::uint64_t run) {
+    auto options = stage.options(endpoints, run);
+    const Graph graph = options.job.graph;
+    options.plan = [&](const std::vector<HostOffer>& offers) { return plan(graph, registry, hosts, offers); };
+    Cluster cluster(std::move(options));
+    const std::atomic<bool> never{false};
+    cluster.gather(20s, never);
+    cluster.adopt(cluster.plan());
+    const Rendered made = stage.on(cluster, run);
+    cluster.finish();
+    std::printf("  table3.real: %.2f s on three daemons, %.2f of them to prepare\n", made.seconds, made.preparing);
+    return made.seconds;
+}
+
+}  // namespace
+
+void measure_real_hosts() {
+    const char* name = "table3.real";
+    const test::Folder folder;
+    const SlowDaemon one("one", table3_places[0], folder), two("two", table3_places[1], folder),
+        three("three", table3_places[2], folder);
+    if (!one.daemon || !two.daemon || !three.daemon)
+        return not_run(name, "this system limits no process to a part of its processors (control groups)");
+    const std::vector<std::string> endpoints{one.daemon->endpoint(), two.daemon->endpoint(), three.daemon->endpoint()};
+    const Registry registry{standard_nodes()};
+    const char* samples = std::getenv("LIGHTNET_BENCH_SAMPLES");
+    const Graph graph = load_graph(LIGHTNET_SOURCE_DIR "/graphs/paper/figure5.lua",
+                                   LuaOptions{{{"samples", samples ? samples : "64"}}});
+    const Hosts hosts = table3_hosts(endpoints);
+    Stage stage(registry, graph);
+    std::vector<double> efficiency;
+    for (std::uint64_t round = 1; round <= rounds; ++round) {
+        stage.use_seed(round);  // nobody finds what was prepared before
+        const double work = seconds_of_work(registry, graph, round);
+        const double seconds = seconds_of_run(stage, registry, endpoints, hosts, round);
+        std::printf("  table3.real: %.2f s of work, %.2f processors\n", work, capacity());
+        efficiency.push_back(work / (capacity() * seconds));
+    }
+    figure(name, efficiency, 0.9, true);
+}
+
+}  // namespace lightnet::bench

@@ -1,0 +1,94 @@
+// What it costs to be watched: processor time of the same run, not watched at all, with a server that nobody calls, and
+// with a page open that takes all that comes. In turns.
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "tests/bench/figure.hpp"
+#include "tests/support/folder.hpp"
+#include "tests/watch/visitor.hpp"
+#include "transport/start/child.hpp"
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr int rounds = 9;
+
+// What it says until it ends; a page is opened where it says that one can be.
+std::string attended(int out, bool open) {
+    std::string said;
+    std::array<char, 4096> part{};
+    const std::string mark = "watch it at http://127.0.0.1:";
+    while (const auto size = ::read(out, part.data(), part.size())) {
+        if (size < 0) break;
+        said.append(part.data(), static_cast<std::size_t>(size));
+        const auto at = said.find(mark);
+        if (!open || at == std::string::npos || said.find('\n', at) == std::string::npos) continue;
+        open = false;
+        const auto port = static_cast<std::uint16_t>(std::atoi(said.c_str() + at + mark.size()));
+        lightnet::test::Visitor page(port);
+        if (!page.watch("127.0.0.1:" + std::to_string(port))) throw std::runtime_error("the page does not open");
+        while (page.next(30s)) {
+        }
+    }
+    return said;
+}
+
+// Processor seconds of a run.
+double cost_of(const lightnet::test::Folder& folder, bool watched, bool open) {
+    std::vector<std::string> words{"sh",
+                                   "-c",
+                                   "exec \"$0\" \"$@\" 2>&1",  // where to watch it is said there
+                                   LIGHTNET_STARTS_LIGHTNET,
+                                   "run",
+                                   LIGHTNET_SOURCE_DIR "/graphs/cornell.lua",
+                                   "--threads",
+                                   "2",
+                                   "--size",
+                                   "192x192",
+                                   "--samples",
+                                   "128",
+                                   "--forget",
+                                   "-o",
+                                   folder.file("x.exr")};
+    if (watched) words.emplace_back("--watch");
+    int out = -1;
+    const int process = lightnet::spawn(words, &out);
+    const auto said = attended(out, open);
+    ::close(out);
+    int status = 0;
+    rusage used{};
+    if (wait4(process, &status, 0, &used) != process || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
+        throw std::runtime_error("the run failed: " + said);
+    const auto seconds = [](const timeval& time) { return double(time.tv_sec) + 1e-6 * double(time.tv_usec); };
+    return seconds(used.ru_utime) + seconds(used.ru_stime);
+}
+
+}  // namespace
+
+int main() {
+    return lightnet::bench::run("watch", [] {
+        const lightnet::test::Folder folder;
+        cost_of(folder, false, false);  // warms up
+        std::vector<double> plain, open, closed;
+        for (int round = 0; round < rounds; ++round) {
+            const double before = cost_of(folder, false, false);
+            const double with_page = cost_of(folder, true, true), alone = cost_of(folder, true, false);
+            const double usual = (before + cost_of(folder, false, false)) / 2;
+            plain.push_back(usual);
+            open.push_back(with_page / usual - 1);
+            closed.push_back(alone / usual - 1);
+        }
+        lightnet::bench::show("processor seconds, not watched", plain);
+        lightnet::bench::figure("watch.open", open, 0.005, false);
+        lightnet::bench::figure("watch.closed", closed, 0.005, false);
+    });
+}

@@ -1,0 +1,160 @@
+// A browser watches a run on two daemons: browser.mjs PROGRAMS FOLDER [PICTURES]. See browser.sh.
+import { spawn, spawnSync } from "node:child_process";
+import { createRequire } from "node:module";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+import assert from "node:assert/strict";
+
+const here = dirname(fileURLToPath(import.meta.url));
+const { chromium } = createRequire(join(here, "../../tools/watch/page/"))("playwright-core");
+const [programs, folder, pictures] = process.argv.slice(2);
+const graph = join(here, "../../graphs/cornell.lua");
+const children = [];
+const pause = (ms) => new Promise((done) => setTimeout(done, ms));
+
+// A program, and what it has said; waits until that matches.
+function start(program, words) {
+    const child = spawn(join(programs, program), words, { cwd: folder });
+    children.push(child);
+    const one = { child, said: "", code: null };
+    for (const stream of [child.stdout, child.stderr]) stream.on("data", (text) => (one.said += text));
+    one.ended = new Promise((done) => child.on("exit", (code) => done((one.code = code))));
+    one.hears = async (pattern) => {
+        for (let i = 0; i < 300; ++i, await pause(50)) {
+            const found = one.said.match(pattern);
+            if (found) return found;
+        }
+        throw new Error(`no ${pattern} in: ${one.said}`);
+    };
+    return one;
+}
+const daemon = async () => {
+    const one = start("lightnetd", ["--listen", "tcp://127.0.0.1:*", "--places", "1", "--cache", join(folder, "cache")]);
+    one.endpoint = (await one.hears(/listening on (\S+)/))[1];
+    return one;
+};
+const render = (daemons, name, more) => {
+    const hosts = join(folder, "lab.lua");
+    return import("node:fs").then(({ writeFileSync }) => {
+        writeFileSync(hosts, daemons.map(({ endpoint }) => `place "${endpoint}" {}\n`).join(""));
+        return start("lightnet", ["run", graph, "--hosts", hosts, "--watch", "-o", join(folder, name), ...more]);
+    });
+};
+async function shot(page, name, full = true) {
+    if (pictures) await page.screenshot({ path: join(pictures, `${name}.png`), fullPage: full });
+}
+const pixels = (page, testid = "picture") =>
+    page.evaluate((id) => {
+        const canvas = document.querySelector(`[data-testid="${id}"]`);
+        return [...canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data];
+    }, testid);
+const sum = (values) => values.reduce((a, b) => a + b, 0);
+
+const browser = await chromium.launch({ executablePath: process.env.CHROMIUM, args: ["--no-sandbox"] });
+try {
+    const complaints = [], foreign = [];
+    const open = async (url, options = {}) => {
+        const page = await browser.newPage({ viewport: { width: 1400, height: 1000 }, ...options });
+        page.on("pageerror", (error) => complaints.push(error.message));
+        page.on("console", (line) => line.type() === "error" && complaints.push(line.text()));
+        page.on("request", (request) => new URL(request.url()).origin !== new URL(url).origin &&
+            !request.url().startsWith("data:") && foreign.push(request.url()));
+        page.on("dialog", (dialog) => dialog.accept());
+        await page.goto(url);
+        return page;
+    };
+
+    // A run in which a daemon is killed and another one is taken out.
+    const daemons = [await daemon(), await daemon(), await daemon()];
+    const run = await render(daemons, "x.exr", ["--size", "256x256", "--samples", "4096", "--report", join(folder, "run.html")]);
+    const url = (await run.hears(/watch it at (\S+)/))[1];
+    const page = await open(url);
+    await page.waitForFunction(() => document.querySelector('[data-testid="standing"]')?.textContent === "render");
+    await pause(3000);
+    const early = await pixels(page);
+    assert(sum(early) > 256 * 256 * 255, "there is a picture");
+    await shot(page, "live-light-1400");
+    const dark = await open(url, { colorScheme: "dark" });
+    await pause(2500);
+    await shot(dark, "live-dark-1400");
+    const narrow = await open(url, { viewport: { width: 600, height: 900 } });
+    const narrow_dark = await open(url, { viewport: { width: 600, height: 900 }, colorScheme: "dark" });
+    await pause(2500);
+    await shot(narrow, "live-light-600");
+    await shot(narrow_dark, "live-dark-600");
+    for (const one of [narrow, narrow_dark]) {
+        const wide = await one.evaluate(() => document.documentElement.scrollWidth);
+        assert(wide <= 600, `nothing sticks out: ${wide}`);
+        await one.close();
+    }
+    await dark.close();
+
+    const reader = await open(url.replace(/#.*/, ""));
+    await reader.waitForSelector("text=read only");
+    assert(await reader.locator("text=End run").isDisabled(), "without the token nothing can be done");
+    await reader.close();
+
+    const later = await pixels(page);
+    assert.notDeepEqual(later, early, "the picture changes");
+
+    daemons[0].child.kill("SIGKILL");
+    await page.waitForSelector(`[data-testid="host-${daemons[0].endpoint}"].gone`);
+    await page.waitForSelector("text=/is lost/");
+    await page.locator(`[data-testid="host-${daemons[1].endpoint}"] >> text=take out`).click();
+    await page.waitForSelector(`[data-testid="host-${daemons[1].endpoint}"].gone`);
+    await page.waitForSelector("text=/is taken out/");
+    await shot(page, "loss-light-1400");
+
+    await page.locator("text=Write picture").click();
+    await page.waitForSelector("text=/shows the picture so far/");
+    await page.locator("text=End run").click();
+    await page.waitForFunction(() => document.querySelector('[data-testid="standing"]').textContent === "cancelled");
+    assert.equal(await run.ended, 130, run.said);
+    await page.close();
+
+    // A finished picture, mixed in the page and by the program.
+    const short = await render([daemons[2]], "y.exr", ["--size", "128x128", "--samples", "256", "--report", join(folder, "y.html")]);
+    const short_page = await open((await short.hears(/watch it at (\S+)/))[1]);
+    await short_page.waitForFunction(() => document.querySelector('[data-testid="standing"]').textContent === "done", null,
+        { timeout: 60000 });
+    assert.equal(await short.ended, 0, short.said);
+    await short_page.getByTestId("gains").click();
+    for (const [direct, bounce] of [[1, 1], [0.35, 2.7]]) {
+        await short_page.getByTestId("gain-direct").fill(String(direct));
+        await short_page.getByTestId("gain-bounce").fill(String(bounce));
+        const mixed = spawnSync(join(programs, "lightnet"),
+            ["remix", "y.exr", `direct=${direct}`, `bounce=${bounce}`, "-o", "z.exr"], { cwd: folder });
+        assert.equal(mixed.status, 0, String(mixed.stderr));
+        await pause(400);
+        const { readFileSync } = await import("node:fs");
+        const png = readFileSync(join(folder, "z.png")).toString("base64");
+        const theirs = await (await open("data:text/html,<p>")).evaluate(async (base64) => {
+            const image = new Image();
+            image.src = `data:image/png;base64,${base64}`;
+            await image.decode();
+            const canvas = Object.assign(document.createElement("canvas"), { width: image.width, height: image.height });
+            const context = canvas.getContext("2d", { colorSpace: "srgb" });
+            context.drawImage(image, 0, 0);
+            return [...context.getImageData(0, 0, image.width, image.height).data];
+        }, png);
+        const ours = await pixels(short_page);
+        const differing = ours.filter((value, i) => value !== theirs[i]).length;
+        assert.equal(differing, 0, `gains ${direct}, ${bounce}: ${differing} of ${ours.length} values differ from lightnet remix`);
+    }
+    await shot(short_page, "gains-light-1400");
+
+    const report = await open(`file://${join(folder, "y.html")}`);
+    await report.waitForSelector("text=Nodes and edges");
+    assert(sum(await pixels(report)) > 128 * 128 * 255, "the report has a picture");
+    await shot(report, "report-light-1400");
+    const report_dark = await open(`file://${join(folder, "run.html")}`, { colorScheme: "dark", viewport: { width: 600, height: 900 } });
+    await report_dark.waitForSelector("text=/is lost/");
+    await shot(report_dark, "report-dark-600");
+
+    assert.deepEqual(complaints, []);
+    assert.deepEqual(foreign, []);
+    console.log("all is shown as it is");
+} finally {
+    await browser.close();
+    for (const child of children) child.kill("SIGKILL");
+}

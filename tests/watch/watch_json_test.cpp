@@ -1,0 +1,60 @@
+// What a page is told of a run.
+#include "tools/watch/watch_json.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/network/graph/layout.hpp"
+#include "tests/support/parse.hpp"
+
+namespace lightnet::watch_json_test {
+namespace {
+
+using test::fake_registry;
+using test::sound_graph;
+using testing::ElementsAre;
+
+const Graph& small_graph() {
+    static const Graph graph =
+        sound_graph("a = Ambient {} b = Ambient {} inner = Combine { a, b } lighting = Cache { inner }");
+    return graph;
+}
+
+TEST(WatchedRunJson, SaysWhichColoursAreThePictureOfEachNode) {
+    const Registry registry = fake_registry();
+    const Graph graph = sound_graph("a = Ambient {} b = Ambient {} lighting = Combine { a, b }");
+    const FilmFormat format{8, 4, layers_of(graph, registry).film, 16};
+    const auto hello = nlohmann::json::parse(hello_json({graph, registry, format, "x.exr"}))["hello"];
+    EXPECT_THAT(hello["nodes"][0]["picture"], ElementsAre(1));
+    EXPECT_THAT(hello["nodes"][2]["picture"], ElementsAre(1, 2));
+    EXPECT_THAT(hello["nodes"][4]["picture"], ElementsAre(0, 1, 2)) << hello["nodes"];
+    EXPECT_THAT(hello["edges"], ElementsAre(ElementsAre(2, 0), ElementsAre(2, 1), ElementsAre(4, 2)));
+    EXPECT_EQ(hello["levels"].size(), 255u);
+}
+
+TEST(WatchedStateJson, AddsUpWhatHostsSay) {
+    const HostFigures figures{{{1, 2, 3, 4}}, std::vector<NodeFigures>(6, {1, 2, 3, 4, 5, 6, 7}), {8, 9}};
+    WatchedState state;
+    state.hosts = {{"one", "is ready", true, 1, 5, {}, figures}, {"two", "is ready", true, 1, 5, {}, figures}};
+    const auto json = nlohmann::json::parse(state_json(state, small_graph()));
+    EXPECT_THAT(json["nodes"][1], ElementsAre(2, 4, 6, 8, 10, 12, 14));
+    EXPECT_THAT(json["edges"], ElementsAre(16, 18));
+    EXPECT_THAT(json["hosts"][1]["looks"], ElementsAre(ElementsAre(1, 2, 3, 4)));
+}
+
+TEST(WatchedStateJson, HasARowForEachHostWhereThereAreManyPlaces) {
+    WatchedState state;
+    for (int i = 0; i < 1000; ++i) {
+        HostFigures figures;
+        figures.places.resize(16, {1, 1, 1, 1});
+        state.hosts.push_back({"tcp://10.0.0.1:" + std::to_string(i), "is ready", true, 16, 5, {}, figures});
+    }
+    const auto text = state_json(state, small_graph());
+    EXPECT_LT(text.size(), 200'000u);
+    EXPECT_THAT(nlohmann::json::parse(text)["hosts"][999]["looks"], ElementsAre(ElementsAre(16, 16, 16, 16)));
+}
+
+}  // namespace
+}  // namespace lightnet::watch_json_test

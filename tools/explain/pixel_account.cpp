@@ -1,0 +1,169 @@
+#include "tools/explain/pixel_account.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "core/network/graph/graph_film.hpp"
+#include "core/run/prepare/load_scene.hpp"
+#include "core/run/runtime/job.hpp"
+#include "core/run/runtime/serial.hpp"
+#include "tools/run_settings.hpp"
+#include "transport/store/cache_folder.hpp"
+#include "transport/store/result_cache.hpp"
+
+namespace lightnet {
+namespace {
+
+[[noreturn]] void not_explained(const std::string& what) { throw UserError(SourceLine{"the picture", 0}, what); }
+
+std::size_t index_in(const Picture& picture, std::uint32_t x, std::uint32_t y) {
+    if (x < picture.x || y < picture.y || x - picture.x >= picture.width || y - picture.y >= picture.height)
+        not_explained(fmt::format("has no pixel {},{}: its pixels go from {},{} to {},{}", x, y, picture.x, picture.y,
+                                  picture.x + picture.width - 1, picture.y + picture.height - 1));
+    return std::size_t{y - picture.y} * picture.width + (x - picture.x);
+}
+
+std::uint32_t samples_at(const Picture& picture, std::size_t index, const FilmFormat& format) {
+    if (!picture.samples.empty()) return static_cast<std::uint32_t>(picture.samples[index]);
+    if (picture.done < 1)
+        not_explained("is a preview, and doesn't tell how many samples its pixels have; let its run finish first");
+    return format.samples;
+}
+
+void expect_same_shape(const Picture& picture, const FilmFormat& format) {
+    std::vector<std::string> names;
+    for (const auto& layer : picture.layers) names.push_back(layer.name);
+    const bool whole = !picture.whole_width;
+    const auto width = whole ? picture.width : picture.whole_width,
+               height = whole ? picture.height : picture.whole_height;
+    if (names != format.layers || width != format.width || height != format.height)
+        not_explained("is not the one that this report tells of: size or layers differ (--report names another)");
+}
+
+// A film for one pixel that adds up as that of the whole picture does.
+FilmFormat of_one_pixel(FilmFormat format, std::uint32_t x, std::uint32_t y, std::uint32_t samples) {
+    format.crop = Window{x, y, 1, 1};
+    format.samples = samples;
+    // Where cells decide, how many samples there are was decided by all pixels of the cell.
+    if (format.adaptive()) format.refinement = {std::numeric_limits<float>::min(), samples};
+    return format;
+}
+
+// What a film takes of a pixel: itself, or its cell, of which nobody will look at the rest.
+void add_block(Film& film, Tile tile, std::span<const Rgb> colours) {
+    if (!film.format().adaptive()) {
+        film.add(tile, colours);
+        return;
+    }
+    Tile cell = tile;
+    cell.x -= tile.x % cell_size, cell.y -= tile.y % cell_size;
+    cell.width = std::min(cell_size, film.format().width - cell.x);
+    cell.height = std::min(cell_size, film.format().height - cell.y);
+    std::vector<Rgb> all(cell.pixels() * colours.size());
+    const std::size_t pixel = std::size_t{tile.y - cell.y} * cell.width + (tile.x - cell.x);
+    std::copy(colours.begin(), colours.end(), all.begin() + static_cast<std::ptrdiff_t>(pixel * colours.size()));
+    film.add(cell, all);
+}
+
+bool same_bits(const std::vector<PictureLayer>& one, const std::vector<PictureLayer>& picture, std::size_t index) {
+    for (std::size_t k = 0; k < one.size(); ++k)
+        if (std::memcmp(&one[k].pixels[0], &picture[k].pixels[index], sizeof(Rgb)) != 0) return false;
+    return one.size() == picture.size();
+}
+
+// What runs have prepared already need not be prepared again.
+std::unique_ptr<DiskResultCache> cache_of(const Network& network) {
+    if (preparing_nodes(network.graph, network.registry).empty()) return nullptr;
+    try {
+        return std::make_unique<DiskResultCache>(default_cache_folder(), Tuning{}.cache_size);
+    } catch (const Error&) {
+        return nullptr;  // which is slower, and no error
+    }
+}
+
+// Those that are no numbers come first: they are what one is looking for.
+float rank_of(const ExplainedSample& part) {
+    return finite(part.beauty) ? luminance(part.beauty) : std::numeric_limits<float>::infinity();
+}
+
+/// A network that is computed again, sample by sample.
+class Recount {
+public:
+    Recount(PixelAccount& account, const Job& job, float scale)
+        : account_(account),
+          scale_(scale),
+          film_(of_one_pixel(account.format, account.x, account.y, account.samples)),
+          cache_(cache_of(*account.network)),
+          run_(*account.network, {}, keeper_.tap()) {
+        film_.expose(scale);
+        run_.prepare(made_from(job), cache_.get());
+    }
+
+    void count() {
+        for (std::uint32_t block = 0; block < blocks_in(account_.samples); ++block) {
+            const Tile whole{
+                account_.x, account_.y, 1, 1, block * samples_per_block, samples_of(block, account_.samples)};
+            add_block(film_, whole, run_.render(whole));
+            for (std::uint32_t s = 0; s < whole.samples; ++s) count_sample(whole, whole.first_sample + s);
+        }
+        account_.pixel = film_.picture(scale_);
+    }
+
+private:
+    void count_sample(Tile tile, std::uint32_t sample) {
+        tile.first_sample = sample, tile.samples = 1;
+        auto& part = account_.parts.emplace_back();
+        part.sample = sample;
+        keeper_.begin();
+        part.colours = run_.render(tile);
+        part.account = keeper_.end();
+        const auto& format = account_.format;
+        for (std::size_t k = 0; k < part.colours.size(); ++k) {
+            if (!format.facts.contains(format.name_of(k))) part.colours[k] = part.colours[k] * scale_;
+            const Rgb gain = k < format.gains.size() ? format.gains[k] : Rgb{1, 1, 1};
+            if (k < format.layers.size()) part.beauty += gain * part.colours[k];
+        }
+    }
+
+    PixelAccount& account_;
+    float scale_;
+    Film film_;
+    AccountKeeper keeper_;
+    std::unique_ptr<DiskResultCache> cache_;
+    SerialRun run_;
+};
+
+}  // namespace
+
+PixelAccount account_for(const Picture& picture, const PastRun& past, std::uint32_t x, std::uint32_t y,
+                         const Registry& registry) {
+    RunRequest request;
+    request.graph = past.graph;
+    request.scene = scene_file(past.graph, registry);
+    request.seed = past.seed;
+    PixelAccount account;
+    account.format = film_format(request, registry);
+    account.x = x, account.y = y;
+    expect_same_shape(picture, account.format);
+    const auto index = index_in(picture, x, y);
+    account.samples = samples_at(picture, index, account.format);
+
+    DiskFiles files;
+    LoadedScene scene = load_scene(past.graph, registry, files, request.scene);
+    const float scale = scene.data.film.scale;
+    const Job job = make_job(request, registry, account.format, files);
+    account.network = build_network(job, registry, std::move(scene));
+    Recount(account, job, scale).count();
+    account.equal =
+        same_bits(account.pixel.layers, picture.layers, index) && same_bits(account.pixel.shown, picture.shown, index);
+    std::stable_sort(account.parts.begin(), account.parts.end(),
+                     [](const auto& a, const auto& b) { return rank_of(a) > rank_of(b); });
+    return account;
+}
+
+}  // namespace lightnet

@@ -1,0 +1,39 @@
+// How a pixel came about: its samples, computed again alone.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/film/film.hpp"
+#include "core/film/picture.hpp"
+#include "core/network/graph/kind.hpp"
+#include "core/run/prepare/assembly.hpp"
+#include "core/run/runtime/account.hpp"
+#include "tools/explain/past_run.hpp"
+
+namespace lightnet {
+
+struct ExplainedSample {
+    std::uint32_t sample = 0;
+    std::vector<Rgb> colours;  // exposed, without gains: per layer, then per picture that is shown beside them
+    Rgb beauty;                // sum of the layers, with their gains
+    Account account;
+};
+
+/// A value, but for the network, which is constant.
+struct PixelAccount {
+    std::shared_ptr<const Network> network;
+    FilmFormat format;
+    std::uint32_t x = 0, y = 0, samples = 0;
+    Picture pixel;                       // of one pixel: all its samples, added up as its film did
+    bool equal = false;                  // to that of the picture, in all bits of all layers
+    std::vector<ExplainedSample> parts;  // the brightest first
+};
+
+/// Computes the samples of pixel (x, y) of `picture` again, on the calling thread. Throws UserError when the picture
+/// has no such pixel, or is none of this run, Error when its scene can't be read any more.
+PixelAccount account_for(const Picture& picture, const PastRun& past, std::uint32_t x, std::uint32_t y,
+                         const Registry& registry);
+
+}  // namespace lightnet

@@ -1,0 +1,29 @@
+// Lets Prometheus ask how a daemon does.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace lightnet {
+
+/// Answers GET /metrics on an address of its own, in a thread of its own, which serves some dozen connections at once
+/// and closes those that are slow. Everything else gets a 4xx.
+class MetricsServer {
+public:
+    /// `address`: "127.0.0.1:9100"; port 0: the system chooses. `text` is called by the server's thread. Throws Error
+    /// when the address can't be had.
+    MetricsServer(const std::string& address, std::function<std::string()> text);
+    ~MetricsServer();
+    MetricsServer(const MetricsServer&) = delete;
+    MetricsServer& operator=(const MetricsServer&) = delete;
+
+    /// "http://127.0.0.1:9100/metrics"
+    std::string url() const;
+
+private:
+    struct Server;
+    std::unique_ptr<Server> server_;
+};
+
+}  // namespace lightnet

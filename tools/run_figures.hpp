@@ -1,0 +1,18 @@
+// What places did, put together for the report.
+#pragma once
+
+#include <vector>
+
+#include "core/film/run_report.hpp"
+#include "core/network/graph/graph.hpp"
+#include "core/run/message/place_record.hpp"
+
+namespace lightnet {
+
+/// The nodes of a graph that do work, without figures.
+std::vector<NodeReport> nodes_without_figures(const Graph& graph);
+
+/// Adds up per node and per edge what the records say, and gives each place of the report its own.
+void add_figures(RunReport& report, const std::vector<PlaceRecord>& records);
+
+}  // namespace lightnet

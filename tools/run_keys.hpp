@@ -1,0 +1,30 @@
+// By which keys a run and its hosts know each other.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "core/network/graph/hosts.hpp"
+#include "transport/keys/key.hpp"
+#include "transport/launcher/cluster.hpp"
+
+namespace lightnet {
+
+struct RunningOptions;
+
+/// A value.
+struct RunKeys {
+    KeyPair own = KeyPair::random();           // of the launcher
+    std::map<std::string, PublicKey> hosts{};  // that are called, by endpoint; the others have none
+    std::optional<JoinKeys> join{};            // none: hosts join by the pass
+    std::optional<KeyPair> slurm{};            // of the daemons that Slurm starts
+};
+
+/// Throws UserError that names all keys that are none and all hosts that are too far away to be without.
+RunKeys run_keys(const RunningOptions& running, const Hosts& hosts);
+
+/// The key of this user; a UserError where there is none. `file` "": the usual one.
+KeyPair own_key(const std::string& file);
+
+}  // namespace lightnet

@@ -1,0 +1,67 @@
+// lightnet fit: finds the gains that bring a picture's layers near another picture.
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <ostream>
+#include <system_error>
+
+#include "core/base/error.hpp"
+#include "core/film/compare.hpp"
+#include "core/film/fit.hpp"
+#include "tools/command_line.hpp"
+#include "tools/compare.hpp"
+#include "tools/exit_code.hpp"
+#include "tools/launcher.hpp"
+#include "tools/options.hpp"
+#include "tools/remix.hpp"
+
+namespace lightnet {
+namespace {
+
+struct FitOptions {
+    std::string picture, target, output;
+    bool grey = false;
+};
+
+void describe_fit(CLI::App& verb, FitOptions& options) {
+    verb.add_option("IMAGE", options.picture, "a picture with layers, as lightnet writes them")
+        ->required()
+        ->type_name("IMAGE.exr");
+    verb.add_option("--to", options.target, "the picture to come near: EXR, HDR, PNG or JPEG, of the same size")
+        ->required()
+        ->type_name("TARGET");
+    verb.add_flag("--grey", options.grey, "one gain for all channels of a layer");
+    add_output(verb, options.output, "write the picture with these gains, too");
+    add_examples(verb, {"lightnet fit cornell.exr --to photo.exr -o fitted.exr"});
+}
+
+int fit_picture(const FitOptions& options, const Launcher& launcher) {
+    std::error_code not_there;
+    if (std::filesystem::equivalent(options.target, options.output, not_there))
+        throw UserError({options.output, 0}, "is the picture to come near, and would be lost: choose another --output");
+    Picture picture = read_layers(options.picture);
+    const Picture target = picture_in(options.target);
+    std::vector<Gain> gains;
+    try {
+        gains = fit(picture, target, options.grey);
+    } catch (const Error& error) {
+        throw UserError({options.target, 0}, error.what());
+    }
+    for (const auto& gain : gains) launcher.out << to_string(gain) << '\n';
+    mix(picture, {});
+    const auto before = compare(target, picture).relative_square;
+    mix(picture, gains);
+    const auto after = compare(target, picture).relative_square;
+    launcher.err << "relMSE to " << options.target << ": " << before << " with gains of 1, " << after
+                 << " with these\n";
+    if (!options.output.empty()) write_remix(picture, options.output, launcher.err);
+    return exit_code::done;
+}
+
+}  // namespace
+
+Verb fit_verb() {
+    return verb<FitOptions>("fit", "find the gains that bring a picture near another one", describe_fit, fit_picture);
+}
+
+}  // namespace lightnet

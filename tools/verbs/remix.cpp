@@ -1,0 +1,44 @@
+// lightnet remix: mixes the layers of a picture anew, without rendering.
+#include <CLI/CLI.hpp>
+
+#include "core/film/gains.hpp"
+#include "tools/command_line.hpp"
+#include "tools/exit_code.hpp"
+#include "tools/launcher.hpp"
+#include "tools/options.hpp"
+#include "tools/remix.hpp"
+
+namespace lightnet {
+namespace {
+
+struct RemixOptions {
+    std::string picture, output;
+    std::vector<Gain> gains;
+};
+
+void describe_remix(CLI::App& verb, RemixOptions& options) {
+    verb.add_option("IMAGE", options.picture, "a picture with layers, as lightnet writes them")
+        ->required()
+        ->type_name("IMAGE.exr");
+    add_gains(verb, "GAIN", options.gains, "times which a layer is in the new picture; those not named: once")
+        ->expected(0, -1)
+        ->allow_extra_args();
+    add_output(verb, options.output, "file of the new picture");
+    verb.get_option("--output")->required();
+    add_examples(verb, {"lightnet remix cornell.exr direct=0.5 bounce=1.2,1.1,1 -o warm.exr"});
+}
+
+int remix(const RemixOptions& options, const Launcher& launcher) {
+    Picture picture = read_layers(options.picture);
+    mix_or_complain(picture, options.gains, options.picture);
+    write_remix(picture, options.output, launcher.err);
+    return exit_code::done;
+}
+
+}  // namespace
+
+Verb remix_verb() {
+    return verb<RemixOptions>("remix", "mix the layers of a picture anew, without rendering", describe_remix, remix);
+}
+
+}  // namespace lightnet

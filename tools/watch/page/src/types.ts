@@ -1,0 +1,62 @@
+// What the launcher says: tools/watch/watch_json.cpp is the other end.
+
+export interface Colour {
+    name: string;
+    layer: boolean; // of the sum; else it is shown beside it
+    fact: boolean; // no light: exposure is not for it
+    gain: [number, number, number];
+}
+
+export interface GraphNode {
+    name: string;
+    kind: string;
+    role: "image" | "light" | "scene";
+    picture: number[]; // the colours that add up to its picture
+}
+
+export interface Hello {
+    graph: string;
+    output: string;
+    picture: [number, number, number, number]; // x, y, width, height
+    samples: number;
+    colours: Colour[];
+    levels: number[]; // what a channel must be at least for each of 1 … 255
+    nodes: GraphNode[];
+    edges: [number, number][]; // who asks whom
+}
+
+/// Looks at which it was busy, asking, waiting, idle.
+export type Looks = [number, number, number, number];
+
+export interface Host {
+    name: string;
+    state: string;
+    there: boolean;
+    places: number;
+    answered: number;
+    looks: Looks[]; // by place, or of all
+    machine?: string;
+    cpu?: string;
+}
+
+export interface State {
+    t: number; // seconds
+    phase: string;
+    done: number;
+    outcome: string;
+    hosts: Host[];
+    nodes: number[][]; // looks, waiting, bundles, questions, bytes, nanoseconds, answered
+    edges: number[]; // questions
+    tiles: [number, number, number, number][];
+    doing: Record<string, [string, number, number]>;
+}
+
+/// What a report holds.
+export interface Frozen {
+    hello: Hello;
+    state: State;
+    history: State[];
+    log: string[];
+    picture: { width: number; height: number; step: number; pixels: string };
+    facts: [string, string][];
+}

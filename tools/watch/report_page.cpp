@@ -1,0 +1,114 @@
+#include "tools/watch/report_page.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+
+#include "core/base/error.hpp"
+#include "tools/watch/watch_page.hpp"
+
+namespace lightnet {
+namespace {
+
+// Nine bits for each channel, and one exponent for all three, as in RGB9E5 of graphics cards.
+std::uint32_t packed(const Rgb& colour) {
+    constexpr int bias = 24;
+    const auto sane = [](float channel) {
+        return channel > 0 && std::isfinite(channel) ? std::min(channel, 65408.0f) : 0;
+    };
+    const std::array channels{sane(colour.r), sane(colour.g), sane(colour.b)};
+    const float most = std::max({channels[0], channels[1], channels[2], 0x1p-24f});
+    int exponent = std::max(0, std::ilogb(most) + 16);
+    if (std::lround(std::ldexp(most, bias - exponent)) > 511) ++exponent;
+    std::uint32_t word = static_cast<std::uint32_t>(exponent) << 27;
+    for (std::size_t c = 0; c < 3; ++c)
+        word |= static_cast<std::uint32_t>(std::lround(std::ldexp(channels[c], bias - exponent))) << (9 * c);
+    return word;
+}
+
+std::string base64(const std::vector<std::uint32_t>& words) {
+    constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    static_assert(std::endian::native == std::endian::little);
+    const auto* const bytes = reinterpret_cast<const unsigned char*>(words.data());
+    const std::size_t size = words.size() * sizeof words[0];
+    std::string text;
+    text.reserve(size * 4 / 3 + 4);
+    for (std::size_t i = 0; i < size; i += 3) {
+        std::uint32_t three = 0;
+        for (std::size_t k = 0; k < 3; ++k) three = three << 8 | (i + k < size ? bytes[i + k] : 0u);
+        for (std::size_t k = 0; k < 4; ++k) text += i + k > size ? '=' : letters[three >> (18 - 6 * k) & 63];
+    }
+    return text;
+}
+
+std::vector<const std::vector<Rgb>*> colours_of(const Picture& picture) {
+    std::vector<const std::vector<Rgb>*> colours;
+    for (const auto* layers : {&picture.layers, &picture.shown})
+        for (const auto& layer : *layers) colours.push_back(&layer.pixels);
+    return colours;
+}
+
+nlohmann::json frozen_picture(const Picture& picture, std::size_t most_bytes) {
+    const auto colours = colours_of(picture);
+    std::uint32_t step = 1;
+    const auto part = [&](std::uint32_t side) { return (side + step - 1) / step; };
+    const auto bytes = [&] {
+        return std::size_t{part(picture.width)} * part(picture.height) * colours.size() * 16 / 3;
+    };
+    while (bytes() > most_bytes && step < std::max(picture.width, picture.height)) ++step;
+    if (bytes() > most_bytes) throw Error("report", "it has no room for a picture of so many layers");
+    std::vector<std::uint32_t> words;
+    for (std::uint32_t y = 0; y < picture.height; y += step)
+        for (std::uint32_t x = 0; x < picture.width; x += step)
+            for (const auto* colour : colours) words.push_back(packed((*colour)[std::size_t{y} * picture.width + x]));
+    return {
+        {"width", part(picture.width)}, {"height", part(picture.height)}, {"step", step}, {"pixels", base64(words)}};
+}
+
+// As part of a page, where "</script>" would end it.
+std::string within_script(std::string json) {
+    std::string text;
+    text.reserve(json.size());
+    for (const char letter : json)
+        if (letter == '<')
+            text += "\\u003c";
+        else
+            text += letter;
+    return text;
+}
+
+void replace_once(std::string& text, std::string_view what, const std::string& by) {
+    const auto at = text.find(what);
+    if (at == text.npos) throw Error("report", "the page has no place for what it is to show");
+    text.replace(at, what.size(), by);
+}
+
+}  // namespace
+
+std::string report_page(const Watcher& watcher, const Picture& picture, const ReportFacts& facts) {
+    auto history = nlohmann::json::array();
+    for (const auto& state : watcher.history()) history.push_back(nlohmann::json::parse(state));
+    auto json = nlohmann::json::parse(watcher.hello());
+    json["state"] = nlohmann::json::parse(watcher.last_state());
+    json["history"] = std::move(history);
+    json["log"] = watcher.lines();
+    json["facts"] = facts;
+    const auto text = [&] {
+        return within_script(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    };
+    const std::size_t taken = watch_page().size() + text().size() + 1000;
+    json["picture"] = frozen_picture(picture, most_report_bytes - std::min(taken, most_report_bytes));
+
+    std::string page(watch_page());
+    replace_once(page, "<!--frozen-->", "<script type=\"application/json\" id=\"frozen\">" + text() + "</script>");
+    // It fetches nothing, whatever is in it.
+    replace_once(page, "<meta charset=\"utf-8\">",
+                 "<meta charset=\"utf-8\">\n<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
+                 "script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:\">");
+    return page;
+}
+
+}  // namespace lightnet

@@ -1,0 +1,148 @@
+#include "tools/watch/watch_json.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "core/film/png.hpp"
+#include "core/network/graph/hosts.hpp"
+#include "core/network/graph/layout.hpp"
+#include "core/network/graph/plan.hpp"
+#include "core/run/prepare/gauge.hpp"
+
+namespace lightnet {
+namespace {
+
+using WatchJson = nlohmann::json;
+
+constexpr std::size_t most_rows = 100;
+constexpr std::size_t most_in_flight = 400;
+
+std::string text_of(const WatchJson& json) { return json.dump(-1, ' ', false, WatchJson::error_handler_t::replace); }
+
+// The colours of a pixel that, added up, are the picture of a node; none, if it has none.
+std::vector<std::size_t> picture_of(std::size_t node, const Layers& layers, const WatchedRun& run) {
+    std::vector<std::size_t> colours;
+    const auto& film = layers.film;
+    if (run.registry.find(run.graph.nodes[node].kind)->role == Role::image)
+        for (std::size_t k = 0; k < film.size(); ++k) colours.push_back(k);
+    const auto shown = std::find(layers.shown.begin(), layers.shown.end(), node);
+    if (shown != layers.shown.end()) return {film.size() + std::size_t(shown - layers.shown.begin())};
+    if (!colours.empty()) return colours;
+    for (const auto terminal : layers.of_node[node]) {
+        const auto layer = std::find(film.begin(), film.end(), name_of(terminal, layers, run.graph, run.registry));
+        if (layer == film.end()) return {};
+        colours.push_back(std::size_t(layer - film.begin()));
+    }
+    return colours;
+}
+
+const char* name_of(Role role) { return role == Role::image ? "image" : role == Role::light ? "light" : "scene"; }
+
+WatchJson nodes_json(const WatchedRun& run) {
+    const auto layers = layers_of(run.graph, run.registry);
+    auto all = WatchJson::array();
+    for (std::size_t node = 0; node < run.graph.nodes.size(); ++node) {
+        const auto& what = run.graph.nodes[node];
+        if (sector_at(run.graph, node)) break;  // they stand behind all others, and for one of them
+        all.push_back({{"name", what.name},
+                       {"kind", what.kind},
+                       {"role", name_of(run.registry.find(what.kind)->role)},
+                       {"picture", picture_of(node, layers, run)}});
+    }
+    return all;
+}
+
+WatchJson edges_json(const WatchedRun& run) {
+    auto all = WatchJson::array();
+    for (const auto& edge : asking_edges(run.graph, layers_of(run.graph, run.registry), run.registry))
+        all.push_back({edge.from, edge.to});
+    return all;
+}
+
+WatchJson row(const PlaceFigures& place) { return {place.busy, place.asking, place.waiting, place.idle}; }
+
+WatchJson host_json(const HostState& host, bool by_place, bool in_words) {
+    WatchJson json{{"name", host.name.empty() ? std::string(own_process) : host.name},
+                   {"state", host.state},
+                   {"there", host.there},
+                   {"places", host.places},
+                   {"answered", host.progress}};
+    auto rows = WatchJson::array();
+    PlaceFigures sum;
+    for (const auto& place : host.figures.places) {
+        if (by_place) rows.push_back(row(place));
+        sum.busy += place.busy, sum.asking += place.asking;
+        sum.waiting += place.waiting, sum.idle += place.idle;
+    }
+    if (!by_place) rows.push_back(row(sum));
+    json["looks"] = std::move(rows);
+    if (in_words) json["machine"] = host.machine.name, json["cpu"] = host.machine.cpu;
+    return json;
+}
+
+// Over all hosts. What sectors did, their node did.
+void add_figures(WatchJson& json, const WatchedState& state, const Graph& graph) {
+    std::vector<NodeFigures> nodes(graph.nodes.size());
+    std::vector<std::uint64_t> edges;
+    for (const auto& host : state.hosts) {
+        const auto& figures = host.figures;
+        for (std::size_t node = 0; node < std::min(nodes.size(), figures.nodes.size()); ++node)
+            nodes[whole_of(graph, node)] += figures.nodes[node];
+        edges.resize(std::max(edges.size(), figures.edges.size()));
+        for (std::size_t edge = 0; edge < figures.edges.size(); ++edge) edges[edge] += figures.edges[edge];
+    }
+    auto& all = json["nodes"] = WatchJson::array();
+    for (const auto& node : nodes)
+        all.push_back(
+            {node.looks, node.waiting, node.bundles, node.questions, node.bytes, node.nanoseconds, node.answered});
+    json["edges"] = edges;
+}
+
+}  // namespace
+
+std::string hello_json(const WatchedRun& run) {
+    const auto work = run.format.work();
+    auto colours = WatchJson::array();
+    for (std::size_t k = 0; k < run.format.colours(); ++k) {
+        const auto gain = k < run.format.gains.size() ? run.format.gains[k] : Rgb{1, 1, 1};
+        const auto& name = run.format.name_of(k);
+        colours.push_back({{"name", name},
+                           {"layer", k < run.format.layers.size()},
+                           {"fact", run.format.facts.contains(name)},
+                           {"gain", {gain.r, gain.g, gain.b}}});
+    }
+    return text_of({{"hello",
+                     {{"graph", run.graph.file},
+                      {"output", run.output},
+                      {"picture", {work.x, work.y, work.width, work.height}},
+                      {"samples", run.format.samples},
+                      {"colours", colours},
+                      {"levels", least_of_levels()},
+                      {"nodes", nodes_json(run)},
+                      {"edges", edges_json(run)}}}});
+}
+
+std::string state_json(const WatchedState& state, const Graph& graph) {
+    std::size_t places = 0;
+    for (const auto& host : state.hosts) places += host.places;
+    WatchJson json{{"t", std::round(state.seconds * 1000) / 1000},
+                   {"phase", state.phase},
+                   {"done", state.done},
+                   {"outcome", state.outcome}};
+    auto& hosts = json["hosts"] = WatchJson::array();
+    for (const auto& host : state.hosts)
+        hosts.push_back(host_json(host, places <= most_rows, state.hosts.size() <= most_rows));
+    add_figures(json, state, graph);
+    auto& tiles = json["tiles"] = WatchJson::array();
+    for (std::size_t i = 0; i < std::min(state.in_flight.size(), most_in_flight); ++i) {
+        const auto& tile = state.in_flight[i];
+        tiles.push_back({tile.x, tile.y, tile.width, tile.height});
+    }
+    auto& doing = json["doing"] = WatchJson::object();
+    for (const auto& [node, what] : state.doing) doing[node] = {what.what, what.done, what.total};
+    return text_of(json);
+}
+
+}  // namespace lightnet

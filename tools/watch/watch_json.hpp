@@ -1,0 +1,40 @@
+// What the page is told, as text. A page and its launcher are of one build, so the words are nobody else's.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/film/film.hpp"
+#include "core/network/graph/graph.hpp"
+#include "core/network/graph/kind.hpp"
+#include "core/run/prepare/activity.hpp"
+#include "transport/launcher/cluster.hpp"
+
+namespace lightnet {
+
+/// What does not change while a run goes.
+struct WatchedRun {
+    const Graph& graph;
+    const Registry& registry;
+    const FilmFormat& format;
+    std::string output;
+};
+
+/// What does.
+struct WatchedState {
+    double seconds = 0;  // since it began
+    std::string phase;
+    double done = 0;  // 0 … 1
+    std::vector<HostState> hosts;
+    Doings doing;
+    std::vector<Tile> in_flight;
+    std::string outcome;  // "": it goes on
+};
+
+/// {"hello": {…}}
+std::string hello_json(const WatchedRun& run);
+/// {"t": …, …}. With more than a hundred places, a row is a host; with more than a hundred hosts, they come without
+/// their machines.
+std::string state_json(const WatchedState& state, const Graph& graph);
+
+}  // namespace lightnet

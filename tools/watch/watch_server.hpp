@@ -1,0 +1,65 @@
+// Serves the page of a run, and what it shows, to browsers.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "tools/watch/watch_board.hpp"
+#include "tools/watch/watch_rules.hpp"
+
+namespace lightnet {
+
+/// What somebody who has the token wants of the run.
+struct WatchCommand {
+    enum class What { end, write, drain };
+    What what = What::end;
+    std::string host;  // to be drained
+    friend bool operator==(const WatchCommand&, const WatchCommand&) = default;
+};
+
+/// HTTP and WebSocket, on a thread of its own. The run writes on the board and never waits; whoever is too slow to take
+/// what changes is dropped, and so is whoever says what has no sense.
+///
+///   GET /        the page
+///   GET /state   how the run stands, as JSON
+///   GET /live    becomes a WebSocket, on which come: once {"hello": …}; then texts {"state": …} and {"log": […]}, and
+///                pixels as binary frames (WatchBoard). The page may say {"do": "end" | "write" | "drain" | "check",
+///                "host": …, "token": …}, and is answered {"done": …, "allowed": …}.
+///
+/// Whoever can connect may look; only who has the token may do something. What is called by another name than its own
+/// (421), or by a page of another origin (403), is refused.
+class WatchServer {
+public:
+    struct Options {
+        WatchAddress address;
+        std::string token;
+        std::string_view page;                      // its bytes; outlives the server
+        std::string hello;                          // JSON: what does not change
+        std::function<void(WatchCommand)> command;  // called by the server's thread
+        std::uint64_t slow_seconds = 5;             // for one message to be taken
+        std::size_t most_watchers = 64;
+        std::size_t send_buffer = 0;  // of the system, bytes; 0: as it likes
+    };
+    /// Throws Error when the address can't be listened at. The board outlives it.
+    WatchServer(Options options, WatchBoard& board);
+    /// Says what is still to be said to those who take it at once, and ends.
+    ~WatchServer();
+    WatchServer(const WatchServer&) = delete;
+    WatchServer& operator=(const WatchServer&) = delete;
+
+    std::uint16_t port() const;
+    /// For the user: with the token, in the part that browsers send to nobody.
+    std::string url() const;
+    /// Who watches now, and who was dropped for being slow. Any thread.
+    std::size_t watchers() const;
+    std::size_t dropped() const;
+
+private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace lightnet

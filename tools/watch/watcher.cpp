@@ -1,0 +1,166 @@
+#include "tools/watch/watcher.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <thread>
+#include <utility>
+
+#include "tools/watch/watch_page.hpp"
+
+namespace lightnet {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto pixel_period = 0.125s;      // between two looks at the film
+constexpr auto most_pixel_time = 0.0015s;  // of one look
+constexpr auto state_period = 0.4s;
+constexpr double most_state_share = 0.005;  // of the run's thread
+constexpr std::size_t most_live_bytes = std::size_t{512} << 20;
+constexpr std::size_t most_remembered = 240;  // states, for a report
+constexpr std::size_t most_remembered_bytes = 1'000'000;
+constexpr std::size_t most_reported_lines = 1000;
+
+}  // namespace
+
+Watcher::Watcher(Options options, const WatchedRun& run)
+    : options_(std::move(options)),
+      graph_(run.graph),
+      hello_(hello_json(run)),
+      board_(run.format.work(), run.format.colours()),
+      too_large_(run.format.work().pixels() * run.format.colours() * sizeof(Rgb) > most_live_bytes),
+      pixel_pace_(pixel_period, begun_),
+      state_pace_(state_period, begun_),
+      memory_pace_(memory_period_, begun_) {
+    if (!options_.address) return;
+    const auto take = [this](WatchCommand command) {
+        if (command.what == WatchCommand::What::end) return options_.end();
+        const std::lock_guard lock(commands_mutex_);
+        if (commands_.size() < 100) commands_.push_back(std::move(command));
+    };
+    server_ = std::make_unique<WatchServer>(
+        WatchServer::Options{*options_.address, new_token(), watch_page(), hello_, take}, board_);
+    if (too_large_) say("the picture is too large to be shown while it grows");
+}
+
+Watcher::~Watcher() = default;
+
+std::string Watcher::url() const { return server_ ? server_->url() : std::string(); }
+
+void Watcher::say(const std::string& text) {
+    auto line = fmt::format("{:.1f}\t{}", std::chrono::duration<double>(Clock::now() - begun_).count(), text);
+    if (options_.report && lines_.size() < most_reported_lines) lines_.push_back(line);
+    board_.say(std::move(line));
+}
+
+void Watcher::part_from(const Hosts& hosts) {
+    if (wanted()) state_.hosts = hosts();
+}
+
+void Watcher::preparing(const PrepareProgress& progress) {
+    state_.doing = {{progress.node, {progress.what, progress.done, progress.total}}};
+}
+
+void Watcher::handed_out(const std::vector<Tile>& tiles) {
+    state_.in_flight.insert(state_.in_flight.end(), tiles.begin(), tiles.end());
+}
+
+void Watcher::taken(const Tile& tile) {
+    const auto flying = std::find(state_.in_flight.begin(), state_.in_flight.end(), tile);
+    if (flying != state_.in_flight.end()) state_.in_flight.erase(flying);
+    if (!began_to_show_) return;
+    const Tile area{tile.x, tile.y, tile.width, tile.height};
+    if (std::find(changed_.begin(), changed_.end(), area) == changed_.end()) changed_.push_back(area);
+}
+
+// Somebody has come: from now on, changes are noted.
+void Watcher::take_areas_of(const Film& film) {
+    began_to_show_ = true;
+    const auto areas = film.areas();
+    changed_.assign(areas.begin(), areas.end());
+}
+
+void Watcher::show_pixels(const Film& film, std::chrono::duration<double> most) {
+    if (!began_to_show_) take_areas_of(film);
+    const auto end = Clock::now() + most;
+    while (!changed_.empty() && Clock::now() < end) {
+        const Tile area = changed_.front();
+        if (!board_.show(area, film.so_far(area))) return;
+        changed_.pop_front();
+    }
+}
+
+void Watcher::look(const Film& film) {
+    const auto now = Clock::now();
+    if (!board_.wanted() || too_large_ || !pixel_pace_.due(now)) return;
+    show_pixels(film, most_pixel_time);
+    pixel_pace_.put_off(now);
+}
+
+void Watcher::look(const Film& film, const Hosts& hosts) {
+    if (!wanted()) return;
+    look(film);
+    const auto now = Clock::now();
+    if (!state_pace_.due(now)) return;
+    state_.done = film.done();
+    state_.hosts = hosts();
+    tell();
+    if (options_.report && memory_pace_.due(now)) remember();
+    state_pace_.put_off(now, (Clock::now() - now) / most_state_share);
+}
+
+void Watcher::phase(const std::string& name) {
+    state_.phase = name;
+    state_.doing.clear();
+    tell();
+}
+
+bool Watcher::tell() {
+    state_.seconds = std::chrono::duration<double>(Clock::now() - begun_).count();
+    last_state_ = state_json(state_, graph_);
+    return board_.tell(last_state_);
+}
+
+// However long a run takes, there are about as many: when they are too many, every other one goes.
+void Watcher::remember() {
+    history_.push_back(last_state_);
+    if (history_.size() >= most_remembered || history_.size() * last_state_.size() > most_remembered_bytes) {
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < history_.size(); i += 2) history_[kept++] = std::move(history_[i]);
+        history_.resize(kept);
+        memory_period_ *= 2;
+        memory_pace_ = Pace(memory_period_, Clock::now());
+    }
+    memory_pace_.put_off(Clock::now());
+}
+
+double Watcher::at_work() const {
+    double sum = 0;
+    for (const auto& host : state_.hosts)
+        for (const auto& [busy, asking, waiting, idle] : host.figures.places)
+            if (const auto all = busy + asking + waiting + idle) sum += double(busy + asking) / double(all);
+    return sum;
+}
+
+std::vector<WatchCommand> Watcher::commands() {
+    const std::lock_guard lock(commands_mutex_);
+    return std::exchange(commands_, {});
+}
+
+void Watcher::finish(const Film& film, const std::string& outcome) {
+    if (!wanted()) return;
+    state_.outcome = outcome;
+    state_.done = film.done();
+    state_.in_flight.clear();
+    state_.doing.clear();
+    bool told = false;
+    const auto end = Clock::now() + 300ms;  // the board is never taken for long
+    do {
+        if (board_.wanted() && !too_large_) show_pixels(film, 1s);
+        told = tell() || told;
+        std::this_thread::sleep_for(1ms);
+    } while ((!told || !changed_.empty()) && Clock::now() < end);
+}
+
+}  // namespace lightnet

@@ -1,0 +1,92 @@
+// Collects what those who watch a run are shown.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/film/film.hpp"
+#include "core/run/prepare/prepare_progress.hpp"
+#include "tools/pace.hpp"
+#include "tools/watch/watch_board.hpp"
+#include "tools/watch/watch_json.hpp"
+#include "tools/watch/watch_server.hpp"
+
+namespace lightnet {
+
+/// Belongs to the run's thread, and takes next to nothing of it while nobody watches. What the page asks for comes out
+/// of commands(); an end is passed on at once.
+class Watcher {
+public:
+    using Clock = std::chrono::steady_clock;
+    struct Options {
+        std::optional<WatchAddress> address;  // none: nobody can watch; what is collected is for report()
+        bool report = false;                  // keeps what a report shows of the past
+        std::function<void()> end = {};       // the run is to end; called by another thread
+    };
+    /// All of `run` outlives it. Throws Error when the address can't be listened at.
+    Watcher(Options options, const WatchedRun& run);
+    ~Watcher();
+    Watcher(const Watcher&) = delete;
+    Watcher& operator=(const Watcher&) = delete;
+
+    /// For the user, with the token; "": nobody can watch.
+    std::string url() const;
+    /// Somebody watches, has, or will read a report.
+    bool wanted() const { return options_.report || board_.wanted(); }
+
+    void phase(const std::string& name);
+    void say(const std::string& text);
+    /// What a node does while it prepares.
+    void preparing(const PrepareProgress& progress);
+    void handed_out(const std::vector<Tile>& tiles);
+    /// A tile has come, and is in the film.
+    void taken(const Tile& tile);
+    /// Shows what is new, if it is time.
+    void look(const Film& film);
+    /// The same, and who takes part: asked for when it is time to.
+    using Hosts = std::function<std::vector<HostState>()>;
+    void look(const Film& film, const Hosts& hosts);
+    /// The last time that hosts can be asked.
+    void part_from(const Hosts& hosts);
+    std::vector<WatchCommand> commands();
+    /// Shows all that is there, as the last thing.
+    void finish(const Film& film, const std::string& outcome);
+
+    /// How many places were at work, on average over the time that they were looked at.
+    double at_work() const;
+    /// What a report is made from.
+    const std::string& hello() const { return hello_; }
+    const std::string& last_state() const { return last_state_; }
+    const std::vector<std::string>& history() const { return history_; }
+    const std::vector<std::string>& lines() const { return lines_; }
+
+private:
+    void take_areas_of(const Film& film);
+    void show_pixels(const Film& film, std::chrono::duration<double> most);
+    bool tell();
+    void remember();
+
+    Options options_;
+    const Graph& graph_;
+    std::string hello_, last_state_;
+    WatchedState state_;
+    const Clock::time_point begun_ = Clock::now();
+    WatchBoard board_;
+    bool too_large_ = false, began_to_show_ = false;
+    std::deque<Tile> changed_;  // areas
+    Pace pixel_pace_, state_pace_, memory_pace_;
+    std::chrono::duration<double> memory_period_{1};
+    std::vector<std::string> history_, lines_;
+    std::mutex commands_mutex_;
+    std::vector<WatchCommand> commands_;
+    std::unique_ptr<WatchServer> server_;  // last: its thread uses the rest
+};
+
+}  // namespace lightnet

@@ -1,0 +1,45 @@
+#include "transport/zmq/door_trial.hpp"
+
+#include <chrono>
+
+#include "core/base/error.hpp"
+#include "transport/zmq/handshake_watch.hpp"
+#include "transport/zmq/poll.hpp"
+#include "transport/zmq/socket.hpp"
+
+namespace lightnet {
+namespace {
+
+constexpr auto patience = std::chrono::seconds(5);
+
+// From where it can be reached on this machine.
+std::string knocked_at(const std::string& endpoint) {
+    for (const auto& [all, here] : {std::pair{std::string("tcp://0.0.0.0:"), std::string("tcp://127.0.0.1:")},
+                                    std::pair{std::string("tcp://[::]:"), std::string("tcp://[::1]:")}})
+        if (endpoint.starts_with(all)) return here + endpoint.substr(all.size());
+    return endpoint;
+}
+
+}  // namespace
+
+// DECISIONS: doors-are-tried
+void try_door(const std::string& endpoint, const PublicKey& door, const std::function<void()>& tend) {
+    const SocketContext outside;
+    auto stranger = unconnected_asking_socket(outside, endpoint, LineKeys{KeyPair::random(), door});
+    HandshakeWatch watch(outside, stranger);
+    stranger.connect(knocked_at(endpoint));
+    const auto end = std::chrono::steady_clock::now() + patience;
+    while (std::chrono::steady_clock::now() < end) {
+        tend();
+        if (const auto seen = watch.look()) {
+            if (*seen == Handshake::refused) return;
+            if (*seen == Handshake::made) throw Error(endpoint, "lets strangers in, though it asks for keys: not used");
+        }
+        Poll poll;
+        watch.watch(poll);
+        poll.wait(std::chrono::milliseconds(1));
+    }
+    throw Error(endpoint, "does not say no to a stranger's key: not used");
+}
+
+}  // namespace lightnet
