@@ -2,9 +2,10 @@
 # installed.sh CMAKE BUILD SOURCES: installs a build into a folder of its own, and uses it from there.
 set -euo pipefail
 cmake=$1 build=$2 sources=$3
-folder=$(mktemp -d)
+# Beside the build: programs run from there, which not every machine's folder for temporary files allows.
+folder=$(mktemp -d "$build/installed-XXXXXX")
 trap 'rm -rf "$folder"' EXIT
-"$cmake" --build "$build" --target manuals >/dev/null
+trap 'echo "line $LINENO: $BASH_COMMAND"' ERR
 "$cmake" --install "$build" --prefix "$folder/usr" --strip >/dev/null
 cd "$folder"
 export PATH=$folder/usr/bin:$PATH

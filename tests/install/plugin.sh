@@ -3,10 +3,11 @@
 # what becomes of libraries that don't fit.
 set -euo pipefail
 cmake=$1 build=$2 sources=$3
-folder=$(mktemp -d)
+# Beside the build: programs run from there, which not every machine's folder for temporary files allows.
+folder=$(mktemp -d "$build/plugin-XXXXXX")
 daemon=
 trap 'if [ -n "$daemon" ]; then kill "$daemon" 2>/dev/null || true; fi; rm -rf "$folder"' EXIT
-"$cmake" --build "$build" --target manuals >/dev/null
+trap 'echo "line $LINENO: $BASH_COMMAND"' ERR
 "$cmake" --install "$build" --prefix "$folder/usr" --strip >/dev/null
 export CMAKE_PREFIX_PATH=$folder/usr PATH=$folder/usr/bin:$PATH LIGHTNET_CONFIG=$folder/none.lua
 unset CMAKE_CXX_COMPILER_LAUNCHER
