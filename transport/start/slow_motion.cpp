@@ -1,6 +1,6 @@
 #include "transport/start/slow_motion.hpp"
 
-#include <sys/pidfd.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -17,9 +17,13 @@ namespace {
 
 constexpr std::chrono::duration<double> turn{0.004};  // in which it runs: short beside what a tile takes
 
+// Called by their numbers: the functions of glibc 2.36 can't be linked with C++.
+int handle_of(int process) { return static_cast<int>(syscall(SYS_pidfd_open, process, 0)); }
+bool send(int handle, int signal) { return syscall(SYS_pidfd_send_signal, handle, signal, nullptr, 0) == 0; }
+
 }  // namespace
 
-SlowMotion::SlowMotion(int process, double times) : handle_(pidfd_open(process, 0)) {
+SlowMotion::SlowMotion(int process, double times) : handle_(handle_of(process)) {
     if (handle_ < 0) throw Error(std::string("a local worker can't be made slow: ") + std::strerror(errno));
     thread_ = std::jthread([this, times](const std::stop_token& stop) { hold(stop, times); });
 }
@@ -39,9 +43,9 @@ void SlowMotion::hold(const std::stop_token& stop, double times) const {
     };
     while (!stop.stop_requested()) {
         sleep(turn);
-        if (pidfd_send_signal(handle_, SIGSTOP, nullptr, 0) != 0) return;  // it has ended
+        if (!send(handle_, SIGSTOP)) return;  // it has ended
         sleep(turn * (times - 1));
-        pidfd_send_signal(handle_, SIGCONT, nullptr, 0);
+        send(handle_, SIGCONT);
     }
 }
 
