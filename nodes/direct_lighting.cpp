@@ -4,6 +4,7 @@
 #include <numeric>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/base/math/many_samples.hpp"
@@ -15,6 +16,12 @@
 
 namespace lightnet {
 namespace {
+
+Heuristic heuristic_called(const std::string& name) {
+    if (name == "balance") return Heuristic::balance;
+    if (name == "lamps") return Heuristic::lamps;
+    return name == "directions" ? Heuristic::directions : Heuristic::power;
+}
 
 /// Two strategies find each light, a point on a lamp (next event estimation) and a direction drawn from the BSDF,
 /// weighted by multiple importance sampling (Veach 1997, chapter 9). The samples of many questions are worked out at
@@ -29,7 +36,7 @@ public:
           most_(std::bit_ceil(static_cast<std::uint32_t>(here.integer("most_samples")))),
           error_(static_cast<float>(here.number("error"))),
           faint_(0.01 / (double(scene_.film().scale) * scene_.film().scale)),
-          heuristic_(here.text("heuristic") == "balance" ? Heuristic::balance : Heuristic::power) {}
+          heuristic_(heuristic_called(here.text("heuristic"))) {}
 
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
         Samplers samplers(scene_);
@@ -228,9 +235,10 @@ Kind direct_lighting_kind() {
                  .most = 65536},
                 {.name = "heuristic",
                  .type = ParamType::text,
-                 .help = "by which multiple importance sampling weights both ways to find a light",
+                 .help = "by which multiple importance sampling weights both ways to find a light; or lamps, directions: "
+                         "what points on lamps, or directions from the BSDF, find alone, to see what each is good for",
                  .initial = Value{"power"},
-                 .choices = {"power", "balance"}},
+                 .choices = {"power", "balance", "lamps", "directions"}},
             },
         .light = {.lamps = true, .groups = true, .paths = always({"LD"})},
         .make_light = [](const NodeContext& here) { return std::make_unique<DirectLighting>(here); },

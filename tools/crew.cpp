@@ -34,7 +34,8 @@ std::string seen_from_elsewhere(const std::string& endpoint) {
 
 }  // namespace
 
-Crew::Crew(const RunRequest& request, Cluster::Options cluster) : request_(request), say_(cluster.say) {
+Crew::Crew(const RunRequest& request, Cluster::Options cluster, std::function<double()> done)
+    : request_(request), say_(cluster.say), done_(std::move(done)) {
     for (const auto& host : request.hosts.hosts) {
         if (host.is_here()) continue;
         const bool joins = !address_of(host.endpoint);
@@ -48,9 +49,10 @@ Crew::Crew(const RunRequest& request, Cluster::Options cluster) : request_(reque
     cluster.host_keys = request.keys.hosts;
     cluster.join_keys = request.keys.join;
     if (request.local_workers) {
-        const auto places = std::max(1u, std::thread::hardware_concurrency() / request.local_workers);
+        const auto cores = std::max(1u, std::thread::hardware_concurrency() / request.local_workers);
+        const auto places = request.local_places ? request.local_places : cores;
         const LocalWorkers::Keys keys{.launcher = request.keys.own.open};
-        local_.emplace(daemon_program(), request.local_workers, places, keys);
+        local_.emplace(daemon_program(), request.local_workers, places, keys, request.troubles);
         for (const auto& endpoint : local_->endpoints()) {
             cluster.endpoints.push_back(endpoint);
             cluster.host_keys[endpoint] = keys.workers.open;
@@ -100,7 +102,7 @@ void Crew::look_after() {
     if (!local_) return;
     local_->look_after(std::chrono::steady_clock::now(),
                        {[this](const std::string& endpoint) { cluster_->lost(endpoint); },
-                        [this](const std::string& endpoint) { return cluster_->ready(endpoint); }, say_});
+                        [this](const std::string& endpoint) { return cluster_->ready(endpoint); }, say_, done_});
 }
 
 }  // namespace lightnet

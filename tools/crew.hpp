@@ -20,7 +20,8 @@ namespace lightnet {
 class Crew {
 public:
     /// `cluster` is what does not depend on where hosts come from. Starts what is to be started.
-    Crew(const RunRequest& request, Cluster::Options cluster);
+    /// `done`: the share of the picture that is there, for local workers that are to be lost in mid-run.
+    Crew(const RunRequest& request, Cluster::Options cluster, std::function<double()> done);
 
     Cluster& cluster() { return *cluster_; }
     /// Waits for those that are to be there from the beginning.
@@ -33,6 +34,7 @@ public:
 private:
     const RunRequest& request_;
     std::function<void(const std::string&)> say_;
+    std::function<double()> done_;
     std::optional<LocalWorkers> local_;
     std::unique_ptr<Cluster> cluster_;
     std::optional<SecretFile> slurm_key_;  // outlives the job

@@ -11,6 +11,7 @@
 #include "core/network/graph/graph_film.hpp"
 #include "core/readers/read_scene.hpp"
 #include "tools/command_line.hpp"
+#include "tools/trouble_options.hpp"
 #include "transport/wire/loopback.hpp"
 
 namespace lightnet {
@@ -223,6 +224,7 @@ void add_running(CLI::App& verb, RunningOptions& running) {
                   "samples that it lacks");
     verb.add_flag("--forget", running.forget,
                   "leave no checkpoint beside a finished picture, so that no samples can be added to it");
+    add_troubles(verb, running.troubles);
     add_tuning(verb, running.tuning);
 }
 
@@ -232,6 +234,7 @@ std::optional<std::string> settle(RunningOptions& running) {
         return beyond_this_machine("--listen " + running.listen, "say --allow FILE with the keys of hosts that may join");
     if (running.watch && !running.insecure && !running.watch->stays_here())
         return beyond_this_machine("--watch " + in_url(running.watch->host), "put a server with TLS in front of 127.0.0.1");
+    if (auto mistake = mistake_in(running.troubles, running.local_workers.value_or(0))) return mistake;
     if (running.slurm && running.listen.empty()) running.listen = "tcp://0.0.0.0:*";
     return std::nullopt;
 }

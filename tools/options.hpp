@@ -9,6 +9,7 @@
 #include "core/film/gains.hpp"
 #include "core/film/progress.hpp"
 #include "tools/run.hpp"
+#include "transport/start/troubles.hpp"
 
 namespace CLI {
 class App;
@@ -51,6 +52,7 @@ struct RunningOptions {
     std::string hosts;                           // file; "": none
     std::optional<std::uint32_t> threads;        // places in this process; 1: serial
     std::optional<std::uint32_t> local_workers;  // daemons to start here
+    Troubles troubles;                           // of these
     std::string listen;                          // endpoint where hosts may join
     std::string key;                             // file with our own; "": the usual one
     std::string allow;                           // whose hosts may join, see AllowFile; "": who knows the pass

@@ -220,7 +220,7 @@ void Rendering::on_hosts(LoadedScene scene, const DiskFiles& files) {
     book_.phase("prepare");
     auto options = cluster_options(files);
     if (what_.request.threads) options.network = build_network(what_.job, what_.registry, std::move(scene));
-    Crew crew(what_.request, std::move(options));
+    Crew crew(what_.request, std::move(options), [this] { return book_.share_done(); });
     auto& cluster = crew.cluster();
     crew.gather(signals_.any);
     if (stopped()) {

@@ -17,6 +17,7 @@
 #include "core/scene/data/scene_data.hpp"
 #include "tools/watch/watch_rules.hpp"
 #include "tools/run_keys.hpp"
+#include "transport/start/troubles.hpp"
 
 namespace lightnet {
 
@@ -43,6 +44,8 @@ struct RunRequest {
     Mode mode = Mode::serial;
     std::uint32_t threads = 0;        // places in this process, as many as `hosts` names if it names any
     std::uint32_t local_workers = 0;  // mode network: daemons to start
+    std::uint32_t local_places = 0;   // of each; 0: as many as there are cores, dealt out
+    Troubles troubles;                // of them
     std::string listen;               // mode network: endpoint where hosts may join; "": nowhere
     RunKeys keys;                     // mode network: by which hosts and this process know each other
     std::string pass;                 // file with what hosts must know to join; "": the usual one

@@ -83,6 +83,10 @@ public:
                          std::chrono::seconds period);
     /// Takes up what an earlier run left there, if anything. Throws UserError when that was another picture's.
     void take_up_checkpoint();
+    /// Of all samples, 0 to 1.
+    double share_done() const {
+        return all_blocks_ ? static_cast<double>(blocks_) / static_cast<double>(all_blocks_) : 0;
+    }
     /// Nothing is wanted any more.
     bool complete() const { return film_.complete(); }
     /// What of this tile is not there yet.

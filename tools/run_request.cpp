@@ -78,6 +78,7 @@ RunRequest request_of(const RunningOptions& running, const Launcher& launcher, L
     request.trace = running.trace;
     request.tuning.trace = !running.trace.empty();
     request.local_workers = running.local_workers.value_or(0);
+    request.troubles = running.troubles;
     request.slurm = {running.slurm.value_or(0), running.partition, words_of(running.slurm_arguments)};
     request.wait = std::chrono::seconds(running.wait);
     request.resume = running.resume;

@@ -114,7 +114,7 @@ public:
             const auto found = ray_to_lamp(scene_, at, {choice, numbers.places[path]}, heuristic);
             if (found) to.add(found->ray, weight(path) * found->light, sum(path) + found->group);
         };
-        if (!only_lamp_) return each(sample);
+        if (!only_lamp_ || !shares(heuristic)) return each(sample);
         for (const auto& visitor : visitors_) sample(visitor.path, gathering(visitor));
         for (std::size_t i = 0; i < plain_.size(); ++i) plain_.set_numbers(i, numbers.places[plain_.who(i)]);
         const auto& found = plain_.look_at(*only_lamp_, heuristic == Heuristic::power);

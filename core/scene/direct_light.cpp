@@ -16,16 +16,22 @@ bool finds_lamps(const Scene& scene, const Gathering& at) {
     return scene.has_lamps() && (at.lobes & at.bsdf.lobes() & lobe::rough);
 }
 
+// Weight of a direction from the BSDF, with density `mine`; `other` is that of finding the same by a point on a lamp.
+float direction_share(Heuristic heuristic, float mine, float other) {
+    if (heuristic == Heuristic::lamps) return other == 0 ? 1 : 0;
+    return heuristic == Heuristic::directions ? 1 : share(heuristic, mine, other);
+}
+
 }  // namespace
 
 std::optional<LampRay> ray_to_lamp(const Scene& scene, const Gathering& at, const LampNumbers& numbers,
                                    Heuristic heuristic) {
     if (!finds_lamps(scene, at)) return {};
     const auto lamp = scene.sample_light(at.point.position, numbers.choice, numbers.place);
-    if (!lamp) return {};
+    if (!lamp || (!lamp->bare && heuristic == Heuristic::directions)) return {};
     const auto [value, pdf] = at.bsdf.value_and_pdf(at.outgoing, lamp->direction, at.lobes);
     if (is_black(value)) return {};
-    const float weight = lamp->bare ? 1 : share(heuristic, lamp->pdf, pdf);
+    const float weight = lamp->bare || heuristic == Heuristic::lamps ? 1 : share(heuristic, lamp->pdf, pdf);
     const Ray ray = scene.ray_to(at.point, *lamp);
     Rgb light = value * lamp->radiance * (weight / lamp->pdf);
     if (const Rgb* inside = filling(at.bsdf, at.point, at.outgoing, ray.direction, at.inside))
@@ -40,12 +46,12 @@ Rgb light_by_bsdf(const Scene& scene, Vec3 from, const BsdfSample& sample, const
         const Rgb arriving = scene.environment(sample.incoming);
         if (is_black(arriving)) return {};
         const float other = certain ? 0 : scene.environment_pdf(sample.incoming);
-        return arriving * share(heuristic, sample.pdf, other);
+        return arriving * direction_share(heuristic, sample.pdf, other);
     }
     const Rgb emitted = scene.emission(*end, -sample.incoming);
     if (is_black(emitted)) return {};
     const float other = certain ? 0 : scene.light_pdf(from, sample.incoming, *end);
-    return emitted * share(heuristic, sample.pdf, other);
+    return emitted * direction_share(heuristic, sample.pdf, other);
 }
 
 }  // namespace lightnet

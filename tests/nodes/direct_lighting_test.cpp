@@ -43,7 +43,7 @@ TEST(DirectLighting, OfASquareHasTheAnalyticFormFactor) {
     // 11).
     const double x = 0.5, s = std::sqrt(1 + x * x), quarter = 2 * x / s * std::atan(x / s) / (2 * std::numbers::pi);
     const double expected = 0.6 * 10 * 4 * quarter;
-    for (const char* heuristic : {"power", "balance"}) {
+    for (const char* heuristic : {"power", "balance", "lamps", "directions"}) {
         const auto& op = rig.add("DirectLighting", heuristic, {}, {{"heuristic", Value{std::string(heuristic)}}});
         EXPECT_NEAR(answer(op, question, 1 << 14).r / expected, 1, 2e-3);
     }

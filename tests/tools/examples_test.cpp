@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <iterator>
+#include <algorithm>
 #include <sstream>
 
 #include "tools/launcher.hpp"
@@ -60,6 +61,7 @@ std::vector<Words> every_verb() {
 INSTANTIATE_TEST_SUITE_P(EveryVerb, HelpOf, testing::ValuesIn(every_verb()), [](const auto& verb) {
     std::string name = "Lightnet";
     for (const auto& word : verb.param) name += "_" + word;
+    std::replace(name.begin(), name.end(), '-', '_');
     return name;
 });
 

@@ -114,6 +114,24 @@ TEST(Options, MixAllWaysToRun) {
     EXPECT_THAT(usage_error({"run", "g.lua", "--partition", "main"}), HasSubstr("--slurm"));
 }
 
+TEST(Options, GiveLocalWorkersTroubles) {
+    const auto troubles = options_of({"run", "g.lua", "--local-workers", "3", "--delay", "20", "--slow", "worker2=8",
+                                      "--slow", "worker3=1.5", "--lose", "worker1@30%"})
+                              .running.troubles;
+    EXPECT_EQ(troubles.delay.count(), 20);
+    EXPECT_THAT(troubles.slow, UnorderedElementsAre(Pair(2, 8), Pair(3, 1.5)));
+    EXPECT_THAT(troubles.lose, UnorderedElementsAre(Pair(1, 0.3)));
+    EXPECT_THAT(usage_error({"run", "g.lua", "--delay", "20"}), HasSubstr("--local-workers"));
+    const auto wrong = [](const char* option, const char* text) {
+        return usage_error({"run", "g.lua", "--local-workers", "3", option, text});
+    };
+    for (const char* text : {"worker2", "2=8", "worker=8", "worker2=fast", "worker2=0.5", "worker2=8x", "worker0=8"})
+        EXPECT_THAT(wrong("--slow", text), HasSubstr("slowness is like worker2=8")) << text;
+    for (const char* text : {"worker2", "worker2=30%", "worker2@30", "worker2@130%", "worker-2@3%"})
+        EXPECT_THAT(wrong("--lose", text), HasSubstr("a loss is like worker2@30%")) << text;
+    EXPECT_THAT(wrong("--lose", "worker4@30%"), HasSubstr("there is no worker4 among 3 local workers"));
+}
+
 TEST(Options, ChooseHowProgressIsShown) {
     EXPECT_EQ(options_of({"run", "g.lua", "--progress", "json"}).running.progress, ProgressMode::json);
     EXPECT_THAT(usage_error({"run", "g.lua", "--progress", "loud"}), HasSubstr("--progress"));

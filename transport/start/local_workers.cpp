@@ -49,18 +49,21 @@ int LocalWorkers::start(const std::string& listen, int* out) const {
     return spawn(std::move(words), out, {std::string(secret_key_variable) + "=" + keys_->workers.secret_text()});
 }
 
-LocalWorkers::LocalWorkers(std::string program, std::uint32_t count, std::uint32_t places, std::optional<Keys> keys)
-    : program_(std::move(program)), places_(places), keys_(std::move(keys)) {
+LocalWorkers::LocalWorkers(std::string program, std::uint32_t count, std::uint32_t places, std::optional<Keys> keys,
+                           Troubles troubles)
+    : program_(std::move(program)), places_(places), keys_(std::move(keys)), troubles_(std::move(troubles)) {
     std::vector<int> outs;
     try {
         for (std::uint32_t i = 0; i < count; ++i) {  // all start together
             int out = -1;
-            workers_.push_back({.endpoint = {}, .process = start("tcp://127.0.0.1:*", &out)});
+            workers_.push_back({.listens = {}, .endpoint = {}, .process = start("tcp://127.0.0.1:*", &out)});
             outs.push_back(out);
         }
-        for (std::uint32_t i = 0; i < count; ++i) workers_[i].endpoint = read_endpoint(outs[i]);
+        for (std::uint32_t i = 0; i < count; ++i) workers_[i].endpoint = workers_[i].listens = read_endpoint(outs[i]);
+        begin_troubles();
     } catch (...) {
         for (const auto out : outs) close(out);
+        for (auto& worker : workers_) worker.slow.reset();
         for (const auto& worker : workers_) kill(worker.process, SIGKILL);
         for (const auto& worker : workers_) waitpid(worker.process, nullptr, 0);
         throw;
@@ -69,6 +72,7 @@ LocalWorkers::LocalWorkers(std::string program, std::uint32_t count, std::uint32
 }
 
 LocalWorkers::~LocalWorkers() {
+    for (auto& worker : workers_) worker.slow.reset();
     for (const auto& worker : workers_)
         if (worker.process) kill(worker.process, SIGTERM);
     const auto end = Clock::now() + std::chrono::seconds(1);
@@ -93,15 +97,46 @@ void LocalWorkers::look_after(Time now, const Handlers& handlers) {
             if (waitpid(worker.process, nullptr, WNOHANG) == worker.process) died(worker, now, handlers);
         } else if (worker.useless_deaths < most_useless_deaths && now >= worker.next_start) {
             int out = -1;
-            worker.process = start(worker.endpoint, &out);
+            worker.process = start(worker.listens, &out);
             close(out);  // where it listens is known
             worker.was_of_use = false;
+            slow_down(worker);
         }
     }
+    lose(handlers.done(), handlers);
+}
+
+void LocalWorkers::begin_troubles() {
+    for (auto& worker : workers_) {
+        if (troubles_.delay.count() > 0) {
+            worker.line = std::make_unique<DelayLine>(worker.listens, troubles_.delay);
+            worker.endpoint = worker.line->endpoint();
+        }
+        slow_down(worker);
+    }
+}
+
+void LocalWorkers::slow_down(Worker& worker) {
+    const auto number = static_cast<std::uint32_t>(&worker - workers_.data()) + 1;
+    if (const auto found = troubles_.slow.find(number); found != troubles_.slow.end())
+        worker.slow = std::make_unique<SlowMotion>(worker.process, found->second);
+}
+
+// Each once: when it has been started anew, it may stay.
+void LocalWorkers::lose(double done, const Handlers& handlers) {
+    std::erase_if(troubles_.lose, [&](const auto& loss) {
+        const auto [number, share] = loss;
+        auto& worker = workers_.at(number - 1);
+        if (done < share || !worker.process) return false;
+        handlers.say("worker" + std::to_string(number) + " (" + worker.endpoint + ") is killed now, as --lose says");
+        kill(worker.process, SIGKILL);
+        return true;
+    });
 }
 
 void LocalWorkers::died(Worker& worker, Time now, const Handlers& handlers) {
     worker.process = 0;
+    worker.slow.reset();
     handlers.ended(worker.endpoint);
     worker.useless_deaths = worker.was_of_use ? 0 : worker.useless_deaths + 1;
     worker.next_start = now + first_delay * (1 << worker.useless_deaths);

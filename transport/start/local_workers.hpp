@@ -4,11 +4,15 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "transport/keys/key.hpp"
+#include "transport/start/delay_line.hpp"
+#include "transport/start/slow_motion.hpp"
+#include "transport/start/troubles.hpp"
 
 namespace lightnet {
 
@@ -27,12 +31,13 @@ public:
     /// Starts `count` daemons of `places` places each, and waits until each says where it listens. Without `keys` they
     /// ask for none. Throws Error when one does not.
     LocalWorkers(std::string program, std::uint32_t count, std::uint32_t places,
-                 std::optional<Keys> keys = std::nullopt);
+                 std::optional<Keys> keys = std::nullopt, Troubles troubles = {});
     /// SIGTERM, then, after a second, SIGKILL.
     ~LocalWorkers();
     LocalWorkers(const LocalWorkers&) = delete;
     LocalWorkers& operator=(const LocalWorkers&) = delete;
 
+    /// Where others reach them.
     std::vector<std::string> endpoints() const;
 
     /// What look_after() tells and asks.
@@ -40,24 +45,32 @@ public:
         std::function<void(const std::string& endpoint)> ended;   // its process has
         std::function<bool(const std::string& endpoint)> of_use;  // it serves the run
         std::function<void(const std::string& text)> say;
+        std::function<double()> done = [] { return 0.0; };  // share of the picture that is there
     };
-    /// Starts those anew whose process has ended. Returns at once.
+    /// Starts those anew whose process has ended, and kills those whose time to be lost has come. Returns at once.
     void look_after(Time now, const Handlers& handlers);
 
 private:
     struct Worker {
-        std::string endpoint;
+        std::string listens;     // where it does
+        std::string endpoint;    // where others reach it
         int process = 0;         // 0: has ended
         int useless_deaths = 0;  // in a row
         bool was_of_use = false;
         Time next_start{};
+        std::unique_ptr<DelayLine> line = nullptr;
+        std::unique_ptr<SlowMotion> slow = nullptr;
     };
+    void begin_troubles();
+    void slow_down(Worker& worker);
+    void lose(double done, const Handlers& handlers);
     void died(Worker& worker, Time now, const Handlers& handlers);
     int start(const std::string& listen, int* out) const;
 
     std::string program_;
     std::uint32_t places_;
     std::optional<Keys> keys_;
+    Troubles troubles_;
     std::vector<Worker> workers_;
 };
 
