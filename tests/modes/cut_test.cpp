@@ -5,6 +5,7 @@
 #include <csignal>
 
 #include "tests/modes/daemons.hpp"
+#include "tests/modes/long_enough.hpp"
 #include "tests/support/bad_line.hpp"
 
 namespace lightnet::test {
@@ -27,19 +28,7 @@ constexpr auto patience = slowdown * seconds(60);
 class Cut : public ::testing::Test {
 protected:
     static void SetUpTestSuite() {
-        const auto begun = Clock::now();
-        render_reference();
-        const auto took = Clock::now() - begun;
-        if (took >= length) return;
-        picture[3] = std::to_string(128 * (length / std::max<Clock::duration>(took, milliseconds(100)) + 1));
-        render_reference();
-    }
-    static void render_reference() {
-        const Folder folder;
-        auto words = picture;
-        words.insert(words.end(), {"--threads", "2"});
-        delete reference;
-        reference = new Launch(launch(graph_file("cornell.lua"), folder, words, patience));
+        reference = new Launch(launch_for(length, graph_file("cornell.lua"), picture, patience));
         ASSERT_EQ(reference->code, 0) << reference->said;
     }
     static void TearDownTestSuite() { delete reference; }

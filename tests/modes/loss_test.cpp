@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/modes/daemons.hpp"
+#include "tests/modes/long_enough.hpp"
 #include "tests/modes/stranger.hpp"
 
 namespace lightnet::test {
@@ -14,9 +15,10 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using Clock = std::chrono::steady_clock;
 
-// Long enough that something can happen in the middle.
-const std::vector<std::string> some_seconds{"--size",     "128x128", "--samples", std::to_string(256 / slowdown),
-                                            "--progress", "json",    "--tile",    "16"};
+// Long enough that something can happen in the middle, and a host that hangs is noticed before the others are done.
+constexpr auto length = seconds(3);
+std::vector<std::string> some_seconds{"--size",     "128x128", "--samples", std::to_string(256 / slowdown),
+                                      "--progress", "json",    "--tile",    "16"};
 
 // Who held a node at the end, as run.json has it.
 std::vector<std::string> holders_of(const std::string& node, const std::string& report) {
@@ -31,10 +33,7 @@ std::vector<std::string> holders_of(const std::string& node, const std::string& 
 class Loss : public ::testing::Test {
 protected:
     static void SetUpTestSuite() {
-        const Folder folder;
-        auto words = some_seconds;
-        words.insert(words.end(), {"--threads", "2"});
-        reference = new std::string(launch(graph_file("cornell.lua"), folder, words).picture);
+        reference = new std::string(launch_for(length, graph_file("cornell.lua"), some_seconds).picture);
         ASSERT_FALSE(reference->empty());
     }
     static void TearDownTestSuite() { delete reference; }
