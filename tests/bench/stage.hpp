@@ -44,6 +44,8 @@ public:
     /// On hosts that have the scene: gather() has returned. Without its end.
     Rendered on(Cluster& cluster, std::uint64_t run);
     Cluster::Options options(std::vector<std::string> endpoints, std::uint64_t run) const;
+    /// Asks two hosts for so many millionths of all answers, from now on.
+    void verify(std::uint32_t millionths) { job_.tuning.verify = millionths; }
     /// Of all random numbers, from now on.
     void use_seed(std::uint64_t seed) { job_.seed = seed; }
     /// Where what is prepared is kept, from now on. It outlives this.

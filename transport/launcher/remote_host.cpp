@@ -239,7 +239,8 @@ void RemoteHost::control(Type type, const Fields& fields, Time now) {
             state_ = State::refused;
             return;
         case Type::fault:
-            failures_.push_back({fields.text("text") + " (" + name_ + " had asked it)", fields.text("host")});
+            failures_.push_back(
+                {fields.text("text") + " (" + name_ + " had asked)", fields.text("host"), fields.number("lie") != 0});
             return;
         case Type::pong:
             if (state_ == State::calling || state_ == State::refused) return;
