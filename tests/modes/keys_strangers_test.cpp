@@ -56,9 +56,15 @@ TEST_F(Keys, ThatNobodyKnowsGetNoWordOutOfADoor) {
 
 // Becomes a user of this machine who has nothing to do with us, and tries all that he can. What he got at; "": nothing.
 std::string as_nobody(const std::vector<std::pair<std::string, PublicKey>>& doors,
-                      const std::vector<std::string>& files) {
+                      const std::vector<std::string>& files, const std::string& open_door,
+                      const std::string& open_file) {
     constexpr int nobody = 65534;
     if (::setgroups(0, nullptr) || ::setgid(nobody) || ::setuid(nobody)) return "can't be nobody";
+    // Where there is nothing to keep him out he gets in, or the rest would prove nothing.
+    if (std::ifstream(open_file).get() == std::ifstream::traits_type::eof()) return "can't read " + open_file;
+    Stranger guest(open_door, 5000);
+    guest.send(packet::pack(Type::status, 0, {}));
+    if (guest.receive().first != Type::state) return "an open door says nothing";
     for (const auto& file : files)
         if (std::ifstream(file).get() != std::ifstream::traits_type::eof()) return "can read " + file;
     for (const auto& [endpoint, key] : doors)
@@ -94,11 +100,13 @@ TEST_F(Keys, KeepOtherUsersOfTheMachineOut) {
         const std::string words((std::istreambuf_iterator<char>(line)), {});
         for (const auto* name : {"user", "daemon"}) EXPECT_THAT(words, Not(HasSubstr(key_in(name).secret_text())));
     }
+    const Folder other;
+    const Daemon plain(other);
     int ends[2];
     ASSERT_EQ(::pipe(ends), 0);
     const auto child = ::fork();
     if (child == 0) {
-        const auto got = as_nobody(doors, files);
+        const auto got = as_nobody(doors, files, plain.endpoint, folder.file("launchers"));
         [[maybe_unused]] const auto written = ::write(ends[1], got.data(), got.size());
         ::_exit(got.empty() ? 0 : 1);
     }

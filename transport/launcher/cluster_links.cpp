@@ -116,7 +116,7 @@ bool Cluster::Links::take_out(const std::string& name, const std::string& why) {
 
 // A host that accuses the only other one may be the liar itself.
 void Cluster::Links::doubt(Failure found, const std::string& accuser) {
-    if (!accuser.empty() && offers(true).size() < 3) found.host.clear();
+    if (!find(found.host) || (!accuser.empty() && offers(true).size() < 3)) found.host.clear();
     if (!lie) lie = std::move(found);
 }
 
