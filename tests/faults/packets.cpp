@@ -15,6 +15,7 @@
 #include "core/base/build_info.hpp"
 #include "core/network/graph/json.hpp"
 #include "core/network/graph/plan.hpp"
+#include "core/run/runtime/job.hpp"
 #include "tests/faults/faults.hpp"
 #include "tests/modes/stranger.hpp"
 #include "tests/support/liar.hpp"
@@ -54,10 +55,11 @@ Packet long_chain(int nodes) {
     json += fmt::format(R"(,{{"name":"image","kind":"RayTracer","entries":[{{"node":"n{}"}}],"params":{{
         "scene":{{"node":"scene"}},"film":{{"list":[16.0,16.0],"named":{{}}}}}},"where":["x",1]}}]}})",
                         nodes - 1);
-    const std::string rest =
-        R"("scene":"a.pbrt","files":[],"seed":0,"isa":"sse4.2","width":16,"height":16,"tuning":{"bundle":1,
-        "oldest_us":1,"eager":1,"credit":1,"credit_questions":1,"credit_bytes":1,"spare_fibers":1,
-        "side_fibers":1,"check_answers":false,"call_own_nodes":true}})";
+    Job job;
+    job.scene = "a.pbrt", job.isa = "sse4.2";
+    job.width = job.height = 16;
+    const auto text = to_json(job);
+    const auto rest = text.substr(text.find("\"files\":"));  // all but its graph
     Plan plan;
     plan.places = {{"x", 0}};
     plan.places_of.resize(static_cast<std::size_t>(nodes) + 2);
