@@ -200,11 +200,11 @@ std::string greeting() {
 }
 
 // During a run at this daemon.
-struct Shed {
+struct Crowding {
     double seconds, megabytes, with, alone;
     int count;
 };
-Shed shed_of(const Daemon& daemon, const std::function<void()>& expect_same_picture) {
+Crowding crowding_of(const Daemon& daemon, const std::function<void()>& expect_same_picture) {
     const auto timed = [&] {
         const auto begun = Clock::now();
         expect_same_picture();
@@ -251,7 +251,7 @@ Shed shed_of(const Daemon& daemon, const std::function<void()>& expect_same_pict
 TEST_F(Faults, OfStrayConnectionsAreShedInTime) {
     reference(usual);
     const Daemon plain(folder);
-    const auto open = shed_of(plain, [&] {
+    const auto open = crowding_of(plain, [&] {
         expect_same(*start(usual, {"--hosts", hosts_file({whole(plain.endpoint)})}), usual);
     });
     const auto user = load_or_make_key(folder.file("user.key")), own = load_or_make_key(folder.file("own.key"));
@@ -260,7 +260,7 @@ TEST_F(Faults, OfStrayConnectionsAreShedInTime) {
         {"--key", folder.file("own.key"), "--allow", folder.write("allow", user.open.text() + " me\n")});
     const auto hosts =
         folder.write("keyed.lua", "place '" + locked.endpoint + "' { key = '" + own.open.text() + "' }\n");
-    const auto keyed = shed_of(locked, [&] {
+    const auto keyed = crowding_of(locked, [&] {
         expect_same(*start(usual, {"--hosts", hosts, "--key", folder.file("user.key")}), usual);
     });
     done(
