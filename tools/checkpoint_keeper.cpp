@@ -66,6 +66,12 @@ void CheckpointKeeper::save(std::uint64_t blocks) {
     write_checkpoint(file_, last_);
 }
 
+void CheckpointKeeper::begin_anew() {
+    remove();
+    saving_ = {};
+    saved_ = 0;
+}
+
 void CheckpointKeeper::remove() {
     if (saving_.valid()) saving_.wait();
     std::error_code ignored;

@@ -32,6 +32,8 @@ public:
     void save(std::uint64_t blocks);
     /// Waits for what is being saved, and removes the file.
     void remove();
+    /// The same; the film, empty again, is saved from now on.
+    void begin_anew();
 
 private:
     Film& film_;

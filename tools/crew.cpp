@@ -61,7 +61,8 @@ Crew::Crew(const RunRequest& request, Cluster::Options cluster, std::function<do
     cluster.listen = request.listen;
     cluster.pass = request.pass;
     cluster.threads = request.threads;
-    cluster_ = std::make_unique<Cluster>(std::move(cluster));
+    options_ = std::move(cluster);
+    cluster_ = std::make_unique<Cluster>(options_);
     if (!request.listen.empty()) say_("hosts may join at " + seen_from_elsewhere(cluster_->join_endpoint()));
     if (request.slurm.daemons) {
         SlurmWorkers::Request array{daemon_program(),
@@ -78,6 +79,16 @@ Crew::Crew(const RunRequest& request, Cluster::Options cluster, std::function<do
         slurm_.emplace(array);
         say_("Slurm has taken job " + slurm_->job() + " of " + std::to_string(request.slurm.daemons) + " daemons");
     }
+}
+
+// Who has joined dials the same port again.
+void Crew::begin_anew(std::uint64_t run, const std::set<std::string>& liars, std::shared_ptr<const Network> network) {
+    options_.run = run;
+    options_.liars = liars;
+    options_.network = std::move(network);
+    if (!options_.listen.empty()) options_.listen = cluster_->join_endpoint();
+    cluster_.reset();
+    cluster_ = std::make_unique<Cluster>(options_);
 }
 
 void Crew::gather(const std::atomic<bool>& cancelled) {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,9 @@ public:
     Crew(const RunRequest& request, Cluster::Options cluster, std::function<double()> done);
 
     Cluster& cluster() { return *cluster_; }
+    /// All hosts but `liars` take part in another run, `run`, with `network` for places of this process; the one so far
+    /// is over. gather() waits for them.
+    void begin_anew(std::uint64_t run, const std::set<std::string>& liars, std::shared_ptr<const Network> network);
     /// Waits for those that are to be there from the beginning.
     void gather(const std::atomic<bool>& cancelled);
     /// Hosts that the user named and that take no part: why, and what others have to do for them.
@@ -36,6 +40,7 @@ private:
     std::function<void(const std::string&)> say_;
     std::function<double()> done_;
     std::optional<LocalWorkers> local_;
+    Cluster::Options options_;
     std::unique_ptr<Cluster> cluster_;
     std::optional<SecretFile> slurm_key_;  // outlives the job
     std::optional<SlurmWorkers> slurm_;

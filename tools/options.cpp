@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "core/network/graph/graph_film.hpp"
@@ -94,6 +96,18 @@ void add_watching(CLI::App& verb, RunningOptions& running) {
         ->check([](const std::string& text) {
             return text.ends_with(".html") ? "" : "a report is a file like run.html, not " + text;
         });
+}
+
+// "2%" or "0.02"; none: no part of a whole.
+std::optional<std::uint32_t> millionths_of(const std::string& text) {
+    const bool percent = text.ends_with('%');
+    const char* const end = text.data() + text.size() - percent;
+    double part = 0;
+    const auto [rest, fault] = std::from_chars(text.data(), end, part);
+    if (fault != std::errc{} || rest != end) return {};
+    if (percent) part /= 100;
+    if (!(part >= 0 && part <= 1)) return {};
+    return static_cast<std::uint32_t>(std::lround(part * 1e6));
 }
 
 // The picture does not depend on any of these.
@@ -219,6 +233,14 @@ void add_running(CLI::App& verb, RunningOptions& running) {
     verb.add_option("--trace", running.trace, "write what every place was busy with, for Perfetto (ui.perfetto.dev)")
         ->type_name("FILE.json");
     add_watching(verb, running);
+    verb.add_option_function<std::string>(
+            "--verify", [&running](const std::string& text) { running.tuning.verify = *millionths_of(text); },
+            "ask a second host for such a part of all answers, chosen at random, and compare; who has answered falsely "
+            "is taken out, and the run begins anew")
+        ->type_name("PART")
+        ->check([](const std::string& text) {
+            return millionths_of(text) ? "" : "a part of all answers is like 2% or 0.02, not " + text;
+        });
     verb.add_flag("--resume", running.resume,
                   "continue from the checkpoint beside the picture, if there is one; a finished picture gets the "
                   "samples that it lacks");
@@ -231,9 +253,11 @@ void add_running(CLI::App& verb, RunningOptions& running) {
 std::optional<std::string> settle(RunningOptions& running) {
     const bool safe = running.insecure || !running.allow.empty() || running.slurm;  // which has keys by itself
     if (!running.listen.empty() && !safe && !stays_on_this_machine(running.listen))
-        return beyond_this_machine("--listen " + running.listen, "say --allow FILE with the keys of hosts that may join");
+        return beyond_this_machine("--listen " + running.listen,
+                                   "say --allow FILE with the keys of hosts that may join");
     if (running.watch && !running.insecure && !running.watch->stays_here())
-        return beyond_this_machine("--watch " + in_url(running.watch->host), "put a server with TLS in front of 127.0.0.1");
+        return beyond_this_machine("--watch " + in_url(running.watch->host),
+                                   "put a server with TLS in front of 127.0.0.1");
     if (auto mistake = mistake_in(running.troubles, running.local_workers.value_or(0))) return mistake;
     if (running.slurm && running.listen.empty()) running.listen = "tcp://0.0.0.0:*";
     return std::nullopt;

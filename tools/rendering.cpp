@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <random>
 #include <string>
 #include <utility>
 
@@ -17,7 +16,7 @@
 #include "core/run/prepare/looker.hpp"
 #include "core/run/runtime/master_renderer.hpp"
 #include "core/run/runtime/serial.hpp"
-#include "tools/crew.hpp"
+#include "core/run/schedule/spot_checks.hpp"
 #include "transport/launcher/threaded_run.hpp"
 #include "transport/store/cache_folder.hpp"
 
@@ -29,10 +28,10 @@ using namespace std::chrono_literals;
 
 constexpr auto drain_deadline = 5s;  // for tiles that are under way when the run is told to stop
 
-std::uint64_t random_number() {
-    std::random_device device;  // names a run; nothing that is computed depends on it
-    return (std::uint64_t{device()} << 32) | device();
-}
+// Somebody has answered falsely.
+struct Lie {
+    Failure what;
+};
 
 // For those who have to wait for the hosts of this run.
 std::string who_runs(const Graph& graph) {
@@ -47,9 +46,11 @@ Rendering::Rendering(Assignment what, RunBook& book, const Signals& signals)
       book_(book),
       signals_(signals),
       image_(renderer_of(what_.job.graph, what_.registry)),
-      id_(random_number()) {}
+      id_(secret_number()) {}
 
 void Rendering::perform(LoadedScene scene, const DiskFiles& files) {
+    if (what_.request.tuning.verify > 0 && what_.request.mode != Mode::network)
+        book_.warn("--verify asks other hosts, and this run has none");
     switch (what_.request.mode) {
         case Mode::serial:
             return serially(std::move(scene));
@@ -108,7 +109,7 @@ void Rendering::in_threads(LoadedScene scene) {
     const auto places = static_cast<std::uint32_t>(plan.places.size());
     const auto hosts = [&] { return std::vector{this_process(places, run.figures())}; };
     hand_out(run.carrier(), plan,
-             {[&](std::size_t) { run.check(); }, [&] { return network->activity->all(); }, hosts, {}});
+             {[&](std::size_t) { run.check(); }, [&] { return network->activity->all(); }, hosts, {}, [] {}});
     book_.show_last(hosts);
     book_.count(run.stop());
 }
@@ -124,6 +125,7 @@ std::uint32_t Rendering::tiles_per_place(const Plan& plan) const {
 
 // Where what nodes prepare is kept. Doing without is slower, and no error.
 ResultCache* Rendering::cache() {
+    if (what_.request.tuning.verify > 0) return nullptr;  // what earlier runs have kept there nobody has verified
     if (what_.request.tuning.cache == "none" || preparing_nodes(what_.job.graph, what_.registry).empty())
         return nullptr;
     try {
@@ -156,15 +158,20 @@ void Rendering::hand_out(Carrier& carrier, const Plan& plan, const Crowd& crowd)
     options.width = static_cast<std::uint32_t>(what_.format.colours());
     options.made_from = made_from(what_.job);
     options.cache = cache();
+    options.verify = what_.request.tuning.verify;
     options.say = [this](const std::string& text) { book_.say(text); };
     Conductor conductor(std::move(options), carrier);
     TilesByPass passes(what_.job.graph, what_.registry, what_.tiles);
     conductor.begin_pass(passes.pass());
     conductor.propose(plan);
     if (!prepare(conductor, crowd)) return;
-    what_.kept.write([&](std::size_t node) { return conductor.last_result(node); }, book_);
+    const auto write_kept = [&] {
+        what_.kept.write([&](std::size_t node) { return conductor.last_result(node); }, book_);
+    };
+    if (!what_.request.tuning.verify) write_kept();
     book_.phase("render");
     while (!passes.empty() && !stopped()) hand_out_pass(conductor, passes, crowd);
+    if (what_.request.tuning.verify && !stopped()) write_kept();  // nobody was found to have lied
 }
 
 // Prepares for the next pass, as far as that is still to be done, and has its tiles rendered.
@@ -179,6 +186,8 @@ void Rendering::hand_out_pass(Conductor& conductor, TilesByPass& passes, const C
     const auto tiles = tiles_per_place(conductor.in_force());
     job.credit = {tiles, tiles * MasterRenderer::most_together};
     job.check_answers = what_.request.tuning.check_answers;
+    job.verify = what_.request.tuning.verify;
+    job.alone = [this](const Plan& plan) { return answers_alone(plan, what_.job.graph, image_); };
     if (book_.shown()) job.handed_out = [this](const auto& handed_out) { book_.show_handed_out(handed_out); };
     MasterRenderer* more = nullptr;
     MasterRenderer master(std::move(job), conductor, [&](const Tile& tile, std::span<const Rgb> pixels) {
@@ -195,6 +204,7 @@ void Rendering::hand_out_pass(Conductor& conductor, TilesByPass& passes, const C
         const auto end = Clock::now() + drain_deadline;
         while (master.outstanding() > 0 && Clock::now() < end && !signals_.interrupted) master.work(50ms);
     }
+    crowd.trust();
     book_.count(master.counters());
     if (const auto& aside = master.set_aside_tiles(); !aside.empty()) {
         std::string all = "the picture lacks some of its tiles, and is not written:";
@@ -210,7 +220,7 @@ Cluster::Options Rendering::cluster_options(const DiskFiles& files) {
     options.job = what_.job;
     options.files = files.seen();
     options.plan = [this](const std::vector<HostOffer>& offers) {
-        return lightnet::plan(what_.job.graph, what_.registry, what_.request.hosts, offers);
+        return lightnet::plan(what_.job.graph, what_.registry, whole_ ? Hosts{} : what_.request.hosts, offers);
     };
     options.say = [this](const std::string& text) { book_.say(text); };
     return options;
@@ -221,7 +231,67 @@ void Rendering::on_hosts(LoadedScene scene, const DiskFiles& files) {
     auto options = cluster_options(files);
     if (what_.request.threads) options.network = build_network(what_.job, what_.registry, std::move(scene));
     Crew crew(what_.request, std::move(options), [this] { return book_.share_done(); });
+    while (true) {
+        try {
+            return on(crew);
+        } catch (const Lie& lie) {
+            begin_anew(crew, lie.what);
+        }
+    }
+}
+
+// What the liar has told may be in any sum, record or photon: all of it is done again, without him.
+// DECISIONS: begun-anew-without-the-liar
+void Rendering::begin_anew(Crew& crew, const Failure& lie) {
+    crew.cluster().finish(300ms);
+    book_.begin_anew();
+    if (lie.host.empty() && whole_)
+        throw Error("answers of hosts differ, and nobody can tell which is right",
+                    lie.why + "; with three hosts, or with --threads 1, whose answers are believed, it can be told");
+    if (lie.host.empty()) {
+        book_.say(lie.why +
+                  ": the run begins anew, with the whole network at each host, so that it shows who is wrong");
+        whole_ = true;
+    } else {
+        book_.warn(lie.host + " is taken out, as it answers falsely: " + lie.why +
+                   "; all that it has told is done again");
+        liars_.insert(lie.host);
+    }
+    what_.tiles = tiles_of(what_.format, what_.request.tuning.tile);
+    id_ = secret_number();
+    book_.phase("prepare");
+    crew.begin_anew(id_, liars_, what_.request.threads ? network_of_files() : nullptr);
+}
+
+// Who alone holds a node can say of it what he likes.
+void Rendering::warn_of_unverified(const Plan& plan) {
+    if (!what_.request.tuning.verify) return;
+    for (std::size_t node = 0; node < plan.places_of.size(); ++node) {
+        std::set<std::string> hosts;
+        for (const auto place : plan.places_of[node]) hosts.insert(plan.places[place].host);
+        if (hosts.size() == 1 && !hosts.begin()->empty())
+            book_.warn(fmt::format("node '{}' is at {} alone, so nobody can verify what it answers there",
+                                   what_.job.graph.nodes[node].name, *hosts.begin()));
+    }
+}
+
+// For places of this process, which keep what they have learnt with the network.
+std::shared_ptr<const Network> Rendering::network_of_files() const {
+    DiskFiles files;
+    auto network = build_network(what_.job, what_.registry, files);
+    for (const auto& [path, hash] : files.hashes())
+        if (std::none_of(what_.job.files.begin(), what_.job.files.end(),
+                         [&](const JobFile& file) { return file.path == path && file.hash == hash; }))
+            throw Error(path, "has changed since the run began");
+    return network;
+}
+
+// A run on those hosts that are not known to lie. Throws Lie.
+void Rendering::on(Crew& crew) {
     auto& cluster = crew.cluster();
+    const auto trust = [&] {
+        if (what_.request.tuning.verify > 0 && cluster.lie()) throw Lie{*cluster.lie()};
+    };
     crew.gather(signals_.any);
     if (stopped()) {
         cluster.finish(300ms);
@@ -229,9 +299,11 @@ void Rendering::on_hosts(LoadedScene scene, const DiskFiles& files) {
     }
     book_.use(cluster.plan(), what_.job.graph);
     for (const auto& host : crew.missing()) book_.warn(host);
+    warn_of_unverified(cluster.plan());
     std::optional<Clock::time_point> homeless;
     const auto look_around = [&](std::size_t renderers) {
         crew.look_after();
+        trust();
         if (renderers > 0) return homeless.reset();
         const auto& name = what_.job.graph.nodes[image_].name;
         if (!homeless) {
@@ -246,11 +318,13 @@ void Rendering::on_hosts(LoadedScene scene, const DiskFiles& files) {
     if (book_.shown()) cluster.watch();
     hand_out(cluster, cluster.plan(),
              {look_around, [&] { return cluster.doing(); }, [&] { return cluster.hosts(); },
-              [&](const std::string& host) { return cluster.drain(host); }});
+              [&](const std::string& host) { return cluster.drain(host); }, trust});
     book_.show_last([&] { return cluster.hosts(); });
     book_.use(cluster.plan(), what_.job.graph);
     for (const auto& host : cluster.hosts()) book_.use(host);
-    book_.count(cluster.finish(stopped() ? 300ms : 1000ms));
+    const auto counted = cluster.finish(stopped() ? 300ms : 1000ms);
+    if (!stopped()) trust();  // a word of the last moment
+    book_.count(counted);
 }
 
 }  // namespace lightnet

@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,7 @@
 #include "core/run/runtime/conductor.hpp"
 #include "core/run/runtime/job.hpp"
 #include "core/run/runtime/tiles_by_pass.hpp"
+#include "tools/crew.hpp"
 #include "tools/kept_files.hpp"
 #include "tools/run.hpp"
 #include "tools/run_book.hpp"
@@ -48,6 +51,10 @@ private:
     void serially(LoadedScene scene);
     void in_threads(LoadedScene scene);
     void on_hosts(LoadedScene scene, const DiskFiles& files);
+    void on(Crew& crew);
+    void warn_of_unverified(const Plan& plan);
+    void begin_anew(Crew& crew, const Failure& lie);
+    std::shared_ptr<const Network> network_of_files() const;
     Cluster::Options cluster_options(const DiskFiles& files);
     /// Called several times a second with the number of places that render.
     /// Those who do the work.
@@ -56,6 +63,7 @@ private:
         std::function<Doings()> doing;  // while they prepare
         std::function<std::vector<HostState>()> hosts;
         std::function<bool(const std::string& host)> drain;  // none: nobody can be taken out
+        std::function<void()> trust = [] {};                 // throws when somebody has lied
     };
     void show(const Crowd& crowd);
     void obey(const WatchCommand& wish, const Crowd& crowd);
@@ -72,7 +80,9 @@ private:
     const Signals& signals_;
     std::size_t image_;
     std::optional<DiskResultCache> cache_;
-    const std::uint64_t id_;
+    std::uint64_t id_;
+    std::set<std::string> liars_;  // hosts that take no part any more
+    bool whole_ = false;           // each host is to hold the whole network, whatever the hosts file says
 };
 
 }  // namespace lightnet

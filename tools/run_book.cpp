@@ -167,6 +167,16 @@ void RunBook::found(std::uint64_t blocks) {
     if (blocks) progress_.found_done(blocks, Clock::now());
 }
 
+void RunBook::begin_anew() {
+    if (checkpoint_) checkpoint_->begin_anew();
+    if (previewed_) warn("the preview that is there may hold false light");
+    film_ = Film(film_.format());
+    film_.expose(scale_);
+    blocks_ = 0;
+    progress_.update(0, Clock::now());
+    if (watcher_) watcher_->look(film_);
+}
+
 bool RunBook::save_checkpoint() {
     if (!checkpoint_ || blocks_ == 0) return false;
     checkpoint_->save(blocks_);

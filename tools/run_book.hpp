@@ -93,6 +93,8 @@ public:
     std::vector<Tile> lacking(const Tile& tile) const { return film_.lacking(tile); }
     /// What else is wanted, of cells that need more.
     std::vector<Tile> going_on() const { return film_.going_on(); }
+    /// All that is there is in doubt: the film is empty again, and so is the checkpoint beside it.
+    void begin_anew();
     /// So many blocks of tiles were there already.
     void found(std::uint64_t blocks);
     /// Saves what is there now; false: nothing was worth it.

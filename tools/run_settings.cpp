@@ -75,6 +75,7 @@ RunReport first_page(const RunRequest& request, const Registry& registry, const 
     report.settings["seed"] = std::to_string(request.seed);
     for (const auto& knob : knobs)
         if (knob.by == Knob::By::users) report.settings[knob.name] = text_of(request.tuning, knob);
+    report.settings["verify"] = fmt::format("{}", request.tuning.verify / 1e6);
     for (const auto& warning : irreproducible_nodes(request.graph, registry))  // said already, when it was checked
         report.warnings.push_back(to_string(warning));
     return report;

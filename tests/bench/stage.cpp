@@ -62,12 +62,13 @@ void Stage::lead(Carrier& carrier, const Plan& plan, std::uint64_t run, const st
         made.preparing += seconds_of([&] {
             while (!conductor.prepare(50ms)) check();
         });
-        MasterRenderer master({run,
-                               static_cast<std::uint32_t>(image_),
-                               static_cast<std::uint32_t>(format_.layers.size()),
-                               std::move(tiles),
-                               {2, 2 * MasterRenderer::most_together}},
-                              conductor,
+        MasterRenderer::Job job{run,
+                                static_cast<std::uint32_t>(image_),
+                                static_cast<std::uint32_t>(format_.layers.size()),
+                                std::move(tiles),
+                                {2, 2 * MasterRenderer::most_together}};
+        job.verify = job_.tuning.verify;
+        MasterRenderer master(std::move(job), conductor,
                               [&](const Tile& tile, std::span<const Rgb> pixels) { film.add(tile, pixels); });
         master.use(conductor.in_force());
         while (!master.work(50ms)) check();

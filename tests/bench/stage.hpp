@@ -21,7 +21,7 @@ namespace lightnet::bench {
 
 /// One rendering: its picture, and what it took.
 struct Rendered {
-    Picture picture;
+    lightnet::Picture picture;  // benchmarks have another one
     double building = 0;                // seconds until the scene is read and its tree built
     double preparing = 0, seconds = 0;  // after that; the latter includes the former
     double cpu_seconds = 0;             // of this process
@@ -44,6 +44,8 @@ public:
     /// On hosts that have the scene: gather() has returned. Without its end.
     Rendered on(Cluster& cluster, std::uint64_t run);
     Cluster::Options options(std::vector<std::string> endpoints, std::uint64_t run) const;
+    /// Asks two hosts for so many millionths of all answers, from now on.
+    void verify(std::uint32_t millionths) { job_.tuning.verify = millionths; }
     /// Of all random numbers, from now on.
     void use_seed(std::uint64_t seed) { job_.seed = seed; }
     /// Where what is prepared is kept, from now on. It outlives this.

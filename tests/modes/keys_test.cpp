@@ -1,84 +1,17 @@
-// Runs on hosts that know each other by keys, and those who would like to have a part in them.
-#include <gmock/gmock.h>
-
+// Runs on hosts that know each other by keys.
 #include <csignal>
 #include <fstream>
 
-#include "core/base/build_info.hpp"
-#include "tests/modes/daemons.hpp"
-#include "tests/modes/stranger.hpp"
+#include "tests/modes/keyed.hpp"
 #include "tests/support/delaying_proxy.hpp"
-#include "transport/keys/key_file.hpp"
 
 namespace lightnet::test {
 namespace {
 
-using packet::Fields;
-using packet::Type;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 using ::testing::HasSubstr;
 using ::testing::Not;
-using Words = std::vector<std::string>;
-
-class Keys : public ::testing::Test {
-protected:
-    static void SetUpTestSuite() {
-        const Folder folder;
-        reference = new std::string(launch(graph_file("cornell.lua"), folder, join(size, {"--threads", "1"})).picture);
-        ASSERT_FALSE(reference->empty());
-    }
-    static void TearDownTestSuite() { delete reference; }
-    static Words join(Words one, const Words& more) {
-        one.insert(one.end(), more.begin(), more.end());
-        return one;
-    }
-    KeyPair key_in(const std::string& name) const { return load_or_make_key(folder.file(name + ".key")); }
-    /// A daemon with a key of its own that lets in whom `list` names.
-    std::unique_ptr<Daemon> keyed_daemon(const std::string& name, const std::string& list = "launchers") {
-        if (!std::filesystem::exists(folder / list)) folder.write(list, user.open.text() + " user\n");
-        return std::make_unique<Daemon>(folder, 1, "tcp://127.0.0.1:*",
-                                        Words{"--key", folder.file(name + ".key"), "--allow", folder.file(list)});
-    }
-    std::string place(const std::string& endpoint, const std::string& name, const std::string& nodes = "") const {
-        return "place '" + endpoint + "' { " + nodes + "key = '" + key_in(name).open.text() + "' }\n";
-    }
-    // What stands twice counts as it stands in `more`.
-    std::unique_ptr<Process> start(const std::string& hosts, const Words& more = {}) {
-        auto words = size;
-        words.insert(words.end(), {"--key", folder.file("user.key")});
-        for (std::size_t i = 0; i < more.size(); i += 2)
-            if (const auto found = std::find(words.begin(), words.end(), more[i]); found != words.end())
-                words.erase(found, found + 2);
-        if (!hosts.empty()) words = join(words, {"--hosts", folder.write("hosts.lua", hosts)});
-        return std::make_unique<Process>(launch_words(graph_file("cornell.lua"), out, join(words, more)));
-    }
-    static Words long_words(const std::string& samples) {
-        return {"--size", "48x48", "--samples", samples, "--tile", "16", "--threads", "2"};
-    }
-    static bool is_ready_again(Process& run, const std::string& endpoint) {
-        const auto text = endpoint + " is ready";
-        const auto patience = std::chrono::steady_clock::now() + slowdown * seconds(20);
-        while (std::chrono::steady_clock::now() < patience) {
-            if (run.output().find(text, run.output().find("is lost")) != std::string::npos) return true;
-            run.wait_for("never said", milliseconds(20));
-        }
-        return false;
-    }
-    Launch expect_same(Process& run) {
-        auto end = finish(run, out);
-        EXPECT_EQ(end.code, 0) << end.said;
-        EXPECT_TRUE(end.picture == *reference) << "the bytes differ\n" << end.said;
-        return end;
-    }
-
-    static inline const Words size{"--size", "48x48", "--samples", "64", "--progress", "json", "--tile", "16"};
-    static constexpr const char* endless = "1000000";  // samples: of a run that is ended from outside
-    static inline std::string* reference = nullptr;
-    Folder folder;
-    const KeyPair user = key_in("user");
-    std::filesystem::path out = folder / "picture.exr";
-};
 
 TEST_F(Keys, OfAllHostsOfARunLetThemAskEachOtherStraight) {
     const auto one = keyed_daemon("one"), two = keyed_daemon("two");
@@ -166,68 +99,6 @@ TEST_F(Keys, OfLaunchersThatAreWrongAreNotSpokenTo) {
     EXPECT_TRUE(one->wait_for("has another key than --launcher-key says")) << one->output();
     run->signal(SIGINT);
     EXPECT_EQ(run->wait(), 130);
-}
-
-// Each kind of packet there is, without a number of a run and with a guess.
-std::vector<packet::Packet> all_packets() {
-    std::vector<packet::Packet> all;
-    for (std::uint8_t type = 1; type <= static_cast<std::uint8_t>(Type::last); ++type)
-        for (const std::uint64_t run : {0, 5})
-            all.push_back(packet::pack(
-                static_cast<Type>(type), run,
-                Fields{}.set("build", build_id()).set("isa", "sse4.2").set("name", "x").set("process", 3)));
-    return all;
-}
-
-TEST_F(Keys, ThatNobodyKnowsGetNoWordOutOfADoor) {
-    const auto daemon = keyed_daemon("daemon");
-    const auto run =
-        start("", {"--local-workers", "1", "--listen", "tcp://127.0.0.1:*", "--allow",
-                   folder.write("hosts.list", key_in("one").open.text() + " onyx1\n"), "--samples", endless});
-    const auto launcher = join_endpoint(*run);
-    ASSERT_TRUE(run->wait_for(" is ready")) << run->output();
-    const auto at = run->output().rfind("tcp://", run->output().find(" is ready"));
-    const auto worker = run->output().substr(at, run->output().find(' ', at) - at);
-    for (const auto& [endpoint, key] :
-         {std::pair{daemon->endpoint, key_in("daemon").open}, {launcher, user.open}, {worker, key_in("guess").open}}) {
-        for (const auto& keys : {std::optional<LineKeys>(), std::optional(LineKeys{KeyPair::random(), key})}) {
-            Stranger stranger(endpoint, 300, keys);
-            for (const auto& packet : all_packets()) stranger.send(packet);
-            EXPECT_EQ(stranger.receive().first, Type::ping) << endpoint << ": nothing came";
-        }
-    }
-    run->signal(SIGINT);
-    EXPECT_EQ(run->wait(), 130) << run->output();
-}
-
-TEST_F(Keys, OfTwoUsersKeepTheirRunsFromEachOther) {
-    folder.write("launchers", user.open.text() + " user\n" + key_in("second").open.text() + " second\n");
-    const auto daemon = keyed_daemon("daemon");
-    const auto run = start(place(daemon->endpoint, "daemon"), {"--samples", endless});
-    ASSERT_TRUE(run->wait_for("\"event\":\"progress\"")) << run->output();
-    Stranger second(daemon->endpoint, 5000, LineKeys{key_in("second"), key_in("daemon").open});
-    second.send(packet::pack(Type::status, 0, {}));
-    const auto [type, state] = second.receive();
-    EXPECT_EQ(type, Type::state);
-    EXPECT_EQ(state.text("state"), "serves");
-    EXPECT_EQ(state.text("who"), "");
-    EXPECT_EQ(state.text("nodes"), "");
-    second.send(packet::pack(Type::begin, 5, Fields{}.set("job", "{}").set("plan", "{}").set("you", "x")));
-    const auto [answer, busy] = second.receive();
-    EXPECT_EQ(answer, Type::refuse);
-    EXPECT_EQ(busy.text("text"), "it serves another run");
-    for (const auto& packet : all_packets()) second.send(packet);
-    second.send(packet::pack(Type::status, 0, {}));
-    while (true) {  // what was said before it has been looked at by then
-        const auto [said, fields] = second.receive();
-        ASSERT_NE(said, Type::ping) << "nothing came";
-        if (said != Type::state) continue;
-        EXPECT_EQ(fields.text("state"), "serves");
-        break;
-    }
-    run->signal(SIGINT);
-    EXPECT_EQ(run->wait(), 130) << run->output();
-    EXPECT_THAT(run->output(), Not(HasSubstr("is lost")));
 }
 
 TEST_F(Keys, LeaveNothingToReadOnTheLine) {

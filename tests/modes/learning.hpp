@@ -135,6 +135,7 @@ public:
         options.graph = &network->graph;
         options.registry = &registry;
         options.width = static_cast<std::uint32_t>(colours_of(network->layers));
+        options.verify = verify;
         return options;
     }
 
@@ -165,6 +166,7 @@ public:
     std::map<std::string, Bytes> files;
     std::shared_ptr<const Network> network;
     std::vector<Tile> tiles;
+    std::uint32_t verify = 0;                                // millionths of the shards
     std::function<void(std::uint32_t pass)> between_passes;  // when one is prepared
     mutable std::vector<std::string> said;                   // by the nodes of the last run
     mutable Counters counted;                                // in the last run with threads

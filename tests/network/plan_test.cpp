@@ -48,6 +48,21 @@ TEST(Plan, SpreadsNodesOverHosts) {
                 ElementsAre(ElementsAre(0, 1), ElementsAre(2), ElementsAre(0), IsEmpty(), ElementsAre(1)));
 }
 
+TEST(Plan, TellsWhoAnswersAlone) {
+    const std::vector<HostOffer> two{{"tcp://x:1", 1}, {"tcp://y:1", 1}};
+    const auto alone = [&](const std::string& hosts, std::size_t node) {
+        return answers_alone(plan_for(hosts, two), graph(), node);
+    };
+    constexpr std::size_t a = 0, lighting = 2, image = 4;
+    EXPECT_TRUE(alone("", image)) << "each has all";
+    const std::string spread = "place 'tcp://x:1' { lighting = 1, a = 1, b = 1 } place 'tcp://y:1' { image = 1 }";
+    EXPECT_TRUE(alone(spread, lighting));
+    EXPECT_FALSE(alone(spread, image)) << "it asks the other";
+    const std::string relieved = "place 'tcp://x:1' {} place 'tcp://y:1' { a = 1 }";
+    EXPECT_TRUE(alone(relieved, a));
+    EXPECT_FALSE(alone(relieved, image)) << "questions to a may go to the other";
+}
+
 TEST(Plan, HasANodeBesideWhoeverTakesItsFrozenState) {
     const Graph taking = sound_graph("a = Ambient {} b = Cache { a } c = Reuse { of = b } lighting = Combine { b, c }");
     const Plan where = plan(taking, fake_registry(),

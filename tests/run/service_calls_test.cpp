@@ -64,6 +64,39 @@ TEST(ServiceCall, TakesNoResultsThatAreNotOfTheShardsThatWereAskedFor) {
     EXPECT_EQ(call.missing(), 18u);
 }
 
+// Three hosts do the shards; one of them, falsely. Who was named, and what came of it.
+std::pair<std::optional<Failure>, Bytes> with_liar(const std::string& liar, const std::vector<std::string>& hosts) {
+    constexpr std::uint32_t count = 12;
+    ServiceCall call({StepReport::Kind::map, 0, count}, false);
+    call.verify({1'000'000, 1});
+    for (const auto& host : hosts) call.dealer().join({{host, 0}, 0}, 1, 0);
+    bool all_there = false;
+    for (int turn = 0; turn < 100 && !all_there; ++turn) {
+        for (const auto& deal : call.dealer().deal(hosts.size(), 0)) {
+            std::vector<int> values;
+            for (std::uint32_t i = 0; i < deal.shards.count; ++i)
+                values.push_back(deal.to.place.host == liar ? 99 : static_cast<int>(deal.shards.first + i));
+            call.answer(deal.id, results(values), 0);
+        }
+        all_there = call.all_there();
+    }
+    EXPECT_TRUE(all_there) << "it waits for ever";
+    call.complete_from_shards();
+    return {call.lie(), call.result()};
+}
+
+TEST(ServiceCall, FindsOutWhoseShardsAreFalse) {
+    const auto [lie, result] = with_liar("b", {"a", "b", "c"});
+    ASSERT_TRUE(lie);
+    EXPECT_EQ(lie->host, "b");
+    EXPECT_THAT(lie->why, testing::HasSubstr("shard"));
+    EXPECT_EQ(with_liar("", {"a", "b", "c"}).first, std::nullopt);
+    EXPECT_EQ(with_liar("", {"a"}).first, std::nullopt) << "nobody else can be asked";
+    const auto undecided = with_liar("b", {"a", "b"}).first;
+    ASSERT_TRUE(undecided);
+    EXPECT_EQ(undecided->host, "") << "one against one";
+}
+
 TEST(ServiceCall, DropsWhatWasComputedBeforeItBeganAgain) {
     ServiceCall call({StepReport::Kind::map, 0, 1}, false);
     const auto before = Worker(call)[0];

@@ -221,9 +221,9 @@ void Host::Service::forward_to_launcher(Frames& frames) {
 
 void Host::Service::tell_failures() {
     if (!run) return;
-    for (const auto& [why, host] : run->failures()) {
-        options.log(host + " failed at what it was asked: " + why);
-        door.send(launcher, Type::fault, run->id(), Fields{}.set("host", host).set("text", why));
+    for (const auto& [why, host, lie] : run->failures()) {
+        options.log(lie ? "somebody has answered falsely: " + why : host + " failed at what it was asked: " + why);
+        door.send(launcher, Type::fault, run->id(), Fields{}.set("host", host).set("text", why).set("lie", lie));
     }
 }
 

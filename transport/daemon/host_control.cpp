@@ -301,6 +301,7 @@ void Host::Service::look_at_ending() {
 
 void Host::Service::end(const std::string& route, std::uint64_t id) {
     if (run && run->id() == id) {
+        tell_failures();  // while they count
         options.log("the run has ended");
         return stop_run(route);
     }

@@ -66,6 +66,10 @@ Doings Cluster::doing() const {
     return all;
 }
 
+const std::optional<Failure>& Cluster::lie() const { return links_->lie; }
+
+void Cluster::doubt(const Failure& lie) { links_->doubt(lie, ""); }
+
 std::uint64_t Cluster::renewed_lines() const {
     std::uint64_t all = 0;
     for (const auto& link : links_->links) all += link->renewed_lines();
@@ -98,6 +102,8 @@ Counters Cluster::finish(std::chrono::milliseconds patience) {
         for (auto* link : std::set(open)) {
             while (link->receive(Clock::now(), nobody)) {
             }
+            for (const auto& failure : link->take_failures())
+                if (failure.lie) links_->doubt(failure, link->name());
             if (const auto counted = link->take_ended()) {
                 links_->ended += *counted;
                 open.erase(link);

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,7 @@ public:
         std::chrono::milliseconds line_life = usual_line_life;  // of one with keys
         std::string pass;                        // file with what they must know; empty: Pass::usual_file()
         std::vector<std::string> expected;       // names of hosts that are to join before the work begins
+        std::set<std::string> liars;             // names of hosts that take no part, as they have answered falsely
         std::uint32_t threads = 0;               // places of this process, called "" in plans
         std::shared_ptr<const Network> network;  // for them
         Job job;
@@ -96,6 +98,10 @@ public:
     bool drain(const std::string& name);
     /// What nodes say that they do while they prepare, on whichever hosts.
     Doings doing() const;
+    /// Somebody has answered falsely: two others say so of him, or one has said so and it is word against word (the
+    /// host is ""). What he has told may be in all that has been computed since, so the run is to begin anew. None:
+    /// nobody was found.
+    const std::optional<Failure>& lie() const;
     /// Lines that took the place of others, which were old.
     std::uint64_t renewed_lines() const;
     /// Hosts that were named and take no part now → why.
@@ -110,6 +116,7 @@ public:
     std::optional<Message> receive() override;
     void wait(std::chrono::nanoseconds most) override;
     bool take_out(const std::string& host, const std::string& why) override;
+    void doubt(const Failure& lie) override;
     void forget(const PlaceAt&) override {}
     bool bring(const PlaceAt& to, const Hash& name, const Bytes& bytes) override;
     /// Every host asks by this plan from now on.

@@ -48,6 +48,7 @@ void Cluster::Links::call(const std::string& endpoint, const HostKey& key) {
 // Others are told its key before it can ask them anything.
 void Cluster::Links::add(const std::string& name, std::unique_ptr<HostConnection> connection, const HostKey& key) {
     links.push_back(std::make_unique<RemoteHost>(offer, counters, name, std::move(connection)));
+    if (options.liars.contains(name)) return void(links.back()->take_out("it has answered falsely"));
     if (!key) return;
     members.add(*key, name);
     offer.members = members.text();
@@ -99,7 +100,8 @@ void Cluster::Links::look() {
     }
     relays.request_resends(now);
     for (auto& link : links)
-        for (const auto& failure : link->take_failures()) take_out(failure.host, failure.why);
+        for (const auto& failure : link->take_failures())
+            failure.lie ? doubt(failure, link->name()) : void(take_out(failure.host, failure.why));
     tell_changes();
 }
 
@@ -110,6 +112,12 @@ bool Cluster::Links::take_out(const std::string& name, const std::string& why) {
     const auto ready = offers(true);
     if (std::all_of(ready.begin(), ready.end(), [&](const auto& one) { return one.endpoint == name; })) return false;
     return link->take_out(why);
+}
+
+// A host that accuses the only other one may be the liar itself.
+void Cluster::Links::doubt(Failure found, const std::string& accuser) {
+    if (!find(found.host) || (!accuser.empty() && offers(true).size() < 3)) found.host.clear();
+    if (!lie) lie = std::move(found);
 }
 
 void Cluster::Links::wait(std::chrono::nanoseconds most) {

@@ -39,6 +39,7 @@ struct Cluster::Links {
     AllowList members;                  // those with keys, by name
     std::set<std::string> unknown;      // said already
     std::set<std::string> turned_down;  // who wanted to join
+    std::optional<Failure> lie;         // that was found first
     bool watched = false;
     Counters counters, ended;
     Relays relays{counters, relay_handlers()};
@@ -67,6 +68,9 @@ struct Cluster::Links {
 
     // The last one stays: its failures are the run's.
     bool take_out(const std::string& name, const std::string& why);
+
+    // `accuser`: the host that says so; "": places of this process, or the launcher itself, which are believed.
+    void doubt(Failure found, const std::string& accuser);
 
     // Until something can be read.
     void wait(std::chrono::nanoseconds most);

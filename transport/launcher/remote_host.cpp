@@ -146,8 +146,7 @@ void RemoteHost::lose(Time now, const std::string& why) {
     state_ = State::calling;
     reason_ = why;
     next_call_ = now;
-    pieces_.clear();
-    pieces_out_ = 0;
+    pieces_.clear(), pieces_out_ = 0;
     brought_.clear();
     between_.reset();
     arrived_ = sent_;
@@ -239,7 +238,8 @@ void RemoteHost::control(Type type, const Fields& fields, Time now) {
             state_ = State::refused;
             return;
         case Type::fault:
-            failures_.push_back({fields.text("text") + " (" + name_ + " had asked it)", fields.text("host")});
+            failures_.push_back(
+                {fields.text("text") + " (" + name_ + " asked)", fields.text("host"), fields.number("lie") != 0});
             return;
         case Type::pong:
             if (state_ == State::calling || state_ == State::refused) return;

@@ -251,6 +251,8 @@ bool ZmqCarrier::take_out(const std::string& host, const std::string& why) {
     return true;
 }
 
+void ZmqCarrier::doubt(const Failure& lie) { sockets_->at_fault(lie); }
+
 void ZmqCarrier::forget(const PlaceAt& place) {
     if (!sockets_->has_pending(place.host)) sockets_->peers.erase(place.host);
 }

@@ -36,6 +36,7 @@ public:
     void wait(std::chrono::nanoseconds most) override;
     void give_up(std::uint32_t channel) override;
     bool take_out(const std::string& host, const std::string& why) override;
+    void doubt(const Failure& lie) override;
     void forget(const PlaceAt& place) override;
     const Counters& counters() const override;
 

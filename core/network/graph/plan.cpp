@@ -1,9 +1,11 @@
 #include "core/network/graph/plan.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <set>
+#include <string>
 
 #include "core/network/graph/layout.hpp"
 
@@ -179,6 +181,24 @@ Plan plan(const Graph& graph, const Registry& registry, const Hosts& hosts, cons
 std::uint32_t places_of_host(const Plan& plan, std::string_view host) {
     return static_cast<std::uint32_t>(std::count_if(plan.places.begin(), plan.places.end(),
                                                     [&](const PlaceAt& place) { return place.host == host; }));
+}
+
+bool answers_alone(const Plan& plan, const Graph& graph, std::size_t node) {
+    const auto used = used_nodes(graph, node);
+    std::map<std::string, std::size_t> held;  // by host
+    std::size_t needed = 0;
+    const auto count = [&](std::size_t one) {
+        std::set<std::string> hosts;
+        for (const auto place : plan.places_of[one]) hosts.insert(plan.places[place].host);
+        needed += !hosts.empty();
+        for (const auto& host : hosts) ++held[host];
+    };
+    for (std::size_t one = 0; one < used.size(); ++one) {
+        if (!used[one]) continue;
+        count(one);
+        for (const auto sector : sectors_of(graph, one)) count(sector);
+    }
+    return std::all_of(held.begin(), held.end(), [&](const auto& host) { return host.second == needed; });
 }
 
 bool fits(const Plan& plan, const Graph& graph) {

@@ -92,6 +92,10 @@ Plan plan(const Graph& graph, const Registry& registry, const Hosts& hosts, cons
 /// How many places a host has.
 std::uint32_t places_of_host(const Plan& plan, std::string_view host);
 
+/// Whether each host that answers for `node` does so without others: it holds all that `node` uses, and nobody holds a
+/// part of that, to whom it could hand on questions.
+bool answers_alone(const Plan& plan, const Graph& graph, std::size_t node);
+
 /// Every node of the graph has a row, and every place that is named is there. Plans that arrive are checked.
 bool fits(const Plan& plan, const Graph& graph);
 

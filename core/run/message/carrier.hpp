@@ -33,6 +33,8 @@ public:
     /// Work failed at `host` that others can do: from now on it gets none. False: that can't be, as there is
     /// nobody else.
     virtual bool take_out(const std::string& /*host*/, const std::string& /*why*/) { return false; }
+    /// Somebody has answered falsely: all that he has said in this run is in doubt.
+    virtual void doubt(const Failure& /*lie*/) {}
     /// Forgets about a place that is gone.
     virtual void forget(const PlaceAt& place) = 0;
     /// Where the carrier counts bytes and refusals.

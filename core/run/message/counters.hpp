@@ -33,6 +33,7 @@ struct Counters {
     std::uint64_t retried = 0;         // bundles and tiles that failed at one host, and were asked of another
     std::uint64_t doubled = 0;         // done once more at the end, by places with nothing else to do
     std::uint64_t compared = 0;        // answers that came twice and were compared bit for bit
+    std::uint64_t verified = 0;        // answers that two hosts gave alike before one of them counted
     std::uint64_t set_aside = 0;       // bundles and tiles that seem to kill hosts
     std::uint64_t cancelled = 0;       // asks of lost places, dropped before they were answered
     std::uint64_t late_replies = 0;    // of bundles that were answered already; dropped
@@ -74,12 +75,12 @@ struct Counters {
 
     /// Every count and its name, as in x.run.json and on the wire; with the name of a node behind it, and a dot between
     /// them, where each node has its own.
-    static const std::array<std::pair<const char*, std::uint64_t Counters::*>, 23> all;
+    static const std::array<std::pair<const char*, std::uint64_t Counters::*>, 24> all;
     static const std::array<std::pair<const char*, std::map<std::string, std::uint64_t> Counters::*>, 2> by_node;
     friend bool operator==(const Counters&, const Counters&) = default;
 };
 
-inline constexpr std::array<std::pair<const char*, std::uint64_t Counters::*>, 23> Counters::all{{
+inline constexpr std::array<std::pair<const char*, std::uint64_t Counters::*>, 24> Counters::all{{
     {"rays", &Counters::rays},
     {"local_questions", &Counters::local_questions},
     {"questions", &Counters::questions},
@@ -98,6 +99,7 @@ inline constexpr std::array<std::pair<const char*, std::uint64_t Counters::*>, 2
     {"retried", &Counters::retried},
     {"doubled", &Counters::doubled},
     {"compared", &Counters::compared},
+    {"verified", &Counters::verified},
     {"set_aside", &Counters::set_aside},
     {"cancelled", &Counters::cancelled},
     {"late_replies", &Counters::late_replies},

@@ -33,6 +33,7 @@ using Questions = std::shared_ptr<const std::vector<Question>>;
 struct Failure {
     std::string why;
     std::string host;  // where it happened, which may be further up than who was asked
+    bool lie = false;  // it has answered otherwise than others did; "" as the host: somebody has, and who is not known
     friend bool operator==(const Failure&, const Failure&) = default;
 };
 

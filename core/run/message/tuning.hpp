@@ -23,6 +23,7 @@ struct Tuning {
     std::uint32_t spare_fibers = 16;
     std::uint32_t side_fibers = 2048;
     bool check_answers = false;
+    std::uint32_t verify = 0;
     std::uint32_t oldest_us = 1000;
     std::uint32_t eager = 2;
     std::uint32_t credit_questions = 8192;
@@ -50,7 +51,7 @@ struct Knob {
     const char* help;
 };
 
-inline constexpr std::array<Knob, 15> knobs{{
+inline constexpr std::array<Knob, 16> knobs{{
     {"tile", &Tuning::tile, Knob::By::users, Knob::Where::launcher, 1, 256, "N", "pixels along a side of a tile"},
     {"bundle", &Tuning::bundle, Knob::By::users, Knob::Where::places, 1, 65536, "N", "questions in a full bundle"},
     {"credit", &Tuning::credit, Knob::By::users, Knob::Where::places, 1, 1024, "N",
@@ -67,6 +68,8 @@ inline constexpr std::array<Knob, 15> knobs{{
      "fibers of a place for questions that wrapped code asks"},
     {"check_answers", &Tuning::check_answers, Knob::By::users, Knob::Where::places, 0, 0, "",
      "ask wrapped classes some questions twice, and compare all that is answered twice, bit by bit"},
+    {"verify", &Tuning::verify, Knob::By::tests, Knob::Where::places, 0, 1'000'000, "N",
+     "millionths of all answers that are asked of a second host as well; users say --verify FRACTION"},
     {"oldest_us", &Tuning::oldest_us, Knob::By::tests, Knob::Where::places, 0, 3'600'000'000, "N",
      "microseconds after which a question leaves in a bundle that is not full"},
     {"eager", &Tuning::eager, Knob::By::tests, Knob::Where::places, 0, 1024, "N",

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -15,6 +16,8 @@
 #include "core/run/message/step.hpp"
 #include "core/run/prepare/prepared.hpp"
 #include "core/run/prepare/shard_dealer.hpp"
+#include "core/run/schedule/spot_checks.hpp"
+#include "core/run/schedule/votes.hpp"
 
 namespace lightnet {
 
@@ -40,9 +43,15 @@ public:
     /// Who does which of its shards.
     ShardDealer& dealer() { return dealer_; }
     /// The results of the first of the shards that went under this number, or of more of them, by join_shards(); what
-    /// comes late is dropped. True when none is missing any more. Throws Error when they are not what was asked for, or
-    /// have not as many parts as they should.
+    /// comes late is dropped. True when all is there. Throws Error when they are not what was asked for, or have not as
+    /// many parts as they should.
     bool answer(ShardDealer::CopyId id, const Bytes& joined, double now);
+    /// Every shard is there, and whatever was to be checked has been.
+    bool all_there();
+    /// Some shards, chosen at random, are asked of a second host as well. Before the first is dealt out.
+    void verify(SpotChecks checks) { checks_ = checks; }
+    /// A host's shard that others do otherwise; see Carrier::doubt(). None: there is none.
+    const std::optional<Failure>& lie() const { return lie_; }
     void complete(const Bytes& result) { complete({Result{content_hash(*result), result}}); }
     void complete(const std::vector<Result>& parts);
     void complete_from_shards();
@@ -60,6 +69,7 @@ private:
     };
     std::vector<std::span<const std::byte>> parts_of(const Results& shard) const;
     void join_what_is_next();
+    void vote(std::uint32_t shard, const std::string& host, std::span<const std::byte> result, double now);
 
     StepReport what_;
     bool rehearsed_ = false;
@@ -77,6 +87,9 @@ private:
     std::vector<Joined> joined_;  // by part: of shards that came before next_
     std::size_t next_ = 0;
     std::size_t missing_ = 0;
+    SpotChecks checks_;
+    std::map<std::uint32_t, Votes> votes_;  // on shards that more than one host is asked about
+    std::optional<Failure> lie_;
 };
 
 /// All calls of a run, by node and number. The nodes that stand for the sectors of one node make the same calls, which
@@ -86,6 +99,8 @@ public:
     /// `cache` may be null. `renewed`: renewed_nodes(), whose results nobody wants in a later run.
     ServiceCalls(const Graph& graph, std::string made_from, ResultCache* cache, std::vector<bool> renewed = {})
         : graph_(graph), recipes_(graph, std::move(made_from)), cache_(cache), renewed_(std::move(renewed)) {}
+    /// From now on `millionths` of all shards are asked of a second host as well.
+    void verify(std::uint32_t millionths) { verify_ = millionths; }
 
     /// The call that a place reports; begun, or found in the cache, when nobody has reported it before. Throws Error
     /// when another place has reported something else.
@@ -122,6 +137,7 @@ private:
     Recipes recipes_;
     ResultCache* cache_;
     std::vector<bool> renewed_;
+    std::uint32_t verify_ = 0;
     std::map<std::pair<std::size_t, std::uint32_t>, ServiceCall> calls_;
 };
 

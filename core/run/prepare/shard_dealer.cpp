@@ -34,9 +34,33 @@ void ShardDealer::begin(std::uint32_t count) {
 ShardDealer::Actions ShardDealer::tell(const Scheduler::Event& event, Time now) {
     Actions actions;
     scheduler_.on(event, now, actions);
-    for (const auto& action : actions)
+    for (const auto& action : actions) {
         if (const auto* verdict = std::get_if<Scheduler::SetAside>(&action)) set_aside(*verdict);
+        if (const auto* hopeless = std::get_if<Scheduler::GiveUp>(&action)) give_up(hopeless->work);
+    }
     return actions;
+}
+
+// Nobody else has joined so far.
+void ShardDealer::give_up(Scheduler::WorkId work) {
+    const Shards shards = works_.extract(work).mapped();
+    if (also_.erase(work))
+        unasked_.push_back(shards.first);
+    else
+        put_back(shards);
+}
+
+void ShardDealer::add(const Shards& shards, std::set<Scheduler::Host> not_at, Time now) {
+    works_.emplace(next_work_, shards);
+    if (!not_at.empty()) also_.insert(next_work_);
+    tell(Scheduler::Added{.work = next_work_++, .questions = shards.count, .not_at = std::move(not_at)}, now);
+}
+
+void ShardDealer::ask_also(std::uint32_t shard, const std::vector<std::string>& hosts, Time now) {
+    std::set<Scheduler::Host> not_at;
+    for (const auto& host : hosts)
+        not_at.insert(static_cast<Scheduler::Host>(std::find(hosts_.begin(), hosts_.end(), host) - hosts_.begin()));
+    add({shard, 1}, std::move(not_at), now);
 }
 
 // ---- who does them ----
@@ -82,9 +106,7 @@ std::vector<ShardDealer::Deal> ShardDealer::deal(std::size_t copies, Time now) {
     for (bool more = true; more;) {
         more = (!to_do_.empty() || !alone_.empty()) && scheduler_.has_room();
         if (more) {
-            const Shards some = take_next(copies);
-            works_.emplace(next_work_, some);
-            tell(Scheduler::Added{next_work_++, some.count}, now);
+            add(take_next(copies), {}, now);
         }
         tell(Scheduler::Foreseen{to_do_.size() + alone_.size()}, now);
         for (const auto& action : tell(Scheduler::Tick{}, now))
@@ -131,12 +153,24 @@ std::optional<Shards> ShardDealer::shards_of(CopyId id) const {
     return work == works_.end() ? std::nullopt : std::optional(work->second);
 }
 
+bool ShardDealer::is_asked_also(CopyId id) const {
+    const auto copy = known(id);
+    return copy && also_.contains(*scheduler_.work_of(*copy));
+}
+
+std::optional<std::string> ShardDealer::host_of(CopyId id) const {
+    const auto copy = known(id);
+    const auto replica = copy ? scheduler_.replica_of(*copy) : std::nullopt;
+    return replica ? std::optional(copies_[*replica].place.host) : std::nullopt;
+}
+
 bool ShardDealer::answered(CopyId id, std::uint32_t done, Time now) {
     const auto copy = known(id);
     if (!copy) return false;
     for (const auto& action : tell(Scheduler::Replied{.copy = *copy, .answered = done}, now))
         if (const auto* accept = std::get_if<Scheduler::Accept>(&action)) {
             const Shards shards = works_.extract(accept->work).mapped();
+            if (also_.erase(accept->work)) return true;
             put_back({shards.first + done, shards.count - done});
             return true;
         }
@@ -146,18 +180,15 @@ bool ShardDealer::answered(CopyId id, std::uint32_t done, Time now) {
 bool ShardDealer::failed(CopyId id, Time now) {
     const auto copy = known(id);
     if (!copy) return false;
-    for (const auto& action : tell(Scheduler::Failed{*copy}, now)) {
-        if (std::holds_alternative<Scheduler::Drop>(action)) return false;
-        // Nobody else has joined so far.
-        if (const auto* hopeless = std::get_if<Scheduler::GiveUp>(&action))
-            put_back(works_.extract(hopeless->work).mapped());
-    }
-    return true;
+    const auto actions = tell(Scheduler::Failed{*copy}, now);
+    return std::none_of(actions.begin(), actions.end(),
+                        [](const auto& action) { return std::holds_alternative<Scheduler::Drop>(action); });
 }
 
 // Of several, one may be to blame: each is tried alone.
 void ShardDealer::set_aside(const Scheduler::SetAside& verdict) {
     const Shards shards = works_.extract(verdict.work).mapped();
+    if (also_.erase(verdict.work)) return unasked_.push_back(shards.first);
     if (shards.count > 1) {
         for (auto shard = shards.first + shards.count; shard-- > shards.first;) alone_.push_back(shard);
         return;

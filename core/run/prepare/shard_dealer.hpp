@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "core/network/graph/plan.hpp"
@@ -69,6 +70,14 @@ public:
     std::optional<Shards> shards_of(CopyId id) const;
     /// The first `done` of its shards are answered; others are handed out again. False: this answer came late.
     bool answered(CopyId id, std::uint32_t done, Time now);
+    /// A shard that has been answered is asked of another host than these as well.
+    void ask_also(std::uint32_t shard, const std::vector<std::string>& hosts, Time now);
+    /// Is it of such a shard?
+    bool is_asked_also(CopyId id) const;
+    /// Such shards that nobody else can be asked about, since the last call.
+    std::vector<std::uint32_t> take_unasked() { return std::exchange(unasked_, {}); }
+    /// Where it was sent. None: its answer does not count any more.
+    std::optional<std::string> host_of(CopyId id) const;
     /// It failed there, and somebody else will be asked. False: that came late.
     bool failed(CopyId id, Time now);
     /// None: nobody died of one.
@@ -81,6 +90,8 @@ private:
     Shards take_next(std::size_t copies);
     void put_back(const Shards& shards);
     void set_aside(const Scheduler::SetAside& verdict);
+    void give_up(Scheduler::WorkId work);
+    void add(const Shards& shards, std::set<Scheduler::Host> not_at, Time now);
 
     Scheduler scheduler_;
     std::uint64_t rounds_ = 0;  // that have begun; above the scheduler's number of a copy
@@ -91,6 +102,8 @@ private:
     std::unordered_map<Scheduler::WorkId, Shards> works_;
     std::deque<std::uint32_t> to_do_;   // in nobody's hands
     std::vector<std::uint32_t> alone_;  // and these, one by one
+    std::set<Scheduler::WorkId> also_;  // works that are asked once more
+    std::vector<std::uint32_t> unasked_;
     std::optional<Convicted> convicted_;
     Scheduler::WorkId next_work_ = 1;
 };

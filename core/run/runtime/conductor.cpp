@@ -11,13 +11,6 @@ namespace {
 
 constexpr std::uint32_t own_channel = 0xffffffff;  // no master's: see Epoch::most_channels
 
-std::string describe(const ShardDealer::Convicted& convicted) {
-    std::string hosts;
-    for (const auto& host : convicted.hosts) hosts += (hosts.empty() ? "" : ", ") + host;
-    return "shard " + std::to_string(convicted.shard) +
-           " of what it prepares is set aside: hosts died of it, with nothing else to do: " + hosts;
-}
-
 }  // namespace
 
 Conductor::Conductor(Options options, Carrier& carrier)
@@ -31,6 +24,7 @@ Conductor::Conductor(Options options, Carrier& carrier)
     if (std::any_of(nodes.begin(), nodes.end(),
                     [&](const Node& node) { return options_.registry->find(node.kind)->run.locks; }))
         locks_.emplace([this](const PlaceAt& place, const Step& step) { return send({{place, 0}, 0, step}); });
+    calls_.verify(options_.verify);
     proposal_.places_of.resize(options_.graph->nodes.size());
     in_force_ = proposal_;
 }
@@ -134,6 +128,7 @@ std::size_t Conductor::led() const {
 }
 
 void Conductor::advance() {
+    end_calls();
     bool more = true;
     while (more) {
         for (std::size_t position = 0; position < led(); ++position)
@@ -177,25 +172,6 @@ void Conductor::lead(const NodeCopy& copy, std::size_t position) {
             send({copy, position, {.kind = Step::Kind::go_on, .call = follower.at.call, .data = name}}, result))
             follower.state = Follower::State::asked;
     }
-}
-
-void Conductor::deal(std::size_t position) {
-    for (const auto& [number, call] : calls_.dealt_out(order_[position]))
-        for (const auto& [id, to, shards] : call->dealer().deal(copies(position).size(), steady_seconds())) {
-            const Step step{Step::Kind::shards, number, shards.first, shards.count};
-            if (!send({to, position, step, id})) call->dealer().refused(id, steady_seconds());
-        }
-}
-
-// With those of the proposal.
-void Conductor::keep_dealing() {
-    for (std::size_t position = 0; position < led(); ++position)
-        for (const auto& [number, call] : calls_.dealt_out(order_[position])) {
-            const auto all = copies(position);
-            auto& dealer = call->dealer();
-            dealer.keep(proposal_, {all.begin(), all.end()}, steady_seconds());
-            if (const auto& convicted = dealer.convicted()) throw Error(name_of(position), describe(*convicted));
-        }
 }
 
 bool Conductor::send(const Sent& sent, const Bytes& data) {
@@ -288,20 +264,6 @@ void Conductor::say(std::size_t node, std::string_view lines) {
         if (said_.insert(line).second) options_.say(line);
         lines.remove_prefix(std::min(end + 1, lines.size()));
     }
-}
-
-void Conductor::shards_done(const Sent& sent, const Bytes& data) {
-    auto& call = calls_.of(order_[sent.position], sent.step.call);
-    bool complete = false;
-    try {
-        complete = call.answer(sent.shards, data, steady_seconds());
-    } catch (const Error& error) {
-        return failed(sent, "'" + name_of(sent.position) + "' on " + sent.to.place.host + ": " + error.what());
-    }
-    if (!complete) return deal(sent.position);
-    call.complete_from_shards();
-    calls_.keep(order_[sent.position], sent.step.call);
-    advance();
 }
 
 // ---- the carrier's face ---------------------------------------------------------------------------------------------

@@ -43,6 +43,7 @@ public:
         std::uint32_t width = 1;       // colours per pixel
         std::string made_from;         // see Recipes
         ResultCache* cache = nullptr;  // may be absent
+        std::uint32_t verify = 0;      // millionths of the shards that two hosts are asked
         std::function<void(const std::string&)> say = [](const std::string&) {};
     };
     Conductor(Options options, Carrier& carrier);
@@ -73,6 +74,7 @@ public:
     void wait(std::chrono::nanoseconds most) override;
     void give_up(std::uint32_t channel) override;
     bool take_out(const std::string& host, const std::string& why) override { return carrier_.take_out(host, why); }
+    void doubt(const Failure& lie) override { carrier_.doubt(lie); }
     void forget(const PlaceAt& place) override { carrier_.forget(place); }
     const Counters& counters() const override { return carrier_.counters(); }
 
@@ -101,6 +103,7 @@ private:
     void lead(const NodeCopy& copy, std::size_t position);
     void deal(std::size_t position);
     void keep_dealing();
+    void end_calls();
     void collect();
     void begin_rehearsal(std::uint32_t call);
     void end_rehearsal();

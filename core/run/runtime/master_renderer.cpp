@@ -25,6 +25,7 @@ MasterRenderer::MasterRenderer(Job job, Carrier& carrier, Done done)
       unanswered_(left_) {}
 
 void MasterRenderer::use(const Plan& plan) {
+    alone_each_ = job_.alone(plan);
     if (!std::exchange(planned_, true)) {
         MultiplexerRules rules;
         rules.scheduling.strategy = plan.strategy_of(job_.image);
@@ -32,6 +33,12 @@ void MasterRenderer::use(const Plan& plan) {
         rules.scheduling.double_tail = job_.double_tail;
         rules.clock = job_.clock;
         rules.at_fault = [this](const Failure& failure) { carrier_.take_out(failure.host, failure.why); };
+        rules.checks = SpotChecks(job_.verify, secret_number());
+        rules.own = "";
+        rules.doubt = [this](Failure lie) {
+            if (!alone_each_) lie.host.clear();
+            carrier_.doubt(lie);
+        };
         if (job_.check_answers) rules.differs = [this](const std::string& what) { error_ = what; };
         replicas_.follow(std::move(rules), &counters_);
     }

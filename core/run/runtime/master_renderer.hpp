@@ -26,6 +26,9 @@ public:
         Credit credit{3, 3};         // of a place: more blocks of samples than bundles: quick ones go together
         bool double_tail = true;     // idle places do the last tiles once more
         bool check_answers = false;  // tiles that are done twice must have the same bits
+        std::uint32_t verify = 0;    // millionths of the tiles that two hosts are asked
+        /// Whether hosts answer tiles without others; else a tile that differs does not tell who is at fault.
+        std::function<bool(const Plan&)> alone = [](const Plan&) { return false; };
         std::function<double()> clock = steady_seconds;
         std::function<void(const std::vector<Tile>&)> handed_out = {};  // is told, for display
     };
@@ -78,7 +81,7 @@ private:
     RemoteChannels<Tile> channels_;
     RemoteChannels<Tile>::Edge edge_;
     Multiplexer<Tile> replicas_;
-    bool planned_ = false, draining_ = false;
+    bool planned_ = false, draining_ = false, alone_each_ = false;
     std::size_t next_ = 0;           // tile to hand out
     std::vector<Tile> pieces_;       // to be handed out before it, the last one first
     std::vector<Tile> alone_;        // and before those, one by one

@@ -33,11 +33,12 @@ Place::Place(const Network& network, const PlaceAt& me, const Plan& plan, std::u
       by_rank_(network.graph.nodes.size()),
       channels_(carrier, run, {me.host, name_of(me)}, counters_),
       locks_(fibers_, wake(), reply()),
-      meter_(gauge, asking_edges(network.graph, network.layers, network.registry),
-             [this] { return fibers_.current() ? fibers_.running_time(fibers_.current()) : std::chrono::nanoseconds{}; }),
-      assembly_(network, [this](std::size_t node, std::size_t width) { return port_to(node, width); },
-                {.locks = &locks_, .concurrent = &rounds_, .whereabouts = [this] { return whereabouts(); }},
-                meter_.tap()),
+      meter_(
+          gauge, asking_edges(network.graph, network.layers, network.registry),
+          [this] { return fibers_.current() ? fibers_.running_time(fibers_.current()) : std::chrono::nanoseconds{}; }),
+      assembly_(
+          network, [this](std::size_t node, std::size_t width) { return port_to(node, width); },
+          {.locks = &locks_, .concurrent = &rounds_, .whereabouts = [this] { return whereabouts(); }}, meter_.tap()),
       preparer_(network, assembly_, fibers_, {my_name(), wake(), reply(), [this] { look(); }}) {
     assembly_.show(gauge);
     fibers_.show(gauge.shown(), Gauge::asking);
@@ -135,6 +136,12 @@ MultiplexerRules Place::multiplexer_rules(std::size_t node) {
     rules.scheduling.double_tail = !may_rehearse(node);
     rules.scheduling.tail_part = 0.01;  // others want answers, too
     rules.at_fault = [this](const Failure& failure) { carrier_.take_out(failure.host, failure.why); };
+    rules.checks = SpotChecks(tuning_.verify, secret_number());
+    rules.own = me_.host;
+    rules.doubt = [this, node](Failure lie) {
+        if (!answers_alone(plan_, network_.graph, node)) lie.host.clear();
+        carrier_.doubt(lie);
+    };
     if (tuning_.check_answers) rules.differs = [](const std::string& what) { throw Error(what); };
     return rules;
 }

@@ -65,6 +65,7 @@ public:
     }
     void adopt(const Plan& plan) override { carrier_.adopt(plan); }
     bool take_out(const std::string& host, const std::string& why) override { return carrier_.take_out(host, why); }
+    void doubt(const Failure& lie) override { carrier_.doubt(lie); }
     void forget(const PlaceAt& place) override { carrier_.forget(place); }
     const Counters& counters() const override { return carrier_.counters(); }
 

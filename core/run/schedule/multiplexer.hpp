@@ -8,6 +8,7 @@
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <string>
 #include <type_traits>
 #include <unordered_map>
@@ -22,6 +23,8 @@
 #include "core/run/message/counters.hpp"
 #include "core/run/message/region.hpp"
 #include "core/run/schedule/scheduler.hpp"
+#include "core/run/schedule/spot_checks.hpp"
+#include "core/run/schedule/votes.hpp"
 
 namespace lightnet {
 
@@ -40,6 +43,12 @@ struct MultiplexerRules {
     /// Told of work that failed at a host and is asked of another.
     std::function<void(const Failure& failure)> at_fault = [](const Failure&) {};
     bool names_host = false;  // what fails for good keeps the host where it did: for who only passes questions on
+    /// Work that two hosts are asked, so that their answers can be compared before one of them counts.
+    SpotChecks checks;
+    std::optional<std::string> own;  // the host that need not be checked: the asker's
+    /// Told of a host that answers otherwise than two others, or than the asker's own; or, without a name, that two
+    /// hosts differ and there is no third.
+    std::function<void(const Failure& lie)> doubt = [](const Failure&) {};
     std::function<double()> clock = steady_seconds;
 };
 
@@ -116,12 +125,20 @@ private:
         std::size_t missing = 0;  // pieces
         bool given_up = false;
     };
+    // Work that several hosts are asked. All entries of it share it; the last that comes back hands on the answers.
+    struct Check {
+        Votes votes;
+        std::vector<std::pair<Hash, std::vector<Rgb>>> answers;  // that differ
+        std::size_t asked = 1;                                   // entries of it that are not back
+        bool begun = false;                                      // a second host is asked
+    };
     struct Entry {
         Bundle<Question> bundle;
         std::shared_ptr<Whole> whole;      // null: the bundle is its own
         std::vector<std::uint32_t> where;  // index in the whole, of each question
         std::vector<Scheduler::CopyId> copies;
-        Failure failure{};  // the last
+        Failure failure{};               // the last
+        std::shared_ptr<Check> check{};  // null: one host is asked
     };
 
     void answered(const Bundle<Question>& bundle, std::vector<Rgb> answers) override {
@@ -132,7 +149,7 @@ private:
 
     void tell(const Scheduler::Event& event);
     struct Performed {
-        bool sent = false, refused = false;
+        bool sent = false, refused = false, more = false;
     };
     Performed perform(const std::vector<Scheduler::Action>& actions);
     void add_replica(Channel<Question>* channel);
@@ -146,7 +163,13 @@ private:
     void compare(Scheduler::CopyId copy, const std::vector<Rgb>& answers);
     std::vector<std::vector<std::uint32_t>> cut(const std::vector<Question>& questions) const;
     std::vector<std::vector<std::uint32_t>> by_home(const std::vector<Question>& questions) const;
-    void add(Entry entry);
+    void add(Entry entry, std::set<Scheduler::Host> not_at = {});
+    bool ask_another(Entry& entry, Scheduler::Replica asked);
+    void heard(Entry entry, const std::string& host, std::vector<Rgb> answers);
+    void unheard(Entry entry, const Failure& failure, bool set_aside);
+    void weigh(Entry entry);
+    void let_dropped_go();
+    void hand_on(Entry entry, const Hash& answer);
     void count();
 
     MultiplexerRules rules_;
@@ -165,3 +188,4 @@ private:
 }  // namespace lightnet
 
 #include "core/run/schedule/multiplexer_parts.hpp"
+#include "core/run/schedule/multiplexer_votes.hpp"

@@ -81,10 +81,12 @@ bool Multiplexer<Question>::send(const Bundle<Question>& bundle) {
 }
 
 template <class Question>
-void Multiplexer<Question>::add(Entry entry) {
+void Multiplexer<Question>::add(Entry entry, std::set<Scheduler::Host> not_at) {
     const auto& questions = *entry.bundle.questions;
     const auto bytes = questions.size() * sizeof(Question) + answers_to(questions, entry.bundle.width) * sizeof(Rgb);
-    const Scheduler::Added added{next_work_, work_in(questions), bytes, region_of(questions.front())};
+    const Scheduler::Added added{next_work_, work_in(questions), bytes, region_of(questions.front()),
+                                 std::move(not_at)};
+    if (!entry.check && rules_.checks.next()) entry.check = std::make_shared<Check>(Check{Votes(rules_.own), {}});
     entries_.emplace(next_work_++, std::move(entry));
     tell(added);
 }
@@ -134,7 +136,7 @@ bool Multiplexer<Question>::tick() {
         scheduler_.on(Scheduler::Tick{again}, rules_.clock(), actions);
         const auto done = perform(actions);
         sent |= done.sent;
-        if (!done.refused) break;
+        if (!done.refused && !done.more) break;
     }
     count();
     return sent;
@@ -153,6 +155,7 @@ typename Multiplexer<Question>::Performed Multiplexer<Question>::perform(
         if (slots_[send->replica].channel->send(copy)) {
             if (rules_.differs) entry.copies.push_back(send->copy);
             performed.sent = true;
+            performed.more |= ask_another(entry, send->replica);
         } else {
             tell(Scheduler::Refused{send->copy});
             performed.refused = true;
@@ -169,8 +172,7 @@ void Multiplexer<Question>::tell(const Scheduler::Event& event) {
     std::vector<Scheduler::Action> actions;
     scheduler_.on(event, rules_.clock(), actions);
     settle(actions);
-    if (std::holds_alternative<Scheduler::Dropped>(event))
-        std::erase_if(entries_, [&](const auto& entry) { return !scheduler_.knows(entry.first); });
+    if (std::holds_alternative<Scheduler::Dropped>(event)) let_dropped_go();
     count();
 }
 
@@ -180,8 +182,9 @@ void Multiplexer<Question>::settle(const std::vector<Scheduler::Action>& actions
     for (const auto& action : actions) {
         if (const auto* verdict = std::get_if<Scheduler::SetAside>(&action)) set_aside_work(*verdict);
         if (const auto* failed = std::get_if<Scheduler::GiveUp>(&action)) {
-            const Entry entry = std::move(entries_.extract(failed->work).mapped());
-            give_up(entry, entry.failure, false);
+            Entry entry = std::move(entries_.extract(failed->work).mapped());
+            const Failure failure = entry.failure;
+            unheard(std::move(entry), failure, false);
         }
     }
 }
@@ -225,6 +228,7 @@ void Multiplexer<Question>::replied(const Bundle<Question>& bundle, std::vector<
     }
     Entry entry = std::move(entries_.extract(accept->work).mapped());
     compare_later(entry, bundle.number, answers);
+    if (entry.check) return heard(std::move(entry), slots_[*replica].host, std::move(answers));
     deliver(std::move(entry), std::move(answers));
 }
 
@@ -265,14 +269,12 @@ void Multiplexer<Question>::forget(const Bundle<Question>& bundle) {
 
 template <class Question>
 void Multiplexer<Question>::set_aside_work(const Scheduler::SetAside& verdict) {
-    const Entry entry = std::move(entries_.extract(verdict.work).mapped());
+    Entry entry = std::move(entries_.extract(verdict.work).mapped());
     std::string hosts;
     for (const auto host : verdict.died) hosts += (hosts.empty() ? "" : ", ") + host_names_[host];
     if (counters_) ++counters_->set_aside;
-    give_up(
-        entry,
-        {describe(*entry.bundle.questions) + " is set aside: hosts died of it, with nothing else to do: " + hosts, {}},
-        true);
+    const auto what = describe(*entry.bundle.questions);
+    unheard(std::move(entry), {what + " is set aside: hosts died of it, with nothing else to do: " + hosts, {}}, true);
 }
 
 template <class Question>

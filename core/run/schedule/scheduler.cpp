@@ -17,7 +17,7 @@ void Scheduler::on(const Event& event, Time now, std::vector<Action>& actions) {
 void Scheduler::happens(const Added& event, Time) {
     assert(!items_.contains(event.work) && "work goes by numbers of its own");
     items_.emplace(event.work, Item{.work = event, .waiting = true});
-    waiting_.push_back(event.work);
+    (event.not_at.empty() ? waiting_ : retries_).push_back(event.work);
     questions_waiting_ += event.questions;
     questions_added_ += event.questions;
     questions_wanted_ += event.questions;
@@ -45,7 +45,7 @@ void Scheduler::wait_again(Item& item) {
     questions_waiting_ += item.work.questions;
     if (suspects_.is_suspect(item.work.work))
         suspects_.wait(item.work.work);
-    else if (item.failures > 0)
+    else if (item.failures > 0 || !item.work.not_at.empty())
         retries_.push_back(item.work.work);
     else
         waiting_.push_front(item.work.work);

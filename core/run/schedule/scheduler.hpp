@@ -64,6 +64,7 @@ public:
         std::size_t questions = 1;
         std::size_t bytes = 0;     // of the questions and of the room for the answers
         std::uint64_t region = 0;  // equal for work that shares what replicas may have cached
+        std::set<Host> not_at{};   // hosts that may not answer it
     };
     struct Foreseen {  // so many questions will be added later
         std::size_t questions;
@@ -137,7 +138,7 @@ public:
         WorkId work;
         friend bool operator==(const Retry&, const Retry&) = default;
     };
-    struct GiveUp {  // a second host has failed, too, or there is none
+    struct GiveUp {  // a second host has failed, too, or there is none that may be asked
         WorkId work;
         friend bool operator==(const GiveUp&, const GiveUp&) = default;
     };
@@ -258,6 +259,9 @@ private:
     Item* first_suspect();
     void test_suspects(Time now);
     void fail(Item& item);
+    static bool may_answer(const Item& item, Host host) {
+        return !item.failed_at.contains(host) && !item.work.not_at.contains(host);
+    }
     bool can_be_retried(const Item& item) const;
     void retry(Time now);
     void put_in_quarantine(Host host);

@@ -148,7 +148,8 @@ bool Scheduler::waits_for_idle(const Item& item, Replica replica) const {
 
 bool Scheduler::may_be_doubled(const Ledger::Copy& copy) const {
     const auto found = items_.find(copy.work);
-    return found != items_.end() && !suspects_.is_suspect(copy.work) && found->second.copies.size() == 1;
+    return found != items_.end() && found->second.work.not_at.empty() && !suspects_.is_suspect(copy.work) &&
+           found->second.copies.size() == 1;
 }
 
 bool Scheduler::may_be_afforded(std::size_t questions) const {

@@ -36,13 +36,14 @@ bool Scheduler::can_be_retried(const Item& item) const {
     constexpr int most_failures = 3;  // of suspects, which may come to the same host again
     return item.failed_at.size() < 2 && item.failures < most_failures &&
            std::any_of(hosts_.begin(), hosts_.end(), [&](const auto& host) {
-               return !item.failed_at.contains(host.first) &&
+               return may_answer(item, host.first) &&
                       std::any_of(host.second.begin(), host.second.end(),
                                   [&](auto replica) { return !replicas_[replica].draining; });
            });
 }
 
-// What failed once is asked of another host; what fails there as well is the work's own fault, and not a host's.
+// What failed once is asked of another host, as is what some hosts may not answer; what fails there as well is the
+// work's own fault, and not a host's.
 void Scheduler::fail(Item& item) {
     const auto work = item.work.work;
     const bool under_way = !item.copies.empty() || item.waiting;
@@ -64,7 +65,7 @@ void Scheduler::retry(Time now) {
         std::optional<Replica> best;
         for (const auto& [host, replicas] : hosts_)
             for (const auto replica : replicas)
-                if (!item->failed_at.contains(host) && open(replica) && (!best || order(replica) < order(*best)))
+                if (may_answer(*item, host) && open(replica) && (!best || order(replica) < order(*best)))
                     best = replica;
         if (best) {
             send(*item, *best, now);
