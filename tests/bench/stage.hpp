@@ -21,7 +21,7 @@ namespace lightnet::bench {
 
 /// One rendering: its picture, and what it took.
 struct Rendered {
-    lightnet::Picture picture;  // benchmarks have another one
+    lightnet::Picture picture;          // benchmarks have another one
     double building = 0;                // seconds until the scene is read and its tree built
     double preparing = 0, seconds = 0;  // after that; the latter includes the former
     double cpu_seconds = 0;             // of this process

@@ -6,8 +6,8 @@
 #include "core/base/build_info.hpp"
 #include "core/base/error.hpp"
 #include "core/base/joined.hpp"
-#include "core/network/graph/plugin_use.hpp"
 #include "core/base/this_machine.hpp"
+#include "core/network/graph/plugin_use.hpp"
 #include "core/run/runtime/fingerprint.hpp"
 #include "transport/daemon/host_service.hpp"
 

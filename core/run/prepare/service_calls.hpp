@@ -13,6 +13,7 @@
 
 #include "core/network/graph/layout.hpp"
 #include "core/network/light/mapped.hpp"
+#include "core/run/message/message.hpp"
 #include "core/run/message/step.hpp"
 #include "core/run/prepare/prepared.hpp"
 #include "core/run/prepare/shard_dealer.hpp"
