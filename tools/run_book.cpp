@@ -136,11 +136,17 @@ void RunBook::write_preview() {
     preview_->pace.put_off(now, 9 * (now - begun));
 }
 
+Picture RunBook::picture_now() const {
+    Picture picture = film_.picture(scale_);
+    add_words(words_, picture);
+    return picture;
+}
+
 void RunBook::write_files(const std::string& exr) {
     const auto png = png_beside(exr);
     expect_ours(exr, exr_beginning);
     expect_ours(png, png_beginning);
-    const auto picture = film_.picture(scale_);
+    const auto picture = picture_now();
     if (picture.overflowed && !std::exchange(said_overflow_, true))
         warn(fmt::format("{} pixels are brighter than the numbers of a picture can be, and count as black",
                          picture.overflowed));
@@ -237,7 +243,7 @@ void RunBook::write_picture(const std::string& exr) {
 
 bool RunBook::is_written(const std::string& exr) const {
     std::ifstream file(exr, std::ios::binary);
-    return std::string{std::istreambuf_iterator<char>(file), {}} == exr_of(film_.picture(scale_));
+    return std::string{std::istreambuf_iterator<char>(file), {}} == exr_of(picture_now());
 }
 
 void RunBook::write_report_page(const std::string& html) {
@@ -248,6 +254,7 @@ void RunBook::write_report_page(const std::string& html) {
 void RunBook::conclude(const Hosts& asked, double exposure) {
     auto layers = film_.format().layers;
     layers.insert(layers.end(), film_.format().shown.begin(), film_.format().shown.end());
+    if (film_.format().alpha) layers.emplace_back("A");
     say(summary_of({report_, layers, asked, brightness_, exposure}));
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/film/film.hpp"
@@ -19,6 +20,7 @@
 #include "core/run/prepare/prepare_progress.hpp"
 #include "tools/checkpoint_keeper.hpp"
 #include "tools/pace.hpp"
+#include "tools/picture_notes.hpp"
 #include "tools/watch/watcher.hpp"
 #include "transport/launcher/cluster.hpp"
 
@@ -54,6 +56,8 @@ public:
     /// How far preparing is.
     void preparing(const PrepareProgress& progress);
     void warn(const std::string& text);
+    /// What the files of the picture say of it beside its pixels.
+    void describe(PictureWords words) { words_ = std::move(words); }
     /// What the scene's film makes of radiance. Before the first tile.
     void expose(float scale);
     /// From now on, writes what is there every so many seconds.
@@ -112,6 +116,7 @@ private:
         Pace pace;
         bool said = false;
     };
+    Picture picture_now() const;
     void write_files(const std::string& exr);
     void write_preview();
     void write_trace();
@@ -120,6 +125,7 @@ private:
 
     Film film_;
     float scale_ = 1;
+    PictureWords words_;
     Brightness brightness_;                               // of what was written last
     std::string last_prepared_;                           // node that was named
     std::optional<Pace::Clock::time_point> doing_since_;  // what stands last in the report's `preparing`

@@ -1,6 +1,8 @@
 // Pictures in files: the same bytes, the exact sum, and never half a file.
+#include <ImfChannelList.h>
 #include <ImfHeader.h>
 #include <ImfInputFile.h>
+#include <ImfStringAttribute.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <png.h>
@@ -65,6 +67,57 @@ TEST(Exr, HoldsWhatIsShownBesideTheSum) {
     picture.beauty = sum_of(picture.layers);
     write_exr(folder / "x.exr", picture);
     EXPECT_TRUE(read_exr(folder / "x.exr") == picture);
+}
+
+Picture for_compositing() {
+    Picture picture = noisy_picture(5, 3);
+    picture.alpha = std::vector<float>(15, 0.25f);
+    picture.shown = {{"depth", noise(15, 4)}};
+    picture.mattes = {{"CryptoObject", 4, {}, R"({"ball":"deadbeef"})"}};
+    for (std::size_t i = 0; i < 15 * 4; ++i) picture.mattes[0].pixels.push_back({float(i) + 1, 1 / float(i + 2)});
+    picture.notes.texts = {{"software", "lightnet"}, {"seed", "7"}};
+    for (std::size_t i = 0; i < 16; ++i) picture.notes.matrices["worldToCamera"][i] = float(i);
+    return picture;
+}
+
+TEST(Exr, HoldsWhatCompositingNeeds) {
+    const Folder folder;
+    Picture picture = for_compositing();
+    for (const auto& compression : lossless_compressions())
+        for (const bool half : {false, true}) {
+            picture.storage = {compression, half};
+            if (half) round_to_half(picture.shown[0].pixels);
+            write_exr(folder / "x.exr", picture);
+            EXPECT_TRUE(read_exr(folder / "x.exr") == picture) << compression;
+        }
+}
+
+// Key, names and values as the specification of Cryptomatte 1.2 has them; the key is how the hash of the name begins.
+TEST(Exr, NamesMattesAsCryptomatteDoes) {
+    const Folder folder;
+    write_exr(folder / "x.exr", for_compositing());
+    const Imf::InputFile file((folder / "x.exr").c_str());
+    const auto said = [&](const char* what) {
+        const auto name = std::string("cryptomatte/3ae39a5/") + what;
+        const auto* text = file.header().findTypedAttribute<Imf::StringAttribute>(name.c_str());
+        return text ? text->value() : "nothing";
+    };
+    EXPECT_EQ(said("name"), "CryptoObject");
+    EXPECT_EQ(said("hash"), "MurmurHash3_32");
+    EXPECT_EQ(said("conversion"), "uint32_to_float32");
+    EXPECT_EQ(said("manifest"), R"({"ball":"deadbeef"})");
+    for (const char* channel : {"CryptoObject00.R", "CryptoObject00.A", "CryptoObject01.G", "A"}) {
+        const auto* found = file.header().channels().findChannel(channel);
+        ASSERT_TRUE(found) << channel;
+        EXPECT_EQ(found->type, Imf::FLOAT) << channel;
+    }
+    EXPECT_FALSE(file.header().channels().findChannel("CryptoObject02.R"));
+}
+
+TEST(Exr, KeepsHalfFloatsWithinTheirRange) {
+    std::vector<Rgb> pixels{{1e9f, -1e9f, 1 + 0x1p-12f}};
+    round_to_half(pixels);
+    EXPECT_EQ(pixels[0], (Rgb{65504, -65504, 1}));
 }
 
 TEST(Exr, HoldsABeautyThatIsExactlyTheSumOfItsLayers) {

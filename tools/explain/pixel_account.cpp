@@ -76,6 +76,20 @@ bool same_bits(const std::vector<PictureLayer>& one, const std::vector<PictureLa
     return one.size() == picture.size();
 }
 
+// The files of mattes come in another order than that of the graph.
+bool same_ids(const Picture& one, const Picture& picture, std::size_t index) {
+    if (one.alpha.empty() != picture.alpha.empty() || one.mattes.size() != picture.mattes.size()) return false;
+    if (!one.alpha.empty() && one.alpha[0] != picture.alpha[index]) return false;
+    for (const auto& matte : one.mattes) {
+        const auto found = std::find_if(picture.mattes.begin(), picture.mattes.end(),
+                                        [&](const auto& other) { return other.name == matte.name; });
+        if (found == picture.mattes.end() || found->ranks != matte.ranks) return false;
+        const auto first = found->pixels.begin() + std::ptrdiff_t(index * matte.ranks);
+        if (!std::equal(matte.pixels.begin(), matte.pixels.end(), first)) return false;
+    }
+    return true;
+}
+
 // What runs have prepared already need not be prepared again.
 std::unique_ptr<DiskResultCache> cache_of(const Network& network) {
     if (preparing_nodes(network.graph, network.registry).empty()) return nullptr;
@@ -124,7 +138,7 @@ private:
         part.account = keeper_.end();
         const auto& format = account_.format;
         for (std::size_t k = 0; k < part.colours.size(); ++k) {
-            if (!format.facts.contains(format.name_of(k))) part.colours[k] = part.colours[k] * scale_;
+            if (format.is_light(k)) part.colours[k] = part.colours[k] * scale_;
             const Rgb gain = k < format.gains.size() ? format.gains[k] : Rgb{1, 1, 1};
             if (k < format.layers.size()) part.beauty += gain * part.colours[k];
         }
@@ -159,8 +173,8 @@ PixelAccount account_for(const Picture& picture, const PastRun& past, std::uint3
     const Job job = make_job(request, registry, account.format, files);
     account.network = build_network(job, registry, std::move(scene));
     Recount(account, job, scale).count();
-    account.equal =
-        same_bits(account.pixel.layers, picture.layers, index) && same_bits(account.pixel.shown, picture.shown, index);
+    account.equal = same_bits(account.pixel.layers, picture.layers, index) &&
+                    same_bits(account.pixel.shown, picture.shown, index) && same_ids(account.pixel, picture, index);
     std::stable_sort(account.parts.begin(), account.parts.end(),
                      [](const auto& a, const auto& b) { return rank_of(a) > rank_of(b); });
     return account;
