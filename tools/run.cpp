@@ -92,6 +92,12 @@ int Run::render() {
     LoadedScene scene = load(files);
     const KeptFiles to_keep(request_.graph, registry_, scene.data);
     book_.expose(scene.data.film.scale);
+    book_.limit_time(request_.time_limit);
+    if (!request_.reference.empty()) {
+        const Window wanted = format_.crop.value_or(Window{0, 0, format_.width, format_.height});
+        book_.compare_with({request_.reference, request_.curve, wanted.width, wanted.height});
+    }
+    book_.show_png(request_.view, scene_overrides(request_.graph, registry_).exposure != 0);
     book_.trace_to(request_.trace);
     if (request_.preview > 0) book_.preview(request_.output, request_.preview);
     take_up_checkpoint(scene.data);

@@ -167,6 +167,12 @@ public:
     /// when it does not fit.
     void restore(FilmState state);
 
+    /// All pixels have as many samples, and nothing beyond waits; always where cells decide about them.
+    bool is_even() const;
+    /// No more samples are wanted: of an even film, what is there is all. Where cells don't decide, it is from now on
+    /// that of a picture of so many samples, with its bytes.
+    void end_here();
+
     /// Every block that is wanted of every pixel is there.
     bool complete() const { return folded_ + spared_ == all_; }
     /// How much of it is there, 0 … 1.
@@ -215,6 +221,7 @@ private:
     void expect_can_wait(const FilmState::Part& part) const;
     void expect_nothing_elsewhere() const;
     void take_up(FilmState::Part part);
+    std::optional<std::uint32_t> even_blocks() const;
     bool is_whole(const Tile& tile) const;
     bool add_area(const Tile& tile, std::span<const Rgb> pixels);
     void keep(Rectangle& rectangle, const Tile& tile, std::span<const Rgb> pixels);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cstring>
 #include <limits>
 #include <utility>
@@ -32,6 +33,12 @@ std::uint32_t samples_at(const Picture& picture, std::size_t index, const FilmFo
     if (!picture.samples.empty()) return static_cast<std::uint32_t>(picture.samples[index]);
     if (picture.done < 1)
         not_explained("is a preview, and doesn't tell how many samples its pixels have; let its run finish first");
+    // A run may have ended before it had all that its graph wants.
+    const auto said = picture.notes.texts.find("samples");
+    std::uint32_t samples = 0;
+    if (said != picture.notes.texts.end() &&
+        std::from_chars(said->second.data(), said->second.data() + said->second.size(), samples).ec == std::errc())
+        return std::clamp(samples, 1u, format.samples);
     return format.samples;
 }
 
