@@ -67,7 +67,8 @@ private:
 class RayTracer final : public Renderer {
 public:
     explicit RayTracer(const NodeContext& here)
-        : here_(here),
+        : Renderer(here.inputs().addition()),
+          here_(here),
           scene_(here.scene()),
           inputs_(here.inputs()),
           light_(here.inputs().which(false)),
@@ -75,6 +76,8 @@ public:
           key_(here.key()),
           seed_(here.seed()),
           max_depth_(static_cast<std::uint32_t>(here.integer("max_depth"))),
+          alpha_(here.flag("alpha")),
+          background_(here.flag("background")),
           filter_(here.text("filter"), static_cast<float>(here.number("filter_radius"))) {}
 
     void render_block(const Tile& tile, std::span<Rgb> pixels) const override {
@@ -135,6 +138,9 @@ private:
             follow(samples[i], rays[i], hits[i], met, pixels.subspan(samples[i].pixel * inputs_.layers()));
         if (!met.questions.empty()) add_answers(met, pixels);
         if (!facts_.empty()) add_facts(samples, rays, hits, pixels);
+        if (!alpha_) return;
+        for (std::size_t i = 0; i < samples.size(); ++i)
+            if (hits[i]) pixels[(samples[i].pixel + 1) * inputs_.layers() - 1] += Rgb{1, 1, 1};
     }
 
     /// Follows one ray until no mirror or glass carries it on, and adds to the pixel what shines by itself on its path.
@@ -155,6 +161,7 @@ private:
     /// The surface of that number that a sample meets, and what shines by itself there.
     void visit(const TileSample& sample, Branch branch, std::uint32_t surface, PixelQuestions& met) const {
         if (!branch.hit) {
+            if (!background_ && surface == 0) return;
             met.emitted[scene_.environment_group()] +=
                 branch.path.weight() * scene_.environment(branch.path.ray().direction);
             return;
@@ -209,7 +216,11 @@ private:
         if (questions.empty()) return;
         for (const Part& part : ask_all(facts_, questions))
             each_colour(part, [&](std::size_t q, std::size_t layer, const Rgb& fact) {
-                pixels[asked[q] * inputs_.layers() + layer] += fact;
+                const std::size_t place = asked[q] * inputs_.layers() + layer;
+                if (part.input->ids)
+                    add_ids(pixels.subspan(place, part.input->ids), {&fact, 1});
+                else
+                    pixels[place] += fact;
             });
     }
 
@@ -225,6 +236,7 @@ private:
     Key key_;
     std::uint64_t seed_;
     std::uint32_t max_depth_;
+    bool alpha_, background_;
     PixelFilter filter_;
 };
 
@@ -270,6 +282,14 @@ Kind ray_tracer_kind() {
                  .type = ParamType::nodes,
                  .help = "operators whose own light is kept beside the image, as layers that are not added up: AOVs",
                  .initial = Value{Table{}}},
+                {.name = "alpha",
+                 .type = ParamType::flag,
+                 .help = "adds a channel A: how much of each pixel surfaces cover",
+                 .initial = Value{false}},
+                {.name = "background",
+                 .type = ParamType::flag,
+                 .help = "shows what surrounds the scene where nothing is before it; it lights things in any case",
+                 .initial = Value{true}},
                 {.name = "filter",
                  .type = ParamType::text,
                  .help = "the pixel filter",

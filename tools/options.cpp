@@ -198,6 +198,17 @@ CLI::Option* add_gains(CLI::App& verb, const char* name, std::vector<Gain>& gain
         ->check(check);
 }
 
+void add_view(CLI::App& verb, PictureView& view) {
+    verb.add_option_function<std::string>(
+            "--view", [&view](const std::string& text) { view = *picture_view(text); },
+            "how the PNG shows the picture; auto: with an exposure by which it can be seen, unless one was chosen; "
+            "plain: as computed; filmic: as auto, with a filmic curve. The EXR is the same")
+        ->type_name("auto|plain|filmic")
+        ->check([](const std::string& text) {
+            return picture_view(text) ? "" : "must be auto, plain or filmic, not '" + text + "'";
+        });
+}
+
 void add_output(CLI::App& verb, std::string& file, const char* help) {
     verb.add_option("-o,--output", file, help)->type_name("OUT.exr");
 }
@@ -220,6 +231,9 @@ void add_running(CLI::App& verb, RunningOptions& running) {
                   std::numeric_limits<std::uint64_t>::max());
     verb.add_option("--exposure", running.picture.exposure, "exposure in stops: each makes the picture twice as bright")
         ->type_name("STOPS");
+    add_view(verb, running.view);
+    verb.add_option("--camera", running.picture.camera, "one of several cameras of the scene's file")
+        ->type_name("NAME|N");
     add_gains(verb, "--gain", running.picture.gains, "times which a layer is in the picture (may be repeated)");
     verb.add_option_function<std::string>(
             "--progress", [&running](const std::string& text) { running.progress = *progress_mode(text); },
@@ -230,6 +244,16 @@ void add_running(CLI::App& verb, RunningOptions& running) {
         });
     takes_amounts(verb.add_option("--preview", running.preview, "write the picture so far, every so many seconds"),
                   "SECONDS", Least::above_zero);
+    takes_amounts(verb.add_option("--time-limit", running.time_limit,
+                                  "end after so many seconds, with as many samples (16, 32, …) in all pixels as there is "
+                                  "time for; --resume goes on"),
+                  "SECONDS", Least::above_zero);
+    auto* const reference =
+        verb.add_option("--reference", running.reference, "say how far the picture is from this one: EXR, HDR, PNG …")
+            ->type_name("REFERENCE");
+    verb.add_option("--csv", running.curve, "write the error over samples and seconds")
+        ->type_name("FILE.csv")
+        ->needs(reference);
     verb.add_option("--trace", running.trace, "write what every place was busy with, for Perfetto (ui.perfetto.dev)")
         ->type_name("FILE.json");
     add_watching(verb, running);

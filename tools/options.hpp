@@ -42,6 +42,7 @@ struct PictureOptions {
     std::optional<PictureSize> size;
     std::optional<PictureCrop> crop;
     std::optional<double> exposure;  // stops
+    std::string camera;              // of the scene's file, name or number; "": as the graph says
     std::vector<Gain> gains;         // of layers
     std::string output;              // file; "": as the graph says
 };
@@ -69,6 +70,9 @@ struct RunningOptions {
     double preview = 0;                 // seconds between two pictures of what is there; 0: none
     bool resume = false;                // from a checkpoint
     bool forget = false;                // it, when the picture is finished
+    double time_limit = 0;              // seconds; 0: none
+    std::string reference, curve;       // files; "": none
+    PictureView view = PictureView::automatic;  // of the PNG
     Tuning tuning;
 };
 
@@ -78,6 +82,8 @@ void add_constants(CLI::App& verb, std::map<std::string, std::string>& constants
 void add_picture(CLI::App& verb, PictureOptions& picture);
 /// An option, or where `name` has no dashes the words of the command line, that gives layers gains.
 CLI::Option* add_gains(CLI::App& verb, const char* name, std::vector<Gain>& gains, const char* help);
+/// --view
+void add_view(CLI::App& verb, PictureView& view);
 void add_output(CLI::App& verb, std::string& file, const char* help);
 CLI::Option* add_hosts(CLI::App& verb, std::string& file);
 CLI::Option* add_threads(CLI::App& verb, std::optional<std::uint32_t>& threads, const char* help);

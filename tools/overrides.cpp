@@ -28,9 +28,11 @@ void set_gains(Value& film, const std::vector<Gain>& gains) {
         entry->named[layer] = {Table{{{double(value.r)}, {double(value.g)}, {double(value.b)}}, {}}};
 }
 
-void set_exposure(Node& scene, const Kind& kind, const PictureOptions& wanted) {
-    for (const auto& param : kind.params)
+void change_scene(Node& scene, const Kind& kind, const PictureOptions& wanted) {
+    for (const auto& param : kind.params) {
         if (wanted.exposure && param.name == "exposure") scene.params[param.name] = {*wanted.exposure};
+        if (!wanted.camera.empty() && param.name == "seen_by") scene.params[param.name] = {wanted.camera};
+    }
 }
 
 }  // namespace
@@ -38,7 +40,7 @@ void set_exposure(Node& scene, const Kind& kind, const PictureOptions& wanted) {
 void override_picture(Graph& graph, const Registry& registry, const PictureOptions& wanted) {
     for (auto& node : graph.nodes) {
         const Kind* kind = registry.find(node.kind);
-        if (kind && kind->role == Role::scene) set_exposure(node, *kind, wanted);
+        if (kind && kind->role == Role::scene) change_scene(node, *kind, wanted);
         if (!kind || kind->role != Role::image) continue;
         for (const auto& param : kind->params) {
             if (wanted.samples && param.name == "samples")

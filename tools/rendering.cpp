@@ -77,12 +77,12 @@ void Rendering::serially(LoadedScene scene) {
     book_.use(Plan{{PlaceAt{}}, std::vector<std::vector<std::uint32_t>>(what_.job.graph.nodes.size(), {0})},
               what_.job.graph);
     try {
-        TilesByPass passes(what_.job.graph, what_.registry, what_.tiles);
+        TilesByPass passes(what_.job.graph, what_.registry, what_.tiles, book_.steps());
         const auto say = [this](const std::string& text) { book_.say(text); };
         run.prepare(made_from(what_.job), cache(), say, passes.pass());
         what_.kept.write([&](std::size_t node) { return run.last_result(node); }, book_);
         book_.phase("render");
-        while (!passes.empty() && !stopped()) {
+        for (bool in_time = true; !passes.empty() && !stopped() && in_time; in_time = book_.end_step()) {
             auto tiles = passes.begin_next();
             for (std::size_t next = 0; next < tiles.size() && !stopped(); ++next) {
                 const Tile tile = tiles[next];
@@ -90,6 +90,7 @@ void Rendering::serially(LoadedScene scene) {
                 tiles.insert(tiles.end(), more.begin(), more.end());
             }
         }
+        if (!passes.empty() && !stopped()) book_.end_early();
     } catch (const Cancelled&) {
     }
     if (looker) book_.show_last(alone.hosts);
@@ -161,7 +162,7 @@ void Rendering::hand_out(Carrier& carrier, const Plan& plan, const Crowd& crowd)
     options.verify = what_.request.tuning.verify;
     options.say = [this](const std::string& text) { book_.say(text); };
     Conductor conductor(std::move(options), carrier);
-    TilesByPass passes(what_.job.graph, what_.registry, what_.tiles);
+    TilesByPass passes(what_.job.graph, what_.registry, what_.tiles, book_.steps());
     conductor.begin_pass(passes.pass());
     conductor.propose(plan);
     if (!prepare(conductor, crowd)) return;
@@ -170,7 +171,9 @@ void Rendering::hand_out(Carrier& carrier, const Plan& plan, const Crowd& crowd)
     };
     if (!what_.request.tuning.verify) write_kept();
     book_.phase("render");
-    while (!passes.empty() && !stopped()) hand_out_pass(conductor, passes, crowd);
+    for (bool in_time = true; !passes.empty() && !stopped() && in_time; in_time = book_.end_step())
+        hand_out_pass(conductor, passes, crowd);
+    if (!passes.empty() && !stopped()) book_.end_early();
     if (what_.request.tuning.verify && !stopped()) write_kept();  // nobody was found to have lied
 }
 
@@ -183,6 +186,7 @@ void Rendering::hand_out_pass(Conductor& conductor, TilesByPass& passes, const C
     job.tiles = passes.begin_next();
     conductor.begin_pass(passes.pass());
     if (!prepare(conductor, crowd)) return;
+    conductor.begin_master();
     const auto tiles = tiles_per_place(conductor.in_force());
     job.credit = {tiles, tiles * MasterRenderer::most_together};
     job.check_answers = what_.request.tuning.check_answers;

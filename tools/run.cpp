@@ -49,7 +49,7 @@ private:
     void open_to_watchers();
     int perform_watched();
     void show_outcome(const std::string& outcome);
-    void take_up_checkpoint();
+    void take_up_checkpoint(const SceneData& scene);
     void report_failure();
 
     const RunRequest& request_;
@@ -62,9 +62,10 @@ private:
     Job job_;
 };
 
-void Run::take_up_checkpoint() {
-    book_.keep_checkpoint(request_.output, picture_recipe(job_, registry_, format_, request_.tuning.tile),
-                          std::chrono::seconds(request_.tuning.checkpoint));
+void Run::take_up_checkpoint(const SceneData& scene) {
+    auto recipe = picture_recipe(job_, registry_, format_, request_.tuning.tile);
+    book_.describe(words_of(request_.graph, registry_, format_, recipe, scene));
+    book_.keep_checkpoint(request_.output, std::move(recipe), std::chrono::seconds(request_.tuning.checkpoint));
     if (!request_.resume) return;
     book_.take_up_checkpoint();
     std::vector<Tile> left = book_.going_on();
@@ -91,9 +92,15 @@ int Run::render() {
     LoadedScene scene = load(files);
     const KeptFiles to_keep(request_.graph, registry_, scene.data);
     book_.expose(scene.data.film.scale);
+    book_.limit_time(request_.time_limit);
+    if (!request_.reference.empty()) {
+        const Window wanted = format_.crop.value_or(Window{0, 0, format_.width, format_.height});
+        book_.compare_with({request_.reference, request_.curve, wanted.width, wanted.height});
+    }
+    book_.show_png(request_.view, scene_overrides(request_.graph, registry_).exposure != 0);
     book_.trace_to(request_.trace);
     if (request_.preview > 0) book_.preview(request_.output, request_.preview);
-    take_up_checkpoint();
+    take_up_checkpoint(scene.data);
     if (book_.complete() && book_.is_written(request_.output)) {
         book_.say(request_.output + " is finished: nothing to do; ask for more with --samples");
         return exit_code::done;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/film/progress.hpp"
+#include "core/film/tone.hpp"
 #include "core/network/graph/graph.hpp"
 #include "core/network/graph/hosts.hpp"
 #include "core/network/graph/kind.hpp"
@@ -61,6 +62,9 @@ struct RunRequest {
     std::string trace;   // file for what places were busy with; "": none
     std::optional<WatchAddress> watch;  // serve a page that shows the run
     std::string report;                 // file of a page that shows what the run did; "": none
+    PictureView view = PictureView::automatic;  // of the PNG
+    double time_limit = 0;              // seconds since the run began; 0: none
+    std::string reference, curve;       // a picture to be compared with, and a file for the errors; "": none
     double preview = 0;                 // seconds between two pictures of what is there; 0: none
     ProgressMode progress = ProgressMode::automatic;
 };

@@ -110,6 +110,26 @@ std::vector<Tile> RunBook::take(const Tile& tile, std::span<const Rgb> pixels) {
     return wanted ? film_.more(tile) : std::vector<Tile>{};
 }
 
+bool RunBook::end_step() {
+    const auto now = Clock::now();
+    const auto since = [&](Clock::time_point then) { return std::chrono::duration<double>(now - then).count(); };
+    const double last = since(std::exchange(step_begun_, now));
+    try {
+        if (curve_) curve_->note(film_.mean_samples(), since(begun_), film_.picture(scale_));
+    } catch (const Error& error) {
+        warn(std::string("no curve of errors: ") + error.what());
+    }
+    return limit_ == 0 || since(begun_) + last <= limit_ || !film_.is_even();
+}
+
+void RunBook::end_early() {
+    const auto wanted = film_.format().samples;
+    film_.end_here();
+    report_.settings["samples"] = std::to_string(film_.format().samples);
+    say(fmt::format("the time is over: {:g} of {} samples per pixel{}", film_.mean_samples(), wanted,
+                    checkpoint_ ? "; --resume goes on from here" : ""));
+}
+
 void RunBook::preview_now(const std::string& exr) {
     const auto usual = std::exchange(preview_, Preview{exr, Pace(std::chrono::seconds(0), Clock::now())});
     write_preview();
@@ -136,19 +156,28 @@ void RunBook::write_preview() {
     preview_->pace.put_off(now, 9 * (now - begun));
 }
 
+Picture RunBook::picture_now() const {
+    Picture picture = film_.picture(scale_);
+    add_words(words_, picture);
+    picture.notes.texts["samples"] = std::to_string(film_.format().samples);
+    return picture;
+}
+
 void RunBook::write_files(const std::string& exr) {
     const auto png = png_beside(exr);
     expect_ours(exr, exr_beginning);
     expect_ours(png, png_beginning);
-    const auto picture = film_.picture(scale_);
+    const auto picture = picture_now();
     if (picture.overflowed && !std::exchange(said_overflow_, true))
         warn(fmt::format("{} pixels are brighter than the numbers of a picture can be, and count as black",
                          picture.overflowed));
     write_exr(exr, picture);
-    write_png(png, picture);
     brightness_ = brightness_of(picture);
+    const PngView view = png_view(view_, brightness_, exposed_);
+    write_png(png, picture, view);
+    shown_stops_ = view.stops;
     report_.outputs = {exr, png.string()};
-    report_.settings["tone of the PNG"] = std::string(png_tone);
+    report_.settings["tone of the PNG"] = tone_of(view);
 }
 
 void RunBook::keep_checkpoint(const std::string& exr, std::map<std::string, std::string> recipe,
@@ -247,7 +276,7 @@ void RunBook::write_picture(const std::string& exr) {
 
 bool RunBook::is_written(const std::string& exr) const {
     std::ifstream file(exr, std::ios::binary);
-    return std::string{std::istreambuf_iterator<char>(file), {}} == exr_of(film_.picture(scale_));
+    return std::string{std::istreambuf_iterator<char>(file), {}} == exr_of(picture_now());
 }
 
 void RunBook::write_report_page(const std::string& html) {
@@ -258,7 +287,10 @@ void RunBook::write_report_page(const std::string& html) {
 void RunBook::conclude(const Hosts& asked, double exposure) {
     auto layers = film_.format().layers;
     layers.insert(layers.end(), film_.format().shown.begin(), film_.format().shown.end());
-    say(summary_of({report_, layers, asked, brightness_, exposure}));
+    if (film_.format().alpha) layers.emplace_back("A");
+    if (curve_ && curve_->relative_square())
+        say(fmt::format("relMSE to {}: {:g}", curve_->reference(), *curve_->relative_square()));
+    say(summary_of({report_, layers, asked, brightness_, exposure, shown_stops_}));
 }
 
 void RunBook::write_report(const std::string& exr, const std::string& outcome) {

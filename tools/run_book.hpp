@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/film/film.hpp"
@@ -17,8 +18,11 @@
 #include "core/network/graph/plan.hpp"
 #include "core/run/message/counters.hpp"
 #include "core/run/prepare/prepare_progress.hpp"
+#include "core/run/runtime/tiles_by_pass.hpp"
 #include "tools/checkpoint_keeper.hpp"
+#include "tools/error_curve.hpp"
 #include "tools/pace.hpp"
+#include "tools/picture_notes.hpp"
 #include "tools/watch/watcher.hpp"
 #include "transport/launcher/cluster.hpp"
 
@@ -54,6 +58,10 @@ public:
     /// How far preparing is.
     void preparing(const PrepareProgress& progress);
     void warn(const std::string& text);
+    /// What the files of the picture say of it beside its pixels.
+    void describe(PictureWords words) { words_ = std::move(words); }
+    /// How the PNG shows the picture; `exposed`: by an exposure that somebody has chosen.
+    void show_png(PictureView view, bool exposed) { view_ = view, exposed_ = exposed; }
     /// What the scene's film makes of radiance. Before the first tile.
     void expose(float scale);
     /// From now on, writes what is there every so many seconds.
@@ -68,6 +76,16 @@ public:
     std::vector<Tile> take(const Tile& tile, std::span<const Rgb> pixels);
     /// Who holds what, from now on.
     void use(const Plan& plan, const Graph& graph);
+    /// Ends before so many seconds since the run began; 0: never.
+    void limit_time(double seconds) { limit_ = seconds; }
+    /// Says at the end how far the picture is from a reference.
+    void compare_with(ErrorCurve curve) { curve_ = std::move(curve); }
+    /// What is to be rendered in one go.
+    PassSteps steps() const { return limit_ > 0 ? PassSteps::blocks : curve_ ? PassSteps::groups : PassSteps::whole; }
+    /// One of them is done. False: there is no time for another one like it.
+    bool end_step();
+    /// The picture is to have no more samples than there are.
+    void end_early();
     /// A line of the report's settings.
     void set(const std::string& name, const std::string& value) { report_.settings[name] = value; }
     void count(const Counters& counters) { counters_ += counters; }
@@ -118,6 +136,7 @@ private:
         Pace pace;
         bool said = false;
     };
+    Picture picture_now() const;
     void write_files(const std::string& exr);
     void write_preview();
     void write_trace();
@@ -126,8 +145,15 @@ private:
 
     Film film_;
     float scale_ = 1;
-    Brightness brightness_;                               // of what was written last
-    std::string last_prepared_;                           // node that was named
+    PictureWords words_;
+    PictureView view_ = PictureView::plain;
+    bool exposed_ = false;
+    double limit_ = 0;
+    std::optional<ErrorCurve> curve_;
+    Pace::Clock::time_point begun_ = Pace::Clock::now(), step_begun_ = begun_;
+    double shown_stops_ = 0;     // by which the PNG that was written last is brighter than its picture
+    Brightness brightness_;      // of what was written last
+    std::string last_prepared_;  // node that was named
     std::optional<Pace::Clock::time_point> doing_since_;  // what stands last in the report's `preparing`
     bool said_overflow_ = false;
     Watcher* watcher_ = nullptr;

@@ -83,6 +83,10 @@ RunRequest request_of(const RunningOptions& running, const Launcher& launcher, L
     request.wait = std::chrono::seconds(running.wait);
     request.resume = running.resume;
     request.forget = running.forget;
+    request.view = running.view;
+    request.time_limit = running.time_limit;
+    request.reference = running.reference;
+    request.curve = running.curve;
     request.graph = sharded(std::move(request.graph), shards_of(request.graph, registry, request.hosts));
     if (has_other_hosts(running, request.hosts)) request.mode = Mode::network;
     request.threads = own_places(running, request, registry);

@@ -31,9 +31,13 @@ FilmFormat film_format(const RunRequest& request, const Registry& registry) {
     FilmFormat format{film.width, film.height, layers.film, sampling.samples, film.crop};
     format.refinement = {sampling.error, sampling.least_samples};
     format.shown = shown_names(layers, request.graph);
-    for (const auto node : layers.shown)
-        if (registry.find(request.graph.nodes[node].kind)->light.facts)
-            format.facts.insert(request.graph.nodes[node].name);
+    format.alpha = layers.alpha;
+    format.storage = film.storage;
+    for (std::size_t i = 0; i < layers.shown.size(); ++i) {
+        const Node& node = request.graph.nodes[layers.shown[i]];
+        if (registry.find(node.kind)->light.facts) format.facts.insert(node.name);
+        if (layers.ids[i]) format.ids[node.name] = layers.ids[i];
+    }
     format.gains = one_for_each(film.gains, layers.film);
     return format;
 }

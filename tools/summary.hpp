@@ -18,6 +18,7 @@ struct Ending {
     const Hosts& asked;                      // hosts that were to take part
     Brightness brightness;
     double exposure = 0;  // stops, as it was rendered
+    double shown = 0;     // stops by which the PNG is brighter than that
 };
 
 /// Some lines, without the last line break.

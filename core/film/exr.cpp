@@ -1,3 +1,4 @@
+// Pictures become OpenEXR files.
 #include "core/film/exr.hpp"
 
 #include <ImfChannelList.h>
@@ -6,27 +7,26 @@
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfIO.h>
-#include <ImfInputFile.h>
+#include <ImfMatrixAttribute.h>
 #include <ImfOutputFile.h>
+#include <ImfStringAttribute.h>
 #include <ImfStringVectorAttribute.h>
+#include <half.h>
 
 #include <algorithm>
 #include <cstring>
-#include <exception>
+#include <list>
 #include <utility>
 #include <vector>
 
 #include "core/base/atomic_file.hpp"
 #include "core/base/error.hpp"
+#include "core/film/exr_channels.hpp"
 
 namespace lightnet {
 namespace {
 
-constexpr const char* layers_attribute = "layers";
-constexpr const char* shown_attribute = "shown";
-constexpr const char* gains_attribute = "gains";
-constexpr const char* done_attribute = "done";
-constexpr const char* samples_channel = "samples";
+using namespace exr;
 
 /// A file in memory, so that the disk sees one checked write and tests see the bytes.
 class Memory final : public Imf::OStream {
@@ -47,22 +47,6 @@ private:
     std::size_t at_ = 0;
 };
 
-// Calls visit(channel name, pointer to its value in the first pixel) for R, G and B of a plane of pixels.
-template <class Plane, class Visit>
-void for_channels(const std::string& layer, Plane& pixels, const Visit& visit) {
-    const std::string prefix = layer.empty() ? "" : layer + ".";
-    auto* first = pixels.data();
-    visit(prefix + "R", &first->r);
-    visit(prefix + "G", &first->g);
-    visit(prefix + "B", &first->b);
-}
-
-// OpenEXR takes one type of slice for reading and writing, hence the cast where it only reads.
-Imf::Slice slice(const float* first, const Imath::Box2i& window, std::size_t step = sizeof(Rgb)) {
-    return Imf::Slice::Make(Imf::FLOAT, const_cast<float*>(first), window, step,
-                            step * static_cast<std::size_t>(window.max.x - window.min.x + 1));
-}
-
 // Nothing where all are 1.
 void insert_gains(Imf::Header& header, const std::vector<PictureLayer>& layers) {
     Imf::FloatVector gains;
@@ -71,11 +55,35 @@ void insert_gains(Imf::Header& header, const std::vector<PictureLayer>& layers) 
         header.insert(gains_attribute, Imf::FloatVectorAttribute(gains));
 }
 
-void read_gains(const Imf::Header& header, std::vector<PictureLayer>& layers) {
-    const auto* gains = header.findTypedAttribute<Imf::FloatVectorAttribute>(gains_attribute);
-    if (!gains || gains->value().size() != 3 * layers.size()) return;
-    const float* next = gains->value().data();
-    for (auto& layer : layers) layer.gain = {next[0], next[1], next[2]}, next += 3;
+void insert_compression(Imf::Header& header, const std::string& name) {
+    static_assert(Imf::NO_COMPRESSION == 0 && Imf::RLE_COMPRESSION == 1 && Imf::ZIPS_COMPRESSION == 2 &&
+                  Imf::ZIP_COMPRESSION == 3 && Imf::PIZ_COMPRESSION == 4);
+    const auto& names = lossless_compressions();
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) throw Error("film", "no compression is called " + name);
+    header.compression() = static_cast<Imf::Compression>(found - names.begin());
+}
+
+void insert_text(Imf::Header& header, const std::string& name, const std::string& text) {
+    header.insert(name.c_str(), Imf::StringAttribute(text));
+}
+
+void insert_notes(Imf::Header& header, const PictureNotes& notes) {
+    for (const auto& [name, text] : notes.texts) insert_text(header, name, text);
+    for (const auto& [name, entries] : notes.matrices) {
+        Imath::M44f matrix;
+        for (std::size_t i = 0; i < entries.size(); ++i) matrix[int(i / 4)][int(i % 4)] = entries[i];
+        header.insert(name.c_str(), Imf::M44fAttribute(matrix));
+    }
+}
+
+// What the specification of Cryptomatte (1.2) wants to be said.
+void insert_matte(Imf::Header& header, const PictureMatte& matte) {
+    const auto key = matte_key(matte.name);
+    insert_text(header, key + "/name", matte.name);
+    insert_text(header, key + "/hash", "MurmurHash3_32");
+    insert_text(header, key + "/conversion", "uint32_to_float32");
+    insert_text(header, key + "/manifest", matte.manifest);
 }
 
 Imf::Header header_of(const Picture& picture) {
@@ -85,13 +93,15 @@ Imf::Header header_of(const Picture& picture) {
     };
     const auto data = box(picture.x, picture.y, picture.width, picture.height);
     Imf::Header header(picture.whole_width ? box(0, 0, picture.whole_width, picture.whole_height) : data, data);
-    header.compression() = Imf::ZIP_COMPRESSION;
+    insert_compression(header, picture.storage.compression);
     header.lineOrder() = Imf::INCREASING_Y;
     const auto insert_names = [&](const char* attribute, const std::vector<PictureLayer>& layers) {
         Imf::StringVector names;
         for (const auto& layer : layers) names.push_back(layer.name);
         if (!names.empty()) header.insert(attribute, Imf::StringVectorAttribute(names));
     };
+    insert_notes(header, picture.notes);
+    for (const auto& matte : picture.mattes) insert_matte(header, matte);
     insert_names(layers_attribute, picture.layers);
     insert_names(shown_attribute, picture.shown);
     insert_gains(header, picture.layers);
@@ -99,96 +109,69 @@ Imf::Header header_of(const Picture& picture) {
     return header;
 }
 
-std::size_t pixels_of(const Imath::Box2i& window) {
-    return static_cast<std::size_t>(window.max.x - window.min.x + 1) *
-           static_cast<std::size_t>(window.max.y - window.min.y + 1);
-}
+/// The channels of a file that is to be written, and where their numbers are.
+class Channels {
+public:
+    explicit Channels(Imf::Header& header) : header_(header) {}
 
-// One layer of an open file; none if it lacks a channel of it.
-std::vector<Rgb> read_layer(Imf::InputFile& file, const std::string& layer) {
-    const auto window = file.header().dataWindow();
-    std::vector<Rgb> pixels(pixels_of(window));
-    Imf::FrameBuffer buffer;
-    for_channels(layer, pixels, [&](const std::string& name, const float* first) {
-        if (!file.header().channels().findChannel(name)) throw Error(file.fileName(), "has no channel " + name);
-        buffer.insert(name, slice(first, window));
-    });
-    file.setFrameBuffer(buffer);
-    file.readPixels(window.min.y, window.max.y);
-    return pixels;
-}
+    void add(const std::string& name, const float* first, std::size_t step) {
+        insert(name, Imf::FLOAT, reinterpret_cast<const char*>(first), step);
+    }
+    void add(const std::string& layer, const std::vector<Rgb>& pixels) {
+        for_channels(layer, pixels,
+                     [&](const std::string& name, const float* first) { add(name, first, sizeof(Rgb)); });
+    }
+    void add_halves(const std::string& layer, const std::vector<Rgb>& pixels) {
+        auto& halves = halves_.emplace_back();
+        halves.reserve(3 * pixels.size());
+        for (const Rgb& pixel : pixels)
+            for (const float value : {pixel.r, pixel.g, pixel.b}) halves.emplace_back(value);
+        const half* next = halves.data();
+        for_channels(layer, pixels, [&](const std::string& name, const float*) {
+            insert(name, Imf::HALF, reinterpret_cast<const char*>(next++), 3 * sizeof(half));
+        });
+    }
+    const Imf::FrameBuffer& buffer() const { return buffer_; }
 
-std::vector<float> read_samples(Imf::InputFile& file) {
-    if (!file.header().channels().findChannel(samples_channel)) return {};
-    const auto window = file.header().dataWindow();
-    std::vector<float> samples(pixels_of(window));
-    Imf::FrameBuffer buffer;
-    buffer.insert(samples_channel, slice(samples.data(), window, sizeof(float)));
-    file.setFrameBuffer(buffer);
-    file.readPixels(window.min.y, window.max.y);
-    return samples;
-}
+private:
+    // OpenEXR takes one type of slice for reading and writing, hence the cast where it only reads.
+    void insert(const std::string& name, Imf::PixelType type, const char* first, std::size_t step) {
+        const auto window = header_.dataWindow();
+        header_.channels().insert(name, Imf::Channel(type));
+        buffer_.insert(name, Imf::Slice::Make(type, const_cast<char*>(first), window, step,
+                                              step * static_cast<std::size_t>(window.max.x - window.min.x + 1)));
+    }
 
-// Where the picture lies in a whole, as far as its file tells; files of other programs may lie outside of it.
-void read_place(const Imf::Header& header, Picture& picture) {
-    const auto data = header.dataWindow(), whole = header.displayWindow();
-    const bool inside = whole.min.x == 0 && whole.min.y == 0 && data.min.x >= 0 && data.min.y >= 0 &&
-                        data.max.x <= whole.max.x && data.max.y <= whole.max.y;
-    if (!inside || data == whole) return;
-    picture.x = static_cast<std::uint32_t>(data.min.x);
-    picture.y = static_cast<std::uint32_t>(data.min.y);
-    picture.whole_width = static_cast<std::uint32_t>(whole.max.x + 1);
-    picture.whole_height = static_cast<std::uint32_t>(whole.max.y + 1);
-}
+    Imf::Header& header_;
+    Imf::FrameBuffer buffer_;
+    std::list<std::vector<half>> halves_;  // until they are written
+};
 
 }  // namespace
 
 std::string exr_of(const Picture& picture) {
     Imf::Header header = header_of(picture);
-    Imf::FrameBuffer buffer;
-    const auto add_channel = [&](const std::string& name, const float* first) {
-        header.channels().insert(name, Imf::Channel(Imf::FLOAT));
-        buffer.insert(name, slice(first, header.dataWindow()));
-    };
-    for_channels("", picture.beauty, add_channel);
-    for (const auto& layer : picture.layers) for_channels(layer.name, layer.pixels, add_channel);
-    for (const auto& layer : picture.shown) for_channels(layer.name, layer.pixels, add_channel);
-    if (!picture.samples.empty()) {
-        header.channels().insert(samples_channel, Imf::Channel(Imf::FLOAT));
-        buffer.insert(samples_channel, slice(picture.samples.data(), header.dataWindow(), sizeof(float)));
-    }
+    Channels channels(header);
+    channels.add("", picture.beauty);
+    for (const auto& layer : picture.layers) channels.add(layer.name, layer.pixels);
+    for (const auto& layer : picture.shown)
+        picture.storage.half ? channels.add_halves(layer.name, layer.pixels) : channels.add(layer.name, layer.pixels);
+    for (const auto& matte : picture.mattes)
+        for_matte_channels(matte, [&](const std::string& name, const float* first, std::size_t step) {
+            channels.add(name, first, step);
+        });
+    if (!picture.alpha.empty()) channels.add(alpha_channel, picture.alpha.data(), sizeof(float));
+    if (!picture.samples.empty()) channels.add(samples_channel, picture.samples.data(), sizeof(float));
 
     Memory memory;
     {
         Imf::OutputFile file(memory, header, 0);  // 0: no threads of OpenEXR's own
-        file.setFrameBuffer(buffer);
+        file.setFrameBuffer(channels.buffer());
         file.writePixels(static_cast<int>(picture.height));
     }
     return memory.take();
 }
 
 void write_exr(const std::filesystem::path& path, const Picture& picture) { write_file(path, exr_of(picture)); }
-
-Picture read_exr(const std::filesystem::path& path) try {
-    Imf::InputFile file(path.c_str(), 0);
-    const auto window = file.header().dataWindow();
-    Picture picture{static_cast<std::uint32_t>(window.max.x - window.min.x + 1),
-                    static_cast<std::uint32_t>(window.max.y - window.min.y + 1),
-                    read_layer(file, ""),
-                    {}};
-    for (auto [attribute, layers] : {std::pair(layers_attribute, &picture.layers), {shown_attribute, &picture.shown}})
-        if (const auto* names = file.header().findTypedAttribute<Imf::StringVectorAttribute>(attribute))
-            for (const auto& name : names->value()) layers->push_back({name, read_layer(file, name)});
-    read_gains(file.header(), picture.layers);
-    picture.samples = read_samples(file);
-    read_place(file.header(), picture);
-    if (const auto* done = file.header().findTypedAttribute<Imf::FloatAttribute>(done_attribute))
-        picture.done = done->value();
-    return picture;
-} catch (const Error&) {
-    throw;
-} catch (const std::exception& wrong) {
-    throw Error(path.string(), wrong.what());
-}
 
 }  // namespace lightnet

@@ -14,14 +14,17 @@
 
 namespace lightnet {
 Film::Film(FilmFormat format)
-    : format_(std::move(format)), window_(format_.work()), blocks_(blocks_in(format_.samples)) {
+    : format_(std::move(format)),
+      addition_(format_.addition()),
+      window_(format_.work()),
+      blocks_(blocks_in(format_.samples)) {
     const auto& layers = format_.layers;
     if (!format_.width || !format_.height) throw Error("film", "a picture needs at least one pixel");
     if (!format_.samples) throw Error("film", "a picture needs at least one sample per pixel");
     if (layers.empty()) throw Error("film", "a picture needs at least one layer");
     std::set<std::string> names(layers.begin(), layers.end());
     names.insert(format_.shown.begin(), format_.shown.end());
-    if (names.size() != format_.colours()) throw Error("film", "two layers have the same name");
+    if (names.size() != layers.size() + format_.shown.size()) throw Error("film", "two layers have the same name");
     const auto lies_within = [](std::uint32_t from, std::uint32_t size, std::uint32_t side) {
         return size > 0 && from < side && size <= side - from;
     };
@@ -130,7 +133,7 @@ void Film::keep(Rectangle& rectangle, const Tile& tile, std::span<const Rgb> pix
     for (auto next = std::next(sum);
          next != waiting.end() && next->first == together.first + blocks && next->first < end;
          next = waiting.erase(next)) {
-        std::transform(colours.begin(), colours.end(), next->second.pixels.begin(), colours.begin(), std::plus<>());
+        addition_(colours, next->second.pixels);
         blocks += next->second.blocks;
     }
 }
@@ -273,11 +276,9 @@ void Film::fold(const Tile& tile, std::uint32_t blocks, std::span<const Rgb> pix
             const std::size_t pixel = index(x, y);
             for (std::size_t k = 0; k < layers; ++k, ++next) {
                 sound[k] = finite(*next) ? *next : Rgb{};
-                if (finite(*next))
-                    sums_[pixel * layers + k] += *next;
-                else
-                    ++lost_[k];
+                lost_[k] += !finite(*next);
             }
+            addition_(std::span(sums_).subspan(pixel * layers, layers), sound);
             if (format_.adaptive())
                 note(pixel, std::span(sound).first(format_.layers.size()),
                      samples_of(block_of_[pixel], format_.samples));
@@ -315,43 +316,6 @@ double Film::mean_samples() const {
     double sum = 0;
     for (const auto blocks : block_of_) sum += std::min(blocks * samples_per_block, format_.samples);
     return sum / static_cast<double>(block_of_.size());
-}
-
-Picture Film::picture(float scale) const {
-    const Window wanted = format_.crop.value_or(window_);
-    const std::size_t pixels = wanted.pixels(), layers = format_.colours();
-    Picture picture{wanted.width, wanted.height, {}, {}};
-    if (format_.crop) {
-        picture.x = wanted.x, picture.y = wanted.y;
-        picture.whole_width = format_.width, picture.whole_height = format_.height;
-    }
-    picture.done = complete() ? 1 : std::min(float(done()), std::nextafter(1.0f, 0.0f));
-    // What was rendered and what is wanted differ where a crop cuts cells.
-    std::vector<std::size_t> from(pixels);
-    for (std::size_t i = 0; i < pixels; ++i)
-        from[i] = index(wanted.x + std::uint32_t(i % wanted.width), wanted.y + std::uint32_t(i / wanted.width));
-    const auto samples_of_pixel = [&](std::size_t i) {
-        return std::min(block_of_[from[i]] * samples_per_block, format_.samples);
-    };
-    if (format_.adaptive())
-        for (std::size_t i = 0; i < pixels; ++i) picture.samples.push_back(float(samples_of_pixel(i)));
-    const bool some_open = std::any_of(rectangles_.begin(), rectangles_.end(),
-                                       [this](const auto& rectangle) { return ends_open(rectangle.second); });
-    const auto with_open = some_open ? sums_with_open_groups() : std::vector<Rgb>{};
-    const auto& sums = some_open ? with_open : sums_;
-    for (std::size_t k = 0; k < layers; ++k) {
-        auto& among = k < format_.layers.size() ? picture.layers : picture.shown;
-        auto& layer = among.emplace_back(PictureLayer{format_.name_of(k), std::vector<Rgb>(pixels)});
-        const float exposed = format_.facts.contains(layer.name) ? 1 : scale;
-        for (std::size_t i = 0; i < pixels; ++i) {
-            const std::uint32_t samples = samples_of_pixel(i);
-            if (samples) layer.pixels[i] = sums[from[i] * layers + k] / static_cast<float>(samples) * exposed;
-        }
-    }
-    // DECISIONS: beauty-is-the-sum
-    for (std::size_t k = 0; k < format_.gains.size(); ++k) picture.layers[k].gain = format_.gains[k];
-    blacken_overflow(picture);
-    return picture;
 }
 
 }  // namespace lightnet

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/base/math/rgb.hpp"
+#include "core/film/addition.hpp"
 #include "core/film/picture.hpp"
 #include "core/film/tile.hpp"
 #include "core/film/window.hpp"
@@ -61,13 +62,24 @@ struct FilmFormat {
     std::vector<Rgb> gains{};          // of the layers, in the beauty; empty: 1. What samples are spent on knows none
     std::vector<std::string> shown{};  // pictures beside the sum (AOVs): their colours come behind those of the layers
     std::set<std::string> facts{};     // those of `shown` that are no light: exposure is not for them
+    std::map<std::string, std::uint32_t> ids{};  // those of `facts` that are ids: how many a pixel keeps
+    bool alpha = false;                          // the last colour is the part of a pixel that surfaces cover
+    PictureStorage storage{};                    // of the file
 
-    /// Of one pixel.
-    std::size_t colours() const { return layers.size() + shown.size(); }
-    /// Of a layer, or of a picture beside them.
-    const std::string& name_of(std::size_t colour) const {
-        return colour < layers.size() ? layers[colour] : shown[colour - layers.size()];
-    }
+    /// Of one pixel: one for each layer, one or one for each id for what is beside them, and one for alpha.
+    std::size_t colours() const { return first_colour(shown.size()) + alpha; }
+    /// Of what is shown beside the layers, by its number there; of the number behind the last: that of alpha.
+    std::size_t first_colour(std::size_t beside) const;
+    /// How many colours something that is shown has.
+    std::size_t width_of(const std::string& name) const;
+    /// Of a layer, or of a picture beside them; that of alpha is "A".
+    const std::string& name_of(std::size_t colour) const;
+    /// Exposure is for it.
+    bool is_light(std::size_t colour) const;
+    /// How colours of pixels are added up.
+    Addition addition() const;
+    /// Those that one can look at while the picture grows: all but ids and alpha.
+    std::vector<std::size_t> views() const;
     /// Samples differ from cell to cell.
     bool adaptive() const { return refinement.error > 0; }
     /// Samples that every pixel gets.
@@ -155,6 +167,12 @@ public:
     /// when it does not fit.
     void restore(FilmState state);
 
+    /// All pixels have as many samples, and nothing beyond waits; always where cells decide about them.
+    bool is_even() const;
+    /// No more samples are wanted: of an even film, what is there is all. Where cells don't decide, it is from now on
+    /// that of a picture of so many samples, with its bytes.
+    void end_here();
+
     /// Every block that is wanted of every pixel is there.
     bool complete() const { return folded_ + spared_ == all_; }
     /// How much of it is there, 0 … 1.
@@ -169,12 +187,15 @@ public:
     /// that each pixel has.
     Picture picture(float scale = 1) const;
     /// The same, exposed as expose() said, of the pixels of a tile that has been added: a colour per pixel (row by row)
-    /// and layer, side by side. For looking at a picture while it grows.
+    /// and one of FilmFormat::views(), side by side. For looking at a picture while it grows.
     std::vector<Rgb> so_far(const Tile& tile) const;
     /// All that have been added, each place once.
     std::vector<Tile> areas() const;
 
 private:
+    void add_beside(Picture& picture, std::span<const Rgb> sums, std::span<const std::size_t> from, float scale) const;
+    std::uint32_t samples_at(std::size_t pixel) const;
+
     struct Rectangle {
         std::uint32_t next_block = 0;  // the first one that is not in the sums
         FilmState::Waiting waiting;
@@ -200,6 +221,7 @@ private:
     void expect_can_wait(const FilmState::Part& part) const;
     void expect_nothing_elsewhere() const;
     void take_up(FilmState::Part part);
+    std::optional<std::uint32_t> even_blocks() const;
     bool is_whole(const Tile& tile) const;
     bool add_area(const Tile& tile, std::span<const Rgb> pixels);
     void keep(Rectangle& rectangle, const Tile& tile, std::span<const Rgb> pixels);
@@ -215,6 +237,7 @@ private:
     }
 
     FilmFormat format_;
+    Addition addition_;
     Window window_;
     float scale_ = 1;
     std::uint32_t blocks_ = 0;

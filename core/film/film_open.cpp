@@ -39,7 +39,7 @@ std::vector<Rgb> Film::sum_of_open_group(const Rectangle& rectangle) const {
         if (sum.empty())
             sum = std::move(pixels);
         else
-            std::transform(sum.begin(), sum.end(), pixels.begin(), sum.begin(), std::plus<>());
+            addition_(sum, pixels);
     }
     return sum;
 }
@@ -52,8 +52,8 @@ std::vector<Rgb> Film::sums_with_open_groups() const {
         const auto& [left, top, width, height] = area;
         const auto group = sum_of_open_group(rectangle);
         for (std::uint32_t y = 0; y < height; ++y)
-            for (std::size_t i = 0; i < width * layers; ++i)
-                sums[index(left, top + y) * layers + i] += group[y * width * layers + i];
+            addition_(std::span(sums).subspan(index(left, top + y) * layers, width * layers),
+                      std::span(group).subspan(y * width * layers, width * layers));
     }
     return sums;
 }
@@ -66,7 +66,7 @@ void Film::add_open_group(const Tile& area, const Tile& among, std::span<Rgb> su
     const auto group = sum_of_open_group(known->second);
     for (std::uint32_t y = 0; y < area.height; ++y) {
         const std::size_t to = std::size_t{area.y - among.y + y} * among.width + area.x - among.x;
-        for (std::size_t i = 0; i < row; ++i) sums[to * format_.colours() + i] += group[y * row + i];
+        addition_(sums.subspan(to * format_.colours(), row), std::span(group).subspan(y * row, row));
     }
 }
 
@@ -78,16 +78,18 @@ std::vector<Rgb> Film::so_far(const Tile& tile) const {
                     pixels.begin() + std::ptrdiff_t(y * tile.width * colours));
     const auto areas = format_.adaptive() ? cells_of(tile) : std::vector<Tile>{tile};
     for (const Tile& area : areas) add_open_group(area, tile, pixels);
-    std::vector<float> exposed(colours, scale_);
-    for (std::size_t k = 0; k < colours; ++k)
-        if (format_.facts.contains(format_.name_of(k))) exposed[k] = 1;
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
-        const std::size_t x = i / colours % tile.width, y = i / colours / tile.width;
-        const auto blocks = block_of_[index(tile.x + std::uint32_t(x), tile.y + std::uint32_t(y))];
-        const auto samples = static_cast<float>(std::min(blocks * samples_per_block, format_.samples));
-        if (blocks) pixels[i] = pixels[i] / samples * exposed[i % colours];
+    const auto views = format_.views();
+    std::vector<Rgb> seen;
+    seen.reserve(tile.pixels() * views.size());
+    for (std::size_t i = 0; i < tile.pixels(); ++i) {
+        const auto x = std::uint32_t(i % tile.width), y = std::uint32_t(i / tile.width);
+        const auto samples = static_cast<float>(samples_at(index(tile.x + x, tile.y + y)));
+        for (const std::size_t k : views) {
+            const Rgb& sum = pixels[i * colours + k];
+            seen.push_back(samples > 0 ? sum / samples * (format_.is_light(k) ? scale_ : 1) : sum);
+        }
     }
-    return pixels;
+    return seen;
 }
 
 std::vector<Tile> Film::areas() const {

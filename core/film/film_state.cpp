@@ -1,4 +1,6 @@
 // A film is put down, and taken up again.
+#include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "core/base/error.hpp"
@@ -91,6 +93,45 @@ void Film::restore(FilmState state) {
         end_if_enough(rectangle, {x, y, width, height});
         end_if_open_group_is_there(rectangle, {x, y, width, height});
     }
+}
+
+// None: they differ from place to place, or some are missing before others.
+std::optional<std::uint32_t> Film::even_blocks() const {
+    std::optional<std::uint32_t> blocks;
+    std::size_t pixels = 0;
+    for (const auto& [area, rectangle] : rectangles_) {
+        std::uint32_t there = rectangle.next_block;
+        for (const auto& [block, sum] : rectangle.waiting) {
+            if (block != there) return std::nullopt;
+            there += sum.blocks;
+        }
+        if (blocks.value_or(there) != there) return std::nullopt;
+        blocks = there;
+        pixels += std::size_t{std::get<2>(area)} * std::get<3>(area);
+    }
+    return pixels == window_.pixels() && blocks > 0u ? blocks : std::nullopt;
+}
+
+// DECISIONS: ends-where-pixels-are-even
+bool Film::is_even() const { return format_.adaptive() || even_blocks(); }
+
+void Film::end_here() {
+    if (format_.adaptive()) {
+        for (auto& [area, rectangle] : rectangles_)
+            if (!std::exchange(rectangle.done, true))
+                spared_ += std::uint64_t{std::get<2>(area)} * std::get<3>(area) * (blocks_ - rectangle.next_block);
+        return;
+    }
+    const auto blocks = even_blocks();
+    if (!blocks) throw Error("film", "its pixels have different numbers of samples");
+    FilmFormat format = format_;
+    format.samples = std::min(*blocks * samples_per_block, format_.samples);
+    FilmState held = state();
+    held.samples = format.samples;
+    Film shorter(std::move(format));
+    shorter.expose(scale_);
+    shorter.restore(std::move(held));
+    *this = std::move(shorter);
 }
 
 std::vector<Tile> Film::lacking(const Tile& tile) const {

@@ -1,5 +1,7 @@
 #include "core/film/picture.hpp"
 
+#include <half.h>
+
 #include <algorithm>
 #include <cassert>
 
@@ -25,6 +27,19 @@ void blacken_layers(Picture& picture, std::size_t pixels) {
 }
 
 }  // namespace
+
+void round_to_half(std::vector<Rgb>& pixels) {
+    const auto rounded = [](float value) {
+        constexpr float most = HALF_MAX;
+        return float(half(std::clamp(value, -most, most)));
+    };
+    for (Rgb& pixel : pixels) pixel = {rounded(pixel.r), rounded(pixel.g), rounded(pixel.b)};
+}
+
+const std::vector<std::string>& lossless_compressions() {
+    static const std::vector<std::string> all{"none", "rle", "zips", "zip", "piz"};
+    return all;
+}
 
 std::vector<Rgb> sum_of(const std::vector<PictureLayer>& layers) {
     if (layers.empty()) return {};

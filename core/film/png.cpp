@@ -1,5 +1,6 @@
 #include "core/film/png.hpp"
 
+#include <fmt/format.h>
 #include <png.h>
 
 #include <bit>
@@ -31,7 +32,20 @@ float least_of_level(int level) {
     return std::bit_cast<float>(there);
 }
 
+// What is brighter than a film shows runs into white instead of being clipped.
+float filmic_curve(float linear) {
+    if (!(linear > 0)) return 0;
+    if (linear > 1e4f) return 1;  // long before its square overflows
+    return linear * (2.51f * linear + 0.03f) / (linear * (2.43f * linear + 0.59f) + 0.14f);
+}
+
 }  // namespace
+
+std::string tone_of(const PngView& view) {
+    const auto exposure = view.stops == 0 ? std::string("1") : fmt::format("2^{:.1f}", view.stops);
+    return "exposure " + exposure + (view.filmic ? ", filmic curve" : ", clipped to 0..1") +
+           ", sRGB transfer curve, 8 bits";
+}
 
 std::array<float, 255> least_of_levels() {
     std::array<float, 255> least{};
@@ -39,11 +53,15 @@ std::array<float, 255> least_of_levels() {
     return least;
 }
 
-std::string png_of(const Picture& picture) {
+std::string png_of(const Picture& picture, const PngView& view) {
+    const auto exposure = static_cast<float>(std::exp2(view.stops));
     std::vector<std::uint8_t> values;
     values.reserve(picture.beauty.size() * 3);
     for (const Rgb& pixel : picture.beauty)
-        for (const float channel : {pixel.r, pixel.g, pixel.b}) values.push_back(srgb(channel));
+        for (const float channel : {pixel.r, pixel.g, pixel.b}) {
+            const float exposed = channel * exposure;
+            values.push_back(srgb(view.filmic ? filmic_curve(exposed) : exposed));
+        }
 
     png_image image{};
     image.version = PNG_IMAGE_VERSION;
@@ -58,6 +76,8 @@ std::string png_of(const Picture& picture) {
     return bytes;
 }
 
-void write_png(const std::filesystem::path& path, const Picture& picture) { write_file(path, png_of(picture)); }
+void write_png(const std::filesystem::path& path, const Picture& picture, const PngView& view) {
+    write_file(path, png_of(picture, view));
+}
 
 }  // namespace lightnet

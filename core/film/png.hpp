@@ -4,22 +4,29 @@
 #include <array>
 #include <filesystem>
 #include <string>
-#include <string_view>
 
 #include "core/film/picture.hpp"
 
 namespace lightnet {
 
+/// How a PNG shows a picture: so many stops brighter than it is, and with a filmic curve or clipped.
+struct PngView {
+    double stops = 0;
+    bool filmic = false;  // Narkowicz 2016, "ACES Filmic Tone Mapping Curve", per channel
+    friend bool operator==(const PngView&, const PngView&) = default;
+};
+
 /// How linear radiance becomes 8 bits: for reports and for the user to read.
-inline constexpr std::string_view png_tone = "exposure 1, clipped to 0..1, sRGB transfer curve, 8 bits";
+std::string tone_of(const PngView& view);
 
-/// The bytes of an 8 bit sRGB PNG of the beauty, toned as png_tone says. NaN is black.
-std::string png_of(const Picture& picture);
+/// The bytes of an 8 bit sRGB PNG of the beauty, toned as tone_of() says. NaN is black.
+std::string png_of(const Picture& picture, const PngView& view = {});
 
-/// What a channel must be at least to get each level from 1 on: so that others may tone exactly alike.
+/// What a channel must be at least to get each level from 1 on, where there is no other view: so that others may tone
+/// exactly alike.
 std::array<float, 255> least_of_levels();
 
 /// Writes it, whole or not at all. Throws Error.
-void write_png(const std::filesystem::path& path, const Picture& picture);
+void write_png(const std::filesystem::path& path, const Picture& picture, const PngView& view = {});
 
 }  // namespace lightnet

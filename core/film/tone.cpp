@@ -56,6 +56,18 @@ std::optional<double> helpful_stops(const Brightness& brightness) {
     return stops >= 1 ? std::optional(stops) : std::nullopt;  // else things stand on a black ground
 }
 
+std::optional<PictureView> picture_view(std::string_view text) {
+    if (text == "auto") return PictureView::automatic;
+    if (text == "plain") return PictureView::plain;
+    if (text == "filmic") return PictureView::filmic;
+    return std::nullopt;
+}
+
+PngView png_view(PictureView wanted, const Brightness& brightness, bool exposed) {
+    const bool chosen = exposed || wanted == PictureView::plain;
+    return {chosen ? 0 : helpful_stops(brightness).value_or(0), wanted == PictureView::filmic};
+}
+
 bool hardly_lit(const Brightness& brightness) { return brightness.black > most && brightness.lit < hardly_any; }
 
 }  // namespace lightnet

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 
 #include "core/film/picture.hpp"
+#include "core/film/png.hpp"
 
 namespace lightnet {
 
@@ -21,6 +23,16 @@ Brightness brightness_of(const Picture& picture);
 /// More stops by which most of a picture can be seen that is now mostly clipped or mostly black. None: it can be seen
 /// already, or no exposure helps, as next to nothing is lit.
 std::optional<double> helpful_stops(const Brightness& brightness);
+
+/// How the PNG beside a picture shows it, as users choose it. automatic: with the exposure of helpful_stops(); plain:
+/// as it was computed; filmic: with that exposure and a filmic curve.
+enum class PictureView { automatic, plain, filmic };
+
+/// "auto", "plain" or "filmic".
+std::optional<PictureView> picture_view(std::string_view text);
+
+/// `exposed`: somebody has chosen an exposure already, which no other is to change.
+PngView png_view(PictureView wanted, const Brightness& brightness, bool exposed = false);
 
 /// Most of it is black, and no exposure helps.
 bool hardly_lit(const Brightness& brightness);

@@ -1,9 +1,16 @@
 #include "core/readers/overrides.hpp"
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "core/base/in_quotes.hpp"
+#include "core/base/joined.hpp"
+#include "core/base/suggestion.hpp"
 #include "core/readers/image_file.hpp"
 
 namespace lightnet {
@@ -41,6 +48,30 @@ void change_camera(SceneData& scene, const CameraOverride& change, const SourceL
     if (change.fov) camera.fov = *change.fov, camera.orthographic = false;
     if (change.lens) camera.lens_radius = *change.lens;
     if (change.focus) camera.focus_distance = *change.focus;
+}
+
+void choose_camera(SceneData& scene, const std::string& wanted, const SourceLine& where) {
+    const auto& cameras = scene.cameras;
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < cameras.size(); ++i)
+        names.push_back(cameras[i].name.empty() ? std::to_string(i + 1) : cameras[i].name);
+    auto found = std::find(names.begin(), names.end(), wanted);
+    std::size_t number = 0;
+    const auto [end, wrong] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), number);
+    if (found == names.end() && wrong == std::errc() && end == wanted.data() + wanted.size() && number >= 1 &&
+        number <= names.size())
+        found = names.begin() + std::ptrdiff_t(number - 1);
+    if (found == names.end()) {
+        const auto guess = did_you_mean(wanted, names);
+        throw UserError(where, "there is no camera " + in_quotes(wanted) +
+                                   (names.empty()   ? ": the scene's file has none to choose from"
+                                    : guess.empty() ? " (there is: " + joined(names) + ")"
+                                                    : guess));
+    }
+    const auto& chosen = cameras[std::size_t(found - names.begin())];
+    scene.camera = chosen.camera;
+    scene.film = chosen.film;
+    scene.camera_given = true;
 }
 
 /// The axis of the world that is up for the camera: scenes stand on z or on y.
@@ -96,6 +127,7 @@ void make_clay(SceneData& scene) {
 }  // namespace
 
 void apply(const SceneOverrides& overrides, SceneData& scene, Files& files, const SourceLine& where) {
+    if (!overrides.seen_by.empty()) choose_camera(scene, overrides.seen_by, where);
     if (overrides.camera) change_camera(scene, *overrides.camera, where);
     if (const auto* colour = std::get_if<Rgb>(&overrides.environment)) {
         scene.environments.clear();

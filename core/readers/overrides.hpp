@@ -23,6 +23,7 @@ struct CameraOverride {
 };
 
 struct SceneOverrides {
+    std::string seen_by{};  // camera of the file, by its name or number (1, 2, …); "": the first one
     std::optional<CameraOverride> camera;
     std::variant<std::monostate, Rgb, std::string> environment;  // a colour, or the path of a picture: instead of all
     float environment_scale = 1;                                 // of whatever is around the scene then

@@ -7,16 +7,11 @@
 #include <numbers>
 
 namespace lightnet {
-namespace {
-
-// The shorter side of the picture spans ±1.
 std::array<float, 4> screen_of(float width, float height) {
     const float aspect = width / height;
     if (aspect > 1) return {-aspect, aspect, -1, 1};
     return {-1, 1, -1 / aspect, 1 / aspect};
 }
-
-}  // namespace
 
 Camera::Camera(const CameraData& data, std::uint32_t width, std::uint32_t height)
     : orthographic_(data.orthographic),

@@ -1,6 +1,7 @@
 // Where the picture is seen from.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "core/base/math/vec.hpp"
@@ -38,6 +39,9 @@ private:
     Vec3 lens_x_, lens_y_;                  // from the middle of the lens to its rim
     float focus_ = 1;                       // distance of the plane in focus over that of the screen
 };
+
+/// Of a picture of that shape whose shorter side spans ±1: x min, x max, y min, y max.
+std::array<float, 4> screen_of(float width, float height);
 
 /// A camera that sees everything in a box: from the front, a little from the right and from above (y is up). For a
 /// picture of that size.

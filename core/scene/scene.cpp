@@ -1,6 +1,7 @@
 #include "core/scene/scene.hpp"
 
 #include "core/base/error.hpp"
+#include "core/scene/camera_in.hpp"
 #include "core/scene/geometry/geometry.hpp"
 #include "core/scene/lamps/lights.hpp"
 #include "core/scene/ray_witness.hpp"
@@ -84,8 +85,14 @@ struct Scene::Built {
           placements(placements_of(data)),
           box(finite_box(geometry.bounds())),
           film(sized(data.film, options)),
-          camera(data.camera_given ? data.camera : camera_for(box.low, box.high, film.width, film.height), film.width,
-                 film.height) {}
+          camera(looked_at(film), film.width, film.height) {}
+
+    // Those who ask the data find the camera that is used.
+    const CameraData& looked_at(const FilmData& picture) {
+        data.camera = camera_in(data, picture.width, picture.height);
+        data.camera_given = true;
+        return data.camera;
+    }
 
     std::unique_ptr<const Lights> lights(const Lights::Wanted& wanted) const {
         return std::make_unique<const Lights>(data, shading, Lights::Ball{box.center(), length(box.size()) / 2},

@@ -1,6 +1,8 @@
 // Pictures in files: the same bytes, the exact sum, and never half a file.
+#include <ImfChannelList.h>
 #include <ImfHeader.h>
 #include <ImfInputFile.h>
+#include <ImfStringAttribute.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <png.h>
@@ -65,6 +67,57 @@ TEST(Exr, HoldsWhatIsShownBesideTheSum) {
     picture.beauty = sum_of(picture.layers);
     write_exr(folder / "x.exr", picture);
     EXPECT_TRUE(read_exr(folder / "x.exr") == picture);
+}
+
+Picture for_compositing() {
+    Picture picture = noisy_picture(5, 3);
+    picture.alpha = std::vector<float>(15, 0.25f);
+    picture.shown = {{"depth", noise(15, 4)}};
+    picture.mattes = {{"CryptoObject", 4, {}, R"({"ball":"deadbeef"})"}};
+    for (std::size_t i = 0; i < 15 * 4; ++i) picture.mattes[0].pixels.push_back({float(i) + 1, 1 / float(i + 2)});
+    picture.notes.texts = {{"software", "lightnet"}, {"seed", "7"}};
+    for (std::size_t i = 0; i < 16; ++i) picture.notes.matrices["worldToCamera"][i] = float(i);
+    return picture;
+}
+
+TEST(Exr, HoldsWhatCompositingNeeds) {
+    const Folder folder;
+    Picture picture = for_compositing();
+    for (const auto& compression : lossless_compressions())
+        for (const bool half : {false, true}) {
+            picture.storage = {compression, half};
+            if (half) round_to_half(picture.shown[0].pixels);
+            write_exr(folder / "x.exr", picture);
+            EXPECT_TRUE(read_exr(folder / "x.exr") == picture) << compression;
+        }
+}
+
+// Key, names and values as the specification of Cryptomatte 1.2 has them; the key is how the hash of the name begins.
+TEST(Exr, NamesMattesAsCryptomatteDoes) {
+    const Folder folder;
+    write_exr(folder / "x.exr", for_compositing());
+    const Imf::InputFile file((folder / "x.exr").c_str());
+    const auto said = [&](const char* what) {
+        const auto name = std::string("cryptomatte/3ae39a5/") + what;
+        const auto* text = file.header().findTypedAttribute<Imf::StringAttribute>(name.c_str());
+        return text ? text->value() : "nothing";
+    };
+    EXPECT_EQ(said("name"), "CryptoObject");
+    EXPECT_EQ(said("hash"), "MurmurHash3_32");
+    EXPECT_EQ(said("conversion"), "uint32_to_float32");
+    EXPECT_EQ(said("manifest"), R"({"ball":"deadbeef"})");
+    for (const char* channel : {"CryptoObject00.R", "CryptoObject00.A", "CryptoObject01.G", "A"}) {
+        const auto* found = file.header().channels().findChannel(channel);
+        ASSERT_TRUE(found) << channel;
+        EXPECT_EQ(found->type, Imf::FLOAT) << channel;
+    }
+    EXPECT_FALSE(file.header().channels().findChannel("CryptoObject02.R"));
+}
+
+TEST(Exr, KeepsHalfFloatsWithinTheirRange) {
+    std::vector<Rgb> pixels{{1e9f, -1e9f, 1 + 0x1p-12f}};
+    round_to_half(pixels);
+    EXPECT_EQ(pixels[0], (Rgb{65504, -65504, 1}));
 }
 
 TEST(Exr, HoldsABeautyThatIsExactlyTheSumOfItsLayers) {
@@ -150,6 +203,20 @@ TEST(Png, ClipsAndFollowsTheCurveOfSrgb) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const Picture picture{3, 1, {{0, 0.0031308f, 0.18f}, {0.5f, 1, 7}, {-1, nan, 0.001f}}, {}};
     EXPECT_THAT(decoded(png_of(picture)), ::testing::ElementsAre(0, 10, 118, 188, 255, 255, 0, 0, 3));
+}
+
+TEST(Png, ShowsAPictureBrighterWithoutChangingIt) {
+    const Picture picture{1, 1, {{0.125f, 0.25f, 1}}, {}}, brighter{1, 1, {{0.5f, 1, 4}}, {}};
+    EXPECT_EQ(png_of(picture, {2, false}), png_of(brighter));
+    EXPECT_THAT(tone_of({}), HasSubstr("exposure 1, clipped"));
+    EXPECT_THAT(tone_of({2, true}), HasSubstr("exposure 2^2.0, filmic"));
+}
+
+// Narkowicz's formula gives 0.2669 for 0.18, 0.8038 for 1 and more than 1, which is white, from 8 or so on.
+TEST(Png, RunsIntoWhiteByAFilmicCurve) {
+    const float nan = std::numeric_limits<float>::quiet_NaN(), far = std::numeric_limits<float>::infinity();
+    const Picture picture{2, 1, {{0.18f, 1, 20}, {nan, -1, far}}, {}};
+    EXPECT_THAT(decoded(png_of(picture, {0, true})), ::testing::ElementsAre(141, 232, 255, 0, 0, 255));
 }
 
 TEST(Png, HasTheSameBytesEachTime) { EXPECT_EQ(png_of(noisy_picture(20, 10)), png_of(noisy_picture(20, 10))); }

@@ -147,5 +147,42 @@ TEST(MoreSamples, CountWhatIsNotFiniteOnce) {
 
 TEST(MoreSamples, AreNoFewer) { EXPECT_THROW(Film(format_of(64)).restore(Film(format_of(80)).state()), Error); }
 
+TEST(MoreSamples, AFilmThatEndsEarlyIsThatOfAsManySamplesAsItHas) {
+    const FilmFormat all = format_of(292);
+    for (std::uint32_t blocks = 1; blocks < 19; ++blocks) {
+        Film film(all);
+        for (const Tile& tile : tiles_of(all, 5))
+            for (const Tile& block : one_by_one(tile))
+                if (block.block() < blocks) film.add(block, rendered(block));
+        ASSERT_TRUE(film.is_even());
+        film.end_here();
+        EXPECT_TRUE(film.complete());
+        const FilmFormat fewer = format_of(blocks * samples_per_block);
+        Film expected(fewer), more(all), at_once(all);
+        finish(expected, fewer, 0);
+        EXPECT_TRUE(film.picture() == expected.picture()) << blocks;
+        more.restore(film.state());
+        finish(more, all, blocks);
+        finish(at_once, all, 0);
+        EXPECT_TRUE(more.picture() == at_once.picture()) << blocks;
+    }
+}
+
+TEST(MoreSamples, AFilmEndsEarlyOnlyWhereAllPixelsHaveAsMany) {
+    const FilmFormat all = format_of(64);
+    Film film(all);
+    EXPECT_FALSE(film.is_even()) << "it has none";
+    const auto tiles = tiles_of(all, 5);
+    film.add(tiles[0], rendered(tiles[0]));
+    EXPECT_FALSE(film.is_even());
+    EXPECT_THROW(film.end_here(), Error);
+    for (const Tile& tile : tiles)
+        if (tile.block() == 0) film.add(tile, rendered(tile));
+    EXPECT_TRUE(film.is_even());
+    const auto far = std::find_if(tiles.begin(), tiles.end(), [](const Tile& tile) { return tile.block() == 2; });
+    film.add(*far, rendered(*far));
+    EXPECT_FALSE(film.is_even()) << "something waits";
+}
+
 }  // namespace
 }  // namespace lightnet::more_samples_test

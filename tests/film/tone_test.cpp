@@ -53,5 +53,22 @@ TEST(Brightness, KnowsWhenNoExposureHelps) {
     EXPECT_EQ(stops_for(two_greys(1, std::numeric_limits<float>::infinity(), 0)), std::nullopt);
 }
 
+TEST(PictureView, ChoosesAnExposureUnlessSomebodyHas) {
+    const auto dark = brightness_of(two_greys(0.9, 0.0001f, 0));
+    EXPECT_EQ(png_view(PictureView::automatic, dark), (PngView{*helpful_stops(dark), false}));
+    EXPECT_EQ(png_view(PictureView::automatic, dark, true), PngView{});
+    EXPECT_EQ(png_view(PictureView::plain, dark), PngView{});
+    EXPECT_EQ(png_view(PictureView::filmic, dark), (PngView{*helpful_stops(dark), true}));
+    EXPECT_EQ(png_view(PictureView::automatic, brightness_of(two_greys(0.5, 0.2f, 0.8f))), PngView{})
+        << "what can be seen stays as it is";
+}
+
+TEST(PictureView, GoesByName) {
+    EXPECT_EQ(picture_view("auto"), PictureView::automatic);
+    EXPECT_EQ(picture_view("plain"), PictureView::plain);
+    EXPECT_EQ(picture_view("filmic"), PictureView::filmic);
+    EXPECT_EQ(picture_view("linear"), std::nullopt);
+}
+
 }  // namespace
 }  // namespace lightnet::tone_test

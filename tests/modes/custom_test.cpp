@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "tests/modes/daemons.hpp"
+#include "tests/support/pixels_in.hpp"
 
 namespace lightnet::custom_test {
 namespace {
@@ -48,14 +49,14 @@ it = Custom {
 TEST_F(CustomTest, GivesTheBitsOfTheSameOperatorInCpp) {
     const Launch lua = render(occlusion), cpp = render("it = AmbientOcclusion { samples = 8, distance = 300 }");
     ASSERT_EQ(lua.code, 0) << lua.said;
-    EXPECT_TRUE(lua.picture == cpp.picture);
+    EXPECT_TRUE(test::pixels_in(lua.picture) == test::pixels_in(cpp.picture));
 }
 
 TEST_F(CustomTest, TakesConstantsOfItsFileAlong) {
     const Launch one = render(occlusion, {"--threads", "1", "-D", "rays=3"});
     const Launch two = render("it = AmbientOcclusion { samples = 3, distance = 300 }");
     ASSERT_EQ(one.code, 0) << one.said;
-    EXPECT_TRUE(one.picture == two.picture);
+    EXPECT_TRUE(test::pixels_in(one.picture) == test::pixels_in(two.picture));
     const Launch table = render(
         "local weights = { near = 0.5, list = { 1, 2 } }\nlocal name = 'a\\nb'\n"
         "it = Custom { light = function(q) return q.n.y * 0 + weights.near * weights.list[2] * #name / 3 end }");
@@ -77,7 +78,7 @@ it = Custom { direct,
     EXPECT_TRUE(threads.picture == serial.picture);
     EXPECT_TRUE(hosts.picture == serial.picture) << hosts.said;
     const Launch without = render("it = DirectLighting {}");
-    EXPECT_FALSE(without.picture == serial.picture);
+    EXPECT_FALSE(test::pixels_in(without.picture) == test::pixels_in(serial.picture));
 }
 
 TEST_F(CustomTest, EndsWhatDoesNotEnd) {

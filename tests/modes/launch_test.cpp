@@ -70,6 +70,28 @@ TEST(Launch, HintsAtAnExposureThatDoesShowThePicture) {
     }
 }
 
+TEST(Launch, ShowsInThePngWhatIsTooDarkOrTooBrightAndLeavesTheExrAsItIs) {
+    const Folder folder;
+    const auto rendered = [&](const std::string& gain, const std::vector<std::string>& more) {
+        std::vector<std::string> words{"--size", "24x24", "--samples", "4"};
+        for (const char* layer : {"emission", "direct", "bounce"})
+            words.insert(words.end(), {"--gain", layer + ("=" + gain)});
+        words.insert(words.end(), more.begin(), more.end());
+        auto run = launch(graph_file("cornell.lua"), folder, words);
+        EXPECT_EQ(run.code, 0) << run.said;
+        return std::pair(run, bytes_of(folder / "picture.png"));
+    };
+    const auto [hidden, seen] = rendered("0.0001", {});
+    const auto [plain, black] = rendered("0.0001", {"--view", "plain"});
+    const auto [filmic, soft] = rendered("0.0001", {"--view", "filmic"});
+    EXPECT_TRUE(hidden.picture == plain.picture && hidden.picture == filmic.picture);
+    EXPECT_NE(seen, black);
+    EXPECT_NE(seen, soft);
+    EXPECT_NE(hidden.said.find("stops brighter than the EXR"), std::string::npos) << hidden.said;
+    EXPECT_NE(hidden.report.find("exposure 2^"), std::string::npos) << hidden.report;
+    EXPECT_EQ(rendered("1", {}).second, rendered("1", {"--view", "plain"}).second) << "what can be seen stays as it is";
+}
+
 TEST(Launch, SaysNothingButErrorsWhenNoProgressIsWanted) {
     const Folder folder;
     const std::vector<std::string> quiet{"--size", "16x16", "--samples", "1", "--progress", "none"};

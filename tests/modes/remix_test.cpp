@@ -74,6 +74,32 @@ TEST_F(Remix, GivesTheBytesOfARenderingWithThoseGains) {
     }
 }
 
+#if defined(LIGHTNET_LARGE)
+// A third of them each: serial, threads, and daemons of which one is killed while it works.
+TEST_F(Remix, GivesThemForAHundredMixesInEveryMode) {
+    const Words words{"--size", "48x48", "--samples", "64", "--tile", "16"};
+    render_plain(join(words, {"--threads", "1"}));
+    std::mt19937 random(7);
+    for (int i = 0; i < 100; ++i) {
+        const auto gains = random_gains(random);
+        auto more = join(words, as_options(gains));
+        if (i % 3 < 2) {
+            EXPECT_EQ(rendered(join(more, {"--threads", i % 3 ? "3" : "1"})), remixed(gains)) << i;
+            continue;
+        }
+        const Daemon lost(folder), healthy(folder);
+        const auto hosts =
+            folder.write("hosts.lua", "place '" + lost.endpoint + "' {}\nplace '" + healthy.endpoint + "' {}\n");
+        Process run(launch_words(graph_file("cornell.lua"), folder / "rendered.exr",
+                                 join(more, {"--hosts", hosts, "--progress", "json"})));
+        run.wait_for("\"event\":\"progress\"");
+        lost.process->signal(SIGKILL);
+        ASSERT_EQ(run.wait(), 0) << run.output();
+        EXPECT_EQ(written("rendered"), remixed(gains)) << i;
+    }
+}
+#endif
+
 TEST_F(Remix, GivesThemForGainsOfTheGraph) {
     auto text = bytes_of(graph_file("cornell.lua"));
     const std::string film = "film = { size, size,";

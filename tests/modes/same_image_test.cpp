@@ -64,6 +64,11 @@ std::vector<std::string> words_for(const std::string& graph) {
         words[1] = "32x24";  // a layer for each group of each operator
         return words;
     }
+    if (graph == "compositing.lua") {
+        auto words = small_pictures;
+        words[1] = "32x24";  // twenty layers and more
+        return words;
+    }
     if (graph == "progressive.lua") return with(small_pictures, {"-D", "photons=1000"});
     return small_pictures;
 }

@@ -204,6 +204,21 @@ TEST(GltfCamera, LooksAlongMinusZWithXOnTheRight) {
         HasSubstr("cameras[0].perspective.yfov must lie"));
 }
 
+TEST(GltfCamera, IsTheFirstOfSeveralThatCanBeChosenByName) {
+    const auto scene = read_gltf(with_triangle(
+        R"("cameras":[{"type":"perspective","perspective":{"yfov":1,"aspectRatio":2,"znear":0.1}},
+                      {"name":"own","type":"perspective","perspective":{"yfov":0.5,"aspectRatio":1,"znear":0.1}}],
+      "nodes":[{"mesh":0},{"camera":0,"name":"front"},{"camera":1,"translation":[0,0,4]}],"scenes":[{"nodes":[0,1,2]}],)"));
+    ASSERT_THAT(scene.cameras, SizeIs(2));
+    EXPECT_EQ(scene.cameras[0].name, "front") << "by its node";
+    EXPECT_EQ(scene.cameras[1].name, "own");
+    EXPECT_EQ(scene.camera.to_world, scene.cameras[0].camera.to_world);
+    EXPECT_EQ(scene.film.width, 2 * scene.film.height);
+    EXPECT_EQ(scene.cameras[1].film.width, scene.film.height);
+    for (const auto& warning : scene.warnings)
+        EXPECT_EQ(warning.what.find("camera"), std::string::npos) << warning.what;
+}
+
 TEST(GltfMistakes, AreAllSaidWithTheirPaths) {
     const std::string errors =
         errors_of_gltf(document(R"("nodes":[{"mesh":7},{"mesh":0,"translation":[1,2]},{"mesh":1}],

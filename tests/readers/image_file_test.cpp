@@ -94,6 +94,14 @@ TEST(Exr, ReadsFloatsFromTheTop) {
     EXPECT_EQ(image.alpha(0, 1), 6);
 }
 
+TEST(Exr, MayBeCutIntoTilesWithSmallerLevels) {
+    const Image image = read(test::tiled_exr());
+    ASSERT_EQ(image.width, 70u);
+    ASSERT_EQ(image.height, 50u);
+    EXPECT_EQ(image.colour(0, 0), (Rgb{0, 0, 1}));
+    EXPECT_EQ(image.colour(69, 40), (Rgb{69, 40, 1}));
+}
+
 TEST(Exr, SpreadsGreyOverAllColours) { EXPECT_EQ(read(exr({"Y"})).colour(2, 0), (Rgb{2, 2, 2})); }
 
 TEST(Exr, NeedsColour) { EXPECT_THAT(error_of(exr({"Z"})), HasSubstr("no channel R")); }

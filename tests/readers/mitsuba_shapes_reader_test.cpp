@@ -257,6 +257,16 @@ SceneData seen_by(const std::string& sensor) { return read_mitsuba(one_ball + "<
 const std::string wide_film =
     "<film type='hdrfilm'><integer name='width' value='200'/><integer name='height' value='100'/></film>";
 
+TEST(MitsubaSensor, IsTheFirstOfSeveralThatCanBeChosenByTheirIds) {
+    const auto scene = read_mitsuba(one_ball +
+                                    "<sensor type='perspective' id='front'><float name='fov' value='30'/></sensor>"
+                                    "<sensor type='perspective'><float name='fov' value='60'/></sensor>");
+    ASSERT_EQ(scene.cameras.size(), 2u);
+    EXPECT_EQ(scene.cameras[0].name, "front");
+    EXPECT_EQ(scene.camera.fov, scene.cameras[0].camera.fov);
+    EXPECT_GT(scene.cameras[1].camera.fov, scene.camera.fov);
+}
+
 TEST(MitsubaSensor, HasItsAngleAcrossTheAxisThatItNames) {
     const auto angle = [](const std::string& more) {
         return seen_by("type='perspective'><float name='fov' value='90'/>" + wide_film + more).camera.fov;

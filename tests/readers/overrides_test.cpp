@@ -68,6 +68,33 @@ TEST(SceneOverrides, KeepWhatTheyDoNotName) {
     EXPECT_EQ(lens.focus_distance, 7);
 }
 
+SceneData with_two_cameras() {
+    SceneData scene = with_camera();
+    SceneCamera first{"balcony", scene.camera, {}}, second{"", scene.camera, {}};
+    second.camera.fov = 20;
+    second.film.width = 77;
+    scene.cameras = {first, second};
+    return scene;
+}
+
+TEST(SceneOverrides, ChooseOneOfTheCamerasOfTheFile) {
+    const auto seen_by = [](const std::string& camera) {
+        SceneOverrides overrides;
+        overrides.seen_by = camera;
+        return overrides;
+    };
+    EXPECT_EQ(changed(with_two_cameras(), seen_by("2")).camera.fov, 20);
+    EXPECT_EQ(changed(with_two_cameras(), seen_by("2")).film.width, 77u);
+    EXPECT_EQ(changed(with_two_cameras(), seen_by("balcony")).camera.fov, 90);
+    EXPECT_EQ(changed(with_two_cameras(), seen_by("1")).camera.fov, 90);
+    EXPECT_THAT(error_of(with_two_cameras(), seen_by("balcny")), HasSubstr("did you mean 'balcony'?"));
+    EXPECT_THAT(error_of(with_two_cameras(), seen_by("3")), HasSubstr("there is no camera '3'"));
+    EXPECT_THAT(error_of(with_camera(), seen_by("1")), HasSubstr("the scene's file has none to choose from"));
+    auto moved = seen_by("2");
+    moved.camera = CameraOverride{.fov = 50};
+    EXPECT_EQ(changed(with_two_cameras(), moved).camera.fov, 50) << "what the graph says of it comes after";
+}
+
 TEST(SceneOverrides, OfACameraMustSpanAView) {
     CameraOverride change;
     change.from = Vec3{0, 5, 0};

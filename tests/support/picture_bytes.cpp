@@ -8,6 +8,7 @@
 #include <ImfHeader.h>
 #include <ImfIO.h>
 #include <ImfOutputFile.h>
+#include <ImfTiledOutputFile.h>
 #include <jpeglib.h>
 #include <png.h>
 
@@ -92,6 +93,33 @@ std::string exr(const std::vector<std::string>& channels) {
         Imf::OutputFile file(memory, header);
         file.setFrameBuffer(buffer);
         file.writePixels(2);
+    }
+    return memory.bytes();
+}
+
+std::string tiled_exr() {
+    Memory memory;
+    {
+        constexpr int width = 70, height = 50;
+        Imf::Header header(width, height);
+        header.setTileDescription(Imf::TileDescription(32, 32, Imf::MIPMAP_LEVELS));
+        for (const char* channel : {"R", "G", "B"}) header.channels().insert(channel, Imf::Channel(Imf::FLOAT));
+        Imf::TiledOutputFile file(memory, header);
+        for (int level = 0; level < file.numLevels(); ++level) {
+            const int wide = file.levelWidth(level), high = file.levelHeight(level);
+            std::vector<float> values;
+            for (int y = 0; y < high; ++y)
+                for (int x = 0; x < wide; ++x) values.insert(values.end(), {float(x), float(y), level ? 9.0f : 1.0f});
+            Imf::FrameBuffer buffer;
+            for (int c = 0; c < 3; ++c)
+                buffer.insert(c == 0   ? "R"
+                              : c == 1 ? "G"
+                                       : "B",
+                              Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(values.data() + c), 3 * sizeof(float),
+                                         3 * sizeof(float) * static_cast<std::size_t>(wide)));
+            file.setFrameBuffer(buffer);
+            file.writeTiles(0, file.numXTiles(level) - 1, 0, file.numYTiles(level) - 1, level);
+        }
     }
     return memory.bytes();
 }

@@ -15,6 +15,8 @@ std::string small_png();
 std::string jpeg(std::uint8_t value, int channels);
 /// 3 x 2 pixels of floats in channels of those names.
 std::string exr(const std::vector<std::string>& channels);
+/// 70 x 50 pixels in tiles of 32 x 32 with smaller levels, as textures are kept; each is {x, y, 1}.
+std::string tiled_exr();
 /// Eight pixels of {1, 0.5, 0.25} with run lengths.
 std::string hdr();
 

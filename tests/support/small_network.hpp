@@ -69,11 +69,23 @@ public:
         return sum;
     }
 
-    /// The same of each layer, and of what is shown beside them, by name.
+    /// Renders with this flag, which the renderer has.
+    SmallNetwork& with(const std::string& flag, bool value) {
+        flags_[flag] = Value{value};
+        return *this;
+    }
+
+    /// The same of each layer, and of what is shown beside them, by name; of ids each rank, as "name 0".
     std::map<std::string, std::vector<Rgb>> pictures(std::uint32_t samples, std::uint64_t seed = 1) const {
         const Network network = assembled(seed);
         auto names = network.layers.film;
-        for (auto& name : shown_names(network.layers, network.graph)) names.push_back(std::move(name));
+        const auto shown = shown_names(network.layers, network.graph);
+        for (std::size_t i = 0; i < shown.size(); ++i) {
+            if (!network.layers.ids[i]) names.push_back(shown[i]);
+            for (std::uint32_t rank = 0; rank < network.layers.ids[i]; ++rank)
+                names.push_back(shown[i] + " " + std::to_string(rank));
+        }
+        if (network.layers.alpha) names.emplace_back("A");
         std::map<std::string, std::vector<Rgb>> all;
         for (const auto& name : names) all[name].resize(std::size_t{width_} * height_);
         render(network, samples,
@@ -87,12 +99,14 @@ private:
     Network assembled(std::uint64_t seed) const {
         auto nodes = nodes_;
         const Value film{Table{{Value{double(width_)}, Value{double(height_)}}, {}}};
-        nodes.push_back(
-            {"image",
-             "RayTracer",
-             {Value{NodeRef{lit_by_.empty() ? nodes_.back().name : lit_by_}}},
-             {{"scene", Value{NodeRef{"scene"}}}, {"film", film}, {"show", Value{shown_}}, {"groups", Value{grouped_}}},
-             {"test.lua", 1}});
+        Params params{
+            {"scene", Value{NodeRef{"scene"}}}, {"film", film}, {"show", Value{shown_}}, {"groups", Value{grouped_}}};
+        params.insert(flags_.begin(), flags_.end());
+        nodes.push_back({"image",
+                         "RayTracer",
+                         {Value{NodeRef{lit_by_.empty() ? nodes_.back().name : lit_by_}}},
+                         std::move(params),
+                         {"test.lua", 1}});
         return {check({"test.lua", std::move(nodes)}, registry_), registry_, scene_, seed};
     }
 
@@ -121,6 +135,7 @@ private:
     std::vector<Node> nodes_;
     std::string lit_by_;
     Table shown_;
+    Params flags_;
     bool grouped_ = false;
 };
 

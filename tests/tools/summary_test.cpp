@@ -18,12 +18,14 @@ protected:
         report.settings = {{"size", "64x48"}, {"samples", "16"}};
         report.places = {{"here", 0, {}}, {"here", 1, {}}};
     }
-    std::string text() const { return summary_of({report, {"emission", "direct"}, asked, brightness, exposure}); }
+    std::string text() const {
+        return summary_of({report, {"emission", "direct"}, asked, brightness, exposure, shown});
+    }
 
     RunReport report;
     Hosts asked;
     Brightness brightness;
-    double exposure = 0;
+    double exposure = 0, shown = 0;
 };
 
 TEST_F(Summary, SaysWhatWasMadeAndWhereAndHowLongItTook) {
@@ -73,6 +75,14 @@ TEST_F(Summary, HintsAtTheExposureThatShowsThePicture) {
                 HasSubstr("\nhint: 99 % of the pixels of the PNG are clipped; --exposure -2.0 would show them"));
     brightness = {.black = 0.8, .lit = 1, .high = 1e-4f, .lit_high = 1.0f / 1024};  // log2(512) = 9
     EXPECT_THAT(text(), HasSubstr("\nhint: 80 % of the pixels of the PNG are black; --exposure 10.0 would show them"));
+}
+
+TEST_F(Summary, TellsHowThePngDiffersFromTheExr) {
+    brightness = {.black = 0.8, .lit = 1, .high = 1e-4f, .lit_high = 1.0f / 1024};
+    shown = 9;
+    EXPECT_THAT(text(),
+                HasSubstr("\nhint: the PNG is 9.0 stops brighter than the EXR; --exposure 9.0 does that to both, "
+                          "--view plain to none"));
 }
 
 TEST_F(Summary, SaysThatNothingIsLitWhereNoExposureHelps) {

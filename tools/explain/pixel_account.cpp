@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cstring>
 #include <limits>
 #include <utility>
@@ -32,6 +33,12 @@ std::uint32_t samples_at(const Picture& picture, std::size_t index, const FilmFo
     if (!picture.samples.empty()) return static_cast<std::uint32_t>(picture.samples[index]);
     if (picture.done < 1)
         not_explained("is a preview, and doesn't tell how many samples its pixels have; let its run finish first");
+    // A run may have ended before it had all that its graph wants.
+    const auto said = picture.notes.texts.find("samples");
+    std::uint32_t samples = 0;
+    if (said != picture.notes.texts.end() &&
+        std::from_chars(said->second.data(), said->second.data() + said->second.size(), samples).ec == std::errc())
+        return std::clamp(samples, 1u, format.samples);
     return format.samples;
 }
 
@@ -74,6 +81,20 @@ bool same_bits(const std::vector<PictureLayer>& one, const std::vector<PictureLa
     for (std::size_t k = 0; k < one.size(); ++k)
         if (std::memcmp(&one[k].pixels[0], &picture[k].pixels[index], sizeof(Rgb)) != 0) return false;
     return one.size() == picture.size();
+}
+
+// The files of mattes come in another order than that of the graph.
+bool same_ids(const Picture& one, const Picture& picture, std::size_t index) {
+    if (one.alpha.empty() != picture.alpha.empty() || one.mattes.size() != picture.mattes.size()) return false;
+    if (!one.alpha.empty() && one.alpha[0] != picture.alpha[index]) return false;
+    for (const auto& matte : one.mattes) {
+        const auto found = std::find_if(picture.mattes.begin(), picture.mattes.end(),
+                                        [&](const auto& other) { return other.name == matte.name; });
+        if (found == picture.mattes.end() || found->ranks != matte.ranks) return false;
+        const auto first = found->pixels.begin() + std::ptrdiff_t(index * matte.ranks);
+        if (!std::equal(matte.pixels.begin(), matte.pixels.end(), first)) return false;
+    }
+    return true;
 }
 
 // What runs have prepared already need not be prepared again.
@@ -124,7 +145,7 @@ private:
         part.account = keeper_.end();
         const auto& format = account_.format;
         for (std::size_t k = 0; k < part.colours.size(); ++k) {
-            if (!format.facts.contains(format.name_of(k))) part.colours[k] = part.colours[k] * scale_;
+            if (format.is_light(k)) part.colours[k] = part.colours[k] * scale_;
             const Rgb gain = k < format.gains.size() ? format.gains[k] : Rgb{1, 1, 1};
             if (k < format.layers.size()) part.beauty += gain * part.colours[k];
         }
@@ -159,8 +180,8 @@ PixelAccount account_for(const Picture& picture, const PastRun& past, std::uint3
     const Job job = make_job(request, registry, account.format, files);
     account.network = build_network(job, registry, std::move(scene));
     Recount(account, job, scale).count();
-    account.equal =
-        same_bits(account.pixel.layers, picture.layers, index) && same_bits(account.pixel.shown, picture.shown, index);
+    account.equal = same_bits(account.pixel.layers, picture.layers, index) &&
+                    same_bits(account.pixel.shown, picture.shown, index) && same_ids(account.pixel, picture, index);
     std::stable_sort(account.parts.begin(), account.parts.end(),
                      [](const auto& a, const auto& b) { return rank_of(a) > rank_of(b); });
     return account;

@@ -21,6 +21,7 @@ namespace {
 struct FitOptions {
     std::string picture, target, output;
     bool grey = false;
+    PictureView view = PictureView::automatic;
 };
 
 void describe_fit(CLI::App& verb, FitOptions& options) {
@@ -31,6 +32,7 @@ void describe_fit(CLI::App& verb, FitOptions& options) {
         ->required()
         ->type_name("TARGET");
     verb.add_flag("--grey", options.grey, "one gain for all channels of a layer");
+    add_view(verb, options.view);
     add_output(verb, options.output, "write the picture with these gains, too");
     add_examples(verb, {"lightnet fit cornell.exr --to photo.exr -o fitted.exr"});
 }
@@ -54,7 +56,7 @@ int fit_picture(const FitOptions& options, const Launcher& launcher) {
     const auto after = compare(target, picture).relative_square;
     launcher.err << "relMSE to " << options.target << ": " << before << " with gains of 1, " << after
                  << " with these\n";
-    if (!options.output.empty()) write_remix(picture, options.output, launcher.err);
+    if (!options.output.empty()) write_remix(picture, options.output, options.view, launcher.err);
     return exit_code::done;
 }
 

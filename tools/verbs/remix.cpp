@@ -14,6 +14,7 @@ namespace {
 struct RemixOptions {
     std::string picture, output;
     std::vector<Gain> gains;
+    PictureView view = PictureView::automatic;
 };
 
 void describe_remix(CLI::App& verb, RemixOptions& options) {
@@ -23,6 +24,7 @@ void describe_remix(CLI::App& verb, RemixOptions& options) {
     add_gains(verb, "GAIN", options.gains, "times which a layer is in the new picture; those not named: once")
         ->expected(0, -1)
         ->allow_extra_args();
+    add_view(verb, options.view);
     add_output(verb, options.output, "file of the new picture");
     verb.get_option("--output")->required();
     add_examples(verb, {"lightnet remix cornell.exr direct=0.5 bounce=1.2,1.1,1 -o warm.exr"});
@@ -31,7 +33,7 @@ void describe_remix(CLI::App& verb, RemixOptions& options) {
 int remix(const RemixOptions& options, const Launcher& launcher) {
     Picture picture = read_layers(options.picture);
     mix_or_complain(picture, options.gains, options.picture);
-    write_remix(picture, options.output, launcher.err);
+    write_remix(picture, options.output, options.view, launcher.err);
     return exit_code::done;
 }
 

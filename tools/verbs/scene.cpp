@@ -67,8 +67,10 @@ void line(std::ostream& out, std::string_view what, const std::string& text) {
     out << fmt::format("{:<14} {}\n", what, text);
 }
 
-/// What graphs may call things by: Select's `material` and `object`, the groups of lamps.
+/// What graphs may call things by: cameras, Select's `material` and `object`, the groups of lamps.
 void print_names(const SceneData& scene, std::ostream& out) {
+    for (std::size_t i = 0; scene.cameras.size() > 1 && i < scene.cameras.size(); ++i)
+        line(out, "camera " + std::to_string(i + 1), scene.cameras[i].name);
     for (const auto& lamp : lamps_of(scene)) {
         const std::vector<std::string> others(lamp.names.begin() + 1, lamp.names.end());
         line(out, "lamp",

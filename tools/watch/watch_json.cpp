@@ -21,6 +21,14 @@ constexpr std::size_t most_in_flight = 400;
 
 std::string text_of(const WatchJson& json) { return json.dump(-1, ' ', false, WatchJson::error_handler_t::replace); }
 
+// The view of that name; none, if it is of ids.
+std::vector<std::size_t> view_of(const std::string& name, const FilmFormat& format) {
+    const auto views = format.views();
+    for (std::size_t k = 0; k < views.size(); ++k)
+        if (format.name_of(views[k]) == name) return {k};
+    return {};
+}
+
 // The colours of a pixel that, added up, are the picture of a node; none, if it has none.
 std::vector<std::size_t> picture_of(std::size_t node, const Layers& layers, const WatchedRun& run) {
     std::vector<std::size_t> colours;
@@ -28,7 +36,7 @@ std::vector<std::size_t> picture_of(std::size_t node, const Layers& layers, cons
     if (run.registry.find(run.graph.nodes[node].kind)->role == Role::image)
         for (std::size_t k = 0; k < film.size(); ++k) colours.push_back(k);
     const auto shown = std::find(layers.shown.begin(), layers.shown.end(), node);
-    if (shown != layers.shown.end()) return {film.size() + std::size_t(shown - layers.shown.begin())};
+    if (shown != layers.shown.end()) return view_of(run.graph.nodes[node].name, run.format);
     if (!colours.empty()) return colours;
     for (const auto terminal : layers.of_node[node]) {
         const auto layer = std::find(film.begin(), film.end(), name_of(terminal, layers, run.graph, run.registry));
@@ -105,7 +113,7 @@ void add_figures(WatchJson& json, const WatchedState& state, const Graph& graph)
 std::string hello_json(const WatchedRun& run) {
     const auto work = run.format.work();
     auto colours = WatchJson::array();
-    for (std::size_t k = 0; k < run.format.colours(); ++k) {
+    for (const std::size_t k : run.format.views()) {
         const auto gain = k < run.format.gains.size() ? run.format.gains[k] : Rgb{1, 1, 1};
         const auto& name = run.format.name_of(k);
         colours.push_back({{"name", name},

@@ -28,8 +28,8 @@ Watcher::Watcher(Options options, const WatchedRun& run)
     : options_(std::move(options)),
       graph_(run.graph),
       hello_(hello_json(run)),
-      board_(run.format.work(), run.format.colours()),
-      too_large_(run.format.work().pixels() * run.format.colours() * sizeof(Rgb) > most_live_bytes),
+      board_(run.format.work(), run.format.views().size()),
+      too_large_(run.format.work().pixels() * run.format.views().size() * sizeof(Rgb) > most_live_bytes),
       pixel_pace_(pixel_period, begun_),
       state_pace_(state_period, begun_),
       memory_pace_(memory_period_, begun_) {

@@ -232,13 +232,31 @@ private:
                 crop(entry, table->list);
             else if (name == "gains")
                 gains(entry);
+            else if (name == "half" || name == "compression")
+                storage(name, entry);
             else if (name != "file")
                 complain_(in_quotes(param_.name) + " has an unknown entry " + in_quotes(name) +
-                          suggest(name, {"file", "crop", "gains"}));
+                          suggest(name, {"file", "crop", "gains", "half", "compression"}));
             else if (!std::holds_alternative<std::string>(entry.data))
                 complain_("'file' of " + in_quotes(param_.name) + " must be a text, not " +
                           std::string(type_name(entry)));
         }
+    }
+
+    void storage(const std::string& name, const Value& value) const {
+        if (name == "half") {
+            if (!std::holds_alternative<bool>(value.data))
+                complain_("'half' of " + in_quotes(param_.name) + " must be true or false, not " +
+                          std::string(type_name(value)));
+            return;
+        }
+        const auto& known = lossless_compressions();
+        const auto* wanted = std::get_if<std::string>(&value.data);
+        if (wanted && std::find(known.begin(), known.end(), *wanted) != known.end()) return;
+        const std::vector<std::string> lossy{"pxr24", "b44", "b44a", "dwaa", "dwab"};
+        const bool loses = wanted && std::find(lossy.begin(), lossy.end(), *wanted) != lossy.end();
+        complain_("'compression' of " + in_quotes(param_.name) + " must be one of " + joined(known) + ", not " +
+                  to_string(value) + (loses ? ": it is lossy, and layers would not add up any more" : ""));
     }
 
     // Edges in pixels of the whole image, the last column and row excluded. Sides that are wrong were said.

@@ -32,7 +32,9 @@ std::string limits_text(const Param& param) {
         return text;
     }
     if (param.type == ParamType::film)
-        return "{ width, height, crop = { x0, y0, x1, y1 }, file = \"picture.exr\" }, in pixels";
+        return "{ width, height, crop = { x0, y0, x1, y1 }, gains = { … }, half, compression, file = \"picture.exr\" "
+               "}, "
+               "in pixels";
     if (param.count) return std::to_string(param.count) + " of them";
     if (param.least == -no_limit && param.most == no_limit) return "";
     if (param.most == no_limit) return "at least " + number_text(param.least);

@@ -40,6 +40,10 @@ GraphFilm film_of(const Graph& graph, const Registry& registry) {
     if (const auto gains = film.named.find("gains"); gains != film.named.end())
         for (const auto& [layer, value] : std::get<Table>(gains->second.data).named)
             made.gains.push_back({layer, gain_in(value)});
+    if (const auto half = film.named.find("half"); half != film.named.end())
+        made.storage.half = std::get<bool>(half->second.data);
+    if (const auto packed = film.named.find("compression"); packed != film.named.end())
+        made.storage.compression = std::get<std::string>(packed->second.data);
     return made;
 }
 

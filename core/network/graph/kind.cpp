@@ -39,6 +39,10 @@ Kind scene_kind() {
          .help = "changes the camera; what is left out stays as the file says",
          .optional = true,
          .fields = camera_fields()},
+        {.name = "seen_by",
+         .type = ParamType::text,
+         .help = "one of several cameras of the file, by its name or number (1, 2, …)",
+         .optional = true},
         {.name = "environment",
          .type = ParamType::surrounding,
          .help =

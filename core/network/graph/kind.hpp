@@ -73,6 +73,8 @@ struct LightTraits {
     bool partial = false;  // passes on a part of its inputs' light, on purpose
     bool facts = false;    // answers with facts about the first surface that a sample meets: asked once for each, about
                            // any surface, and taken as it is, without weight or exposure. For `show` only
+    bool ids = false;      // those facts are ids of names (core/film/addition.hpp), of which a pixel keeps as many as
+                           // the node's parameter `ranks` says
     bool lamps = false;    // looks for lamps: has a parameter `lamps`, and its scene has no others than those
     bool groups = false;  // can keep groups of lamps apart: has a parameter `groups`. Its scene says how many there are
                           // (Scene::groups(), 1 where nobody asks), and so many colours does it answer with

@@ -56,7 +56,34 @@ std::vector<Terminals> terminals_below(std::size_t top, const Graph& graph, cons
     return below;
 }
 
+bool says(const Node& node, const char* flag) {
+    const auto found = node.params.find(flag);
+    return found != node.params.end() && std::get<bool>(found->second.data);
+}
+
+void add_shown(std::size_t node, const Graph& graph, const Registry& registry, Layers& layers) {
+    const bool ids = registry.find(graph.nodes[node].kind)->light.ids;
+    layers.shown.push_back(node);
+    layers.ids.push_back(ids ? static_cast<std::uint32_t>(std::get<double>(graph.nodes[node].params.at("ranks").data))
+                             : 0);
+}
+
 }  // namespace
+
+std::size_t first_colour(const Layers& layers, std::size_t shown) {
+    std::size_t colour = layers.film.size();
+    for (std::size_t i = 0; i < shown; ++i) colour += std::max(1u, layers.ids[i]);
+    return colour;
+}
+
+std::size_t colours_of(const Layers& layers) { return first_colour(layers, layers.shown.size()) + layers.alpha; }
+
+Addition addition_of(const Layers& layers) {
+    std::vector<IdColours> ids;
+    for (std::size_t i = 0; i < layers.ids.size(); ++i)
+        if (layers.ids[i]) ids.push_back({first_colour(layers, i), layers.ids[i]});
+    return {colours_of(layers), std::move(ids)};
+}
 
 std::vector<std::string> shown_names(const Layers& layers, const Graph& graph) {
     std::vector<std::string> names;
@@ -93,8 +120,9 @@ Layers layers_of(const Graph& graph, const Registry& registry) {
             return std::find(all.begin(), all.end(), one) != all.end();
         };
         if (!is_there(layers.film, graph.nodes[shown].name) && !is_there(layers.shown, shown))
-            layers.shown.push_back(shown);
+            add_shown(shown, graph, registry, layers);
     }
+    layers.alpha = says(graph.nodes[renderer], "alpha");
     // a node on no additive path answers with the light of all below it as its own
     for (std::size_t node = 0; node < graph.nodes.size(); ++node) {
         const Kind* kind = registry.find(graph.nodes[node].kind);

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/film/addition.hpp"
 #include "core/network/graph/graph.hpp"
 #include "core/network/graph/hosts.hpp"
 #include "core/network/graph/kind.hpp"
@@ -28,14 +29,20 @@ struct Layers {
     std::vector<std::string> film;   // "emission", then the terminals of the additive paths, graph order: "direct". Of
                                      // what keeps groups of lamps apart, one for each: "direct.key", "direct.rest"
     std::vector<std::size_t> shown;  // nodes whose images stand beside the sum, behind the layers of the film
+    std::vector<std::uint32_t> ids;  // of each of those: how many ids a pixel keeps of it; 0: it is one colour
+    bool alpha = false;              // the last colour says how much of a pixel surfaces cover
     std::vector<std::vector<Terminal>> of_node;  // per node: the terminals that its answers keep apart
     std::size_t emission = 1;                    // how many layers the renderer's own light has, the first ones
     std::size_t groups = 1;                      // of lamps, that nodes keep apart who do
     std::vector<bool> by_group;                  // per node: its answers keep them apart
 };
 
-/// How many colours a pixel has: one per layer, and one per image beside the sum.
-inline std::size_t colours_of(const Layers& layers) { return layers.film.size() + layers.shown.size(); }
+/// The first colour of an image beside the sum, by its number there; of the number behind the last: that of alpha.
+std::size_t first_colour(const Layers& layers, std::size_t shown);
+/// How many colours a pixel has: one per layer, one or as many as ids per image beside the sum, and one for alpha.
+std::size_t colours_of(const Layers& layers);
+/// How they are added up.
+Addition addition_of(const Layers& layers);
 /// The names of the images beside the sum.
 std::vector<std::string> shown_names(const Layers& layers, const Graph& graph);
 

@@ -40,6 +40,13 @@ Inputs Inputs::which(bool facts) const {
     return {std::move(some), layers_};
 }
 
+Addition Inputs::addition() const {
+    std::vector<IdColours> ids;
+    for (const auto& input : inputs_)
+        if (input.ids) ids.push_back({input.layers.front(), input.ids});
+    return {layers_, std::move(ids)};
+}
+
 std::vector<Part> ask_all(const Inputs& inputs, std::span<const Query> questions) {
     std::vector<Part> parts;
     parts.reserve(inputs.size());

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/film/addition.hpp"
 #include "core/network/light/port.hpp"
 
 namespace lightnet {
@@ -17,7 +18,8 @@ struct Input {
     Port* port = nullptr;                  // owned by the place
     std::vector<std::uint32_t> layers{0};  // which of the asker's layers each colour of an answer belongs to
 
-    bool facts = false;  // gives no light: see LightTraits
+    bool facts = false;     // gives no light: see LightTraits
+    std::uint32_t ids = 0;  // its facts are ids, of which the asker's layers keep so many, from the first one on
 
     std::size_t width() const { return layers.size(); }
 };
@@ -37,6 +39,8 @@ public:
     Inputs which(bool facts) const;
     /// How many colours an answer of the node itself has: one per layer of the image that it adds to.
     std::size_t layers() const { return layers_; }
+    /// How such answers are added up, one for the other.
+    Addition addition() const;
 
 private:
     std::vector<Input> inputs_;

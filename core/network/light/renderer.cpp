@@ -1,7 +1,5 @@
 #include "core/network/light/renderer.hpp"
 
-#include <algorithm>
-#include <functional>
 #include <vector>
 
 namespace lightnet {
@@ -16,7 +14,7 @@ void Renderer::render(const Tile& tile, std::span<Rgb> pixels) const {
         }
         block.assign(pixels.size(), {});
         render_block(next, block);
-        std::transform(pixels.begin(), pixels.end(), block.begin(), pixels.begin(), std::plus<>());
+        addition_(pixels, block);
     }
 }
 

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <span>
+#include <utility>
 
 #include "core/base/math/rgb.hpp"
+#include "core/film/addition.hpp"
 #include "core/film/tile.hpp"
 
 namespace lightnet {
@@ -19,6 +21,8 @@ public:
 
 protected:
     Renderer() = default;
+    /// For those who are asked to show ids: how blocks are added up.
+    explicit Renderer(Addition addition) : addition_(std::move(addition)) {}
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
@@ -27,6 +31,8 @@ private:
     /// that the renderer sees itself, the others are those of its lighting input. `pixels` comes zeroed. Each sample's
     /// radiance is added in the order of samples.
     virtual void render_block(const Tile& tile, std::span<Rgb> pixels) const = 0;
+
+    Addition addition_;
 };
 
 }  // namespace lightnet

@@ -78,7 +78,7 @@ public:
                     put(node, to_world, places[*mesh]);
                     names.try_emplace(*mesh, node["name"].text(""));
                 }
-            if (node["camera"]) camera(node["camera"], to_world);
+            if (node["camera"]) camera(node["camera"], to_world, node["name"].text(""));
             if (const At light = node["extensions"]["KHR_lights_punctual"]["light"])
                 this->light(light, to_world, node["name"].text(""));
         }
@@ -202,12 +202,12 @@ private:
         for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
     }
 
-    void camera(const At& index, const Matrix& to_world) {
+    /// It goes by the name of its node, or else by its own.
+    void camera(const At& index, const Matrix& to_world, const std::string& node) {
         const At list = document_.root()["cameras"];
         const auto which = index.index(list.size());
         if (!which) return;
         auto& scene = assets_.scene();
-        if (scene.camera_given) return index.warn("further cameras are left out");
         if (!invertible(to_world)) return index.error("stands where there is no space");
         CameraData camera;
         camera.to_world = to_world;
@@ -216,8 +216,12 @@ private:
             for (std::size_t i = 0; i < 3; ++i)
                 camera.to_world.m[i][j] /= j == 2 ? -size : size;  // glTF looks along -z
         }
-        if (!lens(list[*which], camera, scene.film)) return;
+        FilmData film = scene.film;
+        if (!lens(list[*which], camera, film)) return;
+        scene.cameras.push_back({node.empty() ? list[*which]["name"].text("") : node, camera, film});
+        if (scene.camera_given) return;
         scene.camera = camera;
+        scene.film = film;
         scene.camera_given = true;
     }
 

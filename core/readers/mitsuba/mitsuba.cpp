@@ -43,9 +43,12 @@ public:
 
 private:
     void sensor(const Node& node) {
-        if (seen_sensor_) return context_.warn(node, "further sensors are left out");
-        seen_sensor_ = true;
+        SceneData& scene = context_.assets.scene();
+        const CameraData camera = scene.camera;
+        const FilmData film = scene.film;
         set_sensor(node, context_);
+        scene.cameras.push_back({node.id, scene.camera, scene.film});
+        if (scene.cameras.size() > 1) scene.camera = camera, scene.film = film;
     }
 
     void referred(const Node& node) {
@@ -62,7 +65,6 @@ private:
     Textures textures_;
     Bsdfs bsdfs_;
     Shapes shapes_;
-    bool seen_sensor_ = false;
     std::string first_unknown_;
 };
 

@@ -113,11 +113,12 @@ Inputs Assembly::inputs_of(std::size_t node) {
     if (image)
         for (std::size_t i = 0; i < network_.layers.shown.size(); ++i) {
             const auto shown = network_.layers.shown[i];
-            const auto layer = static_cast<std::uint32_t>(network_.layers.film.size() + i);
+            const auto layer = static_cast<std::uint32_t>(first_colour(network_.layers, i));
             inputs.push_back({network_.graph.nodes[shown].name,
                               port_between(node, shown, 1),
                               {layer},
-                              network_.kind_of(shown).light.facts});
+                              network_.kind_of(shown).light.facts,
+                              network_.layers.ids[i]});
         }
     return {std::move(inputs), network_.width_of(node)};
 }

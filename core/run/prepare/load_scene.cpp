@@ -40,6 +40,8 @@ CameraOverride camera_of(const Values& camera) {
 SceneOverrides scene_overrides(const Graph& graph, const Registry& registry) {
     const Values& params = scene_of(graph, registry).params;
     SceneOverrides overrides;
+    if (const auto chosen = params.find("seen_by"); chosen != params.end())
+        overrides.seen_by = std::get<std::string>(chosen->second.data);
     if (const auto camera = params.find("camera"); camera != params.end())
         overrides.camera = camera_of(std::get<Table>(camera->second.data).named);
     if (const auto around = params.find("environment"); around != params.end()) {

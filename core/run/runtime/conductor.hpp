@@ -57,6 +57,8 @@ public:
     /// What is prepared from now on is for this pass of the picture: nodes that learn anew for each do so, and those
     /// that are prepared already stay. Work of the pass before must be done, and its master gone.
     void begin_pass(std::uint32_t pass);
+    /// Another master is to follow the one before, when all is prepared: late replies to that are none to this.
+    void begin_master() { epoch_.begin_next(); }
     /// What can be asked now.
     const Plan& in_force() const { return in_force_; }
     /// How far preparing is. Of nodes that prepare at the same time, the first one.

@@ -164,7 +164,7 @@ std::vector<Rgb> SerialRun::render(const Tile& tile) {
         if (pixels.empty())
             pixels.swap(sum);
         else  // as Renderer adds them up
-            std::transform(pixels.begin(), pixels.end(), sum.begin(), pixels.begin(), std::plus<>());
+            addition_of(network_.layers)(pixels, sum);
     }
     return pixels;
 }

@@ -7,7 +7,8 @@
 
 namespace lightnet {
 
-TilesByPass::TilesByPass(const Graph& graph, const Registry& registry, const std::vector<Tile>& tiles) {
+TilesByPass::TilesByPass(const Graph& graph, const Registry& registry, const std::vector<Tile>& tiles, PassSteps steps)
+    : steps_(steps) {
     const auto renewed = renewed_nodes(graph, registry);
     by_pass_ = std::find(renewed.begin(), renewed.end(), true) != renewed.end();
     add(tiles);
@@ -15,11 +16,11 @@ TilesByPass::TilesByPass(const Graph& graph, const Registry& registry, const std
 }
 
 void TilesByPass::add(const std::vector<Tile>& tiles) {
-    if (!by_pass_ && !tiles.empty()) {
-        auto& all = left_[0];
-        all.insert(all.end(), tiles.begin(), tiles.end());
-    } else {
-        for (const Tile& tile : tiles)
+    const bool whole = !by_pass_ && steps_ != PassSteps::blocks;
+    for (const Tile& tile : tiles) {
+        if (whole)
+            left_[steps_ == PassSteps::groups ? tile.block() : 0].push_back(tile);
+        else
             for (const Tile& block : one_by_one(tile)) left_[pass_of(block)].push_back(block);
     }
 }

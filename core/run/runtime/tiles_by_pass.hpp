@@ -12,17 +12,22 @@
 
 namespace lightnet {
 
-/// In a graph without nodes that learn anew for each pass, all tiles are one pass, and stay as they are. Else they are
-/// cut into blocks of samples, of which each is a pass.
+/// What is rendered in one go where no node learns anew: all of a picture, a group of blocks of each pixel, or a block.
+/// Between two of them all pixels have as many samples.
+enum class PassSteps { whole, groups, blocks };
+
+/// In a graph without nodes that learn anew for each pass, tiles stay as they are, or are sorted by `steps`. Else they
+/// are cut into blocks of samples, of which each is a pass.
 class TilesByPass {
 public:
-    TilesByPass(const Graph& graph, const Registry& registry, const std::vector<Tile>& tiles);
+    TilesByPass(const Graph& graph, const Registry& registry, const std::vector<Tile>& tiles,
+                PassSteps steps = PassSteps::whole);
 
     bool empty() const { return left_.empty(); }
     /// Begins the next pass: its tiles, in the order of handing out. Not when it is empty.
     std::vector<Tile> begin_next();
-    /// The pass that goes on, or will be the first.
-    std::uint32_t pass() const { return pass_; }
+    /// The pass that goes on, or will be the first: what nodes are to learn for. 0 where none does.
+    std::uint32_t pass() const { return by_pass_ ? pass_ : 0; }
     /// Takes more tiles. Returns those that belong to the pass that goes on.
     std::vector<Tile> sort(const std::vector<Tile>& more);
 
@@ -30,6 +35,7 @@ private:
     void add(const std::vector<Tile>& tiles);
 
     bool by_pass_;
+    PassSteps steps_;
     std::uint32_t pass_ = 0;
     std::map<std::uint32_t, std::vector<Tile>> left_;  // by pass
 };

@@ -97,6 +97,17 @@ std::vector<NamedLamp> lamps_of(const SceneData& scene) {
     return lamps;
 }
 
+std::vector<std::string> lamp_names_of_shapes(const SceneData& scene) {
+    std::vector<std::string> names(scene.shapes.size());
+    auto name = names.begin();
+    each_lamp(scene, [&](const auto& own, const std::string& what, std::uint32_t) {
+        if (what != "shape") return;
+        while (!shines(scene, scene.shapes[std::size_t(name - names.begin())])) ++name;
+        *name++ = own.front();
+    });
+    return names;
+}
+
 std::vector<std::string> sort_lamps(SceneData& scene, const std::vector<LampGroup>& groups) {
     scene.groups.clear();
     for (const auto& group : groups) scene.groups.push_back(group.name);

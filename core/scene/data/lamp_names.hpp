@@ -22,6 +22,9 @@ struct NamedLamp {
 /// of its material. What has no name is called by what it is: lamp, spot, point, sun; the second one spot2, and so on.
 std::vector<NamedLamp> lamps_of(const SceneData& scene);
 
+/// By shape: the first name of the lamp that it is; "": it is none.
+std::vector<std::string> lamp_names_of_shapes(const SceneData& scene);
+
 /// Lamps whose light is kept apart, or looked for alone.
 struct LampGroup {
     std::string name;

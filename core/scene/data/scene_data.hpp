@@ -110,6 +110,13 @@ struct FilmData {
     std::array<float, 4> crop{0, 1, 0, 1};
 };
 
+/// One of several cameras of a file, and the shape of its pictures.
+struct SceneCamera {
+    std::string name{};  // as in the file; may be empty
+    CameraData camera;
+    FilmData film;
+};
+
 /// Light from infinity: `radiance` (W·sr⁻¹·m⁻²), or an image times it.
 struct EnvironmentData {
     Rgb radiance{1, 1, 1};
@@ -170,14 +177,15 @@ struct SceneData {
     std::vector<std::string> groups{};          // of lamps, which their labels name by index; none: all are one
     std::uint32_t environment_group = 0;        // of all environments
     CameraData camera;
-    bool camera_given = false;  // else Scene looks at everything from where all of it is seen
+    bool camera_given = false;           // else Scene looks at everything from where all of it is seen
+    std::vector<SceneCamera> cameras{};  // all of the file, where it may have several; the first one is `camera`
     FilmData film;
     std::vector<Problem> warnings;  // what was approximated or left out
 };
 /// Without those who look (camera, film), without how its lamps are sorted, and without what was said or learnt of it.
 void visit_members(Is<SceneData> auto& scene, const auto& visit) {
     auto& [shapes, objects, instances, materials, textures, environments, lights, groups, environment_group, camera,
-           camera_given, film, warnings] = scene;
+           camera_given, cameras, film, warnings] = scene;
     visit(shapes, objects, instances, materials, textures, environments, lights);
 }
 

@@ -1,0 +1,179 @@
+// OpenEXR files become pictures.
+#include <ImfChannelList.h>
+#include <ImfFloatAttribute.h>
+#include <ImfFloatVectorAttribute.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
+#include <ImfMatrixAttribute.h>
+#include <ImfStringAttribute.h>
+#include <ImfStringVectorAttribute.h>
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/film/exr.hpp"
+#include "core/film/exr_channels.hpp"
+
+namespace lightnet {
+namespace {
+
+using namespace exr;
+
+constexpr std::uint32_t most_ranks = 200;  // two digits count pairs of them
+
+std::size_t pixels_of(const Imath::Box2i& window) {
+    return static_cast<std::size_t>(window.max.x - window.min.x + 1) *
+           static_cast<std::size_t>(window.max.y - window.min.y + 1);
+}
+
+/// Reads channels of an open file to where they are wanted, all at once.
+class Wanted {
+public:
+    explicit Wanted(Imf::InputFile& file) : file_(file), window_(file.header().dataWindow()) {}
+    // The library writes there, whatever type it is told.
+    void add(const std::string& name, const float* to, std::size_t step) {
+        if (!file_.header().channels().findChannel(name)) throw Error(file_.fileName(), "has no channel " + name);
+        buffer_.insert(name, Imf::Slice::Make(Imf::FLOAT, const_cast<float*>(to), window_, step,
+                                              step * static_cast<std::size_t>(window_.max.x - window_.min.x + 1)));
+    }
+    void read() {
+        file_.setFrameBuffer(buffer_);
+        file_.readPixels(window_.min.y, window_.max.y);
+    }
+    std::size_t pixels() const { return pixels_of(window_); }
+
+private:
+    Imf::InputFile& file_;
+    Imath::Box2i window_;
+    Imf::FrameBuffer buffer_;
+};
+
+// One layer; fails if the file lacks a channel of it.
+std::vector<Rgb> read_layer(Imf::InputFile& file, const std::string& layer) {
+    Wanted wanted(file);
+    std::vector<Rgb> pixels(wanted.pixels());
+    for_channels(layer, pixels,
+                 [&](const std::string& name, const float* first) { wanted.add(name, first, sizeof(Rgb)); });
+    wanted.read();
+    return pixels;
+}
+
+// Empty: the file has no such channel.
+std::vector<float> read_channel(Imf::InputFile& file, const char* name) {
+    if (!file.header().channels().findChannel(name)) return {};
+    Wanted wanted(file);
+    std::vector<float> values(wanted.pixels());
+    wanted.add(name, values.data(), sizeof(float));
+    wanted.read();
+    return values;
+}
+
+const std::string* text_in(const Imf::Header& header, const std::string& name) {
+    const auto* text = header.findTypedAttribute<Imf::StringAttribute>(name.c_str());
+    return text ? &text->value() : nullptr;
+}
+
+std::uint32_t ranks_of(const std::string& matte, const Imf::ChannelList& channels) {
+    std::uint32_t ranks = 0;
+    for (; ranks < most_ranks; ranks += 2) {
+        const auto names = matte_channels(matte, ranks / 2);
+        if (!std::all_of(names.begin(), names.end(), [&](const auto& name) { return channels.findChannel(name); }))
+            break;
+    }
+    return ranks;
+}
+
+std::vector<PictureMatte> read_mattes(Imf::InputFile& file) {
+    const auto& header = file.header();
+    std::vector<PictureMatte> mattes;
+    for (auto one = header.begin(); one != header.end(); ++one) {
+        const std::string attribute = one.name();
+        const auto* name = text_in(header, attribute);
+        if (!name || !attribute.starts_with(of_mattes) || attribute != matte_key(*name) + "/name") continue;
+        PictureMatte& matte = mattes.emplace_back(PictureMatte{*name, ranks_of(*name, header.channels()), {}, {}});
+        if (const auto* manifest = text_in(header, matte_key(*name) + "/manifest")) matte.manifest = *manifest;
+        Wanted wanted(file);
+        matte.pixels.resize(wanted.pixels() * matte.ranks);
+        for_matte_channels(matte, [&](const std::string& channel, const float* first, std::size_t step) {
+            wanted.add(channel, first, step);
+        });
+        wanted.read();
+    }
+    return mattes;
+}
+
+PictureNotes notes_in(const Imf::Header& header) {
+    PictureNotes notes;
+    for (auto one = header.begin(); one != header.end(); ++one) {
+        const std::string name = one.name();
+        if (const auto* text = text_in(header, name); text && !name.starts_with(of_mattes)) notes.texts[name] = *text;
+        if (const auto* matrix = header.findTypedAttribute<Imf::M44fAttribute>(name.c_str()))
+            for (std::size_t i = 0; i < 16; ++i) notes.matrices[name][i] = matrix->value()[int(i / 4)][int(i % 4)];
+    }
+    return notes;
+}
+
+// A file that is packed in another way is written as usual.
+PictureStorage storage_of(const Imf::Header& header, const std::vector<PictureLayer>& shown) {
+    PictureStorage storage;
+    const auto& compressions = lossless_compressions();
+    if (const auto number = static_cast<std::size_t>(header.compression()); number < compressions.size())
+        storage.compression = compressions[number];
+    for (const auto& layer : shown)
+        if (const auto* channel = header.channels().findChannel(layer.name + ".R"))
+            storage.half = storage.half || channel->type == Imf::HALF;
+    return storage;
+}
+
+void read_gains(const Imf::Header& header, std::vector<PictureLayer>& layers) {
+    const auto* gains = header.findTypedAttribute<Imf::FloatVectorAttribute>(gains_attribute);
+    if (!gains || gains->value().size() != 3 * layers.size()) return;
+    const float* next = gains->value().data();
+    for (auto& layer : layers) layer.gain = {next[0], next[1], next[2]}, next += 3;
+}
+
+// Where the picture lies in a whole, as far as its file tells; files of other programs may lie outside of it.
+void read_place(const Imf::Header& header, Picture& picture) {
+    const auto data = header.dataWindow(), whole = header.displayWindow();
+    const bool inside = whole.min.x == 0 && whole.min.y == 0 && data.min.x >= 0 && data.min.y >= 0 &&
+                        data.max.x <= whole.max.x && data.max.y <= whole.max.y;
+    if (!inside || data == whole) return;
+    picture.x = static_cast<std::uint32_t>(data.min.x);
+    picture.y = static_cast<std::uint32_t>(data.min.y);
+    picture.whole_width = static_cast<std::uint32_t>(whole.max.x + 1);
+    picture.whole_height = static_cast<std::uint32_t>(whole.max.y + 1);
+}
+
+}  // namespace
+
+Picture read_exr(const std::filesystem::path& path) try {
+    Imf::InputFile file(path.c_str(), 0);
+    const auto window = file.header().dataWindow();
+    Picture picture{static_cast<std::uint32_t>(window.max.x - window.min.x + 1),
+                    static_cast<std::uint32_t>(window.max.y - window.min.y + 1),
+                    read_layer(file, ""),
+                    {}};
+    for (auto [attribute, layers] : {std::pair(layers_attribute, &picture.layers), {shown_attribute, &picture.shown}})
+        if (const auto* names = file.header().findTypedAttribute<Imf::StringVectorAttribute>(attribute))
+            for (const auto& name : names->value()) layers->push_back({name, read_layer(file, name)});
+    read_gains(file.header(), picture.layers);
+    picture.samples = read_channel(file, samples_channel);
+    picture.alpha = read_channel(file, alpha_channel);
+    picture.mattes = read_mattes(file);
+    picture.notes = notes_in(file.header());
+    picture.storage = storage_of(file.header(), picture.shown);
+    read_place(file.header(), picture);
+    if (const auto* done = file.header().findTypedAttribute<Imf::FloatAttribute>(done_attribute))
+        picture.done = done->value();
+    return picture;
+} catch (const Error&) {
+    throw;
+} catch (const std::exception& wrong) {
+    throw Error(path.string(), wrong.what());
+}
+
+}  // namespace lightnet

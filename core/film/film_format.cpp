@@ -1,0 +1,47 @@
+// Which colours a pixel of a film has.
+#include <numeric>
+
+#include "core/film/film.hpp"
+
+namespace lightnet {
+
+std::size_t FilmFormat::first_colour(std::size_t beside) const {
+    std::size_t colour = layers.size();
+    for (std::size_t i = 0; i < beside; ++i) colour += width_of(shown[i]);
+    return colour;
+}
+
+std::size_t FilmFormat::width_of(const std::string& name) const {
+    const auto kept = ids.find(name);
+    return kept == ids.end() ? 1 : kept->second;
+}
+
+const std::string& FilmFormat::name_of(std::size_t colour) const {
+    static const std::string alpha_name = "A";
+    if (colour < layers.size()) return layers[colour];
+    for (std::size_t i = 0; i < shown.size(); ++i)
+        if (colour < first_colour(i + 1)) return shown[i];
+    return alpha_name;
+}
+
+bool FilmFormat::is_light(std::size_t colour) const {
+    if (alpha && colour + 1 == colours()) return false;
+    return colour < layers.size() || !facts.contains(name_of(colour));
+}
+
+std::vector<std::size_t> FilmFormat::views() const {
+    std::vector<std::size_t> colours(layers.size());
+    std::iota(colours.begin(), colours.end(), std::size_t{0});
+    for (std::size_t i = 0; i < shown.size(); ++i)
+        if (!ids.contains(shown[i])) colours.push_back(first_colour(i));
+    return colours;
+}
+
+Addition FilmFormat::addition() const {
+    std::vector<IdColours> of_ids;
+    for (std::size_t i = 0; i < shown.size(); ++i)
+        if (ids.contains(shown[i])) of_ids.push_back({first_colour(i), width_of(shown[i])});
+    return {colours(), std::move(of_ids)};
+}
+
+}  // namespace lightnet

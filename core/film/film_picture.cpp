@@ -1,0 +1,84 @@
+// What is on a film, as a picture.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/film/film.hpp"
+
+namespace lightnet {
+namespace {
+
+PictureMatte matte_of(const std::string& name, std::uint32_t ids, std::size_t pixels) {
+    PictureMatte matte{name, ids + ids % 2, {}, {}};
+    matte.pixels.resize(pixels * matte.ranks);
+    return matte;
+}
+
+}  // namespace
+
+std::uint32_t Film::samples_at(std::size_t pixel) const {
+    return std::min(block_of_[pixel] * samples_per_block, format_.samples);
+}
+
+Picture Film::picture(float scale) const {
+    const Window wanted = format_.crop.value_or(window_);
+    const std::size_t pixels = wanted.pixels(), layers = format_.colours();
+    Picture picture{wanted.width, wanted.height, {}, {}};
+    picture.storage = format_.storage;
+    if (format_.crop) {
+        picture.x = wanted.x, picture.y = wanted.y;
+        picture.whole_width = format_.width, picture.whole_height = format_.height;
+    }
+    picture.done = complete() ? 1 : std::min(float(done()), std::nextafter(1.0f, 0.0f));
+    // What was rendered and what is wanted differ where a crop cuts cells.
+    std::vector<std::size_t> from(pixels);
+    for (std::size_t i = 0; i < pixels; ++i)
+        from[i] = index(wanted.x + std::uint32_t(i % wanted.width), wanted.y + std::uint32_t(i / wanted.width));
+    if (format_.adaptive())
+        for (std::size_t i = 0; i < pixels; ++i) picture.samples.push_back(float(samples_at(from[i])));
+    const bool some_open = std::any_of(rectangles_.begin(), rectangles_.end(),
+                                       [this](const auto& rectangle) { return ends_open(rectangle.second); });
+    const auto with_open = some_open ? sums_with_open_groups() : std::vector<Rgb>{};
+    const auto& sums = some_open ? with_open : sums_;
+    for (std::size_t k = 0; k < format_.layers.size(); ++k) {
+        auto& layer = picture.layers.emplace_back(PictureLayer{format_.layers[k], std::vector<Rgb>(pixels)});
+        for (std::size_t i = 0; i < pixels; ++i)
+            if (const auto samples = samples_at(from[i]))
+                layer.pixels[i] = sums[from[i] * layers + k] / static_cast<float>(samples) * scale;
+    }
+    add_beside(picture, sums, from, scale);
+    // DECISIONS: beauty-is-the-sum
+    for (std::size_t k = 0; k < format_.gains.size(); ++k) picture.layers[k].gain = format_.gains[k];
+    blacken_overflow(picture);
+    return picture;
+}
+
+// What is no part of the sum. `from`: where on the film each pixel is.
+void Film::add_beside(Picture& picture, std::span<const Rgb> sums, std::span<const std::size_t> from,
+                      float scale) const {
+    const std::size_t colours = format_.colours();
+    const auto mean = [&](std::size_t i, std::size_t colour) {
+        const auto samples = samples_at(from[i]);
+        return samples ? sums[from[i] * colours + colour] / static_cast<float>(samples) : Rgb{};
+    };
+    for (std::size_t s = 0; s < format_.shown.size(); ++s) {
+        const auto& name = format_.shown[s];
+        const std::size_t first = format_.first_colour(s);
+        if (const auto ids = format_.ids.find(name); ids != format_.ids.end()) {
+            auto& matte = picture.mattes.emplace_back(matte_of(name, ids->second, from.size()));
+            for (std::size_t i = 0; i < from.size(); ++i)
+                for (std::uint32_t rank = 0; rank < ids->second; ++rank)
+                    matte.pixels[i * matte.ranks + rank] = {sums[from[i] * colours + first + rank].r,
+                                                            mean(i, first + rank).g};
+            continue;
+        }
+        auto& layer = picture.shown.emplace_back(PictureLayer{name, std::vector<Rgb>(from.size())});
+        const float exposed = format_.is_light(first) ? scale : 1;
+        for (std::size_t i = 0; i < from.size(); ++i) layer.pixels[i] = mean(i, first) * exposed;
+        if (picture.storage.half) round_to_half(layer.pixels);
+    }
+    if (!format_.alpha) return;
+    for (std::size_t i = 0; i < from.size(); ++i) picture.alpha.push_back(mean(i, colours - 1).r);
+}
+
+}  // namespace lightnet

@@ -1,0 +1,30 @@
+// What the file of a picture says of it beside its pixels.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "core/film/film.hpp"
+#include "core/film/picture.hpp"
+#include "core/network/graph/kind.hpp"
+#include "core/scene/data/scene_data.hpp"
+
+namespace lightnet {
+
+/// What is said of a picture, and of the names in its mattes.
+struct PictureWords {
+    PictureNotes notes;
+    std::map<std::string, std::string> manifests;  // by matte
+};
+
+/// The camera (worldToCamera, worldToNDC: scene units), software, seed, graph (a hash of what its pixels follow from,
+/// as in picture_recipe()) and groups of lamps. Nothing of when, where or by whom it was made. `scene`: as it is
+/// rendered.
+PictureWords words_of(const Graph& graph, const Registry& registry, const FilmFormat& format,
+                      const std::map<std::string, std::string>& recipe, const SceneData& scene);
+
+/// Puts them into a picture.
+void add_words(const PictureWords& words, Picture& picture);
+
+}  // namespace lightnet
