@@ -25,6 +25,10 @@ Film::Film(FilmFormat format)
     std::set<std::string> names(layers.begin(), layers.end());
     names.insert(format_.shown.begin(), format_.shown.end());
     if (names.size() != layers.size() + format_.shown.size()) throw Error("film", "two layers have the same name");
+    for (const auto& [matte, count] : format_.ids)
+        for (std::uint32_t level = 0; 2 * level < count; ++level)
+            if (const auto name = fmt::format("{}{:02}", matte, level); !names.insert(name).second)
+                throw Error("film", "a layer is called '" + name + "', as one of the matte '" + matte + "'");
     const auto lies_within = [](std::uint32_t from, std::uint32_t size, std::uint32_t side) {
         return size > 0 && from < side && size <= side - from;
     };

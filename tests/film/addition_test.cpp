@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <random>
 
+#include "core/base/error.hpp"
 #include "core/film/film.hpp"
 #include "tests/film/pictures.hpp"
 
@@ -131,6 +132,17 @@ TEST(Ids, AreTheSameWhereCellsDecideAboutTheirSamples) {
     EXPECT_TRUE(pictures[0] == pictures[1]);
     const auto& matte = pictures[0].mattes[0];
     for (std::size_t i = 0; i < matte.pixels.size(); i += 4) EXPECT_LE(matte.pixels[i].part, 1);
+}
+
+TEST(Ids, HaveLayersWhoseNamesNoOtherMayHave) {
+    FilmFormat format = mixed_format(16);
+    format.shown.push_back("things01");
+    try {
+        const Film film(format);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("a layer is called 'things01', as one of the matte 'things'"));
+    }
 }
 
 TEST(Ids, CoverAsMuchOfAPixelAsTheyAreSeenIn) {

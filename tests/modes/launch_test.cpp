@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/modes/daemons.hpp"
+#include "tests/support/pixels_in.hpp"
 
 namespace lightnet::test {
 namespace {
@@ -90,6 +91,35 @@ TEST(Launch, ShowsInThePngWhatIsTooDarkOrTooBrightAndLeavesTheExrAsItIs) {
     EXPECT_NE(hidden.said.find("stops brighter than the EXR"), std::string::npos) << hidden.said;
     EXPECT_NE(hidden.report.find("exposure 2^"), std::string::npos) << hidden.report;
     EXPECT_EQ(rendered("1", {}).second, rendered("1", {"--view", "plain"}).second) << "what can be seen stays as it is";
+}
+
+TEST(Launch, LooksThroughTheCameraThatIsChosen) {
+    const Folder folder;
+    const std::string film =
+        "<film type='hdrfilm'><integer name='width' value='12'/><integer name='height' value='8'/></film>";
+    const auto sensor = [&](const std::string& id, const std::string& fov) {
+        return "<sensor type='perspective' id='" + id + "'><float name='fov' value='" + fov +
+               "'/><transform name='to_world'><lookat origin='0,0,5' target='0,0,0' up='0,1,0'/></transform>" + film +
+               "</sensor>";
+    };
+    const auto scene = folder.write("two.xml", "<scene version='3.0.0'>" + sensor("near", "20") + sensor("far", "80") +
+                                                   "<shape type='sphere'/><emitter type='constant'/></scene>");
+    const auto graph = folder.write("two.lua",
+                                    "scene = Scene { 'two.xml' }\ndirect = DirectLighting {}\n"
+                                    "image = RayTracer { direct, scene = scene, film = { 12, 8 } }\n");
+    const auto seen_by = [&](const std::vector<std::string>& camera) {
+        std::vector<std::string> words{"--samples", "4"};
+        words.insert(words.end(), camera.begin(), camera.end());
+        return launch(graph, folder, words);
+    };
+    const auto first = seen_by({}), far = seen_by({"--camera", "far"}), number = seen_by({"--camera", "2"});
+    ASSERT_EQ(far.code, 0) << far.said;
+    EXPECT_TRUE(pixels_in(far.picture) == pixels_in(number.picture));
+    EXPECT_FALSE(pixels_in(far.picture) == pixels_in(first.picture));
+    EXPECT_TRUE(pixels_in(first.picture) == pixels_in(seen_by({"--camera", "near"}).picture));
+    const auto wrong = seen_by({"--camera", "fat"});
+    EXPECT_EQ(wrong.code, 2);
+    EXPECT_NE(wrong.said.find("there is no camera 'fat' (did you mean 'far'?)"), std::string::npos) << wrong.said;
 }
 
 TEST(Launch, SaysNothingButErrorsWhenNoProgressIsWanted) {

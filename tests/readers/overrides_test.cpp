@@ -91,7 +91,8 @@ TEST(SceneOverrides, ChooseOneOfTheCamerasOfTheFile) {
     EXPECT_THAT(error_of(with_two_cameras(), seen_by("3")), HasSubstr("there is no camera '3'"));
     EXPECT_THAT(error_of(with_camera(), seen_by("1")), HasSubstr("the scene's file has none to choose from"));
     auto moved = seen_by("2");
-    moved.camera = CameraOverride{.fov = 50};
+    moved.camera = CameraOverride{};
+    moved.camera->fov = 50;
     EXPECT_EQ(changed(with_two_cameras(), moved).camera.fov, 50) << "what the graph says of it comes after";
 }
 
