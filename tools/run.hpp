@@ -59,6 +59,7 @@ struct RunRequest {
     std::optional<WatchAddress> watch;  // serve a page that shows the run
     std::string report;                 // file of a page that shows what the run did; "": none
     double preview = 0;                 // seconds between two pictures of what is there; 0: none
+    std::optional<WatchAddress> viewer;  // tev, to be shown the picture while it grows
     ProgressMode progress = ProgressMode::automatic;
 };
 

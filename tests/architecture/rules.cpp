@@ -63,7 +63,7 @@ const std::array homes{
     Home{"pugixml", std::regex("pugixml\\.hpp"), std::regex("core/readers/mitsuba/.*")},
     Home{"zlib", std::regex("zlib\\.h"), std::regex("core/readers/(mitsuba/\\w+|gzip)\\.cpp")},
     Home{"Boost.Context", std::regex("boost/context/.*"), std::regex("core/run/fiber/.*")},
-    Home{"Boost.Beast", std::regex("boost/(?!context/).*"), std::regex("tools/(watch/watch_server|metrics_server)\\.cpp")},
+    Home{"Boost.Beast", std::regex("boost/(?!context/).*"), std::regex("tools/http/.*")},
     Home{"libcrypto", std::regex("openssl/.*"), std::regex("core/base/hash\\.cpp")},
     Home{"libsodium", std::regex("sodium.*"), std::regex("transport/keys/.*")},
     Home{"CLI11", std::regex("CLI/.*"), std::regex("tools/.*")},
