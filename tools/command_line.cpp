@@ -150,12 +150,17 @@ CLI::Option* takes_numbers(CLI::Option* option, const char* unit, std::uint64_t 
     });
 }
 
+std::optional<double> amount_of(const std::string& text) {
+    double number = 0;
+    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (fault != std::errc{} || end != text.data() + text.size() || !std::isfinite(number)) return std::nullopt;
+    return number;
+}
+
 CLI::Option* takes_amounts(CLI::Option* option, const char* unit, Least least) {
     return option->type_name(unit)->check([least](const std::string& text) -> std::string {
-        double number = 0;
-        const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
-        const bool whole = fault == std::errc{} && end == text.data() + text.size() && std::isfinite(number);
-        if (whole && (number > 0 || (number == 0 && least == Least::zero))) return {};
+        const auto number = amount_of(text);
+        if (number && (*number > 0 || (*number == 0 && least == Least::zero))) return {};
         return fmt::format("must be a number {}, not '{}'", least == Least::zero ? "of 0 or more" : "above 0", text);
     });
 }

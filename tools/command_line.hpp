@@ -40,6 +40,8 @@ void add_everywhere(CLI::App& app, std::vector<std::string>& plugins);
 /// `option` takes whole numbers from `least` to `most`, called `unit` in the help ("N", "SECONDS").
 CLI::Option* takes_numbers(CLI::Option* option, const char* unit, std::uint64_t least, std::uint64_t most);
 
+/// None: it is no number, or an infinite one.
+std::optional<double> amount_of(const std::string& text);
 /// `option` takes numbers of at least 0, or above it, called `unit` in the help.
 enum class Least { zero, above_zero };
 CLI::Option* takes_amounts(CLI::Option* option, const char* unit, Least least);

@@ -32,6 +32,14 @@ public:
             ->transform(CLI::AsSizeValue(false).description(""));
         app_.add_option("--metrics", options_.metrics, "tell Prometheus how it does: GET http://ADDRESS:PORT/metrics")
             ->type_name("ADDRESS:PORT");
+        app_.add_option_function<std::string>(
+                "--log-format", [this](const std::string& text) { options_.log_json = text == "json"; },
+                "how its log is written: text, or a line of JSON for each entry, with time, level, host and run")
+            ->type_name("text|json")
+            ->default_str("text")
+            ->check([](const std::string& text) {
+                return text == "text" || text == "json" ? "" : "must be text or json, not '" + text + "'";
+            });
         app_.add_flag("--quiet", options_.quiet, "say nothing but where it listens");
         app_.add_option("--parent", options_.parent, "end when this process ends")->group("");
         app_.set_version_flag("--version", "lightnetd " + build_id());

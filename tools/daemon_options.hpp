@@ -16,6 +16,7 @@ struct DaemonOptions {
     std::string single;      // no other daemon of this name beside it; "": any
     int parent = 0;          // the process without which it ends; 0: none
     bool quiet = false;      // no log
+    bool log_json = false;   // lines of JSON
     std::string key_file;    // of its own key; "": the usual one
     bool print_key = false;  // and nothing else
     std::vector<std::string> plugins;  // shared libraries

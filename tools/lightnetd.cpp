@@ -6,22 +6,24 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <functional>
 #include <iostream>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/base/this_machine.hpp"
 #include "lua/custom.hpp"
 #include "nodes/examples/candela/candela_kinds.hpp"
 #include "nodes/standard_nodes.hpp"
 #include "tools/daemon_options.hpp"
 #include "tools/exit_code.hpp"
 #include "tools/log_line.hpp"
-#include "tools/plugins.hpp"
-#include "tools/settings.hpp"
 #include "tools/metrics.hpp"
 #include "tools/metrics_server.hpp"
+#include "tools/plugins.hpp"
+#include "tools/settings.hpp"
 #include "tools/signals.hpp"
 #include "tools/single_instance.hpp"
 #include "transport/daemon/host.hpp"
@@ -36,8 +38,17 @@ void live_no_longer_than(int parent) {
     if (getppid() != parent) _exit(0);
 }
 
-void log(const std::string& text) {
-    std::cerr << lightnet::log_line("lightnetd", text, std::chrono::system_clock::now()) << std::endl;
+// A line at once, also when another process writes to the same file.
+std::function<void(const lightnet::LogEntry&)> writer_of_log(const lightnet::DaemonOptions& options) {
+    const bool json = options.log_json;
+    const auto host = options.host.name.empty() ? lightnet::machine_name() : options.host.name;
+    return [json, host](const lightnet::LogEntry& entry) {
+        const auto now = std::chrono::system_clock::now();
+        std::cerr << (json ? lightnet::log_json("lightnetd", host, entry, now)
+                           : lightnet::log_line("lightnetd", entry.text, now)) +
+                         "\n"
+                  << std::flush;
+    };
 }
 
 lightnet::KeyPair own_key(const lightnet::DaemonOptions& options) {
@@ -57,6 +68,7 @@ int serve(lightnet::DaemonOptions options) {
     if (!options.host.key && (!options.host.allow.empty() || options.host.launcher_key))
         options.host.key = own_key(options);
     if (options.parent) live_no_longer_than(options.parent);
+    const auto log = writer_of_log(options);
     if (!options.quiet && !options.parent) options.host.log = log;
     const auto& stop = lightnet::watch_signals();
     lightnet::raise_descriptor_limit();
@@ -80,7 +92,7 @@ int serve(lightnet::DaemonOptions options) {
     host.serve(stop.any);
     metrics.reset();
     if (host.hangs()) {
-        log("leaves behind work that does not end");
+        log({lightnet::LogLevel::warning, "leaves behind work that does not end"});
         std::_Exit(lightnet::exit_code::done);
     }
     return lightnet::exit_code::done;

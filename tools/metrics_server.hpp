@@ -7,8 +7,10 @@
 
 namespace lightnet {
 
-/// Answers GET /metrics on an address of its own, in a thread of its own, which serves some dozen connections at once
-/// and closes those that are slow. Everything else gets a 4xx.
+class HttpServer;
+
+/// Answers GET /metrics on an address of its own, in a thread of its own (HttpServer), which serves some dozen
+/// connections at once and closes those that are slow. Everything else gets a 4xx.
 class MetricsServer {
 public:
     /// `address`: "127.0.0.1:9100"; port 0: the system chooses. `text` is called by the server's thread. Throws Error
@@ -19,11 +21,11 @@ public:
     MetricsServer& operator=(const MetricsServer&) = delete;
 
     /// "http://127.0.0.1:9100/metrics"
-    std::string url() const;
+    const std::string& url() const { return url_; }
 
 private:
-    struct Server;
-    std::unique_ptr<Server> server_;
+    std::string url_;
+    std::unique_ptr<HttpServer> server_;
 };
 
 }  // namespace lightnet

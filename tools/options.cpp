@@ -13,6 +13,7 @@
 #include "core/network/graph/graph_film.hpp"
 #include "core/readers/read_scene.hpp"
 #include "tools/command_line.hpp"
+#include "tools/preview/tev_packets.hpp"
 #include "tools/trouble_options.hpp"
 #include "transport/wire/loopback.hpp"
 
@@ -80,6 +81,15 @@ void add_helpers(CLI::App& verb, RunningOptions& running) {
     verb.add_option("--slurm-args", running.slurm_arguments, "further arguments for sbatch, as one text")->needs(slurm);
 }
 
+// None: it is no "tev", "tev:HOST" or "tev:HOST:PORT".
+std::optional<WatchAddress> tev_of(std::string_view text) {
+    if (!text.starts_with("tev")) return std::nullopt;
+    text.remove_prefix(3);
+    if (text.empty()) return viewer_address("", usual_tev_port);
+    if (text.size() < 2 || text.front() != ':') return std::nullopt;
+    return viewer_address(text.substr(1), usual_tev_port);
+}
+
 void add_watching(CLI::App& verb, RunningOptions& running) {
     verb.add_option_function<std::string>(
             "--watch", [&running](const std::string& text) { running.watch = watch_address(text); },
@@ -108,6 +118,32 @@ std::optional<std::uint32_t> millionths_of(const std::string& text) {
     if (percent) part /= 100;
     if (!(part >= 0 && part <= 1)) return {};
     return static_cast<std::uint32_t>(std::lround(part * 1e6));
+}
+
+std::string mistake_in_preview(const std::string& text) {
+    if (text == "tev" || text.starts_with("tev:"))
+        return tev_of(text) ? "" : "tev is called at a name or address and a port, like tev:desk:14158, not at " + text;
+    const auto seconds = amount_of(text);
+    if (seconds && *seconds > 0) return {};
+    return "must be a number above 0 (of seconds), or tev or tev:HOST:PORT, not '" + text + "'";
+}
+
+void add_preview(CLI::App& verb, RunningOptions& running) {
+    verb.add_option_function<std::vector<std::string>>(
+            "--preview",
+            [&running](const std::vector<std::string>& given) {
+                for (const auto& one : given)
+                    if (const auto viewer = tev_of(one))
+                        running.viewer = viewer;
+                    else
+                        running.preview = amount_of(one).value_or(0);
+            },
+            "write the picture so far, every so many seconds, or show it in the viewer tev (may be given for both)")
+        ->type_name("SECONDS|tev[:HOST:PORT]")
+        ->expected(1)
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->check(mistake_in_preview);
 }
 
 // The picture does not depend on any of these.
@@ -242,8 +278,7 @@ void add_running(CLI::App& verb, RunningOptions& running) {
         ->check([](const std::string& text) {
             return progress_mode(text) ? "" : "must be auto, bar, plain, json or none, not '" + text + "'";
         });
-    takes_amounts(verb.add_option("--preview", running.preview, "write the picture so far, every so many seconds"),
-                  "SECONDS", Least::above_zero);
+    add_preview(verb, running);
     takes_amounts(verb.add_option("--time-limit", running.time_limit,
                                   "end after so many seconds, with as many samples (16, 32, …) in all pixels as there is "
                                   "time for; --resume goes on"),
@@ -282,6 +317,9 @@ std::optional<std::string> settle(RunningOptions& running) {
     if (running.watch && !running.insecure && !running.watch->stays_here())
         return beyond_this_machine("--watch " + in_url(running.watch->host),
                                    "put a server with TLS in front of 127.0.0.1");
+    if (running.viewer && !running.insecure && !running.viewer->stays_here())
+        return beyond_this_machine("--preview tev:" + running.viewer->host,
+                                   "let ssh carry it: ssh -R 14158:127.0.0.1:14158 from the viewer's machine");
     if (auto mistake = mistake_in(running.troubles, running.local_workers.value_or(0))) return mistake;
     if (running.slurm && running.listen.empty()) running.listen = "tcp://0.0.0.0:*";
     return std::nullopt;

@@ -68,6 +68,7 @@ struct RunningOptions {
     std::optional<WatchAddress> watch;  // none: nobody can watch
     std::string report;                 // file; "": none
     double preview = 0;                 // seconds between two pictures of what is there; 0: none
+    std::optional<WatchAddress> viewer;  // tev, to be shown the picture while it grows
     bool resume = false;                // from a checkpoint
     bool forget = false;                // it, when the picture is finished
     double time_limit = 0;              // seconds; 0: none

@@ -46,7 +46,9 @@ Rendering::Rendering(Assignment what, RunBook& book, const Signals& signals)
       book_(book),
       signals_(signals),
       image_(renderer_of(what_.job.graph, what_.registry)),
-      id_(secret_number()) {}
+      id_(secret_number()) {
+    book_.name_run(id_);
+}
 
 void Rendering::perform(LoadedScene scene, const DiskFiles& files) {
     if (what_.request.tuning.verify > 0 && what_.request.mode != Mode::network)
@@ -64,6 +66,7 @@ void Rendering::perform(LoadedScene scene, const DiskFiles& files) {
 void Rendering::serially(LoadedScene scene) {
     book_.phase("prepare");
     const auto network = build_network(what_.job, what_.registry, std::move(scene));
+    book_.share(network, made_from(what_.job));
     std::optional<Looker> looker;
     const Crowd alone{{}, {}, [&] { return std::vector{this_process(1, looker->figures())}; }, {}};
     SerialRun run(*network, [&] {
@@ -102,6 +105,7 @@ void Rendering::serially(LoadedScene scene) {
 void Rendering::in_threads(LoadedScene scene) {
     book_.phase("prepare");
     const auto network = build_network(what_.job, what_.registry, std::move(scene));
+    book_.share(network, made_from(what_.job));
     const Plan plan =
         lightnet::plan(what_.job.graph, what_.registry, what_.request.hosts, {{"", what_.request.threads}});
     ThreadedRun run(network, id_, plan, what_.job.tuning);
@@ -233,7 +237,10 @@ Cluster::Options Rendering::cluster_options(const DiskFiles& files) {
 void Rendering::on_hosts(LoadedScene scene, const DiskFiles& files) {
     book_.phase("prepare");
     auto options = cluster_options(files);
-    if (what_.request.threads) options.network = build_network(what_.job, what_.registry, std::move(scene));
+    if (what_.request.threads) {
+        options.network = build_network(what_.job, what_.registry, std::move(scene));
+        book_.share(options.network, made_from(what_.job));
+    }
     Crew crew(what_.request, std::move(options), [this] { return book_.share_done(); });
     while (true) {
         try {
@@ -263,6 +270,7 @@ void Rendering::begin_anew(Crew& crew, const Failure& lie) {
     }
     what_.tiles = tiles_of(what_.format, what_.request.tuning.tile);
     id_ = secret_number();
+    book_.name_run(id_);
     book_.phase("prepare");
     crew.begin_anew(id_, liars_, what_.request.threads ? network_of_files() : nullptr);
 }

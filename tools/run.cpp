@@ -58,6 +58,7 @@ private:
     FilmFormat format_;
     std::vector<Tile> tiles_;
     RunBook book_;
+    std::optional<LiveExplainer> explainer_;
     std::optional<Watcher> watcher_;
     Job job_;
 };
@@ -125,8 +126,10 @@ int Run::cancelled() {
 }
 
 void Run::open_to_watchers() {
-    if (!request_.watch && request_.report.empty()) return;
-    watcher_.emplace(Watcher::Options{request_.watch, !request_.report.empty(), ask_to_stop},
+    if (!request_.watch && !request_.viewer && request_.report.empty()) return;
+    if (request_.watch) explainer_.emplace(request_, registry_, format_);
+    watcher_.emplace(Watcher::Options{request_.watch, request_.viewer, !request_.report.empty(), ask_to_stop,
+                                      explainer_ ? &*explainer_ : nullptr},
                      WatchedRun{request_.graph, registry_, format_, request_.output});
     book_.show_to(&*watcher_);
     // Whoever asks for it wants to know, however little else is said.

@@ -66,6 +66,7 @@ struct RunRequest {
     double time_limit = 0;              // seconds since the run began; 0: none
     std::string reference, curve;       // a picture to be compared with, and a file for the errors; "": none
     double preview = 0;                 // seconds between two pictures of what is there; 0: none
+    std::optional<WatchAddress> viewer;  // tev, to be shown the picture while it grows
     ProgressMode progress = ProgressMode::automatic;
 };
 

@@ -11,9 +11,11 @@
 #include "core/base/atomic_file.hpp"
 #include "core/base/error.hpp"
 #include "core/base/own_files.hpp"
+#include "core/base/this_machine.hpp"
 #include "core/film/exr.hpp"
 #include "core/film/png.hpp"
 #include "core/network/graph/layout.hpp"
+#include "tools/log_line.hpp"
 #include "tools/run_figures.hpp"
 #include "tools/run_trace.hpp"
 #include "tools/summary.hpp"
@@ -50,10 +52,17 @@ void RunBook::phase(const std::string& name) {
     if (watcher_) watcher_->phase(name);
 }
 
-void RunBook::say(const std::string& text) {
-    progress_.say(text);
-    if (watcher_) watcher_->say(text);
+void RunBook::say(const LogEntry& entry) {
+    Progress::Marks marks{{"time", log_time(std::chrono::system_clock::now())},
+                          {"level", log_level(entry.level)},
+                          {"host", machine_name()}};
+    const auto run = report_.settings.find("run");
+    if (run != report_.settings.end()) marks.emplace_back("run", run->second);
+    progress_.say(entry.text, marks);
+    if (watcher_) watcher_->say(entry.text);
 }
+
+void RunBook::name_run(std::uint64_t number) { set("run", public_name_of_run(number)); }
 
 void RunBook::show_outcome(const std::string& outcome) {
     if (watcher_) watcher_->finish(film_, outcome);
@@ -61,7 +70,7 @@ void RunBook::show_outcome(const std::string& outcome) {
 
 void RunBook::warn(const std::string& text) {
     report_.warnings.push_back(text);
-    say("warning: " + text);
+    say({LogLevel::warning, "warning: " + text});
 }
 
 void RunBook::preparing(const PrepareProgress& progress) {
@@ -176,6 +185,7 @@ void RunBook::write_files(const std::string& exr) {
     const PngView view = png_view(view_, brightness_, exposed_);
     write_png(png, picture, view);
     shown_stops_ = view.stops;
+    report_.layers = light_of_layers(picture);
     report_.outputs = {exr, png.string()};
     report_.settings["tone of the PNG"] = tone_of(view);
 }

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/log_entry.hpp"
 #include "core/film/film.hpp"
 #include "core/film/progress.hpp"
 #include "core/film/run_report.hpp"
@@ -38,13 +39,20 @@ public:
 
     /// Another part of the run begins; the one before has ended.
     void phase(const std::string& name);
-    void say(const std::string& text);
+    void say(const LogEntry& entry);
     /// From now on, those who watch are shown what happens. Outlives the book, or until the run is told to end.
     void show_to(Watcher* watcher) { watcher_ = watcher; }
+    /// Those who watch may ask how its pixels come about.
+    void share(const std::shared_ptr<const Network>& network, const std::string& made_from) {
+        if (watcher_) watcher_->share(network, made_from, scale_);
+    }
     /// Somebody may watch.
     bool shown() const { return watcher_ != nullptr; }
     /// Shows what is new, to be called several times a second.
-    void show(const Watcher::Hosts& hosts) { watcher_->look(film_, hosts); }
+    void show(const Watcher::Hosts& hosts) {
+        watcher_->look(film_, hosts);
+        for (const auto& line : watcher_->news()) say(line);
+    }
     void show_last(const Watcher::Hosts& hosts) {
         if (watcher_) watcher_->part_from(hosts);
     }
@@ -62,6 +70,8 @@ public:
     void describe(PictureWords words) { words_ = std::move(words); }
     /// How the PNG shows the picture; `exposed`: by an exposure that somebody has chosen.
     void show_png(PictureView view, bool exposed) { view_ = view, exposed_ = exposed; }
+    /// By this, logs of hosts call the run, too.
+    void name_run(std::uint64_t number);
     /// What the scene's film makes of radiance. Before the first tile.
     void expose(float scale);
     /// From now on, writes what is there every so many seconds.

@@ -53,6 +53,19 @@ std::vector<NodeReport> nodes_without_figures(const Graph& graph) {
     return nodes;
 }
 
+std::vector<LayerReport> light_of_layers(const Picture& picture) {
+    std::vector<LayerReport> layers;
+    double all = 0;
+    for (const auto& layer : picture.layers) {
+        double sum = 0;
+        for (const auto& colour : layer.pixels) sum += double(luminance(layer.gain * colour));
+        layers.push_back({layer.name, layer.pixels.empty() ? 0 : sum / double(layer.pixels.size()), 0});
+        all += layers.back().mean;
+    }
+    for (auto& layer : layers) layer.share = all > 0 ? layer.mean / all : 0;
+    return layers;
+}
+
 void add_figures(RunReport& report, const std::vector<PlaceRecord>& records) {
     std::map<std::string, NodeSum> nodes;
     std::map<std::pair<std::string, std::string>, EdgeRecord> edges;
@@ -62,6 +75,7 @@ void add_figures(RunReport& report, const std::vector<PlaceRecord>& records) {
             auto& edge = edges[{whole_name(ends.first), whole_name(ends.second)}];
             edge.asks += more.asks, edge.questions += more.questions;
             edge.called_ns += more.called_ns, edge.waited_ns += more.waited_ns;
+            edge.bundles += more.bundles, edge.sent += more.sent, edge.bytes += more.bytes;
         }
         for (auto& place : report.places)
             if (place.index == record.index &&
@@ -73,7 +87,7 @@ void add_figures(RunReport& report, const std::vector<PlaceRecord>& records) {
         nodes[ends.second].called_ns += edge.called_ns;
         nodes[ends.first].calling_ns += edge.called_ns;
         report.edges.push_back({ends.first, ends.second, edge.asks, edge.questions, in_seconds(edge.called_ns),
-                                in_seconds(edge.waited_ns)});
+                                in_seconds(edge.waited_ns), edge.bundles, edge.sent, edge.bytes});
     }
     for (auto& node : report.nodes) fill(node, nodes[node.name]);
 }

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/film/picture.hpp"
 #include "core/film/run_report.hpp"
 #include "core/network/graph/graph.hpp"
 #include "core/run/message/place_record.hpp"
@@ -11,6 +12,9 @@ namespace lightnet {
 
 /// The nodes of a graph that do work, without figures.
 std::vector<NodeReport> nodes_without_figures(const Graph& graph);
+
+/// How much of the light of a picture each of its layers is.
+std::vector<LayerReport> light_of_layers(const Picture& picture);
 
 /// Adds up per node and per edge what the records say, and gives each place of the report its own.
 void add_figures(RunReport& report, const std::vector<PlaceRecord>& records);

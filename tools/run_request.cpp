@@ -69,6 +69,7 @@ RunRequest request_of(const RunningOptions& running, const Launcher& launcher, L
     request.seed = running.seed;
     request.preview = running.preview;
     request.watch = running.watch;
+    request.viewer = running.viewer;
     request.report = running.report;
     request.progress = running.progress;
     request.listen = running.listen;

@@ -153,6 +153,8 @@ std::vector<std::pair<std::string, std::string>> facts_of(const RunReport& repor
     facts.emplace_back("at work, on average", fmt::format("{:.2f} of them", at_work));
     facts.emplace_back("the same work on one place",
                        fmt::format("about {:.1f} s, had it nothing to wait for", at_work * working));
+    for (const auto& layer : report.layers)
+        facts.emplace_back("light of " + layer.name, fmt::format("{:.1f} %", 100 * layer.share));
     for (const auto& host : report.hosts) facts.emplace_back(host.host, host.state + ", " + host.machine);
     for (const auto& [name, count] : report.counters)
         if (count) facts.emplace_back(name, std::to_string(count));

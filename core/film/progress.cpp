@@ -181,11 +181,12 @@ void Progress::line_of_json(std::string_view event, Time now) {
     out_ << line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << std::endl;
 }
 
-void Progress::say(std::string_view message) {
+void Progress::say(std::string_view message, const Marks& marks) {
     if (mode_ == ProgressMode::none) return;
     clear_bar();
     if (mode_ == ProgressMode::json) {
-        const nlohmann::ordered_json line{{"event", "message"}, {"text", message}};
+        nlohmann::ordered_json line{{"event", "message"}, {"text", message}};
+        for (const auto& [name, value] : marks) line[name] = value;
         out_ << line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << std::endl;
     } else {
         out_ << message << std::endl;

@@ -9,6 +9,8 @@
 #include <ostream>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace lightnet {
 
@@ -52,7 +54,10 @@ public:
     /// known.
     void step(std::string_view name, std::uint64_t done, std::uint64_t total, Time now);
     /// Says something without tearing the bar apart. Mode none: says nothing.
-    void say(std::string_view message);
+    void say(std::string_view message) { say(message, {}); }
+    /// In JSON, the line has these members besides, and their values.
+    using Marks = std::vector<std::pair<std::string, std::string>>;
+    void say(std::string_view message, const Marks& marks);
     /// The last line. A bar goes when the work is finished, and stays where it is when not.
     void finish(Time now);
 

@@ -32,7 +32,13 @@ std::string to_json(const RunReport& report) {
                          {"asks", edge.asks},
                          {"questions", edge.questions},
                          {"called_seconds", edge.called_seconds},
-                         {"waiting_seconds", edge.waiting_seconds}});
+                         {"waiting_seconds", edge.waiting_seconds},
+                         {"bundles", edge.bundles},
+                         {"sent", edge.sent},
+                         {"bytes", edge.bytes}});
+    Json layers = Json::array();
+    for (const auto& [name, mean, share] : report.layers)
+        layers.push_back({{"name", name}, {"mean", mean}, {"share", share}});
     Json hosts = Json::array();
     for (const auto& host : report.hosts)
         hosts.push_back({{"host", host.host},
@@ -63,6 +69,7 @@ std::string to_json(const RunReport& report) {
     json["places"] = places;
     json["nodes"] = nodes;
     json["edges"] = edges;
+    if (!report.layers.empty()) json["layers"] = layers;
     if (!report.hosts.empty()) json["hosts"] = hosts;
     json["phases"] = phases;
     if (!report.preparing.empty()) json["preparing"] = preparing;

@@ -37,6 +37,16 @@ struct EdgeReport {
     std::uint64_t asks = 0, questions = 0;
     double called_seconds = 0;   // running in calls, with what was called from there
     double waiting_seconds = 0;  // of askers, for answers from elsewhere; their places may have done other work
+    std::uint64_t bundles = 0;   // with its questions, that went to other places; questions of others may be in them
+    std::uint64_t sent = 0;      // questions that went so
+    std::uint64_t bytes = 0;     // of them and of their answers, as they lie in memory
+};
+
+/// A layer of the picture: what one operator adds, of one group of lamps where it keeps these apart.
+struct LayerReport {
+    std::string name;
+    double mean = 0;   // luminance, over all pixels, times its gain
+    double share = 0;  // of that of all layers
 };
 
 /// One host that took part, and its machine, as it said itself.
@@ -71,6 +81,7 @@ struct RunReport {
     std::vector<PlaceReport> places;
     std::vector<NodeReport> nodes;
     std::vector<EdgeReport> edges;
+    std::vector<LayerReport> layers;
     std::vector<HostReport> hosts;
     std::vector<PhaseReport> phases;
     std::vector<PrepareReport> preparing;

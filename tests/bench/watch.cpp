@@ -1,5 +1,6 @@
 // What it costs to be watched: processor time of the same run, not watched at all, with a server that nobody calls, and
-// with a page open that takes all that comes. In turns.
+// with a page open that takes all that comes. In turns. And what a launcher would spend on what a thousand hosts say,
+// as they say it: figures with every other heartbeat, and a state for the page.
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -11,9 +12,12 @@
 #include <string>
 #include <vector>
 
+#include "core/run/message/figures.hpp"
 #include "tests/bench/figure.hpp"
 #include "tests/support/folder.hpp"
+#include "tests/support/parse.hpp"
 #include "tests/watch/visitor.hpp"
+#include "tools/watch/watch_json.hpp"
 #include "transport/start/child.hpp"
 
 namespace {
@@ -72,10 +76,52 @@ double cost_of(const lightnet::test::Folder& folder, bool watched, bool open) {
     return seconds(used.ru_utime) + seconds(used.ru_stime);
 }
 
+struct ThousandHosts {
+    std::vector<double> shares;  // of a core
+    double bytes = 0;            // of a state
+};
+
+// Sixteen places each, a network of ten nodes.
+ThousandHosts thousand_hosts() {
+    constexpr std::size_t count = 1000, nodes = 10;
+    constexpr double figures_period = 0.8, state_period = 0.4;  // seconds; RemoteHost, Watcher
+    std::string text = "inner0 = Ambient {}\n";
+    for (std::size_t i = 1; i < nodes; ++i)
+        text += "inner" + std::to_string(i) + " = Cache { inner" + std::to_string(i - 1) + " }\n";
+    const auto graph = lightnet::test::sound_graph(text + "lighting = Cache { inner9 }");
+    lightnet::HostFigures figures;
+    figures.places.resize(16, {1'000'000, 200'000, 30'000, 4'000});
+    figures.nodes.resize(graph.nodes.size(), {100'000, 7, 90'000, 9'000'000, 900'000'000, 80'000'000'000, 90'000});
+    figures.edges.resize(nodes, {9'000'000, 90'000, 8'000'000, 900'000'000});
+    const auto said = to_text(figures);
+    lightnet::WatchedState state;
+    for (std::size_t i = 0; i < count; ++i)
+        state.hosts.push_back({"tcp://10.0." + std::to_string(i / 250) + "." + std::to_string(i % 250) + ":7777",
+                               "is ready",
+                               i != 777,
+                               16,
+                               90'000,
+                               {},
+                               figures});
+    ThousandHosts measured;
+    for (int round = 0; round < rounds; ++round) {
+        const double begun = lightnet::bench::thread_seconds();
+        for (auto& host : state.hosts) host.figures = lightnet::figures_from(said).value();
+        const double heard = lightnet::bench::thread_seconds();
+        measured.bytes = static_cast<double>(state_json(state, graph).size());
+        const double told = lightnet::bench::thread_seconds();
+        measured.shares.push_back((heard - begun) / figures_period + (told - heard) / state_period);
+    }
+    return measured;
+}
+
 }  // namespace
 
 int main() {
     return lightnet::bench::run("watch", [] {
+        const auto hosts = thousand_hosts();
+        lightnet::bench::figure("watch.thousand_hosts", hosts.shares, 0.02, false);
+        lightnet::bench::quantity("watch.thousand_hosts_state", {hosts.bytes / 1000}, "kB", 20, false);
         const lightnet::test::Folder folder;
         cost_of(folder, false, false);  // warms up
         std::vector<double> plain, open, closed;

@@ -55,7 +55,7 @@ std::vector<std::string> seeds() {
     job.files = {{"box.pbrt", content_hash(std::string("x")), 1}};
     job.isa = "avx2";
     return {to_json(graph()), to_json(plan), to_json(hosts), to_json(job),
-            to_text(HostFigures{{{1, 2, 3, 4}}, {{5, 6, 7, 8, 9, 10, 11}}, {12, 13}})};
+            to_text(HostFigures{{{1, 2, 3, 4}}, {{5, 6, 7, 8, 9, 10, 11}}, {{12, 1, 2, 3}, {13}}})};
 }
 
 }  // namespace

@@ -106,7 +106,7 @@ TEST_F(Metrics, RefuseWhatIsNoQuestionForThem) {
     EXPECT_THAT(ask("GET / HTTP/1.1\r\nHost: here\r\n\r\n"), StartsWith("HTTP/1.1 404"));
     EXPECT_THAT(ask("POST /metrics HTTP/1.1\r\nHost: here\r\nContent-Length: 0\r\n\r\n"), StartsWith("HTTP/1.1 405"));
     EXPECT_THAT(ask("what do you do?\r\n\r\n"), StartsWith("HTTP/1.1 400"));
-    EXPECT_THAT(ask("GET /" + std::string(9000, 'x') + " HTTP/1.1\r\n\r\n"), StartsWith("HTTP/1.1 400"));
+    EXPECT_THAT(ask("GET /" + std::string(9000, 'x') + " HTTP/1.1\r\n\r\n"), StartsWith("HTTP/1.1 431"));
     EXPECT_THAT(ask("HEAD /metrics HTTP/1.1\r\nHost: here\r\n\r\n"), StartsWith("HTTP/1.1 200"));
     EXPECT_EQ(value_of(metrics(), "serving"), 0) << "it is still there";
 }

@@ -39,6 +39,12 @@ protected:
         ADD_FAILURE() << "there is no edge from " << from << " to " << to;
         return 0;
     }
+    static const Tree& edge_between(const Tree& told, const std::string& from, const std::string& to) {
+        for (const auto& edge : told["edges"])
+            if (edge["from"] == from && edge["to"] == to) return edge;
+        ADD_FAILURE() << "there is no edge from " << from << " to " << to;
+        return told["edges"][0];
+    }
     // Whoever does the work, it is the same, but for the part `again` that is done twice at the end; and no thread
     // works longer than it lives.
     static void expect_sound(const Tree& told, double again = 0) {
@@ -82,6 +88,13 @@ TEST_F(Report, TellsWhatEachNodeDidInThreads) {
     EXPECT_GT(bounce["latency"].get<double>(), 0);
     EXPECT_EQ(named(told["nodes"], "direct")["answered"], 0) << "called by its own place";
     EXPECT_GT(told["places"][1]["waiting"].get<double>(), 0) << "for the one that bounces";
+    const auto& sent = edge_between(told, "lighting", "bounce");
+    EXPECT_EQ(sent["sent"], sent["questions"]);
+    EXPECT_EQ(sent["bundles"], bounce["bundles"]) << "it alone asks there";
+    EXPECT_EQ(sent["bytes"].get<std::uint64_t>(), sent["sent"].get<std::uint64_t>() * (48 + 12));
+    const auto& called = edge_between(told, "lighting", "direct");
+    EXPECT_EQ(called["sent"], 0);
+    EXPECT_EQ(called["bytes"], 0);
 }
 
 TEST_F(Report, TellsWhatEachNodeDidOnTwoDaemons) {
@@ -92,6 +105,16 @@ TEST_F(Report, TellsWhatEachNodeDidOnTwoDaemons) {
     expect_sound(told, 0.25);
     EXPECT_EQ(told["places"].size(), 2u);
     EXPECT_GT(named(told["nodes"], "lighting")["bundles"], 0) << "from where the other image is";
+}
+
+TEST_F(Report, TellsHowMuchOfTheLightEachLayerIs) {
+    const Tree told = of({"--threads", "1", "--gain", "bounce=0"});
+    const auto& direct = named(told["layers"], "direct");
+    EXPECT_GT(direct["mean"].get<double>(), 0);
+    EXPECT_EQ(named(told["layers"], "bounce")["share"], 0);
+    double all = 0;
+    for (const auto& layer : told["layers"]) all += layer["share"].get<double>();
+    EXPECT_NEAR(all, 1, 1e-9);
 }
 
 TEST_F(Report, IsAsItsSchemaSays) {

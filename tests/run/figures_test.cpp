@@ -13,13 +13,13 @@ namespace lightnet::figures_test {
 namespace {
 
 TEST(HostFigures, ComeBackFromTheirText) {
-    const HostFigures figures{{{1, 2, 3, 4}, {5, 6, 7, 8}}, {{9, 10, 11, 12, 13, 14, 15}}, {16, 17, 18}};
+    const HostFigures figures{{{1, 2, 3, 4}, {5, 6, 7, 8}}, {{9, 10, 11, 12, 13, 14, 15}}, {{16, 1, 2, 3}, {17}, {18}}};
     EXPECT_EQ(figures_from(to_text(figures)), figures);
     EXPECT_EQ(figures_from(to_text(HostFigures{})), HostFigures{});
 }
 
 TEST(HostFigures, AreNotReadFromWhatIsDamaged) {
-    const auto text = to_text({{{1, 2, 3, 4}}, {{9, 10, 11, 12, 13, 14, 15}}, {16}});
+    const auto text = to_text(HostFigures{{{1, 2, 3, 4}}, {{9, 10, 11, 12, 13, 14, 15}}, {{16, 17, 18, 19}}});
     for (std::size_t size = 0; size < text.size(); ++size) EXPECT_FALSE(figures_from(text.substr(0, size))) << size;
     for (const auto* damaged : {"", "x", "1 ", "99999999999999999999 ", "4294967295 ", "0 0 0 0 ", "0 0 -1 "})
         EXPECT_FALSE(figures_from(damaged)) << damaged;
@@ -29,8 +29,8 @@ TEST(Looker, SeesWhatPlacesAreAt) {
     Gauge working(3, 2), waiting(3, 2);
     working.turn_to(Gauge::at(2));
     waiting.turn_to(Gauge::waiting);
-    working.edges[1].add(5);
-    waiting.edges[1].add(6);
+    working.edges[1].questions.add(5);
+    waiting.edges[1].questions.add(6);
     waiting.nodes[0].bundles.add(7);
     const Looker looker({&working, &waiting});
     HostFigures seen;
@@ -43,7 +43,7 @@ TEST(Looker, SeesWhatPlacesAreAt) {
     EXPECT_EQ(seen.places[1].waiting, seen.places[0].busy);
     EXPECT_EQ(seen.nodes[2].looks, seen.places[0].busy);
     EXPECT_EQ(seen.nodes[0].bundles, 7u);
-    EXPECT_EQ(seen.edges[1], 11u);
+    EXPECT_EQ(seen.edges[1].questions, 11u);
 }
 
 TEST(Gauge, SaysAgainWhatCameBefore) {

@@ -74,6 +74,19 @@ TEST(Options, TakeACrop) {
     EXPECT_EQ(options_of({"run", "g.lua", "--preview", "0.5"}).running.preview, 0.5);
 }
 
+TEST(Options, TakePreviewsForTheDiskAndForAViewer) {
+    const auto both = options_of({"run", "g.lua", "--preview", "60", "--preview", "tev"}).running;
+    EXPECT_EQ(both.preview, 60);
+    EXPECT_EQ(both.viewer, (WatchAddress{"127.0.0.1", 14158}));
+    EXPECT_EQ(options_of({"run", "g.lua", "--preview", "tev:127.0.0.1:99"}).running.viewer,
+              (WatchAddress{"127.0.0.1", 99}));
+    EXPECT_THAT(usage_error({"run", "g.lua", "--preview", "tev:desk"}), HasSubstr("--insecure"));
+    EXPECT_EQ(options_of({"run", "g.lua", "--preview", "tev:desk", "--insecure"}).running.viewer,
+              (WatchAddress{"desk", 14158}));
+    for (const char* wrong : {"tev:", "tev:desk:", "tev:300.1.1.1", "tev:a b", "tevs"})
+        EXPECT_THAT(usage_error({"run", "g.lua", "--preview", wrong}), HasSubstr("tev:")) << wrong;
+}
+
 TEST(Options, TakeSizesOfCachesInUnits) {
     EXPECT_EQ(options_of({"run", "g.lua"}).running.tuning.cache_size, std::uint64_t{4} << 30);
     EXPECT_EQ(options_of({"run", "g.lua", "--cache-size", "500M"}).running.tuning.cache_size, std::uint64_t{500} << 20);

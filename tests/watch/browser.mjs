@@ -94,6 +94,17 @@ try {
     assert(await reader.locator("text=End run").isDisabled(), "without the token nothing can be done");
     await reader.close();
 
+    // A click explains a pixel; the text is what `lightnet explain` would say.
+    const box = await page.getByTestId("picture").boundingBox();
+    await page.mouse.click(box.x + box.width * 0.4, box.y + box.height * 0.6);
+    await page.waitForSelector('[data-testid="explained"] pre');
+    const explained = await page.getByTestId("explained").textContent();
+    assert.match(explained, /Pixel 102, 153.*from its first 64 of 4096 samples/s);
+    assert.match(await page.locator('[data-testid="explained"] pre').textContent(), /\nsample \d+: /);
+    await shot(page, "explained-light-1400");
+    await page.locator('[data-testid="explained"] >> text=close').click();
+    await page.waitForSelector('[data-testid="explained"]', { state: "detached" });
+
     const later = await pixels(page);
     assert.notDeepEqual(later, early, "the picture changes");
 
@@ -145,6 +156,7 @@ try {
 
     const report = await open(`file://${join(folder, "y.html")}`);
     await report.waitForSelector("text=Nodes and edges");
+    assert.match(await report.getByTestId("edges").textContent(), /lighting → bounce/);
     assert(sum(await pixels(report)) > 128 * 128 * 255, "the report has a picture");
     await shot(report, "report-light-1400");
     const report_dark = await open(`file://${join(folder, "run.html")}`, { colorScheme: "dark", viewport: { width: 600, height: 900 } });

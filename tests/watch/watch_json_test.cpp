@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "core/network/graph/layout.hpp"
@@ -35,12 +36,12 @@ TEST(WatchedRunJson, SaysWhichColoursAreThePictureOfEachNode) {
 }
 
 TEST(WatchedStateJson, AddsUpWhatHostsSay) {
-    const HostFigures figures{{{1, 2, 3, 4}}, std::vector<NodeFigures>(6, {1, 2, 3, 4, 5, 6, 7}), {8, 9}};
+    const HostFigures figures{{{1, 2, 3, 4}}, std::vector<NodeFigures>(6, {1, 2, 3, 4, 5, 6, 7}), {{8, 1, 2, 3}, {9}}};
     WatchedState state;
     state.hosts = {{"one", "is ready", true, 1, 5, {}, figures}, {"two", "is ready", true, 1, 5, {}, figures}};
     const auto json = nlohmann::json::parse(state_json(state, small_graph()));
     EXPECT_THAT(json["nodes"][1], ElementsAre(2, 4, 6, 8, 10, 12, 14));
-    EXPECT_THAT(json["edges"], ElementsAre(16, 18));
+    EXPECT_THAT(json["edges"], ElementsAre(ElementsAre(16, 2, 4, 6), ElementsAre(18, 0, 0, 0)));
     EXPECT_THAT(json["hosts"][1]["looks"], ElementsAre(ElementsAre(1, 2, 3, 4)));
 }
 
@@ -51,9 +52,29 @@ TEST(WatchedStateJson, HasARowForEachHostWhereThereAreManyPlaces) {
         figures.places.resize(16, {1, 1, 1, 1});
         state.hosts.push_back({"tcp://10.0.0.1:" + std::to_string(i), "is ready", true, 16, 5, {}, figures});
     }
+    state.hosts.resize(100);
     const auto text = state_json(state, small_graph());
-    EXPECT_LT(text.size(), 200'000u);
-    EXPECT_THAT(nlohmann::json::parse(text)["hosts"][999]["looks"], ElementsAre(ElementsAre(16, 16, 16, 16)));
+    EXPECT_THAT(nlohmann::json::parse(text)["hosts"][99]["looks"], ElementsAre(ElementsAre(16, 16, 16, 16)));
+}
+
+TEST(WatchedStateJson, StaysSmallWithAThousandHosts) {
+    WatchedState state;
+    for (int i = 0; i < 1000; ++i) {
+        HostFigures figures;
+        figures.places.resize(16, {1, 1, 1, 1});
+        state.hosts.push_back({"tcp://10.0.0.1:" + std::to_string(i), "is ready", i != 777, 16, 5, {}, figures});
+    }
+    const auto text = state_json(state, small_graph());
+    EXPECT_LT(text.size(), 20'000u);
+    const auto hosts = nlohmann::json::parse(text)["hosts"];
+    ASSERT_EQ(hosts.size(), 101u);
+    const auto lost = std::count_if(hosts.begin(), hosts.end(), [](const auto& host) { return !host["there"]; });
+    EXPECT_EQ(lost, 1) << "whoever is lost is named";
+    EXPECT_EQ(hosts[100]["rest"], true);
+    EXPECT_EQ(hosts[100]["name"], "900 more hosts");
+    std::uint64_t looks = 0;
+    for (const auto& host : hosts) looks += host["looks"][0][0].template get<std::uint64_t>();
+    EXPECT_EQ(looks, 16'000u) << "of all places";
 }
 
 }  // namespace

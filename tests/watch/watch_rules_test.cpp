@@ -22,6 +22,22 @@ TEST(WatchAddress, IsNothingElse) {
         EXPECT_EQ(watch_address(text), std::nullopt) << text;
 }
 
+TEST(ViewerAddress, MayHaveAName) {
+    EXPECT_EQ(viewer_address("", 7), (WatchAddress{"127.0.0.1", 7}));
+    EXPECT_EQ(viewer_address("desk", 7), (WatchAddress{"desk", 7}));
+    EXPECT_EQ(viewer_address("desk.lab-2:99", 7), (WatchAddress{"desk.lab-2", 99}));
+    for (const auto* text : {"desk:", "desk:x", "a/b", "300.0.0.1", ":99"})
+        EXPECT_EQ(viewer_address(text, 7), std::nullopt) << text;
+}
+
+TEST(WatchUrl, IsWhatARunSays) {
+    EXPECT_EQ(watch_url("http://127.0.0.1:40123/#3c1f"), (WatchUrl{{"127.0.0.1", 40123}, "3c1f"}));
+    EXPECT_EQ(watch_url("http://farm:80"), (WatchUrl{{"farm", 80}, ""}));
+    EXPECT_EQ(watch_url("http://[::1]:80/"), (WatchUrl{{"::1", 80}, ""}));
+    for (const auto* text : {"", "http://", "http://farm", "https://farm:80/", "farm:80", "http://farm:x/"})
+        EXPECT_EQ(watch_url(text), std::nullopt) << text;
+}
+
 TEST(WatchAddress, KnowsWhetherOthersCanReachIt) {
     EXPECT_TRUE(watch_address("127.0.0.1:8080")->stays_here());
     EXPECT_TRUE(watch_address("[::1]:8080")->stays_here());

@@ -21,6 +21,7 @@ using test::Folder;
 using test::graph_file;
 using test::Process;
 using test::Visitor;
+using testing::AllOf;
 using testing::HasSubstr;
 
 // A run on two local daemons, or in threads, that can be watched.
@@ -135,7 +136,75 @@ TEST(WatchedRun, TellsWhatPlacesAndEdgesDid) {
     for (const auto& host : last["hosts"])
         for (const auto& place : host["looks"]) busy += place[0].get<std::uint64_t>();
     EXPECT_GT(busy, 0u);
-    for (const auto& edge : last["edges"]) EXPECT_GT(edge.get<std::uint64_t>(), 0u);
+    for (const auto& edge : last["edges"]) EXPECT_GT(edge[0].get<std::uint64_t>(), 0u);
+}
+
+// What is said of a pixel to who clicks on it.
+nlohmann::json explained(Visitor& visitor, const WatchedRun& run, const std::string& more) {
+    visitor.say(R"({"do":"explain","token":")" + run.token + "\"," + more + "}");
+    const auto said = visitor.next_with("\"explained\"");
+    return said ? nlohmann::json::parse(*said)["explained"] : nlohmann::json::object();
+}
+
+class ExplainedModes : public testing::TestWithParam<std::vector<std::string>> {};
+
+TEST_P(ExplainedModes, TellHowAPixelComesAbout) {
+    const Folder folder;
+    auto words = GetParam();
+    words.insert(words.end(), {"--size", "96x96", "--samples", "1000000"});
+    const WatchedRun run(folder, words);
+    Visitor visitor(run.port);
+    ASSERT_TRUE(visitor.watch(run.name()));
+    ASSERT_TRUE(visitor.next_with(R"("phase":"render")"));
+    const auto told = explained(visitor, run, R"("x":40,"y":50)");
+    EXPECT_EQ(told["samples"], 64) << told;
+    EXPECT_EQ(told["of"], 1000000);
+    EXPECT_THAT(told["text"].get<std::string>(),
+                AllOf(HasSubstr("pixel 40,50"), HasSubstr("bounce"), HasSubstr("sample ")));
+    EXPECT_EQ(explained(visitor, run, R"("x":40,"y":50,"samples":16)")["samples"], 16);
+    EXPECT_THAT(explained(visitor, run, R"("x":96,"y":50)")["error"].get<std::string>(), HasSubstr("no such pixel"));
+    visitor.say(R"({"do":"explain","x":1,"y":1})");
+    EXPECT_THAT(visitor.next_with("\"done\":\"explain\"").value_or(""), HasSubstr(R"("allowed":false)"))
+        << "it costs time";
+    visitor.say(R"({"do":"end","token":")" + run.token + "\"}");
+    EXPECT_EQ(run.process->wait(), 130) << run.process->output();
+}
+
+TEST_P(ExplainedModes, GiveTheSameBytesWhilePixelsAreExplained) {
+    const Folder folder;
+    auto words = GetParam();
+    words.insert(words.end(), {"--size", "96x96", "--samples", "64"});
+    const auto plain = unwatched(folder, words);
+    const WatchedRun run(folder, words);
+    Visitor visitor(run.port);
+    ASSERT_TRUE(visitor.watch(run.name()));
+    for (int pixel = 0; run.process->wait(50ms) == -1; ++pixel) {
+        visitor.say(R"({"do":"explain","token":")" + run.token + R"(","y":40,"x":)" + std::to_string(pixel % 96) + "}");
+        while (visitor.next(10ms)) {
+        }
+    }
+    EXPECT_EQ(run.process->wait(), 0) << run.process->output();
+    EXPECT_EQ(test::bytes_of(run.picture), plain);
+}
+INSTANTIATE_TEST_SUITE_P(InEveryMode, ExplainedModes,
+                         testing::Values(std::vector<std::string>{"--threads", "1"},
+                                         std::vector<std::string>{"--threads", "2"},
+                                         std::vector<std::string>{"--local-workers", "2"}));
+
+TEST(WatchedRun, ExplainsWhatTheCommandWouldExplain) {
+    const Folder folder;
+    const WatchedRun run(folder, {"--threads", "2", "--size", "64x64", "--samples", "1000000"});
+    Visitor visitor(run.port);
+    ASSERT_TRUE(visitor.watch(run.name()));
+    ASSERT_TRUE(visitor.next_with(R"("phase":"render")"));
+    const auto live = explained(visitor, run, R"("x":20,"y":30)")["text"].get<std::string>();
+    const auto picture = unwatched(folder, {"--threads", "2", "--size", "64x64", "--samples", "64"});
+    test::Process command({test::program("lightnet"), "explain", folder / "picture.exr", "20,30", "--most", "3"});
+    EXPECT_EQ(command.wait(), 0) << command.output();
+    const auto story = [](const std::string& text) {
+        return text.substr(std::min(text.size(), text.find("\nsample ")));
+    };
+    EXPECT_EQ(story(live), story(command.output()));
 }
 
 TEST(RunReport, IsOnePageWithAllThatTheRunDid) {

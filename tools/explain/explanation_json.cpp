@@ -131,7 +131,7 @@ std::string explanation_json(const PixelAccount& account, const std::string& pic
                     {"picture", picture},
                     {"pixel", {account.x, account.y}},
                     {"samples", account.samples},
-                    {"equal", account.equal},
+                    {"equal", account.equal.value_or(false)},
                     {"colour", tree_of(pixel.beauty[0])},
                     {"layers", layers},
                     {"brightest", samples}};

@@ -116,11 +116,12 @@ std::string of_sample(const PixelAccount& account, const ExplainedSample& part) 
 std::string explanation_text(const PixelAccount& account, const std::string& picture, std::size_t most) {
     const auto& pixel = account.pixel;
     std::string text =
-        fmt::format("{}, pixel {},{}: {}\n{} samples were computed again: {}\n", picture, account.x, account.y,
+        fmt::format("{}, pixel {},{}: {}\n{} samples were computed again{}\n", picture, account.x, account.y,
                     text_of(pixel.beauty[0]), account.samples,
-                    account.equal ? "all bits of all layers are those of the picture"
-                                  : "THIS IS NOT what the picture has there, as its scene or the program "
-                                    "has changed since");
+                    !account.equal   ? ""
+                    : *account.equal ? ": all bits of all layers are those of the picture"
+                                     : ": THIS IS NOT what the picture has there, as its scene or the program "
+                                       "has changed since");
     std::size_t widest = 0;
     for (const auto& layer : pixel.layers) widest = std::max(widest, layer.name.size());
     for (const auto& layer : pixel.layers) {

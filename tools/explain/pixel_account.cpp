@@ -112,17 +112,16 @@ float rank_of(const ExplainedSample& part) {
     return finite(part.beauty) ? luminance(part.beauty) : std::numeric_limits<float>::infinity();
 }
 
-/// A network that is computed again, sample by sample.
-class Recount {
+/// One pixel of it, sample by sample.
+class OnePixel {
 public:
-    Recount(PixelAccount& account, const Job& job, float scale)
+    OnePixel(PixelAccount& account, float scale, AccountKeeper& keeper, SerialRun& run)
         : account_(account),
           scale_(scale),
           film_(of_one_pixel(account.format, account.x, account.y, account.samples)),
-          cache_(cache_of(*account.network)),
-          run_(*account.network, {}, keeper_.tap()) {
+          keeper_(keeper),
+          run_(run) {
         film_.expose(scale);
-        run_.prepare(made_from(job), cache_.get());
     }
 
     void count() {
@@ -133,6 +132,8 @@ public:
             for (std::uint32_t s = 0; s < whole.samples; ++s) count_sample(whole, whole.first_sample + s);
         }
         account_.pixel = film_.picture(scale_);
+        std::stable_sort(account_.parts.begin(), account_.parts.end(),
+                         [](const auto& a, const auto& b) { return rank_of(a) > rank_of(b); });
     }
 
 private:
@@ -154,12 +155,36 @@ private:
     PixelAccount& account_;
     float scale_;
     Film film_;
-    AccountKeeper keeper_;
-    std::unique_ptr<DiskResultCache> cache_;
-    SerialRun run_;
+    AccountKeeper& keeper_;
+    SerialRun& run_;
 };
 
 }  // namespace
+
+struct PixelRecount::Parts {
+    Source source;
+    std::unique_ptr<ResultCache> cache;
+    AccountKeeper keeper;
+    SerialRun run;  // asks through the keeper's tap
+
+    Parts(Source given, std::unique_ptr<ResultCache> results, std::function<void()> pause)
+        : source(std::move(given)), cache(std::move(results)), run(*source.network, std::move(pause), keeper.tap()) {
+        run.prepare(source.made_from, cache.get());
+    }
+};
+
+PixelRecount::PixelRecount(Source source, std::unique_ptr<ResultCache> cache, std::function<void()> pause)
+    : parts_(std::make_unique<Parts>(std::move(source), std::move(cache), std::move(pause))) {}
+PixelRecount::~PixelRecount() = default;
+
+PixelAccount PixelRecount::account(std::uint32_t x, std::uint32_t y, std::uint32_t samples) {
+    PixelAccount account;
+    account.network = parts_->source.network;
+    account.format = parts_->source.format;
+    account.x = x, account.y = y, account.samples = samples;
+    OnePixel(account, parts_->source.scale, parts_->keeper, parts_->run).count();
+    return account;
+}
 
 PixelAccount account_for(const Picture& picture, const PastRun& past, std::uint32_t x, std::uint32_t y,
                          const Registry& registry) {
@@ -167,23 +192,20 @@ PixelAccount account_for(const Picture& picture, const PastRun& past, std::uint3
     request.graph = past.graph;
     request.scene = scene_file(past.graph, registry);
     request.seed = past.seed;
-    PixelAccount account;
-    account.format = film_format(request, registry);
-    account.x = x, account.y = y;
-    expect_same_shape(picture, account.format);
+    const FilmFormat format = film_format(request, registry);
+    expect_same_shape(picture, format);
     const auto index = index_in(picture, x, y);
-    account.samples = samples_at(picture, index, account.format);
+    const auto samples = samples_at(picture, index, format);
 
     DiskFiles files;
     LoadedScene scene = load_scene(past.graph, registry, files, request.scene);
     const float scale = scene.data.film.scale;
-    const Job job = make_job(request, registry, account.format, files);
-    account.network = build_network(job, registry, std::move(scene));
-    Recount(account, job, scale).count();
+    const Job job = make_job(request, registry, format, files);
+    const auto network = build_network(job, registry, std::move(scene));
+    PixelRecount recount({network, format, made_from(job), scale}, cache_of(*network));
+    PixelAccount account = recount.account(x, y, samples);
     account.equal = same_bits(account.pixel.layers, picture.layers, index) &&
                     same_bits(account.pixel.shown, picture.shown, index) && same_ids(account.pixel, picture, index);
-    std::stable_sort(account.parts.begin(), account.parts.end(),
-                     [](const auto& a, const auto& b) { return rank_of(a) > rank_of(b); });
     return account;
 }
 

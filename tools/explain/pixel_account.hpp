@@ -2,13 +2,17 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "core/film/film.hpp"
 #include "core/film/picture.hpp"
 #include "core/network/graph/kind.hpp"
 #include "core/run/prepare/assembly.hpp"
+#include "core/run/prepare/prepared.hpp"
 #include "core/run/runtime/account.hpp"
 #include "tools/explain/past_run.hpp"
 
@@ -27,8 +31,32 @@ struct PixelAccount {
     FilmFormat format;
     std::uint32_t x = 0, y = 0, samples = 0;
     Picture pixel;                       // of one pixel: all its samples, added up as its film did
-    bool equal = false;                  // to that of the picture, in all bits of all layers
+    std::optional<bool> equal;           // to that of the picture, in all bits of all layers; none: not compared
     std::vector<ExplainedSample> parts;  // the brightest first
+};
+
+/// A network whose pixels are computed again, one after the other. One thread's.
+class PixelRecount {
+public:
+    struct Source {
+        std::shared_ptr<const Network> network;
+        FilmFormat format;
+        std::string made_from;  // see made_from() of a job
+        float scale = 1;        // what the film makes of radiance
+    };
+    /// Has nodes prepare, which takes as long as in a run, where the results are not in `cache` (null: nowhere).
+    /// `pause` is called often, and may throw to end the work.
+    PixelRecount(Source source, std::unique_ptr<ResultCache> cache, std::function<void()> pause = {});
+    ~PixelRecount();
+    PixelRecount(const PixelRecount&) = delete;
+    PixelRecount& operator=(const PixelRecount&) = delete;
+
+    /// Of the first so many samples of a pixel.
+    PixelAccount account(std::uint32_t x, std::uint32_t y, std::uint32_t samples);
+
+private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
 };
 
 /// Computes the samples of pixel (x, y) of `picture` again, on the calling thread. Throws UserError when the picture

@@ -119,7 +119,7 @@ int explain(const ExplainOptions& options, const Launcher& launcher) {
         write_png(options.paths, path_picture(picture, account, most));
         launcher.err << options.paths << ": " << legend_of(account) << ", dim: hidden\n";
     }
-    if (account.equal) return exit_code::done;
+    if (account.equal.value()) return exit_code::done;
     launcher.err << "the samples don't give what " << options.picture << " has: its scene or the program has changed\n";
     return exit_code::failed;
 }

@@ -18,11 +18,16 @@ import { createRequire } from "node:module";
 const [root, url] = process.argv.slice(2);
 const { chromium } = createRequire(`${root}/tools/watch/page/`)("playwright-core");
 const browser = await chromium.launch({ executablePath: process.env.CHROMIUM, args: ["--no-sandbox"] });
-const page = await browser.newPage({ viewport: { width: 1200, height: 980 } });
+const page = await browser.newPage({ viewport: { width: 1200, height: 1400 } });  // the whole graph
 await page.goto(url);
 // All of the picture is there, and better than it was at first.
 await page.waitForFunction(() => parseFloat(document.querySelector('[data-testid="done"]')?.textContent) > 2, null,
     { timeout: 300000 });
+// Of what scrolls by itself, all is shown as well.
+const bottom = await page.evaluate(() =>
+    Math.max(...[...document.querySelectorAll(".card")].map((card) => card.getBoundingClientRect().bottom)));
+await page.setViewportSize({ width: 1200, height: Math.ceil(bottom) + 12 });
+await page.waitForTimeout(1000);
 await page.screenshot({ path: `${root}/docs/watch.png`, fullPage: true });
 await browser.close();
 SCRIPT

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
+#include <string>
 
 #include "core/film/png.hpp"
 #include "core/network/graph/hosts.hpp"
@@ -90,10 +92,49 @@ WatchJson host_json(const HostState& host, bool by_place, bool in_words) {
     return json;
 }
 
+// All hosts but those, as one.
+WatchJson rest_json(const std::vector<HostState>& hosts, const std::set<std::size_t>& named) {
+    HostState sum;
+    std::size_t count = 0, gone = 0;
+    auto& places = sum.figures.places.emplace_back();
+    for (std::size_t i = 0; i < hosts.size(); ++i) {
+        if (named.contains(i)) continue;
+        ++count, gone += !hosts[i].there;
+        sum.places += hosts[i].places, sum.progress += hosts[i].progress;
+        for (const auto& place : hosts[i].figures.places) {
+            places.busy += place.busy, places.asking += place.asking;
+            places.waiting += place.waiting, places.idle += place.idle;
+        }
+    }
+    sum.name = std::to_string(count) + " more hosts",
+    sum.state = gone ? std::to_string(gone) + " are gone" : "are there";
+    sum.there = gone < count;
+    auto json = host_json(sum, false, false);
+    json["rest"] = true;
+    return json;
+}
+
+// DECISIONS: hosts-by-the-hundred
+WatchJson hosts_json(const std::vector<HostState>& hosts) {
+    std::size_t places = 0;
+    for (const auto& host : hosts) places += host.places;
+    std::set<std::size_t> named;
+    const auto name = [&](bool there) {
+        for (std::size_t i = 0; i < hosts.size() && named.size() < most_rows; ++i)
+            if (hosts[i].there == there) named.insert(i);
+    };
+    name(false);
+    name(true);
+    auto all = WatchJson::array();
+    for (const auto i : named) all.push_back(host_json(hosts[i], places <= most_rows, hosts.size() <= most_rows));
+    if (named.size() < hosts.size()) all.push_back(rest_json(hosts, named));
+    return all;
+}
+
 // Over all hosts. What sectors did, their node did.
 void add_figures(WatchJson& json, const WatchedState& state, const Graph& graph) {
     std::vector<NodeFigures> nodes(graph.nodes.size());
-    std::vector<std::uint64_t> edges;
+    std::vector<EdgeFigures> edges;
     for (const auto& host : state.hosts) {
         const auto& figures = host.figures;
         for (std::size_t node = 0; node < std::min(nodes.size(), figures.nodes.size()); ++node)
@@ -105,7 +146,8 @@ void add_figures(WatchJson& json, const WatchedState& state, const Graph& graph)
     for (const auto& node : nodes)
         all.push_back(
             {node.looks, node.waiting, node.bundles, node.questions, node.bytes, node.nanoseconds, node.answered});
-    json["edges"] = edges;
+    auto& lines = json["edges"] = WatchJson::array();
+    for (const auto& edge : edges) lines.push_back({edge.questions, edge.bundles, edge.sent, edge.bytes});
 }
 
 }  // namespace
@@ -133,15 +175,11 @@ std::string hello_json(const WatchedRun& run) {
 }
 
 std::string state_json(const WatchedState& state, const Graph& graph) {
-    std::size_t places = 0;
-    for (const auto& host : state.hosts) places += host.places;
     WatchJson json{{"t", std::round(state.seconds * 1000) / 1000},
                    {"phase", state.phase},
                    {"done", state.done},
                    {"outcome", state.outcome}};
-    auto& hosts = json["hosts"] = WatchJson::array();
-    for (const auto& host : state.hosts)
-        hosts.push_back(host_json(host, places <= most_rows, state.hosts.size() <= most_rows));
+    json["hosts"] = hosts_json(state.hosts);
     add_figures(json, state, graph);
     auto& tiles = json["tiles"] = WatchJson::array();
     for (std::size_t i = 0; i < std::min(state.in_flight.size(), most_in_flight); ++i) {

@@ -33,8 +33,8 @@ struct WatchedState {
 
 /// {"hello": {…}}
 std::string hello_json(const WatchedRun& run);
-/// {"t": …, …}. With more than a hundred places, a row is a host; with more than a hundred hosts, they come without
-/// their machines.
+/// {"t": …, …}. With more than a hundred places, a row is a host; with more than a hundred hosts, a hundred are named,
+/// without their machines, those that are lost first, and one entry ("rest") is the sum of the others.
 std::string state_json(const WatchedState& state, const Graph& graph);
 
 }  // namespace lightnet

@@ -65,6 +65,33 @@ std::optional<WatchAddress> watch_address(std::string_view text) {
     return address;
 }
 
+std::optional<WatchAddress> viewer_address(std::string_view text, std::uint16_t usual_port) {
+    auto address = watch_address(text);
+    if (!address) {
+        const auto [host, port] = cut(text);
+        const auto number = port ? port_of(*port) : std::optional<std::uint16_t>(0);
+        constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-._";
+        // A name that a machine may have, and no address of numbers that was mistyped.
+        if (!number || host.empty() || host.find_first_not_of(letters) != host.npos ||
+            host.find_first_not_of("0123456789.") == host.npos)
+            return std::nullopt;
+        address = WatchAddress{std::string(host), *number};
+    }
+    if (address->port == 0) address->port = usual_port;
+    return address;
+}
+
+std::optional<WatchUrl> watch_url(std::string_view text) {
+    constexpr std::string_view scheme = "http://";
+    if (!text.starts_with(scheme)) return std::nullopt;
+    text.remove_prefix(scheme.size());
+    const auto place = text.substr(0, text.find_first_of("/#?"));
+    const auto mark = text.find('#');
+    const auto at = viewer_address(place, 0);
+    if (!at || at->port == 0 || place.find(':') == place.npos) return std::nullopt;
+    return WatchUrl{*at, mark == text.npos ? std::string() : std::string(text.substr(mark + 1))};
+}
+
 std::string in_url(const std::string& host) { return is_ip6(host) ? "[" + host + "]" : host; }
 
 bool is_own_host(std::string_view host_header, const WatchAddress& bound, std::string_view machine) {

@@ -18,6 +18,15 @@ struct WatchAddress {
 };
 /// None: it is no address of numbers, which is all that can be listened at.
 std::optional<WatchAddress> watch_address(std::string_view text);
+/// Of a viewer to be called, which may have a name: "", "10.0.0.7", "desk:14158". Without a port: that one.
+std::optional<WatchAddress> viewer_address(std::string_view text, std::uint16_t usual_port);
+/// What a run says that is watched: "http://127.0.0.1:40123/#3c1f".
+struct WatchUrl {
+    WatchAddress at;
+    std::string token;  // "": none
+    friend bool operator==(const WatchUrl&, const WatchUrl&) = default;
+};
+std::optional<WatchUrl> watch_url(std::string_view text);
 /// For URLs and headers: "[::1]" for "::1".
 std::string in_url(const std::string& host);
 

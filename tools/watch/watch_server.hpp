@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "tools/explain/live_explainer.hpp"
 #include "tools/watch/watch_board.hpp"
 #include "tools/watch/watch_rules.hpp"
 
@@ -25,9 +26,11 @@ struct WatchCommand {
 ///
 ///   GET /        the page
 ///   GET /state   how the run stands, as JSON
+///   GET /words   the same as /live, without pixels
 ///   GET /live    becomes a WebSocket, on which come: once {"hello": …}; then texts {"state": …} and {"log": […]}, and
 ///                pixels as binary frames (WatchBoard). The page may say {"do": "end" | "write" | "drain" | "check",
-///                "host": …, "token": …}, and is answered {"done": …, "allowed": …}.
+///                "host": …, "token": …}, and is answered {"done": …, "allowed": …}; {"do": "explain", "x": …,
+///                "y": …, "samples": …, "token": …} is answered by {"explained": {…}} besides (LiveExplainer).
 ///
 /// Whoever can connect may look; only who has the token may do something. What is called by another name than its own
 /// (421), or by a page of another origin (403), is refused.
@@ -39,6 +42,8 @@ public:
         std::string_view page;                      // its bytes; outlives the server
         std::string hello;                          // JSON: what does not change
         std::function<void(WatchCommand)> command;  // called by the server's thread
+        /// How a pixel came about; the reply is a text for the page, and may come from any thread. None: nobody tells.
+        std::function<void(const PixelWish&, std::function<void(std::string)> reply)> explain = {};
         std::uint64_t slow_seconds = 5;             // for one message to be taken
         std::size_t most_watchers = 64;
         std::size_t send_buffer = 0;  // of the system, bytes; 0: as it likes

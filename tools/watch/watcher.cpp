@@ -1,8 +1,10 @@
 #include "tools/watch/watcher.hpp"
 
 #include <fmt/format.h>
+#include <time.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <thread>
 #include <utility>
 
@@ -22,26 +24,42 @@ constexpr std::size_t most_remembered = 240;  // states, for a report
 constexpr std::size_t most_remembered_bytes = 1'000'000;
 constexpr std::size_t most_reported_lines = 1000;
 
+// Seconds that this thread has computed: on a busy machine, waiting for a processor is nobody's cost.
+double thread_time() {
+    timespec now{};
+    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
 }  // namespace
 
 Watcher::Watcher(Options options, const WatchedRun& run)
     : options_(std::move(options)),
       graph_(run.graph),
+      output_(run.output),
       hello_(hello_json(run)),
       board_(run.format.work(), run.format.views().size()),
       too_large_(run.format.work().pixels() * run.format.views().size() * sizeof(Rgb) > most_live_bytes),
       pixel_pace_(pixel_period, begun_),
       state_pace_(state_period, begun_),
       memory_pace_(memory_period_, begun_) {
+    if (const auto& viewer = options_.viewer)
+        viewer_ = std::make_unique<TevPreview>(TevPreview::Options{viewer->host, viewer->port, run.output, run.format},
+                                               board_);
+    if (too_large_ && (options_.address || viewer_)) say("the picture is too large to be shown while it grows");
     if (!options_.address) return;
     const auto take = [this](WatchCommand command) {
         if (command.what == WatchCommand::What::end) return options_.end();
         const std::lock_guard lock(commands_mutex_);
         if (commands_.size() < 100) commands_.push_back(std::move(command));
     };
+    std::function<void(const PixelWish&, std::function<void(std::string)>)> explain;
+    if (auto* const explainer = options_.explainer)
+        explain = [explainer](const PixelWish& wish, LiveExplainer::Reply reply) {
+            explainer->explain(wish, std::move(reply));
+        };
     server_ = std::make_unique<WatchServer>(
-        WatchServer::Options{*options_.address, new_token(), watch_page(), hello_, take}, board_);
-    if (too_large_) say("the picture is too large to be shown while it grows");
+        WatchServer::Options{*options_.address, new_token(), watch_page(), hello_, take, explain}, board_);
 }
 
 Watcher::~Watcher() = default;
@@ -103,15 +121,17 @@ void Watcher::look(const Film& film, const Hosts& hosts) {
     look(film);
     const auto now = Clock::now();
     if (!state_pace_.due(now)) return;
+    const double begun = thread_time();
     state_.done = film.done();
     state_.hosts = hosts();
     tell();
     if (options_.report && memory_pace_.due(now)) remember();
-    state_pace_.put_off(now, (Clock::now() - now) / most_state_share);
+    state_pace_.put_off(now, std::chrono::duration<double>((thread_time() - begun) / most_state_share));
 }
 
 void Watcher::phase(const std::string& name) {
     state_.phase = name;
+    if (name == "render" && options_.explainer) options_.explainer->begin();
     state_.doing.clear();
     tell();
 }
@@ -161,6 +181,8 @@ void Watcher::finish(const Film& film, const std::string& outcome) {
         told = tell() || told;
         std::this_thread::sleep_for(1ms);
     } while ((!told || !changed_.empty()) && Clock::now() < end);
+    if (viewer_ && options_.viewer->stays_here() && outcome == "done")
+        viewer_->finish(std::filesystem::absolute(output_).string());
 }
 
 }  // namespace lightnet

@@ -13,7 +13,9 @@
 
 #include "core/film/film.hpp"
 #include "core/run/prepare/prepare_progress.hpp"
+#include "tools/explain/live_explainer.hpp"
 #include "tools/pace.hpp"
+#include "tools/preview/tev_preview.hpp"
 #include "tools/watch/watch_board.hpp"
 #include "tools/watch/watch_json.hpp"
 #include "tools/watch/watch_server.hpp"
@@ -27,10 +29,12 @@ public:
     using Clock = std::chrono::steady_clock;
     struct Options {
         std::optional<WatchAddress> address;  // none: nobody can watch; what is collected is for report()
+        std::optional<WatchAddress> viewer;   // tev, which is shown the picture; none: isn't
         bool report = false;                  // keeps what a report shows of the past
         std::function<void()> end = {};       // the run is to end; called by another thread
+        LiveExplainer* explainer = nullptr;   // of pixels, for those who watch; outlives the watcher
     };
-    /// All of `run` outlives it. Throws Error when the address can't be listened at.
+    /// All of `run` outlives it. Throws Error when the address can't be listened at, or the viewer's name is nobody's.
     Watcher(Options options, const WatchedRun& run);
     ~Watcher();
     Watcher(const Watcher&) = delete;
@@ -42,6 +46,10 @@ public:
     bool wanted() const { return options_.report || board_.wanted(); }
 
     void phase(const std::string& name);
+    /// Places of this process render with that; a pixel of it can be explained without reading the scene again.
+    void share(const std::shared_ptr<const Network>& network, const std::string& made_from, float scale) {
+        if (options_.explainer) options_.explainer->share(network, made_from, scale);
+    }
     void say(const std::string& text);
     /// What a node does while it prepares.
     void preparing(const PrepareProgress& progress);
@@ -56,6 +64,8 @@ public:
     /// The last time that hosts can be asked.
     void part_from(const Hosts& hosts);
     std::vector<WatchCommand> commands();
+    /// What there is to say of the viewer.
+    std::vector<std::string> news() { return viewer_ ? viewer_->news() : std::vector<std::string>{}; }
     /// Shows all that is there, as the last thing.
     void finish(const Film& film, const std::string& outcome);
 
@@ -75,7 +85,7 @@ private:
 
     Options options_;
     const Graph& graph_;
-    std::string hello_, last_state_;
+    std::string output_, hello_, last_state_;
     WatchedState state_;
     const Clock::time_point begun_ = Clock::now();
     WatchBoard board_;
@@ -86,7 +96,8 @@ private:
     std::vector<std::string> history_, lines_;
     std::mutex commands_mutex_;
     std::vector<WatchCommand> commands_;
-    std::unique_ptr<WatchServer> server_;  // last: its thread uses the rest
+    std::unique_ptr<TevPreview> viewer_;
+    std::unique_ptr<WatchServer> server_;  // last: its thread, like the viewer's, uses the rest
 };
 
 }  // namespace lightnet

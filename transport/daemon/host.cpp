@@ -27,8 +27,9 @@ std::function<void(const PublicKey&, const std::string&)> teller_of_strangers(co
     const auto told = std::make_shared<std::set<PublicKey>>();
     return [told, list, log = options.log](const PublicKey& key, const std::string& address) {
         if (told->size() >= most_told || !told->insert(key).second) return;
-        log("turns away " + address + ": its key (fingerprint " + key.fingerprint() + ") is not on the list (" + list +
-            "); to let it in, append this line: " + key.text() + " NAME");
+        log({LogLevel::warning, "turns away " + address + ": its key (fingerprint " + key.fingerprint() +
+                                    ") is not on the list (" + list +
+                                    "); to let it in, append this line: " + key.text() + " NAME"});
     };
 }
 
@@ -41,12 +42,13 @@ HostDoor::Options Host::Service::door_options() const {
     const bool with_keys = rights.asks_for_keys();
     if (with_keys && !options.key) throw Error("a host that asks for keys needs one of its own");
     if (with_keys)
-        made.keys = {*options.key, [this](const PublicKey& key) { return rights.knows(key); },
-                     teller_of_strangers(options, rights.list_name()),
-                     [log = options.log, told = std::make_shared<bool>(false)] {
-                         if (!std::exchange(*told, true))
-                             log("turns away somebody who has no key, or takes this host for another");
-                     }};
+        made.keys = {
+            *options.key, [this](const PublicKey& key) { return rights.knows(key); },
+            teller_of_strangers(options, rights.list_name()),
+            [log = options.log, told = std::make_shared<bool>(false)] {
+                if (!std::exchange(*told, true))
+                    log({LogLevel::warning, "turns away somebody who has no key, or takes this host for another"});
+            }};
     if (options.launcher_key)
         made.launcher = LineKeys{*options.key, *options.launcher_key};
     else if (!options.join.empty())
@@ -61,6 +63,10 @@ Host::Service::Service(Options given_options, const Registry& kinds)
       rights(options.allow, options.launcher_key),
       door(*context, door_options()) {
     if (!options.places) options.places = static_cast<std::uint32_t>(machine.cores);
+    options.log = [this, tell = std::move(options.log)](LogEntry entry) {
+        if (run && !entry.run) entry.run = run->id();
+        tell(entry);
+    };
     cache.trim();
 }
 
@@ -222,7 +228,8 @@ void Host::Service::forward_to_launcher(Frames& frames) {
 void Host::Service::tell_failures() {
     if (!run) return;
     for (const auto& [why, host, lie] : run->failures()) {
-        options.log(lie ? "somebody has answered falsely: " + why : host + " failed at what it was asked: " + why);
+        options.log({LogLevel::error, lie ? "somebody has answered falsely: " + why
+                                          : host + " failed at what it was asked: " + why});
         door.send(launcher, Type::fault, run->id(), Fields{}.set("host", host).set("text", why).set("lie", lie));
     }
 }

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "core/base/log_entry.hpp"
 #include "core/network/graph/kind.hpp"
 #include "core/run/message/counters.hpp"
 #include "core/run/message/tuning.hpp"
@@ -46,7 +47,7 @@ public:
         std::uint64_t cache_size = usual_cache_size;
         std::chrono::milliseconds drain{20'000};            // to answer what it has when it is told to stop
         std::optional<std::chrono::milliseconds> patience;  // it leaves when nobody needs it for so long
-        std::function<void(const std::string&)> log = [](const std::string&) {};
+        std::function<void(const LogEntry&)> log = [](const LogEntry&) {};  // called by the thread of serve()
     };
     /// Throws Error when the port can't be had, or the system has too few descriptors.
     Host(Options options, const Registry& registry);

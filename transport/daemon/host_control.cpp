@@ -95,7 +95,9 @@ std::string Host::Service::busy_with() const {
 }
 
 void Host::Service::refuse(const std::string& route, std::uint64_t id, const std::string& why) {
-    options.log("refuses a run: " + why);
+    LogEntry refused(LogLevel::warning, "refuses a run: " + why);
+    refused.run = id;
+    options.log(refused);
     door.send(route, Type::broken, id, Fields{}.set("text", why));
 }
 
@@ -314,7 +316,7 @@ void Host::Service::end(const std::string& route, std::uint64_t id) {
 }
 
 void Host::Service::drop_run(const std::string& why) {
-    options.log("the run is given up: " + why);
+    options.log({LogLevel::warning, "the run is given up: " + why});
     stop_run({});
 }
 

@@ -68,8 +68,9 @@ void HostDoor::take_challenge(const Frames& frames) {
     const auto fields = packet::unpack_fields(bytes_of(frames[2]));
     if (!fields || fields->text("challenge").empty()) return;
     if (fields->number("turned_down") && !std::exchange(turned_down_, true))
-        options_.log("the launcher at " + options_.join +
-                     " does not let this host in: its user has another pass (give both the same file, --pass)");
+        options_.log({LogLevel::warning, "the launcher at " + options_.join +
+                                             " does not let this host in: its user has another pass (give both the "
+                                             "same file, --pass)"});
     if (challenge_ == fields->text("challenge")) return;
     challenge_ = fields->text("challenge");
     next_join_ = {};
@@ -93,7 +94,7 @@ void HostDoor::look_at_handshake() {
     else if (for_sure)
         trouble = "asks for keys: say --launcher-key KEY, which its user knows (lightnet key)";
     if (!trouble.empty() && !std::exchange(told_trouble_, true))
-        options_.log("the launcher at " + options_.join + " " + trouble);
+        options_.log({LogLevel::warning, "the launcher at " + options_.join + " " + trouble});
 }
 
 std::string HostDoor::key_of(const Frames& frames) const {

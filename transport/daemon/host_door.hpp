@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "core/base/log_entry.hpp"
 #include "transport/wire/packet.hpp"
 #include "transport/wire/pass.hpp"
 #include "transport/zmq/doorkeeper.hpp"
@@ -28,7 +29,7 @@ public:
         std::optional<Doorkeeper::Keys> keys{};  // of its port; none: who comes in is asked for none
         std::optional<LineKeys> launcher{};      // to the launcher that it dials; none: without
         std::chrono::milliseconds line_life = usual_line_life;  // of one with keys
-        std::function<void(const std::string&)> log = [](const std::string&) {};
+        std::function<void(const LogEntry&)> log = [](const LogEntry&) {};
     };
     /// Throws Error when the port can't be had.
     HostDoor(const SocketContext& context, Options options);

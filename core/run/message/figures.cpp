@@ -16,6 +16,8 @@ constexpr std::array of_node{&NodeFigures::looks,     &NodeFigures::waiting, &No
                              &NodeFigures::questions, &NodeFigures::bytes,   &NodeFigures::nanoseconds,
                              &NodeFigures::answered};
 
+constexpr std::array of_edge{&EdgeFigures::questions, &EdgeFigures::bundles, &EdgeFigures::sent, &EdgeFigures::bytes};
+
 // Numbers, one behind the other.
 class NumberReader {
 public:
@@ -48,6 +50,11 @@ NodeFigures& NodeFigures::operator+=(const NodeFigures& more) {
     return *this;
 }
 
+EdgeFigures& EdgeFigures::operator+=(const EdgeFigures& more) {
+    for (const auto member : of_edge) this->*member += more.*member;
+    return *this;
+}
+
 std::string to_text(const HostFigures& figures) {
     std::string text;
     const auto put = [&text](std::uint64_t number) { text += std::to_string(number) + ' '; };
@@ -58,7 +65,8 @@ std::string to_text(const HostFigures& figures) {
     for (const auto& node : figures.nodes)
         for (const auto member : of_node) put(node.*member);
     put(figures.edges.size());
-    for (const auto questions : figures.edges) put(questions);
+    for (const auto& edge : figures.edges)
+        for (const auto member : of_edge) put(edge.*member);
     return text;
 }
 
@@ -71,7 +79,7 @@ std::optional<HostFigures> figures_from(std::string_view text) {
     for (auto left = numbers.count(most_nodes); left > 0 && numbers.sound(); --left)
         for (auto& node = figures.nodes.emplace_back(); const auto member : of_node) node.*member = numbers.next();
     for (auto left = numbers.count(most_references); left > 0 && numbers.sound(); --left)
-        figures.edges.push_back(numbers.next());
+        for (auto& edge = figures.edges.emplace_back(); const auto member : of_edge) edge.*member = numbers.next();
     if (!numbers.finished()) return std::nullopt;
     return figures;
 }

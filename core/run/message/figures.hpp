@@ -30,11 +30,23 @@ struct NodeFigures {
     friend bool operator==(const NodeFigures&, const NodeFigures&) = default;
 };
 
+/// Of one edge, over all places of a host.
+struct EdgeFigures {
+    std::uint64_t questions = 0;  // asked along it, called or sent
+    std::uint64_t bundles =
+        0;                    // with questions of this edge, that went to other places; those of others may be in them
+    std::uint64_t sent = 0;   // questions that went so
+    std::uint64_t bytes = 0;  // of them and of their answers, as they lie in memory
+
+    EdgeFigures& operator+=(const EdgeFigures& more);
+    friend bool operator==(const EdgeFigures&, const EdgeFigures&) = default;
+};
+
 /// A value. Counts only grow, but for what waits.
 struct HostFigures {
     std::vector<PlaceFigures> places;  // by index
     std::vector<NodeFigures> nodes;    // as in the graph
-    std::vector<std::uint64_t> edges;  // questions asked along each, called or sent; see asking_edges()
+    std::vector<EdgeFigures> edges;    // see asking_edges()
     friend bool operator==(const HostFigures&, const HostFigures&) = default;
 };
 

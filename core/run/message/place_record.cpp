@@ -15,7 +15,8 @@ std::string to_text(const std::vector<PlaceRecord>& records) {
         for (const auto& [name, node] : record.nodes)
             nodes.push_back({name, node.answered, node.busy_ns, node.bundles, node.replies, node.latency_ns});
         for (const auto& [ends, edge] : record.edges)
-            edges.push_back({ends.first, ends.second, edge.asks, edge.questions, edge.called_ns, edge.waited_ns});
+            edges.push_back({ends.first, ends.second, edge.asks, edge.questions, edge.called_ns, edge.waited_ns,
+                             edge.bundles, edge.sent, edge.bytes});
         all.push_back({record.host, record.index, record.lived_ns, record.waited_ns, record.idle_ns, std::move(nodes),
                        std::move(edges)});
     }
@@ -35,8 +36,9 @@ std::vector<PlaceRecord> place_records_from(std::string_view text) {
             record.nodes[one[0].text()] = {count(one[1]), count(one[2]), count(one[3]), count(one[4]), count(one[5])};
         }
         for (const auto& edge : part[6].list()) {
-            const auto& one = edge.list(6);
-            record.edges[{one[0].text(), one[1].text()}] = {count(one[2]), count(one[3]), count(one[4]), count(one[5])};
+            const auto& one = edge.list(9);
+            record.edges[{one[0].text(), one[1].text()}] = {count(one[2]), count(one[3]), count(one[4]), count(one[5]),
+                                                            count(one[6]), count(one[7]), count(one[8])};
         }
     }
     return records;

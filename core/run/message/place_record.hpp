@@ -16,6 +16,9 @@ struct EdgeRecord {
     std::uint64_t questions = 0;  // in them
     std::uint64_t called_ns = 0;  // running, in a node of this place that was called, and those that it called
     std::uint64_t waited_ns = 0;  // for answers of other places; others may have run meanwhile
+    std::uint64_t bundles = 0;    // with questions of this edge, that went to other places
+    std::uint64_t sent = 0;       // questions that went so
+    std::uint64_t bytes = 0;      // of them and of their answers, as they lie in memory
     friend bool operator==(const EdgeRecord&, const EdgeRecord&) = default;
 };
 

@@ -40,6 +40,10 @@ public:
     struct Node {
         Count waiting, bundles, questions, bytes, nanoseconds, answered;
     };
+    /// See EdgeFigures.
+    struct Edge {
+        Count questions, bundles, sent, bytes;
+    };
 
     Gauge(std::size_t node_count, std::size_t edge_count) : nodes(node_count), edges(edge_count) {}
 
@@ -54,7 +58,8 @@ public:
     std::atomic<std::uint16_t>& shown() { return doing_; }
 
     std::vector<Node> nodes;
-    std::vector<Count> edges;  // questions, by asking_edges()
+    std::vector<Edge> edges;  // by asking_edges()
+    Edge* along = nullptr;    // the place's own: along which it begins to ask just now; null: nobody counts it
 
 private:
     std::atomic<std::uint16_t> doing_{idle};

@@ -74,7 +74,11 @@ HostFigures Looker::figures() const {
     for (std::size_t node = 0; node < looks.size(); ++node) figures.nodes[node].looks = looks[node];
     for (const Gauge* gauge : tally_->gauges) {
         figures.edges.resize(gauge->edges.size());
-        for (std::size_t edge = 0; edge < gauge->edges.size(); ++edge) figures.edges[edge] += gauge->edges[edge].get();
+        for (std::size_t edge = 0; edge < gauge->edges.size(); ++edge) {
+            const auto& counts = gauge->edges[edge];
+            figures.edges[edge] +=
+                {counts.questions.get(), counts.bundles.get(), counts.sent.get(), counts.bytes.get()};
+        }
         for (std::size_t node = 0; node < gauge->nodes.size(); ++node) {
             const auto& counts = gauge->nodes[node];
             figures.nodes[node] += {0,

@@ -30,6 +30,11 @@ Port::Ticket BundlePort::begin(std::span<const Query> questions, std::span<Rgb> 
     ask.open = true;
     ask.questions = questions, ask.answers = answers;
     ask.bundled = 0, ask.unanswered = questions.size();
+    ask.edge = gauge_ ? gauge_->along : nullptr;
+    if (ask.edge) {
+        ask.edge->sent.add(questions.size());
+        ask.edge->bytes.add(questions.size_bytes() + answers.size_bytes());
+    }
     const Ticket ticket = number_of(slot, ask.uses);
     if (waiting_ == 0) oldest_ = Clock::now();
     unbundled_.push_back(ticket);
@@ -159,6 +164,7 @@ Bundle<Query> BundlePort::make_bundle(Clock::time_point now) {
     slices_[slot_of(number)].sent = now;
     auto& slices = slices_[slot_of(number)].all;
     const std::size_t most = full();
+    bundled_.clear();
     while (first_ < unbundled_.size() && questions->size() < most) {
         const Ticket ticket = unbundled_[first_];
         auto* const ask = find(ticket);
@@ -168,6 +174,10 @@ Bundle<Query> BundlePort::make_bundle(Clock::time_point now) {
         }
         const std::size_t count = std::min(most - questions->size(), ask->questions.size() - ask->bundled);
         const auto slice = ask->questions.subspan(ask->bundled, count);
+        if (ask->edge && std::find(bundled_.begin(), bundled_.end(), ask->edge) == bundled_.end()) {
+            bundled_.push_back(ask->edge);
+            ask->edge->bundles.add(1);
+        }
         questions->insert(questions->end(), slice.begin(), slice.end());
         slices.push_back({ticket, ask->bundled, count});
         ask->bundled += count;

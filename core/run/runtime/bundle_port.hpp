@@ -35,9 +35,11 @@ public:
     using Clock = std::chrono::steady_clock;
     using Wake = std::function<void(Fibers::Fiber*)>;
 
-    /// What goes through it is counted in `count`, if given, which must outlive it.
-    BundlePort(Fibers& fibers, Wake wake, std::size_t width, BundleRules rules, Gauge::Node* count = nullptr)
-        : fibers_(fibers), wake_(std::move(wake)), width_(width), rules_(rules), count_(count) {}
+    /// What goes through it is counted in `count`, and at the edge that the gauge says is asked along, if these are
+    /// given; they must outlive it.
+    BundlePort(Fibers& fibers, Wake wake, std::size_t width, BundleRules rules, Gauge::Node* count = nullptr,
+               const Gauge* gauge = nullptr)
+        : fibers_(fibers), wake_(std::move(wake)), width_(width), rules_(rules), count_(count), gauge_(gauge) {}
 
     /// Where the bundles go.
     Multiplexer<Query>& replicas() { return replicas_; }
@@ -70,6 +72,7 @@ private:
         std::size_t unanswered = 0;
         Fibers::Fiber* waiting = nullptr;
         std::optional<Failure> failure;
+        Gauge::Edge* edge = nullptr;
     };
     // A run of questions of one ask inside a bundle.
     struct Slice {
@@ -103,6 +106,8 @@ private:
     std::size_t width_;
     BundleRules rules_;
     Gauge::Node* count_;
+    const Gauge* gauge_;
+    std::vector<Gauge::Edge*> bundled_;  // edges with questions in the bundle that is being made
     Multiplexer<Query> replicas_;
     std::deque<Ask> asks_;               // stay where they are
     std::vector<std::uint32_t> closed_;  // slots

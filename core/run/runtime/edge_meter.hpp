@@ -15,8 +15,8 @@
 
 namespace lightnet {
 
-/// Stands between nodes and those that they ask. Two looks at the clock for each ask, however many questions it has.
-/// One thread's; outlives the assembly that has its tap.
+/// Stands between nodes and those that they ask, and says along which edge is being asked (Gauge::along). Two looks at
+/// the clock for each ask, however many questions it has. One thread's; outlives the assembly that has its tap.
 class EdgeMeter {
 public:
     /// How long the current work has run, not waited.
@@ -38,13 +38,19 @@ public:
 private:
     class MeteredPort;
 
-    Gauge::Count* shown(std::size_t asker, std::size_t asked);
+    /// An edge, and where it is counted while others look: by the gauge, or, where that doesn't show it, here.
+    struct Measured {
+        EdgeRecord record;
+        Gauge::Edge* shown = nullptr;
+        Gauge::Edge own;
+    };
+    Measured& measured(std::size_t asker, std::size_t asked);
 
     Gauge& gauge_;
     std::vector<AskingEdge> shown_;
     Running running_;
     PlaceTracer* tracer_ = nullptr;
-    std::map<std::pair<std::size_t, std::size_t>, EdgeRecord> edges_;
+    std::map<std::pair<std::size_t, std::size_t>, Measured> edges_;
     std::vector<std::unique_ptr<Port>> ports_;
 };
 

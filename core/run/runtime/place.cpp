@@ -115,7 +115,7 @@ Port* Place::bundle_port_to(std::size_t node, std::size_t width) {
     const BundleRules bundles{tuning_.bundle, std::chrono::microseconds(tuning_.oldest_us), tuning_.eager};
     remote.edge = {static_cast<std::uint32_t>(node), credit, {}, {}};
     if (tuning_.call_own_nodes) remote.edge.reserve = me_;
-    remote.port = std::make_unique<BundlePort>(fibers_, wake(), width, bundles, &gauge_.nodes[node]);
+    remote.port = std::make_unique<BundlePort>(fibers_, wake(), width, bundles, &gauge_.nodes[node], &gauge_);
     remote.port->replicas().follow(multiplexer_rules(node), &counters_);
     channels_.connect(remote.edge, remote.port->replicas(), plan_for(node));
     return remote.port.get();

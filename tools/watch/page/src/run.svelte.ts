@@ -1,6 +1,6 @@
 // The run as this page knows it: from the launcher, or frozen in a report.
 import { Picture, thaw } from "./picture";
-import type { Frozen, Hello, State } from "./types";
+import type { Explained, Frozen, Hello, State } from "./types";
 
 const minute = 60;
 
@@ -12,6 +12,7 @@ class Run {
     facts = $state.raw<[string, string][]>([]); // of a report
     link = $state<"connecting" | "open" | "lost" | "frozen">("connecting");
     allowed = $state(false); // to do something
+    explained = $state.raw<Explained | null>(null); // the pixel that was clicked at; without words: they are on the way
     frozen = $state(false);
     step = 1; // of a report: pixels of the picture along a side of one here
     picture: Picture | null = null;
@@ -55,7 +56,9 @@ class Run {
         this.socket = socket;
     }
 
-    private hear(said: { hello?: Hello; state?: State; log?: string[]; done?: string; allowed?: boolean }) {
+    private hear(said: {
+        hello?: Hello; state?: State; log?: string[]; done?: string; allowed?: boolean; explained?: Explained;
+    }) {
         if (said.hello) {
             const same = JSON.stringify(said.hello) === JSON.stringify(this.hello);
             if (!same) this.picture = new Picture(said.hello);
@@ -70,6 +73,8 @@ class Run {
         }
         if (said.log) this.log = [...this.log, ...said.log].slice(-1000);
         if (said.allowed !== undefined) this.allowed = said.allowed;
+        const { explained } = said;
+        if (explained && explained.x === this.explained?.x && explained.y === this.explained.y) this.explained = explained;
     }
 
     private paint(frame: ArrayBuffer) {
@@ -78,7 +83,13 @@ class Run {
         for (const painter of this.painters) painter(rectangles);
     }
 
-    say(what: { do: string; host?: string }) {
+    explain(x: number, y: number, samples = 64) {
+        if (this.frozen || !this.allowed || this.link !== "open" || this.state?.outcome) return;
+        this.explained = { x, y };
+        this.say({ do: "explain", x, y, samples });
+    }
+
+    say(what: { do: string; host?: string; x?: number; y?: number; samples?: number }) {
         if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify({ ...what, token: this.token }));
     }
 

@@ -35,6 +35,7 @@ export interface Host {
     places: number;
     answered: number;
     looks: Looks[]; // by place, or of all
+    rest?: boolean; // it stands for many hosts
     machine?: string;
     cpu?: string;
 }
@@ -46,9 +47,20 @@ export interface State {
     outcome: string;
     hosts: Host[];
     nodes: number[][]; // looks, waiting, bundles, questions, bytes, nanoseconds, answered
-    edges: number[]; // questions
+    edges: number[][]; // questions, bundles, questions sent, bytes
     tiles: [number, number, number, number][];
     doing: Record<string, [string, number, number]>;
+}
+
+/// How a pixel came about, or why that can't be told.
+export interface Explained {
+    x: number;
+    y: number;
+    samples?: number; // the first so many
+    of?: number;
+    seconds?: number;
+    text?: string;
+    error?: string;
 }
 
 /// What a report holds.
