@@ -7,6 +7,7 @@
 
 #include "core/film/film.hpp"
 #include "core/film/picture.hpp"
+#include "core/network/graph/graph.hpp"
 #include "core/network/graph/kind.hpp"
 #include "core/scene/data/scene_data.hpp"
 
