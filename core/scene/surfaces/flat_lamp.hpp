@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 
 #include "core/base/math/rgb.hpp"
 #include "core/base/math/sampling.hpp"
