@@ -17,7 +17,7 @@ using Clock = std::chrono::steady_clock;
 
 // Long enough that something can happen in the middle, and a host that hangs is noticed before the others are done.
 constexpr auto length = seconds(3);
-std::vector<std::string> some_seconds{"--size",     "128x128", "--samples", std::to_string(256 / slowdown),
+std::vector<std::string> some_seconds{"--size",     "128x128", "--samples", std::to_string(64 / slowdown),
                                       "--progress", "json",    "--tile",    "16"};
 
 // Who held a node at the end, as run.json has it.

@@ -11,7 +11,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const std::vector<std::string> picture{"--size", "64x64", "--samples", "32", "--tile", "16", "--cache", "none"};
+const std::vector<std::string> picture{"--size", "64x64", "--samples", "16", "--tile", "16", "--cache", "none"};
 
 Launch launch_with(const std::vector<std::string>& more) {
     const Folder folder;
@@ -23,7 +23,7 @@ Launch launch_with(const std::vector<std::string>& more) {
 TEST(Troubles, OfLocalWorkersLeaveThePictureAsItIs) {
     const auto serial = launch_with({"--threads", "1"});
     ASSERT_EQ(serial.code, 0) << serial.said;
-    const auto troubled = launch_with({"--local-workers", "3", "--delay", "3", "--slow", "worker1=4", "--lose",
+    const auto troubled = launch_with({"--local-workers", "3", "--delay", "3", "--slow", "worker1=3", "--lose",
                                        "worker2@20%", "--lose", "worker3@50%"});
     ASSERT_EQ(troubled.code, 0) << troubled.said;
     EXPECT_THAT(troubled.said, HasSubstr("worker2 (tcp://127.0.0.1:"));

@@ -2,8 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <ostream>
+#include <type_traits>
 #include <vector>
 
 #include "core/base/math/samples.hpp"
@@ -16,10 +19,45 @@ namespace {
 constexpr FacetLaw beckmann{FacetLaw::Normals::beckmann},
     mitsubas{FacetLaw::Normals::beckmann, FacetLaw::Masking::independent};
 const FacetRange any_ggx{{}, true};
-const Coat smooth_coat(1.5f, {}), rough_coat(1.5f, {{0.3f, 0.3f}}), any_coat(1.5f, any_ggx),
-    grooved_coat(1.5f, {{0.1f, 0.5f}}), beckmann_coat(1.5f, {{0.3f, 0.3f, mitsubas}});
-const CoatedMetal mirror_below(smooth_coat, {}, {}), metal_below(smooth_coat, {}, {{0.2f, 0.2f}}),
-    grooves_below(rough_coat, {{0.3f, 0.3f}}, {{0.2f, 0.4f}}), any_below(any_coat, any_ggx, any_ggx);
+
+// Their tables take a tenth of a second each, so only tests that look at them make them.
+const Coat& smooth_coat() {
+    static const Coat coat(1.5f, {});
+    return coat;
+}
+const Coat& rough_coat() {
+    static const Coat coat(1.5f, {{0.3f, 0.3f}});
+    return coat;
+}
+const Coat& any_coat() {
+    static const Coat coat(1.5f, any_ggx);
+    return coat;
+}
+const Coat& grooved_coat() {
+    static const Coat coat(1.5f, {{0.1f, 0.5f}});
+    return coat;
+}
+const Coat& beckmann_coat() {
+    static const Coat coat(1.5f, {{0.3f, 0.3f, mitsubas}});
+    return coat;
+}
+const CoatedMetal& mirror_below() {
+    static const CoatedMetal metal(smooth_coat(), {}, {});
+    return metal;
+}
+const CoatedMetal& metal_below() {
+    static const CoatedMetal metal(smooth_coat(), {}, {{0.2f, 0.2f}});
+    return metal;
+}
+const CoatedMetal& grooves_below() {
+    static const CoatedMetal metal(rough_coat(), {{0.3f, 0.3f}}, {{0.2f, 0.4f}});
+    return metal;
+}
+const CoatedMetal& any_below() {
+    static const CoatedMetal metal(any_coat(), any_ggx, any_ggx);
+    return metal;
+}
+
 const ConductorBsdf copper{{0.2f, 0.9f, 1.1f}, {3.9f, 2.4f, 2.2f}};
 
 Bsdf::Model lacquered(const Coat& coat, const CoatedMetal& both, Microfacets below, Microfacets above = {}) {
@@ -56,16 +94,28 @@ PrincipledBsdf everything(float coat_alpha) {
     return model;
 }
 
+/// A model that is made when it is wanted.
+struct Made {
+    std::function<Bsdf::Model()> make;
+    template <class Model>
+    Made(Model model) {
+        if constexpr (std::is_invocable_v<Model>)
+            make = model;
+        else
+            make = [model] { return Bsdf::Model(model); };
+    }
+};
+
 struct Case {
     const char* name;
-    Bsdf::Model model;
-    std::optional<Bsdf::Model> second{};  // mixed with the first
+    Made model;
+    std::optional<Made> second{};  // mixed with the first
     friend std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
 
     Bsdf on(const Frame& frame) const {
-        const Bsdf first(frame, frame.z, model);
+        const Bsdf first(frame, frame.z, model.make());
         if (!second) return first;
-        return {frame.z, {{first, 0.3f}, {Bsdf(frame, frame.z, *second), 0.7f}}};
+        return {frame.z, {{first, 0.3f}, {Bsdf(frame, frame.z, second->make()), 0.7f}}};
     }
 };
 
@@ -91,16 +141,19 @@ const std::vector<Case> cases{
     {"tinted_rough_glass", DielectricBsdf{1.33f, {0.3f, 0.3f}, {{0.5f, 0.6f, 0.7f}, {0.9f, 0.8f, 0.3f}}}},
     {"pane", ThinDielectricBsdf{1.5f}},
     {"tinted_pane", ThinDielectricBsdf{1.5f, {{0.5f, 0.6f, 0.7f}, {0.9f, 0.8f, 0.3f}}}},
-    {"plastic", CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &smooth_coat}},
-    {"rough_plastic", CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &rough_coat, {0.3f, 0.3f}}},
-    {"beckmann_plastic", CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &beckmann_coat, {0.3f, 0.3f, mitsubas}}},
-    {"plastic_of_any_roughness", CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &any_coat, {0.2f, 0.2f}, {0.9f, 0.8f, 0.7f}}},
-    {"plastic_of_one_hue", CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &smooth_coat, {}, {1, 1, 1}, false}},
-    {"plastic_with_grooves", CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &grooved_coat, {0.1f, 0.5f}}},
-    {"lacquered_mirror", lacquered(smooth_coat, mirror_below, {})},
-    {"lacquered_metal", lacquered(smooth_coat, metal_below, {0.2f, 0.2f})},
-    {"matt_lacquered_metal", lacquered(rough_coat, grooves_below, {0.2f, 0.4f}, {0.3f, 0.3f})},
-    {"lacquered_metal_of_any_roughness", lacquered(any_coat, any_below, {0.1f, 0.1f}, {0.25f, 0.25f})},
+    {"plastic", [] { return CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &smooth_coat()}; }},
+    {"rough_plastic", [] { return CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &rough_coat(), {0.3f, 0.3f}}; }},
+    {"beckmann_plastic",
+     [] { return CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &beckmann_coat(), {0.3f, 0.3f, mitsubas}}; }},
+    {"plastic_of_any_roughness",
+     [] { return CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &any_coat(), {0.2f, 0.2f}, {0.9f, 0.8f, 0.7f}}; }},
+    {"plastic_of_one_hue", [] { return CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &smooth_coat(), {}, {1, 1, 1}, false}; }},
+    {"plastic_with_grooves", [] { return CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &grooved_coat(), {0.1f, 0.5f}}; }},
+    {"lacquered_mirror", [] { return lacquered(smooth_coat(), mirror_below(), {}); }},
+    {"lacquered_metal", [] { return lacquered(smooth_coat(), metal_below(), {0.2f, 0.2f}); }},
+    {"matt_lacquered_metal", [] { return lacquered(rough_coat(), grooves_below(), {0.2f, 0.4f}, {0.3f, 0.3f}); }},
+    {"lacquered_metal_of_any_roughness",
+     [] { return lacquered(any_coat(), any_below(), {0.1f, 0.1f}, {0.25f, 0.25f}); }},
     {"principled_plastic", principled(0, 0, {0.25f, 0.25f})},
     {"principled_smooth_plastic", principled(0, 0, {})},
     {"principled_metal", principled(1, 0, {0.15f, 0.4f})},
@@ -115,7 +168,7 @@ const std::vector<Case> cases{
     {"everything_smoothly_coated", everything(0)},
     {"mixture", DiffuseBsdf{{0.8f, 0.5f, 0.2f}}, ConductorBsdf{copper.eta, copper.k, {0.3f, 0.3f}}},
     {"mixture_with_a_mirror", RoughDiffuseBsdf{{0.8f, 0.5f, 0.2f}, 0.4f}, ConductorBsdf{copper.eta, copper.k, {}}},
-    {"mixture_with_nothing", CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &smooth_coat}, ThinDielectricBsdf{1}},
+    {"mixture_with_nothing", [] { return CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &smooth_coat()}, ThinDielectricBsdf{1}; }},
 };
 
 class EveryModel : public testing::TestWithParam<Case> {
@@ -237,6 +290,7 @@ TEST_P(EveryModel, PassesTheChiSquareTest) {
 }
 
 TEST_P(EveryModel, IsReciprocal) {
+    const Bsdf::Model model = GetParam().model.make();
     for (std::uint32_t k = 0; k < 2000; ++k) {
         Samples samples(5, k);
         const Vec3 a = sphere(samples.next_2d()), b = sphere(samples.next_2d());
@@ -244,8 +298,8 @@ TEST_P(EveryModel, IsReciprocal) {
         if (cos_a < 0.05f || cos_b < 0.05f) continue;
         // radiance in glass is larger by η², so f/η² is what both ways share
         const auto scale = [&](Vec3 w) {
-            const auto* glass = std::get_if<DielectricBsdf>(&GetParam().model);
-            const auto* many = std::get_if<PrincipledBsdf>(&GetParam().model);
+            const auto* glass = std::get_if<DielectricBsdf>(&model);
+            const auto* many = std::get_if<PrincipledBsdf>(&model);
             const float eta = glass ? glass->eta : many && !many->thin ? many->eta : 1;
             return dot(w, frame.z) < 0 ? eta * eta : 1.0f;
         };
