@@ -29,9 +29,9 @@ void measure(const Registry& registry, const char* name, const char* graph, cons
         const std::atomic<bool> never{false};
         cluster.gather(20s, never);
         cluster.adopt(cluster.plan());
-        const double seconds = stage.on(cluster, run).seconds;
+        const double took = stage.on(cluster, run).seconds;
         cluster.finish();
-        return seconds;
+        return took;
     };
     seconds(0);  // which brings the scene
     std::vector<double> more;
