@@ -116,10 +116,11 @@ TEST_F(Keys, KeepOtherUsersOfTheMachineOut) {
     ::close(ends[0]);
     int status = -1;
     ASSERT_EQ(::waitpid(child, &status, 0), child);
-    EXPECT_EQ(status, 0) << got;
     run->signal(SIGINT);
     EXPECT_EQ(run->wait(), 130) << run->output();
     EXPECT_THAT(run->output(), Not(HasSubstr("is lost")));
+    if (got.starts_with("can't be")) GTEST_SKIP() << "this root " << got;
+    EXPECT_EQ(status, 0) << got;
 }
 
 // Connections with wrong keys, and handshakes that stop in their middle, as long as a run takes.
