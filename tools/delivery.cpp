@@ -44,13 +44,12 @@ std::string attempt_for_long(const Delivery& delivery, const std::string& pictur
     return why;
 }
 
-// A folder of its own, which no file of others can be in the way of; "": it can't be made.
+}  // namespace
+
 std::string new_folder_in(const std::string& folder) {
-    std::string name = folder + "/lightnet-XXXXXX";
+    std::string name = folder + "/lightnet-XXXXXX";  // mkdtemp makes a name of it that is new
     return ::mkdtemp(name.data()) ? name : "";
 }
-
-}  // namespace
 
 std::vector<std::string> folders_of_last_resort() {
     const char* const temporary = std::getenv("TMPDIR");

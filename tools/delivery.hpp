@@ -24,6 +24,9 @@ struct Delivery {
 /// Where people look for what could not be put where it belongs: $TMPDIR or else /tmp, then the home folder.
 std::vector<std::string> folders_of_last_resort();
 
+/// A folder of its own, which no file of others can be in the way of; "": it can't be made.
+std::string new_folder_in(const std::string& folder);
+
 /// Where it is now: `picture`, or a file of that name in a new folder elsewhere. Throws Error when it is nowhere.
 std::string deliver(const Delivery& delivery, const std::string& picture);
 

@@ -5,16 +5,16 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 scenes=${1:?usage: tools/gallery.sh SCENES}
 lightnet=${LIGHTNET:-build/release/bin/lightnet}
-page=docs/gallery.md
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-mkdir -p docs/gallery
+page=$work/gallery.md
+mkdir "$work/gallery"
 
 processor=$(sed -n 's/^model name[[:space:]]*: //p' /proc/cpuinfo | head -n 1)
 cat >"$page" <<END
 # Gallery
 
-Twelve pictures, each with the command that made it. Seconds are those of preparing and rendering, on $(nproc) cores of
+Pictures of this project's scenes and of others, each with the command that made it. Seconds are those of preparing and rendering, on $(nproc) cores of
 $processor; reading the scene is left out. \`tools/gallery.sh\` makes this page.
 
 END
@@ -33,7 +33,7 @@ picture() {
         return
     fi
     "$lightnet" "$verb" "$file" "$@" -o "$work/$name.exr" --forget --progress none
-    cp "$work/$name.png" "docs/gallery/$name.png"
+    cp "$work/$name.png" "$work/gallery/$name.png"
     local words="lightnet $verb $file $*"
     printf '## %s\n\n![%s](gallery/%s.png)\n\n    %s\n\n%s s. %s\n\n' "$title" "$title" "$name" "${words//"$scenes/"/}" \
         "$(seconds "$work/$name.run.json")" "$credit" >>"$page"
@@ -66,3 +66,8 @@ picture vase "A vase of flowers, from glTF" "Scene: Eric Chadwick and Rico Cilli
     --size 360x360 --samples 256
 picture spot "Ambient occlusion" "Model: Keenan Crane, CC0." \
     render "$scenes/meshes/spot.obj" --lighting ao --size 360x360 --samples 64
+
+# All of it, or nothing.
+mkdir -p docs/gallery
+cp "$work"/gallery/*.png docs/gallery/
+cp "$page" docs/gallery.md

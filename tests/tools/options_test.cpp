@@ -143,6 +143,8 @@ TEST(Options, GiveLocalWorkersTroubles) {
     for (const char* text : {"worker2", "worker2=30%", "worker2@30", "worker2@130%", "worker-2@3%"})
         EXPECT_THAT(wrong("--lose", text), HasSubstr("a loss is like worker2@30%")) << text;
     EXPECT_THAT(wrong("--lose", "worker4@30%"), HasSubstr("there is no worker4 among 3 local workers"));
+    EXPECT_THAT(usage_error({"bench-hosts", "g.lua", "--local-workers", "3", "--slow", "worker4=2"}),
+                HasSubstr("there is no worker4 among 3 local workers"));
 }
 
 TEST(Options, ChooseHowProgressIsShown) {

@@ -57,6 +57,22 @@ TEST_F(TevPreviewTest, HasABeautyAndALayerForEachColour) {
     EXPECT_EQ(last("G"), 2 + 0.5f * 3);
 }
 
+TEST_F(TevPreviewTest, HasNoLayersForIdsAndAlphaWhichTheBoardHasNot) {
+    format.shown = {"mattes", "depth"};
+    format.facts = {"mattes", "depth"};
+    format.ids = {{"mattes", 4}};
+    format.alpha = true;
+    TevViewer viewer;
+    TevPreview preview(options(viewer.port()), board);
+    show(3);
+    ASSERT_TRUE(viewer.wait_for([](const auto& seen) { return shows(seen, 3); }));
+    const auto seen = viewer.seen();
+    EXPECT_THAT(seen.errors, IsEmpty());
+    const auto& image = seen.images.at("box.exr");
+    EXPECT_EQ(image.channels.size(), 12u);
+    EXPECT_EQ(image.channels.at("depth.B").back(), 9);
+}
+
 TEST_F(TevPreviewTest, ShowsAllToAViewerThatComesLaterOrAgain) {
     std::optional<TevViewer> viewer(std::in_place);
     const auto port = viewer->port();

@@ -21,7 +21,7 @@ constexpr std::size_t most_frame = 256 << 10;  // bytes
 
 std::vector<std::string> tev_channels(const FilmFormat& format) {
     std::vector<std::string> channels{"R", "G", "B"};
-    for (std::size_t k = 0; k < format.colours(); ++k)
+    for (const std::size_t k : format.views())  // ids and alpha are not on the board
         for (const char* channel : {".R", ".G", ".B"}) channels.push_back(format.name_of(k) + channel);
     return channels;
 }
@@ -114,7 +114,7 @@ std::string TevPreview::packet_of(const char*& bytes) const {
     Window where;
     for (auto* number : {&where.x, &where.y, &where.width, &where.height}) *number = number_at<std::uint16_t>(bytes);
     const auto& format = options_.format;
-    const std::size_t pixels = where.pixels(), colours = format.colours();
+    const std::size_t pixels = where.pixels(), colours = format.views().size();
     std::vector<Rgb> given(pixels * colours);
     std::memcpy(given.data(), bytes, given.size() * sizeof(Rgb));
     bytes += given.size() * sizeof(Rgb);

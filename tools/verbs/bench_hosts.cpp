@@ -4,7 +4,6 @@
 #include <fmt/ostream.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -19,6 +18,7 @@
 #include "core/base/json.hpp"
 #include "core/base/own_files.hpp"
 #include "tools/command_line.hpp"
+#include "tools/delivery.hpp"
 #include "tools/launcher.hpp"
 #include "tools/loading.hpp"
 #include "tools/options.hpp"
@@ -53,7 +53,11 @@ void describe_bench_hosts(CLI::App& app, BenchHostsOptions& options) {
         ->capture_default_str();
     app.add_option("--csv", options.csv, "write all figures, one line per run")->type_name("FILE.csv");
     add_troubles(app, running.troubles);
-    when_taken_apart(app, [&options] { return mistaken_scene(options.graph.file, "to render it: lightnet render"); });
+    when_taken_apart(app, [&options] {
+        const auto mistake = mistaken_scene(options.graph.file, "to render it: lightnet render");
+        const auto& given = options.running;
+        return mistake ? mistake : mistake_in(given.troubles, given.local_workers.value_or(0));
+    });
     add_examples(app, {"lightnet bench-hosts graphs/cornell.lua --size 256x256 --samples 64 --local-workers 4",
                        "lightnet bench-hosts graphs/cornell.lua --hosts lab.lua --rounds 5 --csv lab.csv"});
 }
@@ -61,10 +65,8 @@ void describe_bench_hosts(CLI::App& app, BenchHostsOptions& options) {
 /// A folder for pictures that nobody wants, gone at the end.
 class Scratch {
 public:
-    Scratch() {
-        std::string name = (fs::temp_directory_path() / "lightnet-XXXXXX").string();
-        if (!mkdtemp(name.data())) throw Error("no folder for pictures", "in " + fs::temp_directory_path().string());
-        path_ = name;
+    Scratch() : path_(new_folder_in(folders_of_last_resort().front())) {
+        if (path_.empty()) throw Error("no folder for pictures", "in " + folders_of_last_resort().front());
     }
     ~Scratch() {
         std::error_code ignored;
@@ -210,7 +212,8 @@ std::string csv_of(const std::vector<HostsRow>& rows) {
 }
 
 int bench_hosts(const BenchHostsOptions& options, const Launcher& launcher) {
-    if (!options.csv.empty()) expect_ours(options.csv, csv_beginning);  // before hours of work
+    if (const auto why = options.csv.empty() ? "" : why_not_replaced(options.csv, csv_beginning); !why.empty())
+        throw UserError({options.csv, 0}, why);
     HostsBench bench(options, launcher);
     auto rows = rows_up_to(bench.most());
     for (std::uint32_t round = 0; round < options.rounds; ++round)
