@@ -78,7 +78,7 @@ std::pair<std::optional<Failure>, Bytes> with_liar(const std::string& liar, cons
                 values.push_back(deal.to.place.host == liar ? 99 : static_cast<int>(deal.shards.first + i));
             call.answer(deal.id, results(values), 0);
         }
-        all_there = call.all_there();
+        all_there = call.all_there(false);
     }
     EXPECT_TRUE(all_there) << "it waits for ever";
     call.complete_from_shards();
@@ -95,6 +95,27 @@ TEST(ServiceCall, FindsOutWhoseShardsAreFalse) {
     const auto undecided = with_liar("b", {"a", "b"}).first;
     ASSERT_TRUE(undecided);
     EXPECT_EQ(undecided->host, "") << "one against one";
+}
+
+TEST(ServiceCall, AsksThoseWhoJoinLaterWhomToBelieve) {
+    ServiceCall call({StepReport::Kind::map, 0, 1}, false);
+    call.verify({1'000'000, 1});
+    const auto answer_from = [&](const std::string& host, int value) {
+        call.join({{host, 0}, 0}, 1, 0);
+        const auto deals = call.dealer().deal(1, 0);
+        ASSERT_EQ(deals.size(), 1u);
+        EXPECT_EQ(deals.front().to.place.host, host);
+        call.answer(deals.front().id, results({value}), 0);
+    };
+    answer_from("a", 99);
+    EXPECT_FALSE(call.all_there(true));
+    answer_from("b", 5);
+    EXPECT_FALSE(call.all_there(true));
+    EXPECT_FALSE(call.lie()) << "one against one, so far";
+    answer_from("c", 5);
+    EXPECT_TRUE(call.all_there(false));
+    ASSERT_TRUE(call.lie());
+    EXPECT_EQ(call.lie()->host, "a");
 }
 
 TEST(ServiceCall, DropsWhatWasComputedBeforeItBeganAgain) {

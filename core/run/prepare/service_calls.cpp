@@ -40,7 +40,7 @@ bool ServiceCall::answer(ShardDealer::CopyId id, const Bytes& joined, double now
     if (!dealer_.answered(id, static_cast<std::uint32_t>(results.size()), now)) return false;
     if (again) {
         vote(shards->first, host, results.front(), now);
-        return all_there();
+        return missing_ == 0;
     }
     for (std::uint32_t i = 0; i < results.size(); ++i) {
         answered_[shards->first + i] = true;
@@ -49,7 +49,12 @@ bool ServiceCall::answer(ShardDealer::CopyId id, const Bytes& joined, double now
     }
     missing_ -= results.size();
     join_what_is_next();
-    return all_there();
+    return missing_ == 0;
+}
+
+void ServiceCall::join(const NodeCopy& copy, std::uint64_t process, double now) {
+    if (!dealer_.join(copy, process, now)) return;
+    for (const auto shard : dealer_.take_unasked()) dealer_.ask_also(shard, votes_.at(shard).hosts(), now);
 }
 
 // Places of this process are believed. DECISIONS: two-against-one
@@ -65,7 +70,8 @@ void ServiceCall::vote(std::uint32_t shard, const std::string& host, std::span<c
     votes_.erase(shard);
 }
 
-bool ServiceCall::all_there() {
+bool ServiceCall::all_there(bool more_to_come) {
+    if (more_to_come) return missing_ == 0 && votes_.empty();
     for (const auto shard : dealer_.take_unasked()) {
         const auto votes = votes_.extract(shard);
         if (!votes.empty() && votes.mapped().size() > 1)

@@ -44,11 +44,14 @@ public:
     /// Who does which of its shards.
     ShardDealer& dealer() { return dealer_; }
     /// The results of the first of the shards that went under this number, or of more of them, by join_shards(); what
-    /// comes late is dropped. True when all is there. Throws Error when they are not what was asked for, or have not as
+    /// comes late is dropped. True when no shard is missing. Throws Error when they are not what was asked for, or have not as
     /// many parts as they should.
     bool answer(ShardDealer::CopyId id, const Bytes& joined, double now);
-    /// Every shard is there, and whatever was to be checked has been.
-    bool all_there();
+    /// A copy waits for the result, and does shards from now on; see ShardDealer::join().
+    void join(const NodeCopy& copy, std::uint64_t process, double now);
+    /// Every shard is there, and whatever was to be checked has been. `more_to_come`: copies that have not joined; what
+    /// nobody else can be asked about waits for them.
+    bool all_there(bool more_to_come);
     /// Some shards, chosen at random, are asked of a second host as well. Before the first is dealt out.
     void verify(SpotChecks checks) { checks_ = checks; }
     /// A host's shard that others do otherwise; see Carrier::doubt(). None: there is none.

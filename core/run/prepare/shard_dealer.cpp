@@ -65,10 +65,10 @@ void ShardDealer::ask_also(std::uint32_t shard, const std::vector<std::string>& 
 
 // ---- who does them ----
 
-void ShardDealer::join(const NodeCopy& copy, std::uint64_t process, Time now) {
+bool ShardDealer::join(const NodeCopy& copy, std::uint64_t process, Time now) {
     if (const auto known = joined_.find(copy); known != joined_.end()) {
         if (draining_.erase(copy)) tell(Scheduler::Draining{known->second, false}, now);
-        return;
+        return false;
     }
     const auto replica = static_cast<Scheduler::Replica>(copies_.size());
     copies_.push_back(copy);
@@ -78,6 +78,7 @@ void ShardDealer::join(const NodeCopy& copy, std::uint64_t process, Time now) {
     tell(Scheduler::Joined{replica, static_cast<Scheduler::Host>(host - hosts_.begin()), replica + 1, credit_of_each,
                            process},
          now);
+    return true;
 }
 
 void ShardDealer::keep(const Plan& plan, const std::set<NodeCopy>& there, Time now) {

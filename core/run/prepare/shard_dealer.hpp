@@ -55,8 +55,8 @@ public:
     /// any more, and nobody has joined.
     void begin(std::uint32_t count);
 
-    /// Waits for the result, and does shards from now on. It may be told again.
-    void join(const NodeCopy& copy, std::uint64_t process, Time now);
+    /// Waits for the result, and does shards from now on. It may be told again: then it is false.
+    bool join(const NodeCopy& copy, std::uint64_t process, Time now);
     /// Of those who have joined, the ones in `there` go on; others of the plan's places answer what they have and are
     /// asked no more; the rest is lost.
     void keep(const Plan& plan, const std::set<NodeCopy>& there, Time now);

@@ -133,11 +133,13 @@ void Conductor::advance() {
     while (more) {
         for (std::size_t position = 0; position < led(); ++position)
             for (const auto& copy : copies(position)) lead(copy, position);
-        more = false;
+        more = end_calls();  // that waited for nothing but somebody to join
         if (done_ < order_.size()) {
             const auto all = copies(done_);
-            more = !all.empty() && std::all_of(all.begin(), all.end(), [&](const auto& copy) { return is_done(copy); });
-            if (more) ++done_;
+            const bool done =
+                !all.empty() && std::all_of(all.begin(), all.end(), [&](const auto& copy) { return is_done(copy); });
+            if (done) ++done_;
+            more = more || done;
         }
     }
     for (std::size_t position = 0; position < led(); ++position) deal(position);
@@ -164,7 +166,7 @@ void Conductor::lead(const NodeCopy& copy, std::size_t position) {
         auto& call = calls_.reported(copy.node, follower.at);
         const auto result = calls_.result(copy.node, follower.at.call);
         if (!result) {
-            if (call.shared_out()) call.dealer().join(copy, proposal_.process_of(copy.place.host), steady_seconds());
+            if (call.shared_out()) call.join(copy, proposal_.process_of(copy.place.host), steady_seconds());
             return;
         }
         const Hash& name = call.name(calls_.part_of(copy.node, call));

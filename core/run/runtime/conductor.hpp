@@ -105,7 +105,8 @@ private:
     void lead(const NodeCopy& copy, std::size_t position);
     void deal(std::size_t position);
     void keep_dealing();
-    void end_calls();
+    bool end_calls();
+    bool may_join(const NodeCopy& copy, std::uint32_t call) const;
     void collect();
     void begin_rehearsal(std::uint32_t call);
     void end_rehearsal();

@@ -1,4 +1,6 @@
 // How a conductor deals out the shards of calls, and takes in what comes of them.
+#include <algorithm>
+
 #include "core/base/error.hpp"
 #include "core/run/runtime/conductor.hpp"
 
@@ -35,20 +37,31 @@ void Conductor::keep_dealing() {
 
 void Conductor::shards_done(const Sent& sent, const Bytes& data) {
     auto& call = calls_.of(order_[sent.position], sent.step.call);
-    bool all_there = false;
+    bool none_missing = false;
     try {
-        all_there = call.answer(sent.shards, data, steady_seconds());
+        none_missing = call.answer(sent.shards, data, steady_seconds());
     } catch (const Error& error) {
         return failed(sent, "'" + name_of(sent.position) + "' on " + sent.to.place.host + ": " + error.what());
     }
-    all_there ? advance() : deal(sent.position);
+    none_missing ? advance() : deal(sent.position);
 }
 
-// Those whose shards are all there. What is found to be false meanwhile is told at once.
-void Conductor::end_calls() {
+// It has not come to this call yet; all copies make the same calls.
+bool Conductor::may_join(const NodeCopy& copy, std::uint32_t call) const {
+    const auto found = followers_.find(copy);
+    if (found == followers_.end() || found->second.state == Follower::State::idle) return true;
+    return found->second.state == Follower::State::asked && found->second.at.call <= call;
+}
+
+// Those whose shards are all there; true: there are some. What is found to be false meanwhile is told at once.
+bool Conductor::end_calls() {
+    bool ended = false;
     for (std::size_t position = 0; position < led(); ++position)
         for (const auto& [number, call] : calls_.dealt_out(order_[position])) {
-            const bool all_there = call->all_there();
+            const auto all = copies(position);
+            const bool more_to_come = std::any_of(
+                all.begin(), all.end(), [&, number = number](const auto& copy) { return may_join(copy, number); });
+            const bool all_there = call->all_there(more_to_come);
             if (auto lie = call->lie()) {
                 if (!answers_alone(proposal_, *options_.graph, order_[position])) lie->host.clear();
                 carrier_.doubt(*lie);
@@ -56,7 +69,9 @@ void Conductor::end_calls() {
             if (!all_there) continue;
             call->complete_from_shards();
             calls_.keep(order_[position], number);
+            ended = true;
         }
+    return ended;
 }
 
 }  // namespace lightnet
