@@ -282,6 +282,11 @@ Kind ray_tracer_kind() {
                  .type = ParamType::nodes,
                  .help = "operators whose own light is kept beside the image, as layers that are not added up: AOVs",
                  .initial = Value{Table{}}},
+                {.name = "layers",
+                 .type = ParamType::named_lists,
+                 .help = "layers by light path expressions, like caustics = \"C.*DS+L\", instead of one for each of the "
+                         "operators that they take",
+                 .optional = true},
                 {.name = "alpha",
                  .type = ParamType::flag,
                  .help = "adds a channel A: how much of each pixel surfaces cover",

@@ -64,7 +64,7 @@ std::vector<std::string> words_for(const std::string& graph) {
         words[1] = "32x24";  // a layer for each group of each operator
         return words;
     }
-    if (graph == "compositing.lua") {
+    if (graph == "compositing.lua" || graph == "expressions.lua") {
         auto words = small_pictures;
         words[1] = "32x24";  // twenty layers and more
         return words;

@@ -40,12 +40,7 @@ std::vector<std::size_t> picture_of(std::size_t node, const Layers& layers, cons
     const auto shown = std::find(layers.shown.begin(), layers.shown.end(), node);
     if (shown != layers.shown.end()) return view_of(run.graph.nodes[node].name, run.format);
     if (!colours.empty()) return colours;
-    for (const auto terminal : layers.of_node[node]) {
-        const auto layer = std::find(film.begin(), film.end(), name_of(terminal, layers, run.graph, run.registry));
-        if (layer == film.end()) return {};
-        colours.push_back(std::size_t(layer - film.begin()));
-    }
-    return colours;
+    return layers_made_of(node, layers, run.graph, run.registry);
 }
 
 const char* name_of(Role role) { return role == Role::image ? "image" : role == Role::light ? "light" : "scene"; }

@@ -1,7 +1,6 @@
 #include "core/network/graph/check.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <iterator>
 #include <map>
 #include <optional>
@@ -22,12 +21,6 @@ namespace {
 
 std::string count_text(std::size_t count) { return std::to_string(count) + (count == 1 ? " input" : " inputs"); }
 
-bool identifier(const std::string& name) {
-    const auto letter = [](unsigned char c) { return std::isalpha(c) || c == '_'; };
-    return !name.empty() && name.size() <= 64 && letter(name[0]) &&
-           std::all_of(name.begin(), name.end(), [&](unsigned char c) { return letter(c) || std::isdigit(c); });
-}
-
 /// Looks at one graph, and collects what is wrong with it.
 class Examination {
 public:
@@ -47,6 +40,7 @@ public:
         check_renderers();
         found_.problems = problems_.take();
         if (found_.problems.empty()) found_.problems = mistaken_groups(found_.graph, registry_);
+        if (found_.problems.empty()) found_.problems = mistaken_layers(found_.graph, registry_);
         if (found_.problems.empty()) check_gains();
         return std::move(found_);
     }
@@ -59,7 +53,7 @@ private:
     void check_names() {
         std::map<std::string, const Node*> seen;
         for (const auto& node : given_.nodes) {
-            if (!identifier(node.name)) complain(node, "a name is made of letters, digits and _, at most 64");
+            if (!is_name(node.name)) complain(node, name_rule);
             const auto [first, added] = seen.emplace(node.name, &node);
             if (!added)
                 complain(node, "the name is taken by the " + first->second->kind + " of line " +

@@ -1,6 +1,7 @@
 #include "core/network/graph/check_params.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 
@@ -10,6 +11,13 @@
 #include "core/network/graph/graph_film.hpp"
 
 namespace lightnet {
+
+bool is_name(const std::string& name) {
+    const auto letter = [](unsigned char c) { return std::isalpha(c) || c == '_'; };
+    return !name.empty() && name.size() <= 64 && letter(static_cast<unsigned char>(name[0])) &&
+           std::all_of(name.begin(), name.end(), [&](unsigned char c) { return letter(c) || std::isdigit(c); });
+}
+
 namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();

@@ -1,7 +1,6 @@
 #include "core/network/graph/lamp_groups.hpp"
 
 #include <algorithm>
-#include <cctype>
 
 #include "core/base/in_quotes.hpp"
 #include "core/network/graph/check_params.hpp"
@@ -15,12 +14,6 @@ using Names = std::vector<std::string>;
 const Value* param_of(const Node& node, const char* name) {
     const auto found = node.params.find(name);
     return found == node.params.end() ? nullptr : &found->second;
-}
-
-bool is_word(const std::string& name) {
-    const auto letter = [](unsigned char c) { return std::isalpha(c) || c == '_'; };
-    return !name.empty() && name.size() <= 64 && letter(static_cast<unsigned char>(name[0])) &&
-           std::all_of(name.begin(), name.end(), [&](unsigned char c) { return letter(c) || std::isdigit(c); });
 }
 
 /// Looks at one graph, and collects what is wrong with its groups.
@@ -53,7 +46,7 @@ private:
                                 std::to_string(most_groups - 1) + " can be");
         for (std::size_t i = 0; i + 1 < groups_.size(); ++i) {
             const std::string what = "'groups': " + in_quotes(groups_[i]);
-            if (!is_word(groups_[i])) complain(scene, what + ": a name is made of letters, digits and _, at most 64");
+            if (!is_name(groups_[i])) complain(scene, what + ": " + name_rule);
             if (groups_[i] == rest_of_lamps) complain(scene, what + " is the group of what no other one names");
             if (groups_[i] == "emission" || graph_.find(groups_[i]))
                 complain(scene, what + " is the name of " + (groups_[i] == "emission" ? "a layer" : "a node") +

@@ -3,6 +3,7 @@
 #include <cassert>
 
 #include "core/network/graph/lamp_groups.hpp"
+#include "core/network/graph/path_layers.hpp"
 #include "core/network/graph/plan.hpp"
 
 namespace lightnet {
@@ -56,6 +57,32 @@ std::vector<Terminals> terminals_below(std::size_t top, const Graph& graph, cons
     return below;
 }
 
+// Its own light, one colour for each group of lamps if it keeps them apart, and what it gathers.
+Terminals colours_at(std::size_t renderer, const Layers& layers) {
+    Terminals colours = own_terminals(renderer, layers);
+    colours.insert(colours.end(), layers.of_node[renderer].begin(), layers.of_node[renderer].end());
+    return colours;
+}
+
+// Each colour has a layer of its own, but what an expression puts together.
+void name_layers(std::size_t renderer, const Graph& graph, const Registry& registry, Layers& layers) {
+    const auto groups = lamp_groups(graph, registry);
+    const auto colours = colours_at(renderer, layers);
+    const auto given = path_layers(graph, registry, colours, layers.by_group).names;
+    layers.emission = colours.size() - layers.of_node[renderer].size();
+    for (std::size_t c = 0; c < colours.size(); ++c) {
+        const auto [node, group] = colours[c];
+        std::string name = given[c];
+        if (name.empty()) {
+            name = c < layers.emission ? "emission" : graph.nodes[node].name;
+            if (layers.by_group[node]) name += "." + groups[group];
+        }
+        auto layer = std::find(layers.film.begin(), layers.film.end(), name);
+        if (layer == layers.film.end()) layer = layers.film.insert(layer, name);
+        layers.of_colour.push_back(static_cast<std::uint32_t>(layer - layers.film.begin()));
+    }
+}
+
 bool says(const Node& node, const char* flag) {
     const auto found = node.params.find(flag);
     return found != node.params.end() && std::get<bool>(found->second.data);
@@ -96,24 +123,49 @@ std::string name_of(const Terminal& terminal, const Layers& layers, const Graph&
     return layers.by_group[terminal.node] ? node + "." + lamp_groups(graph, registry)[terminal.group] : node;
 }
 
+std::vector<std::size_t> layers_made_of(std::size_t node, const Layers& layers, const Graph& graph,
+                                        const Registry& registry) {
+    const auto colours = colours_at(renderer_of(graph, registry), layers);
+    const auto& own = layers.of_node[node];
+    std::vector<std::size_t> made_of;
+    for (const auto& terminal : own) {
+        const auto colour = std::find(colours.begin() + static_cast<std::ptrdiff_t>(layers.emission), colours.end(),
+                                      terminal);
+        if (colour == colours.end()) return {};
+        made_of.push_back(layers.of_colour[static_cast<std::size_t>(colour - colours.begin())]);
+    }
+    std::sort(made_of.begin(), made_of.end());
+    made_of.erase(std::unique(made_of.begin(), made_of.end()), made_of.end());
+    for (std::size_t c = 0; c < layers.of_colour.size(); ++c)
+        if (std::binary_search(made_of.begin(), made_of.end(), layers.of_colour[c]) &&
+            (c < layers.emission || std::find(own.begin(), own.end(), colours[c]) == own.end()))
+            return {};
+    return made_of;
+}
+
+std::vector<Problem> mistaken_layers(const Graph& graph, const Registry& registry) {
+    const std::size_t renderer = renderer_of(graph, registry);
+    if (!graph.nodes[renderer].params.contains("layers")) return {};
+    Layers layers;
+    layers.groups = std::max<std::size_t>(1, lamp_groups(graph, registry).size());
+    layers.by_group = keep_groups(graph, registry);
+    layers.of_node = terminals_below(renderer, graph, registry, layers);
+    return path_layers(graph, registry, colours_at(renderer, layers), layers.by_group).problems;
+}
+
 Layers layers_of(const Graph& graph, const Registry& registry) {
     const std::size_t renderer = renderer_of(graph, registry);
     const auto groups = lamp_groups(graph, registry);
     Layers layers;
     layers.groups = std::max<std::size_t>(1, groups.size());
     layers.by_group = keep_groups(graph, registry);
-    const auto add = [&](const std::string& name, bool by_group, std::uint32_t group) {
-        layers.film.push_back(by_group ? name + "." + groups[group] : name);
-    };
     if (registry.find(graph.nodes[renderer].kind)->light.merges) {
         layers.film = {graph.nodes[renderer].name};
         layers.of_node.resize(graph.nodes.size());
+        layers.of_colour = {0};
     } else {
-        layers.emission = own_terminals(renderer, layers).size();
-        for (std::uint32_t g = 0; g < layers.emission; ++g) add("emission", layers.by_group[renderer], g);
         layers.of_node = terminals_below(renderer, graph, registry, layers);
-        for (const auto [node, group] : layers.of_node[renderer])
-            add(graph.nodes[node].name, layers.by_group[node], group);
+        name_layers(renderer, graph, registry, layers);
     }
     for (const std::size_t shown : graph.shown_by(renderer)) {
         const auto is_there = [&](const auto& all, const auto& one) {

@@ -61,6 +61,8 @@ public:
             if (used[node] && kind_of(node).role != Role::scene) of_[node] = own_and_inputs(node);
         return of_[top];
     }
+    /// After of(): what arrives at a node that it has met.
+    const Shares& met_at(std::size_t node) const { return of_[node]; }
 
 private:
     const Kind& kind_of(std::size_t node) const { return *registry_.find(graph_.nodes[node].kind); }
@@ -192,6 +194,28 @@ PathReport report_paths(const Graph& graph, const Registry& registry) {
         report.missing.push_back({renderer.where, renderer.kind + " " + in_quotes(renderer.name) + ": no node counts " +
                                                       path + whose(lamps, groups)});
     return report;
+}
+
+std::vector<ArrivingPaths> paths_at_image(const Graph& graph, const Registry& registry,
+                                          const std::vector<std::size_t>& nodes) {
+    const std::size_t image = renderer_of(graph, registry), groups = lamp_groups(graph, registry).size();
+    Book book(graph, registry);
+    book.of(image);
+    const PathSet onward = PathSet::parse(registry.find(graph.nodes[image].kind)->light.onward.value_or(""));
+    std::vector<ArrivingPaths> all;
+    for (const auto node : nodes) {
+        ArrivingPaths& arriving = all.emplace_back();
+        arriving.by_group.resize(std::max<std::size_t>(1, groups));
+        for (const Share& share : book.met_at(node)) {
+            if (node == image && share.origin != image) continue;
+            arriving.known = arriving.known && share.known;
+            for (std::size_t g = 0; g < arriving.by_group.size(); ++g)
+                if (share.lamps >> g & 1)
+                    arriving.by_group[g] =
+                        arriving.by_group[g].with(node == image ? share.paths : share.paths.then(onward));
+        }
+    }
+    return all;
 }
 
 std::string paths_text(const Node& node, const Kind& kind) {

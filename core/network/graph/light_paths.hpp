@@ -22,6 +22,16 @@ struct PathReport {
 /// its paths, nothing is known to be missing.
 PathReport report_paths(const Graph& graph, const Registry& registry);
 
+/// One node's light as it arrives at the image by way of linear nodes.
+struct ArrivingPaths {
+    std::vector<PathSet> by_group;  // of lamps; one where the scene has none
+    bool known = true;              // all are stated
+};
+
+/// Of each of these nodes, which pass on no other's light as it is; of the renderer its own.
+std::vector<ArrivingPaths> paths_at_image(const Graph& graph, const Registry& registry,
+                                          const std::vector<std::size_t>& nodes);
+
 /// The paths that a node states, for display: "LD", "… D" (the inputs' paths, continued), or "" if its kind states
 /// none. `node` has its defaults.
 std::string paths_text(const Node& node, const Kind& kind);

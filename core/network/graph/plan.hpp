@@ -27,7 +27,10 @@ struct Terminal {
 /// What the image's layers are, and which of them pass through each node. Depends on the graph alone.
 struct Layers {
     std::vector<std::string> film;   // "emission", then the terminals of the additive paths, graph order: "direct". Of
-                                     // what keeps groups of lamps apart, one for each: "direct.key", "direct.rest"
+                                     // what keeps groups of lamps apart, one for each: "direct.key", "direct.rest".
+                                     // What the same light path expression takes is one
+    std::vector<std::uint32_t> of_colour;  // per colour that reaches the renderer (its own, then its terminals'): the
+                                           // layer that it is added to
     std::vector<std::size_t> shown;  // nodes whose images stand beside the sum, behind the layers of the film
     std::vector<std::uint32_t> ids;  // of each of those: how many ids a pixel keeps of it; 0: it is one colour
     bool alpha = false;              // the last colour says how much of a pixel surfaces cover
@@ -49,6 +52,11 @@ std::vector<std::string> shown_names(const Layers& layers, const Graph& graph);
 /// Layers of a checked graph. A linear node on an additive path from the renderer keeps its terminals apart; every
 /// other node answers with one colour.
 Layers layers_of(const Graph& graph, const Registry& registry);
+/// The layers of the film that, added up, are a node's light; none: it is no part of the sum, or in a layer with others'.
+std::vector<std::size_t> layers_made_of(std::size_t node, const Layers& layers, const Graph& graph,
+                                        const Registry& registry);
+/// What is wrong with the light path expressions of a graph that is sound otherwise.
+std::vector<Problem> mistaken_layers(const Graph& graph, const Registry& registry);
 /// Of its light as a layer: "direct", "direct.key".
 std::string name_of(const Terminal& terminal, const Layers& layers, const Graph& graph, const Registry& registry);
 

@@ -105,6 +105,8 @@ Inputs Assembly::inputs_of(std::size_t node) {
             input.layers = positions(of_node[asked], of_node[node], image ? emission : 0);
         else if (network_.layers.by_group[node])
             input.layers = positions(of_node[node], of_node[node], 0);
+        if (image)
+            for (auto& layer : input.layers) layer = network_.layers.of_colour[layer];
         input.port = port_between(node, asked, input.width());
         if (network_.kind_of(node).run.locks)
             input.port = guarded_.emplace_back(std::make_unique<GuardedPort>(*input.port, *services_.locks)).get();

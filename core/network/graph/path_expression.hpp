@@ -1,0 +1,34 @@
+// Light path expressions, as other renderers write them.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/network/graph/path_set.hpp"
+
+namespace lightnet {
+
+/// A set of light paths, written from the eye to the light: `C`, then an event for each surface, then a light. Events
+/// are `D` or `<.D>` (anything rougher than a mirror), `S` or `<.S>` (a mirror or glass) and `.` (any); lights are `L`
+/// (any), `O` (a lamp) and `B` (the background), and `<L.'key'>` or `L'key'` (of a group of lamps). `(…)`, `[DS]`, `|`,
+/// `*`, `+`, `?`, `{n}` and `{least,most}` as in regular expressions. Gritz et al., "Open Shading Language", light path
+/// expressions; what our operators do not tell apart there (reflection from transmission, glossy from diffuse) is
+/// refused. A value.
+class PathExpression {
+public:
+    /// Throws Error, which names the place and what to write instead.
+    explicit PathExpression(std::string_view text);
+
+    /// What it says of lamps of this group; "": of a scene without groups.
+    PathSet of(const std::string& group) const;
+    /// The groups that it names.
+    const std::vector<std::string>& groups() const { return groups_; }
+
+private:
+    class Parser;
+    std::vector<std::string> groups_;  // first, as reading the other finds them
+    std::string turned_;  // in Heckbert's notation, from the light to the eye; the n-th of groups_ stands there as `n#`
+};
+
+}  // namespace lightnet

@@ -1,0 +1,150 @@
+#include "core/network/graph/path_layers.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/network/graph/check.hpp"
+#include "core/network/graph/path_expression.hpp"
+#include "nodes/standard_nodes.hpp"
+#include "tests/support/parse.hpp"
+
+namespace lightnet::path_layers_test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+// ---- expressions ----
+
+bool has(const std::string& expression, const std::string& word, const std::string& group = "") {
+    return PathExpression(expression).of(group).contains(word);
+}
+
+TEST(PathExpression, GoesFromTheEyeToTheLight) {
+    EXPECT_TRUE(has("CDS+L", "LSDE")) << "a caustic";
+    EXPECT_TRUE(has("CDS+L", "LSSDE"));
+    EXPECT_FALSE(has("CDS+L", "LDSE")) << "a mirror's picture of something lit";
+    EXPECT_TRUE(has("CSDL", "LDSE"));
+    EXPECT_TRUE(has("C <.D> <L.>", "LDE"));
+    EXPECT_TRUE(has("C[DS]*O", "ASDE"));
+    EXPECT_FALSE(has("C[DS]*O", "VSDE"));
+    EXPECT_TRUE(has("C.{1,2}B", "VDDE"));
+    EXPECT_FALSE(has("C.{1,2}B", "VDDDE"));
+    EXPECT_TRUE(has("(CD|CS)L", "LSE"));
+    EXPECT_TRUE(has("CDD?L", "LDDE"));
+}
+
+TEST(PathExpression, KnowsLampsByTheirGroup) {
+    const PathExpression key("CD<L.'key'>|CDDO'fill'");
+    EXPECT_THAT(key.groups(), ElementsAre("key", "fill"));
+    EXPECT_TRUE(key.of("key").contains("LDE"));
+    EXPECT_FALSE(key.of("key").contains("LDDE"));
+    EXPECT_TRUE(key.of("fill").contains("ADDE"));
+    EXPECT_FALSE(key.of("fill").contains("ADE"));
+    EXPECT_FALSE(key.of("rest").contains("LDE"));
+}
+
+std::string mistake_in(const std::string& expression) {
+    try {
+        PathExpression read(expression);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "none";
+}
+
+TEST(PathExpression, SaysWhatCantBeTold) {
+    EXPECT_THAT(mistake_in("C<RD>L"), HasSubstr("place 3: operators do not tell reflection from transmission"));
+    EXPECT_THAT(mistake_in("CGL"), HasSubstr("place 2: operators do not tell glossy from diffuse"));
+    EXPECT_THAT(mistake_in("C<.G>L"), HasSubstr("glossy"));
+    EXPECT_THAT(mistake_in("CVL"), HasSubstr("media"));
+    EXPECT_THAT(mistake_in("C[^D]L"), HasSubstr("name what is"));
+    for (const char* text : {"C(DL", "CD)L", "C<.D", "C<L.'key>", "CD{2L", "CD{3,1}L", "CD{x}L", "CxL", "C*{", "<", "["})
+        EXPECT_THAT(mistake_in(text), HasSubstr("is no light path expression")) << text;
+    EXPECT_THAT(mistake_in(std::string(2000, 'D')), HasSubstr("too long"));
+    EXPECT_THAT(mistake_in(std::string(100, '(')), HasSubstr("nested"));
+}
+
+// ---- layers ----
+
+const Registry& nodes() {
+    static const Registry registry(standard_nodes());
+    return registry;
+}
+
+// Direct and indirect light, and a renderer with these layers. `of_operators`: what all of them are told.
+Examined examined(const std::string& layers, const std::string& of_operators = "") {
+    return examine(test::parse("scene = Scene { 'box.pbrt', groups = { key = 'spot' } }\n"
+                               "direct = DirectLighting { " + of_operators + " }\n"
+                               "bounce = PathTracing { " + of_operators + " }\n"
+                               "light = Combine { direct, bounce }\n"
+                               "image = RayTracer { light, scene = scene, film = { 8, 4 }, layers = { " + layers +
+                               " }, " + of_operators + " }"),
+                   nodes());
+}
+
+Layers layers_with(const std::string& layers, const std::string& of_operators = "") {
+    const auto sound = examined(layers, of_operators);
+    for (const auto& problem : sound.problems) ADD_FAILURE() << problem.what;
+    return layers_of(sound.graph, nodes());
+}
+
+std::string wrong_with(const std::string& layers, const std::string& of_operators = "") {
+    std::string all;
+    for (const auto& problem : examined(layers, of_operators).problems) all += problem.what + "\n";
+    return all;
+}
+
+TEST(PathLayers, AreNamedByExpressionsInsteadOfByOperators) {
+    EXPECT_THAT(layers_with("").film, ElementsAre("emission", "direct", "bounce"));
+    EXPECT_THAT(layers_with("lit = 'CS*DL', indirect = 'CS*D.+L'").film, ElementsAre("emission", "lit", "indirect"));
+    EXPECT_THAT(layers_with("lit = 'CS*DL'").film, ElementsAre("emission", "lit", "bounce")) << "the rest keeps its own";
+}
+
+TEST(PathLayers, PutTogetherWhatAnExpressionTakesOfSeveralOperators) {
+    const auto graph = examined("surfaces = 'CS*D.*L'").graph;
+    const auto layers = layers_of(graph, nodes());
+    EXPECT_THAT(layers.film, ElementsAre("emission", "surfaces"));
+    EXPECT_THAT(layers.of_colour, ElementsAre(0, 1, 1));
+    EXPECT_THAT(layers_made_of(*graph.find("light"), layers, graph, nodes()), ElementsAre(1));
+    EXPECT_THAT(layers_made_of(*graph.find("direct"), layers, graph, nodes()), IsEmpty()) << "it holds others' as well";
+    EXPECT_THAT(layers_with("all = 'C.*L'").film, ElementsAre("all"));
+    EXPECT_THAT(layers_with("one = { 'CS*DL', 'CS*D.+L' }").film, ElementsAre("emission", "one"));
+}
+
+TEST(PathLayers, KeepGroupsApartUntilAnExpressionNamesOne) {
+    EXPECT_THAT(layers_with("lit = 'CS*DL'", "groups = true").film,
+                ElementsAre("emission.key", "emission.rest", "lit.key", "lit.rest", "bounce.key", "bounce.rest"));
+    const auto layers = layers_with("spot = \"C.*L'key'\"", "groups = true");
+    EXPECT_THAT(layers.film, ElementsAre("spot", "emission.rest", "direct.rest", "bounce.rest"));
+    EXPECT_THAT(layers.of_colour, ElementsAre(0, 1, 0, 2, 0, 3));
+}
+
+TEST(PathLayers, SayWhatTheGraphDoesNotKeepApart) {
+    EXPECT_THAT(wrong_with("caustics = 'CS*DS+L'"),
+                HasSubstr("RayTracer 'image': 'layers': 'caustics': takes LSDE of 'bounce', but not LDDE: no operator"));
+    EXPECT_THAT(wrong_with("lit = 'CDL'"), HasSubstr("takes LDE of 'direct', but not LDSE"));
+    EXPECT_THAT(wrong_with("lit = 'CDL'"), HasSubstr("Write S* behind C"));
+    EXPECT_THAT(wrong_with("lit = \"CS*DL'key'\""),
+                HasSubstr("takes LDE of 'direct', but not LDE: it does not keep groups of lamps apart"));
+    EXPECT_THAT(wrong_with("a = 'CS*DL', b = 'CS*D.*L'"), HasSubstr("'b': LDE of 'direct' is in 'a' already"));
+    EXPECT_THAT(wrong_with("none = 'CD'"), HasSubstr("'none': no operator of the graph counts such light"));
+    EXPECT_THAT(wrong_with("lit = 'CS*D*'"), HasSubstr("no operator"));
+    EXPECT_THAT(wrong_with("a = { \"C.*L'key'\", \"C.*L'rest'\" }", "groups = true"),
+                HasSubstr("takes the emission of several groups"));
+}
+
+TEST(PathLayers, SayWhatIsWrongWithNamesAndExpressions) {
+    EXPECT_THAT(wrong_with("lit = \"CS*DL'kez'\""), HasSubstr("the scene has no group 'kez' (did you mean 'key'?)"));
+    EXPECT_THAT(wrong_with("direct = 'CS*DL'"), HasSubstr("'direct': is the name of a node"));
+    EXPECT_THAT(wrong_with("key = 'CS*DL'"), HasSubstr("'key': is the name of a group"));
+    EXPECT_THAT(wrong_with("['a b'] = 'CS*DL'"), HasSubstr("letters, digits and _"));
+    const auto both = wrong_with("a = 'C<RD>L', b = 'CGL'");
+    EXPECT_THAT(both, HasSubstr("reflection"));
+    EXPECT_THAT(both, HasSubstr("glossy"));
+    EXPECT_THAT(wrong_with("lit = 5"), HasSubstr("names"));
+}
+
+}  // namespace
+}  // namespace lightnet::path_layers_test
