@@ -134,7 +134,8 @@ TEST_F(Explain, PutsTheBrightestSampleFirst) {
 
 TEST_F(Explain, TellsWhatAnswersAreMadeOf) {
     render(graph_file("cornell.lua"), small);
-    for (const auto& sample : json("8,12", {"--most", "40"})["brightest"]) {
+    const Tree all = json("8,12", {"--most", "40"});
+    for (const auto& sample : all["brightest"]) {
         const Tree& asked = sample["questions"];
         ASSERT_EQ(asked.size(), 3u) << "lighting, direct, bounce";
         EXPECT_EQ(asked[0]["asked"], "lighting");
