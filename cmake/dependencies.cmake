@@ -13,6 +13,7 @@ find_package(OpenEXR 3 CONFIG REQUIRED)                    # pictures out (core/
 find_package(PNG REQUIRED)                                 # pictures out, textures in
 find_package(ZLIB REQUIRED)                                # packed scene files
 find_package(JPEG REQUIRED)                                # textures in
+find_package(TIFF 4.5 REQUIRED)                            # textures in
 pkg_check_modules(libjpeg QUIET libjpeg)                   # its full version: decoders differ in bits
 find_package(pugixml REQUIRED)                             # scenes in XML (core/readers/mitsuba)
 find_package(Boost 1.74 REQUIRED COMPONENTS context)       # fibers (core/fiber); Beast: HTTP (tools/watch)

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <variant>
 #include <vector>
 
 #include "core/scene/data/scene_data.hpp"
@@ -22,6 +23,11 @@ struct Raster {
 
 Raster read_jpeg(Input bytes);
 Raster read_png(Input bytes);
+/// Does it begin as a TGA may?
+bool is_tga(Input bytes);
+Raster read_tga(Input bytes);
+/// An Image where samples are floats.
+std::variant<Raster, Image> read_tiff(Input bytes);
 Image read_exr(Input bytes);
 Image read_hdr(Input bytes);
 

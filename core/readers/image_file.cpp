@@ -70,7 +70,13 @@ Image read_image(std::span<const std::byte> bytes, const Encoding& encoding) {
     if (begins(bytes, "\x89PNG\r\n\x1A\n")) return to_image(decoders::read_png(bytes), encoding);
     if (begins(bytes, "\x76\x2F\x31\x01")) return decoders::read_exr(bytes);
     if (begins(bytes, "#?")) return decoders::read_hdr(bytes);
-    throw Error("not an image of a known format (JPEG, PNG, OpenEXR, Radiance HDR)");
+    if (begins(bytes, {"II*\0", 4}) || begins(bytes, {"MM\0*", 4}) || begins(bytes, {"II+\0", 4})) {
+        auto found = decoders::read_tiff(bytes);
+        if (auto* raster = std::get_if<decoders::Raster>(&found)) return to_image(std::move(*raster), encoding);
+        return std::get<Image>(std::move(found));
+    }
+    if (decoders::is_tga(bytes)) return to_image(decoders::read_tga(bytes), encoding);
+    throw Error("not an image of a known format (JPEG, PNG, TIFF, TGA, OpenEXR, Radiance HDR)");
 }
 
 }  // namespace lightnet

@@ -1,4 +1,4 @@
-// Images read from files, for textures: JPEG, PNG, OpenEXR and Radiance HDR.
+// Images read from files, for textures: JPEG, PNG, TIFF, TGA, OpenEXR and Radiance HDR.
 #pragma once
 
 #include <cstddef>

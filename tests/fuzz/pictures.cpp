@@ -20,6 +20,12 @@ std::vector<std::string> seeds() {
             test::exr({"R", "G", "B", "A"}),
             test::exr({"Y"}),
             test::hdr(),
+            test::tiff(8, false),
+            test::tiff(16, true),
+            test::tiff(32, true),
+            test::palette_tiff(),
+            test::tga(16, false),
+            test::tga(32, true),
             std::string("#?RGBE\n\n-Y 1 +X 4\n") + std::string("\x80\x40\x20\x81\x01\x01\x01\x03", 8)};
 }
 

@@ -118,6 +118,53 @@ TEST(Hdr, ReadsPlainPixelsAndOldRuns) {
     EXPECT_EQ(image.colour(3, 0), (Rgb{1, 0.5f, 0.25f}));
 }
 
+TEST(Tiff, ReadsWholeNumbersAndFloatsInStripsAndTiles) {
+    for (const int bits : {8, 16, 32})
+        for (const bool tiles : {false, true}) {
+            const Image image = read(test::tiff(bits, tiles), {Encoding::Curve::linear, 1});
+            ASSERT_EQ(image.width, 20u);
+            ASSERT_EQ(image.height, 18u);
+            const float one = bits == 32 ? 1 : bits == 16 ? 1 / 65535.0f : 1 / 255.0f;
+            for (const std::uint32_t y : {0u, 5u, 17u})
+                for (const std::uint32_t x : {0u, 15u, 16u, 19u}) {
+                    EXPECT_NEAR(image.colour(x, y).r, float(x) * one, 1e-6f) << bits << " bits, tiles: " << tiles;
+                    EXPECT_NEAR(image.colour(x, y).g, float(y) * one, 1e-6f);
+                    EXPECT_NEAR(image.colour(x, y).b, one, 1e-6f);
+                }
+        }
+}
+
+TEST(Tiff, TurnsPalettesIntoColours) {
+    const Image image = read(test::palette_tiff());
+    ASSERT_EQ(image.width, 2u);
+    EXPECT_EQ(image.colour(0, 0), (Rgb{1, 0, 0}));
+    EXPECT_NEAR(image.colour(1, 0).b, 0.2159f, 1e-3f);
+}
+
+TEST(Tga, ReadsAllItsKindsFromTheLowestRow) {
+    for (const int bits : {32, 24, 16, 8})
+        for (const bool packed : {false, true}) {
+            const Image image = read(test::tga(bits, packed));
+            ASSERT_EQ(image.width, 3u);
+            ASSERT_EQ(image.height, 2u);
+            EXPECT_EQ(image.colour(0, 0), (bits == 8 ? Rgb{1, 1, 1} : Rgb{1, 0, 0})) << bits;
+            EXPECT_EQ(image.colour(2, 0), (bits == 8 ? Rgb{0, 0, 0} : Rgb{0, 0, 1})) << bits;
+            EXPECT_EQ(image.colour(0, 1), (Rgb{1, 1, 1}));
+            EXPECT_NEAR(image.colour(1, 1).g, 0.2159f, 0.02f);
+            EXPECT_EQ(image.has_alpha(), bits == 32);
+            if (bits == 32) {
+                EXPECT_NEAR(image.alpha(2, 0), 128 / 255.0f, 1e-6f);
+            }
+        }
+}
+
+TEST(Tga, IsRefusedWhereItIsTooShortForItsPixels) {
+    EXPECT_THAT(error_of(test::tga(24, false).substr(0, 30)), HasSubstr("TGA: the file ends early"));
+    auto huge = test::tga(24, true);
+    huge[13] = huge[15] = 127;
+    EXPECT_THAT(error_of(huge), HasSubstr("too large"));
+}
+
 TEST(Pictures, OfUnknownKindsAreRefused) {
     EXPECT_THAT(error_of("GIF89a"), HasSubstr("not an image of a known format"));
     EXPECT_THAT(error_of(""), HasSubstr("not an image of a known format"));
@@ -167,7 +214,8 @@ TEST_P(EveryPicture, NeverCrashesWithABrokenByte) {
         }
 }
 
-INSTANTIATE_TEST_SUITE_P(Kind, EveryPicture, testing::Values(small_png(), jpeg(100, 3), exr({"R", "G", "B"}), hdr()));
+INSTANTIATE_TEST_SUITE_P(Kind, EveryPicture, testing::Values(small_png(), jpeg(100, 3), exr({"R", "G", "B"}), hdr(), test::tiff(8, false),
+                                         test::tiff(16, true), test::tga(24, false), test::tga(32, true)));
 
 }  // namespace
 }  // namespace lightnet::image_file_test

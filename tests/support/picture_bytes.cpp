@@ -11,7 +11,9 @@
 #include <ImfTiledOutputFile.h>
 #include <jpeglib.h>
 #include <png.h>
+#include <tiffio.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 
@@ -35,7 +37,122 @@ private:
     std::size_t at_ = 0;
 };
 
+struct TiffFile {
+    std::string bytes;
+    std::size_t at = 0;
+};
+
+tmsize_t read_tiff(thandle_t handle, void* into, tmsize_t wanted) {
+    auto& file = *static_cast<TiffFile*>(handle);
+    const auto count = std::min<std::size_t>(std::size_t(wanted), file.bytes.size() - std::min(file.at, file.bytes.size()));
+    std::memcpy(into, file.bytes.data() + file.at, count);
+    file.at += count;
+    return tmsize_t(count);
+}
+
+tmsize_t write_tiff(thandle_t handle, void* from, tmsize_t count) {
+    auto& file = *static_cast<TiffFile*>(handle);
+    file.bytes.resize(std::max(file.bytes.size(), file.at + std::size_t(count)));
+    std::memcpy(file.bytes.data() + file.at, from, std::size_t(count));
+    file.at += std::size_t(count);
+    return count;
+}
+
+toff_t seek_tiff(thandle_t handle, toff_t to, int from) {
+    auto& file = *static_cast<TiffFile*>(handle);
+    return file.at = std::size_t(to) + (from == SEEK_CUR ? file.at : from == SEEK_END ? file.bytes.size() : 0);
+}
+
+// What `fill` writes into one of that size.
+template <class Fill>
+std::string tiff_of(std::uint32_t width, std::uint32_t height, std::uint16_t bits, Fill fill) {
+    TiffFile file;
+    TIFF* tiff = TIFFClientOpen(
+        "test", "w", &file, read_tiff, write_tiff, seek_tiff, [](thandle_t) { return 0; },
+        [](thandle_t handle) -> toff_t { return static_cast<TiffFile*>(handle)->bytes.size(); }, nullptr, nullptr);
+    TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, width);
+    TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, height);
+    TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, bits);
+    TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
+    TIFFSetField(tiff, TIFFTAG_COMPRESSION, COMPRESSION_LZW);
+    fill(tiff);
+    TIFFClose(tiff);
+    return file.bytes;
+}
+
+std::vector<std::uint8_t> tiff_pixel(int bits, std::uint32_t x, std::uint32_t y) {
+    std::vector<std::uint8_t> pixel;
+    for (const std::uint32_t number : {x, y, 1u}) {
+        const float real = float(number);
+        std::uint8_t raw[4] = {};
+        std::memcpy(raw, bits == 32 ? static_cast<const void*>(&real) : &number, std::size_t(bits) / 8);
+        pixel.insert(pixel.end(), raw, raw + bits / 8);
+    }
+    return pixel;
+}
+
 }  // namespace
+
+std::string tiff(int bits, bool tiles) {
+    constexpr std::uint32_t width = 20, height = 18, tile = 16;
+    return tiff_of(width, height, std::uint16_t(bits), [&](TIFF* file) {
+        TIFFSetField(file, TIFFTAG_SAMPLESPERPIXEL, 3);
+        TIFFSetField(file, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_RGB);
+        if (bits == 32) TIFFSetField(file, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_IEEEFP);
+        if (tiles) TIFFSetField(file, TIFFTAG_TILEWIDTH, tile), TIFFSetField(file, TIFFTAG_TILELENGTH, tile);
+        const auto pixels_of = [&](std::uint32_t first, std::uint32_t y, std::uint32_t count) {
+            std::vector<std::uint8_t> row;
+            for (std::uint32_t x = first; x < first + count; ++x)
+                for (const auto byte : tiff_pixel(bits, x, y)) row.push_back(byte);
+            return row;
+        };
+        for (std::uint32_t y = 0; y < height && !tiles; ++y) TIFFWriteScanline(file, pixels_of(0, y, width).data(), y, 0);
+        for (std::uint32_t y = 0; y < height && tiles; y += tile)
+            for (std::uint32_t x = 0; x < width; x += tile) {
+                std::vector<std::uint8_t> all;
+                for (std::uint32_t row = y; row < y + tile; ++row)
+                    for (const auto byte : pixels_of(x, row, tile)) all.push_back(byte);
+                TIFFWriteTile(file, all.data(), x, y, 0, 0);
+            }
+    });
+}
+
+std::string palette_tiff() {
+    return tiff_of(2, 1, 8, [](TIFF* file) {
+        TIFFSetField(file, TIFFTAG_SAMPLESPERPIXEL, 1);
+        TIFFSetField(file, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_PALETTE);
+        std::vector<std::uint16_t> red(256), green(256), blue(256);
+        red[0] = 65535, blue[2] = 128 * 257;
+        TIFFSetField(file, TIFFTAG_COLORMAP, red.data(), green.data(), blue.data());
+        std::uint8_t row[] = {0, 2};
+        TIFFWriteScanline(file, row, 0, 0);
+    });
+}
+
+std::string tga(int bits, bool packed) {
+    std::string file(18, '\0');
+    file[2] = static_cast<char>((bits == 8 ? 3 : 2) + (packed ? 8 : 0));
+    file[12] = 3, file[14] = 2, file[16] = static_cast<char>(bits);
+    file[17] = static_cast<char>(bits == 32 ? 8 : 0);
+    const auto pixel = [&](int r, int g, int b, int a) {
+        if (bits == 8) return std::string(1, char(r));
+        if (bits == 16) {
+            const int word = r / 8 << 10 | g / 8 << 5 | b / 8;
+            return std::string{char(word & 255), char(word >> 8)};
+        }
+        const std::string bgr{char(b), char(g), char(r)};
+        return bits == 32 ? bgr + char(a) : bgr;
+    };
+    // from the lowest row
+    const std::string all[] = {pixel(255, 255, 255, 255), pixel(128, 128, 128, 255), pixel(0, 0, 0, 255),
+                               pixel(255, 0, 0, 255),     pixel(0, 255, 0, 255),     pixel(0, 0, 255, 128)};
+    for (int i = 0; i < 6; ++i) {
+        if (packed) file += char(i == 0 ? 0x80 : i == 1 ? 4 : 0);  // a run of one, then five as they are
+        if (packed && i > 1) file.pop_back();
+        file += all[i];
+    }
+    return file;
+}
 
 std::string png(std::uint32_t format, const void* samples) {
     png_image image{};

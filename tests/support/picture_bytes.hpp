@@ -17,6 +17,12 @@ std::string jpeg(std::uint8_t value, int channels);
 std::string exr(const std::vector<std::string>& channels);
 /// 70 x 50 pixels in tiles of 32 x 32 with smaller levels, as textures are kept; each is {x, y, 1}.
 std::string tiled_exr();
+/// 20 x 18 pixels, each {x, y, 1}, of 8 or 16 bits or (32) floats in tiles of 16 x 16 or in strips, packed.
+std::string tiff(int bits, bool tiles);
+/// Two pixels beside each other, of a palette: red, and a blue that is half of 255.
+std::string palette_tiff();
+/// 3 x 2 pixels of 32, 24 or 16 bits, or (8) grey: red, green, blue over white, half, black; in runs or not.
+std::string tga(int bits, bool packed);
 /// Eight pixels of {1, 0.5, 0.25} with run lengths.
 std::string hdr();
 
