@@ -57,6 +57,8 @@ public:
 
     /// Waits for the result, and does shards from now on. It may be told again: then it is false.
     bool join(const NodeCopy& copy, std::uint64_t process, Time now);
+    /// Has it joined?
+    bool has(const NodeCopy& copy) const { return joined_.contains(copy); }
     /// Of those who have joined, the ones in `there` go on; others of the plan's places answer what they have and are
     /// asked no more; the rest is lost.
     void keep(const Plan& plan, const std::set<NodeCopy>& there, Time now);

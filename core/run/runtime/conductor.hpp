@@ -106,7 +106,7 @@ private:
     void deal(std::size_t position);
     void keep_dealing();
     bool end_calls();
-    bool may_join(const NodeCopy& copy, std::uint32_t call) const;
+    bool will_join(const NodeCopy& copy, std::uint32_t number, ServiceCall& call) const;
     void collect();
     void begin_rehearsal(std::uint32_t call);
     void end_rehearsal();

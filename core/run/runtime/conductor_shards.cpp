@@ -46,11 +46,12 @@ void Conductor::shards_done(const Sent& sent, const Bytes& data) {
     none_missing ? advance() : deal(sent.position);
 }
 
-// It has not come to this call yet; all copies make the same calls.
-bool Conductor::may_join(const NodeCopy& copy, std::uint32_t call) const {
+// It does no shards of this call yet, but will; all copies make the same calls.
+bool Conductor::will_join(const NodeCopy& copy, std::uint32_t number, ServiceCall& call) const {
     const auto found = followers_.find(copy);
     if (found == followers_.end() || found->second.state == Follower::State::idle) return true;
-    return found->second.state == Follower::State::asked && found->second.at.call <= call;
+    const bool past = found->second.state == Follower::State::done || found->second.at.call > number;
+    return !past && !call.dealer().has(copy);
 }
 
 // Those whose shards are all there; true: there are some. What is found to be false meanwhile is told at once.
@@ -59,8 +60,10 @@ bool Conductor::end_calls() {
     for (std::size_t position = 0; position < led(); ++position)
         for (const auto& [number, call] : calls_.dealt_out(order_[position])) {
             const auto all = copies(position);
-            const bool more_to_come = std::any_of(
-                all.begin(), all.end(), [&, number = number](const auto& copy) { return may_join(copy, number); });
+            const bool more_to_come =
+                std::any_of(all.begin(), all.end(), [&, number = number, call = call](const auto& copy) {
+                    return will_join(copy, number, *call);
+                });
             const bool all_there = call->all_there(more_to_come);
             if (auto lie = call->lie()) {
                 if (!answers_alone(proposal_, *options_.graph, order_[position])) lie->host.clear();
