@@ -284,8 +284,9 @@ Kind ray_tracer_kind() {
                  .initial = Value{Table{}}},
                 {.name = "layers",
                  .type = ParamType::named_lists,
-                 .help = "layers by light path expressions, like caustics = \"C.*DS+L\", instead of one for each of the "
-                         "operators that they take",
+                 .help =
+                     "layers by light path expressions, like caustics = \"C.*DS+L\", instead of one for each of the "
+                     "operators that they take",
                  .optional = true},
                 {.name = "alpha",
                  .type = ParamType::flag,

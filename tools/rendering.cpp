@@ -292,8 +292,9 @@ std::shared_ptr<const Network> Rendering::network_of_files() const {
     DiskFiles files;
     auto network = build_network(what_.job, what_.registry, files);
     for (const auto& [path, hash] : files.hashes())
-        if (std::none_of(what_.job.files.begin(), what_.job.files.end(),
-                         [&](const JobFile& file) { return file.path == path && file.hash == hash; }))
+        if (std::none_of(
+                what_.job.files.begin(), what_.job.files.end(),
+                [&, path = path, hash = hash](const JobFile& file) { return file.path == path && file.hash == hash; }))
             throw Error(path, "has changed since the run began");
     return network;
 }

@@ -67,8 +67,8 @@ private:
         for (const auto& [id, ends] : ends_) lonely += !(ends.sent && ends.taken);
         std::string clocks;
         for (const auto& [host, process] : hosts_) {
-            const auto trace =
-                std::find_if(traces_.begin(), traces_.end(), [&](const auto& one) { return one.host == host; });
+            const auto trace = std::find_if(traces_.begin(), traces_.end(),
+                                            [&, host = host](const auto& one) { return one.host == host; });
             const bool known = trace->clock_error != std::numeric_limits<std::uint64_t>::max();
             clocks += fmt::format("{}{}:{{\"ahead_us\":{:.3f},\"error_us\":{}}}", clocks.empty() ? "" : ",",
                                   json_text(name_of_host(host)), double(trace->clock_ahead) / 1000,
@@ -102,8 +102,8 @@ private:
         const std::string node = event.node < nodes_.size() ? nodes_[event.node] : fmt::format("node {}", event.node);
         const bool bundle = event.kind == TraceKind::send || event.kind == TraceKind::take;
         const auto name = bundle ? fmt::format("{} {}", kind_names[kind], node) : node;
-        add(fmt::format(R"({{"ph":"X","name":{},"cat":"{}","pid":{},"tid":{},"ts":{:.3f},"dur":{:.3f}}})", json_text(name),
-                        kind_names[kind], process, thread, begin, end - begin));
+        add(fmt::format(R"({{"ph":"X","name":{},"cat":"{}","pid":{},"tid":{},"ts":{:.3f},"dur":{:.3f}}})",
+                        json_text(name), kind_names[kind], process, thread, begin, end - begin));
         if (!bundle || !ends_[event.id].sent || !ends_[event.id].taken) return;
         // What is sent has left before the slice ends, and what is taken has come by then.
         const double at = event.kind == TraceKind::send ? begin : std::max(begin, end - 0.001);

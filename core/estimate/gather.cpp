@@ -11,7 +11,7 @@ namespace lightnet {
 namespace {
 
 constexpr std::uint32_t most_mirrors = 100;  // in a row
-constexpr float keep = 4;                    // what is fainter than its inverse is followed seldom
+constexpr float contrast = 4;                // what is fainter than its inverse is followed seldom
 constexpr Key chain_key = key_of("chain of mirrors");
 
 /// Questions about what rays meet, in order of ray and depth.
@@ -43,7 +43,8 @@ void follow(const Scene& scene, const GatherRay& ray, std::optional<Hit> hit, st
             met.weights.push_back(path.weight());
         }
         if (!(lobes & lobe::specular) || mirrors >= most_mirrors) return;
-        if (!path.go_on(point, bsdf, Samples(child(ray.stream, chain_key, 256 + mirrors), ray.sample), keep)) return;
+        if (!path.go_on(point, bsdf, Samples(child(ray.stream, chain_key, 256 + mirrors), ray.sample), contrast))
+            return;
         hit = scene.intersect(path.ray());
     }
 }

@@ -7,8 +7,8 @@
 namespace lightnet {
 
 std::string to_json(const RunReport& report) {
-    using Json = nlohmann::ordered_json;
-    Json places = Json::array(), phases = Json::array();
+    using OrderedJson = nlohmann::ordered_json;
+    OrderedJson places = OrderedJson::array(), phases = OrderedJson::array();
     for (const auto& place : report.places)
         places.push_back({{"host", place.host},
                           {"index", place.index},
@@ -16,7 +16,7 @@ std::string to_json(const RunReport& report) {
                           {"seconds", place.seconds},
                           {"waiting", place.waiting},
                           {"idle", place.idle}});
-    Json nodes = Json::array(), edges = Json::array();
+    OrderedJson nodes = OrderedJson::array(), edges = OrderedJson::array();
     for (const auto& node : report.nodes)
         nodes.push_back({{"name", node.name},
                          {"kind", node.kind},
@@ -36,10 +36,10 @@ std::string to_json(const RunReport& report) {
                          {"bundles", edge.bundles},
                          {"sent", edge.sent},
                          {"bytes", edge.bytes}});
-    Json layers = Json::array();
+    OrderedJson layers = OrderedJson::array();
     for (const auto& [name, mean, share] : report.layers)
         layers.push_back({{"name", name}, {"mean", mean}, {"share", share}});
-    Json hosts = Json::array();
+    OrderedJson hosts = OrderedJson::array();
     for (const auto& host : report.hosts)
         hosts.push_back({{"host", host.host},
                          {"state", host.state},
@@ -52,17 +52,17 @@ std::string to_json(const RunReport& report) {
                          {"places", host.places}});
     for (const auto& [name, seconds] : report.phases) phases.push_back({{"name", name}, {"seconds", seconds}});
 
-    Json preparing = Json::array();
+    OrderedJson preparing = OrderedJson::array();
     for (const auto& [node, what, seconds] : report.preparing)
         preparing.push_back({{"node", node}, {"what", what}, {"seconds", seconds}});
 
-    Json json;
+    OrderedJson json;
     json["format"] = "lightnet run 2";
     json["outcome"] = report.outcome;
     json["graph"] = {{"file", report.graph}, {"hash", report.graph_hash}};
     if (!report.network.empty()) {
         json["graph"]["folder"] = report.folder;
-        json["graph"]["network"] = Json::parse(report.network);
+        json["graph"]["network"] = OrderedJson::parse(report.network);
     }
     json["mode"] = report.mode;
     json["outputs"] = report.outputs;
@@ -78,7 +78,7 @@ std::string to_json(const RunReport& report) {
     json["versions"] = report.versions;
     json["warnings"] = report.warnings;
     // File names may be in any encoding; a report is worth more than one strange letter.
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
 std::filesystem::path report_beside(const std::filesystem::path& picture) {

@@ -1,5 +1,5 @@
-// Truevision TGA: of palettes, colours and grey, packed or not. The format has no mark at its beginning, so a header that
-// makes sense has to do.
+// Truevision TGA: of palettes, colours and grey, packed or not. The format has no mark at its beginning, so a header
+// that makes sense has to do.
 #include <array>
 #include <optional>
 
@@ -14,10 +14,10 @@ constexpr std::size_t header_size = 18;
 struct Header {
     std::size_t behind = 0;  // where what follows begins
     bool packed = false;
-    int kind = 0;            // 1: palette, 2: colours, 3: grey
-    int bits = 0;            // of a pixel
+    int kind = 0;  // 1: palette, 2: colours, 3: grey
+    int bits = 0;  // of a pixel
     std::size_t colours = 0, first_colour = 0;
-    int colour_bits = 0;     // of the palette
+    int colour_bits = 0;  // of the palette
     std::uint32_t width = 0, height = 0;
     bool alpha = false, from_right = false, from_top = false;
 };

@@ -161,8 +161,7 @@ Raster turned_into_eight_bits(const OpenTiff& tiff, const Layout& layout) {
     char why[1024] = "";
     if (!TIFFRGBAImageOK(tiff, why)) throw Error("TIFF: " + std::string(why));
     std::vector<std::uint32_t> pixels(std::size_t{layout.width} * layout.height);
-    tiff.must(TIFFReadRGBAImageOriented(tiff, layout.width, layout.height, pixels.data(), ORIENTATION_TOPLEFT, 1) ==
-              1);
+    tiff.must(TIFFReadRGBAImageOriented(tiff, layout.width, layout.height, pixels.data(), ORIENTATION_TOPLEFT, 1) == 1);
     Raster raster{layout.width, layout.height, 3, false, {}};
     raster.bytes.reserve(pixels.size() * 3);
     for (const std::uint32_t pixel : pixels)

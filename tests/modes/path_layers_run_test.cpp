@@ -48,15 +48,15 @@ protected:
 TEST_F(PathLayersRun, HoldsTheLightOfTheOperatorsThatAnExpressionTakes) {
     const auto named = rendered(graph_file("expressions.lua")), plain = rendered(without_);
     EXPECT_THAT(names_of(named), ElementsAre("softbox", "emission.rest", "lit", "indirect"));
-    EXPECT_THAT(names_of(plain), ElementsAre("emission.key", "emission.rest", "direct.key", "direct.rest", "bounce.key",
-                                             "bounce.rest"));
+    EXPECT_THAT(names_of(plain),
+                ElementsAre("emission.key", "emission.rest", "direct.key", "direct.rest", "bounce.key", "bounce.rest"));
     EXPECT_TRUE(pixels_of(named, "lit") == pixels_of(plain, "direct.rest"));
     EXPECT_TRUE(pixels_of(named, "indirect") == pixels_of(plain, "bounce.rest"));
     EXPECT_TRUE(pixels_of(named, "emission.rest") == pixels_of(plain, "emission.rest"));
     double sum = 0;
     for (std::size_t i = 0; i < plain.beauty.size(); ++i) {
-        const Rgb whole = pixels_of(plain, "emission.key")[i] + pixels_of(plain, "direct.key")[i] +
-                          pixels_of(plain, "bounce.key")[i];
+        const Rgb whole =
+            pixels_of(plain, "emission.key")[i] + pixels_of(plain, "direct.key")[i] + pixels_of(plain, "bounce.key")[i];
         const Rgb found = pixels_of(named, "softbox")[i];
         sum += found.g;
         for (const auto& [a, b] : {std::pair(found.r, whole.r), {found.g, whole.g}, {found.b, whole.b}})

@@ -60,7 +60,8 @@ TEST(PathExpression, SaysWhatCantBeTold) {
     EXPECT_THAT(mistake_in("C<.G>L"), HasSubstr("glossy"));
     EXPECT_THAT(mistake_in("CVL"), HasSubstr("media"));
     EXPECT_THAT(mistake_in("C[^D]L"), HasSubstr("name what is"));
-    for (const char* text : {"C(DL", "CD)L", "C<.D", "C<L.'key>", "CD{2L", "CD{3,1}L", "CD{x}L", "CxL", "C*{", "<", "["})
+    for (const char* text :
+         {"C(DL", "CD)L", "C<.D", "C<L.'key>", "CD{2L", "CD{3,1}L", "CD{x}L", "CxL", "C*{", "<", "["})
         EXPECT_THAT(mistake_in(text), HasSubstr("is no light path expression")) << text;
     EXPECT_THAT(mistake_in(std::string(2000, 'D')), HasSubstr("too long"));
     EXPECT_THAT(mistake_in(std::string(100, '(')), HasSubstr("nested"));
@@ -76,11 +77,15 @@ const Registry& nodes() {
 // Direct and indirect light, and a renderer with these layers. `of_operators`: what all of them are told.
 Examined examined(const std::string& layers, const std::string& of_operators = "") {
     return examine(test::parse("scene = Scene { 'box.pbrt', groups = { key = 'spot' } }\n"
-                               "direct = DirectLighting { " + of_operators + " }\n"
-                               "bounce = PathTracing { " + of_operators + " }\n"
+                               "direct = DirectLighting { " +
+                               of_operators +
+                               " }\n"
+                               "bounce = PathTracing { " +
+                               of_operators +
+                               " }\n"
                                "light = Combine { direct, bounce }\n"
-                               "image = RayTracer { light, scene = scene, film = { 8, 4 }, layers = { " + layers +
-                               " }, " + of_operators + " }"),
+                               "image = RayTracer { light, scene = scene, film = { 8, 4 }, layers = { " +
+                               layers + " }, " + of_operators + " }"),
                    nodes());
 }
 
@@ -99,7 +104,8 @@ std::string wrong_with(const std::string& layers, const std::string& of_operator
 TEST(PathLayers, AreNamedByExpressionsInsteadOfByOperators) {
     EXPECT_THAT(layers_with("").film, ElementsAre("emission", "direct", "bounce"));
     EXPECT_THAT(layers_with("lit = 'CS*DL', indirect = 'CS*D.+L'").film, ElementsAre("emission", "lit", "indirect"));
-    EXPECT_THAT(layers_with("lit = 'CS*DL'").film, ElementsAre("emission", "lit", "bounce")) << "the rest keeps its own";
+    EXPECT_THAT(layers_with("lit = 'CS*DL'").film, ElementsAre("emission", "lit", "bounce"))
+        << "the rest keeps its own";
 }
 
 TEST(PathLayers, PutTogetherWhatAnExpressionTakesOfSeveralOperators) {
@@ -122,8 +128,9 @@ TEST(PathLayers, KeepGroupsApartUntilAnExpressionNamesOne) {
 }
 
 TEST(PathLayers, SayWhatTheGraphDoesNotKeepApart) {
-    EXPECT_THAT(wrong_with("caustics = 'CS*DS+L'"),
-                HasSubstr("RayTracer 'image': 'layers': 'caustics': takes LSDE of 'bounce', but not LDDE: no operator"));
+    EXPECT_THAT(
+        wrong_with("caustics = 'CS*DS+L'"),
+        HasSubstr("RayTracer 'image': 'layers': 'caustics': takes LSDE of 'bounce', but not LDDE: no operator"));
     EXPECT_THAT(wrong_with("lit = 'CDL'"), HasSubstr("takes LDE of 'direct', but not LDSE"));
     EXPECT_THAT(wrong_with("lit = 'CDL'"), HasSubstr("Write S* behind C"));
     EXPECT_THAT(wrong_with("lit = \"CS*DL'key'\""),

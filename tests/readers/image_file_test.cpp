@@ -214,7 +214,8 @@ TEST_P(EveryPicture, NeverCrashesWithABrokenByte) {
         }
 }
 
-INSTANTIATE_TEST_SUITE_P(Kind, EveryPicture, testing::Values(small_png(), jpeg(100, 3), exr({"R", "G", "B"}), hdr(), test::tiff(8, false),
+INSTANTIATE_TEST_SUITE_P(Kind, EveryPicture,
+                         testing::Values(small_png(), jpeg(100, 3), exr({"R", "G", "B"}), hdr(), test::tiff(8, false),
                                          test::tiff(16, true), test::tga(24, false), test::tga(32, true)));
 
 }  // namespace

@@ -44,7 +44,8 @@ struct TiffFile {
 
 tmsize_t read_tiff(thandle_t handle, void* into, tmsize_t wanted) {
     auto& file = *static_cast<TiffFile*>(handle);
-    const auto count = std::min<std::size_t>(std::size_t(wanted), file.bytes.size() - std::min(file.at, file.bytes.size()));
+    const auto count =
+        std::min<std::size_t>(std::size_t(wanted), file.bytes.size() - std::min(file.at, file.bytes.size()));
     std::memcpy(into, file.bytes.data() + file.at, count);
     file.at += count;
     return tmsize_t(count);
@@ -106,7 +107,8 @@ std::string tiff(int bits, bool tiles) {
                 for (const auto byte : tiff_pixel(bits, x, y)) row.push_back(byte);
             return row;
         };
-        for (std::uint32_t y = 0; y < height && !tiles; ++y) TIFFWriteScanline(file, pixels_of(0, y, width).data(), y, 0);
+        for (std::uint32_t y = 0; y < height && !tiles; ++y)
+            TIFFWriteScanline(file, pixels_of(0, y, width).data(), y, 0);
         for (std::uint32_t y = 0; y < height && tiles; y += tile)
             for (std::uint32_t x = 0; x < width; x += tile) {
                 std::vector<std::uint8_t> all;

@@ -1,7 +1,7 @@
 // lightnet bench-hosts: how much quicker a graph becomes with more hosts.
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ostream.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -42,11 +42,13 @@ void describe_bench_hosts(CLI::App& app, BenchHostsOptions& options) {
     add_graph(app, options.graph);
     add_picture(app, running.picture);
     auto* const hosts = add_hosts(app, running.hosts);
-    takes_numbers(app.add_option("--local-workers", running.local_workers,
-                                 "up to so many daemons on this machine, instead of a hosts file's (default: one per core)"),
-                  "N", 1, 1024)
+    takes_numbers(
+        app.add_option("--local-workers", running.local_workers,
+                       "up to so many daemons on this machine, instead of a hosts file's (default: one per core)"),
+        "N", 1, 1024)
         ->excludes(hosts);
-    app.add_option("--key", running.key, "file with our secret key (default: ~/.config/lightnet/key)")->type_name("FILE");
+    app.add_option("--key", running.key, "file with our secret key (default: ~/.config/lightnet/key)")
+        ->type_name("FILE");
     app.add_flag("--insecure", running.insecure, "reach beyond this machine without keys");
     takes_numbers(app.add_option("--rounds", options.rounds, "times that each number of hosts is measured, in turns"),
                   "N", 1, 100)
@@ -116,8 +118,10 @@ std::vector<HostsRow> rows_up_to(std::uint32_t most) {
 void check_that_any_host_will_do(const Hosts& hosts) {
     for (const auto& entry : hosts.hosts)
         if (!entry.replicas.empty() || entry.is_here())
-            throw UserError(entry.where, "bench-hosts wants hosts that hold the whole network, as it leaves some out: "
-                                         "place \"" + entry.endpoint + "\" {}");
+            throw UserError(entry.where,
+                            "bench-hosts wants hosts that hold the whole network, as it leaves some out: "
+                            "place \"" +
+                                entry.endpoint + "\" {}");
 }
 
 /// Runs a graph on more and more hosts.
@@ -163,7 +167,8 @@ private:
     void compare(const std::string& picture) {
         const Hash hash = content_hash(content_of(picture));
         if (picture_ == Hash{}) picture_ = hash;
-        if (hash != picture_) throw Error("the pictures of two runs differ", "which is an error of ours; please report it");
+        if (hash != picture_)
+            throw Error("the pictures of two runs differ", "which is an error of ours; please report it");
     }
 
     static HostsRun times_in(const std::string& report) {
@@ -188,7 +193,8 @@ void print_table(std::ostream& out, const std::vector<HostsRow>& rows) {
     const auto render = [](const HostsRun& run) { return run.render; };
     const auto both = [](const HostsRun& run) { return run.both(); };
     constexpr double cells_per_host = 4;
-    fmt::print(out, "hosts  prepare   render     both  speed-up  of ideal  (o: as many times quicker as there are hosts)\n");
+    fmt::print(out,
+               "hosts  prepare   render     both  speed-up  of ideal  (o: as many times quicker as there are hosts)\n");
     for (const auto& row : rows) {
         const double speed_up = rows.front().median(both) / row.median(both);
         const auto bar = static_cast<std::size_t>(speed_up * cells_per_host + 0.5);

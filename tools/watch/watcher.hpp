@@ -91,8 +91,8 @@ private:
     WatchBoard board_;
     bool too_large_ = false, began_to_show_ = false;
     std::deque<Tile> changed_;  // areas
-    Pace pixel_pace_, state_pace_, memory_pace_;
     std::chrono::duration<double> memory_period_{1};
+    Pace pixel_pace_, state_pace_, memory_pace_;
     std::vector<std::string> history_, lines_;
     std::mutex commands_mutex_;
     std::vector<WatchCommand> commands_;

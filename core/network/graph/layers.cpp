@@ -129,8 +129,8 @@ std::vector<std::size_t> layers_made_of(std::size_t node, const Layers& layers, 
     const auto& own = layers.of_node[node];
     std::vector<std::size_t> made_of;
     for (const auto& terminal : own) {
-        const auto colour = std::find(colours.begin() + static_cast<std::ptrdiff_t>(layers.emission), colours.end(),
-                                      terminal);
+        const auto colour =
+            std::find(colours.begin() + static_cast<std::ptrdiff_t>(layers.emission), colours.end(), terminal);
         if (colour == colours.end()) return {};
         made_of.push_back(layers.of_colour[static_cast<std::size_t>(colour - colours.begin())]);
     }

@@ -50,8 +50,8 @@ public:
 
 private:
     void complain(const std::string& layer, const std::string& what) {
-        made_.problems.push_back({renderer_.where, renderer_.kind + " " + in_quotes(renderer_.name) + ": 'layers': " +
-                                                       in_quotes(layer) + ": " + what});
+        made_.problems.push_back({renderer_.where, renderer_.kind + " " + in_quotes(renderer_.name) +
+                                                       ": 'layers': " + in_quotes(layer) + ": " + what});
     }
 
     void read() {
@@ -117,8 +117,8 @@ private:
             if (!has) continue;
             layer.found = true;
             if (lacks) {
-                complain(layer.name, "takes " + *has + " of " + who + ", but not " + *lacks + ": " +
-                                         why_not_apart(*has, *lacks));
+                complain(layer.name,
+                         "takes " + *has + " of " + who + ", but not " + *lacks + ": " + why_not_apart(*has, *lacks));
             } else if (taken_by) {
                 complain(layer.name, *has + " of " + who + " is in " + in_quotes(taken_by->name) +
                                          " already, and an image is the sum of its layers");
@@ -161,6 +161,7 @@ private:
 
 }  // namespace
 
+// DECISIONS: expressions-sort-operators
 PathLayers path_layers(const Graph& graph, const Registry& registry, const std::vector<Terminal>& colours,
                        const std::vector<bool>& by_group) {
     return Sorting(graph, registry, colours, by_group).take();

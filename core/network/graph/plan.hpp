@@ -52,7 +52,7 @@ std::vector<std::string> shown_names(const Layers& layers, const Graph& graph);
 /// Layers of a checked graph. A linear node on an additive path from the renderer keeps its terminals apart; every
 /// other node answers with one colour.
 Layers layers_of(const Graph& graph, const Registry& registry);
-/// The layers of the film that, added up, are a node's light; none: it is no part of the sum, or in a layer with others'.
+/// The layers of the film that are a node's light, added up; none: it is no part of the sum, or in layers with others'.
 std::vector<std::size_t> layers_made_of(std::size_t node, const Layers& layers, const Graph& graph,
                                         const Registry& registry);
 /// What is wrong with the light path expressions of a graph that is sound otherwise.

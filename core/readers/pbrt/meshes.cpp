@@ -76,8 +76,8 @@ std::optional<Mesh> vertices(Parameters& parameters) {
         parameters.error(fmt::format("there are {} '{}' for {} vertices", size, what, count));
         return false;
     };
-    const bool good = fits(mesh.normals.size(), "N") & fits(mesh.uvs.size(), "uv");
-    return good ? std::optional(std::move(mesh)) : std::nullopt;
+    const bool normals = fits(mesh.normals.size(), "N"), uvs = fits(mesh.uvs.size(), "uv");  // both are told
+    return normals && uvs ? std::optional(std::move(mesh)) : std::nullopt;
 }
 
 /// The corners of a bilinear patch: (u, v) = (0, 0), (1, 0), (0, 1), (1, 1).

@@ -60,10 +60,9 @@ bool Conductor::end_calls() {
     for (std::size_t position = 0; position < led(); ++position)
         for (const auto& [number, call] : calls_.dealt_out(order_[position])) {
             const auto all = copies(position);
-            const bool more_to_come =
-                std::any_of(all.begin(), all.end(), [&, number = number, call = call](const auto& copy) {
-                    return will_join(copy, number, *call);
-                });
+            const bool more_to_come = std::any_of(
+                all.begin(), all.end(),
+                [&, number = number, call = call](const auto& copy) { return will_join(copy, number, *call); });
             const bool all_there = call->all_there(more_to_come);
             if (auto lie = call->lie()) {
                 if (!answers_alone(proposal_, *options_.graph, order_[position])) lie->host.clear();

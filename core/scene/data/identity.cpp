@@ -39,7 +39,7 @@ public:
         if constexpr (as_bytes<T>)
             add_bytes(std::as_bytes(std::span(&value, 1)));
         else
-            visit_members(value, [this](const auto&... members) { (add(members), ...); });
+            visit_members(value, [&](const auto&... members) { (add(members), ...); });
     }
     template <class T>
     void add(const std::optional<T>& value) {
@@ -49,7 +49,7 @@ public:
     template <class... T>
     void add(const std::variant<T...>& value) {
         add(value.index());
-        std::visit([this](const auto& one) { add(one); }, value);
+        std::visit([&](const auto& one) { add(one); }, value);
     }
     template <class T>
     void add(const std::vector<T>& values) {

@@ -168,7 +168,7 @@ const std::vector<Case> cases{
     {"everything_smoothly_coated", everything(0)},
     {"mixture", DiffuseBsdf{{0.8f, 0.5f, 0.2f}}, ConductorBsdf{copper.eta, copper.k, {0.3f, 0.3f}}},
     {"mixture_with_a_mirror", RoughDiffuseBsdf{{0.8f, 0.5f, 0.2f}, 0.4f}, ConductorBsdf{copper.eta, copper.k, {}}},
-    {"mixture_with_nothing", [] { return CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &smooth_coat()}, ThinDielectricBsdf{1}; }},
+    {"mixture_with_nothing", [] { return CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &smooth_coat()}; }, ThinDielectricBsdf{1}},
 };
 
 class EveryModel : public testing::TestWithParam<Case> {
