@@ -88,7 +88,8 @@ RunRequest request_of(const RunningOptions& running, const Launcher& launcher, L
     request.time_limit = running.time_limit;
     request.reference = running.reference;
     request.curve = running.curve;
-    request.graph = sharded(std::move(request.graph), shards_of(request.graph, registry, request.hosts));
+    const auto shards = shards_of(request.graph, registry, request.hosts);
+    request.graph = sharded(std::move(request.graph), shards);
     if (has_other_hosts(running, request.hosts)) request.mode = Mode::network;
     request.threads = own_places(running, request, registry);
     if (request.mode != Mode::network && (request.threads > 1 || first_here(request.hosts)))
