@@ -37,6 +37,13 @@ target_compile_options(lightnet_quick_build INTERFACE $<$<CONFIG:Release>:-O1>
 
 # With a sanitizer (presets asan, tsan) every program knows how it is to behave, wherever it is started from.
 if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=")
+  # clang has other words for what it checks.
+  foreach(checks ADDRESS THREAD)
+    string(TOLOWER "${checks}" name)
+    if(CMAKE_CXX_COMPILER_ID MATCHES "Clang" AND CMAKE_CXX_FLAGS MATCHES "-fsanitize=[a-z,]*${name}")
+      add_compile_definitions(__SANITIZE_${checks}__=1)
+    endif()
+  endforeach()
   add_library(sanitizer_options OBJECT "${PROJECT_SOURCE_DIR}/tests/support/sanitizer_options.cpp")
   target_compile_definitions(sanitizer_options PRIVATE
     LIGHTNET_TSAN_SUPPRESSIONS="${PROJECT_SOURCE_DIR}/tests/tsan.supp")
