@@ -28,11 +28,11 @@ public:
     explicit Endless(const NodeContext& here) : where_(here.text("where")) {}
 
     void prepare(Services& services) override {
+        services.doing("goes on for ever", 3, 8);  // first: who sees it at work looks at what it does
         struct Busy {
             Busy() { ++at_work; }
             ~Busy() { --at_work; }
         } busy;
-        services.doing("goes on for ever", 3, 8);
         const auto for_ever = [&services] {
             for (; true; std::this_thread::sleep_for(1ms)) services.look();
         };

@@ -221,6 +221,9 @@ std::vector<std::string> with_descriptors(int count, const std::vector<std::stri
 }
 
 TEST_F(SickHostTest, OutOfDescriptorsIsARefusalAndNoAbort) {
+#if defined(__SANITIZE_ADDRESS__)
+    GTEST_SKIP() << "the sanitizer looks at objects by way of a pipe, and takes none for a broken object";
+#endif
     const Daemon one(folder), two(other);
     std::ofstream(folder / "hosts.lua") << "place \"" << one.endpoint << "\" {}\nplace \"" << two.endpoint << "\" {}\n";
     const auto out = folder / "few.exr";
