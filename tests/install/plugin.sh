@@ -11,6 +11,8 @@ trap 'echo "line $LINENO: $BASH_COMMAND"' ERR
 "$cmake" --install "$build" --prefix "$folder/usr" --strip >/dev/null
 export CMAKE_PREFIX_PATH=$folder/usr PATH=$folder/usr/bin:$PATH LIGHTNET_CONFIG=$folder/none.lua
 unset CMAKE_CXX_COMPILER_LAUNCHER
+CXX=$(sed -n 's/^CMAKE_CXX_COMPILER:[A-Z]*=//p' "$build/CMakeCache.txt")   # plugins of another compiler are refused
+export CXX
 
 fail() { echo "$*"; exit 1; }
 # says WORDS COMMAND...: the command fails, and says so.
