@@ -34,9 +34,11 @@ protected:
         const auto from = text.find("layers = {"), to = text.find("},", from) + 2;
         without_ = folder_.write("without.lua", text.erase(from, to - from));
     }
-    Picture rendered(const std::string& graph) const {
+    Picture rendered(const std::string& graph, const std::vector<std::string>& more = {}) const {
         const auto file = folder_ / "picture.exr";
-        Process run(launch_words(graph, file, {"--size", "64x48", "--samples", "8"}));
+        std::vector<std::string> words{"--size", "64x48", "--samples", "8"};
+        words.insert(words.end(), more.begin(), more.end());
+        Process run(launch_words(graph, file, words));
         const auto made = finish(run, file);
         EXPECT_EQ(made.code, 0) << made.said;
         return read_exr(file);
@@ -63,6 +65,15 @@ TEST_F(PathLayersRun, HoldsTheLightOfTheOperatorsThatAnExpressionTakes) {
             ASSERT_NEAR(a, b, 1e-5f * (1 + std::fabs(b))) << "at pixel " << i;
     }
     EXPECT_GT(sum, 1) << "the key light lights something";
+}
+
+TEST_F(PathLayersRun, IsMixedAnewLikeAnyOther) {
+    rendered(graph_file("expressions.lua"));
+    const auto mixed = folder_ / "mixed.exr";
+    Process remix({program("lightnet"), "remix", folder_ / "picture.exr", "softbox=0.5", "lit=1.5,1,0", "-o", mixed});
+    ASSERT_EQ(remix.wait(), 0) << remix.output();
+    rendered(graph_file("expressions.lua"), {"--forget", "--gain", "softbox=0.5", "--gain", "lit=1.5,1,0"});
+    EXPECT_TRUE(bytes_of(mixed) == bytes_of(folder_ / "picture.exr"));
 }
 
 }  // namespace

@@ -46,12 +46,7 @@ TEST(PathExpression, KnowsLampsByTheirGroup) {
 }
 
 std::string mistake_in(const std::string& expression) {
-    try {
-        PathExpression read(expression);
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "none";
+    return test::error_of([&] { PathExpression read(expression); });
 }
 
 TEST(PathExpression, SaysWhatCantBeTold) {
@@ -140,6 +135,20 @@ TEST(PathLayers, SayWhatTheGraphDoesNotKeepApart) {
     EXPECT_THAT(wrong_with("lit = 'CS*D*'"), HasSubstr("no operator"));
     EXPECT_THAT(wrong_with("a = { \"C.*L'key'\", \"C.*L'rest'\" }", "groups = true"),
                 HasSubstr("takes the emission of several groups"));
+}
+
+TEST(PathLayers, TellLampsFromTheBackgroundWhereAnOperatorDoesNot) {
+    const auto wrong = wrong_with("lamps = 'CS*DO'");
+    EXPECT_THAT(wrong,
+                HasSubstr("takes LDE of 'direct', but not LDE: it does not keep lamps apart from the background"));
+}
+
+// To know whether the 31st surface before the eye scattered, an automaton must remember all 31: 2^31 states.
+TEST(PathLayers, AreRefusedWhereTellingThemApartTakesTooLong) {
+    EXPECT_THAT(wrong_with("many = 'C.{15}.{15}D.*L'"), HasSubstr("take too long to tell apart"));
+    EXPECT_THAT(mistake_in("C(.{9}){9}L"), HasSubstr("too long with its repetitions"));
+    EXPECT_THAT(mistake_in("C.{999}L"), HasSubstr("too long with its repetitions"));
+    EXPECT_THAT(mistake_in("C((((D+)+)+)+)+)+)+)+L"), HasSubstr("no light path expression"));
 }
 
 TEST(PathLayers, SayWhatIsWrongWithNamesAndExpressions) {

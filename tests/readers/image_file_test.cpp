@@ -141,7 +141,21 @@ TEST(Tiff, TurnsPalettesIntoColours) {
     EXPECT_NEAR(image.colour(1, 0).b, 0.2159f, 1e-3f);
 }
 
-TEST(Tga, ReadsAllItsKindsFromTheLowestRow) {
+TEST(Tga, ReadsPalettesAndRunsFromAnyCorner) {
+    // 4 x 1 pixels of a palette whose first colour is number 5: three of 6, one of 5; read from the right, then not
+    std::string file("\0\1\11\5\0\2\0\30\0\0\0\0\4\0\1\0\10\60", 18);
+    file += std::string("\0\0\377", 3) + std::string("\377\0\0", 3) + std::string("\202\6\0\5", 4);
+    const Image from_right = read(file);
+    ASSERT_EQ(from_right.width, 4u);
+    EXPECT_EQ(from_right.colour(0, 0), (Rgb{1, 0, 0}));
+    for (const std::uint32_t x : {1u, 2u, 3u}) EXPECT_EQ(from_right.colour(x, 0), (Rgb{0, 0, 1}));
+    file[17] = 32;
+    EXPECT_EQ(read(file).colour(3, 0), (Rgb{1, 0, 0}));
+    file.back() = 7;
+    EXPECT_THAT(error_of(file), HasSubstr("not in the palette"));
+}
+
+TEST(Tga, ReadsColoursAndGreyFromTheLowestRow) {
     for (const int bits : {32, 24, 16, 8})
         for (const bool packed : {false, true}) {
             const Image image = read(test::tga(bits, packed));

@@ -149,8 +149,7 @@ std::string tga(int bits, bool packed) {
     const std::string all[] = {pixel(255, 255, 255, 255), pixel(128, 128, 128, 255), pixel(0, 0, 0, 255),
                                pixel(255, 0, 0, 255),     pixel(0, 255, 0, 255),     pixel(0, 0, 255, 128)};
     for (int i = 0; i < 6; ++i) {
-        if (packed) file += char(i == 0 ? 0x80 : i == 1 ? 4 : 0);  // a run of one, then five as they are
-        if (packed && i > 1) file.pop_back();
+        if (packed && i < 2) file += char(i == 0 ? 0x80 : 4);  // a run of one, then five as they are
         file += all[i];
     }
     return file;

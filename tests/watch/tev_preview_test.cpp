@@ -34,17 +34,22 @@ protected:
         return image != seen.images.end() && image->second.channels.at("direct.R").back() == value;
     }
 
+    // What a viewer has when it has this.
+    TevViewer::Seen seen_of(float value) {
+        TevViewer viewer;
+        TevPreview preview(options(viewer.port()), board);
+        show(value);
+        EXPECT_TRUE(viewer.wait_for([&](const auto& seen) { return shows(seen, value); }));
+        EXPECT_THAT(viewer.seen().errors, IsEmpty());
+        return viewer.seen();
+    }
+
     FilmFormat format{40, 36, {"direct", "bounce"}, 16, {}, {}, {{2, 1, 1}, {1, 0.5f, 1}}, {"depth"}, {}};
     WatchBoard board{{0, 0, 40, 36}, 3};
 };
 
 TEST_F(TevPreviewTest, HasABeautyAndALayerForEachColour) {
-    TevViewer viewer;
-    TevPreview preview(options(viewer.port()), board);
-    show(3);
-    ASSERT_TRUE(viewer.wait_for([](const auto& seen) { return shows(seen, 3); }));
-    const auto seen = viewer.seen();
-    EXPECT_THAT(seen.errors, IsEmpty());
+    const auto seen = seen_of(3);
     const auto& image = seen.images.at("box.exr");
     EXPECT_EQ(image.width, 40);
     EXPECT_EQ(image.height, 36);
@@ -62,12 +67,7 @@ TEST_F(TevPreviewTest, HasNoLayersForIdsAndAlphaWhichTheBoardHasNot) {
     format.facts = {"mattes", "depth"};
     format.ids = {{"mattes", 4}};
     format.alpha = true;
-    TevViewer viewer;
-    TevPreview preview(options(viewer.port()), board);
-    show(3);
-    ASSERT_TRUE(viewer.wait_for([](const auto& seen) { return shows(seen, 3); }));
-    const auto seen = viewer.seen();
-    EXPECT_THAT(seen.errors, IsEmpty());
+    const auto seen = seen_of(3);
     const auto& image = seen.images.at("box.exr");
     EXPECT_EQ(image.channels.size(), 12u);
     EXPECT_EQ(image.channels.at("depth.B").back(), 9);

@@ -57,6 +57,14 @@ std::vector<Terminals> terminals_below(std::size_t top, const Graph& graph, cons
     return below;
 }
 
+// Which groups of lamps there are, and who keeps them apart.
+Layers nameless_layers(const Graph& graph, const Registry& registry) {
+    Layers layers;
+    layers.groups = std::max<std::size_t>(1, lamp_groups(graph, registry).size());
+    layers.by_group = keep_groups(graph, registry);
+    return layers;
+}
+
 // Its own light, one colour for each group of lamps if it keeps them apart, and what it gathers.
 Terminals colours_at(std::size_t renderer, const Layers& layers) {
     Terminals colours = own_terminals(renderer, layers);
@@ -146,19 +154,14 @@ std::vector<std::size_t> layers_made_of(std::size_t node, const Layers& layers, 
 std::vector<Problem> mistaken_layers(const Graph& graph, const Registry& registry) {
     const std::size_t renderer = renderer_of(graph, registry);
     if (!graph.nodes[renderer].params.contains("layers")) return {};
-    Layers layers;
-    layers.groups = std::max<std::size_t>(1, lamp_groups(graph, registry).size());
-    layers.by_group = keep_groups(graph, registry);
+    Layers layers = nameless_layers(graph, registry);
     layers.of_node = terminals_below(renderer, graph, registry, layers);
     return path_layers(graph, registry, colours_at(renderer, layers), layers.by_group).problems;
 }
 
 Layers layers_of(const Graph& graph, const Registry& registry) {
     const std::size_t renderer = renderer_of(graph, registry);
-    const auto groups = lamp_groups(graph, registry);
-    Layers layers;
-    layers.groups = std::max<std::size_t>(1, groups.size());
-    layers.by_group = keep_groups(graph, registry);
+    Layers layers = nameless_layers(graph, registry);
     if (registry.find(graph.nodes[renderer].kind)->light.merges) {
         layers.film = {graph.nodes[renderer].name};
         layers.of_node.resize(graph.nodes.size());

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <string_view>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "core/base/in_quotes.hpp"
@@ -11,22 +13,31 @@ namespace {
 
 constexpr std::string_view no_path = "(EL)";  // no light comes behind an eye
 
-constexpr std::size_t most_length = 1024;
+// Expressions come from strangers as well: what one of these sizes says can be looked at in no time.
+constexpr std::size_t most_length = 1024, most_letters = 128;  // as it is, and with its repetitions written out
 constexpr int most_nesting = 32;
+
+/// In Heckbert's notation, which goes from the light to the eye.
+struct Turned {
+    std::string text;
+    std::size_t letters = 0;  // with its repetitions written out
+};
 
 }  // namespace
 
-/// Recursive descent, which puts the last thing of each sequence first.
+/// Recursive descent, which puts the last thing of each sequence first. Lights of other groups are no paths.
 class PathExpression::Parser {
 public:
-    Parser(std::string_view text, std::vector<std::string>& groups) : text_(text), groups_(groups) {}
+    Parser(std::string_view text, const std::string& group) : text_(text), group_(group) {}
 
     std::string whole() {
         if (text_.size() > most_length) fail("it is too long");
-        std::string turned = alternatives();
+        const Turned turned = alternatives();
         if (at_ != text_.size()) fail("this closes nothing");
-        return turned;
+        return turned.text;
     }
+    /// That were met.
+    std::vector<std::string> groups() { return std::move(groups_); }
 
 private:
     [[noreturn]] void fail(const std::string& why) const {
@@ -50,84 +61,99 @@ private:
         return at_ < text_.size() ? text_[at_++] : '\0';
     }
 
-    std::string alternatives() {
+    Turned alternatives() {
         if (++nesting_ > most_nesting) fail("it is nested too deeply");
-        std::string all = "(" + sequence();
-        while (take('|')) all += "|" + sequence();
+        Turned all = sequence();
+        while (take('|')) all = either(all, sequence());
         --nesting_;
-        return all + ")";
+        return {"(" + all.text + ")", all.letters};
     }
 
-    std::string sequence() {
-        std::string turned;
+    static Turned either(const Turned& one, const Turned& other) {
+        return {one.text + "|" + other.text, one.letters + other.letters};
+    }
+
+    Turned sequence() {
+        Turned all;
         while (!next_is('|') && !next_is(')') && at_ < text_.size()) {
-            std::string one = atom();
-            one += repetition();
-            turned = one + turned;
+            const Turned one = repeated(atom());
+            all = {one.text + all.text, one.letters + all.letters};
+            if (all.letters > most_letters) fail("it is too long with its repetitions");
         }
-        return turned;
+        return all;
     }
 
-    // As it stands, up to its end: what it counts is the same in both directions.
-    std::string repetition() {
-        std::string all;
+    // What it counts is the same in both directions.
+    Turned repeated(Turned one) {
         for (;;) {
             if (next_is('*') || next_is('+') || next_is('?')) {
-                all += letter();
-            } else if (next_is('{')) {
-                const auto end = text_.find('}', at_);
-                if (end == text_.npos) fail("no } follows");
-                all += text_.substr(at_, end + 1 - at_);
-                at_ = end + 1;
+                one = {one.text + letter(), 2 * one.letters};
+            } else if (take('{')) {
+                const std::string least = number(), most = take(',') ? number() : least;
+                if (!take('}')) fail("a } is missing");
+                if (std::stoul(most) < std::stoul(least)) fail("it ends before it begins");
+                one = {one.text + "{" + least + "," + most + "}", (std::stoul(most) + 1) * one.letters};
             } else {
-                return all;
+                return one;
             }
+            if (one.letters > most_letters) fail("it is too long with its repetitions");
         }
     }
 
-    std::string atom() {
+    std::string number() {
+        std::string digits;
+        skip_blanks();
+        while (at_ < text_.size() && std::isdigit(static_cast<unsigned char>(text_[at_]))) digits += text_[at_++];
+        if (digits.empty() || digits.size() > 3) fail("a number of up to three digits is missing");
+        return digits;
+    }
+
+    Turned atom() {
         if (take('(')) {
-            std::string some = alternatives();
+            Turned some = alternatives();
             if (!take(')')) fail("a ) is missing");
             return some;
         }
         if (take('[')) return any_of();
         if (take('<')) return event();
         const char c = letter();
-        if (c == 'C') return "E";
-        if (c == '.') return "(S|D)";
-        if (c == 'D' || c == 'S') return std::string(1, c);
-        if (c == 'L' || c == 'O' || c == 'B') return light(c);
-        --at_;
-        refuse(c);
+        if (c == 'C') return {"E", 1};
+        if (c == 'L' || c == 'O' || c == 'B') return {light(c), 1};
+        return scattering(c);
     }
 
-    std::string any_of() {
+    Turned scattering(char how) {
+        if (how == '.') return {"(S|D)", 2};
+        if (how != 'D' && how != 'S') {
+            if (how) --at_;
+            refuse(how);
+        }
+        return {std::string(1, how), 1};
+    }
+
+    Turned any_of() {
         if (next_is('^')) fail("sets of what is not meant are not known here: name what is");
-        std::string all = "(" + atom();
+        Turned all = atom();
         while (!take(']')) {
             if (at_ >= text_.size()) fail("a ] is missing");
-            all += "|" + atom();
+            all = either(all, atom());
         }
-        return all + ")";
+        return {"(" + all.text + ")", all.letters};
     }
 
     // <.D>, <L.'key'>: what happens, how, and a label.
-    std::string event() {
+    Turned event() {
         const char what = letter();
-        std::string turned;
+        Turned turned;
         if (what == 'L' || what == 'O' || what == 'B') {
             if (!take('.')) fail("a light is written <L.> or <L.'group'>");
-            turned = light(what);
+            turned = {light(what), 1};
         } else {
-            if (what != '.') --at_, refuse(what);
-            const char how = letter();
-            if (how == 'D' || how == 'S')
-                turned = std::string(1, how);
-            else if (how == '.')
-                turned = "(S|D)";
-            else
-                --at_, refuse(how);
+            if (what != '.') {
+                if (what) --at_;
+                refuse(what);
+            }
+            turned = scattering(letter());
         }
         if (!take('>')) fail("a > is missing");
         return turned;
@@ -140,9 +166,8 @@ private:
         if (end == text_.npos) fail("a ' is missing");
         const std::string group(text_.substr(at_, end - at_));
         at_ = end + 1;
-        auto known = std::find(groups_.begin(), groups_.end(), group);
-        if (known == groups_.end()) known = groups_.insert(known, group);
-        return "(" + turned + std::to_string(known - groups_.begin()) + "#)";
+        if (std::find(groups_.begin(), groups_.end(), group) == groups_.end()) groups_.push_back(group);
+        return group == group_ ? turned : std::string(no_path);
     }
 
     [[noreturn]] void refuse(char c) const {
@@ -154,34 +179,19 @@ private:
     }
 
     std::string_view text_;
-    std::vector<std::string>& groups_;
+    const std::string& group_;
+    std::vector<std::string> groups_;
     std::size_t at_ = 0;
     int nesting_ = 0;
 };
 
-PathExpression::PathExpression(std::string_view text) : turned_(Parser(text, groups_).whole()) {
-    try {
-        of("");
-    } catch (const Error&) {
-        throw Error(in_quotes(std::string(text)) + " is no light path expression: see what is in its { }");
-    }
+PathExpression::PathExpression(std::string text) : text_(std::move(text)) {
+    const std::string none;
+    Parser parser(text_, none);
+    parser.whole();
+    groups_ = parser.groups();
 }
 
-PathSet PathExpression::of(const std::string& group) const {
-    std::string text;
-    for (std::size_t at = 0; at < turned_.size(); ++at) {
-        // a light of a group: "A3#"
-        const std::size_t mark = turned_.find_first_not_of("0123456789", at + 1);
-        const bool light = turned_[at] == 'L' || turned_[at] == 'A' || turned_[at] == 'V';
-        if (light && mark != turned_.npos && turned_[mark] == '#') {
-            const auto which = std::stoul(turned_.substr(at + 1, mark - at - 1));
-            text += groups_[which] == group ? std::string(1, turned_[at]) : std::string(no_path);
-            at = mark;
-        } else {
-            text += turned_[at];
-        }
-    }
-    return PathSet::parse(text);
-}
+PathSet PathExpression::of(const std::string& group) const { return PathSet::parse(Parser(text_, group).whole()); }
 
 }  // namespace lightnet

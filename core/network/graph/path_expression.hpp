@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/network/graph/path_set.hpp"
@@ -12,13 +11,13 @@ namespace lightnet {
 /// A set of light paths, written from the eye to the light: `C`, then an event for each surface, then a light. Events
 /// are `D` or `<.D>` (anything rougher than a mirror), `S` or `<.S>` (a mirror or glass) and `.` (any); lights are `L`
 /// (any), `O` (a lamp) and `B` (the background), and `<L.'key'>` or `L'key'` (of a group of lamps). `(…)`, `[DS]`, `|`,
-/// `*`, `+`, `?`, `{n}` and `{least,most}` as in regular expressions. Gritz et al., "Open Shading Language", light path
-/// expressions; what our operators do not tell apart there (reflection from transmission, glossy from diffuse) is
+/// `*`, `+`, `?`, `{n}` and `{least,most}` are as in regular expressions. Gritz et al., "Open Shading Language", light
+/// path expressions; what our operators do not tell apart there (reflection from transmission, glossy from diffuse) is
 /// refused. A value.
 class PathExpression {
 public:
     /// Throws Error, which names the place and what to write instead.
-    explicit PathExpression(std::string_view text);
+    explicit PathExpression(std::string text);
 
     /// What it says of lamps of this group; "": of a scene without groups.
     PathSet of(const std::string& group) const;
@@ -27,8 +26,8 @@ public:
 
 private:
     class Parser;
-    std::vector<std::string> groups_;  // first, as reading the other finds them
-    std::string turned_;  // in Heckbert's notation, from the light to the eye; the n-th of groups_ stands there as `n#`
+    std::string text_;
+    std::vector<std::string> groups_;
 };
 
 }  // namespace lightnet

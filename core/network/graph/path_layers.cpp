@@ -42,7 +42,12 @@ public:
         std::vector<std::size_t> nodes;
         for (const auto& colour : colours) nodes.push_back(colour.node);
         arriving_ = paths_at_image(graph, registry, nodes);
-        for (std::size_t c = 0; c < colours.size(); ++c) sort(c);
+        try {
+            for (std::size_t c = 0; c < colours.size(); ++c) sort(c);
+        } catch (const Error& error) {
+            complain(named_.front().name, std::string("these, or others beside them, are ") + error.what());
+            return;
+        }
         for (const auto& layer : named_)
             if (!layer.found) complain(layer.name, "no operator of the graph counts such light");
     }
@@ -93,13 +98,13 @@ private:
             layer.by_group[g] = layer.by_group[g].with(expression.of(groups_.empty() ? "" : groups_[g]));
     }
 
-    Overlap overlap(std::size_t colour, const NamedPaths& layer) const {
+    Overlap overlap(std::size_t colour, const NamedPaths& layer) {
         Overlap found;
         const auto& paths = arriving_[colour].by_group;
         for (std::size_t g = 0; g < paths.size(); ++g) {
             if (by_group_[colours_[colour].node] && g != colours_[colour].group) continue;
-            if (!found.has) found.has = PathSet::common(paths[g], layer.by_group[g]);
-            if (!found.lacks) found.lacks = PathSet::missing(paths[g], layer.by_group[g]);
+            if (!found.has) found.has = PathSet::common(paths[g], layer.by_group[g], &steps_left_);
+            if (!found.lacks) found.lacks = PathSet::missing(paths[g], layer.by_group[g], &steps_left_);
         }
         return found;
     }
@@ -117,8 +122,8 @@ private:
             if (!has) continue;
             layer.found = true;
             if (lacks) {
-                complain(layer.name,
-                         "takes " + *has + " of " + who + ", but not " + *lacks + ": " + why_not_apart(*has, *lacks));
+                complain(layer.name, "takes " + *has + " of " + who + ", but not " + *lacks + ": " +
+                                         why_not_apart(*has, *lacks, layer));
             } else if (taken_by) {
                 complain(layer.name, *has + " of " + who + " is in " + in_quotes(taken_by->name) +
                                          " already, and an image is the sum of its layers");
@@ -139,8 +144,9 @@ private:
     }
 
     // Words go from the light to the eye here, as everywhere in what check() says.
-    static std::string why_not_apart(const std::string& has, const std::string& lacks) {
-        if (has == lacks) return "it does not keep groups of lamps apart: write groups = true there";
+    static std::string why_not_apart(const std::string& has, const std::string& lacks, const NamedPaths& layer) {
+        if (has == lacks && layer.sorts) return "it does not keep groups of lamps apart: write groups = true there";
+        if (has == lacks) return "it does not keep lamps apart from the background. A group of lamps can hold that";
         return "no operator keeps these apart. Write S* behind C where what mirrors and glass show is meant as well";
     }
 
@@ -156,6 +162,7 @@ private:
     const std::vector<bool>& by_group_;
     std::vector<NamedPaths> named_;
     std::vector<ArrivingPaths> arriving_;  // by colour
+    std::size_t steps_left_ = 20'000;  // a graph takes some hundreds; one that comes from a stranger, no more than this
     PathLayers made_;
 };
 

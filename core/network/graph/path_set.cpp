@@ -192,7 +192,7 @@ PathSet::States PathSet::after(const States& states, char letter) const {
 
 // Words by length, and each pair of state sets once: breadth first through both automata.
 template <class Wanted>
-std::optional<std::string> PathSet::shortest(const PathSet& a, const PathSet& b, Wanted wanted) {
+std::optional<std::string> PathSet::shortest(const PathSet& a, const PathSet& b, std::size_t* left, Wanted wanted) {
     struct StatePair {
         States in_a, in_b;
         std::string word;
@@ -200,6 +200,7 @@ std::optional<std::string> PathSet::shortest(const PathSet& a, const PathSet& b,
     std::deque<StatePair> open{{a.begin(), b.begin(), ""}};
     std::set<std::pair<States, States>> seen{{open.front().in_a, open.front().in_b}};
     for (; !open.empty(); open.pop_front()) {
+        if (left && (*left)-- == 0) throw Error("light paths that take too long to tell apart");
         const StatePair& here = open.front();
         if (wanted(a.accepts(here.in_a), b.accepts(here.in_b))) return shown(here.word);
         for (const char letter : letters) {
@@ -211,12 +212,12 @@ std::optional<std::string> PathSet::shortest(const PathSet& a, const PathSet& b,
     return {};
 }
 
-std::optional<std::string> PathSet::common(const PathSet& a, const PathSet& b) {
-    return shortest(a, b, [](bool in_a, bool in_b) { return in_a && in_b; });
+std::optional<std::string> PathSet::common(const PathSet& a, const PathSet& b, std::size_t* left) {
+    return shortest(a, b, left, [](bool in_a, bool in_b) { return in_a && in_b; });
 }
 
-std::optional<std::string> PathSet::missing(const PathSet& whole, const PathSet& part) {
-    return shortest(whole, part, [](bool in_whole, bool in_part) { return in_whole && !in_part; });
+std::optional<std::string> PathSet::missing(const PathSet& whole, const PathSet& part, std::size_t* left) {
+    return shortest(whole, part, left, [](bool in_whole, bool in_part) { return in_whole && !in_part; });
 }
 
 bool PathSet::contains(std::string_view word) const { return common(parse(word), *this).has_value(); }

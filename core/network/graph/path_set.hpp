@@ -1,6 +1,7 @@
 // Sets of light paths, as regular expressions in Heckbert's notation.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -26,10 +27,11 @@ public:
     /// What is in either set.
     PathSet with(const PathSet& other) const;
 
-    /// A shortest word that both sets have; none: they have none in common.
-    static std::optional<std::string> common(const PathSet& a, const PathSet& b);
-    /// A shortest word of `whole` that `part` doesn't have; none: it has all.
-    static std::optional<std::string> missing(const PathSet& whole, const PathSet& part);
+    /// A shortest word that both sets have; none: they have none in common. `left`, where sets come from strangers: how
+    /// many steps may still be taken, which are taken off; throws Error when there are none.
+    static std::optional<std::string> common(const PathSet& a, const PathSet& b, std::size_t* left = nullptr);
+    /// A shortest word of `whole` that `part` doesn't have; none: it has all. `left`: see common().
+    static std::optional<std::string> missing(const PathSet& whole, const PathSet& part, std::size_t* left = nullptr);
     bool empty() const { return !common(*this, *this); }
     bool contains(std::string_view word) const;
 
@@ -51,7 +53,7 @@ private:
     void close(States& states) const;
     bool accepts(const States& states) const { return states_ > 0 && states[end_]; }
     template <class Wanted>
-    static std::optional<std::string> shortest(const PathSet& a, const PathSet& b, Wanted wanted);
+    static std::optional<std::string> shortest(const PathSet& a, const PathSet& b, std::size_t* left, Wanted wanted);
 
     std::vector<Edge> edges_;
     State states_ = 0;  // how many; none: the empty set

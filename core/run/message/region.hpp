@@ -15,8 +15,8 @@ std::uint64_t region_of(const Question&) {
     return 0;
 }
 
-/// A quarter by a quarter of a primitive, or 64 neighbouring small ones. Coordinates are of -1 to 1 (spheres have negative
-/// ones); what is out of that, or no number, comes from strangers, and has a region as well.
+/// A quarter by a quarter of a primitive, or 64 neighbouring small ones. Coordinates are of -1 to 1 (spheres have
+/// negative ones); what is out of that, or no number, comes from strangers, and has a region as well.
 inline std::uint64_t region_of(const Query& query) {
     const auto quarter = [](float coordinate) {
         const float within = coordinate >= -1 ? std::min(coordinate, 1.0f) : -1;

@@ -44,8 +44,8 @@ public:
     /// Who does which of its shards.
     ShardDealer& dealer() { return dealer_; }
     /// The results of the first of the shards that went under this number, or of more of them, by join_shards(); what
-    /// comes late is dropped. True when no shard is missing. Throws Error when they are not what was asked for, or have not as
-    /// many parts as they should.
+    /// comes late is dropped. True when no shard is missing. Throws Error when they are not what was asked for, or have
+    /// not as many parts as they should.
     bool answer(ShardDealer::CopyId id, const Bytes& joined, double now);
     /// A copy waits for the result, and does shards from now on; see ShardDealer::join().
     void join(const NodeCopy& copy, std::uint64_t process, double now);
