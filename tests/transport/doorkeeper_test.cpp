@@ -15,7 +15,7 @@
 #include "tests/support/slowdown.hpp"
 #include "transport/places/descriptors.hpp"
 #include "transport/wire/packet.hpp"
-#include "transport/zmq/handshake_watch.hpp"
+#include "transport/zmq/handshake.hpp"
 
 namespace lightnet::doorkeeper_test {
 namespace {
@@ -108,34 +108,30 @@ protected:
         keeper->guard(*door);
         door->bind("tcp://127.0.0.1:*");
     }
-    struct Caller {
-        Socket socket;
-        HandshakeWatch watch;
-    };
-    Caller caller(const std::optional<LineKeys>& keys) {
+    Socket caller(const std::optional<LineKeys>& keys) {
         auto socket = unconnected_asking_socket(outside, door->endpoint(), keys);
-        HandshakeWatch watch(outside, socket);
+        note_handshakes(outside, socket);
         socket.connect(door->endpoint());
-        return {std::move(socket), std::move(watch)};
+        return socket;
     }
     // How the handshake ends; none: not at all.
-    std::optional<Handshake> handshake_of(Caller& caller, std::chrono::milliseconds most = test::slowdown * 2s) {
+    std::optional<Handshake> handshake_of(Socket& caller, std::chrono::milliseconds most = test::slowdown * 2s) {
         const auto end = std::chrono::steady_clock::now() + most;
         while (std::chrono::steady_clock::now() < end) {
             if (keeper) keeper->tick();
-            if (const auto seen = caller.watch.look()) return seen;
+            if (const auto seen = last_handshake(caller)) return seen;
             std::this_thread::sleep_for(1ms);
         }
         return std::nullopt;
     }
     // Does the door get what it sends?
-    std::optional<Frames> arrives(Caller& caller, std::chrono::milliseconds most) {
+    std::optional<Frames> arrives(Socket& caller, std::chrono::milliseconds most) {
         const auto end = std::chrono::steady_clock::now() + most;
         while (std::chrono::steady_clock::now() < end) {
             if (keeper) keeper->tick();
-            caller.socket.receive();
+            caller.receive();
             auto frames = frames_of(packet::pack(packet::Type::hello, 0, {}));
-            caller.socket.send(frames);
+            caller.send(frames);
             if (auto arrived = door->receive()) return arrived;
             std::this_thread::sleep_for(1ms);
         }
@@ -209,6 +205,18 @@ TEST(Descriptors, ThatAreLackingAreAskedForBeforeTheyAreNeeded) {
         EXPECT_NE(std::string(error.what()).find("64 places: needs"), std::string::npos) << error.what();
         EXPECT_NE(std::string(error.what()).find("ulimit -n"), std::string::npos) << error.what();
     }
+}
+
+// A socket that closes in the middle of a handshake, or just before, must not take the library's thread with it.
+TEST_F(KeyedDoorTest, LinesThatCloseInTheMiddleOfAHandshakeHoldUpNoOthers) {
+    const LineKeys keys{known, own.open};
+    for (int i = 0; i < 400; ++i) {
+        auto closing = caller(keys);
+        const auto end = std::chrono::steady_clock::now() + i % 40 * 50us;
+        while (std::chrono::steady_clock::now() < end) keeper->tick(), door->receive();
+    }
+    auto last = caller(keys);
+    EXPECT_EQ(handshake_of(last, test::slowdown * 10s), Handshake::made);
 }
 
 }  // namespace

@@ -45,14 +45,13 @@ HostDoor::HostDoor(const SocketContext& context, Options options)
 std::string HostDoor::endpoint() const { return port_ ? port_->endpoint() : std::string(); }
 
 void HostDoor::dial(Time now) {
-    handshakes_.reset();
     launcher_.reset();  // first: there may be no descriptors for both
     challenge_.clear();
     heard_ = dialled_ = now;
     next_join_ = {};
     try {
         launcher_.emplace(unconnected_asking_socket(context_, options_.join, options_.launcher));
-        handshakes_.emplace(context_, *launcher_);
+        note_handshakes(context_, *launcher_);
         launcher_->connect(options_.join);
     } catch (const SocketError& error) {
         if (error.out_of_descriptors()) return;  // later, then
@@ -78,7 +77,7 @@ void HostDoor::take_challenge(const Frames& frames) {
 
 // Once: it goes on dialling, as a launcher may learn its key, or another may come.
 void HostDoor::look_at_handshake() {
-    const auto seen = handshakes_ ? handshakes_->look() : std::nullopt;
+    const auto seen = launcher_ ? last_handshake(*launcher_) : std::nullopt;
     if (!seen) return;
     abandoned_ = *seen == Handshake::abandoned ? abandoned_ + 1 : 0;
     if (*seen == Handshake::made) told_trouble_ = false;
@@ -174,7 +173,7 @@ void HostDoor::watch(Poll& poll) const {
     if (keeper_) keeper_->watch(poll);
     for (const auto* socket : {&port_, &launcher_})
         if (*socket) poll.add(**socket);
-    if (handshakes_) handshakes_->watch(poll);
+    if (launcher_ && launcher_->events()) poll.add(*launcher_->events());
 }
 
 }  // namespace lightnet

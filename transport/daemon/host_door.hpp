@@ -11,7 +11,7 @@
 #include "transport/wire/packet.hpp"
 #include "transport/wire/pass.hpp"
 #include "transport/zmq/doorkeeper.hpp"
-#include "transport/zmq/handshake_watch.hpp"
+#include "transport/zmq/handshake.hpp"
 #include "transport/zmq/socket.hpp"
 
 namespace lightnet {
@@ -69,8 +69,7 @@ private:
     Options options_;
     std::optional<Doorkeeper> keeper_;
     std::optional<Socket> port_, launcher_;
-    std::optional<HandshakeWatch> handshakes_;  // with that launcher
-    int abandoned_ = 0;                         // of them, in a row
+    int abandoned_ = 0;  // handshakes with that launcher, in a row
     bool told_trouble_ = false;
     std::string challenge_;  // of the launcher that was dialled
     bool turned_down_ = false;

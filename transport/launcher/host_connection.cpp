@@ -16,7 +16,7 @@ CalledConnection::CalledConnection(const SocketContext& context, std::string end
 
 void CalledConnection::connect(Lane& lane) {
     lane = Lane{unconnected_asking_socket(context_, endpoint_, keys_), false};
-    if (&lane == &work_ || &lane == &next_) lane.handshakes.emplace(context_, *lane.socket);
+    if (&lane == &work_ || &lane == &next_) note_handshakes(context_, *lane.socket);
     lane.socket->connect(endpoint_);
 }
 
@@ -49,7 +49,7 @@ std::optional<Frames> CalledConnection::receive() {
 }
 
 std::optional<Handshake> CalledConnection::look_at_handshake() {
-    return work_.handshakes ? work_.handshakes->look() : std::nullopt;
+    return work_.socket ? last_handshake(*work_.socket) : std::nullopt;
 }
 
 void CalledConnection::open_next() {

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "transport/zmq/handshake_watch.hpp"
+#include "transport/zmq/handshake.hpp"
 #include "transport/zmq/poll.hpp"
 #include "transport/zmq/socket.hpp"
 
@@ -58,7 +58,6 @@ private:
     struct Lane {
         std::optional<Socket> socket{};  // none: the system had none to give; tried again when it is needed
         bool greeted = false;
-        std::optional<HandshakeWatch> handshakes{};
         std::optional<Frames> receive();
     };
     bool open(Lane& lane);

@@ -3,7 +3,7 @@
 #include <chrono>
 
 #include "core/base/error.hpp"
-#include "transport/zmq/handshake_watch.hpp"
+#include "transport/zmq/handshake.hpp"
 #include "transport/zmq/poll.hpp"
 #include "transport/zmq/socket.hpp"
 
@@ -26,17 +26,17 @@ std::string knocked_at(const std::string& endpoint) {
 void try_door(const std::string& endpoint, const PublicKey& door, const std::function<void()>& tend) {
     const SocketContext outside;
     auto stranger = unconnected_asking_socket(outside, endpoint, LineKeys{KeyPair::random(), door});
-    HandshakeWatch watch(outside, stranger);
+    note_handshakes(outside, stranger);
     stranger.connect(knocked_at(endpoint));
     const auto end = std::chrono::steady_clock::now() + patience;
     while (std::chrono::steady_clock::now() < end) {
         tend();
-        if (const auto seen = watch.look()) {
+        if (const auto seen = last_handshake(stranger)) {
             if (*seen == Handshake::refused) return;
             if (*seen == Handshake::made) throw Error(endpoint, "lets strangers in, though it asks for keys: not used");
         }
         Poll poll;
-        watch.watch(poll);
+        poll.add(*stranger.events());
         poll.wait(std::chrono::milliseconds(1));
     }
     throw Error(endpoint, "does not say no to a stranger's key: not used");

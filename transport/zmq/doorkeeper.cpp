@@ -8,7 +8,6 @@
 #include "core/base/error.hpp"
 #include "transport/places/descriptors.hpp"
 #include "transport/zmq/door_trial.hpp"
-#include "transport/zmq/handshake_watch.hpp"
 
 namespace lightnet {
 namespace {
@@ -39,9 +38,8 @@ void Doorkeeper::guard(Socket& door) {
     const bool enforced = zmq_setsockopt(door.library(), enforce_domain, &on, sizeof on) == 0;
     if (keys_ && !enforced) throw Error("this libzmq can't be trusted with keys: it lacks ZMQ_ZAP_ENFORCE_DOMAIN");
     if (keys_) door.answer_with(keys_->own);
-    const auto endpoint = fresh_events_endpoint();
-    if (zmq_socket_monitor(door.library(), endpoint.c_str(), watched) != 0) throw SocketError();
-    events_.emplace_back(context_, ZMQ_PAIR).connect(endpoint);
+    door.note_events(context_, watched);
+    doors_.push_back(&door);
 }
 
 void Doorkeeper::try_out(const Socket& door) {
@@ -53,18 +51,16 @@ void Doorkeeper::try_out(const Socket& door) {
 
 void Doorkeeper::watch(Poll& poll) const {
     poll.add(requests_);
-    for (const auto& events : events_) poll.add(events);
+    for (const auto* door : doors_) poll.add(*door->events());
 }
 
 void Doorkeeper::tick() {
-    for (auto& events : events_) note_events(events);
+    for (auto* door : doors_) count_peers(*door);
     while (auto request = requests_.receive()) answer(*request);
 }
 
-void Doorkeeper::note_events(Socket& events) {
-    while (const auto frames = events.receive()) {
-        const auto event = event_in(*frames);
-        if (!event) continue;
+void Doorkeeper::count_peers(Socket& door) {
+    while (const auto event = door.next_event()) {
         if (event->number == ZMQ_EVENT_ACCEPTED) peers_.insert(event->value);
         if (event->number == ZMQ_EVENT_DISCONNECTED) peers_.erase(event->value);
         if (event->number == ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL && keys_) keys_->no_key();

@@ -34,8 +34,8 @@ public:
     Doorkeeper(const Doorkeeper&) = delete;
     Doorkeeper& operator=(const Doorkeeper&) = delete;
 
-    /// This door is in its care from now on. To be called before it is bound. Throws Error when the library is too old
-    /// to be trusted with keys.
+    /// This door is in its care from now on, and is looked after as long as it is there. To be called before it is
+    /// bound. Throws Error when the library is too old to be trusted with keys.
     void guard(Socket& door);
     /// After it was bound: sees that no stranger gets in. Throws Error when one does.
     void try_out(const Socket& door);
@@ -47,7 +47,7 @@ public:
     std::size_t turned_away() const { return turned_away_; }
 
 private:
-    void note_events(Socket& events);
+    void count_peers(Socket& door);
     void answer(Frames& request);
     const char* verdict(const Frames& request, std::string& who);
     std::size_t most_now();
@@ -55,8 +55,8 @@ private:
     const SocketContext& context_;
     std::optional<Keys> keys_;
     Socket requests_;
-    std::vector<Socket> events_;  // of the doors
-    std::set<int> peers_;         // descriptors of their connections
+    std::vector<Socket*> doors_;
+    std::set<int> peers_;  // descriptors of their connections
     std::size_t turned_away_ = 0, most_ = 0;
     bool on_trial_ = false;
     std::chrono::steady_clock::time_point counted_{};

@@ -2,8 +2,10 @@
 
 #include <zmq.h>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <cstdint>
+#include <cstring>
 #include <utility>
 
 #include "transport/places/descriptors.hpp"
@@ -55,15 +57,47 @@ Socket::Socket(const SocketContext& context, int type) : socket_(zmq_socket(cont
     set(ZMQ_LINGER, 0);
 }
 
-Socket::~Socket() {
+Socket::~Socket() { close(); }
+
+// The library's own thread tells events, and waits for ever once nobody is there to take them: it must have stopped
+// telling before the taker goes, and a socket that is closed can't be told to stop.
+void Socket::close() noexcept {
+    if (events_) zmq_socket_monitor(socket_, nullptr, 0);
+    events_.reset();
     if (socket_) zmq_close(socket_);
 }
 
-Socket::Socket(Socket&& other) noexcept : socket_(std::exchange(other.socket_, nullptr)) {}
+Socket::Socket(Socket&& other) noexcept
+    : socket_(std::exchange(other.socket_, nullptr)), events_(std::move(other.events_)) {}
 
 Socket& Socket::operator=(Socket&& other) noexcept {
     std::swap(socket_, other.socket_);
+    std::swap(events_, other.events_);
     return *this;
+}
+
+void Socket::note_events(const SocketContext& context, int kinds) {
+    static std::atomic<unsigned> number{0};
+    const auto endpoint = "inproc://socket-events-" + std::to_string(number++);
+    auto events = std::make_unique<Socket>(context, ZMQ_PAIR);
+    events->set(ZMQ_RCVHWM, 0);  // who is slow to look must not hold up the library's thread
+    if (zmq_socket_monitor(socket_, endpoint.c_str(), kinds) != 0) throw SocketError();
+    events_ = std::move(events);
+    events_->connect(endpoint);
+}
+
+// An event is two frames: a number of 16 bits and a value of 32, then the address.
+std::optional<SocketEvent> Socket::next_event() {
+    while (const auto frames = events_ ? events_->receive() : std::nullopt) {
+        std::uint16_t number = 0;
+        std::int32_t value = 0;
+        const auto& event = frames->front();
+        if (event.size() < sizeof number + sizeof value) continue;
+        std::memcpy(&number, event.data(), sizeof number);
+        std::memcpy(&value, static_cast<const char*>(event.data()) + sizeof number, sizeof value);
+        return SocketEvent{number, value};
+    }
+    return std::nullopt;
 }
 
 void Socket::bind(const std::string& endpoint) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -45,6 +46,11 @@ private:
     void* context_;
 };
 
+/// What happened to a connection: a number of the library (ZMQ_EVENT_…) and a value.
+struct SocketEvent {
+    int number = 0, value = 0;
+};
+
 /// Never blocks, never lingers. One thread's.
 class Socket {
 public:
@@ -75,11 +81,20 @@ public:
     /// Encrypts what passes, and shows who we are, or asks who comes (CURVE, RFC 26). Before bind() and connect().
     void call_with(const LineKeys& keys);
     void answer_with(const KeyPair& own);
+    /// Notes from now on what happens to its connections, events of these kinds. Before bind() and connect(). Throws
+    /// SocketError.
+    void note_events(const SocketContext& context, int kinds);
+    /// The next that was noted, if there is one.
+    std::optional<SocketEvent> next_event();
+    /// Is readable when there is one; null: none are noted.
+    const Socket* events() const { return events_.get(); }
     void* library() const { return socket_; }
 
 private:
+    void close() noexcept;
     void set_bytes(int option, const std::array<unsigned char, PublicKey::size>& bytes);
     void* socket_;
+    std::unique_ptr<Socket> events_;
 };
 
 /// A socket that binds and answers: knows its peers, refuses those that are gone.

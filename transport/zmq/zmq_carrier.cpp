@@ -233,6 +233,7 @@ std::optional<Message> ZmqCarrier::receive() {
     return std::nullopt;
 }
 
+// DECISIONS: who-waits-sleeps
 void ZmqCarrier::wait(std::chrono::nanoseconds most) {
     const auto sources = sockets_->all();
     Poll poll;
