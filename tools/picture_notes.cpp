@@ -11,7 +11,6 @@
 #include "core/network/graph/lamp_groups.hpp"
 #include "core/scene/camera_in.hpp"
 #include "core/scene/camera_matrices.hpp"
-#include "core/scene/data/surface_names.hpp"
 
 namespace lightnet {
 namespace {
@@ -24,6 +23,8 @@ std::array<float, 16> for_rows(const Matrix& matrix) {
     return entries;
 }
 
+}  // namespace
+
 std::string manifest_of(const SceneData& scene, NamedBy by) {
     Manifest manifest = Manifest::object();
     const SurfaceNames names = surface_names(scene, by);
@@ -32,8 +33,6 @@ std::string manifest_of(const SceneData& scene, NamedBy by) {
             if (!name.empty()) manifest[name] = fmt::format("{:08x}", std::bit_cast<std::uint32_t>(name_id(name)));
     return manifest.dump(-1, ' ', true, Manifest::error_handler_t::replace);
 }
-
-}  // namespace
 
 PictureWords words_of(const Graph& graph, const Registry& registry, const FilmFormat& format,
                       const std::map<std::string, std::string>& recipe, const SceneData& scene) {

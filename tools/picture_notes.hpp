@@ -10,6 +10,7 @@
 #include "core/network/graph/graph.hpp"
 #include "core/network/graph/kind.hpp"
 #include "core/scene/data/scene_data.hpp"
+#include "core/scene/data/surface_names.hpp"
 
 namespace lightnet {
 
@@ -24,6 +25,10 @@ struct PictureWords {
 /// rendered.
 PictureWords words_of(const Graph& graph, const Registry& registry, const FilmFormat& format,
                       const std::map<std::string, std::string>& recipe, const SceneData& scene);
+
+/// A matte's names and their ids (name_id(), 8 hexadecimal digits): JSON in ASCII, sorted by name, as the specification
+/// of Cryptomatte has it. What is not UTF-8 in a name is replaced.
+std::string manifest_of(const SceneData& scene, NamedBy by);
 
 /// Puts them into a picture.
 void add_words(const PictureWords& words, Picture& picture);

@@ -8,9 +8,12 @@
 #include <ImfMatrixAttribute.h>
 #include <ImfStringAttribute.h>
 #include <ImfStringVectorAttribute.h>
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <exception>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -25,9 +28,22 @@ using namespace exr;
 
 constexpr std::uint32_t most_ranks = 200;  // two digits count pairs of them
 
+/// So many pixels no compression packs into a byte.
+constexpr std::int64_t most_pixels_per_byte = 4096;
+
+std::int64_t length(int min, int max) { return std::int64_t{max} - min + 1; }
+
 std::size_t pixels_of(const Imath::Box2i& window) {
-    return static_cast<std::size_t>(window.max.x - window.min.x + 1) *
-           static_cast<std::size_t>(window.max.y - window.min.y + 1);
+    return static_cast<std::size_t>(length(window.min.x, window.max.x) * length(window.min.y, window.max.y));
+}
+
+// Room is taken for what a file claims to have, so it must be able to have it.
+void expect_plausible(const Imath::Box2i& window, const std::filesystem::path& path) {
+    const auto bytes = std::filesystem::file_size(path);
+    const auto width = length(window.min.x, window.max.x), height = length(window.min.y, window.max.y);
+    if (width > std::numeric_limits<int>::max() || height > std::numeric_limits<int>::max() ||
+        static_cast<std::uintmax_t>(width * height / most_pixels_per_byte) > bytes)
+        throw Error(path.string(), fmt::format("is damaged: {} bytes can't be {} x {} pixels", bytes, width, height));
 }
 
 /// Reads channels of an open file to where they are wanted, all at once.
@@ -153,6 +169,7 @@ void read_place(const Imf::Header& header, Picture& picture) {
 Picture read_exr(const std::filesystem::path& path) try {
     Imf::InputFile file(path.c_str(), 0);
     const auto window = file.header().dataWindow();
+    expect_plausible(window, path);
     Picture picture{static_cast<std::uint32_t>(window.max.x - window.min.x + 1),
                     static_cast<std::uint32_t>(window.max.y - window.min.y + 1),
                     read_layer(file, ""),

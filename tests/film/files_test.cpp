@@ -15,7 +15,9 @@
 #include <atomic>
 #include <csignal>
 #include <cstring>
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <limits>
 
 #include "core/base/atomic_file.hpp"
@@ -175,6 +177,28 @@ TEST(Exr, NeedsNoLayers) {
     const Picture picture{2, 1, {{1, 2, 3}, {4, 5, 6}}, {}};
     write_exr(folder / "x.exr", picture);
     EXPECT_TRUE(read_exr(folder / "x.exr") == picture);
+}
+
+// A few damaged bytes, or somebody's joke, must not take all memory.
+TEST(Exr, RefusesWindowsThatItsBytesCannotFill) {
+    const Folder folder;
+    write_exr(folder / "x.exr", noisy_picture(8, 4));
+    std::ifstream in(folder / "x.exr", std::ios::binary);
+    const std::string sound((std::istreambuf_iterator<char>(in)), {});
+    const std::string attribute("dataWindow\0box2i\0", 17);
+    for (const std::int32_t side : {60'000, std::numeric_limits<std::int32_t>::max()}) {
+        auto bytes = sound;
+        const auto corner = bytes.find(attribute) + attribute.size() + 3 * sizeof side;
+        std::memcpy(bytes.data() + corner, &side, sizeof side);
+        std::memcpy(bytes.data() + corner + sizeof side, &side, sizeof side);
+        write_file(folder / "y.exr", bytes);
+        try {
+            read_exr(folder / "y.exr");
+            FAIL() << side;
+        } catch (const Error& error) {
+            EXPECT_THAT(error.what(), HasSubstr("y.exr: ")) << side;
+        }
+    }
 }
 
 TEST(Exr, SaysWhichFileItCannotRead) {

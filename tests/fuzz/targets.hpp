@@ -37,6 +37,11 @@ Target serialized();
 /// Pictures of any kind.
 Target pictures();
 
+/// Pictures that this project has written, with layers, mattes and words.
+Target films();
+/// Names of shapes, as scenes have them, and the manifest of a matte that tells them. Each that is UTF-8 must be there.
+Target manifests();
+
 /// Jobs, as a launcher that nobody knows sends them: read, checked, and laid out. What is accepted must come back the
 /// same.
 Target jobs();
@@ -54,8 +59,8 @@ Target gates();
 Target watched();
 
 inline std::vector<Target> all_targets() {
-    return {packets(), scenes(),     meshes(),   texts(), mitsuba(),     gltf(),
-            obj(),     serialized(), pictures(), jobs(),  checkpoints(), graphs(),   keys(), gates(), watched()};
+    return {packets(), scenes(),    meshes(), texts(),       mitsuba(), gltf(), obj(),   serialized(), pictures(),
+            films(),   manifests(), jobs(),   checkpoints(), graphs(),  keys(), gates(), watched()};
 }
 
 }  // namespace lightnet::fuzz
