@@ -27,19 +27,19 @@ protected:
         said = run.output();
         return Tree::parse(bytes_of(report));
     }
-    static const Tree& named(const Tree& list, const std::string& name) {
+    static const Tree& named(const Tree& list, const char* name) {
         for (const auto& one : list)
             if (one["name"] == name) return one;
         ADD_FAILURE() << "there is no " << name;
         return list[0];
     }
-    static std::uint64_t questions_between(const Tree& told, const std::string& from, const std::string& to) {
+    static std::uint64_t questions_between(const Tree& told, const char* from, const char* to) {
         for (const auto& edge : told["edges"])
             if (edge["from"] == from && edge["to"] == to) return edge["questions"];
         ADD_FAILURE() << "there is no edge from " << from << " to " << to;
         return 0;
     }
-    static const Tree& edge_between(const Tree& told, const std::string& from, const std::string& to) {
+    static const Tree& edge_between(const Tree& told, const char* from, const char* to) {
         for (const auto& edge : told["edges"])
             if (edge["from"] == from && edge["to"] == to) return edge;
         ADD_FAILURE() << "there is no edge from " << from << " to " << to;

@@ -18,6 +18,7 @@ struct TexturePlace {
 
 /// The colour of a texture at a place: bilinear, not filtered over an area. Coordinate v counts upwards from the
 /// image's bottom row.
+/// DECISIONS: textures-of-one-size
 Rgb look_up(std::span<const Texture> textures, TextureId texture, const TexturePlace& place);
 
 /// Does the texture say the same everywhere?
