@@ -4,8 +4,11 @@
 #include <array>
 #include <bit>
 #include <cassert>
+#include <cmath>
 #include <cstdint>
 #include <functional>
+
+#include "core/base/math/random.hpp"
 
 namespace lightnet {
 namespace {
@@ -15,7 +18,26 @@ std::uint32_t bits_of(const Rgb& seen) { return std::bit_cast<std::uint32_t>(see
 // DECISIONS: ids-in-a-fixed-order
 bool comes_first(const Rgb& a, const Rgb& b) { return a.g != b.g ? a.g > b.g : bits_of(a) < bits_of(b); }
 
+// Any hue, never grey, black or white.
+Rgb colour_of(const Rgb& seen) {
+    const auto bits = mix(bits_of(seen));
+    const auto part = [&](int byte) { return static_cast<float>(bits >> (8 * byte) & 0xff) / 255; };
+    const float hue = 6 * part(0), saturation = 0.5f + 0.45f * part(1), value = 0.25f + 0.7f * part(2);
+    const auto channel = [&](float at) {
+        const float off = std::abs(std::fmod(hue + at, 6.f) - 3) - 1;  // a hexagon of colours
+        return value * (1 - saturation * (1 - std::clamp(off, 0.f, 1.f)));
+    };
+    return {channel(0), channel(4), channel(2)};
+}
+
 }  // namespace
+
+Rgb false_colour(std::span<const Rgb> ids, float samples) {
+    Rgb sum;
+    for (const Rgb& seen : ids)
+        if (seen.g > 0) sum += colour_of(seen) * (seen.g / samples);
+    return sum;
+}
 
 void add_ids(std::span<Rgb> ids, std::span<const Rgb> more) {
     assert(ids.size() <= most_ids && more.size() <= most_ids);

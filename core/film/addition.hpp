@@ -18,6 +18,9 @@ inline Rgb seen_id(float id, float samples = 1) { return {id, samples, 0}; }
 /// counted exactly as long as they are fewer than 2^24.
 void add_ids(std::span<Rgb> ids, std::span<const Rgb> more);
 
+/// Such a list to look at: each id has a colour of its own, the part of `samples` that sees none is black. Linear.
+Rgb false_colour(std::span<const Rgb> ids, float samples);
+
 /// Which colours of a pixel are ids.
 struct IdColours {
     std::size_t first = 0, count = 0;

@@ -78,7 +78,10 @@ struct FilmFormat {
     bool is_light(std::size_t colour) const;
     /// How colours of pixels are added up.
     Addition addition() const;
-    /// Those that one can look at while the picture grows: all but ids and alpha.
+    /// It is neither an id nor alpha.
+    bool is_plain(std::size_t colour) const;
+    /// What one can look at while the picture grows: the colours of layers and of what is beside them, the first of
+    /// ids for all of them, and alpha.
     std::vector<std::size_t> views() const;
     /// Samples differ from cell to cell.
     bool adaptive() const { return refinement.error > 0; }
@@ -187,7 +190,8 @@ public:
     /// that each pixel has.
     Picture picture(float scale = 1) const;
     /// The same, exposed as expose() said, of the pixels of a tile that has been added: a colour per pixel (row by row)
-    /// and one of FilmFormat::views(), side by side. For looking at a picture while it grows.
+    /// and one of FilmFormat::views(), side by side; ids in false_colour(), alpha as grey. For looking at a picture
+    /// while it grows.
     std::vector<Rgb> so_far(const Tile& tile) const;
     /// All that have been added, each place once.
     std::vector<Tile> areas() const;
@@ -217,6 +221,7 @@ private:
     void end_if_open_group_is_there(Rectangle& rectangle, const Tile& tile);
     std::vector<Rgb> sum_of_open_group(const Rectangle& rectangle) const;
     std::vector<Rgb> sums_with_open_groups() const;
+    Rgb seen_as(std::size_t view, std::span<const Rgb> pixel, float samples) const;
     void add_open_group(const Tile& area, const Tile& among, std::span<Rgb> sums) const;
     void expect_can_wait(const FilmState::Part& part) const;
     void expect_nothing_elsewhere() const;

@@ -29,11 +29,14 @@ bool FilmFormat::is_light(std::size_t colour) const {
     return colour < layers.size() || !facts.contains(name_of(colour));
 }
 
+bool FilmFormat::is_plain(std::size_t colour) const {
+    return !(alpha && colour + 1 == colours()) && !ids.contains(name_of(colour));
+}
+
 std::vector<std::size_t> FilmFormat::views() const {
     std::vector<std::size_t> colours(layers.size());
     std::iota(colours.begin(), colours.end(), std::size_t{0});
-    for (std::size_t i = 0; i < shown.size(); ++i)
-        if (!ids.contains(shown[i])) colours.push_back(first_colour(i));
+    for (std::size_t i = 0; i < shown.size() + alpha; ++i) colours.push_back(first_colour(i));
     return colours;
 }
 

@@ -70,6 +70,16 @@ void Film::add_open_group(const Tile& area, const Tile& among, std::span<Rgb> su
     }
 }
 
+// `pixel`: sums of all colours.
+Rgb Film::seen_as(std::size_t view, std::span<const Rgb> pixel, float samples) const {
+    if (samples == 0) return {};
+    const auto& name = format_.name_of(view);
+    if (format_.ids.contains(name)) return false_colour(pixel.subspan(view, format_.width_of(name)), samples);
+    const Rgb mean = pixel[view] / samples;
+    if (!format_.is_plain(view)) return {mean.r, mean.r, mean.r};
+    return mean * (format_.is_light(view) ? scale_ : 1);
+}
+
 std::vector<Rgb> Film::so_far(const Tile& tile) const {
     const std::size_t colours = format_.colours();
     std::vector<Rgb> pixels(tile.pixels() * colours);
@@ -84,10 +94,8 @@ std::vector<Rgb> Film::so_far(const Tile& tile) const {
     for (std::size_t i = 0; i < tile.pixels(); ++i) {
         const auto x = std::uint32_t(i % tile.width), y = std::uint32_t(i / tile.width);
         const auto samples = static_cast<float>(samples_at(index(tile.x + x, tile.y + y)));
-        for (const std::size_t k : views) {
-            const Rgb& sum = pixels[i * colours + k];
-            seen.push_back(samples > 0 ? sum / samples * (format_.is_light(k) ? scale_ : 1) : sum);
-        }
+        for (const std::size_t k : views)
+            seen.push_back(seen_as(k, std::span(pixels).subspan(i * colours, colours), samples));
     }
     return seen;
 }

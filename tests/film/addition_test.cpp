@@ -80,6 +80,40 @@ Picture made_of(const FilmFormat& format, const std::vector<Tile>& tiles) {
     return film.picture(2);
 }
 
+TEST(Ids, AreSeenWhileThePictureGrowsInAColourOfTheirOwn) {
+    const Rgb ball[] = {seen_id(7, 4)}, other[] = {seen_id(8, 4)}, both[] = {seen_id(7, 2), seen_id(8, 2)};
+    const Rgb colour = false_colour(ball, 4);
+    EXPECT_EQ(false_colour(ball, 4), colour);
+    EXPECT_FALSE(false_colour(other, 4) == colour);
+    for (const float channel : {colour.r, colour.g, colour.b}) {
+        EXPECT_GE(channel, 0);
+        EXPECT_LE(channel, 1);
+    }
+    EXPECT_EQ(false_colour(ball, 8), colour * 0.5f) << "the rest sees none";
+    EXPECT_EQ(false_colour(both, 4), colour * 0.5f + false_colour(other, 4) * 0.5f);
+    EXPECT_EQ(false_colour(std::vector<Rgb>(4), 4), Rgb{});
+
+    const FilmFormat format = mixed_format(16);
+    Film film(format);
+    const auto tile = tiles_of(format, 8).front();
+    film.add(tile, rendered(format, tile));
+    const auto picture = film.picture();
+    const auto views = format.views();
+    const auto seen = film.so_far(tile);
+    ASSERT_EQ(views.size(), 5u);
+    EXPECT_EQ(format.name_of(views[3]), "things");
+    EXPECT_EQ(seen[4], (Rgb{0.5f, 0.5f, 0.5f})) << "half of the pixel is covered";
+    const auto& ids = picture.mattes.at(0);
+    Rgb expected;
+    for (std::uint32_t rank = 0; rank < ids.ranks; ++rank) {
+        const Rgb id[] = {seen_id(ids.pixels[rank].id, ids.pixels[rank].part)};
+        expected += false_colour(id, 1);
+    }
+    EXPECT_NEAR(seen[3].r, expected.r, 1e-5f);
+    EXPECT_NEAR(seen[3].g, expected.g, 1e-5f);
+    EXPECT_NEAR(seen[3].b, expected.b, 1e-5f);
+}
+
 TEST(Ids, AreTheSameInWhateverOrderAndPiecesTilesCome) {
     const FilmFormat format = mixed_format(292);
     auto tiles = tiles_of(format, 8);

@@ -62,15 +62,14 @@ TEST_F(TevPreviewTest, HasABeautyAndALayerForEachColour) {
     EXPECT_EQ(last("G"), 2 + 0.5f * 3);
 }
 
-TEST_F(TevPreviewTest, HasNoLayersForIdsAndAlphaWhichTheBoardHasNot) {
-    format.shown = {"mattes", "depth"};
-    format.facts = {"mattes", "depth"};
+TEST_F(TevPreviewTest, HasOneLayerForTheIdsOfAMatte) {
+    format.shown = {"mattes"};
+    format.facts = {"mattes"};
     format.ids = {{"mattes", 4}};
-    format.alpha = true;
     const auto seen = seen_of(3);
     const auto& image = seen.images.at("box.exr");
     EXPECT_EQ(image.channels.size(), 12u);
-    EXPECT_EQ(image.channels.at("depth.B").back(), 9);
+    EXPECT_EQ(image.channels.at("mattes.B").back(), 9);
 }
 
 TEST_F(TevPreviewTest, ShowsAllToAViewerThatComesLaterOrAgain) {

@@ -98,7 +98,8 @@ Tree ray_tree(const TracedRay& ray, const Scene& scene) {
 Tree sample_tree(const PixelAccount& account, const ExplainedSample& part) {
     const auto& network = *account.network;
     Tree layers = Tree::object(), questions = Tree::array(), rays = Tree::array();
-    for (const std::size_t k : account.format.views()) layers[account.format.name_of(k)] = tree_of(part.colours[k]);
+    for (const std::size_t k : account.format.views())
+        if (account.format.is_plain(k)) layers[account.format.name_of(k)] = tree_of(part.colours[k]);
     for (const auto& asked : part.account.questions) {
         Tree& tree = questions.emplace_back(question_tree(asked, network.graph));
         tree["within"] = within_of(asked.within);

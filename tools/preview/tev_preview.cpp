@@ -21,7 +21,7 @@ constexpr std::size_t most_frame = 256 << 10;  // bytes
 
 std::vector<std::string> tev_channels(const FilmFormat& format) {
     std::vector<std::string> channels{"R", "G", "B"};
-    for (const std::size_t k : format.views())  // ids and alpha are not on the board
+    for (const std::size_t k : format.views())
         for (const char* channel : {".R", ".G", ".B"}) channels.push_back(format.name_of(k) + channel);
     return channels;
 }

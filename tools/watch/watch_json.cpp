@@ -23,7 +23,7 @@ constexpr std::size_t most_in_flight = 400;
 
 std::string text_of(const WatchJson& json) { return json.dump(-1, ' ', false, WatchJson::error_handler_t::replace); }
 
-// The view of that name; none, if it is of ids.
+// The view of that name.
 std::vector<std::size_t> view_of(const std::string& name, const FilmFormat& format) {
     const auto views = format.views();
     for (std::size_t k = 0; k < views.size(); ++k)
