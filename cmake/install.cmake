@@ -49,6 +49,9 @@ foreach(room IN ITEMS base film scene network estimate)
   get_target_property(headers lightnet_${room} HEADER_SET)
   list(APPEND node_headers ${headers})
 endforeach()
+get_target_property(headers lightnet_readers HEADER_SET)
+list(FILTER headers INCLUDE REGEX "core/readers/[^/]*$")  # what all readers use, not the readers themselves
+list(APPEND node_headers ${headers})
 target_sources(lightnet_node INTERFACE FILE_SET HEADERS
   BASE_DIRS "${PROJECT_SOURCE_DIR}" FILES ${node_headers})
 target_compile_features(lightnet_node INTERFACE cxx_std_20)

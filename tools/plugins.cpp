@@ -14,13 +14,14 @@
 #include "core/base/hash.hpp"
 #include "core/base/joined.hpp"
 #include "core/network/light/plugin.hpp"
+#include "core/readers/read_scene.hpp"
 
 namespace lightnet {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint32_t known_layout = 1;
+constexpr std::uint32_t known_layout = 2;
 
 std::string bytes_in(const std::string& file) {
     std::ifstream in(file, std::ios::binary);
@@ -62,16 +63,22 @@ bool is_word(std::string_view name) {
                                         [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; });
 }
 
+void add_formats(const std::string& plugin, void (&add)(std::vector<SceneFormat>&)) {
+    std::vector<SceneFormat> formats;
+    add(formats);
+    for (auto& format : formats) format.plugin = plugin;
+    add_scene_formats(formats);
+}
+
 void load_plugin(const std::string& file, Registry& registry) {
     const std::string hash = to_hex(content_hash(bytes_in(file))).substr(0, 12);
     const PluginCard& card = card_in(file);
-    if (!is_word(card.name) || !card.add_kinds) throw Error("says neither its name, one word, nor what it brings");
+    if (!is_word(card.name) || !(card.add_kinds || card.add_formats))
+        throw Error("says neither its name, one word, nor what it brings");
     const std::string plugin = std::string(card.name) + " " + card.version + " (" + hash + ")";
+    if (registry.plugins().contains(plugin)) return;  // by another name of the same file
     std::vector<Kind> kinds;
-    card.add_kinds(kinds);
-    const auto loaded_before = std::any_of(registry.kinds().begin(), registry.kinds().end(),
-                                           [&](const Kind& kind) { return kind.plugin == plugin; });
-    if (loaded_before) return;  // by another name of the same file
+    if (card.add_kinds) card.add_kinds(kinds);
     for (std::size_t i = 0; i < kinds.size(); ++i) {
         const auto& name = kinds[i].name;
         const Kind* const known = registry.find(name);
@@ -82,9 +89,9 @@ void load_plugin(const std::string& file, Registry& registry) {
                         (twice                   ? "it brings twice"
                          : known->plugin.empty() ? "lightnet has already"
                                                  : "the plugin " + known->plugin + " has brought already"));
-        kinds[i].plugin = plugin;
     }
-    registry.add(std::move(kinds));
+    if (card.add_formats) add_formats(plugin, *card.add_formats);
+    registry.add_plugin(plugin, std::move(kinds));
 }
 
 }  // namespace

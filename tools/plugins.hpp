@@ -1,4 +1,4 @@
-// Kinds of nodes from shared libraries.
+// Kinds of nodes and formats of scenes from shared libraries.
 #pragma once
 
 #include <iosfwd>
@@ -9,8 +9,8 @@
 
 namespace lightnet {
 
-/// Loads them for good and adds their kinds. A library whose objects can't go to and fro, or that brings a kind that is
-/// there already, is refused. Throws UserError that names all that is wrong with any of them. Before threads are
+/// Loads them for good and adds their kinds, and their formats to those of the process. A library whose objects can't go
+/// to and fro, or that brings a kind or a format that is there already, is refused. Throws UserError that names all that is wrong with any of them. Before threads are
 /// started.
 void load_plugins(const std::vector<std::string>& files, Registry& registry);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <set>
 #include <system_error>
 #include <variant>
 
@@ -13,6 +14,7 @@
 #include "core/network/graph/layout.hpp"
 #include "core/network/graph/plan.hpp"
 #include "core/network/graph/plugin_use.hpp"
+#include "core/readers/read_scene.hpp"
 #include "core/run/runtime/fingerprint.hpp"
 
 namespace lightnet {
@@ -42,6 +44,18 @@ FilmFormat film_format(const RunRequest& request, const Registry& registry) {
     return format;
 }
 
+namespace {
+
+// What the kinds of its nodes are from, and what reads its scene.
+std::set<std::string> plugins_of(const RunRequest& request, const Registry& registry) {
+    auto plugins = plugins_of(request.graph, registry);
+    const auto* format = scene_format_of(request.scene);
+    if (format && !format->plugin.empty()) plugins.insert(format->plugin);
+    return plugins;
+}
+
+}  // namespace
+
 Job make_job(const RunRequest& request, const Registry& registry, const FilmFormat& format, DiskFiles& files) {
     Job job;
     job.graph = request.graph;
@@ -51,7 +65,8 @@ Job make_job(const RunRequest& request, const Registry& registry, const FilmForm
     job.isa = usual_isa();
     job.width = format.width, job.height = format.height;
     job.tuning = request.tuning;
-    job.plugins = plugins_of(request.graph, registry);
+    const auto plugins = plugins_of(request, registry);
+    job.plugins = {plugins.begin(), plugins.end()};
     return job;
 }
 
@@ -64,7 +79,7 @@ RunReport first_page(const RunRequest& request, const Registry& registry, const 
     report.folder = std::filesystem::current_path(ignored).string();
     report.mode = name_of(request.mode);
     report.versions["lightnet"] = build_id();
-    for (const auto& plugin : plugins_of(request.graph, registry))
+    for (const auto& plugin : plugins_of(request, registry))
         report.versions["plugin " + plugin.substr(0, plugin.find(' '))] = plugin;
     report.settings["samples"] = std::to_string(film.samples);
     report.settings["size"] = fmt::format("{}x{}", film.width, film.height);

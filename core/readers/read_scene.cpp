@@ -1,7 +1,6 @@
 #include "core/readers/read_scene.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <vector>
 
@@ -49,6 +48,11 @@ const SceneFormat* format_of(const std::string& path, std::span<const SceneForma
     return found == formats.end() ? nullptr : &*found;
 }
 
+std::vector<SceneFormat>& all_formats() {
+    static std::vector formats{pbrt::format(), mitsuba::format(), gltf::format(), obj::format(), ply::format()};
+    return formats;
+}
+
 /// "'.a', '.b' (somebody) or '.c'"
 std::string endings_text(std::span<const SceneFormat> formats) {
     std::vector<std::string> endings;
@@ -92,12 +96,30 @@ void check(const SceneData& scene, const std::string& path) try {
 
 }  // namespace
 
-std::span<const SceneFormat> scene_formats() {
-    static const std::array formats{pbrt::format(), mitsuba::format(), gltf::format(), obj::format(), ply::format()};
-    return formats;
+std::span<const SceneFormat> scene_formats() { return all_formats(); }
+
+void add_scene_formats(const std::vector<SceneFormat>& formats) {
+    auto all = all_formats();
+    for (const SceneFormat& format : formats) {
+        if (format.endings.empty() || !format.read)
+            throw Error("brings a format of scenes that has no ending or reader");
+        for (const auto ending : format.endings) {
+            if (ending.size() < 2 || ending != ending_of(std::string(ending)))
+                throw Error("brings scenes that end in '" + std::string(ending) +
+                            "': an ending has a dot, and no large letters");
+            if (const auto* known = format_of(std::string(ending), all))
+                throw Error(
+                    "brings scenes that end in '" + std::string(ending) + "', which " +
+                    (known->plugin.empty() ? "lightnet reads already" : known->plugin + " has brought already"));
+        }
+        all.push_back(format);
+    }
+    all_formats() = std::move(all);
 }
 
-bool is_named_like_a_scene(const std::string& path) { return format_of(path, scene_formats()) != nullptr; }
+const SceneFormat* scene_format_of(const std::string& path) { return format_of(path, scene_formats()); }
+
+bool is_named_like_a_scene(const std::string& path) { return scene_format_of(path) != nullptr; }
 
 SceneData read_scene(Files& files, const std::string& path, const SceneConstants& constants) {
     return read_scene(files, path, constants, scene_formats());

@@ -3,6 +3,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/readers/files.hpp"
 #include "core/readers/scene_format.hpp"
@@ -20,6 +21,11 @@ SceneData read_scene(Files& files, const std::string& path, const SceneConstants
 
 /// All that there are.
 std::span<const SceneFormat> scene_formats();
+/// Those of a plugin, beside them, for the rest of the process. Throws Error, and adds none, where one has no ending,
+/// can't be read, or has an ending that is taken. Before threads are started.
+void add_scene_formats(const std::vector<SceneFormat>& formats);
+/// The one of a file, by its ending. Null: none.
+const SceneFormat* scene_format_of(const std::string& path);
 /// The file's ending is that of one of them.
 bool is_named_like_a_scene(const std::string& path);
 

@@ -28,6 +28,13 @@ cd "$folder/plugin"
 ./ci.sh >"$folder/ci.log" 2>&1 || { cat "$folder/ci.log"; exit 1; }
 fog=$folder/plugin/build/fog.so
 
+# A format of scenes.
+if ! { cmake -S "$sources/examples/format" -B "$folder/format" && cmake --build "$folder/format" &&
+    ctest --test-dir "$folder/format" --output-on-failure; } >"$folder/ci.log" 2>&1; then
+    cat "$folder/ci.log"
+    fail "the example of a format fails"
+fi
+
 # Another, which wraps a library of others; it is left out where that is not here.
 if [ -e /usr/include/libnoise/noise.h ]; then
     if ! { cmake -S "$sources/examples/wrapped" -B "$folder/wrapped" && cmake --build "$folder/wrapped" &&

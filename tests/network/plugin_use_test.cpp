@@ -11,10 +11,11 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 
 Registry registry_with(const std::string& plugin) {
-    std::vector<Kind> kinds(3);
-    kinds[0].name = "Own", kinds[1].name = "Fog", kinds[2].name = "Mist";
-    kinds[1].plugin = kinds[2].plugin = plugin;
-    return Registry(std::move(kinds));
+    std::vector<Kind> own(1), others(2);
+    own[0].name = "Own", others[0].name = "Fog", others[1].name = "Mist";
+    Registry registry(std::move(own));
+    registry.add_plugin(plugin, std::move(others));
+    return registry;
 }
 
 Graph graph_of(const std::vector<std::string>& kinds) {
@@ -25,9 +26,16 @@ Graph graph_of(const std::vector<std::string>& kinds) {
 
 TEST(PluginUse, NamesThoseThatAGraphNeeds) {
     const auto registry = registry_with("fog 1.0 (aa)");
-    EXPECT_THAT(plugins_of(registry), ElementsAre("fog 1.0 (aa)"));
+    EXPECT_THAT(registry.plugins(), ElementsAre("fog 1.0 (aa)"));
     EXPECT_THAT(plugins_of(graph_of({"Fog", "Own", "Mist"}), registry), ElementsAre("fog 1.0 (aa)"));
     EXPECT_THAT(plugins_of(graph_of({"Own"}), registry), IsEmpty());
+}
+
+TEST(PluginUse, KnowsThoseThatBringNoKinds) {
+    auto registry = registry_with("fog 1.0 (aa)");
+    registry.add_plugin("off 1.0 (bb)", {});
+    EXPECT_THAT(registry.plugins(), ElementsAre("fog 1.0 (aa)", "off 1.0 (bb)"));
+    EXPECT_EQ(why_plugins_differ({"off 1.0 (bb)"}, registry), "");
 }
 
 TEST(PluginUse, SaysWhatDiffers) {

@@ -66,6 +66,30 @@ TEST(SceneFormats, ThatThereAreHaveEndingsOfTheirOwn) {
     EXPECT_FALSE(is_named_like_a_scene("scene.word"));
 }
 
+TEST(SceneFormats, ComeFromPluginsToo) {
+    EXPECT_FALSE(is_named_like_a_scene("a.plugged"));
+    add_scene_formats({{.endings = {".plugged"}, .read = read_word, .plugin = "words 1.0 (aa)"}});
+    ASSERT_TRUE(scene_format_of("a.plugged"));
+    EXPECT_EQ(scene_format_of("a.plugged")->plugin, "words 1.0 (aa)");
+    EXPECT_EQ(scene_format_of("a.pbrt")->plugin, "");
+    const auto refused = [](const SceneFormat& format) -> std::string {
+        try {
+            add_scene_formats({{.endings = {".unheard"}, .read = read_word}, format});
+        } catch (const Error& error) {
+            EXPECT_FALSE(is_named_like_a_scene("a.unheard")) << "all or none";
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_THAT(refused({.endings = {".ply"}, .read = read_word}), HasSubstr("'.ply', which lightnet reads already"));
+    EXPECT_THAT(refused({.endings = {".plugged"}, .read = read_word}),
+                HasSubstr("'.plugged', which words 1.0 (aa) has brought already"));
+    EXPECT_THAT(refused({.endings = {".Big"}, .read = read_word}), HasSubstr("no large letters"));
+    EXPECT_THAT(refused({.endings = {"dotless"}, .read = read_word}), HasSubstr("an ending has a dot"));
+    EXPECT_THAT(refused({.endings = {}, .read = read_word}), HasSubstr("no ending"));
+    EXPECT_THAT(refused({.endings = {".unread"}}), HasSubstr("no ending or reader"));
+}
+
 // By all readers alike, at once, and not only when the scene is built.
 TEST(ReadScene, RefusesMixturesThatAreTooDeep) {
     std::string text = "MakeNamedMaterial \"m0\" \"string type\" \"diffuse\"\n";

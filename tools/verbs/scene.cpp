@@ -111,6 +111,7 @@ struct SceneInfoOptions {
 void describe_scene(CLI::App& app, SceneInfoOptions& options) {
     app.require_subcommand(1);
     CLI::App& info = *app.add_subcommand("info", "show what is in a scene file, and what of it is not supported");
+    info.fallthrough();  // to what all verbs have
     info.add_option("FILE", options.file, "the scene file")->required();
     add_constants(info, options.constants, "define a variable of the scene file (may be repeated)");
     when_taken_apart(info, [&options] { return mistaken_graph(options.file, "to look at it: lightnet check"); });

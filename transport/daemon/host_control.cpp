@@ -219,7 +219,7 @@ void Host::Service::tell_state(const Sender& sender) {
                         : ending ? "ends a run"
                                  : "is free")
         .set("who", run && rights.is_owner(sender.key) ? who : "");
-    fields.set("plugins", joined(plugins_of(registry), ", "));
+    fields.set("plugins", joined(std::vector(registry.plugins().begin(), registry.plugins().end()), ", "));
     fields.set("clock", static_cast<std::uint64_t>(
                             std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count()));
     fields.set("broken_packets", broken_packets);

@@ -110,6 +110,12 @@ void Registry::add(std::vector<Kind> kinds) {
            "each kind has a name of its own");
 }
 
+void Registry::add_plugin(const std::string& plugin, std::vector<Kind> kinds) {
+    for (auto& kind : kinds) kind.plugin = plugin;
+    add(std::move(kinds));
+    plugins_.insert(plugin);
+}
+
 const Kind* Registry::find(std::string_view name) const {
     const auto at = std::find_if(kinds_.begin(), kinds_.end(), [&](const Kind& kind) { return kind.name == name; });
     return at == kinds_.end() ? nullptr : &*at;

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -133,11 +134,16 @@ public:
     explicit Registry(std::vector<Kind> kinds);
     /// Kinds from elsewhere, beside those. Names must be new.
     void add(std::vector<Kind> kinds);
+    /// What a plugin brings, of this name, version and hash; nothing, where it brings other things than kinds.
+    void add_plugin(const std::string& plugin, std::vector<Kind> kinds);
+    /// All that were added, in order.
+    const std::set<std::string>& plugins() const { return plugins_; }
     const Kind* find(std::string_view name) const;
     const std::vector<Kind>& kinds() const { return kinds_; }
 
 private:
     std::vector<Kind> kinds_;
+    std::set<std::string> plugins_;
 };
 
 }  // namespace lightnet

@@ -1,4 +1,4 @@
-// What a shared library says of itself that brings kinds of nodes: a plugin.
+// What a shared library says of itself that brings kinds of nodes or formats of scenes: a plugin.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,8 @@
 #include "core/network/interface_hash.hpp"
 
 namespace lightnet {
+
+struct SceneFormat;  // core/readers/scene_format.hpp
 
 /// How something was compiled, as far as objects that go to and fro depend on it. Filled in where it is compiled.
 struct PluginBuild {
@@ -28,11 +30,13 @@ struct PluginBuild {
 /// whose answer lives as long as the library. It is loaded before any thread is started, and never unloaded. `layout`
 /// and `build` are looked at first; where they are not the program's own, nothing else is touched.
 struct PluginCard {
-    std::uint32_t layout = 1;  // of this struct
+    std::uint32_t layout = 2;  // of this struct
     PluginBuild build = {};
     const char* name = "";  // one word
     const char* version = "";
+    /// Either may be null, not both.
     void (*add_kinds)(std::vector<Kind>& kinds) = nullptr;
+    void (*add_formats)(std::vector<SceneFormat>& formats) = nullptr;
 };
 
 }  // namespace lightnet
