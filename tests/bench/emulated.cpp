@@ -111,7 +111,8 @@ Registry emulated_kinds(std::shared_ptr<Slowness> slowness, const std::string& s
           .inputs = {0, 8},
           .params = {{.name = "milliseconds", .help = "per tile"},
                      {.name = "questions", .help = "per tile"},
-                     {.name = "scene", .type = ParamType::scene, .help = "is not seen", .optional = true}},
+                     {.name = "scene", .type = ParamType::scene, .help = "is not seen", .optional = true},
+                     {.name = "film", .type = ParamType::film, .help = "which jobs have to have"}},
           .make_renderer = [=](const NodeContext& here) { return std::make_unique<EmulatedImage>(here, image); }}});
 }
 
@@ -123,7 +124,9 @@ Node emulated_image(double milliseconds, double questions, const std::vector<std
     return {"image",
             "EmulatedImage",
             refs(inputs),
-            {{"milliseconds", Value{milliseconds}}, {"questions", Value{questions}}},
+            {{"milliseconds", Value{milliseconds}},
+             {"questions", Value{questions}},
+             {"film", Value{Table{{Value{1.0}, Value{1.0}}, {}}}}},
             {}};
 }
 

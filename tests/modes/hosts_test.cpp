@@ -47,6 +47,20 @@ TEST(Hosts, ThatAreNotThereAreSaidToBe) {
     EXPECT_NE(told.find("1 of 2 is not there"), std::string::npos) << told;
 }
 
+TEST(Hosts, AreLookedAtByTheDoctor) {
+    const Folder folder;
+    const Daemon daemon(folder, 2);
+    Process fit({program("lightnet"), "doctor", "--hosts",
+                 folder.write("hosts.lua", "place '" + daemon.endpoint + "' {}"), "--cache", folder / "cache"});
+    fit.wait();  // its code tells of this machine as well
+    for (const auto* word : {daemon.endpoint.c_str(), "is free, 2 places", "round trip", "MB/s", "its clock"})
+        EXPECT_NE(fit.output().find(word), std::string::npos) << word << "\n" << fit.output();
+    EXPECT_EQ(fit.output().find("another build"), std::string::npos) << fit.output();
+    Process absent({program("lightnet"), "doctor", "--hosts", "tcp://127.0.0.1:1", "--cache", folder / "cache"});
+    EXPECT_EQ(absent.wait(), 3) << absent.output();
+    EXPECT_NE(absent.output().find("does not answer"), std::string::npos) << absent.output();
+}
+
 TEST(Hosts, StandInTheTableOnceWithTheirEndpoint) {
     const Folder folder;
     const Daemon daemon(folder);

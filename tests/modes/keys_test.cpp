@@ -145,6 +145,9 @@ TEST_F(Keys, ShowTheirUserHowDaemonsAre) {
     Process by_hand({program("lightnet"), "hosts", daemon->endpoint, "--host-key", key_in("daemon").open.text(),
                      "--key", folder.file("user.key")});
     EXPECT_EQ(by_hand.wait(), 0) << by_hand.output();
+    Process looked_at({program("lightnet"), "doctor", "--hosts", hosts, "--key", folder.file("user.key")});
+    looked_at.wait();
+    EXPECT_THAT(looked_at.output(), HasSubstr("is free, 1 places, round trip"));
 }
 
 TEST_F(Keys, LastThroughCutsAndNewLives) {

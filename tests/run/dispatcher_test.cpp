@@ -175,17 +175,18 @@ TEST_F(DispatcherTest, DropsWhatLostPlacesHadAsked) {
     Plan one = plan();
     one.places_of[light] = {0};
     tell(one);
-    for (std::uint64_t i = 1; i <= 20; ++i) ask(i, 2);
-    EXPECT_EQ(carrier.asked.size(), 8u) << "credit of one place";
+    const std::uint64_t credit = Tuning().credit, asks = credit + 12;
+    for (std::uint64_t i = 1; i <= asks; ++i) ask(i, 2);
+    EXPECT_EQ(carrier.asked.size(), credit) << "credit of one place";
     one.places.pop_back();
     tell(one);
-    EXPECT_EQ(dispatcher.counters().cancelled, 20u);
-    ask(21, 2, {"third", 0});
-    for (int i = 0; i < 8; ++i) answer();
+    EXPECT_EQ(dispatcher.counters().cancelled, asks);
+    ask(asks + 1, 2, {"third", 0});
+    for (std::uint64_t i = 0; i < credit; ++i) answer();
     EXPECT_THAT(carrier.replies, IsEmpty());
     ASSERT_EQ(carrier.asked.size(), 1u) << "credit came back";
     answer();
-    EXPECT_EQ(carrier.replies.at(0).bundle, 21u);
+    EXPECT_EQ(carrier.replies.at(0).bundle, asks + 1);
 }
 
 TEST_F(DispatcherTest, DealsTilesAsItDealsQuestions) {

@@ -105,7 +105,6 @@ private:
         double next_tick = 0;
         explicit Asker(SimulatedLight& w) : world(w) {
             MultiplexerRules rules;
-            rules.scheduling.usual = 512;
             rules.scheduling.double_tail = world.world_.double_tail;
             rules.scheduling.tail_part = 0.01;
             rules.clock = [this] { return world.now_; };

@@ -67,7 +67,7 @@ TEST(Doctor, DoubtsAClockThatIsFarOff) {
 }
 
 TEST(Doctor, MissesAHostThatDoesNotAnswer) {
-    const auto probes = probe_hosts({"tcp://127.0.0.1:1"}, 50ms);
+    const auto probes = probe_hosts({{"tcp://127.0.0.1:1"}}, 50ms);
     const auto finding = look_at_hosts(probes, build_id()).at(0);
     EXPECT_EQ(finding.grade, Grade::bad);
     EXPECT_THAT(finding.what, HasSubstr("does not answer"));

@@ -5,11 +5,9 @@
 #include <chrono>
 #include <ostream>
 #include <string>
-#include <vector>
 
 #include "core/base/build_info.hpp"
-#include "core/network/graph/check_hosts.hpp"
-#include "lua/load_graph.hpp"
+#include "tools/asked_hosts.hpp"
 #include "tools/command_line.hpp"
 #include "tools/doctor.hpp"
 #include "tools/exit_code.hpp"
@@ -19,43 +17,27 @@ namespace lightnet {
 namespace {
 
 struct DoctorOptions {
-    std::vector<std::string> whom;  // endpoints and hosts files
+    AskedHostsOptions hosts;
     std::string cache;
 };
 
 void describe_doctor(CLI::App& app, DoctorOptions& options) {
-    app.add_option("--hosts", options.whom, "ask these, too: hosts files, or endpoints of daemons (may be repeated)")
+    app.add_option("--hosts", options.hosts.whom,
+                   "ask these, too: hosts files, or endpoints of daemons (may be repeated)")
         ->type_name("FILE");
+    add_asking_keys(app, options.hosts);
     app.add_option("--cache", options.cache, "folder of the cache (default: ~/.cache/lightnet)")->type_name("FOLDER");
     add_examples(app, {"lightnet doctor", "lightnet doctor --hosts tcp://127.0.0.1:7777"});
 }
 
-std::vector<std::string> endpoints_of(const DoctorOptions& options, std::vector<Finding>& findings) {
-    std::vector<std::string> endpoints;
-    for (const auto& one : options.whom) {
-        if (address_of(one)) {
-            endpoints.push_back(one);
-            continue;
-        }
-        for (const auto& host : load_hosts(one).hosts) {
-            if (host.is_here()) continue;
-            if (address_of(host.endpoint))
-                endpoints.push_back(host.endpoint);
-            else
-                findings.push_back({Finding::Grade::doubtful, host.endpoint, "joins by itself, so it can't be asked",
-                                    "run lightnet doctor there"});
-        }
-    }
-    return endpoints;
-}
-
 int look_at_all(const DoctorOptions& options, const Launcher& launcher) {
-    std::vector<Finding> joining;
-    const auto endpoints = endpoints_of(options, joining);  // before there are threads
+    const auto asked = asked_hosts(options.hosts);  // before there are threads
     auto findings = look_at_this_machine(options.cache);
-    const auto hosts = look_at_hosts(probe_hosts(endpoints, std::chrono::seconds(5)), build_id());
+    const auto hosts = look_at_hosts(probe_hosts(asked.called, std::chrono::seconds(5)), build_id());
     findings.insert(findings.end(), hosts.begin(), hosts.end());
-    findings.insert(findings.end(), joining.begin(), joining.end());
+    for (const auto& name : asked.joining)
+        findings.push_back(
+            {Finding::Grade::doubtful, name, "joins by itself, so it can't be asked", "run lightnet doctor there"});
     launcher.out << findings_table(findings);
     if (all_good_enough(findings)) return exit_code::done;
     return all_good_enough(hosts) ? exit_code::failed : exit_code::no_worker;

@@ -22,8 +22,8 @@ std::chrono::nanoseconds wall_time() { return std::chrono::system_clock::now().t
 /// One question after the other at one endpoint.
 class Asker {
 public:
-    Asker(const SocketContext& context, const std::string& endpoint, Clock::time_point end)
-        : socket_(asking_socket(context, endpoint)), end_(end) {}
+    Asker(const SocketContext& context, const AskedHost& host, Clock::time_point end)
+        : socket_(asking_socket(context, host.endpoint, host.keys)), end_(end) {}
 
     struct Trip {
         Fields fields;
@@ -69,10 +69,10 @@ private:
     Clock::time_point end_;
 };
 
-HostProbe probe(const SocketContext& context, const std::string& endpoint, std::chrono::milliseconds patience) {
+HostProbe probe(const SocketContext& context, const AskedHost& host, std::chrono::milliseconds patience) {
     HostProbe found;
-    found.answer = {endpoint, false, endpoint, "does not answer", {}, {}, {}};
-    Asker asker(context, endpoint, Clock::now() + patience);
+    found.answer = {host.endpoint, false, host.endpoint, "does not answer", {}, {}, {}};
+    Asker asker(context, host, Clock::now() + patience);
     for (int i = 0; i < trips; ++i) {
         const auto trip = asker.ask(0);
         if (!trip) return found;
@@ -93,13 +93,13 @@ HostProbe probe(const SocketContext& context, const std::string& endpoint, std::
 
 }  // namespace
 
-std::vector<HostProbe> probe_hosts(const std::vector<std::string>& endpoints, std::chrono::milliseconds patience) {
+std::vector<HostProbe> probe_hosts(const std::vector<AskedHost>& hosts, std::chrono::milliseconds patience) {
     const SocketContext context;
     std::vector<HostProbe> probes;
-    for (const auto& endpoint : endpoints) try {
-            probes.push_back(probe(context, endpoint, patience));
+    for (const auto& host : hosts) try {
+            probes.push_back(probe(context, host, patience));
         } catch (const SocketError& error) {
-            throw Error(endpoint, std::string("can't be called: ") + error.what());
+            throw Error(host.endpoint, std::string("can't be called: ") + error.what());
         }
     return probes;
 }

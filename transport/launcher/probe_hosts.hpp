@@ -21,6 +21,6 @@ struct HostProbe {
 
 /// One after the other, so that they don't share the line; each at most `patience`. One that does not answer has the
 /// state "does not answer", as with ask_state().
-std::vector<HostProbe> probe_hosts(const std::vector<std::string>& endpoints, std::chrono::milliseconds patience);
+std::vector<HostProbe> probe_hosts(const std::vector<AskedHost>& hosts, std::chrono::milliseconds patience);
 
 }  // namespace lightnet

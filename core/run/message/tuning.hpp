@@ -16,7 +16,7 @@ inline constexpr std::uint64_t usual_cache_size = std::uint64_t{4} << 30;
 struct Tuning {
     std::uint32_t tile = 32;
     std::uint32_t bundle = 1024;
-    std::uint32_t credit = 8;
+    std::uint32_t credit = 32;
     std::uint32_t checkpoint = 5;
     std::string cache;
     std::uint64_t cache_size = usual_cache_size;

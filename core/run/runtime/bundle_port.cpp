@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/run/runtime/full_bundle.hpp"
 
 namespace lightnet {
 namespace {
@@ -87,15 +88,7 @@ std::chrono::nanoseconds BundlePort::patience() const {
     return std::clamp<std::chrono::nanoseconds>(answer_time_ / 2, rules_.oldest, 16 * rules_.oldest);
 }
 
-// Of a full bundle. Costly questions go in smaller ones: what takes long anyway loses nothing by another message, and
-// large pieces of work are dealt out badly among replicas.
-// DECISIONS: full-by-work
-std::size_t BundlePort::full() const {
-    constexpr double enough_work = 0.01;  // seconds at a replica
-    const double each = replicas_.scheduler().service();
-    if (each <= 0) return rules_.questions;
-    return std::clamp<std::size_t>(static_cast<std::size_t>(std::min(enough_work / each, 1e9)), 1, rules_.questions);
-}
+std::size_t BundlePort::full() const { return full_bundle(rules_.questions, replicas_.scheduler().service()); }
 
 bool BundlePort::due(Clock::time_point now, bool idle) {
     if (waiting_ == 0) return false;

@@ -1,7 +1,6 @@
 #include "core/run/runtime/dispatcher.hpp"
 
 #include <algorithm>
-#include <type_traits>
 #include <utility>
 
 #include "core/base/error.hpp"
@@ -18,7 +17,6 @@ Dispatcher::Desk<Question>::Desk(Dispatcher& all, std::uint32_t node, RemoteChan
     edge_ = {node, {tuning.credit, tuning.credit_questions, tuning.credit_bytes}, {}};
     MultiplexerRules rules;
     rules.scheduling.strategy = all.plan_.strategy_of(node);
-    rules.scheduling.usual = std::is_same_v<Question, Query> ? tuning.bundle : 1;
     rules.names_host = true;
     rules.clock = all.clock_;
     if (tuning.check_answers) rules.differs = [](const std::string& what) { throw Error(what); };

@@ -132,7 +132,6 @@ bool Place::may_rehearse(std::size_t node) const {
 MultiplexerRules Place::multiplexer_rules(std::size_t node) {
     MultiplexerRules rules;
     rules.scheduling.strategy = plan_.strategy_of(node);
-    rules.scheduling.usual = tuning_.bundle;
     rules.scheduling.double_tail = !may_rehearse(node);
     rules.scheduling.tail_part = 0.01;  // others want answers, too
     rules.at_fault = [this](const Failure& failure) { carrier_.take_out(failure.host, failure.why); };
@@ -307,8 +306,8 @@ void Place::pause() {
 }
 
 bool Place::flush(bool idle) {
-    if (!relieved_.empty()) relieve();
     const auto now = Clock::now();
+    if (!relieved_.empty()) relieve(now, idle);
     bool sent = false;
     for (auto& [key, remote] : remotes_) sent |= remote.port->flush(now, idle);
     return sent;

@@ -75,6 +75,9 @@ private:
         std::size_t node, width;
         PlannedPort* port;
         std::size_t helpers;
+        double part, most;   // of each ask that they get
+        bool idled = false;  // since `judged`: this place waited for them with nothing to do
+        Clock::time_point judged{};
     };
 
     std::function<void(Fibers::Fiber*)> wake();
@@ -88,7 +91,8 @@ private:
     std::vector<std::uint32_t> helpers(std::size_t node) const;
     Plan plan_for(std::size_t node) const;
     void use(std::size_t node, std::size_t width, PlannedPort& port);
-    void relieve();
+    void relieve(Clock::time_point now, bool idle);
+    static void judge(Relieved& relieved, Clock::time_point now);
     Port* direct_port_to(std::size_t node, std::size_t width);
     Port* bundle_port_to(std::size_t node, std::size_t width);
     void use(const Plan& plan);

@@ -4,6 +4,7 @@
 
 #include "core/base/error.hpp"
 #include "core/network/light/describe_question.hpp"
+#include "core/run/runtime/full_bundle.hpp"
 #include "core/run/runtime/place.hpp"
 
 namespace lightnet {
@@ -14,10 +15,11 @@ std::vector<Message> Place::next_asks(std::size_t node) {
     auto& waiting = inboxes_[node].waiting;
     std::vector<Message> asks;
     std::size_t questions = 0;
+    const std::size_t most = full_bundle(tuning_.bundle, 1e-9 * inboxes_[node].service_ns);
     const auto fits = [&](const Message& ask) {
         return asks.empty() || (std::holds_alternative<Questions<Query>>(ask.questions) &&
                                 std::holds_alternative<Questions<Query>>(asks.front().questions) &&
-                                ask.width == asks.front().width && questions + work_in(ask) <= tuning_.bundle);
+                                ask.width == asks.front().width && questions + work_in(ask) <= most);
     };
     while (!waiting.empty() && fits(waiting.front())) {
         questions += work_in(waiting.front());

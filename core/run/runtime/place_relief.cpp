@@ -1,5 +1,6 @@
 // What other places take off one that has more to do than they.
 #include <algorithm>
+#include <utility>
 
 #include "core/run/runtime/place.hpp"
 
@@ -8,6 +9,8 @@ namespace {
 
 constexpr double enough = 0.05;       // seconds of work for each helper: it is asked again long before they are over
 constexpr std::size_t at_first = 64;  // questions, as long as nobody knows how long they take
+constexpr auto judged_every = std::chrono::milliseconds(10);
+constexpr double less = 0.85, more = 1.03, least_part = 0.01;
 
 }  // namespace
 
@@ -42,14 +45,26 @@ Plan Place::plan_for(std::size_t node) const {
 void Place::use(std::size_t node, std::size_t width, PlannedPort& port) {
     port.use(called_here(node));
     const auto count = called_here(node) ? helpers(node).size() : 0;
-    if (count > 0) relieved_.push_back({node, width, &port, count});
+    if (count == 0) return;
+    // Others that hold what this one does give to the same helpers.
+    const auto holders = static_cast<double>(plan_.places_of[node].size()), help = static_cast<double>(count);
+    relieved_.push_back({node, width, &port, count, help / holders, help / (help + 1)});
 }
 
-// An ask is shared evenly, so that this place is never without work itself; but helpers are given no more than they
-// answer in a moment, and no more than a few bundles.
+// Who waits has given away too much; who never does may give more.
+void Place::judge(Relieved& relieved, Clock::time_point now) {
+    if (now - relieved.judged < judged_every) return;
+    relieved.judged = now;
+    const double next = relieved.part * (std::exchange(relieved.idled, false) ? less : more);
+    relieved.part = std::clamp(next, least_part, relieved.most);
+}
+
+// At first an ask is shared evenly among all who hold the node. Helpers are given no more than they answer in a moment,
+// and no more than a few bundles.
 // DECISIONS: relief-by-the-idle
-void Place::relieve() {
-    for (const auto& [node, width, port, helpers] : relieved_) {
+void Place::relieve(Clock::time_point now, bool idle) {
+    for (auto& relieved : relieved_) {
+        const auto& [node, width, port, helpers, part, most_part, idled, judged] = relieved;
         const auto found = remotes_.find({node, width});
         const auto* bundles = found == remotes_.end() ? nullptr : found->second.port.get();
         const std::size_t under_way = bundles ? bundles->unanswered() : 0;
@@ -57,7 +72,9 @@ void Place::relieve() {
         const double most = double(helpers * tuning_.eager * tuning_.bundle);
         const auto room = static_cast<std::size_t>(seconds > 0 ? std::clamp(enough / seconds, 1.0, most)
                                                                : double(helpers * at_first));
-        port->relieve({room > under_way ? room - under_way : 0, double(helpers) / double(helpers + 1)});
+        relieved.idled |= idle && under_way > 0;
+        judge(relieved, now);
+        port->relieve({room > under_way ? room - under_way : 0, part});
     }
 }
 

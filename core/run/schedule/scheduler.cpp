@@ -21,6 +21,7 @@ void Scheduler::happens(const Added& event, Time) {
     questions_waiting_ += event.questions;
     questions_added_ += event.questions;
     questions_wanted_ += event.questions;
+    note_size(event.questions);
 }
 
 void Scheduler::happens(const Dropped&, Time) {

@@ -44,7 +44,6 @@ public:
 
     struct Rules {
         Strategy strategy = Strategy::fastest;
-        std::size_t usual = 1;          // questions of usual work: replicas are compared by when they would finish it
         bool last_to_idle = false;      // the end of its phases is foreseen: who is busy gets nothing of the last work
         bool double_tail = false;       // idle replicas do what is left once more
         std::size_t tail_least = 4;     // pieces of work may always be done twice so ...
@@ -283,6 +282,7 @@ private:
     bool better_held_back(const Item& item, Replica replica) const;
     bool waits_for_idle(const Item& item, Replica replica) const;
     void refresh(Replica replica);
+    void note_size(std::size_t questions);
     void refresh_due(Replica replica);
 
     Rules rules_;
@@ -306,6 +306,7 @@ private:
     std::size_t questions_waiting_ = 0, foreseen_ = 0;
     std::size_t questions_wanted_ = 0;  // of work that is not done
     std::size_t questions_added_ = 0, questions_doubled_ = 0;
+    double mean_size_ = 0, usual_ = 0;  // questions of work lately; by how many replicas are compared
     std::uint64_t turn_ = 0;
     Counts counts_;
 };

@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# container.sh SOURCES [PACKAGES]: the Containerfile makes an image of packages of this tree (those in PACKAGES, if it is
+# given), and the programs in it render. Its base is a minimal Debian made here, so nothing but packages is fetched. Ends
+# with 77 where that can't be played.
+set -euo pipefail
+sources=$1
+skip() { echo "not run: $*"; exit 77; }
+for tool in buildah debootstrap; do command -v "$tool" >/dev/null || skip "$tool is not here"; done
+[ "$(id -u)" -eq 0 ] || skip "it takes root"
+
+folder=$(mktemp -d)
+images() { buildah --root "$folder/images" --runroot "$folder/run" --storage-driver vfs "$@"; }
+trap 'images rm --all >/dev/null 2>&1 || true; rm -rf --one-file-system "$folder"' EXIT
+mkdir "$folder/context"
+cp "$sources/Containerfile" "$folder/context/"
+if [ -n "${2-}" ]; then cp -r "$2" "$folder/context/out"; else "$sources/tools/package.sh" "$folder/context/out" >/dev/null; fi
+
+release=$(. /etc/os-release && echo "$VERSION_CODENAME")
+mirror=$(sed -n 's/^URIs: *//p; s/^deb \(\[[^]]*\] \)\?\([^ ]*\) .*/\2/p' /etc/apt/sources.list /etc/apt/sources.list.d/* 2>/dev/null | head -n 1 || true)
+debootstrap --variant=minbase "$release" "$folder/root" ${mirror:+"$mirror"} >"$folder/log" 2>&1 || {
+    tail -n 5 "$folder/log"
+    skip "no packages of $release can be reached"
+}
+base=$(images from scratch)
+images add "$base" "$folder/root" / >/dev/null
+images commit "$base" debian-here >"$folder/log" 2>&1 || { cat "$folder/log"; skip "images can't be made here"; }
+
+build() { images build --isolation chroot --network host --build-arg BASE=localhost/debian-here -t lightnet "$folder/context"; }
+build >"$folder/log" 2>&1 || { tail -n 30 "$folder/log"; exit 1; }
+container=$(images from localhost/lightnet)
+inside() { images run --isolation chroot --network host "$container" -- "$@"; }
+inside sh -c '[ "$(id -u)" = 1000 ]' || { echo "it runs as root"; exit 1; }
+inside sh -c 'cp /usr/share/lightnet/graphs/cornell* . &&
+    lightnet run cornell.lua --size 32x32 --samples 4 --progress none -o one.exr &&
+    lightnet run cornell.lua --size 32x32 --samples 4 --progress none --local-workers 2 -o two.exr &&
+    cmp one.exr two.exr'
