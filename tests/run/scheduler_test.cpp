@@ -1,5 +1,6 @@
 #include "core/run/schedule/scheduler.hpp"
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -55,6 +56,26 @@ TEST_F(SchedulerTest, ExpectsCompletionFromOutstandingWorkFillLevelAndServiceTim
     tick();
     reply(1, 0, 2e-6, 5);
     EXPECT_NEAR(scheduler.completion_time(0, 10), (5 + 10) * 2e-6, 1e-12);
+}
+
+// Beside work of a thousand questions, a tenth of the time would outweigh all that lies before the faster one.
+TEST_F(SchedulerTest, ComparesReplicasByWorkOfTheSizeThatComes) {
+    join(0, {64, 100'000, 1 << 20}), join(1, {64, 100'000, 1 << 20});
+    Scheduler::WorkId work = 0;
+    const auto answered = [&](std::size_t questions) {
+        tell(Scheduler::Added{++work, questions, 0, 0});
+        for (const auto replica : tick()) {
+            const double each = replica == 0 ? 1.0e-3 : 1.1e-3;
+            now += each * double(questions);
+            reply(work, replica, each);
+        }
+    };
+    for (int i = 0; i < 8; ++i) answered(1000);
+    for (int i = 0; i < 200; ++i) answered(10);
+    for (int i = 0; i < 40; ++i) tell(Scheduler::Added{++work, 10, 0, 0});
+    const auto sent = tick();
+    const auto first_eight = std::count(sent.begin(), sent.begin() + 8, Scheduler::Replica{1});
+    EXPECT_GE(first_eight, 3) << "they share them from the first on";
 }
 
 TEST_F(SchedulerTest, TrustsItsOwnClockMoreThanAnAnswererThatWaitsForOthers) {

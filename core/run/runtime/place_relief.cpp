@@ -64,17 +64,16 @@ void Place::judge(Relieved& relieved, Clock::time_point now) {
 // DECISIONS: relief-by-the-idle
 void Place::relieve(Clock::time_point now, bool idle) {
     for (auto& relieved : relieved_) {
-        const auto& [node, width, port, helpers, part, most_part, idled, judged] = relieved;
-        const auto found = remotes_.find({node, width});
+        const auto found = remotes_.find({relieved.node, relieved.width});
         const auto* bundles = found == remotes_.end() ? nullptr : found->second.port.get();
         const std::size_t under_way = bundles ? bundles->unanswered() : 0;
         const double seconds = bundles ? bundles->seconds_of_one() : 0;  // of all together
-        const double most = double(helpers * tuning_.eager * tuning_.bundle);
+        const double most = double(relieved.helpers * tuning_.eager * tuning_.bundle);
         const auto room = static_cast<std::size_t>(seconds > 0 ? std::clamp(enough / seconds, 1.0, most)
-                                                               : double(helpers * at_first));
+                                                               : double(relieved.helpers * at_first));
         relieved.idled |= idle && under_way > 0;
         judge(relieved, now);
-        port->relieve({room > under_way ? room - under_way : 0, part});
+        relieved.port->relieve({room > under_way ? room - under_way : 0, relieved.part});
     }
 }
 
