@@ -132,7 +132,8 @@ void add_everywhere(CLI::App& app, std::vector<std::string>& plugins) {
             "tell the value of each option, and whether the command line, the environment or "
             "~/.config/lightnet/config.lua says so")
         ->group("Everywhere");
-    app.add_option("--plugin", plugins, "shared library that brings kinds of nodes or formats of scenes (may be repeated)")
+    app.add_option("--plugin", plugins,
+                   "shared library that brings kinds of nodes or formats of scenes (may be repeated)")
         ->type_name("FILE")
         ->expected(1)
         ->allow_extra_args(false)

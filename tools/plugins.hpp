@@ -9,9 +9,9 @@
 
 namespace lightnet {
 
-/// Loads them for good and adds their kinds, and their formats to those of the process. A library whose objects can't go
-/// to and fro, or that brings a kind or a format that is there already, is refused. Throws UserError that names all that is wrong with any of them. Before threads are
-/// started.
+/// Loads them for good and adds their kinds, and their formats to those of the process. A library whose objects can't
+/// go to and fro, or that brings a kind or a format that is there already, is refused. Throws UserError that names all
+/// that is wrong with any of them. Before threads are started.
 void load_plugins(const std::vector<std::string>& files, Registry& registry);
 
 /// The same for what the folder of plugins holds ($LIGHTNET_PLUGIN_FOLDER, else ~/.local/share/lightnet/plugins); what

@@ -1,8 +1,11 @@
 // The Object File Format of Geomview, in which much of geometry processing keeps its meshes: OFF, and COFF with colours
 // of vertices. A plugin: after this `lightnet render teapot.off` works as it does for formats that lightnet brings.
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -36,10 +39,10 @@ public:
         if (error != std::errc() || end != word.data() + word.size()) fail("'" + std::string(word) + "' is no " + what);
         return value;
     }
-    /// What else stands on this line, as colours of faces do.
+    /// Skips what else stands on this line, as colours of faces do. False: nothing.
     bool skip_line() {
         bool something = false;
-        for (; at_ < text_.size() && text_[at_] != '\n'; ++at_) something |= !is_space(text_[at_]);
+        for (; at_ < text_.size() && text_[at_] != '\n' && text_[at_] != '#'; ++at_) something |= !is_space(text_[at_]);
         return something;
     }
     SourceLine where() const { return {path_, line_}; }
@@ -76,6 +79,7 @@ Mesh mesh_in(Words& words, Report& report) {
         if (kind != "COFF") continue;
         const float r = coordinate(), g = coordinate(), b = coordinate();
         coordinate();  // how opaque it is
+        if (std::max({r, g, b}) > 1 || std::min({r, g, b}) < 0) words.fail("colours of vertices are of 0 to 1");
         mesh.colours.push_back({r, g, b});
     }
     for (std::uint32_t i = 0; i < faces; ++i) {

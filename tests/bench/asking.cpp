@@ -90,8 +90,6 @@ Job asking_job(const Picture& picture) {
     return job;
 }
 
-namespace {}  // namespace
-
 Plan one_asks_the_other(const PlaceAt& first, const PlaceAt& second) {
     Plan plan{{first, second}, std::vector<std::vector<std::uint32_t>>(3)};
     plan.places_of[asker] = {0};

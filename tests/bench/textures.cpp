@@ -9,12 +9,14 @@
 // horizon under an even sky, where there is hardly anything but textures to be seen.
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/film/exr.hpp"
@@ -76,20 +78,26 @@ double part_of_textures(const std::vector<Picture>& pictures) {
     constexpr double even = 0.02;  // depths of one surface in one pixel
     constexpr double dark = 1e-3;
     double of_textures = 0, of_all = 0;
+    struct Views {
+        const std::vector<Rgb>&light, &albedo, &depth;
+    };
+    std::vector<Views> views;
+    for (const auto& picture : pictures)
+        views.push_back({picture.beauty, shown(picture, "albedo"), shown(picture, "depth")});
     const auto over_seeds = [&](const auto& value) {
         std::array<double, seeds> values{};
-        for (std::size_t seed = 0; seed < seeds; ++seed) values[seed] = value(pictures[seed]);
+        for (std::size_t seed = 0; seed < seeds; ++seed) values[seed] = value(views[seed]);
         return values;
     };
     for (std::size_t pixel = 0; pixel < pictures[0].beauty.size(); ++pixel) {
-        const auto depths = over_seeds([&](const Picture& one) { return double(shown(one, "depth")[pixel].r); });
+        const auto depths = over_seeds([&](const Views& one) { return double(one.depth[pixel].r); });
         const auto [near, far] = std::minmax_element(depths.begin(), depths.end());
         if (*far - *near > even * *far) continue;
         for (const auto channel : {&Rgb::r, &Rgb::g, &Rgb::b}) {
-            const auto albedo = moments_of(
-                over_seeds([&](const Picture& one) { return double(shown(one, "albedo")[pixel].*channel); }));
+            const auto albedo =
+                moments_of(over_seeds([&](const Views& one) { return double(one.albedo[pixel].*channel); }));
             const auto light =
-                moments_of(over_seeds([&](const Picture& one) { return double(one.beauty[pixel].*channel); }));
+                moments_of(over_seeds([&](const Views& one) { return double(one.light[pixel].*channel); }));
             if (albedo.mean < dark || light.mean < dark) continue;
             of_textures += albedo.variance * std::pow(light.mean / albedo.mean, 2);
             of_all += light.variance;

@@ -179,25 +179,26 @@ TEST(Exr, NeedsNoLayers) {
     EXPECT_TRUE(read_exr(folder / "x.exr") == picture);
 }
 
-// A few damaged bytes, or somebody's joke, must not take all memory.
+// A few damaged bytes, or somebody's joke, must not take gigabytes. (OpenEXR itself refuses windows of too many lines,
+// as it reads where each begins.)
 TEST(Exr, RefusesWindowsThatItsBytesCannotFill) {
     const Folder folder;
-    write_exr(folder / "x.exr", noisy_picture(8, 4));
+    Picture picture = noisy_picture(8, 4);
+    picture.layers.clear();  // few channels: OpenEXR bounds the bytes of a line as well
+    write_exr(folder / "x.exr", picture);
     std::ifstream in(folder / "x.exr", std::ios::binary);
-    const std::string sound((std::istreambuf_iterator<char>(in)), {});
+    std::string bytes((std::istreambuf_iterator<char>(in)), {});
     const std::string attribute("dataWindow\0box2i\0", 17);
-    for (const std::int32_t side : {60'000, std::numeric_limits<std::int32_t>::max()}) {
-        auto bytes = sound;
-        const auto corner = bytes.find(attribute) + attribute.size() + 3 * sizeof side;
-        std::memcpy(bytes.data() + corner, &side, sizeof side);
-        std::memcpy(bytes.data() + corner + sizeof side, &side, sizeof side);
-        write_file(folder / "y.exr", bytes);
-        try {
-            read_exr(folder / "y.exr");
-            FAIL() << side;
-        } catch (const Error& error) {
-            EXPECT_THAT(error.what(), HasSubstr("y.exr: ")) << side;
-        }
+    const std::int32_t right = 2'000'000;
+    const auto corner = bytes.find(attribute) + attribute.size() + 3 * sizeof right;  // behind its size, left and top
+    std::memcpy(bytes.data() + corner, &right, sizeof right);
+    write_file(folder / "y.exr", bytes);
+    try {
+        read_exr(folder / "y.exr");
+        FAIL() << "it was read";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("y.exr: is damaged: "));
+        EXPECT_THAT(error.what(), HasSubstr("bytes can't be 2000001 x 4 pixels"));
     }
 }
 

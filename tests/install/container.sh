@@ -4,6 +4,7 @@
 # with 77 where that can't be played.
 set -euo pipefail
 sources=$1
+. "$(dirname "$0")/minimal_root.sh"
 skip() { echo "not run: $*"; exit 77; }
 for tool in buildah debootstrap; do command -v "$tool" >/dev/null || skip "$tool is not here"; done
 [ "$(id -u)" -eq 0 ] || skip "it takes root"
@@ -15,12 +16,7 @@ mkdir "$folder/context"
 cp "$sources/Containerfile" "$folder/context/"
 if [ -n "${2-}" ]; then cp -r "$2" "$folder/context/out"; else "$sources/tools/package.sh" "$folder/context/out" >/dev/null; fi
 
-release=$(. /etc/os-release && echo "$VERSION_CODENAME")
-mirror=$(sed -n 's/^URIs: *//p; s/^deb \(\[[^]]*\] \)\?\([^ ]*\) .*/\2/p' /etc/apt/sources.list /etc/apt/sources.list.d/* 2>/dev/null | head -n 1 || true)
-debootstrap --variant=minbase "$release" "$folder/root" ${mirror:+"$mirror"} >"$folder/log" 2>&1 || {
-    tail -n 5 "$folder/log"
-    skip "no packages of $release can be reached"
-}
+minimal_root "$folder/root" "$folder/log"
 base=$(images from scratch)
 images add "$base" "$folder/root" / >/dev/null
 images commit "$base" debian-here >"$folder/log" 2>&1 || { cat "$folder/log"; skip "images can't be made here"; }

@@ -3,6 +3,7 @@
 # upgraded and purged in a root that has nothing but a minimal Debian. Ends with 77 where that can't be played.
 set -euo pipefail
 sources=$1
+. "$(dirname "$0")/minimal_root.sh"
 skip() { echo "not run: $*"; exit 77; }
 fail() { echo "$*"; exit 1; }
 for tool in debootstrap lintian dpkg-deb chroot; do command -v "$tool" >/dev/null || skip "$tool is not here"; done
@@ -21,12 +22,7 @@ dpkg-deb --fsys-tarfile "$packages"/lightnetd_*.deb | tar -xO ./usr/lib/systemd/
 grep -c '^ExecStart=/usr/bin/lightnetd ' "$folder/unit" >/dev/null || fail "the unit starts another program"
 
 root=$folder/root
-release=$(. /etc/os-release && echo "$VERSION_CODENAME")
-mirror=$(sed -n 's/^URIs: *//p; s/^deb \(\[[^]]*\] \)\?\([^ ]*\) .*/\2/p' /etc/apt/sources.list /etc/apt/sources.list.d/* 2>/dev/null | head -n 1 || true)
-debootstrap --variant=minbase "$release" "$root" ${mirror:+"$mirror"} >"$folder/debootstrap.log" 2>&1 || {
-    tail -n 5 "$folder/debootstrap.log"
-    skip "no packages of $release can be reached"
-}
+minimal_root "$root" "$folder/debootstrap.log"
 mount -t proc proc "$root/proc" 2>/dev/null || mount --rbind /proc "$root/proc" || skip "/proc can't be mounted"
 inside() { DEBIAN_FRONTEND=noninteractive LC_ALL=C HOME=/root chroot "$root" "$@"; }
 apt() { inside apt-get -qq -y --no-install-recommends "$@" >"$folder/apt.log" 2>&1 || { cat "$folder/apt.log"; fail "apt-get $1 failed"; }; }

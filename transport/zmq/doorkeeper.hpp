@@ -34,8 +34,8 @@ public:
     Doorkeeper(const Doorkeeper&) = delete;
     Doorkeeper& operator=(const Doorkeeper&) = delete;
 
-    /// This door is in its care from now on, and is looked after as long as it is there. To be called before it is
-    /// bound. Throws Error when the library is too old to be trusted with keys.
+    /// This door is in its care from now on. It stays where it is, and outlives all use of this but its end. To be
+    /// called before it is bound. Throws Error when the library is too old to be trusted with keys.
     void guard(Socket& door);
     /// After it was bound: sees that no stranger gets in. Throws Error when one does.
     void try_out(const Socket& door);

@@ -57,11 +57,9 @@ Socket::Socket(const SocketContext& context, int type) : socket_(zmq_socket(cont
     set(ZMQ_LINGER, 0);
 }
 
-Socket::~Socket() { close(); }
-
 // The library's own thread tells events, and waits for ever once nobody is there to take them: it must have stopped
 // telling before the taker goes, and a socket that is closed can't be told to stop.
-void Socket::close() noexcept {
+Socket::~Socket() {
     if (events_) zmq_socket_monitor(socket_, nullptr, 0);
     events_.reset();
     if (socket_) zmq_close(socket_);

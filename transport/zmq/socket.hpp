@@ -91,7 +91,6 @@ public:
     void* library() const { return socket_; }
 
 private:
-    void close() noexcept;
     void set_bytes(int option, const std::array<unsigned char, PublicKey::size>& bytes);
     void* socket_;
     std::unique_ptr<Socket> events_;

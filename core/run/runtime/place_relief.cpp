@@ -10,7 +10,8 @@ namespace {
 constexpr double enough = 0.05;       // seconds of work for each helper: it is asked again long before they are over
 constexpr std::size_t at_first = 64;  // questions, as long as nobody knows how long they take
 constexpr auto judged_every = std::chrono::milliseconds(10);
-constexpr double less = 0.85, more = 1.03, least_part = 0.01;
+constexpr double less = 0.85, more = 1.03;  // times what they got before
+constexpr double least_part = 0.01;         // so that it is tried again
 
 }  // namespace
 
