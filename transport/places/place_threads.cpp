@@ -1,5 +1,7 @@
 #include "transport/places/place_threads.hpp"
 
+#include <pthread.h>
+
 #include <algorithm>
 #include <atomic>
 #include <deque>
@@ -69,11 +71,13 @@ void PlaceThreads::Threads::change(Life& life, State state) {
 void PlaceThreads::Threads::serve(std::uint32_t index) {
     auto& life = lives[index];
     const bool is_place = index < count;
+    const std::string name = is_place ? "place " + std::to_string(index) : "dispatcher";
+    pthread_setname_np(pthread_self(), name.c_str());  // for top, perf and debuggers
     try {
         is_place ? serve_place(index, life) : dispatch(life);
         change(life, State::ended);
     } catch (const std::exception& error) {
-        life.died_of = (is_place ? "place " + std::to_string(index) : "the dispatcher") + ": " + error.what();
+        life.died_of = (is_place ? name : "the " + name) + ": " + error.what();
         change(life, State::died);
     }
 }
