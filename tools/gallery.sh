@@ -14,14 +14,19 @@ processor=$(sed -n 's/^model name[[:space:]]*: //p' /proc/cpuinfo | head -n 1)
 cat >"$page" <<END
 # Gallery
 
-Pictures of this project's scenes and of others, each with the command that made it. Seconds are those of preparing and rendering, on $(nproc) cores of
-$processor; reading the scene is left out. \`tools/gallery.sh\` makes this page.
+Pictures of this project's scenes and of others, each with the command that made it. Seconds are those of preparing and
+rendering, on $(nproc) cores of $processor; reading the scene is left out. Layers are named with their part of the light
+in the picture. \`tools/gallery.sh\` makes this page.
 
 END
 
-seconds() {
+# What the record of a run tells: seconds, and its layers where there are several.
+facts() {
     python3 -c 'import json, sys
-print(round(sum(p["seconds"] for p in json.load(open(sys.argv[1]))["phases"] if p["name"] in ("prepare", "render"))))' "$1"
+run = json.load(open(sys.argv[1]))
+seconds = sum(phase["seconds"] for phase in run["phases"] if phase["name"] in ("prepare", "render"))
+layers = ["%s %.0f %%" % (layer["name"], 100 * layer["share"]) for layer in run["layers"] if layer["share"] >= 0.005]
+print("%.0f s." % seconds, "Layers: %s." % ", ".join(layers) if len(layers) > 1 else "")' "$1" | sed 's/ *$//'
 }
 
 # picture NAME TITLE CREDIT VERB FILE OPTIONS...
@@ -35,8 +40,8 @@ picture() {
     "$lightnet" "$verb" "$file" "$@" -o "$work/$name.exr" --forget --progress none
     cp "$work/$name.png" "$work/gallery/$name.png"
     local words="lightnet $verb $file $*"
-    printf '## %s\n\n![%s](gallery/%s.png)\n\n    %s\n\n%s s. %s\n\n' "$title" "$title" "$name" "${words//"$scenes/"/}" \
-        "$(seconds "$work/$name.run.json")" "$credit" >>"$page"
+    printf '## %s\n\n![%s](gallery/%s.png)\n\n    %s\n\n%s %s\n\n' "$title" "$title" "$name" "${words//"$scenes/"/}" \
+        "$(facts "$work/$name.run.json")" "$credit" >>"$page"
     echo "$name"
 }
 
@@ -53,8 +58,8 @@ picture living_room "The grey and white room, by the network of the paper's figu
     render "$scenes/living-room-pbrt/living-room.pbrt" --lighting graphs/paper/figure5.lua --size 480x270 --samples 128
 picture staircase "Modern hall, by path tracing" "Scene: NewSee2l035, CC BY 3.0, by way of Benedikt Bitterli." \
     render "$scenes/staircase2-mitsuba/scene.xml" --size 360x480 --samples 256
-picture ajar "A door ajar, by an irradiance cache" "Scene: Benedikt Bitterli, CC0, after Eric Veach." \
-    render "$scenes/veach-ajar-pbrt/veach-ajar.pbrt" --lighting graphs/irradiance_cache.lua --size 480x270 --samples 64
+picture ajar "A door ajar, by the same network" "Scene: Benedikt Bitterli, CC0, after Eric Veach." \
+    render "$scenes/veach-ajar-pbrt/veach-ajar.pbrt" --lighting graphs/paper/figure5.lua --size 480x270 --samples 256
 picture mis "Plates and lamps, by path tracing" "Scene: Benedikt Bitterli, CC0, after Eric Veach." \
     render "$scenes/veach-mis-mitsuba/scene.xml" --size 480x270 --samples 64
 picture water "A caustic under water, by progressive photon mapping" "Scene: Benedikt Bitterli, CC0." \
@@ -64,8 +69,8 @@ picture car "A car, by path tracing" "Scene: tyrant monkey, CC0." \
 picture vase "A vase of flowers, from glTF" "Scene: Eric Chadwick and Rico Cilliers, CC0; environment: Poly Haven, CC0." \
     render "$scenes/gltf-GlassVaseFlowers/glTF/GlassVaseFlowers.gltf" --env "$scenes/hdri/studio_small_03_1k.hdr" \
     --size 360x360 --samples 256
-picture spot "Ambient occlusion" "Model: Keenan Crane, CC0." \
-    render "$scenes/meshes/spot.obj" --lighting ao --size 360x360 --samples 64
+picture clay "Ambient occlusion in the same room" "Scene: Wig42, CC BY 3.0, by way of Benedikt Bitterli." \
+    render "$scenes/living-room-pbrt/living-room.pbrt" --lighting ao --size 480x270 --samples 64
 
 # All of it, or nothing.
 mkdir -p docs/gallery
