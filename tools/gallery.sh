@@ -69,8 +69,8 @@ picture car "A car, by path tracing" "Scene: tyrant monkey, CC0." \
 picture vase "A vase of flowers, from glTF" "Scene: Eric Chadwick and Rico Cilliers, CC0; environment: Poly Haven, CC0." \
     render "$scenes/gltf-GlassVaseFlowers/glTF/GlassVaseFlowers.gltf" --env "$scenes/hdri/studio_small_03_1k.hdr" \
     --size 360x360 --samples 256
-picture clay "Ambient occlusion in the same room" "Scene: Wig42, CC BY 3.0, by way of Benedikt Bitterli." \
-    render "$scenes/living-room-pbrt/living-room.pbrt" --lighting ao --size 480x270 --samples 64
+picture openness "The same car by ambient occlusion" "Scene: tyrant monkey, CC0." \
+    render "$scenes/bmw-m6-pbrt/bmw-m6.pbrt" --lighting ao --size 480x270 --samples 128
 
 # All of it, or nothing.
 mkdir -p docs/gallery
