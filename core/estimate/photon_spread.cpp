@@ -12,7 +12,10 @@ namespace lightnet {
 namespace {
 
 constexpr std::size_t pilot_photons = 8;  // that a disc of the pilot has
-constexpr std::uint32_t most_tries = 64;  // what is less than a 64th of its disc, such as a wire, stays too dark
+// What is less than an eighth of its disc, such as a wire, stays too dark: its few photons would be so bright that each
+// makes a spot of its own. Who misses as often counts as many as make corners right on average, a quarter of a disc.
+constexpr std::uint32_t most_tries = 8, when_all_miss = 12;
+constexpr float narrow = 0.25f;           // of the radius: from below such a ceiling nobody sees how far a surface goes
 constexpr float rounding = 1.001f;        // of squares of distances
 
 // As densely as Epanechnikov's kernel is high, in the unit disc.
@@ -69,6 +72,7 @@ std::vector<PhotonSpread::Disc> PhotonSpread::discs_of(std::span<const Photon> p
     scene_.intersect(rays, ceilings);
     for (std::size_t i = 0; i < discs.size(); ++i) {
         const float free = ceilings[i] ? ceilings[i]->distance : discs[i].radius;
+        if (free < narrow * discs[i].radius) discs[i].radius = 0;
         discs[i].eye = rays[i].origin + discs[i].normal * (free / 2);
     }
     return discs;
@@ -114,7 +118,7 @@ void PhotonSpread::try_all(std::span<const Photon> photons, Key key, std::uint32
 }
 
 void PhotonSpread::spread(std::span<Photon> photons, Key key) const {
-    std::vector<std::uint32_t> tries(photons.size(), most_tries);
+    std::vector<std::uint32_t> tries(photons.size(), when_all_miss);
     try_all(photons, key, most_tries, [&](std::size_t i, std::uint32_t took) { tries[i] = took; });
     for (std::size_t i = 0; i < photons.size(); ++i) photons[i].flux *= float(tries[i]);
 }

@@ -28,7 +28,8 @@ public:
                  float most);
 
     /// Multiplies their light by 1 / the part of their discs that is surface, as it is seen from a little above them:
-    /// by the number of tries until a point of the disc is on it, which is the same on average.
+    /// by the number of tries until a point of the disc is on it, which is the same on average. Where little of a disc
+    /// is surface, or a low ceiling hides it, that is bounded: single photons would make spots.
     void spread(std::span<Photon> photons, Key key) const;
 
     /// Sums of light, of all photons and of those of whom one try missed the surface.

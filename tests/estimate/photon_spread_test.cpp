@@ -50,6 +50,21 @@ TEST(PhotonSpread, CountsNoFloorBehindAWallOrBelowABox) {
     EXPECT_NEAR(brought_at(Scene(data), {0.501f, 0, 0.5f}), 2, 0.1);
 }
 
+TEST(PhotonSpread, MakesNoSpotsOfPhotonsInNarrowGaps) {
+    const auto between_walls = [](float height) {
+        SceneData data = unit_floor();
+        for (const float side : {0.49f, 0.51f})
+            add(data, quad({side, 0, 0}, {0, 0, 1}, {0, height, 0}), diffuse(data, 0.5f));
+        return data;
+    };
+    const double tight = brought_at(Scene(between_walls(0.2f)), {0.5f, 0, 0.5f});
+    EXPECT_GT(tight, 5);
+    EXPECT_LE(tight, 12);
+    SceneData covered = between_walls(0.03f);
+    add(covered, quad({0.49f, 0.03f, 0}, {0, 0, 1}, {0.02f, 0, 0}), diffuse(covered, 0.5f));
+    EXPECT_EQ(brought_at(Scene(covered), {0.5f, 0, 0.5f}), 1);
+}
+
 TEST(PhotonSpread, TellsWhichPartOfTheLightMissesItsSurface) {
     const Scene scene(unit_floor());
     std::vector<Photon> photons(4000, Photon({0.5f, 0, 0.5f}, {1, 1, 1}, up, up));
