@@ -65,7 +65,7 @@ private:
         float eta_scale;    // of radiance by refraction, which is no loss: roulette must not see it
         Rgb weight;
         const Rgb* inside;  // what fills the space that it crosses; may be null
-        Vec3 from;
+        LitPoint from;
         BsdfSample step;
     };
     /// Random numbers of each path at its vertex, dimension by dimension.
@@ -228,7 +228,7 @@ private:
         const float choice = at.bsdf.chooses() ? samples.next() : samples.skip();
         const auto found = at.bsdf.sample(at.outgoing, choice, samples.next_2d(), at.lobes);
         if (!found) return;
-        const Rgb sky = found->weight * light_by_bsdf(scene_, at.point.position, *found, nullptr, heuristic);
+        const Rgb sky = found->weight * light_by_bsdf(scene_, lit_point(at), *found, nullptr, heuristic);
         if (is_black(sky)) return;
         batch.shadow_rays.add({at.point.origin_towards(found->incoming), found->incoming}, path.weight * (0.5f * sky),
                               path.sum + scene_.environment_group());

@@ -136,7 +136,7 @@ public:
     struct Step {
         BsdfSample sample;
         Ray ray;
-        Vec3 from;
+        LitPoint from;
         const Rgb* inside;  // what fills the space that it crosses; may be null
     };
     /// on(path, Step) of each whose light is not absorbed, in the order in which they were added. choice(path) for
@@ -156,7 +156,8 @@ public:
             }
             if (steps.pdf[i] != 0) {
                 const BsdfSample step{steps.incoming[i], plain_.albedo(i), steps.pdf[i], lobe::diffuse};
-                on(plain_.who(i), Step{step, plain_.ray_from(i, step.incoming), plain_.position(i), nullptr});
+                const LitPoint from = lit_point(plain_.position(i), plain_.normal(i), plain_.outgoing(i));
+                on(plain_.who(i), Step{step, plain_.ray_from(i, step.incoming), from, nullptr});
             }
             ++i;
         }
@@ -181,7 +182,7 @@ private:
     static Step step_to(const Gathering& at, const BsdfSample& sample) {
         return {sample,
                 {at.point.origin_towards(sample.incoming), sample.incoming},
-                at.point.position,
+                lit_point(at),
                 filling(at.bsdf, at.point, at.outgoing, sample.incoming, at.inside)};
     }
 

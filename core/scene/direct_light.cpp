@@ -27,7 +27,7 @@ float direction_share(Heuristic heuristic, float mine, float other) {
 std::optional<LampRay> ray_to_lamp(const Scene& scene, const Gathering& at, const LampNumbers& numbers,
                                    Heuristic heuristic) {
     if (!finds_lamps(scene, at)) return {};
-    const auto lamp = scene.sample_light(at.point.position, numbers.choice, numbers.place);
+    const auto lamp = scene.sample_light(lit_point(at), numbers.choice, numbers.place);
     if (!lamp || (!lamp->bare && heuristic == Heuristic::directions)) return {};
     const auto [value, pdf] = at.bsdf.value_and_pdf(at.outgoing, lamp->direction, at.lobes);
     if (is_black(value)) return {};
@@ -39,7 +39,7 @@ std::optional<LampRay> ray_to_lamp(const Scene& scene, const Gathering& at, cons
     return LampRay{ray, light, lamp->group};
 }
 
-Rgb light_by_bsdf(const Scene& scene, Vec3 from, const BsdfSample& sample, const SurfacePoint* end,
+Rgb light_by_bsdf(const Scene& scene, const LitPoint& from, const BsdfSample& sample, const SurfacePoint* end,
                   Heuristic heuristic) {
     const bool certain = sample.lobe == lobe::specular;  // no lamp sample can find this direction
     if (!end) {

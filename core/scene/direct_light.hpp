@@ -17,9 +17,7 @@ namespace lightnet {
 enum class Heuristic { balance, power, lamps, directions };
 
 /// Do both techniques find the same light?
-constexpr bool shares(Heuristic heuristic) {
-    return heuristic == Heuristic::balance || heuristic == Heuristic::power;
-}
+constexpr bool shares(Heuristic heuristic) { return heuristic == Heuristic::balance || heuristic == Heuristic::power; }
 
 /// Weight of the technique with density `mine`, when `other` is the density of the other one, and both share.
 inline float share(Heuristic heuristic, float mine, float other) {
@@ -51,6 +49,16 @@ struct Gathering {
     const Rgb* inside = nullptr;  // what lies between it and the viewer
 };
 
+/// Where light is looked for, so that a surface sends it on to `outgoing`.
+inline LitPoint lit_point(Vec3 position, Vec3 normal, Vec3 outgoing) {
+    return {position, dot(outgoing, normal) > 0 ? normal : -normal};
+}
+inline LitPoint lit_point(const Gathering& at) {
+    // What gloss sends on doesn't go by the cosine.
+    const bool by_cosine = !(at.bsdf.lobes() & lobe::glossy) && at.bsdf.opaque();
+    return by_cosine ? lit_point(at.point.position, at.point.normal, at.outgoing) : LitPoint(at.point.position);
+}
+
 /// What one sampled light sends to a surface point and on, if nothing is in the way of the ray.
 struct LampRay {
     Ray ray;
@@ -71,8 +79,8 @@ std::optional<LampRay> ray_to_lamp(const Scene& scene, const Gathering& at, cons
                                    Heuristic heuristic);
 
 /// Radiance that arrives from where a ray into `sample.incoming` ended (nothing there: the environment), times the
-/// weight of having found it by the BSDF. Without the sample's own weight.
-Rgb light_by_bsdf(const Scene& scene, Vec3 from, const BsdfSample& sample, const SurfacePoint* end,
+/// weight of having found it by the BSDF, at the lit_point() `from`. Without the sample's own weight.
+Rgb light_by_bsdf(const Scene& scene, const LitPoint& from, const BsdfSample& sample, const SurfacePoint* end,
                   Heuristic heuristic);
 /// Of which group of lamps that is.
 inline std::uint32_t group_by_bsdf(const Scene& scene, const SurfacePoint* end) {

@@ -173,13 +173,13 @@ Rgb Scene::emission(const SurfacePoint& point, Vec3 direction) const { return li
 
 Rgb Scene::environment(Vec3 direction) const { return lights_->environment(direction); }
 
-std::optional<LightSample> Scene::sample_light(Vec3 from, float choice, Vec2 u) const {
+std::optional<LightSample> Scene::sample_light(const LitPoint& from, float choice, Vec2 u) const {
     return lights_->sample(from, choice, u);
 }
 
 const FlatLamp* Scene::only_flat_lamp() const { return lights_->only_flat_lamp(); }
 
-float Scene::light_pdf(Vec3 from, Vec3 direction, const SurfacePoint& on) const {
+float Scene::light_pdf(const LitPoint& from, Vec3 direction, const SurfacePoint& on) const {
     return lights_->pdf(from, direction, on);
 }
 

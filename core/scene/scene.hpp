@@ -17,6 +17,7 @@
 #include "core/scene/camera.hpp"
 #include "core/scene/data/scene_data.hpp"
 #include "core/scene/lamps/light_sample.hpp"
+#include "core/scene/lamps/lit_point.hpp"
 #include "core/scene/surfaces/flat_lamp.hpp"
 #include "core/scene/surfaces/lambertian_surfaces.hpp"
 #include "core/scene/surfaces/ray.hpp"
@@ -97,12 +98,12 @@ public:
 
     /// Chooses a light and a direction to it from `from`: to a point of a lamp, to a bare light, or to the environment.
     /// None: no light can reach the point by this sample.
-    std::optional<LightSample> sample_light(Vec3 from, float choice, Vec2 u) const;
+    std::optional<LightSample> sample_light(const LitPoint& from, float choice, Vec2 u) const;
     /// What sample_light() always chooses, if that's a flat lamp; else null.
     const FlatLamp* only_flat_lamp() const;
     /// Density with which sample_light() finds the emitting point `on`, which lies in `direction` from `from`. 0 if it
     /// is not on a lamp.
-    float light_pdf(Vec3 from, Vec3 direction, const SurfacePoint& on) const;
+    float light_pdf(const LitPoint& from, Vec3 direction, const SurfacePoint& on) const;
     /// The same for the environment. Always 0 for a constant one, which sample_light() never chooses.
     float environment_pdf(Vec3 direction) const;
     bool has_environment() const;

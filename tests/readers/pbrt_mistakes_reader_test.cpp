@@ -262,7 +262,7 @@ TEST(PbrtWarnings, AreCountedWhereTheyRepeat) {
         "MediumInterface \"fog\" \"\"\nMediumInterface \"fog\"\nMakeNamedMedium \"fog\" \"string type\" "
         "\"homogeneous\"");
     EXPECT_EQ(warnings_of(scene),
-              "scene.pbrt:2: participating media are not supported: the space is taken as empty (3 times)\n");
+              "scene.pbrt:3: participating media are not supported: the space is taken as empty (2 times)\n");
 }
 
 TEST(PbrtWarnings, TellNewNamesOfOldTypes) {

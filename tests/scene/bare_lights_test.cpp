@@ -100,7 +100,7 @@ Estimate flux_received(const Scene& scene, float radius) {
         Samples samples(5, i);
         const Vec3 outwards = sphere(samples.next_2d());
         const float choice = samples.next();
-        const auto sample = scene.sample_light(outwards * radius, choice, samples.next_2d());
+        const auto sample = scene.sample_light(LitPoint(outwards * radius), choice, samples.next_2d());
         if (!sample) return 0.0;
         const double cosine = std::max(0.0f, -dot(sample->direction, outwards));
         return sample->radiance.g * cosine / sample->pdf * 4 * std::numbers::pi * radius * radius;
@@ -273,7 +273,8 @@ TEST(LightTree, ChoosesAsOftenAsItSays) {
                           i == 5 ? 0 : 0.1f + samples.next(), i % 4 == 1});
     }
     const LightTree tree(lights);
-    for (const Vec3 from : {Vec3{0, 0, 0}, Vec3{3, 0, 0}, Vec3{-50, 20, 9}}) {
+    for (const LitPoint from : {LitPoint({0, 0, 0}), LitPoint({3, 0, 0}), LitPoint({-50, 20, 9}),
+                                LitPoint({0, -2, 0}, {0, 1, 0}), LitPoint({4, 0, 0}, {-0.6f, 0, 0.8f})}) {
         std::vector<double> count(lights.size());
         for (std::uint32_t i = 0; i < 1 << 16; ++i) {
             float u = (float(i) + 0.5f) / (1 << 16);
@@ -301,15 +302,51 @@ TEST(LightTree, ReachesEveryLightThatShinesOnThePoint) {
         const Vec3 from = sphere(Samples(10, k).next_2d()) * (0.05f * float(k));
         for (std::uint32_t i = 0; i < lights.size(); ++i) {
             const bool lit = dot(normalize(from - lights[i].low), lights[i].axis) > lights[i].cos_reach;
-            ASSERT_TRUE(!lit || tree.chance(from, i) > 0);
+            ASSERT_TRUE(!lit || tree.chance(LitPoint(from), i) > 0);
         }
     }
+}
+
+// Boxes, some of which the plane of the surface cuts: whatever has a corner above it can light it.
+TEST(LightTree, LeavesOutNothingThatIsAboveTheSurface) {
+    std::vector<LightBounds> lights;
+    for (std::uint32_t i = 0; i < 300; ++i) {
+        Samples samples(11, i);
+        const Vec3 at = sphere(samples.next_2d()) * (3 * samples.next());
+        const Vec2 size = samples.next_2d();
+        lights.push_back({at, at + Vec3{size.x, size.y, 0.1f} * 0.5f, {0, 0, 1}, -1, 0, 1, false});
+    }
+    const LightTree tree(lights);
+    std::size_t left_out = 0;
+    for (std::uint32_t k = 0; k < 200; ++k) {
+        const Vec3 place = sphere(Samples(12, k).next_2d()) * 0.5f, normal = sphere(Samples(13, k).next_2d());
+        for (std::uint32_t i = 0; i < lights.size(); ++i) {
+            const auto& [low, high, axis, spread, reach, intensity, two_sided] = lights[i];
+            const Vec3 corner{normal.x > 0 ? high.x : low.x, normal.y > 0 ? high.y : low.y,
+                              normal.z > 0 ? high.z : low.z};
+            const float chance = tree.chance({place, normal}, i);
+            ASSERT_TRUE(dot(corner - place, normal) <= 0 || chance > 0);
+            left_out += chance == 0;
+        }
+    }
+    EXPECT_GT(left_out, 200u * 100);
+}
+
+TEST(LightTree, PrefersWhatStandsAboveToWhatIsSeenFromTheSide) {
+    const LightTree tree({{{0, 1, 0}, {0, 1, 0}, {0, 0, 1}, -1, 0, 1, false},
+                          {{0.8f, 0.6f, 0}, {0.8f, 0.6f, 0}, {0, 0, 1}, -1, 0, 1, false},
+                          {{0, -1, 0}, {0, -1, 0}, {0, 0, 1}, -1, 0, 1, false}});
+    const LitPoint floor({0, 0, 0}, {0, 1, 0});
+    EXPECT_NEAR(tree.chance(floor, 0), 1 / 1.6, 1e-3);
+    EXPECT_NEAR(tree.chance(floor, 1), 0.6 / 1.6, 1e-3);
+    EXPECT_EQ(tree.chance(floor, 2), 0);
+    EXPECT_NEAR(tree.chance(LitPoint({0, 0, 0}), 2), 1 / 3.0, 1e-3);
 }
 
 TEST(LightTree, BearsLightsInOnePlace) {
     const LightTree tree(std::vector<LightBounds>(1000, {{1, 1, 1}, {1, 1, 1}, {0, 0, 1}, -1, 0, 2, false}));
     float u = 0.7f;
-    const auto choice = tree.choose({0, 0, 0}, u);
+    const auto choice = tree.choose(LitPoint({0, 0, 0}), u);
     ASSERT_TRUE(choice);
     EXPECT_NEAR(choice->chance, 1e-3f, 1e-6f);
 }

@@ -366,7 +366,7 @@ TEST(Holes, OfALampShedNoLight) {
     constexpr std::uint32_t n = 1 << 16;
     for (std::uint32_t i = 0; i < n; ++i) {
         Samples samples(1, i);
-        if (const auto lamp = scene.sample_light({0, 0, 0}, 0, samples.next_2d()))
+        if (const auto lamp = scene.sample_light(LitPoint({0, 0, 0}), 0, samples.next_2d()))
             by_points += lamp->radiance.r / lamp->pdf / n;
         by_rays += scene.occluded({{0, 0, 0}, sphere(samples.next_2d())}) ? 4 * std::numbers::pi / n : 0;
     }

@@ -19,7 +19,7 @@ constexpr std::uint32_t many = 1 << 14;
 std::optional<LightSample> draw(const Scene& scene, Vec3 from, std::uint32_t i) {
     Samples samples(1, i);
     const float choice = samples.next();
-    return scene.sample_light(from, choice, samples.next_2d());
+    return scene.sample_light(LitPoint(from), choice, samples.next_2d());
 }
 
 // The mean of 1/density is the solid angle that all lamps fill.
@@ -112,7 +112,7 @@ TEST(Lights, StateTheSameDensityForAPointHoweverItIsFound) {
         if (!hit) continue;
         const SurfacePoint end = scene.surface(*hit);
         if (is_black(scene.emission(end, -lamp->direction)) || length(end.position - lamp->position) > 1e-3f) continue;
-        ASSERT_NEAR(scene.light_pdf(from, lamp->direction, end) / lamp->pdf, 1, 2e-2f);
+        ASSERT_NEAR(scene.light_pdf(LitPoint(from), lamp->direction, end) / lamp->pdf, 1, 2e-2f);
         ++checked;
     }
     EXPECT_GT(checked, many / 3);

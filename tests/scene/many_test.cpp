@@ -297,7 +297,7 @@ TEST(Many, StopsTellEachWalkWhatOneIsTold) {
                               std::tuple(sample->incoming, sample->weight, sample->pdf, sample->eta));
                     EXPECT_EQ(parts(step.ray),
                               parts(Ray{one.point.origin_towards(sample->incoming), sample->incoming}));
-                    EXPECT_EQ(step.from, one.point.position);
+                    EXPECT_EQ(step.from, lit_point(one));
                     EXPECT_EQ(step.inside, filling(one.bsdf, one.point, one.outgoing, sample->incoming, one.inside));
                 });
             });

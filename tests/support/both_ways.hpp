@@ -10,13 +10,14 @@ namespace lightnet::test {
 inline Rgb both_ways(const Scene& scene, const SurfacePoint& point, const Bsdf& bsdf, Samples samples) {
     const Vec3 up{0, 1, 0};
     const float choice = samples.next();
-    const auto lamp = ray_to_lamp(scene, {point, bsdf, up, lobe::all}, {choice, samples.next_2d()}, Heuristic::power);
+    const Gathering at{point, bsdf, up, lobe::all};
+    const auto lamp = ray_to_lamp(scene, at, {choice, samples.next_2d()}, Heuristic::power);
     Rgb light = lamp && !scene.occluded(lamp->ray) ? lamp->light : Rgb{};
     const auto way = bsdf.sample(up, 0, samples.next_2d(), lobe::all);
     const auto hit = scene.intersect({point.origin_towards(way->incoming), way->incoming});
     SurfacePoint end;
     if (hit) end = scene.surface(*hit);
-    light += way->weight * light_by_bsdf(scene, point.position, *way, hit ? &end : nullptr, Heuristic::power);
+    light += way->weight * light_by_bsdf(scene, lit_point(at), *way, hit ? &end : nullptr, Heuristic::power);
     return light;
 }
 

@@ -27,6 +27,20 @@ Part part_of(const std::string& directive) {
     return found == parts.end() ? Part::anywhere : found->second;
 }
 
+constexpr const char* no_media = "participating media are not supported: the space is taken as empty";
+
+/// What a medium absorbs per metre; none: it scatters light or sends it out, too.
+std::optional<Rgb> absorption_of(Parameters& parameters, const Sources& sources) {
+    const Parameter* absorbed = parameters.find("sigma_a");
+    const Parameter* scattered = parameters.find("sigma_s");
+    const bool homogeneous = parameters.text("type", "") == "homogeneous";
+    if (!homogeneous || !absorbed || !scattered || parameters.find("Le") || parameters.find("preset")) return {};
+    const auto left = colour_of(*absorbed, Use::index, sources), aside = colour_of(*scattered, Use::index, sources);
+    if (!left || !aside || !is_black(*aside)) return {};
+    const Rgb each = *left * parameters.number("scale", 1);
+    return finite(each) && each.r >= 0 && each.g >= 0 && each.b >= 0 ? std::optional(each) : std::nullopt;
+}
+
 }  // namespace
 
 Builder::Builder(const Sources& sources)
@@ -59,9 +73,9 @@ const std::map<std::string, Builder::Handler>& Builder::handlers() {
                                                       {"LightSource", &Builder::light},
                                                       {"LookAt", &Builder::look_at},
                                                       {"MakeNamedMaterial", &Builder::make_named_material},
-                                                      {"MakeNamedMedium", &Builder::medium},
+                                                      {"MakeNamedMedium", &Builder::make_named_medium},
                                                       {"Material", &Builder::material},
-                                                      {"MediumInterface", &Builder::medium},
+                                                      {"MediumInterface", &Builder::medium_interface},
                                                       {"NamedMaterial", &Builder::named_material},
                                                       {"ObjectBegin", &Builder::object_begin},
                                                       {"ObjectEnd", &Builder::object_end},
@@ -245,9 +259,18 @@ void Builder::world_begin(Statement&) {
 // how images are sampled is the graph's business
 void Builder::ignored(Statement&) {}
 
-void Builder::medium(Statement& s) {
+void Builder::make_named_medium(Statement& s) {
+    const auto absorbed = absorption_of(s.parameters, sources_);
     s.parameters.ignore_all();
-    sources_.report.warn(s.where, "participating media are not supported: the space is taken as empty");
+    if (!absorbed) sources_.report.warn(s.where, no_media);
+    if (!media_.try_emplace(s.names[0], absorbed).second)
+        s.parameters.error(fmt::format("there is a medium '{}' already", s.names[0]));
+}
+
+/// One name is that of both sides. What is inside of a shape waits for its material.
+void Builder::medium_interface(Statement& s) {
+    state_.inside = s.names.empty() ? "" : s.names[0];
+    if (!s.names.empty() && !s.names.back().empty()) sources_.report.warn(s.where, no_media);
 }
 
 void Builder::color_space(Statement& s) {

@@ -50,6 +50,7 @@ private:
         ColourSpace space = ColourSpace::srgb;
         std::size_t material = 0;  // index into uses_
         std::optional<AreaLight> lamp;
+        std::string inside;  // name of the medium there; empty: none
         std::map<std::string, std::vector<std::shared_ptr<const Parameter>>>
             defaults;  // of Attribute, by what they are for
     };
@@ -71,6 +72,7 @@ private:
         std::size_t material = 0;
         std::optional<TextureId> alpha;
         std::optional<AreaLight> lamp;
+        std::string inside;              // name of its medium
         bool lamp_per_triangle = false;  // for pbrt every triangle of a mesh is a lamp of its own
         std::optional<std::uint32_t> object;
         std::string owner;  // for messages
@@ -98,7 +100,8 @@ private:
     void reverse_orientation(Statement&);
     void world_begin(Statement&);
     void ignored(Statement&);
-    void medium(Statement&);
+    void make_named_medium(Statement&);
+    void medium_interface(Statement&);
     void color_space(Statement&);
     void push(Block block, const SourceLine& where);
     std::optional<Saved> pop(Block block, const char* what, const SourceLine& where);
@@ -125,6 +128,7 @@ private:
     void finish_shapes();
     void finish_shape(WaitingShape& waiting);
     MaterialId with_alpha(MaterialId material, TextureId alpha);
+    MaterialId filled(MaterialId material, const WaitingShape& waiting);
     void emit(Shape shape, const AreaLight& lamp, bool each_triangle);
     void add_shape(Shape shape, const std::optional<std::uint32_t>& object);
     void finish_film();
@@ -144,6 +148,8 @@ private:
     std::vector<MaterialUse> uses_;
     std::map<std::string, std::size_t> named_;  // index into uses_
     std::map<std::pair<MaterialId, TextureId>, MaterialId> with_alpha_;
+    std::map<std::string, std::optional<Rgb>> media_;  // what they absorb, per metre; none: they do more than that
+    std::map<std::pair<MaterialId, std::string>, MaterialId> filled_;
     std::map<std::string, std::uint32_t> objects_;
     std::optional<std::uint32_t> open_object_;
     std::vector<WaitingShape> waiting_;

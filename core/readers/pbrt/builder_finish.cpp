@@ -54,7 +54,7 @@ void Builder::finish_shape(WaitingShape& waiting) {
     const auto* mesh = std::get_if<Mesh>(&*made.geometry);
     if (mesh && mesh->triangles.empty())
         return sources_.report.warn(waiting.where, "a shape without any triangle is left out");
-    const MaterialId material = *uses_[waiting.material].made;
+    const MaterialId material = filled(*uses_[waiting.material].made, waiting);
     if (std::holds_alternative<NoMaterial>(scene_.materials[material].model)) {
         if (waiting.lamp)
             sources_.report.warn(waiting.where, "a lamp with the material 'interface' doesn't shine (as in pbrt)");
@@ -70,6 +70,31 @@ void Builder::finish_shape(WaitingShape& waiting) {
         emit(std::move(shape), *waiting.lamp, waiting.lamp_per_triangle);
     else
         add_shape(std::move(shape), waiting.object);
+}
+
+/// A copy of solid glass that is filled with a medium which only absorbs. No other medium is there for light.
+MaterialId Builder::filled(MaterialId material, const WaitingShape& waiting) {
+    if (waiting.inside.empty()) return material;
+    const auto medium = media_.find(waiting.inside);
+    if (medium == media_.end()) {
+        sources_.report.error(waiting.where, fmt::format("there is no medium '{}'", waiting.inside));
+        return material;
+    }
+    if (!medium->second) return material;  // was told where it was made
+    const auto* glass = std::get_if<DielectricMaterial>(&scene_.materials[material].model);
+    if (!glass || glass->thin) {
+        sources_.report.warn(waiting.where,
+                             "a medium that absorbs is left out where it isn't inside of a 'dielectric'");
+        return material;
+    }
+    const auto [place, fresh] = filled_.try_emplace({material, waiting.inside});
+    if (fresh) {
+        place->second = static_cast<MaterialId>(scene_.materials.size());
+        Material copy = scene_.materials[material];
+        copy.absorption = *medium->second;
+        scene_.materials.push_back(std::move(copy));
+    }
+    return place->second;
 }
 
 /// A copy of the material that is only there as far as `alpha` says.

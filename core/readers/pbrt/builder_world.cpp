@@ -89,6 +89,7 @@ void Builder::shape(Statement& s) {
         shape.lamp = state_.lamp;
     shape.lamp_per_triangle = s.names[0] == "trianglemesh" || s.names[0] == "plymesh";
     shape.material = state_.material;
+    shape.inside = state_.inside;
     shape.object = open_object_;
     shape.owner = s.parameters.owner();
     shape.name = stem_of(s.names[0] == "plymesh" ? s.parameters.text("filename", "") : "");

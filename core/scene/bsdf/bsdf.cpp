@@ -28,6 +28,12 @@ inline std::optional<BsdfSample> sample_of(const Model& model, Vec3 o, float cho
     return found;
 }
 
+// Of those that aren't named here, nothing is known for certain.
+template <class Model>
+constexpr bool always_opaque = std::is_same_v<Model, DiffuseBsdf> || std::is_same_v<Model, RoughDiffuseBsdf> ||
+                               std::is_same_v<Model, ConductorBsdf> || std::is_same_v<Model, CoatedDiffuseBsdf> ||
+                               std::is_same_v<Model, CoatedConductorBsdf>;
+
 }  // namespace
 
 Bsdf::Bsdf(Vec3 normal, std::vector<Part> parts)
@@ -38,6 +44,12 @@ std::uint8_t Bsdf::lobes_of_any() const {
     std::uint8_t all = 0;
     for (const Part& part : *parts_) all |= part.bsdf.lobes();
     return all;
+}
+
+bool Bsdf::any_is_opaque() const {
+    if (parts_) return std::all_of(parts_->begin(), parts_->end(), [](const Part& p) { return p.bsdf.opaque(); });
+    if (const auto* principled = std::get_if<PrincipledBsdf>(&model_)) return principled->transmission == 0;
+    return std::visit([](const auto& m) { return always_opaque<std::decay_t<decltype(m)>>; }, model_);
 }
 
 BsdfValue Bsdf::value_of_any(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const {

@@ -69,6 +69,8 @@ public:
     }
     /// The colour of a diffuse reflector that fills nothing, alike on both sides or black from behind; null: another.
     const Rgb* diffuse_albedo() const { return diffuse() && !absorption_ ? &diffuse()->albedo : nullptr; }
+    /// Does nothing count but light on the viewer's side? False of what may let light through.
+    bool opaque() const { return diffuse() || any_is_opaque(); }
     /// Is it black from behind?
     bool one_sided() const { return one_sided_; }
     const Frame& shading() const { return shading_; }
@@ -91,6 +93,7 @@ private:
     BsdfValue diffuse_value(const DiffuseBsdf& model, Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const;
     std::optional<BsdfSample> diffuse_sample(const DiffuseBsdf& model, Vec3 outgoing, Vec2 u, std::uint8_t lobes) const;
     std::uint8_t lobes_of_any() const;
+    bool any_is_opaque() const;
     BsdfValue value_of_any(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const;
     std::optional<BsdfSample> sample_of_any(Vec3 outgoing, float choice, Vec2 u, std::uint8_t lobes) const;
     float chance_of(const Part& part, Vec3 outgoing, std::uint8_t lobes) const;

@@ -28,6 +28,12 @@ bool inside(const Sphere& sphere, float distance2) { return distance2 <= sphere.
 
 bool shines_towards(bool two_sided, Vec3 normal, Vec3 direction) { return two_sided || dot(normal, direction) > 0; }
 
+inline Facet facet(const Mesh& mesh, std::uint32_t triangle) {
+    const Corners at = corners(mesh, triangle);
+    return {at.a, at.b - at.a, at.c - at.a, geometric_normal(mesh, triangle, at)};
+}
+float area_of(const Facet& facet) { return 0.5f * length(cross(facet.first_edge, facet.second_edge)); }
+
 bool shines(const SceneData& data, const Shape& shape, GroupSet groups) {
     return shape.emission && (groups >> shape.emission->label.group & 1) && !is_black(shape.emission->radiance) &&
            !std::holds_alternative<NoMaterial>(data.materials[shape.material].model);
@@ -36,32 +42,29 @@ bool shines(const SceneData& data, const Shape& shape, GroupSet groups) {
 }  // namespace
 
 AreaLamps::AreaLamps(const SceneData& data, const Shading& shading, GroupSet groups, bool apart)
-    : data_(data), shading_(shading), apart_(apart), places_(data.shapes.size()) {
+    : data_(data), shading_(shading), apart_(apart), sources_of_shapes_(data.shapes.size(), none) {
     for (std::uint32_t s = 0; s < data.shapes.size(); ++s) {
         const Shape& shape = data.shapes[s];
         if (!shines(data, shape, groups)) continue;
-        places_[s].lamp = std::uint32_t(lamps_.size());
         if (const auto* mesh = std::get_if<Mesh>(&shape.geometry)) {
             add_mesh(s, *mesh);
         } else {
             const auto& ball = std::get<Sphere>(shape.geometry);
             balls_.push_back({ball.center, ball.radius});
-            add_lamp(s, 0, 0);
+            add_source(s, 1, 0);
         }
         balls_.back().radius *= 1.001f;  // roundings
     }
 }
 
 void AreaLamps::add_mesh(std::uint32_t shape, const Mesh& mesh) {
-    const auto first = std::uint32_t(facets_.size()), count = std::uint32_t(mesh.triangles.size());
-    std::vector<double> areas(count);
+    const auto count = std::uint32_t(mesh.triangles.size());
     bool flat = true;
     Box box;
     for (std::uint32_t t = 0; t < count; ++t) {
         const Corners at = corners(mesh, t);
-        facets_.push_back({at.a, at.b - at.a, at.c - at.a, geometric_normal(mesh, t, at)});
-        areas[t] = 0.5 * length(cross(at.b - at.a, at.c - at.a));
-        flat &= dot(facets_.back().normal, facets_[first].normal) > 0.9999f;
+        flat = flat && count <= few_facets &&
+               dot(geometric_normal(mesh, t, at), geometric_normal(mesh, 0, corners(mesh, 0))) > 0.9999f;
         for (const Vec3 p : {at.a, at.b, at.c}) box.add(p);
     }
     const Vec3 center = count ? box.center() : Vec3{};
@@ -71,40 +74,53 @@ void AreaLamps::add_mesh(std::uint32_t shape, const Mesh& mesh) {
         for (const Vec3 p : {at.a, at.b, at.c}) radius2 = std::max(radius2, length_squared(p - center));
     }
     balls_.push_back({center, std::sqrt(radius2)});
+    if (!flat) return add_source(shape, count, 0);
 
-    ends_.resize(facets_.size(), 1);
-    places_[shape].facet = first;
-    places_[shape].by_triangle = !flat || count > few_facets;
-    if (places_[shape].by_triangle) {
-        for (std::uint32_t t = 0; t < count; ++t) add_lamp(shape, first + t, 1);
-    } else if (count > 0) {
-        running_shares(std::span<const double>(areas), std::span(ends_).subspan(first));
-        add_lamp(shape, first, count);
+    std::vector<double> areas;
+    const std::size_t first = facets_.size();
+    for (std::uint32_t t = 0; t < count; ++t) {
+        facets_.push_back(facet(mesh, t));
+        areas.push_back(0.5 * length(cross(facets_.back().first_edge, facets_.back().second_edge)));
     }
+    ends_.resize(facets_.size(), 1);
+    running_shares(std::span<const double>(areas), std::span(ends_).subspan(first));
+    if (count > 0) add_source(shape, 1, count);
 }
 
-void AreaLamps::add_lamp(std::uint32_t shape, std::uint32_t first, std::uint32_t facets) {
+// The last of the facets are its own.
+void AreaLamps::add_source(std::uint32_t shape, std::uint32_t lamps, std::uint32_t facets) {
     const AreaEmission& emission = *data_.shapes[shape].emission;
-    Lamp lamp;
-    lamp.shape = shape;
-    lamp.first = first;
-    lamp.facets = facets;
-    lamp.radiance = emission.radiance;
-    lamp.two_sided = emission.two_sided;
-    lamp.group = group_of(shape);
-    lamp.uniform = !emission.texture && !shading_.has_holes(shape);
-    for (std::uint32_t f = first; f < first + facets; ++f)
-        lamp.area += 0.5f * length(cross(facets_[f].first_edge, facets_[f].second_edge));
+    Source source;
+    source.shape = shape;
+    source.first_lamp = std::uint32_t(source_of_.size());
+    source.by_triangle = facets == 0 && std::holds_alternative<Mesh>(data_.shapes[shape].geometry);
+    source.first = std::uint32_t(facets_.size()) - facets;
+    source.facets = facets;
+    source.radiance = emission.radiance;
+    source.two_sided = emission.two_sided;
+    source.group = group_of(shape);
+    source.uniform = !emission.texture && !shading_.has_holes(shape);
+    for (std::uint32_t f = source.first; f < facets_.size(); ++f) source.area += area_of(facets_[f]);
     if (const auto* ball = std::get_if<Sphere>(&data_.shapes[shape].geometry))
-        lamp.area = 4 * pi * ball->radius * ball->radius;
-    if (!std::isfinite(lamp.area)) lamp.area = 0;  // never chosen
-    if (lamp.uniform && facets == 2)
-        if (const auto whole = parallelogram(facets_[first], facets_[first + 1])) {
-            lamp.whole = std::uint32_t(wholes_.size());
+        source.area = 4 * pi * ball->radius * ball->radius;
+    if (!std::isfinite(source.area)) source.area = 0;  // never chosen
+    if (source.uniform && facets == 2)
+        if (const auto whole = parallelogram(facets_[source.first], facets_[source.first + 1])) {
+            source.whole = std::uint32_t(wholes_.size());
             wholes_.push_back(*whole);
         }
-    lamp.mean = mean_of_texture(lamp);
-    lamps_.push_back(lamp);
+    sources_of_shapes_[shape] = std::uint32_t(sources_.size());
+    source_of_.resize(source_of_.size() + lamps, std::uint32_t(sources_.size()));
+    sources_.push_back(source);
+}
+
+AreaLamps::Lamp AreaLamps::lamp(std::size_t index) const {
+    const Source& source = sources_[source_of_[index]];
+    if (!source.by_triangle) return {source, 0, source.area};
+    const auto triangle = std::uint32_t(index - source.first_lamp);
+    const Corners at = corners(mesh_of(source), triangle);
+    const float area = 0.5f * length(cross(at.b - at.a, at.c - at.a));
+    return {source, triangle, std::isfinite(area) ? area : 0};
 }
 
 // Of two triangles that are its halves.
@@ -126,27 +142,28 @@ std::optional<Facet> AreaLamps::parallelogram(const Facet& first, const Facet& s
 
 // Of 16 points. Never nothing: what lies between them may shine.
 Rgb AreaLamps::mean_of_texture(const Lamp& lamp) const {
-    if (!data_.shapes[lamp.shape].emission->texture || !(lamp.area > 0)) return {1, 1, 1};
+    const std::uint32_t shape = lamp.source.shape;
+    if (!data_.shapes[shape].emission->texture || !(lamp.area > 0)) return {1, 1, 1};
     Rgb sum{0.16f, 0.16f, 0.16f};
     for (int i = 0; i < 16; ++i) {
         const Vec2 u{(float(i % 4) + 0.5f) / 4, (float(i / 4) + 0.5f) / 4};
         PointOnLamp point;
-        if (lamp.facets) {
+        if (!ball_of(lamp.source)) {
             point = on_mesh(lamp, u);
         } else {
             const Vec2 name = to_octahedral(sphere(u));
             point.u = name.x;
             point.v = name.y;
         }
-        sum += texture_at(lamp.shape, point.primitive, point.u, point.v);
+        sum += texture_at(shape, point.primitive, point.u, point.v);
     }
     return sum / 16.16f;
 }
 
 std::optional<std::size_t> AreaLamps::lamp_at(const SurfacePoint& point) const {
-    if (point.geometry >= places_.size() || places_[point.geometry].lamp == none) return {};
-    const LampsOfShape& place = places_[point.geometry];
-    return place.lamp + (place.by_triangle ? point.primitive : 0);
+    if (point.geometry >= sources_of_shapes_.size() || sources_of_shapes_[point.geometry] == none) return {};
+    const Source& source = sources_[sources_of_shapes_[point.geometry]];
+    return source.first_lamp + (source.by_triangle ? point.primitive : 0);
 }
 
 Rgb AreaLamps::texture_at(std::uint32_t shape, std::uint32_t primitive, float u, float v) const {
@@ -154,27 +171,32 @@ Rgb AreaLamps::texture_at(std::uint32_t shape, std::uint32_t primitive, float u,
 }
 
 Rgb AreaLamps::radiance(const SurfacePoint& point, Vec3 direction) const {
-    if (places_[point.geometry].lamp == none) return {};
+    if (sources_of_shapes_[point.geometry] == none) return {};
     const AreaEmission& emission = *data_.shapes[point.geometry].emission;
     if (!shines_towards(emission.two_sided, point.normal, direction)) return {};
     if (!emission.texture) return emission.radiance;
     return emission.radiance * texture_at(point.geometry, point.primitive, point.u, point.v);
 }
 
-Rgb AreaLamps::radiance_at(const Lamp& lamp, const PointOnLamp& point) const {
-    if (!data_.shapes[lamp.shape].emission->texture) return lamp.radiance;
-    return lamp.radiance * texture_at(lamp.shape, point.primitive, point.u, point.v);
+Rgb AreaLamps::radiance_at(const Source& source, const PointOnLamp& point) const {
+    if (!data_.shapes[source.shape].emission->texture) return source.radiance;
+    return source.radiance * texture_at(source.shape, point.primitive, point.u, point.v);
 }
 
-std::uint32_t AreaLamps::facet_of(const Lamp& lamp, float& u) const {
-    if (lamp.facets == 1) return lamp.first;
-    return lamp.first + std::uint32_t(pick(std::span(ends_).subspan(lamp.first, lamp.facets), u));
+// `primitive`: which of the mesh's triangles it is.
+Facet AreaLamps::facet_of(const Lamp& lamp, std::uint32_t& primitive, float& u) const {
+    const Source& source = lamp.source;
+    primitive = lamp.triangle;
+    if (source.by_triangle) return facet(mesh_of(source), primitive);
+    if (source.facets > 1) primitive = std::uint32_t(pick(std::span(ends_).subspan(source.first, source.facets), u));
+    return facets_[source.first + primitive];
 }
 
 AreaLamps::PointOnLamp AreaLamps::on_mesh(const Lamp& lamp, Vec2 u) const {
-    const std::uint32_t facet = facet_of(lamp, u.x);
+    std::uint32_t primitive = 0;
+    const Facet facet = facet_of(lamp, primitive, u.x);
     const Vec2 at = triangle(u);
-    return {facets_[facet].at(at), facets_[facet].normal, facet - places_[lamp.shape].facet, at.x, at.y};
+    return {facet.at(at), facet.normal, primitive, at.x, at.y};
 }
 
 AreaLamps::PointOnLamp AreaLamps::on_sphere(const Sphere& ball, Vec3 outwards) const {
@@ -182,37 +204,43 @@ AreaLamps::PointOnLamp AreaLamps::on_sphere(const Sphere& ball, Vec3 outwards) c
     return {ball.center + outwards * ball.radius, ball.flip_normals ? -outwards : outwards, 0, name.x, name.y};
 }
 
-std::optional<LightSample> AreaLamps::sample(std::size_t lamp, Vec3 from, Vec2 u) const {
-    return lamps_[lamp].facets ? from_mesh(lamps_[lamp], from, u) : from_sphere(lamps_[lamp], from, u);
+std::optional<LightSample> AreaLamps::sample(std::size_t index, Vec3 from, Vec2 u) const {
+    const Lamp one = lamp(index);
+    return ball_of(one.source) ? from_sphere(one, from, u) : from_mesh(one, from, u);
 }
 
 std::optional<LightSample> AreaLamps::from_mesh(const Lamp& lamp, Vec3 from, Vec2 u) const {
-    const bool whole = lamp.whole != none;
-    const std::uint32_t facet = whole ? 0 : facet_of(lamp, u.x);
-    const Facet& on = whole ? wholes_[lamp.whole] : facets_[facet];
+    const Source& source = lamp.source;
+    const bool whole = source.whole != none;
+    std::uint32_t primitive = 0;
+    const Facet on = whole ? wholes_[source.whole] : facet_of(lamp, primitive, u.x);
     const Vec2 at = Facet::uniform(u, whole);
     const Vec3 position = on.at(at);
-    const auto [direction, pdf, found] = direction_to_lamp(from, position, on.normal, lamp.area, lamp.two_sided);
+    const auto [direction, pdf, found] = direction_to_lamp(from, position, on.normal, lamp.area, source.two_sided);
     if (!found) return {};
-    Rgb radiance = lamp.radiance;
-    if (!lamp.uniform) {
-        const PointOnLamp point{position, on.normal, facet - places_[lamp.shape].facet, at.x, at.y};
-        if (!is_there(lamp, point)) return {};
-        radiance = radiance_at(lamp, point);
+    Rgb radiance = source.radiance;
+    if (!source.uniform) {
+        const PointOnLamp point{position, on.normal, primitive, at.x, at.y};
+        if (!is_there(source, point)) return {};
+        radiance = radiance_at(source, point);
     }
-    return LightSample{position, direction, radiance, pdf, false, false, lamp.group};
+    return LightSample{position, direction, radiance, pdf, false, false, source.group};
 }
 
 std::optional<FlatLamp> AreaLamps::flat(std::size_t index) const {
-    const Lamp& lamp = lamps_[index];
-    const bool whole = lamp.whole != none;
-    if (!lamp.uniform || (!whole && lamp.facets != 1)) return {};
-    const Facet& facet = whole ? wholes_[lamp.whole] : facets_[lamp.first];
-    return FlatLamp{facet, whole, lamp.area, lamp.radiance, lamp.two_sided, lamp.group};
+    const Lamp one = lamp(index);
+    const Source& source = one.source;
+    const bool whole = source.whole != none;
+    if (ball_of(source) || !source.uniform || (!whole && source.facets > 1)) return {};
+    std::uint32_t primitive = 0;
+    float u = 0;
+    const Facet facet = whole ? wholes_[source.whole] : facet_of(one, primitive, u);
+    return FlatLamp{facet, whole, one.area, source.radiance, source.two_sided, source.group};
 }
 
 std::optional<LightSample> AreaLamps::from_sphere(const Lamp& lamp, Vec3 from, Vec2 u) const {
-    const auto& ball = std::get<Sphere>(data_.shapes[lamp.shape].geometry);
+    const Source& source = lamp.source;
+    const Sphere& ball = *ball_of(source);
     const Vec3 to_center = ball.center - from;
     const float distance2 = length_squared(to_center);
     Vec3 outwards;
@@ -236,18 +264,18 @@ std::optional<LightSample> AreaLamps::from_sphere(const Lamp& lamp, Vec3 from, V
     if (!(way2 > 0)) return {};
     const Vec3 direction = way / std::sqrt(way2);
     if (pdf == 0) pdf = way2 / (lamp.area * std::max(1e-6f, std::fabs(dot(outwards, direction))));
-    if (!shines_towards(lamp.two_sided, point.normal, -direction) || !is_there(lamp, point)) return {};
-    return LightSample{point.position, direction, radiance_at(lamp, point), pdf, false, false, lamp.group};
+    if (!shines_towards(source.two_sided, point.normal, -direction) || !is_there(source, point)) return {};
+    return LightSample{point.position, direction, radiance_at(source, point), pdf, false, false, source.group};
 }
 
 float AreaLamps::pdf(std::size_t index, Vec3 from, Vec3 direction, const SurfacePoint& on) const {
-    const Lamp& lamp = lamps_[index];
-    if (const auto* ball = std::get_if<Sphere>(&data_.shapes[lamp.shape].geometry)) {
+    const Lamp one = lamp(index);
+    if (const Sphere* ball = ball_of(one.source)) {
         const float distance2 = length_squared(ball->center - from);
         if (!inside(*ball, distance2)) return 1 / (2 * pi * one_minus_cosine(ball->radius, distance2));
     }
     const float cosine = std::max(1e-6f, std::fabs(dot(on.normal, direction)));
-    return lamp.area > 0 ? length_squared(on.position - from) / (lamp.area * cosine) : 0;
+    return one.area > 0 ? length_squared(on.position - from) / (one.area * cosine) : 0;
 }
 
 bool AreaLamps::may_meet(const Ray& ray) const {
@@ -262,51 +290,59 @@ bool AreaLamps::may_meet(const Ray& ray) const {
 }
 
 LightBounds AreaLamps::bounds(std::size_t index) const {
-    const Lamp& lamp = lamps_[index];
-    const float radiance = luminance(lamp.radiance * lamp.mean);
-    if (const auto* ball = std::get_if<Sphere>(&data_.shapes[lamp.shape].geometry)) {
+    const Lamp one = lamp(index);
+    const Source& source = one.source;
+    const float radiance = luminance(source.radiance * mean_of_texture(one));
+    if (const Sphere* ball = ball_of(source)) {
         const Vec3 r{ball->radius, ball->radius, ball->radius};
-        return {ball->center - r, ball->center + r, {0, 0, 1}, -1, 0, radiance * lamp.area / 4, false};
+        return {ball->center - r, ball->center + r, {0, 0, 1}, -1, 0, radiance * one.area / 4, false};
     }
     Box box;
-    for (const Facet& f : std::span(facets_).subspan(lamp.first, lamp.facets))
+    const auto add = [&](const Facet& f) {
         for (const Vec3 p : {f.corner, f.corner + f.first_edge, f.corner + f.second_edge}) box.add(p);
-    return {box.low, box.high, facets_[lamp.first].normal, 1, 0, radiance * lamp.area, lamp.two_sided};
+    };
+    std::uint32_t primitive = 0;
+    float u = 0;
+    const Facet first = facet_of(one, primitive, u);
+    add(first);
+    for (std::uint32_t f = 0; f < source.facets; ++f) add(facets_[source.first + f]);
+    return {box.low, box.high, first.normal, 1, 0, radiance * one.area, source.two_sided};
 }
 
 Rgb AreaLamps::power(std::size_t index) const {
-    const Lamp& lamp = lamps_[index];
-    return lamp.radiance * lamp.mean * (pi * lamp.area * (lamp.two_sided ? 2 : 1));
+    const Lamp one = lamp(index);
+    return one.source.radiance * mean_of_texture(one) * (pi * one.area * (one.source.two_sided ? 2 : 1));
 }
 
 std::optional<Emission> AreaLamps::emit(std::size_t index, Vec2 position_sample, Vec2 direction_sample) const {
-    const Lamp& lamp = lamps_[index];
-    if (!(lamp.area > 0)) return {};
+    const Lamp one = lamp(index);
+    const Source& source = one.source;
+    if (!(one.area > 0)) return {};
     float sides = 1;
-    PointOnLamp start = lamp.facets
-                            ? on_mesh(lamp, position_sample)
-                            : on_sphere(std::get<Sphere>(data_.shapes[lamp.shape].geometry), sphere(position_sample));
-    if (lamp.two_sided) {
+    const Sphere* ball = ball_of(source);
+    PointOnLamp start = ball ? on_sphere(*ball, sphere(position_sample)) : on_mesh(one, position_sample);
+    if (source.two_sided) {
         sides = 2;
         const bool back = direction_sample.x >= 0.5f;
         direction_sample.x = std::min(2 * (direction_sample.x - (back ? 0.5f : 0)), 0x1.fffffep-1f);
         if (back) start.normal = -start.normal;
     }
-    if (!is_there(lamp, start)) return {};
-    const SurfacePoint point = shading_.point(lamp.shape, start.primitive, start.u, start.v);
+    if (!is_there(source, start)) return {};
+    const SurfacePoint point = shading_.point(source.shape, start.primitive, start.u, start.v);
     const Vec3 direction = Frame::around(start.normal).to_world(cosine_hemisphere(direction_sample));
-    return Emission{point.origin_towards(direction), direction, radiance_at(lamp, start) * (pi * lamp.area * sides),
-                    lamp.group};
+    return Emission{point.origin_towards(direction), direction, radiance_at(source, start) * (pi * one.area * sides),
+                    source.group};
 }
 
 // Where a mask has holes a lamp does not shine.
-bool AreaLamps::is_there(const Lamp& lamp, const PointOnLamp& point) const {
-    return !shading_.has_holes(lamp.shape) || shading_.is_there(lamp.shape, point.primitive, point.u, point.v);
+bool AreaLamps::is_there(const Source& source, const PointOnLamp& point) const {
+    return !shading_.has_holes(source.shape) || shading_.is_there(source.shape, point.primitive, point.u, point.v);
 }
 
 std::size_t AreaLamps::memory() const {
-    return lamps_.size() * sizeof(Lamp) + facets_.size() * sizeof(Facet) + ends_.size() * sizeof(float) +
-           wholes_.size() * sizeof(Facet) + balls_.size() * sizeof(Ball) + places_.size() * sizeof(LampsOfShape);
+    return sources_.size() * sizeof(Source) + source_of_.size() * sizeof(std::uint32_t) +
+           facets_.size() * sizeof(Facet) + ends_.size() * sizeof(float) + wholes_.size() * sizeof(Facet) +
+           balls_.size() * sizeof(Ball) + sources_of_shapes_.size() * sizeof(std::uint32_t);
 }
 
 }  // namespace lightnet

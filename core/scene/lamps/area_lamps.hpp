@@ -27,7 +27,7 @@ public:
     /// Those of some groups, which are told apart or are all one. Looks at data and shading while it lives.
     AreaLamps(const SceneData& data, const Shading& shading, GroupSet groups, bool apart);
 
-    std::size_t size() const { return lamps_.size(); }
+    std::size_t size() const { return source_of_.size(); }
     /// A point on a lamp that is chosen for certain. None: it sends no light this way.
     std::optional<LightSample> sample(std::size_t lamp, Vec3 from, Vec2 u) const;
     /// The same lamp for many points at once, if it's a uniform triangle or parallelogram.
@@ -52,16 +52,24 @@ public:
 
 private:
     static constexpr std::uint32_t none = 0xffffffffu;
-    struct Lamp {
+    /// A shape that shines: one lamp, or as many as it has triangles.
+    struct Source {
         std::uint32_t shape = 0;
-        std::uint32_t first = 0, facets = 0;  // of a mesh: into facets_
-        float area = 0;                       // m²
+        std::uint32_t first_lamp = 0;
+        bool by_triangle = false;
+        std::uint32_t first = 0, facets = 0;  // of a mesh that is one lamp: into facets_
+        float area = 0;                       // m²; of a mesh that is one lamp, or a sphere
         Rgb radiance;
         bool two_sided = false;
         bool uniform = true;         // neither texture nor holes
         std::uint32_t whole = none;  // into wholes_
-        Rgb mean{1, 1, 1};           // of the texture
         std::uint32_t group = 0;
+    };
+    /// One lamp. What is asked about many is not kept of each: a million of triangles have to fit.
+    struct Lamp {
+        const Source& source;
+        std::uint32_t triangle;  // which, where each is a lamp
+        float area;
     };
     struct Ball {
         Vec3 center;
@@ -75,12 +83,17 @@ private:
     };
     void add_mesh(std::uint32_t shape, const Mesh& mesh);
     static std::optional<Facet> parallelogram(const Facet& first, const Facet& second);
-    void add_lamp(std::uint32_t shape, std::uint32_t first, std::uint32_t facets);
+    void add_source(std::uint32_t shape, std::uint32_t lamps, std::uint32_t facets);
+    const Mesh& mesh_of(const Source& source) const { return std::get<Mesh>(data_.shapes[source.shape].geometry); }
+    const Sphere* ball_of(const Source& source) const {
+        return std::get_if<Sphere>(&data_.shapes[source.shape].geometry);
+    }
+    Lamp lamp(std::size_t index) const;
     Rgb mean_of_texture(const Lamp& lamp) const;
     Rgb texture_at(std::uint32_t shape, std::uint32_t primitive, float u, float v) const;
-    Rgb radiance_at(const Lamp& lamp, const PointOnLamp& point) const;
-    bool is_there(const Lamp& lamp, const PointOnLamp& point) const;
-    std::uint32_t facet_of(const Lamp& lamp, float& u) const;
+    Rgb radiance_at(const Source& source, const PointOnLamp& point) const;
+    bool is_there(const Source& source, const PointOnLamp& point) const;
+    Facet facet_of(const Lamp& lamp, std::uint32_t& primitive, float& u) const;
     PointOnLamp on_mesh(const Lamp& lamp, Vec2 u) const;
     PointOnLamp on_sphere(const Sphere& ball, Vec3 outwards) const;
     std::optional<LightSample> from_mesh(const Lamp& lamp, Vec3 from, Vec2 u) const;
@@ -89,17 +102,13 @@ private:
     const SceneData& data_;
     const Shading& shading_;
     const bool apart_;
-    std::vector<Lamp> lamps_;
-    std::vector<Facet> facets_;
-    std::vector<float> ends_;    // by facet: share of its lamp's area up to and with it
-    std::vector<Facet> wholes_;  // parallelograms of two triangles, which can be chosen from at once
-    std::vector<Ball> balls_;    // one around each shape that shines
-    struct LampsOfShape {
-        std::uint32_t lamp = none;  // the first of the shape's
-        std::uint32_t facet = 0;    // the first of the shape's
-        bool by_triangle = false;   // each triangle is a lamp
-    };
-    std::vector<LampsOfShape> places_;  // by shape
+    std::vector<Source> sources_;
+    std::vector<std::uint32_t> source_of_;          // by lamp
+    std::vector<Facet> facets_;                     // of meshes that are one lamp
+    std::vector<float> ends_;                       // by facet: share of its lamp's area up to and with it
+    std::vector<Facet> wholes_;                     // parallelograms of two triangles, which can be chosen from at once
+    std::vector<Ball> balls_;                       // one around each shape that shines
+    std::vector<std::uint32_t> sources_of_shapes_;  // none: does not shine
 };
 
 }  // namespace lightnet

@@ -1,12 +1,14 @@
 // Importance sampling of many lights: by where they are and where they shine, seen from a point.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "core/base/math/vec.hpp"
+#include "core/scene/lamps/lit_point.hpp"
 
 namespace lightnet {
 
@@ -21,8 +23,9 @@ struct LightBounds {
     bool two_sided = false;
 };
 
-/// A binary tree over lights (a light BVH). Conty Estévez & Kulla 2018, "Importance Sampling of Many Lights with
-/// Adaptive Tree Splitting", without the splitting. Immutable; any thread may ask.
+/// A tree over lights (a light BVH), of up to eight children each, which are looked at together. Conty Estévez & Kulla
+/// 2018, "Importance Sampling of Many Lights with Adaptive Tree Splitting", without the splitting. Immutable; any
+/// thread may ask.
 class LightTree {
 public:
     LightTree() = default;
@@ -34,30 +37,39 @@ public:
         float chance;
     };
     /// `u` becomes the place within the choice. None: no light reaches the point.
-    std::optional<Choice> choose(Vec3 from, float& u) const;
+    std::optional<Choice> choose(const LitPoint& from, float& u) const;
     /// The chance with which choose() finds a light.
-    float chance(Vec3 from, std::uint32_t light) const;
+    float chance(const LitPoint& from, std::uint32_t light) const;
 
-    std::size_t memory() const { return nodes_.size() * sizeof(Node) + leaf_of_.size() * sizeof(leaf_of_[0]); }
+    std::size_t memory() const { return nodes_.size() * sizeof(Node) + place_of_.size() * sizeof(place_of_[0]); }
+
+    static constexpr std::uint32_t width = 8;
+
+    /// Its children, coordinate by coordinate; in whole numbers of steps, so that a million lights stay small.
+    struct Node {
+        template <class T>
+        using Each = std::array<T, width>;
+        struct Steps {
+            Each<std::uint16_t> x, y, z;
+        };
+        struct Directions {
+            Each<std::int16_t> x, y, z;
+        };
+        Vec3 low, step;                                        // of the boxes
+        Steps lows, highs;                                     // boxes, no smaller than they are
+        Directions axis;                                       // in 32767ths
+        Each<std::int16_t> cos_spread, sin_spread, cos_reach;  // the same; cosines rounded down
+        Each<float> intensity;                                 // 0: there is no such child
+        Each<std::uint32_t> child;                             // a node, or, where bit i of `leaves` says so, a light
+        std::uint32_t parent = 0;                              // × width, plus which child of it this is
+        std::uint8_t leaves = 0, two_sided = 0;                // bits, by child
+    };
 
 private:
-    struct Node {
-        Vec3 center, half;  // of the box
-        Vec3 axis;
-        float radius2;  // of the ball around the box
-        float cos_spread, sin_spread, cos_reach;
-        float intensity;
-        std::uint32_t second = 0;  // child; the first one stands behind its parent. 0: a leaf
-        std::uint32_t parent = 0;  // of a leaf and of any other
-        std::uint32_t light = 0;   // of a leaf
-        bool two_sided;
-    };
     struct Builder;
-    static Node node_of(const LightBounds& bounds);
-    static float importance(const Node& node, Vec3 from);
 
     std::vector<Node> nodes_;
-    std::vector<std::uint32_t> leaf_of_;  // by light; none
+    std::vector<std::uint32_t> place_of_;  // by light: its node × width, plus which child of it; none
     static constexpr std::uint32_t none = 0xffffffffu;
 };
 

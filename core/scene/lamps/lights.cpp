@@ -72,31 +72,31 @@ void Lights::build_tree() {
     share_of_far_ = beside ? (1 - share_of_tree_) / float(beside) : 0;
 }
 
-std::optional<LightSample> Lights::sample(Vec3 from, float choice, Vec2 u) const {
-    if (only_lamp_) return lamps_.sample(*only_lamp_, from, u);
+std::optional<LightSample> Lights::sample(const LitPoint& from, float choice, Vec2 u) const {
+    if (only_lamp_) return lamps_.sample(*only_lamp_, from.position, u);
     if (share_of_tree_ == 1) return from_tree(from, choice, u);
     std::optional<LightSample> sample;
     if (choice < share_of_tree_) {
         sample = from_tree(from, within(choice, 0, share_of_tree_), u);
         if (sample) sample->pdf *= share_of_tree_;
     } else if (share_of_far_ > 0) {
-        sample = from_infinity(from, (choice - share_of_tree_) / share_of_far_, u);
+        sample = from_infinity(from.position, (choice - share_of_tree_) / share_of_far_, u);
         if (sample) sample->pdf *= share_of_far_;
     }
     return sample;
 }
 
-std::optional<LightSample> Lights::from_tree(Vec3 from, float choice, Vec2 u) const {
+std::optional<LightSample> Lights::from_tree(const LitPoint& from, float choice, Vec2 u) const {
     const auto chosen = tree_.choose(from, choice);
     if (!chosen || !(chosen->chance > 0)) return {};
     const std::size_t light = chosen->light;
     const auto from_near = [&](const auto& one) {
-        auto found = light_from(one, from);
+        auto found = light_from(one, from.position);
         if (found) found->group = group(one.label);
         return found;
     };
-    auto sample =
-        light < lamps_.size() ? lamps_.sample(light, from, u) : near_light(near_[light - lamps_.size()], from_near);
+    auto sample = light < lamps_.size() ? lamps_.sample(light, from.position, u)
+                                        : near_light(near_[light - lamps_.size()], from_near);
     if (sample) sample->pdf *= chosen->chance;
     return sample;
 }
@@ -122,10 +122,10 @@ std::optional<LightSample> Lights::from_map(float choice, Vec2 u) const {
     return LightSample{{}, direction, environment(direction), density, false, true, environment_group_};
 }
 
-float Lights::pdf(Vec3 from, Vec3 direction, const SurfacePoint& on) const {
+float Lights::pdf(const LitPoint& from, Vec3 direction, const SurfacePoint& on) const {
     const auto lamp = lamps_.lamp_at(on);
     if (!lamp) return 0;
-    const float density = share_of_tree_ * lamps_.pdf(*lamp, from, direction, on);
+    const float density = share_of_tree_ * lamps_.pdf(*lamp, from.position, direction, on);
     return many() ? density * tree_.chance(from, std::uint32_t(*lamp)) : density;
 }
 

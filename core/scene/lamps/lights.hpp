@@ -13,6 +13,7 @@
 #include "core/scene/lamps/environment.hpp"
 #include "core/scene/lamps/light_sample.hpp"
 #include "core/scene/lamps/light_tree.hpp"
+#include "core/scene/lamps/lit_point.hpp"
 #include "core/scene/surfaces/ray.hpp"
 #include "core/scene/surfaces/shading.hpp"
 #include "core/scene/surfaces/surface.hpp"
@@ -50,11 +51,11 @@ public:
     /// There is more than one light to choose from.
     bool many() const { return choices_ > 1; }
     /// None: no light can reach the point by this sample.
-    std::optional<LightSample> sample(Vec3 from, float choice, Vec2 u) const;
+    std::optional<LightSample> sample(const LitPoint& from, float choice, Vec2 u) const;
     /// What sample() always chooses, if that's a flat lamp; else null.
     const FlatLamp* only_flat_lamp() const { return only_flat_lamp_ ? &*only_flat_lamp_ : nullptr; }
     /// Density with which sample() finds the emitting point `on`, which lies in `direction` from `from`. 0: not a lamp.
-    float pdf(Vec3 from, Vec3 direction, const SurfacePoint& on) const;
+    float pdf(const LitPoint& from, Vec3 direction, const SurfacePoint& on) const;
     /// The same of the environment.
     float environment_pdf(Vec3 direction) const;
 
@@ -79,7 +80,7 @@ public:
 private:
     void build_tree();
     std::vector<Rgb> powers() const;
-    std::optional<LightSample> from_tree(Vec3 from, float choice, Vec2 u) const;
+    std::optional<LightSample> from_tree(const LitPoint& from, float choice, Vec2 u) const;
     std::optional<LightSample> from_infinity(Vec3 from, float choice, Vec2 u) const;
     std::optional<LightSample> from_map(float choice, Vec2 u) const;
     Emission from_sky(const Environment& environment, Vec2 position_sample, Vec2 direction_sample) const;

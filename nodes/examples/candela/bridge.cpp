@@ -45,7 +45,8 @@ public:
     candela::Colour sky(const candela::Vec& towards) override { return theirs(scene_.environment(ours(towards))); }
 
     bool choose(const candela::Vec& from, const double (&numbers)[3], candela::LampPoint& point) override {
-        const auto lamp = scene_.sample_light(ours(from), float(numbers[0]), {float(numbers[1]), float(numbers[2])});
+        const auto lamp =
+            scene_.sample_light(LitPoint(ours(from)), float(numbers[0]), {float(numbers[1]), float(numbers[2])});
         if (lamp) point = {theirs(lamp->position), theirs(lamp->direction), theirs(lamp->radiance), lamp->pdf};
         return lamp.has_value();
     }

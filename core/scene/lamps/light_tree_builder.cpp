@@ -1,0 +1,259 @@
+#include "core/scene/lamps/light_tree_builder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace lightnet {
+namespace {
+
+constexpr std::uint32_t children = LightTree::width;
+constexpr std::size_t buckets = 12;
+constexpr std::uint32_t many = 256;  // so many are split along their longest side: there it's space that counts
+
+Vec3 least(Vec3 a, Vec3 b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
+Vec3 most(Vec3 a, Vec3 b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
+
+float sine_of(float cosine) { return std::sqrt(std::max(0.0f, 1 - cosine * cosine)); }
+
+// Of both signs of the axis of a light that shines on both sides, the one that all such lights agree on.
+Vec3 upwards(Vec3 axis) {
+    const float x = std::fabs(axis.x), y = std::fabs(axis.y), z = std::fabs(axis.z);
+    const float greatest = x >= y && x >= z ? axis.x : y >= z ? axis.y : axis.z;
+    return greatest < 0 ? -axis : axis;
+}
+
+// Some lights: a box, and sums. As plain rows of numbers, which compilers turn into vectors.
+struct Heap {
+    std::array<float, 8> bounds;  // low, and high with its sign turned; two of no use
+    std::array<float, 4> sums;    // axis × intensity, intensity
+
+    Heap() {
+        bounds.fill(std::numeric_limits<float>::infinity());
+        sums.fill(0);
+    }
+    void add(const Heap& other) {
+        for (std::size_t k = 0; k < 8; ++k) bounds[k] = other.bounds[k] < bounds[k] ? other.bounds[k] : bounds[k];
+        for (std::size_t k = 0; k < 4; ++k) sums[k] += other.sums[k];
+    }
+    float intensity() const { return sums[3]; }
+    Vec3 extent() const { return {-bounds[4] - bounds[0], -bounds[5] - bounds[1], -bounds[6] - bounds[2]}; }
+};
+
+// Section 4.3: what lights cost that are in one node. The solid angle into which they shine, weighted by a cosine at
+// its rim, is that of a cap whose mean direction is as long as theirs: a bound, as nodes have, would follow the
+// outermost. Over π it is 1 for one direction, 4 for all, and within a tenth of a parabola by the cap's cosine in
+// between.
+float cost_of(const Heap& lights) {
+    const Vec3 sum{lights.sums[0], lights.sums[1], lights.sums[2]};
+    const float cosine = std::clamp(2 * length(sum) / lights.intensity() - 1, -1.0f, 1.0f);
+    const float angle = 3.571f - (1.5f + 1.071f * cosine) * cosine;
+    const Vec3 d = lights.extent();
+    const float area = 2 * (d.x * d.y + d.y * d.z + d.z * d.x) + length_squared(d) * 1e-3f;  // lines have none
+    return lights.intensity() * angle * area;
+}
+
+// Whole steps from `low`, so that they hold what they are to hold in spite of rounding.
+std::uint16_t steps_down(float value, float low, float step) {
+    if (!(step > 0)) return 0;
+    auto steps = std::int32_t(std::clamp(std::floor((value - low) / step), 0.0f, 65535.0f));
+    while (steps > 0 && low + step * float(steps) > value) --steps;
+    return std::uint16_t(steps);
+}
+std::uint16_t steps_up(float value, float low, float step) {
+    if (!(step > 0)) return 0;
+    auto steps = std::int32_t(std::clamp(std::ceil((value - low) / step), 0.0f, 65535.0f));
+    while (steps < 65535 && low + step * float(steps) < value) ++steps;
+    return std::uint16_t(steps);
+}
+std::int16_t rounded(float unit) { return std::int16_t(std::lround(std::clamp(unit, -1.0f, 1.0f) * 32767)); }
+std::int16_t rounded_down(float unit) { return std::int16_t(std::floor(std::clamp(unit, -1.0f, 1.0f) * 32767)); }
+
+// The cosine of the sum of two angles; -1 if that is more than half a turn.
+float cos_of_sum(float cos_a, float cos_b) {
+    return cos_a + cos_b <= 0 ? -1 : cos_a * cos_b - sine_of(cos_a) * sine_of(cos_b);
+}
+
+// Around some lights: their cone is about the mean of their directions.
+LightBounds around(std::span<const LightBounds> all) {
+    LightBounds sum = all[0];
+    Vec3 axis;
+    sum.intensity = 0;
+    sum.two_sided = std::any_of(all.begin(), all.end(), [](const LightBounds& one) { return one.two_sided; });
+    for (const LightBounds& one : all) {
+        sum.low = least(sum.low, one.low);
+        sum.high = most(sum.high, one.high);
+        sum.cos_reach = std::min(sum.cos_reach, one.cos_reach);
+        sum.intensity += one.intensity;
+        axis += (sum.two_sided ? upwards(one.axis) : one.axis) * one.intensity;
+    }
+    const float size = length(axis);
+    sum.axis = size > 1e-6f * sum.intensity ? axis / size : Vec3{0, 0, 1};
+    sum.cos_spread = 1;
+    for (const LightBounds& one : all) {
+        const float between = std::clamp(dot(sum.axis, one.axis), -1.0f, 1.0f);
+        const float cosine = sum.two_sided ? std::fabs(between) : between;
+        sum.cos_spread = std::min(sum.cos_spread, cos_of_sum(one.cos_spread, cosine));
+    }
+    return sum;
+}
+
+}  // namespace
+
+LightTreeBuilder::LightTreeBuilder(const std::vector<LightBounds>& lights) : lights_(lights) {
+    items_.reserve(lights.size());
+    for (std::uint32_t i = 0; i < lights.size(); ++i) {
+        const LightBounds& light = lights[i];
+        if (!(light.intensity > 0)) continue;
+        const Vec3 direction = light.two_sided ? upwards(light.axis) : light.axis;
+        items_.push_back({(light.low + light.high) * 0.5f, length(light.high - light.low) / 2,
+                          direction * (light.intensity * (1 + light.cos_spread) / 2), light.intensity, i});
+    }
+}
+
+struct LightTreeBuilder::Split {
+    std::size_t axis = 0, bucket = 0;
+    float low = 0, per_metre = 0;
+    std::size_t bucket_of(Vec3 p) const {
+        const float at = (p[axis] - low) * per_metre;
+        return at < float(buckets - 1) ? std::size_t(std::max(0.0f, at)) : buckets - 1;
+    }
+};
+
+// What both halves of each split along an axis cost: eq. 2.
+void LightTreeBuilder::try_axis(Part part, Split split, Vec3 extent, Split& best, float& least_cost) const {
+    std::array<Heap, buckets> heaps, above;
+    for (std::uint32_t i = part.first; i < part.last; ++i) {
+        const Item& item = items_[i];
+        const Vec3 p = item.center;
+        const float r = item.radius;
+        Heap one;
+        one.bounds = {p.x - r, p.y - r, p.z - r, 0, -p.x - r, -p.y - r, -p.z - r, 0};
+        one.sums = {item.axis.x, item.axis.y, item.axis.z, item.intensity};
+        heaps[split.bucket_of(p)].add(one);
+    }
+    const float stretch = std::max({extent.x, extent.y, extent.z}) / extent[split.axis];  // splits long sides first
+    Heap below, rest;
+    for (std::size_t i = buckets - 1; i > 0; --i) {
+        rest.add(heaps[i]);
+        above[i] = rest;
+    }
+    for (std::size_t i = 0; i + 1 < buckets; ++i) {
+        below.add(heaps[i]);
+        if (!(below.intensity() > 0) || !(above[i + 1].intensity() > 0)) continue;
+        const float cost = stretch * (cost_of(below) + cost_of(above[i + 1]));
+        if (!(cost < least_cost)) continue;
+        least_cost = cost;
+        best = split;
+        best.bucket = i;
+    }
+}
+
+/// Puts the lights of both halves side by side; returns where the second begins.
+std::uint32_t LightTreeBuilder::halve(Part part) {
+    Vec3 low = items_[part.first].center, high = low;
+    for (std::uint32_t i = part.first; i < part.last; ++i) {
+        low = least(low, items_[i].center);
+        high = most(high, items_[i].center);
+    }
+    const Vec3 extent = high - low;
+    const float longest = std::max({extent.x, extent.y, extent.z});
+    Split best;
+    float least_cost = std::numeric_limits<float>::infinity();
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (extent[axis] > 0 && (part.size() <= many || extent[axis] == longest))
+            try_axis(part, {axis, 0, low[axis], float(buckets) / extent[axis]}, extent, best, least_cost);
+    if (std::isinf(least_cost)) return part.first + part.size() / 2;  // all in one place
+    const auto begin = items_.begin();
+    const auto end = std::partition(begin + part.first, begin + part.last,
+                                    [&](const Item& item) { return best.bucket_of(item.center) <= best.bucket; });
+    return std::uint32_t(end - begin);
+}
+
+/// Up to eight parts, at the front of `parts`. None has more than eight lights, if there is room for that: nodes at the
+/// ends are full then.
+std::uint32_t LightTreeBuilder::cut(Part whole, std::array<Part, children>& parts) {
+    if (whole.size() <= children) {
+        for (std::uint32_t i = 0; i < whole.size(); ++i) parts[i] = {whole.first + i, whole.first + i + 1};
+        return whole.size();
+    }
+    parts[0] = whole;
+    std::uint32_t count = 1;
+    while (count < children) {
+        const auto largest =
+            std::max_element(parts.begin(), parts.begin() + count, [](Part a, Part b) { return a.size() < b.size(); });
+        if (largest->size() <= children) break;
+        const std::uint32_t middle = halve(*largest);
+        parts[count++] = {middle, largest->last};
+        largest->last = middle;
+    }
+    return count;
+}
+
+/// Depth first, without recursion: a tree may be as deep as there are lights.
+std::vector<LightTree::Node> LightTreeBuilder::build() {
+    if (items_.empty()) return {};
+    struct Task {
+        Part part;
+        std::uint32_t place;  // in the parent: its node × children, plus which child
+    };
+    std::vector<Task> tasks{{{0, std::uint32_t(items_.size())}, 0}};
+    while (!tasks.empty()) {
+        const auto [part, place] = tasks.back();
+        tasks.pop_back();
+        const auto here = std::uint32_t(nodes_.size());
+        LightTree::Node& node = nodes_.emplace_back();
+        node.parent = place;
+        if (here > 0) nodes_[place / children].child[place % children] = here;
+        std::array<Part, children> parts{};
+        const std::uint32_t count = cut(part, parts);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            node.intensity[i] = 1;  // there is one: see close()
+            if (parts[i].size() > 1) {
+                tasks.push_back({parts[i], here * children + i});
+                continue;
+            }
+            node.leaves |= std::uint8_t(1u << i);
+            node.child[i] = items_[parts[i].first].light;
+        }
+    }
+    bounds_.resize(nodes_.size());
+    for (std::size_t n = nodes_.size(); n > 0; --n) close(n - 1);  // children stand behind their parents
+    nodes_.shrink_to_fit();
+    return std::move(nodes_);
+}
+
+/// Writes what is known of a node's children, whose own children are closed.
+void LightTreeBuilder::close(std::size_t n) {
+    LightTree::Node& node = nodes_[n];
+    std::array<LightBounds, children> all;
+    std::uint32_t count = 0;
+    for (; count < children && node.intensity[count] > 0; ++count) {
+        const std::uint32_t child = node.child[count];
+        all[count] = (node.leaves >> count & 1) ? lights_[child] : bounds_[child];
+    }
+    bounds_[n] = around(std::span(all).first(count));
+    node.low = bounds_[n].low;
+    // A little more than needed, so that the last step is beyond the box.
+    node.step = (bounds_[n].high - node.low) * (1.00001f / 65535);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const auto& [low, high, axis, cos_spread, cos_reach, intensity, two_sided] = all[i];
+        node.lows.x[i] = steps_down(low.x, node.low.x, node.step.x);
+        node.lows.y[i] = steps_down(low.y, node.low.y, node.step.y);
+        node.lows.z[i] = steps_down(low.z, node.low.z, node.step.z);
+        node.highs.x[i] = steps_up(high.x, node.low.x, node.step.x);
+        node.highs.y[i] = steps_up(high.y, node.low.y, node.step.y);
+        node.highs.z[i] = steps_up(high.z, node.low.z, node.step.z);
+        node.axis.x[i] = rounded(axis.x);
+        node.axis.y[i] = rounded(axis.y);
+        node.axis.z[i] = rounded(axis.z);
+        node.cos_spread[i] = rounded_down(cos_spread);
+        node.sin_spread[i] = rounded(sine_of(float(node.cos_spread[i]) / 32767));
+        node.cos_reach[i] = rounded_down(cos_reach);
+        node.intensity[i] = intensity;
+        if (two_sided) node.two_sided |= std::uint8_t(1u << i);
+    }
+}
+
+}  // namespace lightnet
