@@ -40,6 +40,7 @@ public:
     Seen sample(Vec2 u) const;
     /// The next calls of sample() will be with these: memory that they need is fetched at once, and they don't wait for
     /// it one after the other.
+    /// DECISIONS: memory-of-a-sky-ahead
     void expect(std::span<const Vec2> u) const;
 
     /// Irradiance of its mean over all directions, were it all to arrive head-on: ∫ radiance dω, W·m⁻².
