@@ -114,6 +114,7 @@ public:
             const auto found = ray_to_lamp(scene_, at, {choice, numbers.places[path]}, heuristic);
             if (found) to.add(found->ray, weight(path) * found->light, sum(path) + found->group);
         };
+        if (!only_lamp_) expect_lights(numbers);
         if (!only_lamp_ || !shares(heuristic)) return each(sample);
         for (const auto& visitor : visitors_) sample(visitor.path, gathering(visitor));
         for (std::size_t i = 0; i < plain_.size(); ++i) plain_.set_numbers(i, numbers.places[plain_.who(i)]);
@@ -172,6 +173,16 @@ private:
         std::uint8_t lobes;
         const Rgb* inside;
     };
+    void expect_lights(const Numbers& numbers) {
+        expected_choices_.clear(), expected_places_.clear();
+        const auto expect = [&](std::uint32_t path) {
+            if (!numbers.choices.empty()) expected_choices_.push_back(numbers.choices[path]);
+            expected_places_.push_back(numbers.places[path]);
+        };
+        for (const auto& visitor : visitors_) expect(visitor.path);
+        for (std::size_t i = 0; i < plain_.size(); ++i) expect(plain_.who(i));
+        scene_.expect_lights(expected_choices_, expected_places_);
+    }
     void add_to_last(std::uint32_t path) {
         visitors_.push_back({path, static_cast<std::uint32_t>(points_.size() - 1)});
     }
@@ -196,6 +207,9 @@ private:
     std::vector<View> views_;
     std::vector<Bsdf> bsdfs_;
     std::vector<Visitor> visitors_;
+    // scratch space
+    std::vector<float> expected_choices_;
+    std::vector<Vec2> expected_places_;
 };
 
 /// with(index, Gathering) of each question, in another order than theirs.

@@ -177,6 +177,10 @@ std::optional<LightSample> Scene::sample_light(const LitPoint& from, float choic
     return lights_->sample(from, choice, u);
 }
 
+void Scene::expect_lights(std::span<const float> choices, std::span<const Vec2> u) const {
+    lights_->expect(choices, u);
+}
+
 const FlatLamp* Scene::only_flat_lamp() const { return lights_->only_flat_lamp(); }
 
 float Scene::light_pdf(const LitPoint& from, Vec3 direction, const SurfacePoint& on) const {

@@ -99,6 +99,8 @@ public:
     /// Chooses a light and a direction to it from `from`: to a point of a lamp, to a bare light, or to the environment.
     /// None: no light can reach the point by this sample.
     std::optional<LightSample> sample_light(const LitPoint& from, float choice, Vec2 u) const;
+    /// The next calls of sample_light() will be with these: fetches what they need. No `choices`: of the only light.
+    void expect_lights(std::span<const float> choices, std::span<const Vec2> u) const;
     /// What sample_light() always chooses, if that's a flat lamp; else null.
     const FlatLamp* only_flat_lamp() const;
     /// Density with which sample_light() finds the emitting point `on`, which lies in `direction` from `from`. 0 if it

@@ -9,6 +9,7 @@
 #include "core/base/math/sampling.hpp"
 #include "core/scene/direct_light.hpp"
 #include "core/scene/lamps/environment.hpp"
+#include "core/scene/lamps/shares.hpp"
 #include "core/scene/lamps/sky_layout.hpp"
 #include "core/scene/scene.hpp"
 #include "tests/support/both_ways.hpp"
@@ -101,6 +102,30 @@ TEST(Environment, ShowsItsPixelsWhereTheyBelong) {
     EXPECT_NEAR(Environment(data).radiance(ahead).r, upright.radiance({0, 0, -1}).r, 1e-4f);
 }
 
+TEST(Shares, AreFoundByMarksAsWithoutThem) {
+    for (const std::size_t count : {1u, 2u, 9u, 100u, 1000u}) {
+        std::vector<double> parts;
+        for (std::size_t i = 0; i < count; ++i) parts.push_back(i % 7 == 3 ? 0 : Samples(6, std::uint32_t(i)).next());
+        if (count == 1000) parts[500] = 1e5;
+        std::vector<float> ends;
+        running_shares(parts, ends);
+        for (const std::size_t pieces : {1u, 4u, 64u}) {
+            std::vector<std::uint32_t> starts(pieces + 1);
+            mark(ends, starts);
+            const auto expect_same = [&](float u) {
+                float plain = u, marked = u;
+                ASSERT_EQ(pick(ends, starts, marked), pick(ends, plain));
+                ASSERT_EQ(marked, plain);
+            };
+            for (std::uint32_t i = 0; i < 2000; ++i) expect_same(Samples(7, i).next());
+            for (const float end : ends)
+                for (const float u : {std::nextafter(end, 0.0f), end})
+                    if (u < 1) expect_same(u);
+            for (const float u : {0.0f, 0.25f, 0.5f, 0x1.fffffep-1f}) expect_same(u);
+        }
+    }
+}
+
 class Maps : public testing::TestWithParam<Layout> {};
 
 TEST_P(Maps, AreSmooth) {  // across pixels, and across the picture's borders
@@ -134,12 +159,17 @@ TEST_P(Maps, SampleWhatTheirDensitySays) {
     });
     double all = 0;
     for (const double e : expected) all += e;
+    int same_density = 0;
     for (std::uint32_t i = 0; i < n; ++i) {
-        const Vec3 d = sky.sample({float(mix(2 * i) >> 40) * 0x1p-24f, float(mix(2 * i + 1) >> 40) * 0x1p-24f});
+        const auto [d, radiance, pdf] =
+            sky.sample({float(mix(2 * i) >> 40) * 0x1p-24f, float(mix(2 * i + 1) >> 40) * 0x1p-24f});
         ASSERT_NEAR(length(d), 1, 1e-5f);
-        ASSERT_GT(sky.pdf(d), 0);
+        ASSERT_GT(pdf, 0);
+        ASSERT_NEAR(radiance.g, sky.radiance(d).g, 1e-2f);
+        same_density += pdf == sky.pdf(d);
         found[bin(d)] += 1;
     }
+    EXPECT_GT(same_density, 0.9999 * n);  // rounding may put a direction across the border of its cell
     double chi2 = 0;
     for (std::size_t i = 0; i < found.size(); ++i) {
         const double e = expected[i] / all * n;
@@ -148,6 +178,23 @@ TEST_P(Maps, SampleWhatTheirDensitySays) {
     }
     const double freedom = rows * columns - 1;  // mean and variance of chi-square are this and twice this
     EXPECT_LT(chi2, freedom + 4 * std::sqrt(2 * freedom));
+}
+
+TEST_P(Maps, SampleTheSameWhatIsExpected) {
+    const Environment sky(map_of(GetParam()));
+    std::vector<Vec2> u;
+    for (std::uint32_t i = 0; i < 1000; ++i) u.push_back(Samples(5, i).next_2d());
+    u.push_back({0, 0});
+    u.push_back({0x1.fffffep-1f, 0x1.fffffep-1f});
+    std::vector<Environment::Seen> before;
+    for (const Vec2 each : u) before.push_back(sky.sample(each));
+    sky.expect(u);
+    for (std::size_t i = 0; i < u.size(); ++i) {
+        const auto after = sky.sample(u[i]);
+        ASSERT_EQ(after.direction, before[i].direction);
+        ASSERT_EQ(after.radiance, before[i].radiance);
+        ASSERT_EQ(after.pdf, before[i].pdf);
+    }
 }
 
 TEST_P(Maps, CountAllTheirLight) {

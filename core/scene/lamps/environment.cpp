@@ -5,6 +5,8 @@
 #include "core/scene/lamps/sky_layout.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -86,7 +88,8 @@ void Environment::weigh() {
     for (std::uint32_t y = 0; y < h; ++y) {
         const double angle = row_solid_angle(y) / double(w);
         for (std::uint32_t x = 0; x < w; ++x) {
-            const Rgb c = pixel(x, y) * scale_;
+            const Rgb raw = image_->colour(x, y), c = pixel(x, y) * scale_;
+            all_usable_ &= raw.r == usable(raw.r) && raw.g == usable(raw.g) && raw.b == usable(raw.b);
             light[y * w + x] = luminance(c);
             r += c.r * angle;
             g += c.g * angle;
@@ -115,6 +118,23 @@ void Environment::weigh() {
                   row_solid_angle(std::uint32_t(y));
     }
     running_shares(rows, rows_);
+    mark_all();
+}
+
+// A mark for 16 cells: those are a line or two of the cache, and all marks may stay in it.
+void Environment::mark_all() {
+    const auto marks_for = [](std::size_t cells) { return std::bit_ceil(std::max<std::size_t>(1, cells / 16)) + 1; };
+    row_marks_.resize(marks_for(height_));
+    mark(rows_, row_marks_);
+    marks_per_row_ = marks_for(width_);
+    marks_.resize(marks_per_row_ * height_);
+    for (std::size_t y = 0; y < height_; ++y)
+        mark(columns_of(y), std::span(marks_).subspan(y * marks_per_row_, marks_per_row_));
+    for (std::uint32_t y = 0; y < height_; ++y) density_.push_back(float(double(width_) / row_solid_angle(y)));
+    for (std::size_t y = 0; y <= height_; ++y) {
+        const float half = std::sin(pi / 2 * float(y) / float(height_));
+        drops_.push_back(2 * half * half);
+    }
 }
 
 Vec2 Environment::to_square(Vec3 direction) const {
@@ -124,42 +144,95 @@ Vec2 Environment::to_square(Vec3 direction) const {
     return {within(p.x), within(p.y)};
 }
 
-Rgb Environment::radiance(Vec3 direction) const {
-    if (!image_) return scale_;
-    const Vec2 p = to_square(direction);
+Rgb Environment::radiance_at(Vec2 p) const {
     const float x = p.x * float(width_) - 0.5f, y = p.y * float(height_) - 0.5f;
     const float left = std::floor(x), top = std::floor(y), dx = x - left, dy = y - top;
     const auto i = std::int64_t(left), j = std::int64_t(top);
-    return scale_ * ((pixel(i, j) * (1 - dx) + pixel(i + 1, j) * dx) * (1 - dy) +
-                     (pixel(i, j + 1) * (1 - dx) + pixel(i + 1, j + 1) * dx) * dy);
+    const bool inside = i >= 0 && j >= 0 && i + 1 < width_ && j + 1 < height_;
+    if (inside && all_usable_) {
+        const auto column = std::uint32_t(i), row = std::uint32_t(j);
+        return scale_ * image_->square(column, column + 1, row, row + 1).bilinear(dx, dy);
+    }
+    return scale_ * Image::Square{pixel(i, j), pixel(i + 1, j), pixel(i, j + 1), pixel(i + 1, j + 1)}.bilinear(dx, dy);
 }
 
-Vec3 Environment::sample(Vec2 u) const {
-    if (!image_) return sphere(u);
-    const std::size_t y = pick(rows_, u.y);
-    const std::size_t x = pick(std::span(columns_).subspan(y * width_, width_), u.x);
-    const float across = (float(x) + u.x) / float(width_);
-    if (layout_ == EnvironmentData::Layout::equal_area)
-        return axes_.to_world(from_equal_area({across, (float(y) + u.y) / float(height_)}));
-    // Uniform in the cosine, counted from the nearer pole.
-    const bool below = 2 * y >= height_;
-    const auto drop = [&](std::size_t row) {  // 1 - cos
-        const float s = std::sin(pi / 2 * float(row) / float(height_));
-        return 2 * s * s;
-    };
-    const std::size_t from_pole = below ? height_ - 1 - y : y;
-    const float first = drop(from_pole), last = drop(from_pole + 1);
-    const float away = first + (last - first) * (below ? 1 - u.y : u.y), sine = std::sqrt(away * (2 - away));
-    const float phi = 2 * pi * (across - 0.5f);
-    return axes_.to_world({sine * std::sin(phi), below ? away - 1 : 1 - away, -sine * std::cos(phi)});
+float Environment::pdf_of(std::size_t x, std::size_t y) const {
+    return share_of(rows_, y) * share_of(columns_of(y), x) * density_[y];
+}
+
+// Who finds light there often asks for its density next, which is fetched meanwhile.
+Rgb Environment::radiance(Vec3 direction) const {
+    if (!image_) return scale_;
+    const Vec2 p = to_square(direction);
+    __builtin_prefetch(&columns_of(cell(p.y, height_))[cell(p.x, width_)]);
+    return radiance_at(p);
 }
 
 float Environment::pdf(Vec3 direction) const {
     if (!image_) return inverse_pi / 4;
     const Vec2 p = to_square(direction);
-    const std::uint32_t x = cell(p.x, width_), y = cell(p.y, height_);
-    const float chance = share_of(rows_, y) * share_of(std::span(columns_).subspan(std::size_t{y} * width_, width_), x);
-    return chance * float(double(width_) / row_solid_angle(y));
+    return pdf_of(cell(p.x, width_), cell(p.y, height_));
+}
+
+Environment::Seen Environment::look(Vec3 direction) const {
+    if (!image_) return {direction, scale_, inverse_pi / 4};
+    const Vec2 p = to_square(direction);
+    return {direction, radiance_at(p), pdf_of(cell(p.x, width_), cell(p.y, height_))};
+}
+
+void Environment::find_row(float u, Cell& cell) const {
+    cell.y = pick(rows_, row_marks_, u);
+    cell.within.y = u;
+}
+
+void Environment::find_column(float u, Cell& cell) const {
+    cell.x = pick(columns_of(cell.y), marks_of(cell.y), u);
+    cell.within.x = u;
+}
+
+// Uniform by solid angle: in rows of longitudes in the cosine, counted from the nearer pole.
+Environment::Seen Environment::seen_in(const Cell& cell) const {
+    const auto [x, y, within] = cell;
+    const float across = (float(x) + within.x) / float(width_), pdf = pdf_of(x, y);
+    if (layout_ == EnvironmentData::Layout::equal_area) {
+        const Vec2 p{across, (float(y) + within.y) / float(height_)};
+        return {axes_.to_world(from_equal_area(p)), radiance_at(p), pdf};
+    }
+    const bool below = 2 * y >= height_;
+    const std::size_t from_pole = below ? height_ - 1 - y : y;
+    const float first = drops_[from_pole], last = drops_[from_pole + 1];
+    const float away = first + (last - first) * (below ? 1 - within.y : within.y), sine = std::sqrt(away * (2 - away));
+    const float height = below ? away - 1 : 1 - away, phi = 2 * pi * (across - 0.5f);
+    const Vec2 p{std::min(across, 1.0f), std::min(std::atan2(sine, height) / pi, 1.0f)};
+    return {axes_.to_world({sine * std::sin(phi), height, -sine * std::cos(phi)}), radiance_at(p), pdf};
+}
+
+Environment::Seen Environment::sample(Vec2 u) const {
+    if (!image_) return {sphere(u), scale_, inverse_pi / 4};
+    Cell cell;
+    find_row(u.y, cell);
+    find_column(u.x, cell);
+    return seen_in(cell);
+}
+
+void Environment::expect(std::span<const Vec2> u) const {
+    constexpr std::size_t at_once = 32;
+    if (u.size() > at_once) expect(u.subspan(at_once));
+    u = u.first(std::min(at_once, u.size()));
+    std::array<Cell, at_once> cells;
+    for (std::size_t i = 0; i < u.size(); ++i) find_row(u[i].y, cells[i]);
+    for (std::size_t i = 0; i < u.size(); ++i) {
+        const auto marks = marks_of(cells[i].y);
+        const auto piece = std::size_t(u[i].x * float(marks_per_row_ - 1));
+        __builtin_prefetch(&columns_of(cells[i].y)[(marks[piece] + marks[piece + 1]) / 2]);
+    }
+    for (std::size_t i = 0; i < u.size(); ++i) {
+        auto& [x, y, within] = cells[i];
+        find_column(u[i].x, cells[i]);
+        const std::size_t left = within.x < 0.5f && x > 0 ? x - 1 : x, above = within.y < 0.5f && y > 0 ? y - 1 : y;
+        image_->expect(std::uint32_t(left), std::uint32_t(above));
+        image_->expect(std::uint32_t(left), std::uint32_t(std::min<std::size_t>(above + 1, height_ - 1)));
+    }
 }
 
 }  // namespace lightnet

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/base/math/frame.hpp"
@@ -25,29 +26,61 @@ public:
 
     /// Without a map it is the same everywhere, and sampled uniformly.
     bool has_map() const { return image_ != nullptr; }
-    /// A direction by importance: by the CDF of the rows, then by that of its row's columns.
-    Vec3 sample(Vec2 u) const;
     /// Density with which sample() finds `direction`, per steradian.
     float pdf(Vec3 direction) const;
+    /// What is in a direction.
+    struct Seen {
+        Vec3 direction;
+        Rgb radiance;
+        float pdf = 0;
+    };
+    /// radiance() and pdf().
+    Seen look(Vec3 direction) const;
+    /// Towards light, by importance: by the CDF of the rows, then by that of its row's columns.
+    Seen sample(Vec2 u) const;
+    /// The next calls of sample() will be with these: memory that they need is fetched at once, and they don't wait for
+    /// it one after the other.
+    /// DECISIONS: memory-of-a-sky-ahead
+    void expect(std::span<const Vec2> u) const;
 
     /// Irradiance of its mean over all directions, were it all to arrive head-on: ∫ radiance dω, W·m⁻².
     Rgb total() const { return total_; }
     /// Bytes, without the image.
-    std::size_t memory() const { return (columns_.size() + rows_.size()) * sizeof(float); }
+    std::size_t memory() const { return (columns_.size() + rows_.size() + marks_.size()) * sizeof(float); }
 
 private:
+    /// A cell, and the place within it: (0, 0) is its upper left corner.
+    struct Cell {
+        std::size_t x = 0, y = 0;
+        Vec2 within;
+    };
     Rgb pixel(std::int64_t x, std::int64_t y) const;
     void weigh();
+    void mark_all();
     double row_solid_angle(std::uint32_t y) const;
     Vec2 to_square(Vec3 direction) const;
+    Rgb radiance_at(Vec2 square) const;
+    float pdf_of(std::size_t x, std::size_t y) const;
+    Seen seen_in(const Cell& cell) const;
+    std::span<const float> columns_of(std::size_t y) const { return std::span(columns_).subspan(y * width_, width_); }
+    std::span<const std::uint32_t> marks_of(std::size_t y) const {
+        return std::span(marks_).subspan(y * marks_per_row_, marks_per_row_);
+    }
+    void find_row(float u, Cell& cell) const;
+    void find_column(float u, Cell& cell) const;
 
     Rgb scale_;
     std::shared_ptr<const Image> image_;
     EnvironmentData::Layout layout_;
     Frame axes_;  // its own, in world space
     std::uint32_t width_ = 0, height_ = 0;
-    std::vector<float> rows_;     // share of the light up to and with each row
-    std::vector<float> columns_;  // by row: share of the row's light up to and with each column
+    std::vector<float> rows_;                       // share of the light up to and with each row
+    std::vector<float> columns_;                    // by row: share of the row's light up to and with each column
+    std::vector<std::uint32_t> row_marks_, marks_;  // where to look in rows_; in columns_, by row: see mark()
+    std::size_t marks_per_row_ = 0;
+    std::vector<float> density_;  // by row: sr⁻¹ in a cell that has all light
+    std::vector<float> drops_;    // by edge of a row of longitudes, from the upper pole: 1 - cos of the angle
+    bool all_usable_ = true;      // each number of the picture
     Rgb total_;
 };
 

@@ -6,6 +6,7 @@
 #include "core/scene/lamps/shares.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -113,13 +114,34 @@ std::optional<LightSample> Lights::from_infinity(Vec3 from, float choice, Vec2 u
 }
 
 std::optional<LightSample> Lights::from_map(float choice, Vec2 u) const {
-    const std::uint32_t map = maps_[maps_.size() > 1 ? pick(map_ends_, choice) : 0];
-    const Vec3 direction = environments_[map].sample(u);
-    float density = 0;
-    for (std::size_t i = 0; i < maps_.size(); ++i)
-        density += share_of(map_ends_, i) * environments_[maps_[i]].pdf(direction);
-    if (!(density > 0)) return {};  // by rounding, at the border of a cell
-    return LightSample{{}, direction, environment(direction), density, false, true, environment_group_};
+    const std::size_t map_index = maps_.size() > 1 ? pick(map_ends_, choice) : 0;
+    const Environment::Seen seen = environments_[maps_[map_index]].sample(u);
+    if (maps_.size() == 1)
+        return LightSample{{}, seen.direction, constant_ + seen.radiance, seen.pdf, false, true, environment_group_};
+    float density = share_of(map_ends_, map_index) * seen.pdf;
+    Rgb radiance = constant_ + seen.radiance;
+    for (std::size_t i = 0; i < maps_.size(); ++i) {
+        if (i == map_index) continue;
+        const Environment::Seen other = environments_[maps_[i]].look(seen.direction);
+        density += share_of(map_ends_, i) * other.pdf;
+        radiance += other.radiance;
+    }
+    return LightSample{{}, seen.direction, radiance, density, false, true, environment_group_};
+}
+
+void Lights::expect(std::span<const float> choices, std::span<const Vec2> u) const {
+    if (maps_.size() != 1) return;
+    const Environment& map = environments_[maps_[0]];
+    if (choices.empty()) return map.expect(u);
+    const float first = share_of_tree_ + share_of_far_ * float(far_.size());
+    std::array<Vec2, 32> of_map;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < u.size(); ++i) {
+        if (choices[i] >= first) of_map[count++] = u[i];
+        if (count < of_map.size() && i + 1 < u.size()) continue;
+        map.expect(std::span(of_map).first(count));
+        count = 0;
+    }
 }
 
 float Lights::pdf(const LitPoint& from, Vec3 direction, const SurfacePoint& on) const {
@@ -185,9 +207,8 @@ std::optional<Emission> Lights::emit(float choice, Vec2 position_sample, Vec2 di
 }
 
 Emission Lights::from_sky(const Environment& environment, Vec2 position_sample, Vec2 direction_sample) const {
-    const Vec3 towards = environment.sample(direction_sample);
-    const float density = environment.pdf(towards);
-    return through_ball(-towards, density > 0 ? environment.radiance(towards) / density : Rgb{}, position_sample);
+    const auto [towards, radiance, density] = environment.sample(direction_sample);
+    return through_ball(-towards, density > 0 ? radiance / density : Rgb{}, position_sample);
 }
 
 // From a disk across the direction, before the ball.

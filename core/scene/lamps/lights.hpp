@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/base/math/rgb.hpp"
@@ -52,6 +53,8 @@ public:
     bool many() const { return choices_ > 1; }
     /// None: no light can reach the point by this sample.
     std::optional<LightSample> sample(const LitPoint& from, float choice, Vec2 u) const;
+    /// The next calls of sample() will be with these. No `choices`: there is but one light.
+    void expect(std::span<const float> choices, std::span<const Vec2> u) const;
     /// What sample() always chooses, if that's a flat lamp; else null.
     const FlatLamp* only_flat_lamp() const { return only_flat_lamp_ ? &*only_flat_lamp_ : nullptr; }
     /// Density with which sample() finds the emitting point `on`, which lies in `direction` from `from`. 0: not a lamp.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -33,6 +34,31 @@ inline std::size_t pick(std::span<const float> ends, float& u) {
         for (std::size_t i = 0; i + 1 < ends.size(); ++i) at += ends[i] <= u;  // none of these steps can be foretold
     else
         at = std::size_t(std::upper_bound(ends.begin(), ends.end() - 1, u) - ends.begin());
+    const float start = at == 0 ? 0 : ends[at - 1];
+    u = std::clamp((u - start) / (ends[at] - start), 0.0f, 0x1.fffffep-1f);
+    return at;
+}
+
+/// Marks that lead to one of many without a search among all: in starts[k] the least part that a number of the k-th
+/// equal piece of [0,1) may fall into, one behind the last. The number of pieces is a power of two.
+inline void mark(std::span<const float> ends, std::span<std::uint32_t> starts) {
+    const std::size_t pieces = starts.size() - 1;
+    std::uint32_t at = 0;
+    for (std::size_t k = 0; k < pieces; ++k) {
+        while (at + 1 < ends.size() && ends[at] <= float(k) / float(pieces)) ++at;
+        starts[k] = at;
+    }
+    starts[pieces] = std::uint32_t(ends.size() - 1);
+}
+
+/// As pick() without marks, to the bit, `u` in [0,1). No step can be foretold, so there is none to be foretold wrong.
+inline std::size_t pick(std::span<const float> ends, std::span<const std::uint32_t> starts, float& u) {
+    const auto piece = std::size_t(u * float(starts.size() - 1));
+    std::size_t at = starts[piece], left = starts[piece + 1] - at;
+    for (; left > 0; left /= 2) {
+        const std::size_t half = (left + 1) / 2;
+        at += ends[at + half - 1] <= u ? half : 0;
+    }
     const float start = at == 0 ? 0 : ends[at - 1];
     u = std::clamp((u - start) / (ends[at] - start), 0.0f, 0x1.fffffep-1f);
     return at;

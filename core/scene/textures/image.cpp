@@ -47,6 +47,30 @@ Rgb Image::colour(std::uint32_t x, std::uint32_t y) const {
     return {first, number(at + 1, curve_), number(at + 2, curve_)};
 }
 
+// What the numbers are is asked once, not for each.
+Image::Square Image::square(std::uint32_t left, std::uint32_t right, std::uint32_t above, std::uint32_t below) const {
+    const std::size_t upper = std::size_t{above} * width, lower = std::size_t{below} * width;
+    const auto all = [&](const auto& value) {
+        const auto colour = [&](std::size_t pixel) {
+            const std::size_t at = pixel * channels_;
+            if (channels_ < 3) return Rgb{value(at), value(at), value(at)};
+            return Rgb{value(at), value(at + 1), value(at + 2)};
+        };
+        return Square{colour(upper + left), colour(upper + right), colour(lower + left), colour(lower + right)};
+    };
+    const auto coded = [&](const auto& numbers) {
+        return all([by = curve_->data(), from = numbers.data()](std::size_t at) { return by[from[at]]; });
+    };
+    if (const auto* bytes = std::get_if<std::vector<std::uint8_t>>(&numbers_)) return coded(*bytes);
+    if (const auto* words = std::get_if<std::vector<std::uint16_t>>(&numbers_)) return coded(*words);
+    return all([from = std::get<std::vector<float>>(numbers_).data()](std::size_t at) { return from[at]; });
+}
+
+void Image::expect(std::uint32_t x, std::uint32_t y) const {
+    const std::size_t at = (std::size_t{y} * width + x) * channels_;
+    std::visit([&](const auto& numbers) { __builtin_prefetch(&numbers[at]); }, numbers_);
+}
+
 float Image::alpha(std::uint32_t x, std::uint32_t y) const {
     if (!has_alpha()) return 1;
     return number((std::size_t{y} * width + x) * channels_ + channels_ - 1, alpha_curve_);

@@ -34,6 +34,18 @@ public:
     bool has_alpha() const { return channels_ == 2 || channels_ == 4; }
     /// The colour of a pixel that is there.
     Rgb colour(std::uint32_t x, std::uint32_t y) const;
+    /// Those of four pixels that are there: of two rows, above and below, those of two columns, left and right.
+    struct Square {
+        Rgb upper_left, upper_right, lower_left, lower_right;
+        /// The weighted mean: `dx` of the right, `dy` of what is below.
+        Rgb bilinear(float dx, float dy) const {
+            return (upper_left * (1 - dx) + upper_right * dx) * (1 - dy) +
+                   (lower_left * (1 - dx) + lower_right * dx) * dy;
+        }
+    };
+    Square square(std::uint32_t left, std::uint32_t right, std::uint32_t above, std::uint32_t below) const;
+    /// A pixel that will soon be asked for.
+    void expect(std::uint32_t x, std::uint32_t y) const;
     /// How opaque that pixel is: 1 where nothing else is said.
     float alpha(std::uint32_t x, std::uint32_t y) const;
     /// Names what it shows. Another file, or another way to keep the same colours, may be another image.

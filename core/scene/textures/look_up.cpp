@@ -59,6 +59,14 @@ Rgb bilinear(const ImageTexture& texture, float x, float y) {
     const float left = std::floor(x), top = std::floor(y);
     const float dx = x - left, dy = y - top;
     const auto i = static_cast<std::int64_t>(left), j = static_cast<std::int64_t>(top);
+    if (texture.channel == ImageTexture::Channel::colour) {
+        const Image& image = *texture.image;
+        const auto x0 = wrapped(i, image.width, texture.wrap_u), x1 = wrapped(i + 1, image.width, texture.wrap_u);
+        const auto y0 = wrapped(j, image.height, texture.wrap_v), y1 = wrapped(j + 1, image.height, texture.wrap_v);
+        if (x0 >= 0 && x1 >= 0 && y0 >= 0 && y1 >= 0)
+            return image.square(std::uint32_t(x0), std::uint32_t(x1), std::uint32_t(y0), std::uint32_t(y1))
+                .bilinear(dx, dy);
+    }
     return (pixel(texture, i, j) * (1 - dx) + pixel(texture, i + 1, j) * dx) * (1 - dy) +
            (pixel(texture, i, j + 1) * (1 - dx) + pixel(texture, i + 1, j + 1) * dx) * dy;
 }
