@@ -1,5 +1,6 @@
 // Path guiding: learns beforehand where light comes from, for path tracing.
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <span>
 #include <string>
@@ -134,7 +135,7 @@ private:
     static constexpr std::size_t most_points = 4096;      // at which paths begin
     static constexpr std::size_t paths_per_shard = 1024;  // some ms
     static constexpr std::size_t records_per_shard = 65536;
-    static constexpr double hopeless = 0.7;   // of variance × work without a guide: after the first guided round
+    static constexpr double hopeless = 0.5;   // of variance × work without a guide: after the first guided round
     static constexpr double worth_it = 1.05;  // after the last
 
     Rehearsal& rehearsal_;

@@ -6,7 +6,7 @@ namespace lightnet {
 namespace {
 
 constexpr double work_of_guide = 1.35;  // per surface, beside paths without one: measured on rooms
-constexpr double dark = 0.1;            // of the mean over all points
+constexpr double dark = 0.5;            // of the mean over all points
 
 }  // namespace
 
@@ -24,26 +24,28 @@ void GuideTrial::add(std::size_t round, std::size_t point, const GuideRecord& pa
 }
 
 double GuideTrial::gain() const {
-    std::vector<double> means(points_), counts(points_);
-    double mean = 0;
+    if (rounds_.size() < 2) return 0;
+    std::vector<Point> points(points_);
+    double sum = 0, count = 0;
     for (const auto& round : rounds_)
-        for (const Path& path : round) means[path.point] += path.radiance, counts[path.point] += 1;
-    for (std::size_t i = 0; i < points_; ++i) {
-        if (counts[i] > 0) means[i] /= counts[i];
-        mean += means[i] / double(points_);
-    }
-    if (!(mean > 0) || rounds_.size() < 2) return 0;
-    const double alone = cost_of(rounds_.front(), means, dark * mean);
-    const double guided = work_of_guide * cost_of(rounds_.back(), means, dark * mean);
-    return guided > 0 ? alone / guided : 0;
+        for (const Path& path : round) {
+            points[path.point].radiance += path.radiance, points[path.point].paths += 1;
+            sum += path.radiance, count += 1;
+        }
+    if (!(sum > 0)) return 0;
+    const double least = dark * sum / count;
+    const double guided = work_of_guide * cost_of(rounds_.back(), points, least);
+    return guided > 0 ? cost_of(rounds_.front(), points, least) / guided : 0;
 }
 
-// Mean square error × surfaces.
-double GuideTrial::cost_of(const std::vector<Path>& round, std::span<const double> means, double least) const {
+// Mean square error × surfaces. A path is compared with the others of its point: a bright one must not hide itself.
+double GuideTrial::cost_of(const std::vector<Path>& round, std::span<const Point> points, double least) const {
     double squares = 0, surfaces = 0;
     for (const Path& path : round) {
-        const double off = path.radiance - means[path.point];
-        squares += off * off / (means[path.point] * means[path.point] + least * least);
+        const Point& point = points[path.point];
+        const double others = point.paths > 1 ? (point.radiance - path.radiance) / (point.paths - 1) : 0;
+        const double off = path.radiance - others;
+        squares += off * off / (others * others + least * least);
         surfaces += path.surfaces;
     }
     const auto count = double(round.size());

@@ -30,7 +30,10 @@ private:
         std::size_t point;
         double radiance, surfaces;
     };
-    double cost_of(const std::vector<Path>& round, std::span<const double> means, double least) const;
+    struct Point {
+        double radiance = 0, paths = 0;
+    };
+    double cost_of(const std::vector<Path>& round, std::span<const Point> points, double least) const;
 
     std::size_t points_;
     std::vector<std::vector<Path>> rounds_;
