@@ -83,8 +83,9 @@ TEST(GuidedPoint, FindsDirectionsWithTheDensityThatItSays) {
             const Vec2 inner{at.place.x * 16 - std::floor(at.place.x * 16),
                              at.place.y * 16 - std::floor(at.place.y * 16)};
             const auto off_border = [](float x) { return x > 1e-3f && x < 1 - 1e-3f; };
-            if (off_border(inner.x) && off_border(inner.y) && point.height(direction) > 1e-2f)
+            if (off_border(inner.x) && off_border(inner.y) && point.height(direction) > 1e-2f) {
                 EXPECT_NEAR(point.pdf(direction, 0) / pdf, 1, 1e-4);
+            }
         }
     }
 }
