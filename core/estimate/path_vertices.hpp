@@ -1,10 +1,14 @@
 // Surfaces that many light paths have come to at once.
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "core/estimate/light_guide.hpp"
 #include "core/scene/direct_light.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/surfaces/lambertian_surfaces.hpp"
@@ -29,10 +33,16 @@ struct ShadowRays {
 /// structure of arrays, the others one by one: what each path is told is the same, to the bit. One thread.
 class PathVertices {
 public:
-    explicit PathVertices(const Scene& scene)
-        : scene_(scene), lambertian_shapes_(scene.lambertian_shapes()), only_lamp_(scene.only_flat_lamp()) {}
+    /// `guide`: by which paths go on; null: by surfaces alone.
+    explicit PathVertices(const Scene& scene, const LightGuide* guide = nullptr)
+        : scene_(scene),
+          guide_(guide),
+          lambertian_shapes_(scene.lambertian_shapes()),
+          only_lamp_(scene.only_flat_lamp()) {}
 
-    void clear() { plain_.clear(), points_.clear(), views_.clear(), bsdfs_.clear(), visitors_.clear(); }
+    void clear() {
+        plain_.clear(), points_.clear(), views_.clear(), bsdfs_.clear(), visitors_.clear(), guided_.clear();
+    }
     bool full() const { return plain_.full(); }
     /// Path `path`, after those added before, has come to a surface, as seen from `outgoing`, through `inside`. Not
     /// when it is full. Only these `lobes` count.
@@ -87,6 +97,7 @@ public:
     /// How they scatter: before anything of the following is asked.
     void find_bsdfs() {
         for (const SurfacePoint& point : points_) scene_.add_bsdf(point, bsdfs_);
+        if (guide_) find_guided();
     }
 
     /// with(path, Gathering) of each.
@@ -96,7 +107,7 @@ public:
         for (std::size_t i = 0; i < plain_.size(); ++i) {
             const SurfacePoint point = plain_.point(i);
             const Bsdf bsdf = plain_.bsdf(i);
-            with(plain_.who(i), Gathering{point, bsdf, plain_.outgoing(i), lobe::all});
+            with(plain_.who(i), Gathering{point, bsdf, plain_.outgoing(i), lobe::all, nullptr, guidance_of_plain(i)});
         }
     }
 
@@ -118,7 +129,8 @@ public:
         if (!only_lamp_ || !shares(heuristic)) return each(sample);
         for (const auto& visitor : visitors_) sample(visitor.path, gathering(visitor));
         for (std::size_t i = 0; i < plain_.size(); ++i) plain_.set_numbers(i, numbers.places[plain_.who(i)]);
-        const auto& found = plain_.look_at(*only_lamp_, heuristic == Heuristic::power);
+        const auto& found =
+            guide_ ? plain_.look_at_whole(*only_lamp_) : plain_.look_at(*only_lamp_, heuristic == Heuristic::power);
         // Also what finds nothing is written, and then written over: what a point finds can't be foretold.
         std::size_t end = to.rays.size();
         to.resize(end + plain_.size());
@@ -127,6 +139,7 @@ public:
             const Vec3 light = found.light[i];
             to.rays[end] = {found.origin[i], found.direction[i], found.far[i]};
             to.light[end] = weight(path) * Rgb{light.x, light.y, light.z};
+            if (guide_ && found.found[i]) to.light[end] *= guided_share(i, heuristic);
             to.sums[end] = sum(path) + only_lamp_->group;
             end += found.found[i];
         }
@@ -139,26 +152,49 @@ public:
         Ray ray;
         LitPoint from;
         const Rgb* inside;  // what fills the space that it crosses; may be null
+        float known = -1;   // mean radiance that arrives there, by the guide; below 0: it does not know
+        float favour = 1;   // how much denser the direction is sampled than by the surface alone
     };
+    /// From now on step_record() can be asked.
+    void learn() { learns_ = true; }
+    /// In on() of scatter(): what of the last step a guide can learn from, without its light. None: nothing.
+    const std::optional<GuideRecord>& step_record() const { return record_; }
     /// on(path, Step) of each whose light is not absorbed, in the order in which they were added. choice(path) for
     /// those who need it.
     template <class Choice, class On>
     void scatter(std::span<const Vec2> directions, Choice&& choice, On&& on) {
-        for (std::size_t i = 0; i < plain_.size(); ++i) plain_.set_numbers(i, directions[plain_.who(i)]);
+        for (std::size_t i = 0; i < plain_.size(); ++i) {
+            const Vec2 u = directions[plain_.who(i)];
+            plain_.set_numbers(i, guide_ ? warped(i, u) : u);
+        }
         const auto& steps = plain_.sample();
         for (std::size_t i = 0, other = 0; i < plain_.size() || other < visitors_.size();) {
             if (other < visitors_.size() && (i == plain_.size() || visitors_[other].path < plain_.who(i))) {
                 const auto& visitor = visitors_[other++];
                 const Gathering at = gathering(visitor);
+                if (guide_ && guided_[visitor.point]) {
+                    const Vec2 numbers = directions[visitor.path];
+                    const auto step = guided_step(at, guided_[visitor.point], choice(visitor.path), numbers);
+                    if (!step) continue;
+                    if (learns_) note_step(at, *step);
+                    on(visitor.path, *step);
+                    continue;
+                }
                 const float chosen = at.bsdf.chooses() ? choice(visitor.path) : 0;
-                if (const auto step = at.bsdf.sample(at.outgoing, chosen, directions[visitor.path], at.lobes))
-                    on(visitor.path, step_to(at, *step));
+                const auto sample = at.bsdf.sample(at.outgoing, chosen, directions[visitor.path], at.lobes);
+                if (!sample) continue;
+                const Step step = step_to(at, *sample);
+                if (learns_) note_step(at, step);
+                on(visitor.path, step);
                 continue;
             }
             if (steps.pdf[i] != 0) {
-                const BsdfSample step{steps.incoming[i], plain_.albedo(i), steps.pdf[i], lobe::diffuse};
+                const float favour = guide_ ? favours_[i] : 1;
+                const BsdfSample step{steps.incoming[i], plain_.albedo(i) * (1 / favour), steps.pdf[i] * favour,
+                                      lobe::diffuse};
+                if (learns_) note_plain_step(i, favour);
                 const LitPoint from = lit_point(plain_.position(i), plain_.normal(i), plain_.outgoing(i));
-                on(plain_.who(i), Step{step, plain_.ray_from(i, step.incoming), from, nullptr});
+                on(plain_.who(i), Step{step, plain_.ray_from(i, step.incoming), from, nullptr, known_at_plain(i), favour});
             }
             ++i;
         }
@@ -188,7 +224,13 @@ private:
     }
     Gathering gathering(const Visitor& visitor) const {
         const auto& [outgoing, lobes, inside] = views_[visitor.point];
-        return {points_[visitor.point], bsdfs_[visitor.point], outgoing, lobes, inside};
+        const bool guided = guide_ && visitor.point < guided_.size() && guided_[visitor.point];
+        return {points_[visitor.point],
+                bsdfs_[visitor.point],
+                outgoing,
+                lobes,
+                inside,
+                guided ? &guided_[visitor.point] : nullptr};
     }
     static Step step_to(const Gathering& at, const BsdfSample& sample) {
         return {sample,
@@ -197,7 +239,97 @@ private:
                 filling(at.bsdf, at.point, at.outgoing, sample.incoming, at.inside)};
     }
 
+    GuideSide side_of_plain(std::size_t i) const {
+        return GuideSide::of(plain_.normal(i), plain_.shading(i), plain_.outgoing(i));
+    }
+    void find_guided() {
+        guided_plain_.resize(plain_.size());
+        for (std::size_t i = 0; i < plain_.size(); ++i)
+            guided_plain_[i] = guide_->at(plain_.position(i), side_of_plain(i), true);
+        guided_.resize(points_.size());
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+            const SurfacePoint& point = points_[i];
+            const GuideSide side = GuideSide::of(point.normal, point.shading.z, views_[i].outgoing);
+            const bool rough = bsdfs_[i].lobes() & views_[i].lobes & lobe::rough;
+            const bool even = bsdfs_[i].diffuse_albedo();
+            guided_[i] = rough ? guide_->at(point.position, side, even) : GuidedPoint();
+        }
+    }
+    const Guidance* guidance_of_plain(std::size_t i) const {
+        return guide_ && i < guided_plain_.size() && guided_plain_[i] ? &guided_plain_[i] : nullptr;
+    }
+    float known_at_plain(std::size_t i) const { return guide_ && guided_plain_[i] ? guided_plain_[i].radiance() : -1; }
+    Vec2 warped(std::size_t i, Vec2 u) {
+        favours_[i] = 1;
+        if (!guided_plain_[i]) return u;
+        const SquarePoint at = guided_plain_[i].warped(u);
+        favours_[i] = at.density;
+        return at.place;
+    }
+    /// Of the light that a point of the only lamp sends to a plain surface.
+    float guided_share(std::size_t i, Heuristic heuristic) const {
+        const auto& rays = plain_.rays_to_lamp();
+        const Vec3 direction = rays.direction[i];
+        const float pdf = guided_plain_[i] ? guided_plain_[i].pdf(direction, rays.pdf[i]) : rays.pdf[i];
+        return share(heuristic, rays.lamp_pdf[i], pdf);
+    }
+    /// One sample of guide and BSDF together.
+    static std::optional<Step> guided_step(const Gathering& at, const GuidedPoint& guided, float choice, Vec2 u) {
+        const float part = guided.share();
+        BsdfSample sample;
+        if (choice < part) {
+            sample.incoming = guided.direction(guided.warped(u).place);
+            sample.lobe = lobe::glossy;
+        } else {
+            const float rest = std::fmin((choice - part) / (1 - part), below_one);
+            const auto by_bsdf = at.bsdf.sample(at.outgoing, rest, u, at.lobes);
+            if (!by_bsdf) return {};
+            sample = *by_bsdf;
+            if (sample.lobe == lobe::specular) {
+                sample.weight *= 1 / (1 - part);
+                Step step = step_to(at, sample);
+                step.favour = 1 - part;
+                return step;
+            }
+        }
+        const auto [value, pdf] = at.bsdf.value_and_pdf(at.outgoing, sample.incoming, at.lobes);
+        if (is_black(value)) return {};
+        sample.pdf = guided.pdf(sample.incoming, pdf);
+        if (!(sample.pdf > 0)) return {};
+        sample.weight = value / sample.pdf;
+        Step step = step_to(at, sample);
+        step.known = guided.radiance();
+        step.favour = pdf > 0 ? sample.pdf / pdf : 1;
+        return step;
+    }
+
+    void note_plain_step(std::size_t i, float favour) {
+        const Vec2 place = plain_.numbers(i);
+        record_ = GuideRecord{plain_.position(i),
+                              0,
+                              favour,
+                              LightGuide::turn_of(side_of_plain(i)),
+                              {GuideRecord::packed(place.x), GuideRecord::packed(place.y)}};
+    }
+    void note_step(const Gathering& at, const Step& step) {
+        record_.reset();
+        const GuideSide side = GuideSide::of(at.point.normal, at.point.shading.z, at.outgoing);
+        const float z = dot(step.sample.incoming, side.up), height = side.turned ? -z : z;
+        if (step.sample.lobe == lobe::specular || !(height > least_height)) return;
+        const Frame frame = Frame::around(side.up);
+        const Vec2 place = from_disk({dot(step.sample.incoming, frame.x), dot(step.sample.incoming, frame.y)});
+        const float density = step.sample.pdf * pi / height;
+        record_ = GuideRecord{at.point.position,
+                              0,
+                              density,
+                              LightGuide::turn_of(side),
+                              {GuideRecord::packed(place.x), GuideRecord::packed(place.y)}};
+    }
+
+    static constexpr float least_height = 1e-3f;
+
     const Scene& scene_;
+    const LightGuide* guide_;
     std::span<const LambertianShape> lambertian_shapes_;
     const FlatLamp* only_lamp_;
     LambertianSurfaces plain_;
@@ -210,6 +342,11 @@ private:
     // scratch space
     std::vector<float> expected_choices_;
     std::vector<Vec2> expected_places_;
+    // as the guide knows them
+    std::vector<GuidedPoint> guided_, guided_plain_;
+    std::array<float, lanes> favours_;
+    bool learns_ = false;
+    std::optional<GuideRecord> record_;
 };
 
 /// with(index, Gathering) of each question, in another order than theirs.

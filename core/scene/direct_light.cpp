@@ -29,8 +29,9 @@ std::optional<LampRay> ray_to_lamp(const Scene& scene, const Gathering& at, cons
     if (!finds_lamps(scene, at)) return {};
     const auto lamp = scene.sample_light(lit_point(at), numbers.choice, numbers.place);
     if (!lamp || (!lamp->bare && heuristic == Heuristic::directions)) return {};
-    const auto [value, pdf] = at.bsdf.value_and_pdf(at.outgoing, lamp->direction, at.lobes);
+    const auto [value, bsdf_pdf] = at.bsdf.value_and_pdf(at.outgoing, lamp->direction, at.lobes);
     if (is_black(value)) return {};
+    const float pdf = at.guidance ? at.guidance->pdf(lamp->direction, bsdf_pdf) : bsdf_pdf;
     const float weight = lamp->bare || heuristic == Heuristic::lamps ? 1 : share(heuristic, lamp->pdf, pdf);
     const Ray ray = scene.ray_to(at.point, *lamp);
     Rgb light = value * lamp->radiance * (weight / lamp->pdf);

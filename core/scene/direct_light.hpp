@@ -40,13 +40,24 @@ inline const Rgb* filling(const Bsdf& bsdf, const SurfacePoint& point, Vec3 outg
     return same_side ? arriving : nullptr;
 }
 
+/// Says how directions are sampled at a point where that is not by its BSDF alone.
+class Guidance {
+public:
+    /// Density with which `direction` is found, per steradian. `bsdf`: that of the BSDF alone.
+    virtual float pdf(Vec3 direction, float bsdf) const = 0;
+
+protected:
+    ~Guidance() = default;
+};
+
 /// A point as its light is gathered.
 struct Gathering {
     const SurfacePoint& point;
     const Bsdf& bsdf;
     Vec3 outgoing;
     std::uint8_t lobes;
-    const Rgb* inside = nullptr;  // what lies between it and the viewer
+    const Rgb* inside = nullptr;         // what lies between it and the viewer
+    const Guidance* guidance = nullptr;  // of directions; null: by the BSDF
 };
 
 /// Where light is looked for, so that a surface sends it on to `outgoing`.

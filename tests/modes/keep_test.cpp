@@ -92,6 +92,39 @@ TEST_F(Keep, KeepsTheSameInEveryMode) {
     }
 }
 
+// The graph guided.lua in a folder of its own, with more parameters for its guide.
+TEST_F(Keep, LetsAGuideGoOnFromWhatAnotherRunHasLearnt) {
+    std::ofstream(folder / "cornell_box.pbrt") << bytes_of(graph_file("cornell_box.pbrt"));
+    const auto guided = [&](const std::string& name, const std::string& more) {
+        auto text = bytes_of(graph_file("guided.lua"));
+        text.replace(text.find("when = when"), 11, "when = 'always', " + more);
+        std::ofstream(folder / name) << text;
+        return folder / name;
+    };
+    const std::vector<std::string> few{"--size",     "32x32", "--samples", "4",    "-D",        "paths=7000",
+                                       "--progress", "plain", "--cache",   "none", "--threads", "1"};
+    const auto keeping = guided("first.lua", "keep = 'room.directions'");
+    ASSERT_EQ(launch(keeping, folder, few).code, 0);
+    const auto kept = bytes_of(folder / "room.directions");
+    EXPECT_TRUE(kept.starts_with("lightnet kept 1\nwhat light directions\n"));
+    std::filesystem::remove(folder / "room.directions");
+    auto daemons = few;
+    daemons[10] = "--local-workers", daemons[11] = "2";
+    ASSERT_EQ(launch(keeping, folder, daemons).code, 0);
+    EXPECT_TRUE(bytes_of(folder / "room.directions") == kept) << "on daemons";
+
+    const auto extending = guided("second.lua", "extend = 'room.directions'");
+    const auto alone = launch(guided("alone.lua", ""), folder, few), second = launch(extending, folder, few);
+    ASSERT_EQ(second.code, 0) << second.said;
+    EXPECT_FALSE(pixels_in(second.picture) == pixels_in(alone.picture)) << "what was kept should count";
+    EXPECT_TRUE(launch(extending, folder, daemons).picture == second.picture);
+
+    auto damaged = kept;
+    damaged.back() ^= 1;
+    std::ofstream(folder / "room.directions") << damaged;
+    EXPECT_THAT(launch(extending, folder, few).said, HasSubstr("room.directions' is damaged"));
+}
+
 TEST_F(Keep, IsRefusedForAnotherSceneAndForOtherFiles) {
     ASSERT_EQ(launch(graph("first.lua", ", keep = 'room.records'"), folder, with({})).code, 0);
     const auto extending = graph("second.lua", ", extend = 'room.records'");

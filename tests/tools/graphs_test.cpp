@@ -45,7 +45,7 @@ TEST(Graphs, AreSound) {
 TEST(Graphs, LeaveOutOnlyTheLightThatTheyMeanTo) {
     const Registry registry(standard_nodes());
     for (const char* whole : {"cornell.lua", "path.lua", "path_all.lua", "weights.lua", "ambient.lua",
-                              "paper/figure5.lua", "paper/figure8.lua", "progressive.lua"})
+                              "paper/figure5.lua", "paper/figure8.lua", "progressive.lua", "guided.lua"})
         EXPECT_THAT(examine(graph_called(whole), registry).notes, IsEmpty()) << whole;
     const auto notes = examine(graph_called("direct.lua"), registry).notes;
     ASSERT_EQ(notes.size(), 1u);

@@ -29,7 +29,7 @@ struct NodeServices {
     Concurrent* concurrent = nullptr;
     std::function<Whereabouts()> whereabouts = {};
     std::uint64_t* off_surface = nullptr;  // counts points asked about that no surface is near
-    bool checking = false;  // is this a run that looks for wrapped classes with a memory?
+    bool checking = false;                 // is this a run that looks for wrapped classes with a memory?
     std::function<const LightOp&(const std::string& node)> taken = {};  // a node of the same place
     Bytes kept = nullptr;                                               // by an earlier run
     bool has_passes = false;  // does a node of the graph learn anew for each pass?
@@ -59,6 +59,8 @@ public:
         if (services_.off_surface) ++*services_.off_surface;
     }
 
+    /// Was a parameter given that may be absent?
+    bool has(const std::string& param) const { return node_.params.contains(param); }
     /// The node that a parameter of type node names, at the same place. It has prepared when this one prepares:
     /// frozen() gives what it has learnt.
     const LightOp& taken(const std::string& param) const;

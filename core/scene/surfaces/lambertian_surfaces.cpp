@@ -68,44 +68,55 @@ const LambertianSurfaces::Steps& LambertianSurfaces::sample() {
     return steps_;
 }
 
-template <bool by_power, bool whole>
+template <LambertianSurfaces::Sharing sharing, bool parallelogram>
 struct LambertianSurfaces::Looking {
     LambertianSurfaces& at;
     const FlatLamp& lamp;
 
     // As ray_to_lamp().
     [[gnu::always_inline]] void work() {
-        constexpr Heuristic by = by_power ? Heuristic::power : Heuristic::balance;
+        constexpr Heuristic by = sharing == Sharing::by_power ? Heuristic::power : Heuristic::balance;
         const Facet facet = lamp.facet;
         const Rgb radiance = lamp.radiance;
         const float area = lamp.area;
         const bool two_sided = lamp.two_sided;
         for (std::size_t i = 0; i < at.count_; ++i) {
             const Vec3 position = at.position_[i], normal = at.normal_[i];
-            const Vec3 on_lamp = facet.at(Facet::uniform(at.numbers_[i], whole));
+            const Vec3 on_lamp = facet.at(Facet::uniform(at.numbers_[i], parallelogram));
             const DirectionToLamp way = direction_to_lamp(position, on_lamp, facet.normal, area, two_sided);
             const float pdf =
                 diffuse_pdf(at.shading_[i], normal, at.one_sided_[i] != 0, at.outgoing_[i], way.direction);
             const Rgb value = Rgb{at.albedo_.x[i], at.albedo_.y[i], at.albedo_.z[i]} * pdf;
-            const Rgb arriving = value * radiance * (share(by, way.pdf, pdf) / way.pdf);
+            const float part = sharing == Sharing::whole ? 1 : share(by, way.pdf, pdf);
+            const Rgb arriving = value * radiance * (part / way.pdf);
             const Ray ray =
                 ray_between(off_surface(position, normal, at.offset_[i], way.direction), on_lamp, way.direction);
             at.rays_.origin.set(i, ray.origin);
             at.rays_.direction.set(i, ray.direction);
             at.rays_.far[i] = ray.far;
             at.rays_.light.set(i, {arriving.r, arriving.g, arriving.b});
+            if constexpr (sharing == Sharing::whole) {
+                at.rays_.lamp_pdf[i] = way.pdf;
+                at.rays_.pdf[i] = pdf;
+            }
             at.rays_.found[i] = way.found & ((value.r != 0) | (value.g != 0) | (value.b != 0));
         }
     }
 };
 
-const LambertianSurfaces::RaysToLamp& LambertianSurfaces::look_at(const FlatLamp& lamp, bool by_power) {
-    const auto look = [&](auto looking) { work_in_lanes(looking); };
-    if (by_power)
-        lamp.whole ? look(Looking<true, true>{*this, lamp}) : look(Looking<true, false>{*this, lamp});
-    else
-        lamp.whole ? look(Looking<false, true>{*this, lamp}) : look(Looking<false, false>{*this, lamp});
+template <LambertianSurfaces::Sharing sharing>
+const LambertianSurfaces::RaysToLamp& LambertianSurfaces::look(const FlatLamp& lamp) {
+    const auto work = [](auto looking) { work_in_lanes(looking); };
+    lamp.whole ? work(Looking<sharing, true>{*this, lamp}) : work(Looking<sharing, false>{*this, lamp});
     return rays_;
+}
+
+const LambertianSurfaces::RaysToLamp& LambertianSurfaces::look_at(const FlatLamp& lamp, bool by_power) {
+    return by_power ? look<Sharing::by_power>(lamp) : look<Sharing::balanced>(lamp);
+}
+
+const LambertianSurfaces::RaysToLamp& LambertianSurfaces::look_at_whole(const FlatLamp& lamp) {
+    return look<Sharing::whole>(lamp);
 }
 
 }  // namespace lightnet

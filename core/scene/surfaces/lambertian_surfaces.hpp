@@ -42,6 +42,7 @@ public:
     std::uint32_t who(std::size_t i) const { return who_[i]; }
     Vec3 position(std::size_t i) const { return position_[i]; }
     Vec3 normal(std::size_t i) const { return normal_[i]; }
+    Vec3 shading(std::size_t i) const { return shading_[i]; }
     Vec3 outgoing(std::size_t i) const { return outgoing_[i]; }
     Rgb albedo(std::size_t i) const { return {albedo_.x[i], albedo_.y[i], albedo_.z[i]}; }
     /// As of one alone; but the point knows nothing of textures, nor which shape it is of.
@@ -50,6 +51,7 @@ public:
 
     /// The random numbers that sample() or look_at() uses next.
     void set_numbers(std::size_t i, Vec2 u) { numbers_.set(i, u); }
+    Vec2 numbers(std::size_t i) const { return numbers_[i]; }
 
     /// What Bsdf::sample() gives for each.
     struct Steps {
@@ -66,14 +68,23 @@ public:
         Columns3 origin, direction, light;
         Column far;
         Flags found;
+        Column lamp_pdf, pdf;  // where the light is whole: of the lamp, and of the surface
     };
     const RaysToLamp& look_at(const FlatLamp& lamp, bool by_power);
+    /// How that is weighted against finding the lamp by a direction.
+    enum class Sharing { by_power, balanced, whole };
+    /// The same without the weight that both techniques share by: the light is whole.
+    const RaysToLamp& look_at_whole(const FlatLamp& lamp);
+    /// What was found last.
+    const RaysToLamp& rays_to_lamp() const { return rays_; }
 
 private:
     struct Points;
     struct Sampling;
-    template <bool by_power, bool whole>
+    template <Sharing sharing, bool parallelogram>
     struct Looking;
+    template <Sharing sharing>
+    const RaysToLamp& look(const FlatLamp& lamp);
 
     // All in one place, so that the compiler sees that no column is another.
 

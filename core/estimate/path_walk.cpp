@@ -1,0 +1,387 @@
+#include "core/estimate/path_walk.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <optional>
+
+#include "core/base/math/columns.hpp"
+#include "core/base/math/many_samples.hpp"
+#include "core/estimate/path_vertices.hpp"
+#include "core/scene/direct_light.hpp"
+
+namespace lightnet {
+namespace {
+
+/// What paths find on their way, for a guide. Light that a surface scatters on is taken from what the guide knows of
+/// the surface, where it does, and not from where a single path went on to: Dahm & Keller 2017, "Learning Light
+/// Transport the Reinforced Way". So one round of paths carries light one surface farther, with little noise.
+class Lessons {
+public:
+    /// Of so many paths, from now on.
+    void begin(std::size_t paths) {
+        paths_ = paths;
+        lessons_.clear();
+        found_.clear();
+        surfaces_.assign(paths, 0);
+    }
+    /// A path goes on in a direction that brings `weight` times the light that it finds. `scattered`: what the surface
+    /// scatters of what the guide knows to arrive; below 0: it does not know.
+    void add(std::size_t path, const std::optional<GuideRecord>& record, Rgb weight, float scattered) {
+        lessons_.push_back({path, found_.size(), weight, scattered, record});
+        ++surfaces_[path];
+    }
+    /// All paths have been at their next surface. Takes what they found there.
+    void take(std::vector<Rgb>& sums, std::vector<Rgb>& totals) {
+        for (std::size_t i = 0; i < paths_; ++i) totals[i] += sums[i];
+        found_.push_back(sums);
+        sums.assign(paths_, Rgb{});
+    }
+    /// All paths have ended.
+    void end(std::vector<GuideRecord>& records) {
+        later_.assign(paths_, Rgb{});
+        scattered_.assign(paths_, -1.0f);
+        std::size_t last = lessons_.size();
+        for (std::size_t round = found_.size(); round-- > 0;) {
+            for (; last > 0 && lessons_[last - 1].round == round; --last) finish(lessons_[last - 1]);
+            for (std::size_t i = 0; i < paths_; ++i) later_[i] += found_[round][i];
+        }
+        for (const Lesson& lesson : lessons_)
+            if (lesson.record && lesson.record->sound()) records.push_back(*lesson.record);
+    }
+    std::size_t surfaces(std::size_t path) const { return surfaces_[path]; }
+
+private:
+    struct Lesson {
+        std::size_t path, round;
+        Rgb weight;
+        float scattered;
+        std::optional<GuideRecord> record;
+    };
+    void finish(Lesson& lesson) {
+        const auto arrived = [&](const Rgb& found) {
+            const auto part = [](float light, float times) { return times > 0 ? light / times : 0; };
+            const Rgb& w = lesson.weight;
+            return luminance({part(found.r, w.r), part(found.g, w.g), part(found.b, w.b)});
+        };
+        float& scattered = scattered_[lesson.path];
+        if (lesson.record && lesson.round + 1 < found_.size())
+            lesson.record->radiance = scattered < 0 ? arrived(later_[lesson.path])
+                                                    : arrived(found_[lesson.round + 1][lesson.path]) + scattered;
+        scattered = lesson.scattered;
+    }
+
+    std::size_t paths_ = 0;
+    std::vector<Lesson> lessons_;          // in the order of rounds
+    std::vector<std::vector<Rgb>> found_;  // by round, of each path
+    std::vector<std::size_t> surfaces_;    // of each path
+    // of each path, from its end back to here: what it found, and what its last surface scatters
+    std::vector<Rgb> later_;
+    std::vector<float> scattered_;
+};
+
+/// One call.
+class Walker {
+public:
+    Walker(const Scene& scene, const PathPlan& plan, Key key, const LightGuide* guide)
+        : scene_(scene),
+          guide_(guide),
+          groups_(static_cast<std::uint32_t>(scene.groups())),
+          key_(key),
+          samples_(plan.samples),
+          max_depth_(plan.max_depth),
+          roulette_depth_(plan.roulette_depth),
+          all_(plan.all),
+          looks_twice_(scene_.has_environment() && scene_.environment_pdf({0, 0, 1}) == 0) {}
+
+    void walk(std::span<const Query> questions, std::span<Rgb> answers, Learnt* learnt) const {
+        const std::size_t paths = questions.size() * samples_;
+        Batch batch(scene_, guide_);
+        Lessons lessons;
+        if (learnt) batch.learn(lessons);
+        std::vector<Rgb> totals;
+        for (std::size_t first = 0; first < paths; first += paths_at_once) {
+            const std::size_t last = std::min(paths, first + paths_at_once);
+            if (learnt) {
+                lessons.begin(last - first);
+                totals.assign(last - first, Rgb{});
+            }
+            start(batch, questions, first, last);
+            if (learnt) lessons.take(batch.sums, totals);
+            for (std::uint32_t depth = 1; !batch.paths.empty(); ++depth) {
+                go_on(batch, depth);
+                if (learnt) lessons.take(batch.sums, totals);
+            }
+            if (learnt) {
+                lessons.end(learnt->records);
+                batch.sums.swap(totals);
+                for (std::size_t i = 0; i < last - first; ++i)
+                    learnt->paths.push_back({luminance(batch.sums[i]), float(lessons.surfaces(i))});
+            }
+            for (std::size_t path = first; path < last; ++path)
+                for (std::size_t g = 0; g < groups_; ++g)
+                    answers[batch.asked[path - first] * groups_ + g] += batch.sums[(path - first) * groups_ + g];
+        }
+        for (Rgb& answer : answers) answer = answer / float(samples_);
+    }
+
+private:
+    static constexpr std::size_t paths_at_once = 256;
+    static constexpr std::size_t vertices_at_once = lanes;
+
+    /// A path between two of its vertices.
+    struct Path {
+        std::uint32_t sum;  // index into Batch::sums: of the first group of lamps
+        float eta_scale;    // of radiance by refraction, which is no loss: roulette must not see it
+        Rgb weight;
+        const Rgb* inside;  // what fills the space that it crosses; may be null
+        LitPoint from;
+        BsdfSample step;
+        float hoped = 0;  // light that all of the path is thought to bring, by a guide; 0: nobody knows
+    };
+    /// Random numbers of each path at its vertex, dimension by dimension.
+    struct Numbers {
+        std::vector<float> choices, survivals;
+        std::vector<Vec2> places, directions;
+    };
+    /// Some paths, and scratch space for them.
+    struct Batch {
+        Batch(const Scene& scene, const LightGuide* guide) : vertices(scene, guide) {}
+        void learn(Lessons& from) {
+            lessons = &from;
+            vertices.learn();
+        }
+
+        std::vector<Rgb> sums;           // of each path that began, group by group of lamps
+        std::vector<std::size_t> asked;  // the same: which question it's for
+        std::vector<Path> paths;
+        std::vector<Ray> rays;  // of each path
+        std::vector<std::optional<Hit>> hits;
+        ManySamples samples;  // of each path
+        Numbers numbers;
+        PathVertices vertices;
+        ShadowRays shadow_rays;
+        std::vector<std::uint8_t> occluded;
+        std::size_t kept = 0;        // paths and rays that go on
+        Lessons* lessons = nullptr;  // null: nobody learns
+    };
+    /// Each vertex of a path has these dimensions of its own, used or not.
+    enum Dimension : std::uint32_t {
+        choice_of_lamp,
+        place_on_lamp,
+        choice_of_second,
+        second_direction,
+        choice_of_lobe,
+        direction,
+        survival
+    };
+    static constexpr std::uint32_t dimensions = 7;
+
+    void start(Batch& batch, std::span<const Query> questions, std::size_t first, std::size_t last) const {
+        batch.sums.assign((last - first) * groups_, Rgb{});
+        batch.paths.clear();
+        batch.samples.keep(0);
+        batch.asked.clear();
+        for (std::size_t path = first; path < last;) {
+            const std::size_t q = path / samples_, end = std::min(last, (q + 1) * samples_);
+            const Key key = child(questions[q].stream, key_);
+            auto index = questions[q].sample * samples_ + static_cast<std::uint32_t>(path - q * samples_);
+            for (; path < end; ++path, ++index) {
+                batch.asked.push_back(q);
+                batch.samples.add(key, index);
+                batch.paths.push_back(
+                    {static_cast<std::uint32_t>(path - first) * groups_, 1, {1, 1, 1}, nullptr, {}, {}});
+            }
+        }
+        batch.rays.resize(batch.paths.size());
+        draw(batch, 0);
+        batch.kept = 0;
+        const auto question = [&](std::size_t path) -> const Query& { return questions[batch.asked[path]]; };
+        for (std::size_t next = 0; next < batch.paths.size();) {
+            next = batch.vertices.begin(next, batch.paths.size(), question);
+            go_round(batch, 0);
+        }
+        close(batch);
+    }
+
+    /// Takes all paths over their next vertex: the one of number `depth`.
+    void go_on(Batch& batch, std::uint32_t depth) const {
+        batch.hits.resize(batch.rays.size());
+        scene_.intersect(batch.rays, batch.hits);
+        draw(batch, depth);
+        batch.kept = 0;
+        for (std::size_t first = 0; first < batch.paths.size(); first += vertices_at_once)
+            visit(batch, first, std::min(batch.paths.size(), first + vertices_at_once), depth);
+        close(batch);
+    }
+
+    /// Keeps the paths that go on, and adds what shadow rays found where nothing is in between.
+    void close(Batch& batch) const {
+        batch.paths.resize(batch.kept);
+        batch.rays.resize(batch.kept);
+        batch.samples.keep(batch.kept);
+        ShadowRays& found = batch.shadow_rays;
+        batch.occluded.resize(found.rays.size());
+        scene_.occluded(found.rays, batch.occluded);
+        for (std::size_t i = 0; i < found.sums.size(); ++i)
+            batch.sums[found.sums[i]] += nothing_if(batch.occluded[i], found.light[i]);
+        found.resize(0);
+    }
+
+    /// Without a branch, as what is in the way can't be foretold.
+    static Rgb nothing_if(bool occluded, Rgb light) {
+        const std::uint32_t mask = std::uint32_t{occluded} - 1;
+        const auto masked = [&](float x) { return std::bit_cast<float>(std::bit_cast<std::uint32_t>(x) & mask); };
+        return {masked(light.r), masked(light.g), masked(light.b)};
+    }
+
+    void draw(Batch& batch, std::uint32_t depth) const {
+        const ManySamples& samples = batch.samples;
+        Numbers& numbers = batch.numbers;
+        const std::uint32_t first = depth * dimensions;
+        if (scene_.has_lamps() && (all_ || depth > 0)) samples.draw(first + place_on_lamp, numbers.places);
+        if (scene_.has_many_lamps()) samples.draw(first + choice_of_lamp, numbers.choices);
+        samples.draw(first + direction, numbers.directions);
+        if (guide_ || depth >= roulette_depth_) samples.draw(first + survival, numbers.survivals);
+    }
+
+    void visit(Batch& batch, std::size_t first, std::size_t last, std::uint32_t depth) const {
+        batch.vertices.clear();
+        for (std::size_t i = first; i < last; ++i) {
+            Path& path = batch.paths[i];
+            if (!batch.hits[i]) {
+                leave(path, depth, batch);
+                continue;
+            }
+            const Hit& hit = *batch.hits[i];
+            if (path.inside) path.weight *= left_after(path.inside, hit.distance);
+            batch.vertices.add(static_cast<std::uint32_t>(i), hit, -path.step.incoming, lobe::all, path.inside);
+        }
+        batch.vertices.find_points();
+        if (all_ || depth > 1)
+            batch.vertices.each_that_may_shine(
+                [&](std::uint32_t i, const SurfacePoint& point) { meet_lamp(batch.paths[i], point, batch); });
+        if (!max_depth_ || depth <= max_depth_) go_round(batch, depth);
+    }
+
+    /// What paths do at the surfaces that they have come to.
+    void go_round(Batch& batch, std::uint32_t depth) const {
+        batch.vertices.find_bsdfs();
+        if (depth > 0 || all_) look_around(batch, depth);
+        scatter(batch, depth);
+    }
+
+    /// What a path finds that meets nothing any more.
+    void leave(const Path& path, std::uint32_t depth, Batch& batch) const {
+        if (!all_ && depth == 1) return;
+        const float part = two_looks(depth - 1) ? 0.5f : 1.0f;
+        batch.sums[path.sum + scene_.environment_group()] +=
+            part * path.weight * light_by_bsdf(scene_, path.from, path.step, nullptr, heuristic);
+    }
+
+    /// What a path finds that may have come to a lamp.
+    void meet_lamp(const Path& path, const SurfacePoint& point, Batch& batch) const {
+        const Rgb light = light_by_bsdf(scene_, path.from, path.step, &point, heuristic);
+        if (!is_black(light)) batch.sums[path.sum + scene_.group_of(point)] += path.weight * light;
+    }
+
+    /// What paths find at surfaces by looking for light, rather than by batch on.
+    void look_around(Batch& batch, std::uint32_t depth) const {
+        const auto& paths = batch.paths;
+        if (scene_.has_lamps()) {
+            const Numbers& numbers = batch.numbers;
+            batch.vertices.sample_lamps(
+                {numbers.choices, numbers.places}, heuristic, batch.shadow_rays,
+                [&](std::uint32_t i) { return paths[i].weight; }, [&](std::uint32_t i) { return paths[i].sum; });
+        }
+        if (two_looks(depth))
+            batch.vertices.each([&](std::uint32_t i, const Gathering& at) { look_at_sky(batch, i, at, depth); });
+    }
+
+    void look_at_sky(Batch& batch, std::uint32_t i, const Gathering& at, std::uint32_t depth) const {
+        const Path& path = batch.paths[i];
+        Samples samples = batch.samples.at(i, depth * dimensions + choice_of_second);
+        const float choice = at.bsdf.chooses() ? samples.next() : samples.skip();
+        const auto found = at.bsdf.sample(at.outgoing, choice, samples.next_2d(), at.lobes);
+        if (!found) return;
+        const Rgb sky = found->weight * light_by_bsdf(scene_, lit_point(at), *found, nullptr, heuristic);
+        if (is_black(sky)) return;
+        batch.shadow_rays.add({at.point.origin_towards(found->incoming), found->incoming}, path.weight * (0.5f * sky),
+                              path.sum + scene_.environment_group());
+    }
+
+    /// Is the environment seen from the surface number `depth` looked at by two directions?
+    bool two_looks(std::uint32_t depth) const { return looks_twice_ && depth == (all_ ? 0 : 1); }
+
+    /// Sends paths on from surfaces, if they aren't absorbed.
+    void scatter(Batch& batch, std::uint32_t depth) const {
+        const auto choice = [&](std::uint32_t i) {
+            return batch.samples.at(i, depth * dimensions + choice_of_lobe).next();
+        };
+        batch.vertices.scatter(batch.numbers.directions, choice, [&](std::uint32_t i, const PathVertices::Step& step) {
+            send_on(batch, i, step, depth);
+        });
+    }
+
+    /// Puts a path that goes on into the place of one that was here before, or of itself. Who ends by chance, which
+    /// can't be foretold, is put there as well, and written over by the next.
+    void send_on(Batch& batch, std::size_t i, const PathVertices::Step& on, std::uint32_t depth) const {
+        const std::size_t to = batch.kept;
+        const Path& path = batch.paths[i];
+        Rgb weight = path.weight * on.sample.weight;
+        const float eta_scale = path.eta_scale * on.sample.eta * on.sample.eta;
+        const float kept =
+            max_component(weight) * on.favour * eta_scale / (max_component(path.weight) * path.eta_scale);
+        if (!(kept > 0)) return;
+        if (batch.lessons)
+            batch.lessons->add(path.sum, batch.vertices.step_record(), weight,
+                               on.known >= 0 ? std::min(kept, 1.0f) * on.known : -1);
+        const bool known = on.known >= 0;
+        const float hope = known ? max_component(path.weight) * std::min(kept, 1.0f) * on.known : 0;
+        const float hoped = known && depth == 0 ? hope : path.hoped;
+        float chance = depth >= roulette_depth_ ? chance_to_survive(kept) : 1;
+        if (known && depth > 0 && hoped > 0) chance = std::clamp(hope_counts * hope / hoped, least_chance, 1.0f);
+        bool survives = true;
+        if (chance < 1) {
+            survives = batch.numbers.survivals[i] < chance;
+            weight *= 1 / chance;
+        }
+        batch.kept += survives;
+        batch.samples.move(i, to);
+        batch.rays[to] = on.ray;
+        batch.paths[to] = {path.sum, eta_scale, weight, on.inside, on.from, on.sample, hoped};
+    }
+
+    /// Russian roulette: paths end by chance, and the others carry more. `kept` is the share of light that the last
+    /// surface leaves: by it alone, not by all that was lost before, paths end gradually from `roulette_depth` on.
+    /// Measured on rooms, variance × rays is a quarter to a half less than with a chance by the whole weight.
+    static float chance_to_survive(float kept) { return std::min(kept, 0.95f); }
+    // With a guide, by what the path may still bring, beside what all of it is thought to bring: Vorba & Křivánek 2016,
+    // "Adjoint-Driven Russian Roulette and Splitting in Light Transport Simulation", without splitting.
+    static constexpr float hope_counts = 4;
+    static constexpr float least_chance = 0.1f;
+
+    static constexpr Heuristic heuristic = Heuristic::power;
+
+    const Scene& scene_;
+    const LightGuide* guide_;
+    std::uint32_t groups_;  // of lamps
+    Key key_;
+    std::uint32_t samples_;
+    std::uint32_t max_depth_;
+    std::uint32_t roulette_depth_;
+    bool all_;          // direct light as well
+    bool looks_twice_;  // for the environment
+};
+
+}  // namespace
+
+void PathWalk::light(std::span<const Query> questions, Key key, const LightGuide* guide, std::span<Rgb> answers) const {
+    Walker(scene_, plan_, key, guide).walk(questions, answers, nullptr);
+}
+
+void PathWalk::learn(std::span<const Query> questions, Key key, const LightGuide* guide, Learnt& learnt) const {
+    std::vector<Rgb> answers(questions.size());
+    Walker(scene_, plan_, key, guide).walk(questions, answers, &learnt);
+}
+
+}  // namespace lightnet

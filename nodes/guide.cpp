@@ -1,0 +1,190 @@
+// Path guiding: learns beforehand where light comes from, for path tracing.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/estimate/guide_trial.hpp"
+#include "core/estimate/light_guide.hpp"
+#include "core/estimate/path_walk.hpp"
+#include "core/network/graph/kind.hpp"
+#include "core/network/light/light_op.hpp"
+#include "core/network/light/node_context.hpp"
+#include "core/network/light/rehearsal.hpp"
+#include "core/network/light/services.hpp"
+
+namespace lightnet {
+namespace {
+
+/// Müller, Gross & Novák 2017, "Practical Path Guiding for Efficient Light-Transport Simulation": follows light paths
+/// in rounds, each of twice as many as the one before and guided by what all before have found. It begins where path
+/// tracing that takes it is asked, in rehearsals. The first round, which nobody guides, is what the last one is
+/// compared with: where guided paths don't find more for the same work, nobody is guided. Pictures have no bias by it,
+/// however wrong it may be.
+class Guide final : public LightOp {
+public:
+    explicit Guide(const NodeContext& here)
+        : rehearsal_(here.rehearsal()),
+          key_(here.key()),
+          walk_(here.scene(), {}),
+          paths_(static_cast<std::size_t>(here.integer("paths"))),
+          always_(here.text("when") == "always"),
+          kept_(here.kept()),
+          keeps_(!here.text("keep").empty()) {}
+
+    void prepare(Services& services) override {
+        std::vector<GuideRecord> records = older();
+        const bool goes_on = !records.empty();
+        auto guide = goes_on ? made(services, records) : nullptr;
+        const std::vector<Query> questions = points(services);
+        GuideTrial trial(questions.size());
+        bool helps = true;
+        for (std::size_t round = 0; round < rounds && helps && !questions.empty(); ++round) {
+            learn(services, {questions, round, guide.get()}, records, trial);
+            if (!always_ && !goes_on && round > 0) helps = trial.gain() >= (round + 1 < rounds ? hopeless : worth_it);
+            guide = made(services, records);
+        }
+        const std::string learnt =
+            std::to_string(records.size()) + " directions in " + std::to_string(guide ? guide->size() : 0) + " places";
+        services.say(learnt + (helps ? "" : ", which help too little: paths go on by surfaces alone"));
+        if (keeps_) keep(services, records);
+        guide_ = helps && guide ? guide : std::make_shared<const LightGuide>();
+    }
+
+    void light(std::span<const Query> questions, std::span<Rgb>) const override {
+        for (const Query& question : questions) rehearsal_.note(question);
+    }
+
+    Frozen frozen() const override { return Frozen(guide_); }
+
+private:
+    struct Round {
+        std::span<const Query> questions;
+        std::size_t number;
+        const LightGuide* guide;
+    };
+
+    // In the order of their keys, which is none: all over the image.
+    static std::vector<Query> points(Services& services) {
+        std::vector<Query> questions;
+        for (std::uint32_t stride = coarsest; stride > 0 && questions.size() < most_points; stride /= 2)
+            questions = services.rehearse(stride);
+        if (questions.size() > most_points) questions.resize(most_points);
+        return questions;
+    }
+
+    /// Follows the paths of one round, on all places.
+    void learn(Services& services, const Round& round, std::vector<GuideRecord>& records, GuideTrial& trial) const {
+        services.doing("follows paths, round " + std::to_string(round.number + 1) + " of " + std::to_string(rounds));
+        const std::size_t unit = std::max<std::size_t>(1, paths_ / ((1u << rounds) - 1));
+        const std::size_t first = unit * ((1u << round.number) - 1), last = unit * ((2u << round.number) - 1);
+        const auto asked = [&](std::size_t path) {
+            Query question = round.questions[path % round.questions.size()];
+            question.sample = static_cast<std::uint32_t>(path / round.questions.size());
+            return question;
+        };
+        const auto found = services.map<GuideRecord>(
+            (last - first + paths_per_shard - 1) / paths_per_shard, [&](std::size_t shard, auto& out) {
+                const std::size_t begin = first + shard * paths_per_shard;
+                std::vector<Query> some;
+                for (std::size_t path = begin; path < std::min(last, begin + paths_per_shard); ++path)
+                    some.push_back(asked(path));
+                Learnt learnt;
+                walk_.learn(some, child(key_, key_, round.number), round.guide, learnt);
+                out.swap(learnt.records);
+                for (const PathRecord& path : learnt.paths) out.push_back(GuideTrial::record_of(path));
+            });
+        std::size_t path = first;
+        for (const GuideRecord& record : found) {
+            if (LightGuide::learns_from(record))
+                records.push_back(record);
+            else
+                trial.add(round.number, path++ % round.questions.size(), record);
+        }
+    }
+
+    static std::shared_ptr<const LightGuide> made(Services& services, const std::vector<GuideRecord>& records) {
+        services.doing("builds its tree");
+        return services.once<LightGuide>([&](Builders& builders) { return LightGuide(records, builders); });
+    }
+
+    // What an earlier run has kept of the same scene.
+    std::vector<GuideRecord> older() const {
+        if (!kept_) return {};
+        const Mapped<GuideRecord> records(kept_);
+        const auto wrong = [](const GuideRecord& record) { return !LightGuide::learns_from(record); };
+        if (std::any_of(records.begin(), records.end(), wrong))
+            throw Error("'extend' names a file with directions of light that no path can have found");
+        return {records.begin(), records.end()};
+    }
+
+    // The result of the last call is what is kept.
+    static void keep(Services& services, std::span<const GuideRecord> records) {
+        services.map<GuideRecord>(
+            (records.size() + records_per_shard - 1) / records_per_shard, [&](std::size_t shard, auto& out) {
+                const auto some = records.subspan(shard * records_per_shard);
+                out.assign(some.begin(), some.begin() + std::ptrdiff_t(std::min(some.size(), records_per_shard)));
+            });
+    }
+
+    static constexpr std::size_t rounds = 3;
+    static constexpr std::uint32_t coarsest = 8;          // pixels between points of the first rehearsal
+    static constexpr std::size_t most_points = 4096;      // at which paths begin
+    static constexpr std::size_t paths_per_shard = 1024;  // some ms
+    static constexpr std::size_t records_per_shard = 65536;
+    static constexpr double hopeless = 0.5;   // of variance × work without a guide: after the first guided round
+    static constexpr double worth_it = 1.05;  // after the last
+
+    Rehearsal& rehearsal_;
+    Key key_;
+    PathWalk walk_;
+    std::size_t paths_;
+    bool always_;
+    Bytes kept_;  // what an earlier run has kept of the same scene
+    bool keeps_;
+    std::shared_ptr<const LightGuide> guide_;  // null: it has not prepared yet
+};
+
+std::vector<Param> guide_params() {
+    return {
+        {.name = "paths",
+         .type = ParamType::integer,
+         .help = "light paths that it learns from",
+         .unit = "paths",
+         .initial = Value{150000.0},
+         .least = 64,
+         .most = 1 << 24},
+        {.name = "when",
+         .type = ParamType::text,
+         .help = "when paths are guided: where trials say that it pays, or always",
+         .initial = Value{"worthwhile"},
+         .choices = {"worthwhile", "always"}},
+        {.name = "extend",
+         .type = ParamType::text,
+         .help = "file of directions that a run has kept of this scene, to go on from; paths are then guided always; "
+                 "empty: none",
+         .initial = Value{""}},
+        {.name = "keep",
+         .type = ParamType::text,
+         .help = "file in which all directions are kept for later runs, from the graph's folder; empty: none",
+         .initial = Value{""}},
+    };
+}
+
+}  // namespace
+
+Kind guide_kind() {
+    return {
+        .name = "Guide",
+        .help = "no light: learns where light comes from, for path tracing that takes it as its guide",
+        .params = guide_params(),
+        .light = {.paths = always({})},
+        .run = {.prepares = true, .rehearses = true, .freezes = "light directions", .keeps = true},
+        .make_light = [](const NodeContext& here) { return std::make_unique<Guide>(here); },
+    };
+}
+
+}  // namespace lightnet

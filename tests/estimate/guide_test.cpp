@@ -1,0 +1,180 @@
+// What a guide knows of light, and how directions follow it.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "core/base/math/samples.hpp"
+#include "core/base/math/sampling.hpp"
+#include "core/estimate/guide_trial.hpp"
+#include "core/estimate/light_guide.hpp"
+
+namespace lightnet::guide_test {
+namespace {
+
+// Some cells with much, others with little.
+GuideSquare uneven_square() {
+    std::vector<double> parts(GuideSquare::cells);
+    for (std::size_t i = 0; i < parts.size(); ++i) parts[i] = 0.01 + double(mix(i) % 1000) / (i % 7 + 1);
+    return GuideSquare(parts);
+}
+
+TEST(GuideSquare, HasADensityOfOneOnAverage) {
+    const GuideSquare square = uneven_square();
+    double sum = 0;
+    for (std::size_t x = 0; x < GuideSquare::side; ++x)
+        for (std::size_t y = 0; y < GuideSquare::side; ++y)
+            sum += square.density({(float(x) + 0.5f) / GuideSquare::side, (float(y) + 0.5f) / GuideSquare::side});
+    EXPECT_NEAR(sum / GuideSquare::cells, 1, 1e-5);
+}
+
+TEST(GuideSquare, PutsAsManyPointsIntoEachCellAsItsDensitySays) {
+    const GuideSquare square = uneven_square();
+    constexpr std::uint32_t points = 1 << 18;
+    std::vector<double> counts(GuideSquare::cells);
+    for (std::uint32_t i = 0; i < points; ++i) {
+        const SquarePoint at = square.warp(Samples(7, i).next_2d());
+        ASSERT_TRUE(at.place.x >= 0 && at.place.x < 1 && at.place.y >= 0 && at.place.y < 1);
+        ASSERT_EQ(at.density, square.density(at.place));
+        ++counts[GuideSquare::cell_of(at.place)];
+    }
+    for (std::size_t cell = 0; cell < counts.size(); ++cell) {
+        const Vec2 middle{(float(cell / GuideSquare::side) + 0.5f) / GuideSquare::side,
+                          (float(cell % GuideSquare::side) + 0.5f) / GuideSquare::side};
+        const double expected = double(square.density(middle)) * points / GuideSquare::cells;
+        EXPECT_NEAR(counts[cell], expected, 5 * std::sqrt(expected) + 2) << cell;
+    }
+}
+
+TEST(GuideSquare, FindsThePlaceThatTheDiskCameFrom) {
+    for (std::uint32_t i = 0; i < 20000; ++i) {
+        const Vec2 u = Samples(11, i).next_2d();
+        const Vec2 back = from_disk(disk(u));
+        EXPECT_NEAR(back.x, u.x, 1e-5);
+        EXPECT_NEAR(back.y, u.y, 1e-5);
+    }
+    EXPECT_EQ(from_disk({0, 0}), (Vec2{0.5f, 0.5f}));
+    EXPECT_LT(from_disk({1, 0}).x, 1) << "there is a cell for it";
+}
+
+GuideCell uneven_cell(float share) { return {uneven_square(), share, 1}; }
+
+// The density integrates to one over all directions, and is that of the directions that come.
+TEST(GuidedPoint, FindsDirectionsWithTheDensityThatItSays) {
+    const GuideCell cell = uneven_cell(0.6f);
+    for (const bool turned : {false, true}) {
+        const GuideSide side{normalize({0.3f, -0.5f, 0.2f}), turned};
+        for (const bool even : {false, true}) {
+            const GuidedPoint point(&cell, side, even);
+            double sum = 0;
+            constexpr std::uint32_t directions = 1 << 18;
+            for (std::uint32_t i = 0; i < directions; ++i) {
+                const Vec3 direction = sphere(Samples(5, i).next_2d());
+                const float height = dot(direction, side.up) * (turned ? -1.0f : 1.0f);
+                sum += point.pdf(direction, height > 0 ? height * inverse_pi : 0) * 4 * pi;
+            }
+            EXPECT_NEAR(sum / directions, 1, 4e-3) << turned << even;
+        }
+        const GuidedPoint point(&cell, side, true);
+        for (std::uint32_t i = 0; i < 2000; ++i) {
+            const SquarePoint at = point.warped(Samples(3, i).next_2d());
+            const Vec3 direction = point.direction(at.place);
+            ASSERT_GE(point.height(direction), 0);
+            const float pdf = at.density * point.height(direction) * inverse_pi;
+            const Vec2 inner{at.place.x * 16 - std::floor(at.place.x * 16),
+                             at.place.y * 16 - std::floor(at.place.y * 16)};
+            const auto off_border = [](float x) { return x > 1e-3f && x < 1 - 1e-3f; };
+            if (off_border(inner.x) && off_border(inner.y) && point.height(direction) > 1e-2f) {
+                EXPECT_NEAR(point.pdf(direction, 0) / pdf, 1, 1e-4);
+            }
+        }
+    }
+}
+
+std::vector<GuideRecord> some_records(std::size_t count) {
+    std::vector<GuideRecord> records;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        Samples numbers(9, i);
+        const Vec2 where = numbers.next_2d(), place = numbers.next_2d();
+        GuideRecord record;
+        record.position = {where.x, where.y, 0};
+        record.radiance = where.x < 0.5f && place.x < 0.25f ? 10.0f : 0.1f;  // from one side, in one half of the floor
+        record.turn = LightGuide::turn_of({{0, 0, 1}, false});
+        record.place = {GuideRecord::packed(place.x), GuideRecord::packed(place.y)};
+        records.push_back(record);
+    }
+    return records;
+}
+
+class LastFirst final : public Builders {
+public:
+    void each(std::size_t count, const Piece& piece) override {
+        while (count > 0) piece(--count);
+    }
+};
+
+TEST(LightGuide, KnowsWhereLightComesFromAtEachPlace) {
+    OneBuilder alone;
+    const LightGuide guide(some_records(40000), alone);
+    EXPECT_GT(guide.size(), 4u);
+    const GuideSide up{{0, 0, 1}, false};
+    const auto bright = guide.at({0.2f, 0.5f, 0}, up, true), dim = guide.at({0.8f, 0.5f, 0}, up, true);
+    ASSERT_TRUE(bright && dim);
+    EXPECT_GT(bright.density({0.1f, 0.5f}), 5 * bright.density({0.7f, 0.5f}));
+    EXPECT_NEAR(dim.density({0.1f, 0.5f}), dim.density({0.7f, 0.5f}), 0.5f);
+    EXPECT_NEAR(bright.radiance(), 10.0f / 4 + 0.1f * 3 / 4, 0.3f);
+    EXPECT_NEAR(dim.radiance(), 0.1f, 1e-3f);
+    EXPECT_FALSE(guide.at({0.2f, 0.5f, 0}, {{0, 0, 1}, true}, true)) << "nobody was on the other side";
+    EXPECT_EQ(LightGuide().find({}, up), nullptr);
+}
+
+TEST(LightGuide, DoesNotDependOnWhoBuildsItInWhichOrder) {
+    const auto records = some_records(40000);
+    OneBuilder alone;
+    LastFirst backwards;
+    const LightGuide one(records, alone), other(records, backwards);
+    ASSERT_EQ(one.size(), other.size());
+    const GuideSide up{{0, 0, 1}, false};
+    for (std::uint32_t i = 0; i < 1000; ++i) {
+        Samples numbers(4, i);
+        const Vec2 where = numbers.next_2d(), place = numbers.next_2d();
+        const Vec3 position{where.x, where.y, 0};
+        EXPECT_EQ(one.at(position, up, true).density(place), other.at(position, up, true).density(place));
+        EXPECT_EQ(one.find(position, up)->radiance, other.find(position, up)->radiance);
+    }
+}
+
+TEST(LightGuide, DoesNotLearnFromWhatNoPathCanHaveFound) {
+    constexpr float none = std::numeric_limits<float>::quiet_NaN(), endless = std::numeric_limits<float>::infinity();
+    GuideRecord sound = some_records(1).front();
+    EXPECT_TRUE(LightGuide::learns_from(sound));
+    const auto broken = [&](auto&& breaks) {
+        GuideRecord record = sound;
+        breaks(record);
+        return record;
+    };
+    const std::vector<GuideRecord> wrong{
+        broken([&](auto& r) { r.radiance = none; }),   broken([&](auto& r) { r.radiance = -1; }),
+        broken([&](auto& r) { r.density = 0; }),       broken([&](auto& r) { r.density = endless; }),
+        broken([&](auto& r) { r.position.y = none; }), broken([&](auto& r) { r.turn = 0xffffffffu; })};
+    for (const auto& record : wrong) EXPECT_FALSE(LightGuide::learns_from(record));
+    OneBuilder alone;
+    EXPECT_EQ(LightGuide(wrong, alone).size(), 0u);
+}
+
+TEST(GuideTrial, ComparesTheVarianceOfGuidedPathsWithThatOfOthers) {
+    const auto gain = [](float spread) {
+        GuideTrial trial(100);
+        for (std::size_t path = 0; path < 4000; ++path) {
+            const float sign = path / 100 % 2 ? 1.0f : -1.0f;
+            trial.add(0, path % 100, GuideTrial::record_of({1 + 0.8f * sign, 3}));
+            trial.add(1, path % 100, GuideTrial::record_of({1 + spread * sign, 3}));
+        }
+        return trial.gain();
+    };
+    EXPECT_NEAR(gain(0.4f) * 1.35, 4, 1e-2);
+    EXPECT_LT(gain(0.8f), 1);
+    EXPECT_EQ(GuideTrial(10).gain(), 0) << "nothing was found";
+}
+
+}  // namespace
+}  // namespace lightnet::guide_test
