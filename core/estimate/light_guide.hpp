@@ -56,7 +56,7 @@ struct GuideSide {
     }
 };
 
-/// One point as a guide knows it. Directions are distributed half by the guide and half by the BSDF, or all by the
+/// One point as a guide knows it. Directions are distributed partly by the guide and partly by the BSDF, or all by the
 /// guide where the surface scatters evenly: one-sample model of multiple importance sampling, Veach 1997,
 /// section 9.2.4.
 class GuidedPoint final : public Guidance {
@@ -96,7 +96,7 @@ private:
 };
 
 /// Müller, Gross & Novák 2017, "Practical Path Guiding for Efficient Light-Transport Simulation": a tree over surfaces,
-/// whose leaves have a quadtree of directions each. Immutable; any thread may ask. It depends on its records alone, and
+/// whose leaves have a square of directions each, where theirs have a quadtree. Immutable; any thread may ask. It depends on its records alone, and
 /// on their order.
 class LightGuide {
 public:
