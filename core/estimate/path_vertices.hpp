@@ -161,18 +161,19 @@ public:
     const std::optional<GuideRecord>& step_record() const { return record_; }
     /// on(path, Step) of each whose light is not absorbed, in the order in which they were added. choice(path) for
     /// those who need it.
-    template <class Choice, class On>
+    /// Not `guided`: nobody learns, and there is no guide.
+    template <bool guided = false, class Choice, class On>
     void scatter(std::span<const Vec2> directions, Choice&& choice, On&& on) {
         for (std::size_t i = 0; i < plain_.size(); ++i) {
             const Vec2 u = directions[plain_.who(i)];
-            plain_.set_numbers(i, guide_ ? warped(i, u) : u);
+            plain_.set_numbers(i, guided && guide_ ? warped(i, u) : u);
         }
         const auto& steps = plain_.sample();
         for (std::size_t i = 0, other = 0; i < plain_.size() || other < visitors_.size();) {
             if (other < visitors_.size() && (i == plain_.size() || visitors_[other].path < plain_.who(i))) {
                 const auto& visitor = visitors_[other++];
                 const Gathering at = gathering(visitor);
-                if (guide_ && guided_[visitor.point]) {
+                if (guided && guide_ && guided_[visitor.point]) {
                     const Vec2 numbers = directions[visitor.path];
                     const auto step = guided_step(at, guided_[visitor.point], choice(visitor.path), numbers);
                     if (!step) continue;
@@ -184,17 +185,22 @@ public:
                 const auto sample = at.bsdf.sample(at.outgoing, chosen, directions[visitor.path], at.lobes);
                 if (!sample) continue;
                 const Step step = step_to(at, *sample);
-                if (learns_) note_step(at, step);
+                if (guided && learns_) note_step(at, step);
                 on(visitor.path, step);
                 continue;
             }
             if (steps.pdf[i] != 0) {
-                const float favour = guide_ ? favours_[i] : 1;
-                const BsdfSample step{steps.incoming[i], plain_.albedo(i) * (1 / favour), steps.pdf[i] * favour,
-                                      lobe::diffuse};
-                if (learns_) note_plain_step(i, favour);
-                const LitPoint from = lit_point(plain_.position(i), plain_.normal(i), plain_.outgoing(i));
-                on(plain_.who(i), Step{step, plain_.ray_from(i, step.incoming), from, nullptr, known_at_plain(i), favour});
+                BsdfSample step{steps.incoming[i], plain_.albedo(i), steps.pdf[i], lobe::diffuse};
+                float favour = 1, known = -1;
+                if constexpr (guided) {
+                    if (guide_) favour = favours_[i], known = known_at_plain(i);
+                    step.weight *= 1 / favour, step.pdf *= favour;
+                    if (learns_) note_plain_step(i, favour);
+                }
+                const Vec3 at = plain_.position(i);
+                const LitPoint from = only_lamp_ ? LitPoint(at)  // nothing to choose
+                                                 : lit_point(at, plain_.normal(i), plain_.outgoing(i));
+                on(plain_.who(i), Step{step, plain_.ray_from(i, step.incoming), from, nullptr, known, favour});
             }
             ++i;
         }

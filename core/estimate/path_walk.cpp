@@ -79,7 +79,8 @@ private:
     std::vector<float> scattered_;
 };
 
-/// One call.
+/// One call. `guided`: by a guide, or for one; apart, as what it takes costs a tenth of the time where there is none.
+template <bool guided>
 class Walker {
 public:
     Walker(const Scene& scene, const PathPlan& plan, Key key, const LightGuide* guide)
@@ -135,7 +136,10 @@ private:
         Rgb weight;
         const Rgb* inside;  // what fills the space that it crosses; may be null
         LitPoint from;
-        BsdfSample step;
+        // of the sample by which it goes on
+        Vec3 incoming;
+        float pdf = 0;
+        std::uint8_t lobe = 0;
         float hoped = 0;  // light that all of the path is thought to bring, by a guide; 0: nobody knows
     };
     /// Random numbers of each path at its vertex, dimension by dimension.
@@ -254,7 +258,7 @@ private:
             }
             const Hit& hit = *batch.hits[i];
             if (path.inside) path.weight *= left_after(path.inside, hit.distance);
-            batch.vertices.add(static_cast<std::uint32_t>(i), hit, -path.step.incoming, lobe::all, path.inside);
+            batch.vertices.add(static_cast<std::uint32_t>(i), hit, -path.incoming, lobe::all, path.inside);
         }
         batch.vertices.find_points();
         if (all_ || depth > 1)
@@ -270,17 +274,19 @@ private:
         scatter(batch, depth);
     }
 
+    static BsdfSample step_of(const Path& path) { return {path.incoming, {}, path.pdf, path.lobe}; }
+
     /// What a path finds that meets nothing any more.
     void leave(const Path& path, std::uint32_t depth, Batch& batch) const {
         if (!all_ && depth == 1) return;
         const float part = two_looks(depth - 1) ? 0.5f : 1.0f;
         batch.sums[path.sum + scene_.environment_group()] +=
-            part * path.weight * light_by_bsdf(scene_, path.from, path.step, nullptr, heuristic);
+            part * path.weight * light_by_bsdf(scene_, path.from, step_of(path), nullptr, heuristic);
     }
 
     /// What a path finds that may have come to a lamp.
     void meet_lamp(const Path& path, const SurfacePoint& point, Batch& batch) const {
-        const Rgb light = light_by_bsdf(scene_, path.from, path.step, &point, heuristic);
+        const Rgb light = light_by_bsdf(scene_, path.from, step_of(path), &point, heuristic);
         if (!is_black(light)) batch.sums[path.sum + scene_.group_of(point)] += path.weight * light;
     }
 
@@ -317,14 +323,15 @@ private:
         const auto choice = [&](std::uint32_t i) {
             return batch.samples.at(i, depth * dimensions + choice_of_lobe).next();
         };
-        batch.vertices.scatter(batch.numbers.directions, choice, [&](std::uint32_t i, const PathVertices::Step& step) {
+        batch.vertices.template scatter<guided>(batch.numbers.directions, choice, [&](std::uint32_t i, const PathVertices::Step& step) {
             send_on(batch, i, step, depth);
         });
     }
 
     /// Puts a path that goes on into the place of one that was here before, or of itself. Who ends by chance, which
     /// can't be foretold, is put there as well, and written over by the next.
-    void send_on(Batch& batch, std::size_t i, const PathVertices::Step& on, std::uint32_t depth) const {
+    [[gnu::always_inline]] void send_on(Batch& batch, std::size_t i, const PathVertices::Step& on,
+                                        std::uint32_t depth) const {
         const std::size_t to = batch.kept;
         const Path& path = batch.paths[i];
         Rgb weight = path.weight * on.sample.weight;
@@ -332,23 +339,26 @@ private:
         const float kept =
             max_component(weight) * on.favour * eta_scale / (max_component(path.weight) * path.eta_scale);
         if (!(kept > 0)) return;
-        if (batch.lessons)
-            batch.lessons->add(path.sum, batch.vertices.step_record(), weight,
-                               on.known >= 0 ? std::min(kept, 1.0f) * on.known : -1);
-        const bool known = on.known >= 0;
-        const float hope = known ? max_component(path.weight) * std::min(kept, 1.0f) * on.known : 0;
-        const float hoped = known && depth == 0 ? hope : path.hoped;
-        float chance = depth >= roulette_depth_ ? chance_to_survive(kept) : 1;
-        if (known && depth > 0 && hoped > 0) chance = std::clamp(hope_counts * hope / hoped, least_chance, 1.0f);
+        float chance = depth >= roulette_depth_ ? chance_to_survive(kept) : 1, hoped = 0;
+        if constexpr (guided) {
+            if (batch.lessons)
+                batch.lessons->add(path.sum, batch.vertices.step_record(), weight,
+                                   on.known >= 0 ? std::min(kept, 1.0f) * on.known : -1);
+            const bool known = on.known >= 0;
+            const float hope = known ? max_component(path.weight) * std::min(kept, 1.0f) * on.known : 0;
+            hoped = known && depth == 0 ? hope : path.hoped;
+            if (known && depth > 0 && hoped > 0) chance = std::clamp(hope_counts * hope / hoped, least_chance, 1.0f);
+        }
         bool survives = true;
-        if (chance < 1) {
+        if (depth >= roulette_depth_ || (guided && chance < 1)) {
             survives = batch.numbers.survivals[i] < chance;
             weight *= 1 / chance;
         }
         batch.kept += survives;
         batch.samples.move(i, to);
         batch.rays[to] = on.ray;
-        batch.paths[to] = {path.sum, eta_scale, weight, on.inside, on.from, on.sample, hoped};
+        const BsdfSample& by = on.sample;
+        batch.paths[to] = {path.sum, eta_scale, weight, on.inside, on.from, by.incoming, by.pdf, by.lobe, hoped};
     }
 
     /// Russian roulette: paths end by chance, and the others carry more. `kept` is the share of light that the last
@@ -376,12 +386,15 @@ private:
 }  // namespace
 
 void PathWalk::light(std::span<const Query> questions, Key key, const LightGuide* guide, std::span<Rgb> answers) const {
-    Walker(scene_, plan_, key, guide).walk(questions, answers, nullptr);
+    if (guide)
+        Walker<true>(scene_, plan_, key, guide).walk(questions, answers, nullptr);
+    else
+        Walker<false>(scene_, plan_, key, nullptr).walk(questions, answers, nullptr);
 }
 
 void PathWalk::learn(std::span<const Query> questions, Key key, const LightGuide* guide, Learnt& learnt) const {
     std::vector<Rgb> answers(questions.size());
-    Walker(scene_, plan_, key, guide).walk(questions, answers, &learnt);
+    Walker<true>(scene_, plan_, key, guide).walk(questions, answers, &learnt);
 }
 
 }  // namespace lightnet
