@@ -323,9 +323,8 @@ private:
         const auto choice = [&](std::uint32_t i) {
             return batch.samples.at(i, depth * dimensions + choice_of_lobe).next();
         };
-        batch.vertices.template scatter<guided>(batch.numbers.directions, choice, [&](std::uint32_t i, const PathVertices::Step& step) {
-            send_on(batch, i, step, depth);
-        });
+        const auto on = [&](std::uint32_t i, const PathVertices::Step& step) { send_on(batch, i, step, depth); };
+        batch.vertices.template scatter<guided>(batch.numbers.directions, choice, on);
     }
 
     /// Puts a path that goes on into the place of one that was here before, or of itself. Who ends by chance, which

@@ -10,7 +10,7 @@ namespace {
 constexpr double enough = 0.05;       // seconds of work for each helper: it is asked again long before they are over
 constexpr std::size_t at_first = 64;  // questions, as long as nobody knows how long they take
 constexpr auto judged_every = std::chrono::milliseconds(10);
-constexpr double less = 0.85, more = 1.03;  // times what they got before
+constexpr double lessened = 0.85, raised = 1.03;  // times what they got before
 constexpr double least_part = 0.01;         // so that it is tried again
 
 }  // namespace
@@ -56,7 +56,7 @@ void Place::use(std::size_t node, std::size_t width, PlannedPort& port) {
 void Place::judge(Relieved& relieved, Clock::time_point now) {
     if (now - relieved.judged < judged_every) return;
     relieved.judged = now;
-    const double next = relieved.part * (std::exchange(relieved.idled, false) ? less : more);
+    const double next = relieved.part * (std::exchange(relieved.idled, false) ? lessened : raised);
     relieved.part = std::clamp(next, least_part, relieved.most);
 }
 
