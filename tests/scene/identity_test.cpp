@@ -93,7 +93,7 @@ public:
         else if constexpr (requires { value.x; })
             each(value.x, value.y);
         else
-            visit_members(value, [this](auto&... members) { each(members...); });
+            visit_members(value, [&me = *this](auto&... members) { me.each(members...); });
     }
     template <class T>
     void operator()(std::optional<T>& value) {
