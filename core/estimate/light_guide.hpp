@@ -96,8 +96,8 @@ private:
 };
 
 /// Müller, Gross & Novák 2017, "Practical Path Guiding for Efficient Light-Transport Simulation": a tree over surfaces,
-/// whose leaves have a square of directions each, where theirs have a quadtree. Immutable; any thread may ask. It depends on its records alone, and
-/// on their order.
+/// whose leaves have a square of directions each, where theirs have a quadtree. Immutable; any thread may ask. It
+/// depends on its records alone, and on their order.
 class LightGuide {
 public:
     /// Knows nothing.

@@ -66,8 +66,6 @@ public:
     };
 
 private:
-    struct Builder;
-
     std::vector<Node> nodes_;
     std::vector<std::uint32_t> place_of_;  // by light: its node × width, plus which child of it; none
     static constexpr std::uint32_t none = 0xffffffffu;
