@@ -7,15 +7,13 @@ set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
 set(CMAKE_VERIFY_INTERFACE_HEADER_SETS ON)
 
-# Same bytes everywhere: no fused multiply-add behind our back, no fast-math, one instruction set.
+# Same bytes everywhere: no fused multiply-add behind our back, no fast-math, one instruction set. Nobody asks for errno or
+# for the flags of exceptions: without these a root is one instruction, and loops become vectors, with the same bits.
 # DECISIONS: instruction-set
-add_compile_options(-ffp-contract=off -march=${LIGHTNET_ARCH})
+add_compile_options(-ffp-contract=off -fno-math-errno -fno-trapping-math -march=${LIGHTNET_ARCH})
 # Else how fast a short loop is would depend on where the linker happens to put it: differently in each program.
 # DECISIONS: aligned-functions
 add_compile_options($<$<CONFIG:Release>:-falign-functions=64>)
-# For files that many roots are drawn in. Nobody asks for errno or for the flags of exceptions; a root is then one
-# instruction, and loops over roots become vectors, with the same bits.
-set(lightnet_quick_roots -fno-math-errno -fno-trapping-math)
 
 # Warnings are each target's own business; -Werror comes from the dev preset.
 add_library(lightnet_warnings INTERFACE)
@@ -51,8 +49,7 @@ if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=")
 endif()
 
 # lightnet_together(TARGET): files of one folder are compiled as one, which takes half the time: what they include is read
-# once, and what they use of templates made once. So names in one folder's nameless namespaces differ. Files with flags
-# of their own (lightnet_quick_roots) stay alone.
+# once, and what they use of templates made once. So names in one folder's nameless namespaces differ.
 function(lightnet_together name)
   if(NOT LIGHTNET_UNITY)
     return()

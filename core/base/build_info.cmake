@@ -5,7 +5,7 @@ include(build_sources.cmake)
 # Flags that decide about bits, as they are given to every file; not what warns or what debuggers read.
 get_directory_property(flags COMPILE_OPTIONS)
 string(TOUPPER "${CMAKE_BUILD_TYPE}" config)
-set(flags "${flags} ${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${config}} ${lightnet_quick_roots}")
+set(flags "${flags} ${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${config}}")
 string(REGEX REPLACE "(^|[ ;])-(W|g|f(diagnostics|file-prefix-map|debug))[^ ;]*" " " flags "${flags}")
 string(REGEX REPLACE "[ ;]+" " " flags "${flags}")
 # Decoders of pictures that give what a texture is; libm is asked for its answers (core/run/runtime/fingerprint.hpp).

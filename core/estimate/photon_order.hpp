@@ -52,8 +52,8 @@ struct ByProxy {
 /// In parts as wide as they are read again: a processor waits where it reads at once what was written in smaller ones.
 template <class T>
 void swap_whole(T& a, T& b) {
-    using Part [[gnu::vector_size(16)]] = float;
-    std::array<Part, sizeof(T) / sizeof(Part)> of_a, of_b;
+    using Piece [[gnu::vector_size(16)]] = float;
+    std::array<Piece, sizeof(T) / sizeof(Piece)> of_a, of_b;
     std::memcpy(&of_a, &a, sizeof a);
     std::memcpy(&of_b, &b, sizeof b);
     std::memcpy(static_cast<void*>(&a), &of_b, sizeof a);

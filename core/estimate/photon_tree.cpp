@@ -18,7 +18,7 @@ constexpr std::size_t fan = 8;                 // boxes in a box
 constexpr std::size_t least_shared = 1 << 15;  // photons that are worth a second builder
 constexpr std::size_t leaves_at_once = 128;    // whose photons stay in the nearest caches
 constexpr float grazing = 0.02f;               // cosine below which light is taken to arrive at this one
-constexpr float nowhere = std::numeric_limits<float>::infinity(), visited = nowhere;
+constexpr float out_of_reach = std::numeric_limits<float>::infinity(), visited = out_of_reach;
 
 // How many of the leaves come first: so many that the leaves of every box follow one another.
 std::size_t first_half(std::size_t leaves) {
@@ -215,7 +215,7 @@ private:
             for (std::size_t i = 0; i < width; ++i) {
                 const Vec3 offset = Vec3{leaf.x[i], leaf.y[i], leaf.z[i]} - at;
                 const bool alike = turned_alike(Photon::cosine_between(leaf.surface[i], normal));
-                distance2[i] = PhotonTree::distance2(offset, normal) + (alike ? 0 : nowhere);
+                distance2[i] = PhotonTree::distance2(offset, normal) + (alike ? 0 : out_of_reach);
             }
         }
     };
