@@ -1,5 +1,6 @@
 // Direct light: what comes straight from lamps and environment.
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <numeric>
 #include <optional>
@@ -79,6 +80,7 @@ private:
         std::vector<BsdfRay> bsdf_rays;
         std::vector<Ray> rays;  // the same
         std::vector<std::optional<Hit>> hits;
+        std::vector<std::size_t> leaving;  // of these rays: they meet nothing
     };
     /// Numbers of a sample.
     enum Dimension : std::uint32_t { choice_of_lamp, place_on_lamp, choice_of_lobe, direction };
@@ -147,18 +149,34 @@ private:
         some.hits.resize(some.rays.size());
         scene_.intersect(some.rays, some.hits);
         for (std::size_t i = 0; i < some.bsdf_rays.size(); ++i) {
-            const auto& [sample, step] = some.bsdf_rays[i];
-            const auto& hit = some.hits[i];
-            std::optional<SurfacePoint> end;
-            if (hit) end = scene_.surface(*hit);
-            const Rgb arriving = light_by_bsdf(scene_, step.from, step.sample, end ? &*end : nullptr, heuristic_);
-            if (is_black(arriving)) continue;
-            const Rgb left = hit ? left_after(step.inside, hit->distance) : Rgb{1, 1, 1};
-            const std::size_t group = group_by_bsdf(scene_, end ? &*end : nullptr);
-            some.found[sample * groups_ + group] += step.sample.weight * left * arriving;
+            if (!some.hits[i])
+                some.leaving.push_back(i);
+            else if (scene_.shines(*some.hits[i]))
+                meet_lamp(some, some.bsdf_rays[i], *some.hits[i]);
         }
+        for (std::size_t i = 0; scene_.has_environment() && i < some.leaving.size(); i += lanes)
+            leave(some, std::span(some.leaving).subspan(i, std::min(lanes, some.leaving.size() - i)));
+        some.leaving.clear();
         some.bsdf_rays.clear();
         some.rays.clear();
+    }
+    void meet_lamp(Samplers& some, const BsdfRay& ray, const Hit& hit) const {
+        const SurfacePoint end = scene_.surface(hit);
+        const Rgb arriving = light_by_bsdf(scene_, ray.step.from, ray.step.sample, &end, heuristic_);
+        if (is_black(arriving)) return;
+        some.found[ray.sample * groups_ + scene_.group_of(end)] +=
+            ray.step.sample.weight * left_after(ray.step.inside, hit.distance) * arriving;
+    }
+    void leave(Samplers& some, std::span<const std::size_t> rays) const {
+        std::array<Vec3, lanes> directions;
+        std::array<SkyRadiance, lanes> sky;
+        for (std::size_t k = 0; k < rays.size(); ++k) directions[k] = some.rays[rays[k]].direction;
+        scene_.look_at_sky(std::span(directions).first(rays.size()), sky);
+        for (std::size_t k = 0; k < rays.size(); ++k) {
+            const auto& [sample, step] = some.bsdf_rays[rays[k]];
+            some.found[sample * groups_ + scene_.environment_group()] +=
+                step.sample.weight * sky_by_bsdf(sky[k], step.sample, heuristic_);
+        }
     }
 
     /// How many samples bring the root of the mean square error, relative to the answer, to what is wanted, as some
@@ -235,8 +253,9 @@ Kind direct_lighting_kind() {
                  .most = 65536},
                 {.name = "heuristic",
                  .type = ParamType::text,
-                 .help = "by which multiple importance sampling weights both ways to find a light; or lamps, directions: "
-                         "what points on lamps, or directions from the BSDF, find alone, to see what each is good for",
+                 .help =
+                     "by which multiple importance sampling weights both ways to find a light; or lamps, directions: "
+                     "what points on lamps, or directions from the BSDF, find alone, to see what each is good for",
                  .initial = Value{"power"},
                  .choices = {"power", "balance", "lamps", "directions"}},
             },

@@ -9,25 +9,12 @@
 #include <vector>
 
 #include "core/estimate/light_guide.hpp"
+#include "core/estimate/shadow_rays.hpp"
 #include "core/scene/direct_light.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/surfaces/lambertian_surfaces.hpp"
 
 namespace lightnet {
-
-/// Shadow rays: to points on lamps, and what arrives if nothing is in between.
-struct ShadowRays {
-    std::vector<Ray> rays;
-    std::vector<Rgb> light;
-    std::vector<std::uint32_t> sums;  // to which it is added
-
-    void add(const Ray& ray, Rgb arriving, std::uint32_t sum) {
-        rays.push_back(ray);
-        light.push_back(arriving);
-        sums.push_back(sum);
-    }
-    void resize(std::size_t count) { rays.resize(count), light.resize(count), sums.resize(count); }
-};
 
 /// Where each of some paths has come to: its vertex. Plain surfaces go through the formulas many at once, as a
 /// structure of arrays, the others one by one: what each path is told is the same, to the bit. One thread.
@@ -120,17 +107,16 @@ public:
     /// added to sum(path), or to one of those behind it: one for each group of lamps.
     template <class Weight, class Sum>
     void sample_lamps(const Numbers& numbers, Heuristic heuristic, ShadowRays& to, Weight&& weight, Sum&& sum) {
-        const auto sample = [&](std::uint32_t path, const Gathering& at) {
-            const float choice = numbers.choices.empty() ? 0 : numbers.choices[path];
-            const auto found = ray_to_lamp(scene_, at, {choice, numbers.places[path]}, heuristic);
+        const auto add = [&](std::uint32_t path, const std::optional<LampRay>& found) {
             if (found) to.add(found->ray, weight(path) * found->light, sum(path) + found->group);
         };
-        if (!only_lamp_) expect_lights(numbers);
-        if (!only_lamp_ || !shares(heuristic)) return each(sample);
-        for (const auto& visitor : visitors_) sample(visitor.path, gathering(visitor));
-        for (std::size_t i = 0; i < plain_.size(); ++i) plain_.set_numbers(i, numbers.places[plain_.who(i)]);
-        const auto& found =
-            guide_ ? plain_.look_at_whole(*only_lamp_) : plain_.look_at(*only_lamp_, heuristic == Heuristic::power);
+        if (!shares(heuristic))
+            return each([&](std::uint32_t path, const Gathering& at) {
+                const float choice = numbers.choices.empty() ? 0 : numbers.choices[path];
+                add(path, ray_to_lamp(scene_, at, LampNumbers{choice, numbers.places[path]}, heuristic));
+            });
+        for (std::size_t next = 0; next < visitors_.size();) next = look_from_some(next, numbers, heuristic, add);
+        const auto& found = look_from_plain(numbers, heuristic);
         // Also what finds nothing is written, and then written over: what a point finds can't be foretold.
         std::size_t end = to.rays.size();
         to.resize(end + plain_.size());
@@ -140,7 +126,7 @@ public:
             to.rays[end] = {found.origin[i], found.direction[i], found.far[i]};
             to.light[end] = weight(path) * Rgb{light.x, light.y, light.z};
             if (guide_ && found.found[i]) to.light[end] *= guided_share(i, heuristic);
-            to.sums[end] = sum(path) + only_lamp_->group;
+            to.sums[end] = sum(path) + found.group[i];
             end += found.found[i];
         }
         to.resize(end);
@@ -215,15 +201,46 @@ private:
         std::uint8_t lobes;
         const Rgb* inside;
     };
-    void expect_lights(const Numbers& numbers) {
-        expected_choices_.clear(), expected_places_.clear();
-        const auto expect = [&](std::uint32_t path) {
-            if (!numbers.choices.empty()) expected_choices_.push_back(numbers.choices[path]);
-            expected_places_.push_back(numbers.places[path]);
-        };
-        for (const auto& visitor : visitors_) expect(visitor.path);
-        for (std::size_t i = 0; i < plain_.size(); ++i) expect(plain_.who(i));
-        scene_.expect_lights(expected_choices_, expected_places_);
+    /// Lamps for points that were put into lit_, with the numbers of paths who(i).
+    template <class Who>
+    void sample_lit(const Numbers& numbers, Who&& who) {
+        choices_.clear(), places_.clear();
+        for (std::size_t i = 0; i < lit_.size(); ++i) {
+            if (!numbers.choices.empty()) choices_.push_back(numbers.choices[who(i)]);
+            places_.push_back(numbers.places[who(i)]);
+        }
+        scene_.sample_lights(lit_, choices_, places_, lamps_);
+    }
+    /// Of visitors from `next` on, as many as go at once: add(path, ray to its lamp). Returns the first that is left.
+    template <class Add>
+    std::size_t look_from_some(std::size_t next, const Numbers& numbers, Heuristic heuristic, Add&& add) {
+        lit_.clear();
+        std::array<std::size_t, lanes> some;
+        for (; next < visitors_.size() && lit_.size() < lanes; ++next) {
+            const Gathering at = gathering(visitors_[next]);
+            if (!finds_lamps(scene_, at)) continue;
+            some[lit_.size()] = next;
+            lit_.push_back(lit_point(at));
+        }
+        sample_lit(numbers, [&](std::size_t i) { return visitors_[some[i]].path; });
+        for (std::size_t i = 0; i < lit_.size(); ++i) {
+            if (!lamps_.found[i]) continue;
+            const Visitor& visitor = visitors_[some[i]];
+            add(visitor.path, ray_to_lamp(scene_, gathering(visitor), lamps_[i], heuristic));
+        }
+        return next;
+    }
+    const LambertianSurfaces::RaysToLamp& look_from_plain(const Numbers& numbers, Heuristic heuristic) {
+        const bool by_power = heuristic == Heuristic::power;
+        if (only_lamp_) {
+            for (std::size_t i = 0; i < plain_.size(); ++i) plain_.set_numbers(i, numbers.places[plain_.who(i)]);
+            return guide_ ? plain_.look_at_whole(*only_lamp_) : plain_.look_at(*only_lamp_, by_power);
+        }
+        lit_.clear();
+        for (std::size_t i = 0; i < plain_.size(); ++i)
+            lit_.push_back(lit_point(plain_.position(i), plain_.normal(i), plain_.outgoing(i)));
+        sample_lit(numbers, [&](std::size_t i) { return plain_.who(i); });
+        return guide_ ? plain_.look_at_whole(lamps_) : plain_.look_at(lamps_, by_power);
     }
     void add_to_last(std::uint32_t path) {
         visitors_.push_back({path, static_cast<std::uint32_t>(points_.size() - 1)});
@@ -275,6 +292,7 @@ private:
     /// Of the light that a point of the only lamp sends to a plain surface.
     float guided_share(std::size_t i, Heuristic heuristic) const {
         const auto& rays = plain_.rays_to_lamp();
+        if (rays.bare[i]) return 1;
         const Vec3 direction = rays.direction[i];
         const float pdf = guided_plain_[i] ? guided_plain_[i].pdf(direction, rays.pdf[i]) : rays.pdf[i];
         return share(heuristic, rays.lamp_pdf[i], pdf);
@@ -346,8 +364,10 @@ private:
     std::vector<Bsdf> bsdfs_;
     std::vector<Visitor> visitors_;
     // scratch space
-    std::vector<float> expected_choices_;
-    std::vector<Vec2> expected_places_;
+    std::vector<LitPoint> lit_;
+    std::vector<float> choices_;
+    std::vector<Vec2> places_;
+    LightSamples lamps_;
     // as the guide knows them
     std::vector<GuidedPoint> guided_, guided_plain_;
     std::array<float, lanes> favours_;

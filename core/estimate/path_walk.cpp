@@ -1,83 +1,18 @@
 #include "core/estimate/path_walk.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <optional>
 
 #include "core/base/math/columns.hpp"
 #include "core/base/math/many_samples.hpp"
+#include "core/estimate/path_lessons.hpp"
 #include "core/estimate/path_vertices.hpp"
 #include "core/scene/direct_light.hpp"
 
 namespace lightnet {
 namespace {
-
-/// What paths find on their way, for a guide. Light that a surface scatters on is taken from what the guide knows of
-/// the surface, where it does, and not from where a single path went on to: Dahm & Keller 2017, "Learning Light
-/// Transport the Reinforced Way". So one round of paths carries light one surface farther, with little noise.
-class Lessons {
-public:
-    /// Of so many paths, from now on.
-    void begin(std::size_t paths) {
-        paths_ = paths;
-        lessons_.clear();
-        found_.clear();
-        surfaces_.assign(paths, 0);
-    }
-    /// A path goes on in a direction that brings `weight` times the light that it finds. `scattered`: what the surface
-    /// scatters of what the guide knows to arrive; below 0: it does not know.
-    void add(std::size_t path, const std::optional<GuideRecord>& record, Rgb weight, float scattered) {
-        lessons_.push_back({path, found_.size(), weight, scattered, record});
-        ++surfaces_[path];
-    }
-    /// All paths have been at their next surface. Takes what they found there.
-    void take(std::vector<Rgb>& sums, std::vector<Rgb>& totals) {
-        for (std::size_t i = 0; i < paths_; ++i) totals[i] += sums[i];
-        found_.push_back(sums);
-        sums.assign(paths_, Rgb{});
-    }
-    /// All paths have ended.
-    void end(std::vector<GuideRecord>& records) {
-        later_.assign(paths_, Rgb{});
-        scattered_.assign(paths_, -1.0f);
-        std::size_t last = lessons_.size();
-        for (std::size_t round = found_.size(); round-- > 0;) {
-            for (; last > 0 && lessons_[last - 1].round == round; --last) finish(lessons_[last - 1]);
-            for (std::size_t i = 0; i < paths_; ++i) later_[i] += found_[round][i];
-        }
-        for (const Lesson& lesson : lessons_)
-            if (lesson.record && lesson.record->sound()) records.push_back(*lesson.record);
-    }
-    std::size_t surfaces(std::size_t path) const { return surfaces_[path]; }
-
-private:
-    struct Lesson {
-        std::size_t path, round;
-        Rgb weight;
-        float scattered;
-        std::optional<GuideRecord> record;
-    };
-    void finish(Lesson& lesson) {
-        const auto arrived = [&](const Rgb& found) {
-            const auto part = [](float light, float times) { return times > 0 ? light / times : 0; };
-            const Rgb& w = lesson.weight;
-            return luminance({part(found.r, w.r), part(found.g, w.g), part(found.b, w.b)});
-        };
-        float& scattered = scattered_[lesson.path];
-        if (lesson.record && lesson.round + 1 < found_.size())
-            lesson.record->radiance = scattered < 0 ? arrived(later_[lesson.path])
-                                                    : arrived(found_[lesson.round + 1][lesson.path]) + scattered;
-        scattered = lesson.scattered;
-    }
-
-    std::size_t paths_ = 0;
-    std::vector<Lesson> lessons_;          // in the order of rounds
-    std::vector<std::vector<Rgb>> found_;  // by round, of each path
-    std::vector<std::size_t> surfaces_;    // of each path
-    // of each path, from its end back to here: what it found, and what its last surface scatters
-    std::vector<Rgb> later_;
-    std::vector<float> scattered_;
-};
 
 /// One call. `guided`: by a guide, or for one; apart, as what it takes costs a tenth of the time where there is none.
 template <bool guided>
@@ -165,7 +100,11 @@ private:
         PathVertices vertices;
         ShadowRays shadow_rays;
         std::vector<std::uint8_t> occluded;
-        std::size_t kept = 0;        // paths and rays that go on
+        std::size_t kept = 0;  // paths and rays that go on
+        // some that meet nothing any more, and what they find there
+        std::array<std::uint32_t, vertices_at_once> leaving;
+        std::array<Vec3, vertices_at_once> skywards;
+        std::array<SkyRadiance, vertices_at_once> sky;
         Lessons* lessons = nullptr;  // null: nobody learns
     };
     /// Each vertex of a path has these dimensions of its own, used or not.
@@ -250,16 +189,19 @@ private:
 
     void visit(Batch& batch, std::size_t first, std::size_t last, std::uint32_t depth) const {
         batch.vertices.clear();
+        std::size_t leaving = 0;
         for (std::size_t i = first; i < last; ++i) {
             Path& path = batch.paths[i];
             if (!batch.hits[i]) {
-                leave(path, depth, batch);
+                batch.leaving[leaving] = static_cast<std::uint32_t>(i);
+                batch.skywards[leaving++] = path.incoming;
                 continue;
             }
             const Hit& hit = *batch.hits[i];
             if (path.inside) path.weight *= left_after(path.inside, hit.distance);
             batch.vertices.add(static_cast<std::uint32_t>(i), hit, -path.incoming, lobe::all, path.inside);
         }
+        if (all_ || depth > 1) leave(batch, leaving, depth);
         batch.vertices.find_points();
         if (all_ || depth > 1)
             batch.vertices.each_that_may_shine(
@@ -276,12 +218,16 @@ private:
 
     static BsdfSample step_of(const Path& path) { return {path.incoming, {}, path.pdf, path.lobe}; }
 
-    /// What a path finds that meets nothing any more.
-    void leave(const Path& path, std::uint32_t depth, Batch& batch) const {
-        if (!all_ && depth == 1) return;
+    /// What so many paths find that meet nothing any more.
+    void leave(Batch& batch, std::size_t count, std::uint32_t depth) const {
+        if (count == 0 || !scene_.has_environment()) return;
+        scene_.look_at_sky(std::span(batch.skywards).first(count), batch.sky);
         const float part = two_looks(depth - 1) ? 0.5f : 1.0f;
-        batch.sums[path.sum + scene_.environment_group()] +=
-            part * path.weight * light_by_bsdf(scene_, path.from, step_of(path), nullptr, heuristic);
+        for (std::size_t k = 0; k < count; ++k) {
+            const Path& path = batch.paths[batch.leaving[k]];
+            batch.sums[path.sum + scene_.environment_group()] +=
+                part * path.weight * sky_by_bsdf(batch.sky[k], step_of(path), heuristic);
+        }
     }
 
     /// What a path finds that may have come to a lamp.

@@ -12,10 +12,6 @@ Rgb left_after(const Rgb* absorption, float distance) {
 
 namespace {
 
-bool finds_lamps(const Scene& scene, const Gathering& at) {
-    return scene.has_lamps() && (at.lobes & at.bsdf.lobes() & lobe::rough);
-}
-
 // Weight of a direction from the BSDF, with density `mine`; `other` is that of finding the same by a point on a lamp.
 float direction_share(Heuristic heuristic, float mine, float other) {
     if (heuristic == Heuristic::lamps) return other == 0 ? 1 : 0;
@@ -28,30 +24,39 @@ std::optional<LampRay> ray_to_lamp(const Scene& scene, const Gathering& at, cons
                                    Heuristic heuristic) {
     if (!finds_lamps(scene, at)) return {};
     const auto lamp = scene.sample_light(lit_point(at), numbers.choice, numbers.place);
-    if (!lamp || (!lamp->bare && heuristic == Heuristic::directions)) return {};
-    const auto [value, bsdf_pdf] = at.bsdf.value_and_pdf(at.outgoing, lamp->direction, at.lobes);
+    return lamp ? ray_to_lamp(scene, at, *lamp, heuristic) : std::nullopt;
+}
+
+std::optional<LampRay> ray_to_lamp(const Scene& scene, const Gathering& at, const LightSample& lamp,
+                                   Heuristic heuristic) {
+    if (!lamp.bare && heuristic == Heuristic::directions) return {};
+    const auto [value, bsdf_pdf] = at.bsdf.value_and_pdf(at.outgoing, lamp.direction, at.lobes);
     if (is_black(value)) return {};
-    const float pdf = at.guidance ? at.guidance->pdf(lamp->direction, bsdf_pdf) : bsdf_pdf;
-    const float weight = lamp->bare || heuristic == Heuristic::lamps ? 1 : share(heuristic, lamp->pdf, pdf);
-    const Ray ray = scene.ray_to(at.point, *lamp);
-    Rgb light = value * lamp->radiance * (weight / lamp->pdf);
+    const float pdf = at.guidance ? at.guidance->pdf(lamp.direction, bsdf_pdf) : bsdf_pdf;
+    const float weight = lamp.bare || heuristic == Heuristic::lamps ? 1 : share(heuristic, lamp.pdf, pdf);
+    const Ray ray = scene.ray_to(at.point, lamp);
+    Rgb light = value * lamp.radiance * (weight / lamp.pdf);
     if (const Rgb* inside = filling(at.bsdf, at.point, at.outgoing, ray.direction, at.inside))
         light *= left_after(inside, ray.far);
-    return LampRay{ray, light, lamp->group};
+    return LampRay{ray, light, lamp.group};
+}
+
+// What a specular surface sends on can't be found by a sampled light.
+Rgb sky_by_bsdf(const SkyRadiance& sky, const BsdfSample& sample, Heuristic heuristic) {
+    const float other = sample.lobe == lobe::specular ? 0 : sky.pdf;
+    return is_black(sky.radiance) ? Rgb{} : sky.radiance * direction_share(heuristic, sample.pdf, other);
 }
 
 Rgb light_by_bsdf(const Scene& scene, const LitPoint& from, const BsdfSample& sample, const SurfacePoint* end,
                   Heuristic heuristic) {
-    const bool certain = sample.lobe == lobe::specular;  // no lamp sample can find this direction
     if (!end) {
-        const Rgb arriving = scene.environment(sample.incoming);
-        if (is_black(arriving)) return {};
-        const float other = certain ? 0 : scene.environment_pdf(sample.incoming);
-        return arriving * direction_share(heuristic, sample.pdf, other);
+        SkyRadiance sky;
+        scene.look_at_sky({&sample.incoming, 1}, {&sky, 1});
+        return sky_by_bsdf(sky, sample, heuristic);
     }
     const Rgb emitted = scene.emission(*end, -sample.incoming);
     if (is_black(emitted)) return {};
-    const float other = certain ? 0 : scene.light_pdf(from, sample.incoming, *end);
+    const float other = sample.lobe == lobe::specular ? 0 : scene.light_pdf(from, sample.incoming, *end);
     return emitted * direction_share(heuristic, sample.pdf, other);
 }
 

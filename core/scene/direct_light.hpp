@@ -88,14 +88,19 @@ struct LampNumbers {
 /// light by this sample, whatever is in between.
 std::optional<LampRay> ray_to_lamp(const Scene& scene, const Gathering& at, const LampNumbers& numbers,
                                    Heuristic heuristic);
+/// The same of a light that was sampled for lit_point(at), which finds_lamps().
+std::optional<LampRay> ray_to_lamp(const Scene& scene, const Gathering& at, const LightSample& lamp,
+                                   Heuristic heuristic);
+/// Can light from a sampled lamp be sent on?
+inline bool finds_lamps(const Scene& scene, const Gathering& at) {
+    return scene.has_lamps() && (at.lobes & at.bsdf.lobes() & lobe::rough);
+}
 
 /// Radiance that arrives from where a ray into `sample.incoming` ended (nothing there: the environment), times the
 /// weight of having found it by the BSDF, at the lit_point() `from`. Without the sample's own weight.
 Rgb light_by_bsdf(const Scene& scene, const LitPoint& from, const BsdfSample& sample, const SurfacePoint* end,
                   Heuristic heuristic);
-/// Of which group of lamps that is.
-inline std::uint32_t group_by_bsdf(const Scene& scene, const SurfacePoint* end) {
-    return end ? scene.group_of(*end) : scene.environment_group();
-}
+/// The same of a ray that met nothing, where `sky` is what lies there.
+Rgb sky_by_bsdf(const SkyRadiance& sky, const BsdfSample& sample, Heuristic heuristic);
 
 }  // namespace lightnet

@@ -171,14 +171,17 @@ void Scene::add_bsdf(const SurfacePoint& point, std::vector<Bsdf>& to) const { b
 
 Rgb Scene::emission(const SurfacePoint& point, Vec3 direction) const { return lights_->emission(point, direction); }
 
+bool Scene::shines(const Hit& hit) const { return lights_->shines(hit.geometry); }
+
 Rgb Scene::environment(Vec3 direction) const { return lights_->environment(direction); }
 
 std::optional<LightSample> Scene::sample_light(const LitPoint& from, float choice, Vec2 u) const {
     return lights_->sample(from, choice, u);
 }
 
-void Scene::expect_lights(std::span<const float> choices, std::span<const Vec2> u) const {
-    lights_->expect(choices, u);
+void Scene::sample_lights(std::span<const LitPoint> from, std::span<const float> choices, std::span<const Vec2> u,
+                          LightSamples& samples) const {
+    lights_->sample(from, choices, u, samples);
 }
 
 const FlatLamp* Scene::only_flat_lamp() const { return lights_->only_flat_lamp(); }
@@ -188,6 +191,9 @@ float Scene::light_pdf(const LitPoint& from, Vec3 direction, const SurfacePoint&
 }
 
 float Scene::environment_pdf(Vec3 direction) const { return lights_->environment_pdf(direction); }
+void Scene::look_at_sky(std::span<const Vec3> directions, std::span<SkyRadiance> seen) const {
+    lights_->look_at_sky(directions, seen);
+}
 bool Scene::has_environment() const { return lights_->has_environment(); }
 bool Scene::has_lamps() const { return !lights_->empty(); }
 bool Scene::has_many_lamps() const { return lights_->many(); }

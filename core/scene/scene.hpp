@@ -93,14 +93,17 @@ public:
 
     /// Radiance that the surface itself emits into `direction` (unit, away from it).
     Rgb emission(const SurfacePoint& point, Vec3 direction) const;
+    /// Does it emit any? False is certain.
+    bool shines(const Hit& hit) const;
     /// Radiance arriving from infinity, from `direction` (unit, away from the eye).
     Rgb environment(Vec3 direction) const;
 
     /// Chooses a light and a direction to it from `from`: to a point of a lamp, to a bare light, or to the environment.
     /// None: no light can reach the point by this sample.
     std::optional<LightSample> sample_light(const LitPoint& from, float choice, Vec2 u) const;
-    /// The next calls of sample_light() will be with these: fetches what they need. No `choices`: of the only light.
-    void expect_lights(std::span<const float> choices, std::span<const Vec2> u) const;
+    /// The same for up to `lanes` points at once, which is quicker. No `choices`: there is but one light.
+    void sample_lights(std::span<const LitPoint> from, std::span<const float> choices, std::span<const Vec2> u,
+                       LightSamples& samples) const;
     /// What sample_light() always chooses, if that's a flat lamp; else null.
     const FlatLamp* only_flat_lamp() const;
     /// Density with which sample_light() finds the emitting point `on`, which lies in `direction` from `from`. 0 if it
@@ -108,6 +111,8 @@ public:
     float light_pdf(const LitPoint& from, Vec3 direction, const SurfacePoint& on) const;
     /// The same for the environment. Always 0 for a constant one, which sample_light() never chooses.
     float environment_pdf(Vec3 direction) const;
+    /// Both of up to `lanes` directions: environment() and environment_pdf().
+    void look_at_sky(std::span<const Vec3> directions, std::span<SkyRadiance> seen) const;
     bool has_environment() const;
     /// Is there anything that sample_light() could find, and has it more than one light to choose from?
     bool has_lamps() const;

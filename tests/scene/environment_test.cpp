@@ -1,6 +1,7 @@
 // Maps of the sky: where their pixels lie, and how directions are drawn from them.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -180,20 +181,61 @@ TEST_P(Maps, SampleWhatTheirDensitySays) {
     EXPECT_LT(chi2, freedom + 4 * std::sqrt(2 * freedom));
 }
 
-TEST_P(Maps, SampleTheSameWhatIsExpected) {
+void expect_equal(const SkyRadiance& one, const SkyRadiance& other) {
+    EXPECT_EQ(one.direction, other.direction);
+    EXPECT_EQ(one.radiance, other.radiance);
+    EXPECT_EQ(one.pdf, other.pdf);
+}
+
+TEST_P(Maps, GiveManyAtOnceWhatTheyGiveOneByOne) {
     const Environment sky(map_of(GetParam()));
-    std::vector<Vec2> u;
-    for (std::uint32_t i = 0; i < 1000; ++i) u.push_back(Samples(5, i).next_2d());
-    u.push_back({0, 0});
-    u.push_back({0x1.fffffep-1f, 0x1.fffffep-1f});
-    std::vector<Environment::Seen> before;
-    for (const Vec2 each : u) before.push_back(sky.sample(each));
-    sky.expect(u);
-    for (std::size_t i = 0; i < u.size(); ++i) {
-        const auto after = sky.sample(u[i]);
-        ASSERT_EQ(after.direction, before[i].direction);
-        ASSERT_EQ(after.radiance, before[i].radiance);
-        ASSERT_EQ(after.pdf, before[i].pdf);
+    std::vector<Vec2> u{{0, 0}, {0x1.fffffep-1f, 0x1.fffffep-1f}};
+    for (std::uint32_t i = 0; i < 1022; ++i) u.push_back(Samples(5, i).next_2d());
+    for (std::size_t i = 0; i < u.size(); i += lanes) {
+        const std::size_t count = i == 0 ? 3 : lanes;  // few as well
+        std::array<SkyRadiance, lanes> sampled, seen;
+        std::array<Vec3, lanes> directions;
+        sky.sample(std::span(u).subspan(i, count), sampled);
+        for (std::size_t k = 0; k < count; ++k) directions[k] = sphere(u[i + k]);
+        sky.look(std::span(directions).first(count), seen);
+        for (std::size_t k = 0; k < count; ++k) {
+            expect_equal(sampled[k], sky.sample(u[i + k]));
+            expect_equal(seen[k], sky.look(directions[k]));
+            ASSERT_FALSE(HasFailure()) << i + k;
+        }
+    }
+}
+
+// Of lamps, a distant light and a map.
+TEST(ManyLights, AreFoundAtOnceAsOneByOne) {
+    for (const bool map : {false, true}) {
+        SceneData data;
+        const auto black = diffuse(data, 0);
+        add(data, quad({-1, -1, 2}, {0, 2, 0}, {2, 0, 0}), black).emission = AreaEmission{{1, 2, 3}, false};
+        add(data, ball({3, 0, 1}, 0.5f), black).emission = AreaEmission{{4, 1, 1}, false};
+        data.lights.push_back(DirectionalLight{.direction = {0, 0, -1}, .irradiance = {1, 1, 1}});
+        if (map) data.environments.push_back(map_of(Layout::equal_area));
+        const Scene scene(data);
+        for (std::uint32_t first = 0; first < 512; first += lanes) {
+            std::vector<LitPoint> from;
+            std::vector<float> choices;
+            std::vector<Vec2> u;
+            for (std::uint32_t i = first; i < first + lanes; ++i) {
+                Samples samples(3, i);
+                choices.push_back(samples.next());
+                u.push_back(samples.next_2d());
+                from.emplace_back(sphere(samples.next_2d()), sphere(samples.next_2d()));
+            }
+            LightSamples found;
+            scene.sample_lights(from, choices, u, found);
+            for (std::size_t i = 0; i < lanes; ++i) {
+                const auto one = scene.sample_light(from[i], choices[i], u[i]);
+                ASSERT_EQ(found.found[i] != 0, one.has_value());
+                if (one) {
+                    ASSERT_EQ(found[i], *one);
+                }
+            }
+        }
     }
 }
 

@@ -298,7 +298,9 @@ TEST(Many, StopsTellEachWalkWhatOneIsTold) {
                     EXPECT_EQ(parts(step.ray),
                               parts(Ray{one.point.origin_towards(sample->incoming), sample->incoming}));
                     EXPECT_EQ(step.from.position, one.point.position);
-                    if (!scene.only_flat_lamp()) EXPECT_EQ(step.from, lit_point(one));  // else nothing is chosen
+                    if (!scene.only_flat_lamp()) {  // else nothing is chosen
+                        EXPECT_EQ(step.from, lit_point(one));
+                    }
                     EXPECT_EQ(step.inside, filling(one.bsdf, one.point, one.outgoing, sample->incoming, one.inside));
                 });
             });

@@ -34,7 +34,7 @@ inline Facet facet(const Mesh& mesh, std::uint32_t triangle) {
 }
 float area_of(const Facet& facet) { return 0.5f * length(cross(facet.first_edge, facet.second_edge)); }
 
-bool shines(const SceneData& data, const Shape& shape, GroupSet groups) {
+bool is_lamp(const SceneData& data, const Shape& shape, GroupSet groups) {
     return shape.emission && (groups >> shape.emission->label.group & 1) && !is_black(shape.emission->radiance) &&
            !std::holds_alternative<NoMaterial>(data.materials[shape.material].model);
 }
@@ -45,7 +45,7 @@ AreaLamps::AreaLamps(const SceneData& data, const Shading& shading, GroupSet gro
     : data_(data), shading_(shading), apart_(apart), sources_of_shapes_(data.shapes.size(), none) {
     for (std::uint32_t s = 0; s < data.shapes.size(); ++s) {
         const Shape& shape = data.shapes[s];
-        if (!shines(data, shape, groups)) continue;
+        if (!is_lamp(data, shape, groups)) continue;
         if (const auto* mesh = std::get_if<Mesh>(&shape.geometry)) {
             add_mesh(s, *mesh);
         } else {

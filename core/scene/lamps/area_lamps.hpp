@@ -40,6 +40,8 @@ public:
     std::uint32_t group_of(std::uint32_t shape) const { return apart_ ? data_.shapes[shape].emission->label.group : 0; }
     /// Radiance that a point of a surface emits into `direction` (unit, away from it).
     Rgb radiance(const SurfacePoint& point, Vec3 direction) const;
+    /// Does the shape have lamps?
+    bool shines(std::uint32_t shape) const { return sources_of_shapes_[shape] != none; }
     /// Could the ray meet a lamp? False is certain.
     bool may_meet(const Ray& ray) const;
 

@@ -174,10 +174,37 @@ float Environment::pdf(Vec3 direction) const {
     return pdf_of(cell(p.x, width_), cell(p.y, height_));
 }
 
-Environment::Seen Environment::look(Vec3 direction) const {
+SkyRadiance Environment::look(Vec3 direction) const {
     if (!image_) return {direction, scale_, inverse_pi / 4};
     const Vec2 p = to_square(direction);
     return {direction, radiance_at(p), pdf_of(cell(p.x, width_), cell(p.y, height_))};
+}
+
+void Environment::expect(Vec2 p) const {
+    const auto before = [](float at, std::uint32_t count) {
+        return std::uint32_t(
+            std::clamp(std::int64_t(std::floor(at * float(count) - 0.5f)), std::int64_t{0}, std::int64_t{count} - 1));
+    };
+    const std::uint32_t x = before(p.x, width_), y = before(p.y, height_);
+    image_->expect(x, y);
+    image_->expect(x, std::min(y + 1, height_ - 1));
+}
+
+void Environment::look(std::span<const Vec3> directions, std::span<SkyRadiance> seen) const {
+    if (!image_) {
+        for (std::size_t i = 0; i < directions.size(); ++i) seen[i] = look(directions[i]);
+        return;
+    }
+    std::array<Vec2, lanes> squares;
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+        squares[i] = to_square(directions[i]);
+        __builtin_prefetch(&columns_of(cell(squares[i].y, height_))[cell(squares[i].x, width_)]);
+        expect(squares[i]);
+    }
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+        const Vec2 p = squares[i];
+        seen[i] = {directions[i], radiance_at(p), pdf_of(cell(p.x, width_), cell(p.y, height_))};
+    }
 }
 
 void Environment::find_row(float u, Cell& cell) const {
@@ -191,7 +218,7 @@ void Environment::find_column(float u, Cell& cell) const {
 }
 
 // Uniform by solid angle: in rows of longitudes in the cosine, counted from the nearer pole.
-Environment::Seen Environment::seen_in(const Cell& cell) const {
+SkyRadiance Environment::seen_in(const Cell& cell) const {
     const auto [x, y, within] = cell;
     const float across = (float(x) + within.x) / float(width_), pdf = pdf_of(x, y);
     if (layout_ == EnvironmentData::Layout::equal_area) {
@@ -207,7 +234,7 @@ Environment::Seen Environment::seen_in(const Cell& cell) const {
     return {axes_.to_world({sine * std::sin(phi), height, -sine * std::cos(phi)}), radiance_at(p), pdf};
 }
 
-Environment::Seen Environment::sample(Vec2 u) const {
+SkyRadiance Environment::sample(Vec2 u) const {
     if (!image_) return {sphere(u), scale_, inverse_pi / 4};
     Cell cell;
     find_row(u.y, cell);
@@ -215,12 +242,14 @@ Environment::Seen Environment::sample(Vec2 u) const {
     return seen_in(cell);
 }
 
-void Environment::expect(std::span<const Vec2> u) const {
-    constexpr std::size_t at_once = 32;
-    if (u.size() > at_once) expect(u.subspan(at_once));
-    u = u.first(std::min(at_once, u.size()));
-    std::array<Cell, at_once> cells;
-    for (std::size_t i = 0; i < u.size(); ++i) find_row(u[i].y, cells[i]);
+void Environment::sample(std::span<const Vec2> u, std::span<SkyRadiance> seen) const {
+    std::array<Cell, lanes> cells;
+    for (std::size_t i = 0; i < u.size(); ++i) {
+        find_row(u[i].y, cells[i]);
+        const auto marks = marks_of(cells[i].y);
+        const auto piece = std::size_t(u[i].x * float(marks_per_row_ - 1));
+        __builtin_prefetch(&marks[piece]);
+    }
     for (std::size_t i = 0; i < u.size(); ++i) {
         const auto marks = marks_of(cells[i].y);
         const auto piece = std::size_t(u[i].x * float(marks_per_row_ - 1));
@@ -233,6 +262,7 @@ void Environment::expect(std::span<const Vec2> u) const {
         image_->expect(std::uint32_t(left), std::uint32_t(above));
         image_->expect(std::uint32_t(left), std::uint32_t(std::min<std::size_t>(above + 1, height_ - 1)));
     }
+    for (std::size_t i = 0; i < u.size(); ++i) seen[i] = seen_in(cells[i]);
 }
 
 }  // namespace lightnet

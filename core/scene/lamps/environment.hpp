@@ -12,6 +12,7 @@
 #include "core/base/math/rgb.hpp"
 #include "core/base/math/vec.hpp"
 #include "core/scene/data/scene_data.hpp"
+#include "core/scene/lamps/light_sample.hpp"
 
 namespace lightnet {
 
@@ -28,20 +29,16 @@ public:
     bool has_map() const { return image_ != nullptr; }
     /// Density with which sample() finds `direction`, per steradian.
     float pdf(Vec3 direction) const;
-    /// What is in a direction.
-    struct Seen {
-        Vec3 direction;
-        Rgb radiance;
-        float pdf = 0;
-    };
     /// radiance() and pdf().
-    Seen look(Vec3 direction) const;
+    SkyRadiance look(Vec3 direction) const;
+    /// The same of up to `lanes` directions, which wait for memory as those of sample() do.
+    void look(std::span<const Vec3> directions, std::span<SkyRadiance> seen) const;
     /// Towards light, by importance: by the CDF of the rows, then by that of its row's columns.
-    Seen sample(Vec2 u) const;
-    /// The next calls of sample() will be with these: memory that they need is fetched at once, and they don't wait for
-    /// it one after the other.
+    SkyRadiance sample(Vec2 u) const;
+    /// The same for up to `lanes` numbers. The memory that they need is fetched at once, and they don't wait for it one
+    /// after the other.
     /// DECISIONS: memory-of-a-sky-ahead
-    void expect(std::span<const Vec2> u) const;
+    void sample(std::span<const Vec2> u, std::span<SkyRadiance> seen) const;
 
     /// Irradiance of its mean over all directions, were it all to arrive head-on: ∫ radiance dω, W·m⁻².
     Rgb total() const { return total_; }
@@ -60,8 +57,10 @@ private:
     double row_solid_angle(std::uint32_t y) const;
     Vec2 to_square(Vec3 direction) const;
     Rgb radiance_at(Vec2 square) const;
+    /// Fetches the pixels around.
+    void expect(Vec2 square) const;
     float pdf_of(std::size_t x, std::size_t y) const;
-    Seen seen_in(const Cell& cell) const;
+    SkyRadiance seen_in(const Cell& cell) const;
     std::span<const float> columns_of(std::size_t y) const { return std::span(columns_).subspan(y * width_, width_); }
     std::span<const std::uint32_t> marks_of(std::size_t y) const {
         return std::span(marks_).subspan(y * marks_per_row_, marks_per_row_);

@@ -113,34 +113,52 @@ std::optional<LightSample> Lights::from_infinity(Vec3 from, float choice, Vec2 u
     return maps_.empty() ? std::nullopt : from_map(within(choice, float(far_.size()), 1), u);
 }
 
+LightSample Lights::from_only_map(const SkyRadiance& seen) const {
+    return {{}, seen.direction, constant_ + seen.radiance, seen.pdf, false, true, environment_group_};
+}
+
 std::optional<LightSample> Lights::from_map(float choice, Vec2 u) const {
     const std::size_t map_index = maps_.size() > 1 ? pick(map_ends_, choice) : 0;
-    const Environment::Seen seen = environments_[maps_[map_index]].sample(u);
-    if (maps_.size() == 1)
-        return LightSample{{}, seen.direction, constant_ + seen.radiance, seen.pdf, false, true, environment_group_};
+    const SkyRadiance seen = environments_[maps_[map_index]].sample(u);
+    if (maps_.size() == 1) return from_only_map(seen);
     float density = share_of(map_ends_, map_index) * seen.pdf;
     Rgb radiance = constant_ + seen.radiance;
     for (std::size_t i = 0; i < maps_.size(); ++i) {
         if (i == map_index) continue;
-        const Environment::Seen other = environments_[maps_[i]].look(seen.direction);
+        const SkyRadiance other = environments_[maps_[i]].look(seen.direction);
         density += share_of(map_ends_, i) * other.pdf;
         radiance += other.radiance;
     }
     return LightSample{{}, seen.direction, radiance, density, false, true, environment_group_};
 }
 
-void Lights::expect(std::span<const float> choices, std::span<const Vec2> u) const {
-    if (maps_.size() != 1) return;
-    const Environment& map = environments_[maps_[0]];
-    if (choices.empty()) return map.expect(u);
-    const float first = share_of_tree_ + share_of_far_ * float(far_.size());
-    std::array<Vec2, 32> of_map;
+// As sample() goes.
+bool Lights::takes_only_map(float choice) const {
+    if (maps_.size() != 1 || only_lamp_ || share_of_tree_ == 1 || choice < share_of_tree_) return false;
+    return (choice - share_of_tree_) / share_of_far_ >= float(far_.size());
+}
+
+void Lights::sample(std::span<const LitPoint> from, std::span<const float> choices, std::span<const Vec2> u,
+                    LightSamples& samples) const {
+    std::array<std::uint32_t, lanes> who;
+    std::array<Vec2, lanes> of_map;
+    std::array<SkyRadiance, lanes> seen;
     std::size_t count = 0;
-    for (std::size_t i = 0; i < u.size(); ++i) {
-        if (choices[i] >= first) of_map[count++] = u[i];
-        if (count < of_map.size() && i + 1 < u.size()) continue;
-        map.expect(std::span(of_map).first(count));
-        count = 0;
+    for (std::uint32_t i = 0; i < u.size(); ++i) {
+        const float choice = choices.empty() ? 0 : choices[i];
+        if (!takes_only_map(choice)) {
+            samples.set(i, sample(from[i], choice, u[i]));
+            continue;
+        }
+        who[count] = i;
+        of_map[count++] = u[i];
+    }
+    if (count == 0) return;
+    environments_[maps_[0]].sample(std::span(of_map).first(count), seen);
+    for (std::size_t k = 0; k < count; ++k) {
+        LightSample found = from_only_map(seen[k]);
+        found.pdf *= share_of_far_;
+        samples.set(who[k], found);
     }
 }
 
@@ -162,6 +180,19 @@ Rgb Lights::environment(Vec3 direction) const {
     Rgb sum = constant_;
     for (const auto map : maps_) sum += environments_[map].radiance(direction);
     return sum;
+}
+
+void Lights::look_at_sky(std::span<const Vec3> directions, std::span<SkyRadiance> seen) const {
+    if (maps_.size() == 1) {
+        environments_[maps_[0]].look(directions, seen);
+        for (std::size_t i = 0; i < directions.size(); ++i) {
+            seen[i].radiance = constant_ + seen[i].radiance;
+            seen[i].pdf = share_of(map_ends_, 0) * seen[i].pdf * share_of_far_;
+        }
+        return;
+    }
+    for (std::size_t i = 0; i < directions.size(); ++i)
+        seen[i] = {directions[i], environment(directions[i]), environment_pdf(directions[i])};
 }
 
 std::vector<Rgb> Lights::powers() const {

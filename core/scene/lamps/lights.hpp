@@ -53,8 +53,9 @@ public:
     bool many() const { return choices_ > 1; }
     /// None: no light can reach the point by this sample.
     std::optional<LightSample> sample(const LitPoint& from, float choice, Vec2 u) const;
-    /// The next calls of sample() will be with these. No `choices`: there is but one light.
-    void expect(std::span<const float> choices, std::span<const Vec2> u) const;
+    /// The same for up to `lanes` points at once. No `choices`: there is but one light.
+    void sample(std::span<const LitPoint> from, std::span<const float> choices, std::span<const Vec2> u,
+                LightSamples& samples) const;
     /// What sample() always chooses, if that's a flat lamp; else null.
     const FlatLamp* only_flat_lamp() const { return only_flat_lamp_ ? &*only_flat_lamp_ : nullptr; }
     /// Density with which sample() finds the emitting point `on`, which lies in `direction` from `from`. 0: not a lamp.
@@ -64,8 +65,11 @@ public:
 
     /// Radiance that a point of a surface emits into `direction`.
     Rgb emission(const SurfacePoint& point, Vec3 direction) const { return lamps_.radiance(point, direction); }
+    bool shines(std::uint32_t shape) const { return lamps_.shines(shape); }
     /// Radiance of all environments.
     Rgb environment(Vec3 direction) const;
+    /// Both of up to `lanes` directions: radiance, and density with which sample() finds it.
+    void look_at_sky(std::span<const Vec3> directions, std::span<SkyRadiance> seen) const;
     bool has_environment() const { return has_environment_; }
     /// Could the ray meet a lamp? False is certain.
     bool may_meet_lamp(const Ray& ray) const { return lamps_.may_meet(ray); }
@@ -86,6 +90,8 @@ private:
     std::optional<LightSample> from_tree(const LitPoint& from, float choice, Vec2 u) const;
     std::optional<LightSample> from_infinity(Vec3 from, float choice, Vec2 u) const;
     std::optional<LightSample> from_map(float choice, Vec2 u) const;
+    bool takes_only_map(float choice) const;
+    LightSample from_only_map(const SkyRadiance& seen) const;
     Emission from_sky(const Environment& environment, Vec2 position_sample, Vec2 direction_sample) const;
     Emission through_ball(Vec3 direction, Rgb irradiance, Vec2 position_sample) const;
 

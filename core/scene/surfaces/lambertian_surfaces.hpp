@@ -7,6 +7,7 @@
 
 #include "core/base/math/columns.hpp"
 #include "core/scene/bsdf/bsdf.hpp"
+#include "core/scene/lamps/light_sample.hpp"
 #include "core/scene/surfaces/flat_lamp.hpp"
 #include "core/scene/surfaces/ray.hpp"
 #include "core/scene/surfaces/surface.hpp"
@@ -67,14 +68,18 @@ public:
     struct RaysToLamp {
         Columns3 origin, direction, light;
         Column far;
-        Flags found;
+        Flags found, group;
         Column lamp_pdf, pdf;  // where the light is whole: of the lamp, and of the surface
+        Flags bare;            // the same: no ray can meet the lamp
     };
     const RaysToLamp& look_at(const FlatLamp& lamp, bool by_power);
     /// How that is weighted against finding the lamp by a direction.
     enum class Sharing { by_power, balanced, whole };
     /// The same without the weight that both techniques share by: the light is whole.
     const RaysToLamp& look_at_whole(const FlatLamp& lamp);
+    /// The same of lamps that were sampled for each.
+    const RaysToLamp& look_at(const LightSamples& lamps, bool by_power);
+    const RaysToLamp& look_at_whole(const LightSamples& lamps);
     /// What was found last.
     const RaysToLamp& rays_to_lamp() const { return rays_; }
 
@@ -83,6 +88,8 @@ private:
     struct Sampling;
     template <Sharing sharing, bool parallelogram>
     struct Looking;
+    template <Sharing sharing>
+    struct LookingAtMany;
     template <Sharing sharing>
     const RaysToLamp& look(const FlatLamp& lamp);
 
