@@ -16,10 +16,10 @@
 #include "core/scene/bsdf/bsdf.hpp"
 #include "core/scene/camera.hpp"
 #include "core/scene/data/scene_data.hpp"
-#include "core/scene/lamps/light_sample.hpp"
 #include "core/scene/lamps/lit_point.hpp"
 #include "core/scene/surfaces/flat_lamp.hpp"
 #include "core/scene/surfaces/lambertian_surfaces.hpp"
+#include "core/scene/surfaces/light_sample.hpp"
 #include "core/scene/surfaces/ray.hpp"
 #include "core/scene/surfaces/surface.hpp"
 

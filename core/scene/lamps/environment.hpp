@@ -12,7 +12,7 @@
 #include "core/base/math/rgb.hpp"
 #include "core/base/math/vec.hpp"
 #include "core/scene/data/scene_data.hpp"
-#include "core/scene/lamps/light_sample.hpp"
+#include "core/scene/surfaces/light_sample.hpp"
 
 namespace lightnet {
 

@@ -7,8 +7,8 @@
 
 #include "core/base/math/columns.hpp"
 #include "core/scene/bsdf/bsdf.hpp"
-#include "core/scene/lamps/light_sample.hpp"
 #include "core/scene/surfaces/flat_lamp.hpp"
+#include "core/scene/surfaces/light_sample.hpp"
 #include "core/scene/surfaces/ray.hpp"
 #include "core/scene/surfaces/surface.hpp"
 #include "core/scene/surfaces/triangle.hpp"
