@@ -118,6 +118,16 @@ TEST_P(SameImage, InThreadsOfAnyNumber) {
                         threads + " threads, tiles of " + tile);
 }
 
+TEST_P(SameImage, InVectorsOfAnyWidth) {
+    ASSERT_EQ(serial.code, 0) << serial.said;
+    for (const std::string width : {"narrow", "avx2"}) {
+        const auto out = folder / "picture.exr";
+        const auto words = launch_words(graph, out, with(small, {"--threads", "1"}));
+        Process process(with({"/usr/bin/env", "LIGHTNET_WIDTH=" + width}, words));
+        expect_same(finish(process, out), "vectors: " + width);
+    }
+}
+
 TEST_P(SameImage, OnDaemonsOfAnyNumber) {
     ASSERT_EQ(serial.code, 0) << serial.said;
     for (const auto& workers : daemons_tried)

@@ -49,8 +49,13 @@ struct InLines {
     friend bool operator==(InLines, InLines) { return true; }
 };
 
-/// Calls many.work(), an always_inline loop over lanes, in vectors as wide as this processor has them. With no fused
-/// operations anywhere, its results are the same in any width.
+/// Vectors of which width loops over many points are compiled for.
+enum class Width { narrow, avx2, avx512 };
+/// The widest that this processor has; or a narrower one that LIGHTNET_WIDTH names (narrow, avx2), to compare them.
+Width vector_width();
+
+/// Calls many.work(), an always_inline loop over lanes, in vectors as wide as vector_width(). With no fused operations
+/// anywhere, its results are the same in any width.
 #if defined(__x86_64__)
 template <class Many>
 [[gnu::target("avx2")]] void work_in_avx2(Many& many) {
@@ -58,7 +63,7 @@ template <class Many>
 }
 template <class Many>
 void work_in_lanes(Many& many) {
-    __builtin_cpu_supports("avx2") ? work_in_avx2(many) : many.work();
+    vector_width() == Width::narrow ? many.work() : work_in_avx2(many);
 }
 #else
 template <class Many>

@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cstddef>
 
+#include "core/base/math/columns.hpp"
+
 namespace lightnet {
 namespace {
 
@@ -103,7 +105,7 @@ struct SeedColumns {
         values[i] = first_coordinate(shuffled(some.indices[i], seeds.order[i]), seeds.first[i]);
 }
 
-// The widest that this processor has. Keys are of 64 bits, which only the last one multiplies in one go.
+// Of vector_width(). Keys are of 64 bits, which only the last one multiplies in one go.
 struct Makers {
     void (*points)(const Some&, Key offset, Vec2*);
     void (*coordinates)(const Some&, Key offset, float*);
@@ -122,20 +124,16 @@ struct Makers {
                                                                                float* values) {
     make_coordinates(some, offset, values);
 }
-Makers widest() {
-    __builtin_cpu_init();
-    const bool avx2 = __builtin_cpu_supports("avx2");
-    if (avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-        __builtin_cpu_supports("avx512dq"))
-        return {make_points_avx512, make_coordinates_avx512};
-    if (avx2) return {make_points_avx2, make_coordinates_avx2};
+Makers widest_makers() {
+    if (vector_width() == Width::avx512) return {make_points_avx512, make_coordinates_avx512};
+    if (vector_width() == Width::avx2) return {make_points_avx2, make_coordinates_avx2};
     return {make_points, make_coordinates};
 }
 #else
-Makers widest() { return {make_points, make_coordinates}; }
+Makers widest_makers() { return {make_points, make_coordinates}; }
 #endif
 const Makers& makers() {
-    static const Makers found = widest();
+    static const Makers found = widest_makers();
     return found;
 }
 

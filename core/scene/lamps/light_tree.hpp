@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/base/math/vec.hpp"
@@ -38,6 +39,8 @@ public:
     };
     /// `u` becomes the place within the choice. None: no light reaches the point.
     std::optional<Choice> choose(const LitPoint& from, float& u) const;
+    /// The same for many points at once. Chance 0: no light reaches the point.
+    void choose(std::span<const LitPoint> from, std::span<float> places, std::span<Choice> chosen) const;
     /// The chance with which choose() finds a light.
     float chance(const LitPoint& from, std::uint32_t light) const;
 
@@ -66,6 +69,9 @@ public:
     };
 
 private:
+    struct Choosing;
+    struct Looking;
+
     std::vector<Node> nodes_;
     std::vector<std::uint32_t> place_of_;  // by light: its node × width, plus which child of it; none
     static constexpr std::uint32_t none = 0xffffffffu;

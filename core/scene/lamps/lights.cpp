@@ -75,30 +75,32 @@ void Lights::build_tree() {
 
 std::optional<LightSample> Lights::sample(const LitPoint& from, float choice, Vec2 u) const {
     if (only_lamp_) return lamps_.sample(*only_lamp_, from.position, u);
-    if (share_of_tree_ == 1) return from_tree(from, choice, u);
-    std::optional<LightSample> sample;
-    if (choice < share_of_tree_) {
-        sample = from_tree(from, within(choice, 0, share_of_tree_), u);
-        if (sample) sample->pdf *= share_of_tree_;
-    } else if (share_of_far_ > 0) {
-        sample = from_infinity(from.position, (choice - share_of_tree_) / share_of_far_, u);
-        if (sample) sample->pdf *= share_of_far_;
-    }
-    return sample;
+    return takes_tree(choice) ? from_tree(from, choice, u) : from_beside(from.position, choice, u);
 }
 
 std::optional<LightSample> Lights::from_tree(const LitPoint& from, float choice, Vec2 u) const {
-    const auto chosen = tree_.choose(from, choice);
-    if (!chosen || !(chosen->chance > 0)) return {};
-    const std::size_t light = chosen->light;
+    float place = place_in_tree(choice);
+    const auto chosen = tree_.choose(from, place);
+    return chosen ? from_chosen(*chosen, from.position, u) : std::nullopt;
+}
+
+std::optional<LightSample> Lights::from_chosen(const LightTree::Choice& chosen, Vec3 from, Vec2 u) const {
+    const std::size_t light = chosen.light;
     const auto from_near = [&](const auto& one) {
-        auto found = light_from(one, from.position);
+        auto found = light_from(one, from);
         if (found) found->group = group(one.label);
         return found;
     };
-    auto sample = light < lamps_.size() ? lamps_.sample(light, from.position, u)
-                                        : near_light(near_[light - lamps_.size()], from_near);
-    if (sample) sample->pdf *= chosen->chance;
+    auto sample =
+        light < lamps_.size() ? lamps_.sample(light, from, u) : near_light(near_[light - lamps_.size()], from_near);
+    if (sample) sample->pdf = sample->pdf * chosen.chance * share_of_tree_;
+    return sample;
+}
+
+std::optional<LightSample> Lights::from_beside(Vec3 from, float choice, Vec2 u) const {
+    if (!(share_of_far_ > 0)) return {};
+    auto sample = from_infinity(from, (choice - share_of_tree_) / share_of_far_, u);
+    if (sample) sample->pdf *= share_of_far_;
     return sample;
 }
 
@@ -132,33 +134,66 @@ std::optional<LightSample> Lights::from_map(float choice, Vec2 u) const {
     return LightSample{{}, seen.direction, radiance, density, false, true, environment_group_};
 }
 
+float Lights::place_in_tree(float choice) const {
+    return share_of_tree_ == 1 ? choice : within(choice, 0, share_of_tree_);
+}
+
 // As sample() goes.
 bool Lights::takes_only_map(float choice) const {
-    if (maps_.size() != 1 || only_lamp_ || share_of_tree_ == 1 || choice < share_of_tree_) return false;
+    if (maps_.size() != 1 || takes_tree(choice)) return false;
     return (choice - share_of_tree_) / share_of_far_ >= float(far_.size());
 }
 
+/// Those of many points that go the same way.
+struct Lights::SomePoints {
+    std::size_t count = 0;
+    std::array<std::uint32_t, lanes> who;
+    std::array<LitPoint, lanes> from;
+    std::array<float, lanes> choices;
+    std::array<Vec2, lanes> u;
+
+    void add(std::uint32_t i, const LitPoint& point, float choice, Vec2 place) {
+        who[count] = i;
+        from[count] = point;
+        choices[count] = choice;
+        u[count++] = place;
+    }
+};
+
 void Lights::sample(std::span<const LitPoint> from, std::span<const float> choices, std::span<const Vec2> u,
                     LightSamples& samples) const {
-    std::array<std::uint32_t, lanes> who;
-    std::array<Vec2, lanes> of_map;
-    std::array<SkyRadiance, lanes> seen;
-    std::size_t count = 0;
+    SomePoints by_tree, by_map;
     for (std::uint32_t i = 0; i < u.size(); ++i) {
         const float choice = choices.empty() ? 0 : choices[i];
-        if (!takes_only_map(choice)) {
-            samples.set(i, sample(from[i], choice, u[i]));
-            continue;
-        }
-        who[count] = i;
-        of_map[count++] = u[i];
+        if (only_lamp_)
+            samples.set(i, lamps_.sample(*only_lamp_, from[i].position, u[i]));
+        else if (takes_tree(choice))
+            by_tree.add(i, from[i], place_in_tree(choice), u[i]);
+        else if (takes_only_map(choice))
+            by_map.add(i, from[i], choice, u[i]);
+        else
+            samples.set(i, from_beside(from[i].position, choice, u[i]));
     }
-    if (count == 0) return;
-    environments_[maps_[0]].sample(std::span(of_map).first(count), seen);
-    for (std::size_t k = 0; k < count; ++k) {
+    if (by_tree.count > 0) sample_tree(by_tree, samples);
+    if (by_map.count > 0) sample_map(by_map, samples);
+}
+
+void Lights::sample_tree(const SomePoints& some, LightSamples& samples) const {
+    std::array<LightTree::Choice, lanes> chosen;
+    std::array<float, lanes> places = some.choices;
+    tree_.choose(std::span(some.from).first(some.count), places, chosen);
+    for (std::size_t k = 0; k < some.count; ++k)
+        samples.set(some.who[k],
+                    chosen[k].chance > 0 ? from_chosen(chosen[k], some.from[k].position, some.u[k]) : std::nullopt);
+}
+
+void Lights::sample_map(const SomePoints& some, LightSamples& samples) const {
+    std::array<SkyRadiance, lanes> seen;
+    environments_[maps_[0]].sample(std::span(some.u).first(some.count), seen);
+    for (std::size_t k = 0; k < some.count; ++k) {
         LightSample found = from_only_map(seen[k]);
         found.pdf *= share_of_far_;
-        samples.set(who[k], found);
+        samples.set(some.who[k], found);
     }
 }
 
