@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/estimate/path_vertices.hpp"
+#include "core/estimate/gather_each.hpp"
 #include "core/estimate/photon_tree.hpp"
 #include "core/estimate/shooting.hpp"
 #include "core/network/graph/kind.hpp"

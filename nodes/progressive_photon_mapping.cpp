@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/estimate/path_vertices.hpp"
+#include "core/estimate/gather_each.hpp"
 #include "core/estimate/photon_tree.hpp"
 #include "core/estimate/shooting.hpp"
 #include "core/film/tile.hpp"

@@ -28,7 +28,8 @@ public:
           only_lamp_(scene.only_flat_lamp()) {}
 
     void clear() {
-        plain_.clear(), points_.clear(), views_.clear(), bsdfs_.clear(), visitors_.clear(), guided_.clear();
+        plain_.clear(), shining_.clear(), points_.clear(), views_.clear(), bsdfs_.clear(), visitors_.clear(),
+            guided_.clear();
     }
     bool full() const { return plain_.full(); }
     /// Path `path`, after those added before, has come to a surface, as seen from `outgoing`, through `inside`. Not
@@ -37,7 +38,9 @@ public:
         plain_last_ = hit.instance == Query::no_instance && lambertian_shapes_[hit.geometry].mesh && !inside &&
                       (lobes & lobe::diffuse);
         if (plain_last_) {
-            plain_.add(path, lambertian_shapes_[hit.geometry], hit, outgoing);
+            const LambertianShape& shape = lambertian_shapes_[hit.geometry];
+            if (shape.shines) shining_.push_back({path, plain_.size(), hit.geometry, hit.primitive});
+            plain_.add(path, shape, hit, outgoing);
             return;
         }
         points_.push_back(scene_.surface(hit));
@@ -75,9 +78,15 @@ public:
     /// All have been added.
     void find_points() { plain_.find_points(); }
 
-    /// with(path, point) of all that may be lamps.
+    /// with(path, point) of all that may be lamps, of what add() added.
     template <class With>
     void each_that_may_shine(With&& with) const {
+        for (const Shining& lamp : shining_) {
+            SurfacePoint point = plain_.point(lamp.point);
+            point.geometry = lamp.geometry;
+            point.primitive = lamp.primitive;
+            with(lamp.path, point);
+        }
         for (const auto [path, point] : visitors_) with(path, points_[point]);
     }
 
@@ -193,6 +202,12 @@ public:
     }
 
 private:
+    /// A plain surface that may be a lamp.
+    struct Shining {
+        std::uint32_t path;
+        std::size_t point;
+        std::uint32_t geometry, primitive;
+    };
     struct Visitor {
         std::uint32_t path, point;
     };
@@ -358,6 +373,7 @@ private:
     const FlatLamp* only_lamp_;
     LambertianSurfaces plain_;
     bool plain_last_ = false;
+    std::vector<Shining> shining_;  // of those
     // the others, and who has come to which
     std::vector<SurfacePoint> points_;
     std::vector<View> views_;
@@ -374,16 +390,5 @@ private:
     bool learns_ = false;
     std::optional<GuideRecord> record_;
 };
-
-/// with(index, Gathering) of each question, in another order than theirs.
-template <class With>
-void gather_each(const Scene& scene, std::span<const Query> questions, With&& with) {
-    PathVertices vertices(scene);
-    for (std::size_t next = 0; next < questions.size();) {
-        next = vertices.begin(next, questions.size(), [&](std::size_t i) -> const Query& { return questions[i]; });
-        vertices.find_bsdfs();
-        vertices.each(with);
-    }
-}
 
 }  // namespace lightnet

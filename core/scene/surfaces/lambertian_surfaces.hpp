@@ -17,13 +17,14 @@ namespace lightnet {
 
 class Shading;
 
-/// A mesh that is an ideal diffuse (Lambertian) reflector, is filled with nothing, and emits nothing.
+/// A mesh that is an ideal diffuse (Lambertian) reflector, and is filled with nothing.
 struct LambertianShape {
     const Mesh* mesh = nullptr;  // null: the shape is another
     Rgb albedo;
     const Shading* textured = nullptr;  // knows the albedo, which is not the same everywhere
     float least_offset = 0;             // by which rays must leave the shape, m
     bool one_sided = false;
+    bool shines = false;  // emits light as well
 };
 
 /// Points of such shapes as a structure of arrays: each coordinate has a column of its own, for vectors of the

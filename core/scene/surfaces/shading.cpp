@@ -77,10 +77,14 @@ Shading::Shading(const SceneData& data) : data_(data), materials_(data) {
 
 LambertianShape Shading::lambertian(const Shape& shape, const Needs& needs) const {
     const auto* mesh = std::get_if<Mesh>(&shape.geometry);
-    if (!mesh || shape.emission || !materials_.is_lambertian(shape.material)) return {};
+    if (!mesh || !materials_.is_lambertian(shape.material)) return {};
     const Rgb* albedo = materials_.constant_albedo(shape.material);
-    return {mesh, albedo ? *albedo : Rgb{}, albedo ? nullptr : this, needs.offset,
-            data_.materials[shape.material].one_sided};
+    return {mesh,
+            albedo ? *albedo : Rgb{},
+            albedo ? nullptr : this,
+            needs.offset,
+            data_.materials[shape.material].one_sided,
+            shape.emission.has_value()};
 }
 
 Rgb Shading::albedo(const Hit& hit) const {
