@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cmath>
+#include <type_traits>
 
 namespace lightnet {
 namespace {
@@ -33,41 +34,73 @@ void sphere_bounds(const RTCBoundsFunctionArguments* args) {
     *args->bounds_o = {low(c.x), low(c.y), low(c.z), 0, high(c.x), high(c.y), high(c.z), 0};
 }
 
-// Calls `found(distance, name)` for the nearest point of the sphere that is there.
-template <class Found>
-void nearest_on_sphere(const Form& form, RTCRayN* rays, unsigned n, unsigned i, Found found) {
+void quadric_bounds(const RTCBoundsFunctionArguments* args) {
+    const Box box = form_of(args->geometryUserPtr).quadric->bounds();
+    *args->bounds_o = {box.low.x, box.low.y, box.low.z, 0, box.high.x, box.high.y, box.high.z, 0};
+}
+
+template <class Accept>
+void meet(const PlacedQuadric& quadric, Vec3 origin, Vec3 direction, float near, float far, Accept accept) {
+    quadric.meet(origin, direction, near, far, accept);
+}
+
+template <class Round>
+const Round& round_of(const Form& form) {
+    if constexpr (std::is_same_v<Round, Sphere>)
+        return *form.sphere;
+    else
+        return *form.quadric;
+}
+
+// Calls `found(distance, name)` with points of a sphere or quadric that are there and nearer than `far`, until it
+// returns true.
+template <class Round, class Found>
+void nearest_on_round(const Form& form, RTCRayN* rays, unsigned n, unsigned i, float far, Found found) {
     const Vec3 origin{RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)};
     const Vec3 direction{RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)};
-    meet(*form.sphere, origin, direction, RTCRayN_tnear(rays, n, i), RTCRayN_tfar(rays, n, i), [&](float t, Vec2 name) {
-        if (!form.is_there({0, name})) return false;
-        found(t, name);
-        return true;
+    meet(round_of<Round>(form), origin, direction, RTCRayN_tnear(rays, n, i), far, [&](float t, Vec2 name) {
+        return form.is_there({0, name}) && found(t, name);
     });
 }
 
-void meet_sphere(const RTCIntersectFunctionNArguments* args) {
-    const unsigned n = args->N;
+// Where two are met at one distance, the first by instance and shape counts: packets come to them in another order than
+// single rays.
+template <class Round>
+void meet_round(const RTCIntersectFunctionNArguments* args) {
+    const unsigned n = args->N, instance = args->context->instID[0];
     RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, n);
     RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, n);
     for (unsigned i = 0; i < n; ++i) {
         if (!args->valid[i]) continue;
-        nearest_on_sphere(form_of(args->geometryUserPtr), rays, n, i, [&](float t, Vec2 name) {
+        const float far = RTCRayN_tfar(rays, n, i);
+        const auto found = [&](float t, Vec2 name) {
+            const unsigned other = RTCHitN_geomID(hits, n, i), its_instance = RTCHitN_instID(hits, n, i, 0);
+            const bool first = other != RTC_INVALID_GEOMETRY_ID &&
+                               (instance != its_instance ? instance < its_instance : args->geomID < other);
+            if (!(t < far) && !(t == far && first)) return false;
             RTCRayN_tfar(rays, n, i) = t;
             RTCHitN_u(hits, n, i) = name.x;
             RTCHitN_v(hits, n, i) = name.y;
             RTCHitN_geomID(hits, n, i) = args->geomID;
             RTCHitN_primID(hits, n, i) = args->primID;
-            RTCHitN_instID(hits, n, i, 0) = args->context->instID[0];
-        });
+            RTCHitN_instID(hits, n, i, 0) = instance;
+            return true;
+        };
+        nearest_on_round<Round>(form_of(args->geometryUserPtr), rays, n, i, std::nextafter(far, INFINITY), found);
     }
 }
 
-void hide_behind_sphere(const RTCOccludedFunctionNArguments* args) {
+template <class Round>
+void hide_behind_round(const RTCOccludedFunctionNArguments* args) {
     const unsigned n = args->N;
-    for (unsigned i = 0; i < n; ++i)
-        if (args->valid[i])
-            nearest_on_sphere(form_of(args->geometryUserPtr), args->ray, n, i,
-                              [&](float, Vec2) { RTCRayN_tfar(args->ray, n, i) = -INFINITY; });
+    for (unsigned i = 0; i < n; ++i) {
+        if (!args->valid[i]) continue;
+        const auto found = [&](float, Vec2) {
+            RTCRayN_tfar(args->ray, n, i) = -INFINITY;
+            return true;
+        };
+        nearest_on_round<Round>(form_of(args->geometryUserPtr), args->ray, n, i, RTCRayN_tfar(args->ray, n, i), found);
+    }
 }
 
 template <std::size_t corners>
@@ -93,14 +126,24 @@ RTCGeometry make(RTCDevice device, Mesh& mesh, Form& form) {
     return geometry;
 }
 
-RTCGeometry make(RTCDevice device, Sphere& sphere, Form& form) {
-    form.sphere = &sphere;
+template <class Round>
+RTCGeometry round_geometry(RTCDevice device, RTCBoundsFunction bounds) {
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
     rtcSetGeometryUserPrimitiveCount(geometry, 1);
-    rtcSetGeometryBoundsFunction(geometry, sphere_bounds, nullptr);
-    rtcSetGeometryIntersectFunction(geometry, meet_sphere);
-    rtcSetGeometryOccludedFunction(geometry, hide_behind_sphere);
+    rtcSetGeometryBoundsFunction(geometry, bounds, nullptr);
+    rtcSetGeometryIntersectFunction(geometry, meet_round<Round>);
+    rtcSetGeometryOccludedFunction(geometry, hide_behind_round<Round>);
     return geometry;
+}
+
+RTCGeometry make(RTCDevice device, Sphere& sphere, Form& form) {
+    form.sphere = &sphere;
+    return round_geometry<Sphere>(device, sphere_bounds);
+}
+
+RTCGeometry make(RTCDevice device, Quadric&, Form& form) {
+    form.quadric = form.shading->quadric(form.shape);
+    return round_geometry<PlacedQuadric>(device, quadric_bounds);
 }
 
 }  // namespace

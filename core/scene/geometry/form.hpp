@@ -18,8 +18,9 @@ struct Form {
     const Shading* shading;
     std::uint32_t shape;
     bool holes;
-    const Sphere* sphere = nullptr;  // or a mesh
-    Quads quads{};                   // of a mesh whose triangles are paired
+    const Sphere* sphere = nullptr;          // or a mesh
+    const PlacedQuadric* quadric = nullptr;  // the same
+    Quads quads{};                           // of a mesh whose triangles are paired
 
     /// Embree's name of a point as ours.
     TrianglePoint point(std::uint32_t primitive, Vec2 at) const {

@@ -70,6 +70,8 @@ private:
         const auto& shape = surfaces_.data.shapes[hit.geometry].geometry;
         if (const auto* sphere = std::get_if<Sphere>(&shape))
             put_on_sphere(hit, *sphere, placement);
+        else if (const PlacedQuadric* quadric = surfaces_.shading.quadric(hit.geometry))
+            put_on_quadric(hit, *quadric, placement);
         else
             put_on_triangle(hit, std::get<Mesh>(shape), placement);
         if (forms_[hit.geometry].is_there({hit.primitive, {hit.u, hit.v}})) compare(hit, point(hit, placement));
@@ -95,6 +97,17 @@ private:
             const Vec3 outwards = (placement ? placement->point_to_object(towards) : towards) - sphere.center;
             const float far = length(outwards);
             const Vec2 name = to_octahedral(far > 0 ? outwards / far : Vec3{0, 0, 1});
+            hit.u = name.x, hit.v = name.y;
+            const SurfacePoint at = point(hit, placement);
+            towards = wish_.position - at.normal * dot(wish_.position - at.position, at.normal);
+        }
+    }
+
+    // As for a stretched sphere: towards the tangent plane where it is near in its own space, and again.
+    void put_on_quadric(Hit& hit, const PlacedQuadric& quadric, const Placement* placement) const {
+        Vec3 towards = wish_.position;
+        for (int step = 0; step < 4; ++step) {
+            const Vec2 name = quadric.name_near(placement ? placement->point_to_object(towards) : towards);
             hit.u = name.x, hit.v = name.y;
             const SurfacePoint at = point(hit, placement);
             towards = wish_.position - at.normal * dot(wish_.position - at.position, at.normal);
