@@ -221,15 +221,17 @@ Box PlacedQuadric::bounds() const {
     const auto& m = quadric_.to_world.m;
     Box box;
     Vec3 low, high;
+    double pad = 0;
     for (std::size_t i = 0; i < 3; ++i) {
         const double across = std::hypot(m[i][0], m[i][1]);
         double middle = m[i][3], reach = across;
         if (quadric_.round == Quadric::Round::cylinder) middle += 0.5 * m[i][2], reach += 0.5 * std::fabs(m[i][2]);
         if (quadric_.round == Quadric::Round::sphere) reach = std::hypot(across, m[i][2]);
-        reach += 1e-6 * (reach + std::fabs(middle));
+        pad = std::max(pad, 1e-6 * (reach + std::fabs(middle)));
         low[i] = float(middle - reach), high[i] = float(middle + reach);
     }
-    box.add(low), box.add(high);
+    const float all = float(pad);  // along flat sides, too
+    box.add(low - Vec3{all, all, all}), box.add(high + Vec3{all, all, all});
     return box;
 }
 
