@@ -72,6 +72,7 @@ void meet_round(const RTCIntersectFunctionNArguments* args) {
     RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, n);
     for (unsigned i = 0; i < n; ++i) {
         if (!args->valid[i]) continue;
+        constexpr float just_beyond = 1 + 0x1p-23f;  // an equal distance is looked at, too
         const float far = RTCRayN_tfar(rays, n, i);
         const auto found = [&](float t, Vec2 name) {
             const unsigned other = RTCHitN_geomID(hits, n, i), its_instance = RTCHitN_instID(hits, n, i, 0);
@@ -86,7 +87,7 @@ void meet_round(const RTCIntersectFunctionNArguments* args) {
             RTCHitN_instID(hits, n, i, 0) = instance;
             return true;
         };
-        nearest_on_round<Round>(form_of(args->geometryUserPtr), rays, n, i, std::nextafter(far, INFINITY), found);
+        nearest_on_round<Round>(form_of(args->geometryUserPtr), rays, n, i, far * just_beyond, found);
     }
 }
 
