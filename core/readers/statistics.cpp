@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/scene/data/contents.hpp"
+#include "core/scene/surfaces/placed_quadric.hpp"
 
 namespace lightnet {
 namespace {
@@ -27,6 +28,11 @@ void add_shape(Box& box, const Shape& shape) {
         for (const Vec3& p : mesh->positions) box.add(p);
         return;
     }
+    if (const auto* quadric = std::get_if<Quadric>(&shape.geometry)) {
+        const Box own = PlacedQuadric(*quadric).bounds();
+        box.add(own.low), box.add(own.high);
+        return;
+    }
     const auto& ball = std::get<Sphere>(shape.geometry);
     const Vec3 r{ball.radius, ball.radius, ball.radius};
     box.add(ball.center - r), box.add(ball.center + r);
@@ -47,6 +53,9 @@ void count_shapes(const SceneData& scene, SceneStatistics& found) {
             found.geometry_bytes += size_in_memory(mesh->positions) + size_in_memory(mesh->normals) +
                                     size_in_memory(mesh->uvs) + size_in_memory(mesh->colours) +
                                     size_in_memory(mesh->triangles);
+        } else if (std::holds_alternative<Quadric>(shape.geometry)) {
+            ++found.quadrics;
+            found.geometry_bytes += sizeof(Quadric);
         } else {
             ++found.spheres;
             found.geometry_bytes += sizeof(Sphere);

@@ -14,7 +14,7 @@ namespace lightnet {
 struct SceneStatistics {
     std::uint64_t triangles = 0;            // in memory
     std::uint64_t instanced_triangles = 0;  // in the world: those of objects once for each instance
-    std::size_t spheres = 0, meshes = 0, objects = 0, instances = 0;
+    std::size_t spheres = 0, quadrics = 0, meshes = 0, objects = 0, instances = 0;
     std::map<std::string, std::size_t> materials;  // that shapes have, by model
     std::map<std::string, std::size_t> lights;     // by what they are
     std::size_t textures = 0, images = 0;

@@ -12,6 +12,7 @@
 #include "core/base/math/transform.hpp"
 #include "core/scene/camera.hpp"
 #include "core/scene/data/contents.hpp"
+#include "core/scene/surfaces/placed_quadric.hpp"
 
 namespace lightnet {
 namespace {
@@ -25,6 +26,13 @@ void add_to(Box& box, const Shape& shape, const Matrix& to_world) {
     if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) {
         for (const float side : {-1.0f, 1.0f})
             box.add(transform_point(to_world, sphere->center + Vec3{1, 1, 1} * (side * sphere->radius)));
+        return;
+    }
+    if (const auto* quadric = std::get_if<Quadric>(&shape.geometry)) {
+        const Box own = PlacedQuadric(*quadric).bounds();
+        for (int corner = 0; corner < 8; ++corner)
+            box.add(transform_point(to_world, {corner & 1 ? own.high.x : own.low.x, corner & 2 ? own.high.y : own.low.y,
+                                               corner & 4 ? own.high.z : own.low.z}));
         return;
     }
     for (const Vec3 vertex : std::get<Mesh>(shape.geometry).positions) box.add(transform_point(to_world, vertex));

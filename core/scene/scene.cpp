@@ -6,6 +6,7 @@
 #include "core/scene/lamps/lights.hpp"
 #include "core/scene/ray_witness.hpp"
 #include "core/scene/scene_size.hpp"
+#include "core/scene/surfaces/placed_quadric.hpp"
 #include "core/scene/surfaces/placement.hpp"
 #include "core/scene/surfaces/shading.hpp"
 
@@ -47,6 +48,8 @@ SceneData checked(SceneData data) {
         if (shape.emission && shape.emission->texture && *shape.emission->texture >= data.textures.size())
             throw wrong(shape, "emits by a texture that isn't there");
         if (const auto* mesh = std::get_if<Mesh>(&shape.geometry)) check_mesh(shape, *mesh);
+        if (const auto* quadric = std::get_if<Quadric>(&shape.geometry); quadric && !PlacedQuadric(*quadric).usable())
+            throw wrong(shape, "its transform can't be inverted");
     }
     check_objects(data);
     return data;

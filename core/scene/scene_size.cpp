@@ -27,7 +27,8 @@ SceneSize size_of(const SceneData& data, const Geometry& geometry, const Lights&
         const auto* mesh = std::get_if<Mesh>(&data.shapes[s].geometry);
         size.triangles += triangles_of(data.shapes[s]);
         size.instanced_triangles += in_object[s] ? 0 : triangles_of(data.shapes[s]);
-        size.spheres += mesh ? 0 : 1;
+        size.spheres += std::holds_alternative<Sphere>(data.shapes[s].geometry) ? 1 : 0;
+        size.quadrics += std::holds_alternative<Quadric>(data.shapes[s].geometry) ? 1 : 0;
         if (mesh)
             size.mesh_bytes += bytes_of(mesh->positions) + bytes_of(mesh->normals) + bytes_of(mesh->uvs) +
                                bytes_of(mesh->colours) + bytes_of(mesh->triangles);

@@ -1,4 +1,4 @@
-// A mesh of a million triangles, where nobody has to bring one.
+// A mesh of a million triangles or more, where nobody has to bring one.
 #pragma once
 
 #include <cmath>
@@ -9,15 +9,14 @@
 
 namespace lightnet::bench {
 
-/// Hills on hills, 20 units wide and some 8 high, y upwards. Always the same.
-inline Mesh landscape() {
-    constexpr std::uint32_t side = 722;
+/// Hills on hills, 20 units wide and some 8 high, y upwards. Always the same: 2 `side`² triangles.
+inline Mesh landscape(std::uint32_t side = 722) {
     constexpr int octaves = 8;
     const auto random = [](std::uint64_t key) { return float(mix(key) >> 40) * 0x1p-24f; };
     Mesh mesh;
     for (std::uint32_t row = 0; row <= side; ++row)
         for (std::uint32_t column = 0; column <= side; ++column) {
-            const float x = 20.0f * float(column) / side - 10, z = 20.0f * float(row) / side - 10;
+            const float x = 20.0f * float(column) / float(side) - 10, z = 20.0f * float(row) / float(side) - 10;
             float height = 0, size = 2.2f, waves = 0.5f;
             for (std::uint64_t i = 0; i < octaves; ++i, size *= 0.5f, waves *= 2) {
                 const float angle = 6.2831853f * random(3 * i), c = std::cos(angle), s = std::sin(angle);

@@ -1,12 +1,20 @@
 // How long a scene takes from its files to where rays can be asked, beside the bare build of the same triangles' tree
 // by Embree. A landscape of a million triangles is written to the disk first; other scenes are those that lie beside
-// the project. What Embree doesn't do, above all to read pictures, counts as well. Arguments: scene files, instead of
-// all these.
+// the project. What Embree doesn't do, above all to read pictures, counts as well. Besides: how much memory a scene
+// takes per triangle, at most on the way there and afterwards. Arguments: scene files, instead of all these, and
+// `triangles=5e6`, a landscape of so many.
 #include <embree/rtcore.h>
+#include <malloc.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <variant>
@@ -29,9 +37,20 @@ void put(std::string& bytes, const T& value) {
     bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
+// A figure of this process's memory, bytes.
+double memory(const std::string& figure) {
+    std::ifstream in("/proc/self/status");
+    for (std::string line; std::getline(in, line);)
+        if (line.starts_with(figure + ":")) return 1024 * std::atof(line.c_str() + figure.size() + 1);
+    return 0;
+}
+void forget_peak() { std::ofstream("/proc/self/clear_refs") << 5; }
+
+constexpr std::uint32_t usual_side = 722;  // of the landscape: 2 for each of its square
+
 /// A scene file, and beside it its mesh, as modellers write them: PLY, binary.
-std::string written_to(const test::Folder& folder) {
-    const Mesh mesh = bench::landscape();
+std::string written_to(const test::Folder& folder, std::uint32_t side) {
+    const Mesh mesh = bench::landscape(side);
     std::string ply = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(mesh.positions.size()) +
                       "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
                       std::to_string(mesh.triangles.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
@@ -75,26 +94,40 @@ double bare_seconds(const SceneData& scene) {
 }
 
 void compare(const std::string& name, const std::string& file) {
-    std::vector<double> ratios;
+    std::vector<double> ratios, most, held;
     for (int round = 0; round < rounds; ++round) {
+        malloc_trim(0);
+        const double before = memory("VmRSS");
+        forget_peak();
         SceneData data;
         const double reading = bench::seconds_of([&] {
             DiskFiles files;
             data = read_scene(files, file);
         });
-        const double bare = bare_seconds(data);
-        std::size_t triangles = 0;
-        const double building = bench::seconds_of([&] { triangles = Scene(std::move(data)).size().triangles; });
+        std::optional<Scene> scene;
+        const double building = bench::seconds_of([&] { scene.emplace(std::move(data)); });
+        const auto triangles = double(std::max<std::size_t>(1, scene->size().triangles));
+        most.push_back((memory("VmHWM") - before) / triangles);
+        malloc_trim(0);
+        held.push_back((memory("VmRSS") - before) / triangles);
+        const double bare = bare_seconds(scene->data());
         ratios.push_back((reading + building) / bare);
-        std::printf("  %s: %zu triangles: read in %.3f s, built in %.3f s, by Embree alone in %.3f s\n", name.c_str(),
+        std::printf("  %s: %.0f triangles: read in %.3f s, built in %.3f s, by Embree alone in %.3f s\n", name.c_str(),
                     triangles, reading, building, bare);
     }
     bench::quantity("loading." + name, ratios, "times Embree's build", 2, false);
+    bench::show("bytes per triangle at most, pictures included", most);
+    bench::show("bytes per triangle afterwards", held);
+}
+
+void compare_landscape(double triangles) {
+    const test::Folder folder;
+    const auto side = static_cast<std::uint32_t>(std::lround(std::sqrt(triangles / 2)));
+    compare("landscape", written_to(folder, side));
 }
 
 void compare_all() {
-    const test::Folder folder;
-    compare("landscape", written_to(folder));
+    compare_landscape(2.0 * usual_side * usual_side);
     const std::pair<const char*, const char*> others[]{{"terrain", "reference/terrain.pbrt"},
                                                        {"living-room", "scenes/living-room-pbrt/living-room.pbrt"},
                                                        {"staircase2", "scenes/staircase2-pbrt/staircase2.pbrt"},
@@ -113,6 +146,10 @@ void compare_all() {
 int main(int argc, char** argv) {
     return lightnet::bench::run("loading", [&] {
         if (argc == 1) lightnet::compare_all();
-        for (int i = 1; i < argc; ++i) lightnet::compare(std::filesystem::path(argv[i]).stem(), argv[i]);
+        for (const std::string argument : std::span(argv, std::size_t(argc)).subspan(1))
+            if (argument.starts_with("triangles="))
+                lightnet::compare_landscape(std::stod(argument.substr(argument.find('=') + 1)));
+            else
+                lightnet::compare(std::filesystem::path(argument).stem(), argument);
     });
 }

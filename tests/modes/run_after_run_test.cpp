@@ -30,5 +30,32 @@ TEST(RunAfterRun, EndsAsSoonAsAllHostsSayThatTheyAreFree) {
     }
 }
 
+TEST(RunAfterRun, GoesOnWithTheSceneOfTheRunBefore) {
+    const Learning learning;
+    const auto expected = learning.serial();
+    const Folder folder;
+    std::atomic<int> found{0};
+    Host::Options host;
+    host.places = 2;
+    host.cache = folder.file("one");
+    host.log = [&found](const LogEntry& entry) { found += entry.text == "has its scene from the run before"; };
+    const HostThread one(learning.registry, std::move(host));
+    const std::atomic<bool> never{false};
+    const auto run = [&](std::uint32_t wider) {
+        auto options = cluster_of(learning, {one.endpoint()});
+        options.job.width += wider;
+        Cluster cluster(std::move(options));
+        cluster.gather(slowdown * 5s, never);
+        if (wider == 0) EXPECT_TRUE(learning.networked(cluster) == expected);
+        cluster.finish(slowdown * 10s);
+        return found.load();
+    };
+    EXPECT_EQ(run(0), 0);
+    EXPECT_EQ(run(0), 1);
+    EXPECT_EQ(run(8), 1) << "another camera's picture";
+    EXPECT_EQ(run(0), 1) << "the scene before the last is gone";
+    EXPECT_EQ(run(0), 2);
+}
+
 }  // namespace
 }  // namespace lightnet::run_after_run_test

@@ -22,7 +22,7 @@ Rgb answer(const LightOp& op, Query question, std::uint32_t samples) {
 }
 
 // A floor of the given material under a lamp; shape 0 is the floor, and the question is about its middle.
-SceneData floor_and(std::variant<Mesh, Sphere> lamp, Rgb radiance) {
+SceneData floor_and(ShapeGeometry lamp, Rgb radiance) {
     SceneData data;
     add(data, quad({-50, 0, -50}, {0, 0, 100}, {100, 0, 0}), diffuse(data, 0.6f));
     add(data, std::move(lamp), diffuse(data, 0)).emission = AreaEmission{radiance, false};

@@ -24,7 +24,7 @@ SceneData three_lamps(bool red = true, bool green = true, bool blue = true) {
     add(data, quad({-5, 0, -5}, {0, 0, 10}, {10, 0, 0}), diffuse(data, 0.6f));
     add(data, quad({-5, 0, -3}, {10, 0, 0}, {0, 6, 0}), diffuse(data, 0.5f));
     add(data, ball({1.5f, 0.7f, 0}, 0.7f), mirror(data, 0.9f));
-    const auto lamp = [&](std::variant<Mesh, Sphere> geometry, Rgb light, const char* name) {
+    const auto lamp = [&](ShapeGeometry geometry, Rgb light, const char* name) {
         add(data, std::move(geometry), diffuse(data, 0)).emission = AreaEmission{light};
         data.shapes.back().name = name;
     };

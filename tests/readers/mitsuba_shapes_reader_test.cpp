@@ -7,12 +7,14 @@
 #include <numbers>
 
 #include "core/readers/mitsuba/serialized.hpp"
+#include "core/scene/surfaces/placed_quadric.hpp"
 #include "tests/support/scene_text.hpp"
 
 namespace lightnet::test::mitsuba_shapes_reader_test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 using testing::SizeIs;
 
 constexpr float degrees = std::numbers::pi_v<float> / 180;
@@ -76,24 +78,41 @@ TEST(MitsubaSolids, LookOutwards) {
     EXPECT_FLOAT_EQ(area_of(cube), 24);
     EXPECT_FLOAT_EQ(outwards(cube), 1);
     EXPECT_FLOAT_EQ(outwards(mesh_of(shape("cube", "<transform name='to_world'><scale z='-1'/></transform>"))), 1);
-    const auto cylinder = mesh_of(shape(
-        "cylinder",
-        "<point name='p0' x='0' y='-2' z='0'/><point name='p1' x='0' y='2' z='0'/><float name='radius' value='.5'/>"));
-    EXPECT_NEAR(area_of(cylinder), 4 * std::numbers::pi_v<float>, 0.01f);
-    EXPECT_GT(outwards(cylinder), 0.49f);
-    EXPECT_NEAR(area_of(mesh_of(shape("disk", ""))), std::numbers::pi_v<float>, 1e-3f);
-    EXPECT_EQ(normal_of(mesh_of(shape("disk", ""))), (Vec3{0, 0, 1}));
 }
 
-TEST(MitsubaSphere, IsRoundOrCut) {
+TEST(MitsubaCylinder, StandsBetweenItsEnds) {
+    const auto scene = shape(
+        "cylinder",
+        "<point name='p0' x='0' y='-2' z='0'/><point name='p1' x='0' y='2' z='0'/><float name='radius' value='.5'/>");
+    const PlacedQuadric cylinder(quadric_of(scene));
+    EXPECT_THAT(warnings_of(scene), Not(HasSubstr("triangles")));
+    EXPECT_NEAR(cylinder.area(), 4 * std::numbers::pi_v<float>, 1e-4f);
+    EXPECT_FLOAT_EQ(cylinder.position({1, 0, 0}).y, -2);
+    EXPECT_FLOAT_EQ(cylinder.position({1, 0, 1}).y, 2);
+    EXPECT_GT(dot(cylinder.normal({1, 0, 0}), cylinder.position({1, 0, 0.5f})), 0.49f);
+    EXPECT_EQ(cylinder.uv({0, 1, 0.25f}), (Vec2{0.25f, 0.75f}));
+}
+
+TEST(MitsubaDisk, LooksAlongZWithTheRadiusAsItsFirstCoordinate) {
+    const auto scene = shape("disk", "<transform name='to_world'><scale x='-1'/></transform>");
+    const PlacedQuadric disk(quadric_of(scene));
+    EXPECT_THAT(warnings_of(scene), Not(HasSubstr("triangles")));
+    EXPECT_NEAR(disk.area(), std::numbers::pi_v<float>, 1e-5f);
+    EXPECT_EQ(disk.normal({}), (Vec3{0, 0, 1}));
+    EXPECT_NEAR(disk.uv({0, 0.75f, 0}).x, 0.75f, 1e-6f);
+    EXPECT_NEAR(disk.uv({0, 0.75f, 0}).y, 0.75f, 1e-6f);
+}
+
+TEST(MitsubaSphere, IsRoundOrStretched) {
     const auto round = sphere_of(shape("sphere",
                                        "<point name='center' value='1 0 0'/><float name='radius' value='2'/>"
                                        "<transform name='to_world'><scale value='3'/></transform>"));
     EXPECT_EQ(round.center, (Vec3{3, 0, 0}));
     EXPECT_FLOAT_EQ(round.radius, 6);
     const auto egg = shape("sphere", "<transform name='to_world'><scale z='2'/></transform>");
-    EXPECT_GT(outwards(mesh_of(egg)), 0.9f);
-    EXPECT_THAT(warnings_of(egg), HasSubstr("an ellipsoid is cut into triangles"));
+    EXPECT_THAT(warnings_of(egg), Not(HasSubstr("triangles")));
+    EXPECT_EQ(PlacedQuadric(quadric_of(egg)).position({0, 0, 1}), (Vec3{0, 0, 2}));
+    EXPECT_EQ(PlacedQuadric(quadric_of(egg)).normal({0, 0, -1}), (Vec3{0, 0, -1}));
     EXPECT_THAT(errors_of_mitsuba("<shape type='sphere'><float name='radius' value='0'/></shape>"),
                 HasSubstr("a radius above 0"));
 }

@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "core/scene/surfaces/placed_quadric.hpp"
 #include "tests/support/pbrt_text.hpp"
 
 namespace lightnet::test::pbrt_shapes_reader_test {
@@ -152,32 +153,50 @@ TEST(PbrtSpheres, AreTurnedInsideOutByAMirrorAsInPbrt) {
     EXPECT_FALSE(sphere_of(read_world("ReverseOrientation Scale 1 1 -1 " + ball)).flip_normals);
 }
 
-TEST(PbrtSpheres, AreCutIntoTrianglesWhenTheyMustBe) {
+/// Where the point of that name lies, and its normal.
+std::pair<Vec3, Vec3> place_of(const Quadric& shape, Vec3 own) {
+    const PlacedQuadric placed(shape);
+    return {placed.position(own), placed.normal(own)};
+}
+
+TEST(PbrtSpheres, AreQuadricsWhereTheyAreStretchedOrCut) {
     const auto scene =
         read_world("AttributeBegin Scale 1 1 2 " + ball + "AttributeEnd Shape \"sphere\" \"float zmin\" 0");
-    EXPECT_THAT(warnings_of(scene), HasSubstr("a sphere that is scaled unevenly"));
-    EXPECT_THAT(warnings_of(scene), HasSubstr("a part of a sphere"));
-    EXPECT_NEAR(area_of(mesh_of(scene, 1)), 2 * pi, 0.01);
-    // normals outwards
-    const Mesh& half = mesh_of(scene, 1);
-    for (std::size_t i = 0; i < half.positions.size(); ++i) EXPECT_GT(dot(half.positions[i], half.normals[i]), 0.99f);
+    EXPECT_EQ(warnings_of(scene), "");
+    EXPECT_NEAR(PlacedQuadric(quadric_of(scene, 1)).area(), 2 * pi, 1e-4);
+    const auto [top, up] = place_of(quadric_of(scene, 0), {0, 0, 1});
+    EXPECT_FLOAT_EQ(top.z, 2 * place_of(quadric_of(scene, 0), {1, 0, 0}).first.x);
+    expect_near(up, {0, 0, 1});
+    EXPECT_EQ(quadric_of(scene, 1).low, 0);
+    EXPECT_EQ(quadric_of(scene, 1).high, 1);
+    EXPECT_TRUE(quadric_of(read_world("Scale 1 1 -2 " + ball)).flip_normals);
 }
 
 TEST(PbrtDisks, KeepTheirAreaAndFaceUp) {
     const auto scene =
         read_world("Shape \"disk\" \"float radius\" 2 \"float height\" 3 Shape \"disk\" \"float innerradius\" 0.5");
-    EXPECT_NEAR(area_of(mesh_of(scene, 0)), 4 * pi, 1e-4);
-    EXPECT_NEAR(area_of(mesh_of(scene, 1)), 0.75 * pi, 1e-4);
-    for (std::size_t i = 0; i < mesh_of(scene, 0).triangles.size(); i += 2)
-        expect_near(normal_of(mesh_of(scene, 0), i), {0, 0, 1});
-    EXPECT_EQ(mesh_of(scene, 0).positions[0].z, 3);
+    EXPECT_EQ(warnings_of(scene), "");
+    EXPECT_NEAR(PlacedQuadric(quadric_of(scene, 0)).area(), 4 * pi, 1e-4);
+    EXPECT_NEAR(PlacedQuadric(quadric_of(scene, 1)).area(), 0.75 * pi, 1e-4);
+    const auto [rim, up] = place_of(quadric_of(scene, 0), {1, 0, 0});
+    expect_near(rim, {2, 0, 3});
+    expect_near(up, {0, 0, 1});
+    EXPECT_EQ(quadric_of(scene, 0).to_uv[1][1], 1);
+}
+
+TEST(PbrtDisks, OfNoExtentAreLeftOut) {
+    const auto scene = read_world("Shape \"disk\" \"float innerradius\" 1 Shape \"cylinder\" \"float zmin\" 1");
+    EXPECT_TRUE(scene.shapes.empty());
+    EXPECT_THAT(warnings_of(scene), HasSubstr("has no extent"));
 }
 
 TEST(PbrtCylinders, HaveNormalsOutwards) {
     const auto scene = read_world("Shape \"cylinder\" \"float radius\" 2 \"float zmin\" 0 \"float zmax\" 3");
-    EXPECT_NEAR(area_of(mesh_of(scene)), 12 * pi, 0.02);
-    expect_near(mesh_of(scene).normals[0], {1, 0, 0});
-    EXPECT_GT(normal_of(mesh_of(scene)).x, 0.9f);
+    EXPECT_EQ(warnings_of(scene), "");
+    EXPECT_NEAR(PlacedQuadric(quadric_of(scene)).area(), 12 * pi, 1e-3);
+    const auto [at, normal] = place_of(quadric_of(scene), {0, 1, 1});
+    expect_near(at, {0, 2, 3});
+    expect_near(normal, {0, 1, 0});
 }
 
 Rgb lamp(const std::string& parameters, const std::string& shape = ball) {

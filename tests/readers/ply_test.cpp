@@ -93,6 +93,28 @@ TEST(Ply, CutsLargeFacesLikeAFan) {
     EXPECT_THAT(mesh.uvs, IsEmpty());
 }
 
+// Triangles are read at once where they are whole numbers of 32 bits; what lies between them is read as ever.
+TEST(Ply, ReadsBinaryFacesOfAnyLengthInTheirOrder) {
+    const auto faces = [](std::int32_t last) {
+        std::string text =
+            "ply\nformat binary_little_endian 1.0\nelement vertex 5\nproperty float x\nproperty float y\n"
+            "property float z\nelement face 3\nproperty list uchar int vertex_indices\nend_header\n";
+        for (int i = 0; i < 15; ++i) put(text, float(i), true);
+        for (const std::vector<std::int32_t>& face : {std::vector{0, 1, 2}, {1, 2, 3, 4}, {2, 3, last}}) {
+            put(text, std::uint8_t(face.size()), true);
+            for (const std::int32_t index : face) put(text, index, true);
+        }
+        return text;
+    };
+    EXPECT_THAT(read(faces(4)).triangles,
+                ElementsAre(Triangle{0, 1, 2}, Triangle{1, 2, 3}, Triangle{1, 3, 4}, Triangle{2, 3, 4}));
+    EXPECT_THAT(error_of(faces(-1)), HasSubstr("impossible vertex index"));
+    EXPECT_THAT(error_of(faces(5)), HasSubstr("has the vertex index 5"));
+    std::string cut = faces(4);
+    cut.pop_back();
+    EXPECT_NE(error_of(cut), "");
+}
+
 TEST(Ply, SkipsOtherElements) {
     const Mesh mesh = read(
         "ply\nformat ascii 1.0\nelement material 1\nproperty list uchar float weights\nproperty int id\n"

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <string>
 
+#include "core/scene/surfaces/placed_quadric.hpp"
 #include "tests/support/scene_text.hpp"
 
 namespace lightnet::test::same_in_two_formats_test {
@@ -36,6 +37,10 @@ Summary summary(const SceneData& scene) {
                 result.area += area;
                 for (const Vec3 p : {a, b, c}) result.add(p);
             }
+        } else if (const auto* quadric = std::get_if<Quadric>(&shape.geometry)) {
+            const Box box = PlacedQuadric(*quadric).bounds();
+            result.area += double(PlacedQuadric(*quadric).area());
+            result.add(box.low), result.add(box.high);
         } else {
             const auto& ball = std::get<Sphere>(shape.geometry);
             const Vec3 r{ball.radius, ball.radius, ball.radius};

@@ -10,6 +10,7 @@
 #include "core/scene/lamps/bare_lights.hpp"
 #include "core/scene/lamps/light_tree.hpp"
 #include "core/scene/scene.hpp"
+#include "core/scene/surfaces/placed_quadric.hpp"
 #include "tests/support/both_ways.hpp"
 #include "tests/support/small_scenes.hpp"
 
@@ -126,7 +127,7 @@ void expect_power(const SceneData& data, double power, float radius = 4) {
     EXPECT_LT(received.error / power, 0.01);
 }
 
-SceneData shining(std::variant<Mesh, Sphere> shape, AreaEmission emission) {
+SceneData shining(ShapeGeometry shape, AreaEmission emission) {
     SceneData data;
     add(data, std::move(shape), diffuse(data, 0)).emission = emission;
     return data;
@@ -140,6 +141,16 @@ TEST(Power, OfASquareIsPiTimesAreaTimesRadiance) {
 
 TEST(Power, OfABallIsFourPiSquaredTimesRadiusSquared) {
     expect_power(shining(ball({0.3f, 0, 0}, 0.5f), {{2, 2, 2}}), 2 * std::numbers::pi * std::numbers::pi);
+}
+
+TEST(Power, OfAQuadricIsPiTimesAreaTimesRadiance) {
+    for (const auto round : {Quadric::Round::disk, Quadric::Round::cylinder, Quadric::Round::sphere}) {
+        Quadric shape;
+        shape.round = round;
+        shape.to_world.m = {{{0.5, 0.1, 0, 0.1}, {0, 0.3, 0.2, 0}, {0, -0.1, 0.4, 0}, {0, 0, 0, 1}}};
+        const double area = double{PlacedQuadric(shape).area()};
+        expect_power(shining(shape, {{2, 2, 2}}), 2 * area * std::numbers::pi);
+    }
 }
 
 TEST(Power, OfATexturedSquareIsThatOfItsMean) {

@@ -30,7 +30,7 @@ double solid_angle(const Scene& scene, Vec3 from) {
     return sum / many;
 }
 
-Scene one_lamp(std::variant<Mesh, Sphere> geometry, bool two_sided = false) {
+Scene one_lamp(ShapeGeometry geometry, bool two_sided = false) {
     SceneData data;
     add(data, std::move(geometry), diffuse(data, 0)).emission = AreaEmission{{1, 1, 1}, two_sided};
     return Scene(std::move(data));

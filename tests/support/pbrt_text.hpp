@@ -48,6 +48,10 @@ inline const Sphere& sphere_of(const SceneData& scene, std::size_t shape = 0) {
     return std::get<Sphere>(scene.shapes.at(shape).geometry);
 }
 
+inline const Quadric& quadric_of(const SceneData& scene, std::size_t shape = 0) {
+    return std::get<Quadric>(scene.shapes.at(shape).geometry);
+}
+
 /// The normal of a mesh's triangle, as a scene takes it.
 inline Vec3 normal_of(const Mesh& mesh, std::size_t triangle = 0) {
     const auto& t = mesh.triangles.at(triangle);

@@ -33,7 +33,7 @@ inline std::uint32_t mirror(SceneData& data, float reflectance) {
     return material(data, metal);
 }
 
-inline Shape& add(SceneData& data, std::variant<Mesh, Sphere> geometry, std::uint32_t of) {
+inline Shape& add(SceneData& data, ShapeGeometry geometry, std::uint32_t of) {
     return data.shapes.emplace_back(Shape{std::move(geometry), of, {}, {}});
 }
 

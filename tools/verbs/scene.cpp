@@ -92,7 +92,8 @@ void print(const SceneData& scene, const SceneStatistics& found, std::ostream& o
          fmt::format("{} in {} meshes, {} with all instances", found.triangles, found.meshes,
                      found.instanced_triangles));
     line(out, "shapes",
-         fmt::format("{} spheres, {} objects, {} instances", found.spheres, found.objects, found.instances));
+         fmt::format("{} spheres, {} quadrics, {} objects, {} instances", found.spheres, found.quadrics, found.objects,
+                     found.instances));
     line(out, "materials", counts_text(found.materials));
     line(out, "lights", counts_text(found.lights));
     print_names(scene, out);

@@ -105,6 +105,7 @@ void Host::serve(const std::atomic<bool>& stop) {
         if (s.run && now - s.heard > launcher_lease) s.drop_run("its launcher is silent");
         if (!s.leaving) s.door.keep_in_touch(now);
         if (s.run) s.needed = now;
+        if (!s.run) s.last_scene.wait(now);
         s.show_figures(now);
         if (s.options.patience && now - s.needed > *s.options.patience) {
             s.options.log("nobody needs it any more");
@@ -194,6 +195,8 @@ void Host::Service::advance() {
     try {
         while (run->advance()) {
             if (run->state() == HostedRun::State::fetching) tell_needs();
+            if (run->state() == HostedRun::State::building && run->has_last_scene())
+                options.log("has its scene from the run before");
             if (run->serving()) door.send(launcher, Type::ready, run->id(), {});
         }
     } catch (const std::exception& error) {
@@ -228,8 +231,8 @@ void Host::Service::forward_to_launcher(Frames& frames) {
 void Host::Service::tell_failures() {
     if (!run) return;
     for (const auto& [why, host, lie] : run->failures()) {
-        options.log({LogLevel::error, lie ? "somebody has answered falsely: " + why
-                                          : host + " failed at what it was asked: " + why});
+        options.log({LogLevel::error,
+                     lie ? "somebody has answered falsely: " + why : host + " failed at what it was asked: " + why});
         door.send(launcher, Type::fault, run->id(), Fields{}.set("host", host).set("text", why).set("lie", lie));
     }
 }

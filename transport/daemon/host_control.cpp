@@ -147,7 +147,7 @@ void Host::Service::start(const Arriving& job, Arrival read) {
         throw Error("the plan asks for " + std::to_string(mine) + " places of this host, which gives at most " +
                     std::to_string(most));
     HostedRun::Assignment assignment{job.id, job.you, std::max(options.places, mine), read.plan, std::move(read.job)};
-    run = std::make_unique<HostedRun>(context, cache, registry, std::move(assignment));
+    run = std::make_unique<HostedRun>(context, cache, registry, last_scene, std::move(assignment));
     rights.serve(job.key);
     rights.use_members(job.members);
     gateway.emplace(*context, job.id);

@@ -52,6 +52,7 @@ struct Host::Service {
         std::future<Arrival> read;
     };
     std::optional<Arriving> arriving;
+    LastScene last_scene;
     std::unique_ptr<HostedRun> run;
     std::optional<Gateway> gateway;        // of the run
     std::optional<PeerConnections> peers;  // to the other hosts of the run
@@ -66,7 +67,7 @@ struct Host::Service {
     std::string launcher;                   // route to it
     Time heard{};                           // from it
     std::uint64_t given = 0, answered = 0;  // asks of others
-    DaemonFigures figures;                    // of runs that have ended, and how many began
+    DaemonFigures figures;                  // of runs that have ended, and how many began
     Time told_figures{};
     mutable std::mutex shown_mutex;
     DaemonFigures shown;

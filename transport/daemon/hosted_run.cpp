@@ -8,8 +8,12 @@
 namespace lightnet {
 
 HostedRun::HostedRun(std::shared_ptr<const SocketContext> context, BlobCache& cache, const Registry& registry,
-                     Assignment assignment)
-    : context_(std::move(context)), cache_(cache), registry_(registry), assignment_(std::move(assignment)) {
+                     LastScene& last_scene, Assignment assignment)
+    : context_(std::move(context)),
+      cache_(cache),
+      registry_(registry),
+      last_scene_(last_scene),
+      assignment_(std::move(assignment)) {
     expect(assignment_.plan);
     looking_ = background_.start([this] {
         std::set<Hash> missing;
@@ -95,14 +99,11 @@ bool HostedRun::advance() {
         missing_ = looking_.get();
         state_ = State::fetching;
     } else if (state_ == State::fetching && missing_.empty()) {
-        building_ = background_.start([this] {
-            BlobFiles files(cache_, assignment_.job.files);
-            return build_network(assignment_.job, registry_, files,
-                                 [results = results_](const Hash& hash) { return results->find(hash); });
-        });
+        begin_to_build();
         state_ = State::building;
     } else if (state_ == State::building && building_.wait_for(now) == std::future_status::ready) {
         auto network = building_.get();
+        last_scene_.hold(scene_source(assignment_.job, registry_), network->scene);
         const auto& [id, me, places, plan, job] = assignment_;
         transport_ = std::make_unique<ZmqPlaceTransport>(context_, id, me, places);
         places_ = std::make_unique<PlaceThreads>(*transport_, std::move(network), id, me, places, plan, job.tuning,
@@ -113,6 +114,19 @@ bool HostedRun::advance() {
         state_ = State::serving;
     }
     return state_ != before;
+}
+
+// DECISIONS: last-scene-stays
+void HostedRun::begin_to_build() {
+    auto last = last_scene_.take(scene_source(assignment_.job, registry_));
+    if (goes_on_from_kept(assignment_.job.graph, registry_)) last.reset();
+    has_last_scene_ = last != nullptr;
+    building_ = background_.start([this, last = std::move(last)] {
+        const auto find = [results = results_](const Hash& hash) { return results->find(hash); };
+        if (last) return build_network(assignment_.job, registry_, last, find);
+        BlobFiles files(cache_, assignment_.job.files);
+        return build_network(assignment_.job, registry_, files, find);
+    });
 }
 
 void HostedRun::use(const Plan& plan) {

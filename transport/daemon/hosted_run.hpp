@@ -13,6 +13,7 @@
 
 #include "core/run/runtime/job.hpp"
 #include "transport/daemon/background_work.hpp"
+#include "transport/daemon/last_scene.hpp"
 #include "transport/places/place_threads.hpp"
 #include "transport/store/blob_cache.hpp"
 #include "transport/store/results.hpp"
@@ -33,7 +34,7 @@ public:
         Job job;
     };
     HostedRun(std::shared_ptr<const SocketContext> context, BlobCache& cache, const Registry& registry,
-              Assignment assignment);
+              LastScene& last_scene, Assignment assignment);
 
     enum class State { looking, fetching, building, starting, serving };
 
@@ -73,6 +74,8 @@ public:
     void begin_to_stop();
     /// Waits until they have. The only thing that another thread may do, and then nothing else.
     Counters stop();
+    /// Did it find the scene of the run before to be its own?
+    bool has_last_scene() const { return has_last_scene_; }
     /// What it is at, and the nodes that this host holds now, by name, for display.
     const char* words() const;
     std::string nodes() const;
@@ -86,14 +89,17 @@ private:
     };
 
     void take_plan(const Plan& plan);
+    void begin_to_build();
     std::uint64_t size_of(const Hash& hash) const;
     void take_result(const packet::Piece& piece, IncomingResult& result);
 
     std::shared_ptr<const SocketContext> context_;
     BlobCache& cache_;
     const Registry& registry_;
+    LastScene& last_scene_;
     Assignment assignment_;
     State state_ = State::looking;
+    bool has_last_scene_ = false;
     std::future<std::set<Hash>> looking_;
     std::set<Hash> missing_;
     std::map<Hash, BlobCache::Incoming> incoming_;

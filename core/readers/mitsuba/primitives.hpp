@@ -10,11 +10,5 @@ namespace lightnet::mitsuba {
 Mesh rectangle();
 /// [-1, 1]³. With normals.
 Mesh cube();
-/// Of radius 1 at z = 0, seen from +z; as large as the disk. With normals.
-Mesh disk();
-/// Around the z axis from 0 to 1, radius 1, normals outwards.
-Mesh cylinder();
-/// Radius 1, normals outwards.
-Mesh ball();
 
 }  // namespace lightnet::mitsuba

@@ -14,6 +14,7 @@
 #include "core/readers/mitsuba/transforms.hpp"
 #include "core/readers/obj/model.hpp"
 #include "core/readers/ply/mesh.hpp"
+#include "core/scene/surfaces/placed_quadric.hpp"
 
 namespace lightnet::mitsuba {
 namespace {
@@ -73,20 +74,22 @@ std::optional<std::uint32_t> Shapes::shape(const Node& node, bool in_group) {
     return static_cast<std::uint32_t>(scene.shapes.size() - 1);
 }
 
-std::optional<std::variant<Mesh, Sphere>> Shapes::geometry(Properties& properties) {
+std::optional<ShapeGeometry> Shapes::geometry(Properties& properties) {
     const auto& type = properties.node().type;
     std::optional<Mesh> mesh;
     if (type == "sphere") return round(properties);
     if (type == "obj" || type == "ply" || type == "serialized") {
         mesh = file(properties);
     } else if (type == "rectangle") {
-        mesh = placed(properties, rectangle(), false);
+        mesh = placed(properties, rectangle());
     } else if (type == "cube") {
-        mesh = placed(properties, cube(), false);
+        mesh = placed(properties, cube());
     } else if (type == "disk") {
-        mesh = placed(properties, disk(), false);
+        Quadric disk;
+        disk.to_uv = {{{0, -1, 1}, {-1, 0, 1}}};  // by the radius, and by the turn
+        return stood(properties, disk, Matrix{});
     } else if (type == "cylinder") {
-        mesh = placed(properties, cylinder(properties), true);
+        return cylinder(properties);
     } else {
         properties.ignore_all();
         context_.warn(properties.node(), fmt::format("shape '{}' is not supported{} and left out", type,
@@ -97,7 +100,7 @@ std::optional<std::variant<Mesh, Sphere>> Shapes::geometry(Properties& propertie
 }
 
 /// Moves a mesh that has normals into the world; they decide on its sides.
-std::optional<Mesh> Shapes::placed(Properties& properties, Mesh mesh, bool keeps_normals) {
+std::optional<Mesh> Shapes::placed(Properties& properties, Mesh mesh) {
     const bool turned = properties.boolean("flip_normals", false);
     if (!transform(mesh, transform_of(properties))) {
         context_.error(properties.node(), "a vertex is not finite after the transforms");
@@ -105,18 +108,26 @@ std::optional<Mesh> Shapes::placed(Properties& properties, Mesh mesh, bool keeps
     }
     order_by_normals(mesh);
     if (turned) flip(mesh);
-    if (!keeps_normals) mesh.normals.clear();  // it is flat
+    mesh.normals.clear();  // it is flat
     return mesh;
 }
 
-Mesh Shapes::cylinder(Properties& properties) {
+/// Moves a quadric into the world.
+std::optional<ShapeGeometry> Shapes::stood(Properties& properties, Quadric quadric, const Matrix& own) {
+    quadric.flip_normals = properties.boolean("flip_normals", false);
+    quadric.to_world = transform_of(properties) * own;
+    if (PlacedQuadric(quadric).usable()) return quadric;
+    context_.error(properties.node(), "its transforms are not finite, or leave it no extent");
+    return std::nullopt;
+}
+
+std::optional<ShapeGeometry> Shapes::cylinder(Properties& properties) {
     const Vec3 from = properties.point("p0", {0, 0, 0}), to = properties.point("p1", {0, 0, 1});
     const float radius = properties.number("radius", 1);
-    Mesh mesh = mitsuba::cylinder();
     const Vec3 axis = to - from;
     if (!(length(axis) > 0)) {
         context_.error(properties.node(), "a cylinder needs a length");
-        return mesh;
+        return std::nullopt;
     }
     const Vec3 z = normalize(axis), other = std::fabs(z.x) < 0.5f ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
     const Vec3 x = normalize(cross(other, z)), y = cross(z, x);
@@ -125,11 +136,13 @@ Mesh Shapes::cylinder(Properties& properties) {
         frame.m[i][0] = x[i] * radius, frame.m[i][1] = y[i] * radius;
         frame.m[i][2] = axis[i], frame.m[i][3] = from[i];
     }
-    transform(mesh, frame);
-    return mesh;
+    Quadric cylinder;
+    cylinder.round = Quadric::Round::cylinder;
+    cylinder.to_uv[1] = {0, -1, 1};
+    return stood(properties, cylinder, frame);
 }
 
-std::optional<std::variant<Mesh, Sphere>> Shapes::round(Properties& properties) {
+std::optional<ShapeGeometry> Shapes::round(Properties& properties) {
     Sphere sphere;
     const Vec3 center = properties.point("center", {0, 0, 0});
     const float radius = properties.number("radius", 1);
@@ -142,11 +155,9 @@ std::optional<std::variant<Mesh, Sphere>> Shapes::round(Properties& properties) 
     Matrix local;
     for (std::size_t i = 0; i < 3; ++i) local.m[i][i] = radius, local.m[i][3] = center[i];
     if (!scale) {
-        context_.warn(properties.node(), "an ellipsoid is cut into triangles");
-        Mesh mesh = ball();
-        transform(mesh, local);
-        auto result = placed(properties, std::move(mesh), true);
-        return result ? std::optional<std::variant<Mesh, Sphere>>(*std::move(result)) : std::nullopt;
+        Quadric ellipsoid;
+        ellipsoid.round = Quadric::Round::sphere;
+        return stood(properties, ellipsoid, local);
     }
     sphere.center = transform_point(to_world, center);
     sphere.radius = radius * *scale;

@@ -21,12 +21,13 @@ public:
 
 private:
     /// What the shape is, in the world.
-    std::optional<std::variant<Mesh, Sphere>> geometry(Properties& properties);
-    std::optional<std::variant<Mesh, Sphere>> round(Properties& properties);
+    std::optional<ShapeGeometry> geometry(Properties& properties);
+    std::optional<ShapeGeometry> round(Properties& properties);
     std::optional<Mesh> file(Properties& properties);
     std::optional<Mesh> decoded(Properties& properties, const Node& name, bool& face_normals);
-    Mesh cylinder(Properties& properties);
-    std::optional<Mesh> placed(Properties& properties, Mesh mesh, bool keeps_normals);
+    std::optional<ShapeGeometry> cylinder(Properties& properties);
+    std::optional<ShapeGeometry> stood(Properties& properties, Quadric quadric, const Matrix& own);
+    std::optional<Mesh> placed(Properties& properties, Mesh mesh);
 
     std::optional<std::uint32_t> shape(const Node& node, bool in_group);
     MaterialId material(Properties& properties, bool lamp);

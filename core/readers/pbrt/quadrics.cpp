@@ -3,77 +3,70 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <numbers>
+#include <utility>
+
+#include "core/scene/surfaces/placed_quadric.hpp"
 
 namespace lightnet::pbrt {
 namespace {
 
-constexpr int around = 128;  // pieces of a full turn
+constexpr float turn_of_all = 2 * std::numbers::pi_v<float>;
 
-struct Corner {
-    Vec3 position, normal;
-};
-
-/// A surface over (u, v) in the unit square; its normal is ∂u × ∂v.
-Mesh tessellate(int columns, int rows, const std::function<Corner(double u, double v)>& at) {
-    Mesh mesh;
-    for (int j = 0; j <= rows; ++j)
-        for (int i = 0; i <= columns; ++i) {
-            const double u = double(i) / columns, v = double(j) / rows;
-            const Corner corner = at(u, v);
-            mesh.positions.push_back(corner.position);
-            mesh.normals.push_back(corner.normal);
-            mesh.uvs.push_back({float(u), float(v)});
-        }
-    const auto index = [&](int i, int j) { return static_cast<std::uint32_t>(j * (columns + 1) + i); };
-    for (int j = 0; j < rows; ++j)
-        for (int i = 0; i < columns; ++i) {
-            mesh.triangles.push_back({index(i, j), index(i + 1, j), index(i + 1, j + 1)});
-            mesh.triangles.push_back({index(i, j), index(i + 1, j + 1), index(i, j + 1)});
-        }
-    return mesh;
+float turn_of(Parameters& parameters) {
+    return std::clamp(parameters.number("phimax", 360), 0.0f, 360.0f) / 360 * turn_of_all;
 }
 
-double phi_max(Parameters& parameters) {
-    return std::clamp(double(parameters.number("phimax", 360)), 0.0, 360.0) * std::numbers::pi / 180;
+Matrix scaled(double across, double along, double height) {
+    Matrix m;
+    m.m[0][0] = m.m[1][1] = across, m.m[2][2] = along, m.m[2][3] = height;
+    return m;
 }
 
-int pieces(double angle) { return std::max(1, static_cast<int>(std::ceil(around * angle / (2 * std::numbers::pi)))); }
+bool is_radius(float radius, Parameters& parameters) {
+    if (!(radius > 0)) parameters.error("the radius must be above 0");
+    return radius > 0;
+}
+
+std::optional<Geometry> stood(Quadric quadric, const Matrix& own, Parameters& parameters, const Placement& placement) {
+    quadric.flip_normals = placement.flips();
+    quadric.to_world = placement.to_world * own;
+    if (quadric.turn > 0 && PlacedQuadric(quadric).usable()) return quadric;
+    parameters.warn("it has no extent, or one that is not finite, and is left out");
+    return std::nullopt;
+}
 
 }  // namespace
 
-Mesh sphere_mesh(const SpherePart& part) {
-    const double r = part.radius;
-    const double low = std::acos(std::clamp(part.z_min / r, -1.0, 1.0));
-    const double high = std::acos(std::clamp(part.z_max / r, -1.0, 1.0));
-    return tessellate(pieces(part.phi_max), pieces(low - high), [&](double u, double v) -> Corner {
-        const double phi = u * part.phi_max, theta = low + v * (high - low);
-        const Vec3 n{float(std::sin(theta) * std::cos(phi)), float(std::sin(theta) * std::sin(phi)),
-                     float(std::cos(theta))};
-        return {n * part.radius, n};
-    });
+std::optional<Geometry> sphere_part(const SpherePart& part, Parameters& parameters, const Placement& placement) {
+    Quadric quadric;
+    quadric.round = Quadric::Round::sphere;
+    quadric.low = std::clamp(part.z_min / part.radius, -1.0f, 1.0f);
+    quadric.high = std::clamp(part.z_max / part.radius, -1.0f, 1.0f);
+    quadric.turn = part.phi_max;
+    if (!(quadric.low < quadric.high)) quadric.turn = 0;
+    return stood(quadric, scaled(part.radius, part.radius, 0), parameters, placement);
 }
 
-Mesh disk_mesh(Parameters& parameters) {
-    const double height = parameters.number("height", 0), radius = parameters.number("radius", 1);
-    const double inner = parameters.number("innerradius", 0), phi = phi_max(parameters);
-    const int columns = pieces(phi);
-    // the polygon is as large as the disk, so that a lamp keeps its power
-    const double piece = phi / columns, grow = piece > 0 ? std::sqrt(piece / std::sin(piece)) : 1;
-    return tessellate(columns, 1, [&](double u, double v) -> Corner {
-        const double r = grow * (radius + v * (inner - radius));
-        return {{float(r * std::cos(u * phi)), float(r * std::sin(u * phi)), float(height)}, {0, 0, 1}};
-    });
+std::optional<Geometry> disk(Parameters& parameters, const Placement& placement) {
+    const float height = parameters.number("height", 0), radius = parameters.number("radius", 1);
+    Quadric quadric;
+    quadric.inner = std::max(0.0f, parameters.number("innerradius", 0));
+    quadric.turn = turn_of(parameters);
+    if (!is_radius(radius, parameters)) return std::nullopt;
+    quadric.inner /= radius;
+    if (!(quadric.inner < 1)) quadric.turn = 0;
+    return stood(quadric, scaled(radius, 1, height), parameters, placement);
 }
 
-Mesh cylinder_mesh(Parameters& parameters) {
-    const double radius = parameters.number("radius", 1), phi = phi_max(parameters);
-    const double z_min = parameters.number("zmin", -1), z_max = parameters.number("zmax", 1);
-    return tessellate(pieces(phi), 1, [&](double u, double v) -> Corner {
-        const Vec3 n{float(std::cos(u * phi)), float(std::sin(u * phi)), 0};
-        return {n * float(radius) + Vec3{0, 0, float(z_min + v * (z_max - z_min))}, n};
-    });
+std::optional<Geometry> cylinder(Parameters& parameters, const Placement& placement) {
+    const float radius = parameters.number("radius", 1), turn = turn_of(parameters);
+    auto [low, high] = std::minmax({parameters.number("zmin", -1), parameters.number("zmax", 1)});
+    if (!is_radius(radius, parameters)) return std::nullopt;
+    Quadric quadric;
+    quadric.round = Quadric::Round::cylinder;
+    quadric.turn = turn;
+    return stood(quadric, scaled(radius, double{high} - low, low), parameters, placement);
 }
 
 }  // namespace lightnet::pbrt

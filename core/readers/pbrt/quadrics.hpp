@@ -1,8 +1,10 @@
-// Round shapes cut into triangles.
+// Disks, cylinders, and spheres that are cut or stretched.
 #pragma once
 
+#include <optional>
+
 #include "core/readers/pbrt/parameters.hpp"
-#include "core/scene/data/scene_data.hpp"
+#include "core/readers/pbrt/shapes.hpp"
 
 namespace lightnet::pbrt {
 
@@ -11,9 +13,9 @@ struct SpherePart {
     float radius = 1, z_min = -1, z_max = 1, phi_max = 0;
 };
 
-/// All in the shape's own space, with shading normals as the shape has them by itself.
-Mesh sphere_mesh(const SpherePart& part);
-Mesh disk_mesh(Parameters& parameters);
-Mesh cylinder_mesh(Parameters& parameters);
+/// Where the shape stands. None: it was reported why.
+std::optional<Geometry> sphere_part(const SpherePart& part, Parameters& parameters, const Placement& placement);
+std::optional<Geometry> disk(Parameters& parameters, const Placement& placement);
+std::optional<Geometry> cylinder(Parameters& parameters, const Placement& placement);
 
 }  // namespace lightnet::pbrt

@@ -15,6 +15,7 @@
 #include "core/readers/pbrt/quadrics.hpp"
 #include "core/readers/pbrt/transforms.hpp"
 #include "core/readers/ply/mesh.hpp"
+#include "core/scene/surfaces/placed_quadric.hpp"
 
 namespace lightnet::pbrt {
 namespace {
@@ -71,19 +72,7 @@ std::optional<Geometry> sphere(Parameters& parameters, const Placement& placemen
         parameters.error("centre or radius is not finite after the transforms");
         return std::nullopt;
     }
-    parameters.warn(whole ? "a sphere that is scaled unevenly is cut into triangles"
-                          : "a part of a sphere is cut into triangles");
-    return placed(sphere_mesh(part), parameters, placement, placement.flips());
-}
-
-std::optional<Geometry> disk(Parameters& parameters, const Placement& placement) {
-    parameters.warn("a disk is cut into triangles");
-    return placed(disk_mesh(parameters), parameters, placement, placement.flips());
-}
-
-std::optional<Geometry> cylinder(Parameters& parameters, const Placement& placement) {
-    parameters.warn("a cylinder is cut into triangles");
-    return placed(cylinder_mesh(parameters), parameters, placement, placement.flips());
+    return sphere_part(part, parameters, placement);
 }
 
 using ShapeMaker = std::optional<Geometry> (*)(Parameters&, const Placement&);
@@ -160,6 +149,7 @@ std::shared_ptr<MadeShape> Shapes::ply_mesh(Parameters& parameters, const Placem
 double area_of(const Geometry& geometry) {
     if (const auto* ball = std::get_if<Sphere>(&geometry))
         return 4 * std::numbers::pi * double(ball->radius) * double(ball->radius);
+    if (const auto* quadric = std::get_if<Quadric>(&geometry)) return PlacedQuadric(*quadric).area();
     double area = 0;
     const auto& mesh = std::get<Mesh>(geometry);
     for (const auto& t : mesh.triangles)

@@ -1,4 +1,4 @@
-// pbrt's shapes, made into meshes and spheres.
+// pbrt's shapes, made into meshes, spheres and quadrics.
 #pragma once
 
 #include <atomic>
@@ -16,7 +16,7 @@
 
 namespace lightnet::pbrt {
 
-using Geometry = std::variant<Mesh, Sphere>;
+using Geometry = ShapeGeometry;
 
 /// Where a shape stands.
 struct Placement {

@@ -1,8 +1,12 @@
 // The header of a PLY file, and the numbers behind it. Only mesh.cpp reads files with them.
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,6 +37,19 @@ public:
     std::size_t left() const { return text_.size() - at_; }
     /// One line of the header, without its end.
     std::string_view line();
+    /// The next list, if it is a triangle as most large files have it: a byte, and three whole numbers of 32 bits. Else
+    /// nothing is read.
+    std::optional<std::array<std::uint32_t, 3>> plain_triangle(Format format, const Property& list) {
+        constexpr std::size_t size = 1 + 3 * sizeof(std::uint32_t);
+        const bool plain = format == Format::little && std::endian::native == std::endian::little &&
+                           list.count_type == Scalar::u8 && (list.type == Scalar::i32 || list.type == Scalar::u32);
+        if (!plain || left() < size || text_[at_] != 3) return {};
+        std::array<std::uint32_t, 3> corners;
+        std::memcpy(corners.data(), text_.data() + at_ + 1, sizeof corners);
+        if (list.type == Scalar::i32 && ((corners[0] | corners[1] | corners[2]) >> 31) != 0) return {};
+        at_ += size;
+        return corners;
+    }
     double number(Format format, Scalar type) { return format == Format::ascii ? word() : binary(format, type); }
 
 private:

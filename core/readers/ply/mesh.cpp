@@ -122,6 +122,7 @@ void read_vertices(Input& input, Format format, const Element& element, Mesh& me
 }
 
 void read_face(Input& input, Format format, const Property& list, Mesh& mesh) {
+    if (const auto triangle = input.plain_triangle(format, list)) return mesh.triangles.push_back(*triangle);
     const std::size_t corners = list_length(input, format, list);
     std::array<std::uint32_t, 3> fan{};
     for (std::size_t i = 0; i < corners; ++i) {

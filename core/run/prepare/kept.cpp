@@ -1,5 +1,6 @@
 #include "core/run/prepare/kept.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -55,6 +56,13 @@ Bytes kept_results(const Kind& kind, const Hash& scene, std::span<const std::byt
     const auto results = file.subspan(end + 2);
     if (after(head, "sum") != to_hex(content_hash(results))) throw Error("is damaged");
     return bytes_of(results);
+}
+
+bool goes_on_from_kept(const Graph& graph, const Registry& registry) {
+    return std::any_of(graph.nodes.begin(), graph.nodes.end(), [&](const Node& node) {
+        const Kind* kind = registry.find(node.kind);
+        return kind && kind->run.keeps && !text_of(node, "extend").empty();
+    });
 }
 
 KeptResults read_kept(const Graph& graph, const Registry& registry, Files& files, const SceneData& scene,

@@ -34,6 +34,9 @@ using KeptResults = std::map<std::string, Bytes>;
 KeptResults read_kept(const Graph& graph, const Registry& registry, Files& files, const SceneData& scene,
                       std::vector<Problem>& problems);
 
+/// Does any node go on from such a file?
+bool goes_on_from_kept(const Graph& graph, const Registry& registry);
+
 /// The nodes of a checked graph whose results are to be kept, and in which files (`keep`), taken from the graph's
 /// folder.
 std::vector<std::pair<std::size_t, std::string>> files_to_keep(const Graph& graph, const Registry& registry);

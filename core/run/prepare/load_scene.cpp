@@ -75,14 +75,19 @@ std::map<std::string, std::string> scene_constants(const Graph& graph, const Reg
     return constants;
 }
 
-LoadedScene override_scene(const Graph& graph, const Registry& registry, Files& files, SceneData scene) {
-    apply(scene_overrides(graph, registry), scene, files, scene_of(graph, registry).where);
-    std::vector<Problem> problems;
-    auto kept = read_kept(graph, registry, files, scene, problems);
+void find_mistakes(const Graph& graph, const Registry& registry, const SceneData& scene,
+                   std::vector<Problem>& problems) {
     for (const auto& node : graph.nodes)
         if (const Kind* kind = registry.find(node.kind); kind && kind->mistakes)
             for (const auto& what : kind->mistakes(node, &scene))
                 problems.push_back({node.where, node.kind + " '" + node.name + "': " + what});
+}
+
+LoadedScene override_scene(const Graph& graph, const Registry& registry, Files& files, SceneData scene) {
+    apply(scene_overrides(graph, registry), scene, files, scene_of(graph, registry).where);
+    std::vector<Problem> problems;
+    auto kept = read_kept(graph, registry, files, scene, problems);
+    find_mistakes(graph, registry, scene, problems);
     if (!problems.empty()) throw UserError(std::move(problems));
     return {std::move(scene), std::move(kept)};
 }

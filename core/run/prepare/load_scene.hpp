@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "core/network/graph/graph.hpp"
 #include "core/network/graph/kind.hpp"
@@ -27,6 +28,10 @@ struct LoadedScene {
 
 /// Changes a scene as read from its file. Throws UserError, also with what nodes of the graph find wrong with it.
 LoadedScene override_scene(const Graph& graph, const Registry& registry, Files& files, SceneData scene);
+
+/// Appends what nodes of the graph find wrong with the scene.
+void find_mistakes(const Graph& graph, const Registry& registry, const SceneData& scene,
+                   std::vector<Problem>& problems);
 
 /// Reads the scene in the file at `path` and applies what the graph changes. Throws UserError with all that is wrong.
 LoadedScene load_scene(const Graph& graph, const Registry& registry, Files& files, const std::string& path);

@@ -47,6 +47,12 @@ SceneData test_scene() {
     data.shapes.back().geometry = std::move(mesh);
     data.shapes.push_back({});
     data.shapes.back().geometry = Sphere{{0.2f, 0.1f, -0.3f}, 0.4f, false, {}};
+    data.shapes.push_back({});
+    Quadric tin;
+    tin.round = Quadric::Round::cylinder;
+    tin.turn = 5;
+    tin.to_world.m = {{{0.3, 0.1, -0.2, -0.1}, {0.3, 0.4, -0.2, 0.2}, {0.3, 0.4, 0.5, -0.1}, {0, 0, 0, 1}}};
+    data.shapes.back().geometry = tin;
     return data;
 }
 

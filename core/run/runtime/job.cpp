@@ -59,6 +59,16 @@ JobFile file_of(const Json& json) {
     return {json.at("path").text(), *hash, count_of<std::uint64_t>(json, "size")};
 }
 
+std::shared_ptr<const Network> network_around(const Job& job, const Registry& registry,
+                                              std::shared_ptr<const Scene> scene, KeptResults kept,
+                                              std::function<Bytes(const Hash&)> results) {
+    Network network{job.graph, registry, std::move(scene), job.seed};
+    network.results = std::move(results);
+    network.kept = std::move(kept);
+    network.check_answers = job.tuning.check_answers;
+    return std::make_shared<const Network>(std::move(network));
+}
+
 }  // namespace
 
 std::string to_json(const Job& job) {
@@ -118,14 +128,25 @@ std::shared_ptr<const Network> build_network(const Job& job, const Registry& reg
     options.width = job.width;
     options.height = job.height;
     try {
-        Network network{job.graph, registry, std::make_shared<const Scene>(std::move(scene.data), options), job.seed};
-        network.results = std::move(results);
-        network.kept = std::move(scene.kept);
-        network.check_answers = job.tuning.check_answers;
-        return std::make_shared<const Network>(std::move(network));
+        auto built = std::make_shared<const Scene>(std::move(scene.data), options);
+        return network_around(job, registry, std::move(built), std::move(scene.kept), std::move(results));
     } catch (const std::bad_alloc&) {
         throw Error(job.scene, "is too large for the memory of this machine, with what finds its surfaces");
     }
+}
+
+std::shared_ptr<const Network> build_network(const Job& job, const Registry& registry,
+                                             std::shared_ptr<const Scene> built,
+                                             std::function<Bytes(const Hash&)> results) {
+    std::vector<Problem> problems;
+    find_mistakes(job.graph, registry, built->data(), problems);
+    if (!problems.empty()) throw UserError(std::move(problems));
+    return network_around(job, registry, std::move(built), {}, std::move(results));
+}
+
+SceneSource scene_source(const Job& job, const Registry& registry) {
+    const Node& node = scene_of(job.graph, registry);
+    return {job.graph.file, job.scene, job.files, node.entries, node.params, job.isa, job.width, job.height};
 }
 
 std::string made_from(const Job& job) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -56,6 +57,23 @@ std::shared_ptr<const Network> build_network(const Job& job, const Registry& reg
 /// The same from a scene that has been loaded.
 std::shared_ptr<const Network> build_network(const Job& job, const Registry& registry, LoadedScene scene,
                                              std::function<Bytes(const Hash&)> results = {});
+
+/// What the scene of a job is built from: where this is the same, so is the scene.
+struct SceneSource {
+    std::string graph, scene;    // paths of their files
+    std::vector<JobFile> files;  // by their content
+    std::vector<Value> entries;  // of the Scene node
+    std::map<std::string, Value> params;
+    std::string isa;
+    std::uint32_t width = 0, height = 0;
+    friend bool operator==(const SceneSource&, const SceneSource&) = default;
+};
+SceneSource scene_source(const Job& job, const Registry& registry);
+/// A network around a scene that was built for a job with the same source. Its nodes must not go on from kept results,
+/// which ask for the scene as it was read. Throws UserError with what nodes find wrong with the scene.
+std::shared_ptr<const Network> build_network(const Job& job, const Registry& registry,
+                                             std::shared_ptr<const Scene> built,
+                                             std::function<Bytes(const Hash&)> results);
 
 /// All that what is prepared may depend on, beside the graph: see Recipes.
 std::string made_from(const Job& job);

@@ -7,6 +7,12 @@ std::uint64_t triangles_of(const Shape& shape) {
     return mesh ? mesh->triangles.size() : 0;
 }
 
+std::uint64_t triangles_of(const SceneData& scene) {
+    std::uint64_t count = 0;
+    for (const Shape& shape : scene.shapes) count += triangles_of(shape);
+    return count;
+}
+
 std::set<const Image*> images_of(const SceneData& scene) {
     using Shared = std::shared_ptr<const Image>;
     std::set<const Image*> images;

@@ -61,8 +61,31 @@ void visit_members(Is<Sphere> auto& sphere, const auto& visit) {
     visit(center, radius, flip_normals, to_world);
 }
 
+/// A round surface that an affine transform may stretch, seen in its own space as a part of
+///   disk: the unit disk at z = 0, from the radius `inner` on; its normal is +z
+///   cylinder: that around the z axis of radius 1, for z in [0, 1]; its normal is outwards
+///   sphere: that of radius 1, for z in [low, high]; its normal is outwards
+/// and of each that within `turn` from +x towards +y.
+struct Quadric {
+    enum class Round { disk, cylinder, sphere } round = Round::disk;
+    float inner = 0;           // of disks, below 1
+    float low = -1, high = 1;  // of spheres
+    float turn = 6.2831855f;   // radians, up to 2π
+    bool flip_normals = false;
+    Matrix to_world{};  // affine, not singular; normals stay on their side
+    /// Texture coordinates, rows of factors for (a, b, 1). a: share of the turn. b: of a disk from its rim inwards, of
+    /// a cylinder upwards, of a sphere by the angle upwards.
+    std::array<std::array<float, 3>, 2> to_uv{{{1, 0, 0}, {0, 1, 0}}};
+};
+void visit_members(Is<Quadric> auto& quadric, const auto& visit) {
+    auto& [round, inner, low, high, turn, flip_normals, to_world, to_uv] = quadric;
+    visit(round, inner, low, high, turn, flip_normals, to_world, to_uv);
+}
+
+using ShapeGeometry = std::variant<Mesh, Sphere, Quadric>;
+
 struct Shape {
-    std::variant<Mesh, Sphere> geometry;
+    ShapeGeometry geometry;
     MaterialId material = 0;
     std::optional<AreaEmission> emission{};
     SourceLine where;

@@ -1,7 +1,9 @@
 #include "core/scene/geometry/geometry.hpp"
 
 #include "core/base/error.hpp"
-#include "core/scene/geometry/sphere_hit.hpp"
+#include "core/scene/data/contents.hpp"
+#include "core/scene/geometry/form.hpp"
+#include "core/scene/geometry/quads.hpp"
 #include "core/scene/surfaces/placement.hpp"
 
 #include <embree/rtcore.h>
@@ -18,103 +20,6 @@ namespace lightnet {
 namespace {
 
 thread_local std::uint64_t rays_traced = 0;
-
-/// What Embree hands back when a ray comes near a shape.
-struct Form {
-    const Shading* shading;
-    std::uint32_t shape;
-    bool holes;
-    const Sphere* sphere;  // or a mesh
-
-    bool is_there(std::uint32_t primitive, float u, float v) const {
-        return !holes || shading->is_there(shape, primitive, u, v);
-    }
-};
-
-const Form& form_of(void* pointer) { return *static_cast<const Form*>(pointer); }
-
-// Lets rays through the holes of meshes.
-void pass_holes(const RTCFilterFunctionNArguments* args) {
-    const Form& form = form_of(args->geometryUserPtr);
-    for (unsigned i = 0; i < args->N; ++i) {
-        if (args->valid[i] != -1) continue;
-        if (!form.is_there(RTCHitN_primID(args->hit, args->N, i), RTCHitN_u(args->hit, args->N, i),
-                           RTCHitN_v(args->hit, args->N, i)))
-            args->valid[i] = 0;
-    }
-}
-
-void sphere_bounds(const RTCBoundsFunctionArguments* args) {
-    const Sphere& sphere = *form_of(args->geometryUserPtr).sphere;
-    const float r = sphere.radius * (1 + 1e-6f);
-    const auto low = [r](float c) { return c - r - std::fabs(c) * 1e-6f; };
-    const auto high = [r](float c) { return c + r + std::fabs(c) * 1e-6f; };
-    const Vec3 c = sphere.center;
-    *args->bounds_o = {low(c.x), low(c.y), low(c.z), 0, high(c.x), high(c.y), high(c.z), 0};
-}
-
-// Calls `found(distance, name)` for the nearest point of the sphere that is there.
-template <class Found>
-void nearest_on_sphere(const Form& form, RTCRayN* rays, unsigned n, unsigned i, Found found) {
-    const Vec3 origin{RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)};
-    const Vec3 direction{RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)};
-    meet(*form.sphere, origin, direction, RTCRayN_tnear(rays, n, i), RTCRayN_tfar(rays, n, i), [&](float t, Vec2 name) {
-        if (!form.is_there(0, name.x, name.y)) return false;
-        found(t, name);
-        return true;
-    });
-}
-
-void meet_sphere(const RTCIntersectFunctionNArguments* args) {
-    const unsigned n = args->N;
-    RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, n);
-    RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, n);
-    for (unsigned i = 0; i < n; ++i) {
-        if (!args->valid[i]) continue;
-        nearest_on_sphere(form_of(args->geometryUserPtr), rays, n, i, [&](float t, Vec2 name) {
-            RTCRayN_tfar(rays, n, i) = t;
-            RTCHitN_u(hits, n, i) = name.x;
-            RTCHitN_v(hits, n, i) = name.y;
-            RTCHitN_geomID(hits, n, i) = args->geomID;
-            RTCHitN_primID(hits, n, i) = args->primID;
-            RTCHitN_instID(hits, n, i, 0) = args->context->instID[0];
-        });
-    }
-}
-
-void hide_behind_sphere(const RTCOccludedFunctionNArguments* args) {
-    const unsigned n = args->N;
-    for (unsigned i = 0; i < n; ++i)
-        if (args->valid[i])
-            nearest_on_sphere(form_of(args->geometryUserPtr), args->ray, n, i,
-                              [&](float, Vec2) { RTCRayN_tfar(args->ray, n, i) = -INFINITY; });
-}
-
-RTCGeometry make(RTCDevice device, Mesh& mesh, Form& form) {
-    const std::size_t vertices = mesh.positions.size();
-    mesh.positions.reserve(vertices + 1);
-    mesh.positions.emplace_back();  // Embree reads 16 bytes of the last vertex
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh.positions.data(), 0,
-                               sizeof(Vec3), vertices);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(), 0,
-                               sizeof(mesh.triangles[0]), mesh.triangles.size());
-    if (form.holes) {
-        rtcSetGeometryIntersectFilterFunction(geometry, pass_holes);
-        rtcSetGeometryOccludedFilterFunction(geometry, pass_holes);
-    }
-    return geometry;
-}
-
-RTCGeometry make(RTCDevice device, Sphere& sphere, Form& form) {
-    form.sphere = &sphere;
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-    rtcSetGeometryUserPrimitiveCount(geometry, 1);
-    rtcSetGeometryBoundsFunction(geometry, sphere_bounds, nullptr);
-    rtcSetGeometryIntersectFunction(geometry, meet_sphere);
-    rtcSetGeometryOccludedFunction(geometry, hide_behind_sphere);
-    return geometry;
-}
 
 void set(RTCRay& to, const Ray& ray) {
     to = {ray.origin.x,
@@ -242,8 +147,7 @@ struct Geometry::Tracer {
         const auto index = std::size_t(&shape - data.shapes.data());
         RTCGeometry& geometry = geometries[index];
         if (!geometry) {
-            geometry = std::visit([&](auto& each) { return make(device, each, forms[index]); }, shape.geometry);
-            rtcSetGeometryUserData(geometry, &forms[index]);
+            geometry = new_geometry(device, shape, forms[index]);
             rtcCommitGeometry(geometry);
         }
         rtcAttachGeometryByID(to, geometry, id);
@@ -267,10 +171,12 @@ struct Geometry::Tracer {
 
     // Embree numbers the shapes of an object for itself.
     Hit hit(unsigned instance, unsigned geometry, unsigned primitive, Vec2 at, float distance) const {
-        if (instance == RTC_INVALID_GEOMETRY_ID) return {instance, geometry, primitive, at.x, at.y, distance};
-        instance -= unsigned(data.shapes.size());
-        const Object& object = data.objects[data.instances[instance].object];
-        return {instance, object.shapes[geometry], primitive, at.x, at.y, distance};
+        if (instance != RTC_INVALID_GEOMETRY_ID) {
+            instance -= unsigned(data.shapes.size());
+            geometry = data.objects[data.instances[instance].object].shapes[geometry];
+        }
+        const TrianglePoint point = forms[geometry].point(primitive, at);
+        return {instance, geometry, point.triangle, point.at.x, point.at.y, distance};
     }
     template <class Wide>
     void meet(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const;
@@ -314,7 +220,8 @@ Geometry::Geometry(SceneData& data, const Shading& shading, const Options& optio
     for (const auto& object : data.objects)
         for (const auto shape : object.shapes) in_object[shape] = true;
     for (const auto& instance : data.instances) used[instance.object] = true;
-    for (std::uint32_t s = 0; s < shapes; ++s) tracer.forms.push_back({&shading, s, shading.has_holes(s), nullptr});
+    for (std::uint32_t s = 0; s < shapes; ++s) tracer.forms.push_back({&shading, s, shading.has_holes(s)});
+    if (triangles_of(data) >= options.quads_from) pair_triangles(data, tracer.forms);
     const auto is_there = [&](std::uint32_t shape) {
         return !std::holds_alternative<NoMaterial>(data.materials[data.shapes[shape].material].model);
     };
@@ -373,7 +280,7 @@ void Geometry::occluded(std::span<const Ray> rays, std::span<std::uint8_t> hidde
 }
 
 std::optional<Hit> Geometry::nearest(const PlacedSurfaces& surfaces, const SurfaceWish& wish) const {
-    return nearest_surface(tracer_->scene, surfaces, wish);
+    return nearest_surface(tracer_->scene, tracer_->forms, surfaces, wish);
 }
 
 Box Geometry::bounds() const {
@@ -382,7 +289,11 @@ Box Geometry::bounds() const {
     return {{box.lower_x, box.lower_y, box.lower_z}, {box.upper_x, box.upper_y, box.upper_z}};
 }
 
-std::size_t Geometry::memory() const { return std::size_t(std::max<std::ptrdiff_t>(0, tracer_->bytes)); }
+std::size_t Geometry::memory() const {
+    std::size_t bytes = std::size_t(std::max<std::ptrdiff_t>(0, tracer_->bytes));
+    for (const Form& form : tracer_->forms) bytes += form.quads.memory();
+    return bytes;
+}
 
 std::uint64_t Geometry::rays_of_this_thread() { return rays_traced; }
 

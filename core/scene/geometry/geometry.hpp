@@ -23,8 +23,9 @@ class Geometry {
 public:
     /// How the trees (bounding volume hierarchies, BVHs) are built.
     struct Options {
-        std::string isa = "avx2";   // Embree's instruction set
-        std::uint32_t threads = 0;  // that build; 0: one per core
+        std::string isa = "avx2";                       // Embree's instruction set
+        std::uint32_t threads = 0;                      // that build; 0: one per core
+        std::size_t quads_from = std::size_t{1} << 19;  // triangles of a scene from which they are paired
     };
     /// Keeps looking at both, which must stay as they are. Pads each mesh's positions by one element.
     Geometry(SceneData& data, const Shading& shading, const Options& options);
@@ -42,7 +43,7 @@ public:
 
     /// Around all that rays can meet.
     Box bounds() const;
-    /// Bytes that Embree holds: its trees. Vertices and triangles are not copied.
+    /// Bytes of the trees, and of what pairs triangles for them. Vertices and triangles are not copied.
     std::size_t memory() const;
 
     static std::uint64_t rays_of_this_thread();

@@ -2,6 +2,7 @@
 
 #include "core/base/math/octahedral.hpp"
 #include "core/base/query.hpp"
+#include "core/scene/geometry/form.hpp"
 #include "core/scene/surfaces/triangle.hpp"
 
 #include <embree/rtcore.h>
@@ -17,9 +18,7 @@ namespace {
 /// In double: points of a large scene lie close to each other.
 using Wide = std::array<double, 3>;
 
-Wide wide_between(Vec3 from, Vec3 to) {
-    return {double{to.x} - from.x, double{to.y} - from.y, double{to.z} - from.z};
-}
+Wide wide_between(Vec3 from, Vec3 to) { return {double{to.x} - from.x, double{to.y} - from.y, double{to.z} - from.z}; }
 double wide_dot(const Wide& a, const Wide& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 // Weights of the second and the third corner where the triangle is nearest. Ericson 2005, "Real-Time Collision
@@ -46,7 +45,8 @@ Vec2 nearest_on_triangle(const Corners& at, Vec3 p) {
 /// Looks at one candidate after the other, in any order.
 class NearestSurface {
 public:
-    NearestSurface(const PlacedSurfaces& surfaces, const SurfaceWish& wish) : surfaces_(surfaces), wish_(wish) {}
+    NearestSurface(std::span<const Form> forms, const PlacedSurfaces& surfaces, const SurfaceWish& wish)
+        : forms_(forms), surfaces_(surfaces), wish_(wish) {}
 
     void look_at(std::uint32_t instance, std::uint32_t geometry, std::uint32_t primitive) {
         const bool placed = instance != Query::no_instance;
@@ -54,21 +54,28 @@ public:
             instance -= std::uint32_t(surfaces_.data.shapes.size());
             geometry = surfaces_.data.objects[surfaces_.data.instances[instance].object].shapes[geometry];
         }
-        Hit hit{instance, geometry, primitive, 0, 0, 0};
-        const Placement* placement = placed ? &surfaces_.placements[instance] : nullptr;
-        const auto& shape = surfaces_.data.shapes[geometry].geometry;
-        if (const auto* sphere = std::get_if<Sphere>(&shape))
-            put_on_sphere(hit, *sphere, placement);
-        else
-            put_on_triangle(hit, std::get<Mesh>(shape), placement);
-        if (!surfaces_.shading.has_holes(geometry) ||
-            surfaces_.shading.is_there(geometry, primitive, hit.u, hit.v))
-            compare(hit, point(hit, placement));
+        const Quads& quads = forms_[geometry].quads;
+        if (quads.empty()) return look_at({instance, geometry, primitive, 0, 0, 0});
+        quads.each_triangle(primitive, [&](std::uint32_t triangle) {
+            look_at({instance, geometry, triangle, 0, 0, 0});
+        });
     }
 
     const std::optional<Hit>& best() const { return best_; }
 
 private:
+    void look_at(Hit hit) {
+        const bool placed = hit.instance != Query::no_instance;
+        const Placement* placement = placed ? &surfaces_.placements[hit.instance] : nullptr;
+        const auto& shape = surfaces_.data.shapes[hit.geometry].geometry;
+        if (const auto* sphere = std::get_if<Sphere>(&shape))
+            put_on_sphere(hit, *sphere, placement);
+        else if (const PlacedQuadric* quadric = surfaces_.shading.quadric(hit.geometry))
+            put_on_quadric(hit, *quadric, placement);
+        else
+            put_on_triangle(hit, std::get<Mesh>(shape), placement);
+        if (forms_[hit.geometry].is_there({hit.primitive, {hit.u, hit.v}})) compare(hit, point(hit, placement));
+    }
     SurfacePoint point(const Hit& hit, const Placement* placement) const {
         const SurfacePoint own = surfaces_.shading.point(hit.geometry, hit.primitive, hit.u, hit.v);
         return placement ? placement->place(own) : own;
@@ -96,6 +103,17 @@ private:
         }
     }
 
+    // As for a stretched sphere: towards the tangent plane where it is near in its own space, and again.
+    void put_on_quadric(Hit& hit, const PlacedQuadric& quadric, const Placement* placement) const {
+        Vec3 towards = wish_.position;
+        for (int step = 0; step < 4; ++step) {
+            const Vec2 name = quadric.name_near(placement ? placement->point_to_object(towards) : towards);
+            hit.u = name.x, hit.v = name.y;
+            const SurfacePoint at = point(hit, placement);
+            towards = wish_.position - at.normal * dot(wish_.position - at.position, at.normal);
+        }
+    }
+
     void compare(const Hit& hit, const SurfacePoint& at) {
         const Wide way = wide_between(at.position, wish_.position);
         const double reach2 = double{wish_.reach} * wish_.reach, distance2 = wide_dot(way, way);
@@ -108,6 +126,7 @@ private:
         rank_ = rank;
     }
 
+    std::span<const Form> forms_;
     const PlacedSurfaces& surfaces_;
     const SurfaceWish& wish_;
     std::optional<Hit> best_;
@@ -124,10 +143,11 @@ bool look_at_candidate(RTCPointQueryFunctionArguments* args) {
 
 }  // namespace
 
-std::optional<Hit> nearest_surface(RTCSceneTy* tree, const PlacedSurfaces& surfaces, const SurfaceWish& wish) {
+std::optional<Hit> nearest_surface(RTCSceneTy* tree, std::span<const Form> forms, const PlacedSurfaces& surfaces,
+                                   const SurfaceWish& wish) {
     constexpr float beyond = 1.001f;  // who is within reach we decide; the tree only has to leave nobody out
     if (!finite(wish.position) || !(wish.reach >= 0)) return {};
-    NearestSurface nearest(surfaces, wish);
+    NearestSurface nearest(forms, surfaces, wish);
     RTCPointQuery query;
     query.x = wish.position.x, query.y = wish.position.y, query.z = wish.position.z;
     query.time = 0;

@@ -13,10 +13,12 @@ struct RTCSceneTy;
 
 namespace lightnet {
 
+struct Form;
+
 /// Which surface is meant.
 struct SurfaceWish {
-    Vec3 position;   // world space
-    Vec3 normal;     // unit, on either side of the surface; zero: that is not known
+    Vec3 position;    // world space
+    Vec3 normal;      // unit, on either side of the surface; zero: that is not known
     float reach = 0;  // scene units; what lies farther away is not meant
 };
 
@@ -29,6 +31,7 @@ struct PlacedSurfaces {
 
 /// The surface point that fits best: that is near, and lies as the normal says. A surface at right angles to the normal
 /// counts as farther away, by `reach`. None: nothing lies within reach. The same for every processor and every tree.
-std::optional<Hit> nearest_surface(RTCSceneTy* tree, const PlacedSurfaces& surfaces, const SurfaceWish& wish);
+std::optional<Hit> nearest_surface(RTCSceneTy* tree, std::span<const Form> forms, const PlacedSurfaces& surfaces,
+                                   const SurfaceWish& wish);
 
 }  // namespace lightnet

@@ -4,6 +4,7 @@
 #include "core/base/math/frame.hpp"
 #include "core/base/math/octahedral.hpp"
 #include "core/base/math/sampling.hpp"
+#include "core/scene/lamps/quadric_lamp.hpp"
 #include "core/scene/lamps/shares.hpp"
 #include "core/scene/surfaces/triangle.hpp"
 #include "core/scene/textures/look_up.hpp"
@@ -48,6 +49,10 @@ AreaLamps::AreaLamps(const SceneData& data, const Shading& shading, GroupSet gro
         if (!is_lamp(data, shape, groups)) continue;
         if (const auto* mesh = std::get_if<Mesh>(&shape.geometry)) {
             add_mesh(s, *mesh);
+        } else if (const PlacedQuadric* quadric = shading.quadric(s)) {
+            const Box box = quadric->bounds();
+            balls_.push_back({box.center(), length(box.size()) / 2});
+            add_source(s, 1, 0);
         } else {
             const auto& ball = std::get<Sphere>(shape.geometry);
             balls_.push_back({ball.center, ball.radius});
@@ -103,6 +108,7 @@ void AreaLamps::add_source(std::uint32_t shape, std::uint32_t lamps, std::uint32
     for (std::uint32_t f = source.first; f < facets_.size(); ++f) source.area += area_of(facets_[f]);
     if (const auto* ball = std::get_if<Sphere>(&data_.shapes[shape].geometry))
         source.area = 4 * pi * ball->radius * ball->radius;
+    if (const PlacedQuadric* quadric = shading_.quadric(shape)) source.area = quadric->area();
     if (!std::isfinite(source.area)) source.area = 0;  // never chosen
     if (source.uniform && facets == 2)
         if (const auto whole = parallelogram(facets_[source.first], facets_[source.first + 1])) {
@@ -148,8 +154,10 @@ Rgb AreaLamps::mean_of_texture(const Lamp& lamp) const {
     for (int i = 0; i < 16; ++i) {
         const Vec2 u{(float(i % 4) + 0.5f) / 4, (float(i / 4) + 0.5f) / 4};
         PointOnLamp point;
-        if (!ball_of(lamp.source)) {
+        if (is_mesh(lamp.source)) {
             point = on_mesh(lamp, u);
+        } else if (const PlacedQuadric* quadric = quadric_of(lamp.source)) {
+            point = on_quadric(*quadric, quadric->own_uniform(u));
         } else {
             const Vec2 name = to_octahedral(sphere(u));
             point.u = name.x;
@@ -204,9 +212,15 @@ AreaLamps::PointOnLamp AreaLamps::on_sphere(const Sphere& ball, Vec3 outwards) c
     return {ball.center + outwards * ball.radius, ball.flip_normals ? -outwards : outwards, 0, name.x, name.y};
 }
 
+AreaLamps::PointOnLamp AreaLamps::on_quadric(const PlacedQuadric& quadric, Vec3 own) const {
+    const Vec2 name = quadric.name_of(own);
+    return {quadric.position(own), quadric.normal(own), 0, name.x, name.y};
+}
+
 std::optional<LightSample> AreaLamps::sample(std::size_t index, Vec3 from, Vec2 u) const {
     const Lamp one = lamp(index);
-    return ball_of(one.source) ? from_sphere(one, from, u) : from_mesh(one, from, u);
+    if (is_mesh(one.source)) return from_mesh(one, from, u);
+    return ball_of(one.source) ? from_sphere(one, from, u) : from_quadric(one, from, u);
 }
 
 std::optional<LightSample> AreaLamps::from_mesh(const Lamp& lamp, Vec3 from, Vec2 u) const {
@@ -231,7 +245,7 @@ std::optional<FlatLamp> AreaLamps::flat(std::size_t index) const {
     const Lamp one = lamp(index);
     const Source& source = one.source;
     const bool whole = source.whole != none;
-    if (ball_of(source) || !source.uniform || (!whole && source.facets > 1)) return {};
+    if (!is_mesh(source) || !source.uniform || (!whole && source.facets > 1)) return {};
     std::uint32_t primitive = 0;
     float u = 0;
     const Facet facet = whole ? wholes_[source.whole] : facet_of(one, primitive, u);
@@ -268,12 +282,30 @@ std::optional<LightSample> AreaLamps::from_sphere(const Lamp& lamp, Vec3 from, V
     return LightSample{point.position, direction, radiance_at(source, point), pdf, false, false, source.group};
 }
 
+std::optional<LightSample> AreaLamps::from_quadric(const Lamp& lamp, Vec3 from, Vec2 u) const {
+    const Source& source = lamp.source;
+    const PlacedQuadric& quadric = *quadric_of(source);
+    const SeenQuadric seen(quadric, from, source.two_sided);
+    const Vec3 own = seen.sample(u);
+    const PointOnLamp point = on_quadric(quadric, own);
+    const Vec3 way = point.position - from;
+    const float way2 = length_squared(way);
+    if (!(way2 > 0)) return {};
+    const Vec3 direction = way / std::sqrt(way2);
+    const float pdf = seen.pdf(direction, own);
+    const bool dark = !shines_towards(source.two_sided, point.normal, -direction) || !is_there(source, point);
+    if (dark || !(pdf > 0) || !std::isfinite(pdf)) return {};
+    return LightSample{point.position, direction, radiance_at(source, point), pdf, false, false, source.group};
+}
+
 float AreaLamps::pdf(std::size_t index, Vec3 from, Vec3 direction, const SurfacePoint& on) const {
     const Lamp one = lamp(index);
     if (const Sphere* ball = ball_of(one.source)) {
         const float distance2 = length_squared(ball->center - from);
         if (!inside(*ball, distance2)) return 1 / (2 * pi * one_minus_cosine(ball->radius, distance2));
     }
+    if (const PlacedQuadric* quadric = quadric_of(one.source))
+        return SeenQuadric(*quadric, from, one.source.two_sided).pdf(direction, quadric->own_point({on.u, on.v}));
     const float cosine = std::max(1e-6f, std::fabs(dot(on.normal, direction)));
     return one.area > 0 ? length_squared(on.position - from) / (one.area * cosine) : 0;
 }
@@ -297,6 +329,12 @@ LightBounds AreaLamps::bounds(std::size_t index) const {
         const Vec3 r{ball->radius, ball->radius, ball->radius};
         return {ball->center - r, ball->center + r, {0, 0, 1}, -1, 0, radiance * one.area / 4, false};
     }
+    if (const PlacedQuadric* quadric = quadric_of(source)) {
+        const Box box = quadric->bounds();
+        if (quadric->quadric().round == Quadric::Round::disk)
+            return {box.low, box.high, quadric->normal({}), 1, 0, radiance * one.area, source.two_sided};
+        return {box.low, box.high, {0, 0, 1}, -1, 0, radiance * one.area / 4, false};
+    }
     Box box;
     const auto add = [&](const Facet& f) {
         for (const Vec3 p : {f.corner, f.corner + f.first_edge, f.corner + f.second_edge}) box.add(p);
@@ -319,8 +357,17 @@ std::optional<Emission> AreaLamps::emit(std::size_t index, Vec2 position_sample,
     const Source& source = one.source;
     if (!(one.area > 0)) return {};
     float sides = 1;
-    const Sphere* ball = ball_of(source);
-    PointOnLamp start = ball ? on_sphere(*ball, sphere(position_sample)) : on_mesh(one, position_sample);
+    float area = one.area;
+    PointOnLamp start;
+    if (const Sphere* ball = ball_of(source)) {
+        start = on_sphere(*ball, sphere(position_sample));
+    } else if (const PlacedQuadric* quadric = quadric_of(source)) {
+        const Vec3 own = quadric->own_uniform(position_sample);
+        start = on_quadric(*quadric, own);
+        area = quadric->own_area() * quadric->stretch(own);
+    } else {
+        start = on_mesh(one, position_sample);
+    }
     if (source.two_sided) {
         sides = 2;
         const bool back = direction_sample.x >= 0.5f;
@@ -330,7 +377,7 @@ std::optional<Emission> AreaLamps::emit(std::size_t index, Vec2 position_sample,
     if (!is_there(source, start)) return {};
     const SurfacePoint point = shading_.point(source.shape, start.primitive, start.u, start.v);
     const Vec3 direction = Frame::around(start.normal).to_world(cosine_hemisphere(direction_sample));
-    return Emission{point.origin_towards(direction), direction, radiance_at(source, start) * (pi * one.area * sides),
+    return Emission{point.origin_towards(direction), direction, radiance_at(source, start) * (pi * area * sides),
                     source.group};
 }
 

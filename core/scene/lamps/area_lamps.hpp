@@ -19,9 +19,9 @@
 
 namespace lightnet {
 
-/// All shapes that emit light, cut into lamps: a sphere is one, and so is a mesh of a few triangles in one plane; of
-/// any other mesh each triangle is. A point on a mesh is uniform by area, on a sphere uniform within the cone that it
-/// fills. Any thread may ask.
+/// All shapes that emit light, cut into lamps: a sphere or quadric is one, and so is a mesh of a few triangles in one
+/// plane; of any other mesh each triangle is. A point on a mesh is uniform by area, on a sphere uniform within the cone
+/// that it fills, on a quadric as SeenQuadric has it. Any thread may ask.
 class AreaLamps {
 public:
     /// Those of some groups, which are told apart or are all one. Looks at data and shading while it lives.
@@ -60,7 +60,7 @@ private:
         std::uint32_t first_lamp = 0;
         bool by_triangle = false;
         std::uint32_t first = 0, facets = 0;  // of a mesh that is one lamp: into facets_
-        float area = 0;                       // m²; of a mesh that is one lamp, or a sphere
+        float area = 0;                       // m²; of what is one lamp
         Rgb radiance;
         bool two_sided = false;
         bool uniform = true;         // neither texture nor holes
@@ -90,6 +90,10 @@ private:
     const Sphere* ball_of(const Source& source) const {
         return std::get_if<Sphere>(&data_.shapes[source.shape].geometry);
     }
+    const PlacedQuadric* quadric_of(const Source& source) const { return shading_.quadric(source.shape); }
+    bool is_mesh(const Source& source) const {
+        return std::holds_alternative<Mesh>(data_.shapes[source.shape].geometry);
+    }
     Lamp lamp(std::size_t index) const;
     Rgb mean_of_texture(const Lamp& lamp) const;
     Rgb texture_at(std::uint32_t shape, std::uint32_t primitive, float u, float v) const;
@@ -98,8 +102,10 @@ private:
     Facet facet_of(const Lamp& lamp, std::uint32_t& primitive, float& u) const;
     PointOnLamp on_mesh(const Lamp& lamp, Vec2 u) const;
     PointOnLamp on_sphere(const Sphere& ball, Vec3 outwards) const;
+    PointOnLamp on_quadric(const PlacedQuadric& quadric, Vec3 own) const;
     std::optional<LightSample> from_mesh(const Lamp& lamp, Vec3 from, Vec2 u) const;
     std::optional<LightSample> from_sphere(const Lamp& lamp, Vec3 from, Vec2 u) const;
+    std::optional<LightSample> from_quadric(const Lamp& lamp, Vec3 from, Vec2 u) const;
 
     const SceneData& data_;
     const Shading& shading_;

@@ -18,6 +18,12 @@ namespace {
 float least_offset(const Shape& shape) {
     if (const auto* sphere = std::get_if<Sphere>(&shape.geometry))
         return 0x1p-20f * (largest_coordinate(sphere->center) + sphere->radius);
+    if (const auto* quadric = std::get_if<Quadric>(&shape.geometry)) {
+        float reach = 0;
+        for (std::size_t i = 0; i < 3; ++i)
+            for (const double number : quadric->to_world.m[i]) reach = std::max(reach, float(std::fabs(number)));
+        return 0x1p-19f * reach;
+    }
     float reach = 0;
     for (const Vec3 p : std::get<Mesh>(shape.geometry).positions) reach = std::max(reach, largest_coordinate(p));
     return 0x1p-21f * reach;
@@ -72,6 +78,8 @@ Shading::Shading(const SceneData& data) : data_(data), materials_(data) {
         needs_.push_back({materials_.needs(shape.material), least_offset(shape)});
         needs_.back().material.texture |= shape.emission && shape.emission->texture;
         lambertian_.push_back(lambertian(shape, needs_.back()));
+        const auto* quadric = std::get_if<Quadric>(&shape.geometry);
+        quadrics_.push_back(quadric ? std::make_unique<const PlacedQuadric>(*quadric) : nullptr);
     }
 }
 
@@ -101,8 +109,10 @@ void Shading::find(std::uint32_t geometry, std::uint32_t primitive, float u, flo
     const Shape& shape = data_.shapes[geometry];
     if (const auto* mesh = std::get_if<Mesh>(&shape.geometry))
         on_mesh(*mesh, needs_[geometry], point);
+    else if (const auto* sphere = std::get_if<Sphere>(&shape.geometry))
+        on_sphere(*sphere, needs_[geometry], point);
     else
-        on_sphere(std::get<Sphere>(shape.geometry), needs_[geometry], point);
+        on_quadric(*quadrics_[geometry], needs_[geometry], point);
 }
 
 void Shading::on_mesh(const Mesh& mesh, const Needs& needs, SurfacePoint& point) const {
@@ -153,10 +163,28 @@ void Shading::on_sphere(const Sphere& sphere, const Needs& needs, SurfacePoint& 
     point.shading = frame_along(point.normal, along.u);
 }
 
+void Shading::on_quadric(const PlacedQuadric& quadric, const Needs& needs, SurfacePoint& point) const {
+    const Vec3 own = quadric.own_point({point.u, point.v});
+    point.position = quadric.position(own);
+    point.normal = quadric.normal(own);
+    point.offset = needs.offset;
+    point.shading = Frame::around(point.normal);
+    if (!needs.material.texture && !needs.material.tangent) return;
+    point.uv = quadric.uv(own);
+    point.vertex_colour = {1, 1, 1};
+    if (!needs.material.tangent) return;
+    const auto [along_u, along_v] = quadric.along(own);
+    point.along_u = along_u;
+    point.along_v = along_v;
+    point.shading = frame_along(point.normal, along_u);
+}
+
 TexturePlace Shading::place(std::uint32_t geometry, std::uint32_t primitive, float u, float v) const {
     const auto& shape = data_.shapes[geometry].geometry;
     if (const auto* sphere = std::get_if<Sphere>(&shape))
         return {laid_on(*sphere, from_octahedral({u, v})).uv, {1, 1, 1}};
+    if (const PlacedQuadric* quadric = quadrics_[geometry].get())
+        return {quadric->uv(quadric->own_point({u, v})), {1, 1, 1}};
     const auto& mesh = std::get<Mesh>(shape);
     const auto [a, b, c] = uvs_of(mesh, primitive);
     const float w = 1 - u - v;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "core/scene/data/scene_data.hpp"
 #include "core/scene/surfaces/lambertian_surfaces.hpp"
 #include "core/scene/surfaces/materials.hpp"
+#include "core/scene/surfaces/placed_quadric.hpp"
 #include "core/scene/surfaces/ray.hpp"
 #include "core/scene/surfaces/surface.hpp"
 #include "core/scene/textures/look_up.hpp"
@@ -38,6 +40,8 @@ public:
 
     /// What textures may depend on there, by the same coordinates.
     TexturePlace place(std::uint32_t geometry, std::uint32_t primitive, float u, float v) const;
+    /// Null: the shape is none.
+    const PlacedQuadric* quadric(std::uint32_t geometry) const { return quadrics_[geometry].get(); }
     /// Can rays go through the shape? Only then the next two need to be asked.
     bool has_holes(std::uint32_t geometry) const { return needs_[geometry].material.holes; }
     /// Share of the light that meets the surface there, 0 … 1.
@@ -57,10 +61,13 @@ private:
     void dress(const Mesh& mesh, const Needs& needs, SurfacePoint& point) const;
     void on_sphere(const Sphere& sphere, const Needs& needs, SurfacePoint& point) const;
 
+    void on_quadric(const PlacedQuadric& quadric, const Needs& needs, SurfacePoint& point) const;
+
     const SceneData& data_;
     Materials materials_;
     std::vector<Needs> needs_;  // by shape
     std::vector<LambertianShape> lambertian_;
+    std::vector<std::unique_ptr<const PlacedQuadric>> quadrics_;  // by shape
 };
 
 }  // namespace lightnet

@@ -1,0 +1,172 @@
+#include "core/scene/geometry/form.hpp"
+
+#include "core/scene/data/contents.hpp"
+#include "core/scene/geometry/sphere_hit.hpp"
+
+#include <embree/rtcore.h>
+
+#include <array>
+#include <cmath>
+#include <type_traits>
+
+namespace lightnet {
+namespace {
+
+const Form& form_of(void* pointer) { return *static_cast<const Form*>(pointer); }
+
+// Lets rays through the holes of meshes.
+void pass_holes(const RTCFilterFunctionNArguments* args) {
+    const Form& form = form_of(args->geometryUserPtr);
+    for (unsigned i = 0; i < args->N; ++i) {
+        if (args->valid[i] != -1) continue;
+        const TrianglePoint point = form.point(RTCHitN_primID(args->hit, args->N, i),
+                                               {RTCHitN_u(args->hit, args->N, i), RTCHitN_v(args->hit, args->N, i)});
+        if (!form.is_there(point)) args->valid[i] = 0;
+    }
+}
+
+void sphere_bounds(const RTCBoundsFunctionArguments* args) {
+    const Sphere& sphere = *form_of(args->geometryUserPtr).sphere;
+    const float r = sphere.radius * (1 + 1e-6f);
+    const auto low = [r](float c) { return c - r - std::fabs(c) * 1e-6f; };
+    const auto high = [r](float c) { return c + r + std::fabs(c) * 1e-6f; };
+    const Vec3 c = sphere.center;
+    *args->bounds_o = {low(c.x), low(c.y), low(c.z), 0, high(c.x), high(c.y), high(c.z), 0};
+}
+
+void quadric_bounds(const RTCBoundsFunctionArguments* args) {
+    const Box box = form_of(args->geometryUserPtr).quadric->bounds();
+    *args->bounds_o = {box.low.x, box.low.y, box.low.z, 0, box.high.x, box.high.y, box.high.z, 0};
+}
+
+template <class Accept>
+void meet(const PlacedQuadric& quadric, Vec3 origin, Vec3 direction, float near, float far, Accept accept) {
+    quadric.meet(origin, direction, near, far, accept);
+}
+
+template <class Round>
+const Round& round_of(const Form& form) {
+    if constexpr (std::is_same_v<Round, Sphere>)
+        return *form.sphere;
+    else
+        return *form.quadric;
+}
+
+// Calls `found(distance, name)` with points of a sphere or quadric that are there and nearer than `far`, until it
+// returns true.
+template <class Round, class Found>
+void nearest_on_round(const Form& form, RTCRayN* rays, unsigned n, unsigned i, float far, Found found) {
+    const Vec3 origin{RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)};
+    const Vec3 direction{RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)};
+    meet(round_of<Round>(form), origin, direction, RTCRayN_tnear(rays, n, i), far, [&](float t, Vec2 name) {
+        return form.is_there({0, name}) && found(t, name);
+    });
+}
+
+// Where two are met at one distance, the first by instance and shape counts: packets come to them in another order than
+// single rays.
+template <class Round>
+void meet_round(const RTCIntersectFunctionNArguments* args) {
+    const unsigned n = args->N, instance = args->context->instID[0];
+    RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, n);
+    RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, n);
+    for (unsigned i = 0; i < n; ++i) {
+        if (!args->valid[i]) continue;
+        constexpr float just_beyond = 1 + 0x1p-23f;  // an equal distance is looked at, too
+        const float far = RTCRayN_tfar(rays, n, i);
+        const auto found = [&](float t, Vec2 name) {
+            const unsigned other = RTCHitN_geomID(hits, n, i), its_instance = RTCHitN_instID(hits, n, i, 0);
+            const bool first = other != RTC_INVALID_GEOMETRY_ID &&
+                               (instance != its_instance ? instance < its_instance : args->geomID < other);
+            if (!(t < far) && !(t == far && first)) return false;
+            RTCRayN_tfar(rays, n, i) = t;
+            RTCHitN_u(hits, n, i) = name.x;
+            RTCHitN_v(hits, n, i) = name.y;
+            RTCHitN_geomID(hits, n, i) = args->geomID;
+            RTCHitN_primID(hits, n, i) = args->primID;
+            RTCHitN_instID(hits, n, i, 0) = instance;
+            return true;
+        };
+        nearest_on_round<Round>(form_of(args->geometryUserPtr), rays, n, i, far * just_beyond, found);
+    }
+}
+
+template <class Round>
+void hide_behind_round(const RTCOccludedFunctionNArguments* args) {
+    const unsigned n = args->N;
+    for (unsigned i = 0; i < n; ++i) {
+        if (!args->valid[i]) continue;
+        const auto found = [&](float, Vec2) {
+            RTCRayN_tfar(args->ray, n, i) = -INFINITY;
+            return true;
+        };
+        nearest_on_round<Round>(form_of(args->geometryUserPtr), args->ray, n, i, RTCRayN_tfar(args->ray, n, i), found);
+    }
+}
+
+template <std::size_t corners>
+void share_faces(RTCGeometry geometry, const std::vector<std::array<std::uint32_t, corners>>& faces) {
+    constexpr auto format = corners == 4 ? RTC_FORMAT_UINT4 : RTC_FORMAT_UINT3;
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, format, faces.data(), 0, sizeof(faces[0]),
+                               faces.size());
+}
+
+RTCGeometry make(RTCDevice device, Mesh& mesh, Form& form) {
+    const std::size_t vertices = mesh.positions.size();
+    mesh.positions.reserve(vertices + 1);
+    mesh.positions.emplace_back();  // Embree reads 16 bytes of the last vertex
+    const bool paired = !form.quads.empty();
+    RTCGeometry geometry = rtcNewGeometry(device, paired ? RTC_GEOMETRY_TYPE_QUAD : RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh.positions.data(), 0,
+                               sizeof(Vec3), vertices);
+    paired ? share_faces(geometry, form.quads.corners()) : share_faces(geometry, mesh.triangles);
+    if (form.holes) {
+        rtcSetGeometryIntersectFilterFunction(geometry, pass_holes);
+        rtcSetGeometryOccludedFilterFunction(geometry, pass_holes);
+    }
+    return geometry;
+}
+
+template <class Round>
+RTCGeometry round_geometry(RTCDevice device, RTCBoundsFunction bounds) {
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryUserPrimitiveCount(geometry, 1);
+    rtcSetGeometryBoundsFunction(geometry, bounds, nullptr);
+    rtcSetGeometryIntersectFunction(geometry, meet_round<Round>);
+    rtcSetGeometryOccludedFunction(geometry, hide_behind_round<Round>);
+    return geometry;
+}
+
+RTCGeometry make(RTCDevice device, Sphere& sphere, Form& form) {
+    form.sphere = &sphere;
+    return round_geometry<Sphere>(device, sphere_bounds);
+}
+
+RTCGeometry make(RTCDevice device, Quadric&, Form& form) {
+    form.quadric = form.shading->quadric(form.shape);
+    return round_geometry<PlacedQuadric>(device, quadric_bounds);
+}
+
+}  // namespace
+
+// DECISIONS: quads-of-triangles
+void pair_triangles(const SceneData& data, std::span<Form> forms) {
+    std::size_t triangles = 0, quads = 0;
+    for (Form& form : forms)
+        if (const auto* mesh = std::get_if<Mesh>(&data.shapes[form.shape].geometry)) {
+            form.quads = Quads(*mesh);
+            triangles += mesh->triangles.size();
+            quads += form.quads.size();
+        }
+    const bool pays = 4 * quads <= 3 * triangles;
+    if (pays) return;
+    for (Form& form : forms) form.quads = {};
+}
+
+RTCGeometryTy* new_geometry(RTCDeviceTy* device, Shape& shape, Form& form) {
+    RTCGeometry geometry = std::visit([&](auto& each) { return make(device, each, form); }, shape.geometry);
+    rtcSetGeometryUserData(geometry, &form);
+    return geometry;
+}
+
+}  // namespace lightnet

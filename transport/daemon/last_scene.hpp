@@ -1,0 +1,32 @@
+// The scene of the run before, for the next one.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <optional>
+
+#include "core/run/runtime/job.hpp"
+#include "core/scene/scene.hpp"
+
+namespace lightnet {
+
+/// Holds the scene that a host has built last: through its run, and for a while afterwards. Used by one thread.
+/// DECISIONS: last-scene-stays
+class LastScene {
+public:
+    using Time = std::chrono::steady_clock::time_point;
+    static constexpr auto stays = std::chrono::minutes(5);
+
+    /// The scene, if it was built from that; else it is dropped, as two may not fit into memory.
+    std::shared_ptr<const Scene> take(const SceneSource& source);
+    void hold(SceneSource source, std::shared_ptr<const Scene> scene);
+    /// No run needs it now. To be called again and again: what is held too long is dropped.
+    void wait(Time now);
+
+private:
+    SceneSource source_;
+    std::shared_ptr<const Scene> scene_;
+    std::optional<Time> since_;  // when it began to wait
+};
+
+}  // namespace lightnet
