@@ -68,7 +68,6 @@ void measure_emulated_hosts() {
     Cluster::Options options;
     options.run = run_id;
     options.job = job_of(picture);
-    options.job.tuning.trace = std::getenv("DIAG") != nullptr;
     options.files = picture.files;
     options.endpoints = {one.endpoint(), two.endpoint(), three.endpoint()};
     const Hosts hosts = table3_hosts(options.endpoints);
@@ -85,14 +84,7 @@ void measure_emulated_hosts() {
         efficiency.push_back(work / (7 * seconds));
     }
     figure("table3.emulated", efficiency, 0.9, true);
-    const Counters ended = cluster.finish();
-    if (std::getenv("DIAG")) {
-        std::ofstream out(std::getenv("DIAG"));
-        for (const auto& trace : ended.traces)
-            for (const auto& e : trace.events)
-                out << trace.host << ' ' << trace.index << ' ' << e.begin - 0 << ' ' << e.end << ' ' << int(e.kind)
-                    << ' ' << e.node << ' ' << e.id << '\n';
-    }
+    cluster.finish();
 }
 
 }  // namespace lightnet::bench

@@ -1,6 +1,7 @@
 // What other places take off one that has more to do than they.
 #include <algorithm>
 #include <chrono>
+#include <utility>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -12,7 +13,8 @@ namespace {
 
 constexpr double enough = 0.02;           // seconds of work: helpers are asked again long before they have done it
 constexpr std::size_t least_bundle = 64;  // questions, and as many as long as nobody knows how long they take
-constexpr double own_piece = 1e-3;        // seconds that this place takes for them at once
+constexpr double worth_waiting = 2;       // times as long as this place would need for all that waits
+constexpr double own_piece = 5e-4;        // seconds that this place takes for them at once
 constexpr std::size_t most_own = 4;       // such pieces at the same time, of nodes that ask on
 
 }  // namespace
@@ -53,7 +55,8 @@ void Place::use(std::size_t node, std::size_t width, PlannedPort& port) {
     if (const auto found = remotes_.find({node, width}); found != remotes_.end()) found->second.port->keep_back(true);
 }
 
-// Helpers get bundles as long as they answer one sooner than this place would get to it.
+// Helpers get bundles as long as they answer one soon. As a rule this place has something else to do meanwhile: so it
+// may take them a little longer than this place alone would need for all that waits.
 // DECISIONS: relief-by-the-idle
 void Place::share_out() {
     for (const auto& relieved : relieved_) {
@@ -65,7 +68,7 @@ void Place::share_out() {
                                        std::max(waiting / (2 * (relieved.helpers + 1)), least_bundle));
             const auto soonest = remote.port->replicas().scheduler().soonest(std::min(size, waiting));
             if (!soonest || *soonest > enough) break;
-            if (remote.own_seconds > 0 && *soonest > remote.own_seconds * double(waiting)) break;
+            if (remote.own_seconds > 0 && *soonest > worth_waiting * remote.own_seconds * double(waiting)) break;
             remote.port->share(size);
         }
     }
@@ -83,9 +86,9 @@ bool Place::start_own() {
                               ? std::clamp<std::size_t>(static_cast<std::size_t>(std::min(own_piece / seconds, 1e9)), 1,
                                                         tuning_.bundle)
                               : least_bundle;
-        const auto bundle = remote.port->take_back(size);
+        auto bundle = remote.port->take_back(size);
         fibers_.start(network_.graph.nodes[relieved.node].name.c_str(),
-                      [this, relieved, bundle] { answer_own(relieved, bundle); });
+                      [this, relieved, bundle = std::move(bundle)] { answer_own(relieved, bundle); });
         return true;
     }
     return false;
