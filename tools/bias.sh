@@ -37,7 +37,7 @@ real="veach-ajar:320:180 living-room:320:180 staircase2:320:320 water-caustic:25
 table="path|path.lua|samples=16|samples=64|samples=256
 path_all|path_all.lua|samples=4|samples=16|samples=64
 irradiance_cache|irradiance_cache.lua|rays=64|rays=256|rays=1024
-figure5|figure5.lua|wanted_error=0.04|wanted_error=0.02|wanted_error=0.01
+figure5|paper/figure5.lua|wanted_error=0.04|wanted_error=0.02|wanted_error=0.01
 progressive|progressive.lua|passes=16|passes=64|passes=256"
 
 work=$(mktemp -d)

@@ -32,10 +32,6 @@ Port::Ticket BundlePort::begin(std::span<const Query> questions, std::span<Rgb> 
     ask.questions = questions, ask.answers = answers;
     ask.bundled = 0, ask.unanswered = questions.size();
     ask.edge = gauge_ ? gauge_->along : nullptr;
-    if (ask.edge) {
-        ask.edge->sent.add(questions.size());
-        ask.edge->bytes.add(questions.size_bytes() + answers.size_bytes());
-    }
     const Ticket ticket = number_of(slot, ask.uses);
     if (waiting_ == 0) oldest_ = Clock::now();
     unbundled_.push_back(ticket);
@@ -91,7 +87,7 @@ std::chrono::nanoseconds BundlePort::patience() const {
 std::size_t BundlePort::full() const { return full_bundle(rules_.questions, replicas_.scheduler().service()); }
 
 bool BundlePort::due(Clock::time_point now, bool idle) {
-    if (waiting_ == 0) return false;
+    if (waiting_ == 0 || kept_back_) return false;
     if (waiting_ >= full()) return true;
     if (now - oldest_ >= patience()) return true;
     return idle && replicas_.bundles_outstanding() < rules_.eager * replicas_.places();
@@ -108,19 +104,31 @@ bool BundlePort::flush(Clock::time_point now, bool idle) {
     foresee(idle);
     bool sent = (idle || replicas_.has_waiting()) && replicas_.tick();
     while ((!again_.empty() || due(now, idle)) && replicas_.has_credit()) {
-        if (again_.empty()) again_.push_back(make_bundle(now));
-        const std::size_t asked = again_.front().questions->size();
-        if (!replicas_.send(again_.front())) break;
-        if (count_) {
-            count_->bundles.add(1);
-            count_->questions.add(asked);
-            count_->bytes.add(asked * sizeof(Query));
-        }
-        again_.pop_front();
+        if (again_.empty()) again_.push_back(make_bundle(now, full(), true));
+        if (!send_first()) break;
         sent = true;
     }
     return sent;
 }
+
+bool BundlePort::send_first() {
+    const std::size_t asked = again_.front().questions->size();
+    if (!replicas_.send(again_.front())) return false;
+    if (count_) {
+        count_->bundles.add(1);
+        count_->questions.add(asked);
+        count_->bytes.add(asked * sizeof(Query));
+    }
+    again_.pop_front();
+    return true;
+}
+
+void BundlePort::share(std::size_t most) {
+    again_.push_back(make_bundle(Clock::now(), most, true));
+    send_first();
+}
+
+Bundle<Query> BundlePort::take_back(std::size_t most) { return make_bundle(Clock::now(), most, false); }
 
 // A buffer comes back when nobody else holds it: the answerer lets go of it before it replies.
 BundlePort::Buffer BundlePort::empty_buffer() {
@@ -151,12 +159,11 @@ BundlePort::Slices* BundlePort::slices_of(const Bundle<Query>& bundle) {
     return slices.open && slices.uses == uses_of(bundle.number) ? &slices : nullptr;
 }
 
-Bundle<Query> BundlePort::make_bundle(Clock::time_point now) {
+Bundle<Query> BundlePort::make_bundle(Clock::time_point now, std::size_t most, bool away) {
     auto questions = empty_buffer();
     const std::uint64_t number = open_slices();
     slices_[slot_of(number)].sent = now;
     auto& slices = slices_[slot_of(number)].all;
-    const std::size_t most = full();
     bundled_.clear();
     while (first_ < unbundled_.size() && questions->size() < most) {
         const Ticket ticket = unbundled_[first_];
@@ -167,10 +174,7 @@ Bundle<Query> BundlePort::make_bundle(Clock::time_point now) {
         }
         const std::size_t count = std::min(most - questions->size(), ask->questions.size() - ask->bundled);
         const auto slice = ask->questions.subspan(ask->bundled, count);
-        if (ask->edge && std::find(bundled_.begin(), bundled_.end(), ask->edge) == bundled_.end()) {
-            bundled_.push_back(ask->edge);
-            ask->edge->bundles.add(1);
-        }
+        if (away && ask->edge) count_at(*ask->edge, count);
         questions->insert(questions->end(), slice.begin(), slice.end());
         slices.push_back({ticket, ask->bundled, count});
         ask->bundled += count;
@@ -181,6 +185,15 @@ Bundle<Query> BundlePort::make_bundle(Clock::time_point now) {
     first_ = 0;
     oldest_ = now;  // what is left came later than what goes
     return {std::move(questions), this, number, static_cast<std::uint32_t>(width_)};
+}
+
+// Questions of an edge that leave in the bundle that is being made.
+void BundlePort::count_at(Gauge::Edge& edge, std::size_t questions) {
+    edge.sent.add(questions);
+    edge.bytes.add(questions * (sizeof(Query) + width_ * sizeof(Rgb)));
+    if (std::find(bundled_.begin(), bundled_.end(), &edge) != bundled_.end()) return;
+    bundled_.push_back(&edge);
+    edge.bundles.add(1);
 }
 
 std::chrono::nanoseconds BundlePort::until_due(Clock::time_point now) const {
@@ -213,8 +226,16 @@ void BundlePort::answered(const Bundle<Query>& bundle, std::vector<Rgb> answers)
         count_->bytes.add(answers.size() * sizeof(Rgb));
     }
     answer_time_ = answer_time_ == answer_time_.zero() ? took : (3 * answer_time_ + took) / 4;
+    hand_out(*slices, bundle, answers);
+}
+
+void BundlePort::answered_here(const Bundle<Query>& bundle, std::span<const Rgb> answers) {
+    if (auto* const slices = slices_of(bundle)) hand_out(*slices, bundle, answers);
+}
+
+void BundlePort::hand_out(Slices& slices, const Bundle<Query>& bundle, std::span<const Rgb> answers) {
     auto from = answers.begin();
-    for (const auto& slice : slices->all) {
+    for (const auto& slice : slices.all) {
         const auto next = from + static_cast<std::ptrdiff_t>(slice.count * width_);
         if (auto* const ask = find(slice.ask)) {
             std::copy(from, next, ask->answers.begin() + static_cast<std::ptrdiff_t>(slice.first * width_));
@@ -223,7 +244,7 @@ void BundlePort::answered(const Bundle<Query>& bundle, std::vector<Rgb> answers)
         }
         from = next;
     }
-    close(*slices, bundle);
+    close(slices, bundle);
 }
 
 void BundlePort::failed(const Bundle<Query>& bundle, const Failure& failure) {

@@ -43,10 +43,15 @@ public:
 
     /// Where the bundles go.
     Multiplexer<Query>& replicas() { return replicas_; }
-    /// That pass until one more question is answered, when all replicas are at work. 0: not known.
-    double seconds_of_one() const { return replicas_.scheduler().pace(); }
-    /// Questions that are not answered, in bundles or not.
-    std::size_t unanswered() const { return waiting_ + replicas_.unanswered(); }
+    /// Questions in no bundle yet.
+    std::size_t waiting() const { return waiting_; }
+    /// From now on bundles go by share() only, and not when they are due.
+    void keep_back(bool kept_back) { kept_back_ = kept_back; }
+    /// Sends a bundle of at most so many questions.
+    void share(std::size_t most);
+    /// A bundle of at most so many questions, for this place to answer itself: by answered_here(), or failed().
+    Bundle<Query> take_back(std::size_t most);
+    void answered_here(const Bundle<Query>& bundle, std::span<const Rgb> answers);
 
     Ticket begin(std::span<const Query> questions, std::span<Rgb> answers) override;
     void finish(Ticket ticket) override;
@@ -94,7 +99,10 @@ private:
     std::size_t full() const;
     bool due(Clock::time_point now, bool idle);
     void foresee(bool idle);
-    Bundle<Query> make_bundle(Clock::time_point now);
+    Bundle<Query> make_bundle(Clock::time_point now, std::size_t most, bool away);
+    bool send_first();
+    void count_at(Gauge::Edge& edge, std::size_t questions);
+    void hand_out(Slices& slices, const Bundle<Query>& bundle, std::span<const Rgb> answers);
     Buffer empty_buffer();
     std::uint64_t open_slices();
     Slices* slices_of(const Bundle<Query>& bundle);
@@ -113,7 +121,8 @@ private:
     std::vector<std::uint32_t> closed_;  // slots
     std::vector<Ticket> unbundled_;      // asks with questions in no bundle yet, from first_ on
     std::size_t first_ = 0;
-    std::size_t waiting_ = 0;                  // questions in no bundle yet
+    std::size_t waiting_ = 0;  // questions in no bundle yet
+    bool kept_back_ = false;
     std::size_t foreseen_ = 0;                 // as the replicas were told last
     std::chrono::nanoseconds answer_time_{0};  // from sending a bundle to its answer, smoothed
     Clock::time_point oldest_;                 // since when the first of them has waited, at most

@@ -97,7 +97,7 @@ Port* Place::port_to_one(std::size_t node, std::size_t width) {
     auto& port = ports_[{node, width}];
     if (!port) {
         port = std::make_unique<PlannedPort>([=, this] { return direct_port_to(node, width); },
-                                             [=, this] { return bundle_port_to(node, width); }, width);
+                                             [=, this] { return bundle_port_to(node, width); });
         use(node, width, *port);
     }
     return port.get();
@@ -117,6 +117,7 @@ Port* Place::bundle_port_to(std::size_t node, std::size_t width) {
     if (tuning_.call_own_nodes) remote.edge.reserve = me_;
     remote.port = std::make_unique<BundlePort>(fibers_, wake(), width, bundles, &gauge_.nodes[node], &gauge_);
     remote.port->replicas().follow(multiplexer_rules(node), &counters_);
+    remote.port->keep_back(called_here(node) && !helpers(node).empty());
     channels_.connect(remote.edge, remote.port->replicas(), plan_for(node));
     return remote.port.get();
 }
@@ -148,6 +149,7 @@ MultiplexerRules Place::multiplexer_rules(std::size_t node) {
 void Place::use(const Plan& plan) {
     const auto before = std::exchange(plan_, plan);
     relieved_.clear();
+    for (auto& [key, remote] : remotes_) remote.port->keep_back(false);
     for (auto& [key, port] : ports_) use(key.first, key.second, *port);
     for (auto& [key, remote] : remotes_) channels_.connect(remote.edge, remote.port->replicas(), plan_for(key.first));
     cancel_asks_of_lost(before);
@@ -195,7 +197,7 @@ void Place::wait() {
 }
 
 // Runs one thing: a fiber whose answers are there, else a bundle of the lowest rank, else one more piece of what nodes
-// do concurrently, else paused work, else a new tile.
+// do concurrently, else what others have left of its own questions, else paused work, else a new tile.
 bool Place::step() {
     const auto resume_first_of = [&](auto& queue) {
         if (queue.empty()) return false;
@@ -209,7 +211,8 @@ bool Place::step() {
         return true;
     };
     return resume_first_of(ready_) || (as(TraceKind::prepare) && preparer_.start_next()) || start_next(false) ||
-           (as(TraceKind::light) && rounds_.start_one()) || resume_first_of(paused_) || start_next(true);
+           (as(TraceKind::light) && (rounds_.start_one() || start_own())) || resume_first_of(paused_) ||
+           start_next(true);
 }
 
 void Place::trace(PlaceTracer& tracer) {
@@ -307,7 +310,7 @@ void Place::pause() {
 
 bool Place::flush(bool idle) {
     const auto now = Clock::now();
-    if (!relieved_.empty()) relieve(now, idle);
+    if (!relieved_.empty()) share_out();
     bool sent = false;
     for (auto& [key, remote] : remotes_) sent |= remote.port->flush(now, idle);
     return sent;

@@ -68,6 +68,9 @@ private:
     struct Remote {
         std::unique_ptr<BundlePort> port;
         RemoteChannels<Query>::Edge edge;
+        double own_seconds =
+            0;  // that one of its questions takes here, where others answer for this place; 0: not known
+        std::size_t own_fibers = 0;  // that answer them here now
     };
 
     // A port to a node of this place whose questions others could answer, too.
@@ -75,9 +78,6 @@ private:
         std::size_t node, width;
         PlannedPort* port;
         std::size_t helpers;
-        double part, most;   // of each ask that they get
-        bool idled = false;  // since `judged`: this place waited for them with nothing to do
-        Clock::time_point judged{};
     };
 
     std::function<void(Fibers::Fiber*)> wake();
@@ -91,8 +91,9 @@ private:
     std::vector<std::uint32_t> helpers(std::size_t node) const;
     Plan plan_for(std::size_t node) const;
     void use(std::size_t node, std::size_t width, PlannedPort& port);
-    void relieve(Clock::time_point now, bool idle);
-    static void judge(Relieved& relieved, Clock::time_point now);
+    void share_out();
+    bool start_own();
+    void answer_own(const Relieved& relieved, const Bundle<Query>& bundle);
     Port* direct_port_to(std::size_t node, std::size_t width);
     Port* bundle_port_to(std::size_t node, std::size_t width);
     void use(const Plan& plan);

@@ -1,17 +1,21 @@
 // What other places take off one that has more to do than they.
 #include <algorithm>
+#include <chrono>
 #include <utility>
+#include <vector>
 
+#include "core/base/error.hpp"
+#include "core/run/runtime/full_bundle.hpp"
 #include "core/run/runtime/place.hpp"
 
 namespace lightnet {
 namespace {
 
-constexpr double enough = 0.05;       // seconds of work for each helper: it is asked again long before they are over
-constexpr std::size_t at_first = 64;  // questions, as long as nobody knows how long they take
-constexpr auto judged_every = std::chrono::milliseconds(10);
-constexpr double lessened = 0.85, raised = 1.03;  // times what they got before
-constexpr double least_part = 0.01;         // so that it is tried again
+constexpr double enough = 0.02;           // seconds of work: helpers are asked again long before they have done it
+constexpr std::size_t least_bundle = 64;  // questions, and as many as long as nobody knows how long they take
+constexpr double worth_waiting = 2;       // times as long as this place would need for all that waits
+constexpr double own_piece = 5e-4;        // seconds that this place takes for them at once
+constexpr std::size_t most_own = 4;       // such pieces at the same time, of nodes that ask on
 
 }  // namespace
 
@@ -44,38 +48,67 @@ Plan Place::plan_for(std::size_t node) const {
 }
 
 void Place::use(std::size_t node, std::size_t width, PlannedPort& port) {
-    port.use(called_here(node));
     const auto count = called_here(node) ? helpers(node).size() : 0;
+    port.use(called_here(node), count > 0);
     if (count == 0) return;
-    // Others that hold what this one does give to the same helpers.
-    const auto holders = static_cast<double>(plan_.places_of[node].size()), help = static_cast<double>(count);
-    relieved_.push_back({node, width, &port, count, help / holders, help / (help + 1)});
+    relieved_.push_back({node, width, &port, count});
+    if (const auto found = remotes_.find({node, width}); found != remotes_.end()) found->second.port->keep_back(true);
 }
 
-// Who waits has given away too much; who never does may give more.
-void Place::judge(Relieved& relieved, Clock::time_point now) {
-    if (now - relieved.judged < judged_every) return;
-    relieved.judged = now;
-    const double next = relieved.part * (std::exchange(relieved.idled, false) ? lessened : raised);
-    relieved.part = std::clamp(next, least_part, relieved.most);
-}
-
-// At first an ask is shared evenly among all who hold the node. Helpers are given no more than they answer in a moment,
-// and no more than a few bundles.
+// Helpers get bundles as long as they answer one soon. As a rule this place has something else to do meanwhile: so it
+// may take them a little longer than this place alone would need for all that waits.
 // DECISIONS: relief-by-the-idle
-void Place::relieve(Clock::time_point now, bool idle) {
-    for (auto& relieved : relieved_) {
+void Place::share_out() {
+    for (const auto& relieved : relieved_) {
         const auto found = remotes_.find({relieved.node, relieved.width});
-        const auto* bundles = found == remotes_.end() ? nullptr : found->second.port.get();
-        const std::size_t under_way = bundles ? bundles->unanswered() : 0;
-        const double seconds = bundles ? bundles->seconds_of_one() : 0;  // of all together
-        const double most = double(relieved.helpers * tuning_.eager * tuning_.bundle);
-        const auto room = static_cast<std::size_t>(seconds > 0 ? std::clamp(enough / seconds, 1.0, most)
-                                                               : double(relieved.helpers * at_first));
-        relieved.idled |= idle && under_way > 0;
-        judge(relieved, now);
-        relieved.port->relieve({room > under_way ? room - under_way : 0, relieved.part});
+        if (found == remotes_.end()) continue;
+        auto& [key, remote] = *found;
+        while (const std::size_t waiting = remote.port->waiting()) {
+            const auto size = std::min(full_bundle(tuning_.bundle, remote.own_seconds),
+                                       std::max(waiting / (2 * (relieved.helpers + 1)), least_bundle));
+            const auto soonest = remote.port->replicas().scheduler().soonest(std::min(size, waiting));
+            if (!soonest || *soonest > enough) break;
+            if (remote.own_seconds > 0 && *soonest > worth_waiting * remote.own_seconds * double(waiting)) break;
+            remote.port->share(size);
+        }
     }
+}
+
+// Begins to answer some of what waits for helpers. False: nothing does.
+bool Place::start_own() {
+    for (const auto& relieved : relieved_) {
+        const auto found = remotes_.find({relieved.node, relieved.width});
+        if (found == remotes_.end() || found->second.port->waiting() == 0) continue;
+        auto& remote = found->second;
+        if (remote.own_fibers >= most_own) continue;
+        const double seconds = remote.own_seconds;
+        const auto size = seconds > 0
+                              ? std::clamp<std::size_t>(static_cast<std::size_t>(std::min(own_piece / seconds, 1e9)), 1,
+                                                        tuning_.bundle)
+                              : least_bundle;
+        auto bundle = remote.port->take_back(size);
+        fibers_.start(network_.graph.nodes[relieved.node].name.c_str(),
+                      [this, relieved, bundle = std::move(bundle)] { answer_own(relieved, bundle); });
+        return true;
+    }
+    return false;
+}
+
+void Place::answer_own(const Relieved& relieved, const Bundle<Query>& bundle) {
+    auto& remote = remotes_.at({relieved.node, relieved.width});
+    ++remote.own_fibers;
+    const auto& questions = *bundle.questions;
+    std::vector<Rgb> answers(questions.size() * relieved.width);
+    try {
+        relieved.port->call().begin(questions, answers);
+        remote.port->answered_here(bundle, answers);
+    } catch (const NodeError& error) {
+        remote.port->failed(bundle, {error.what(), error.host()});
+    }
+    --remote.own_fibers;
+    const double seconds =
+        std::chrono::duration<double>(fibers_.running_time(fibers_.current())).count() / double(questions.size());
+    remote.own_seconds = remote.own_seconds > 0 ? 0.8 * remote.own_seconds + 0.2 * seconds : seconds;
 }
 
 }  // namespace lightnet

@@ -19,6 +19,13 @@ double Scheduler::completion_time(Replica replica, std::size_t questions) const 
     return (ahead(replica) + static_cast<double>(questions)) * times_.assumed(replica);
 }
 
+std::optional<double> Scheduler::soonest(std::size_t questions) const {
+    if (!open_.any()) return std::nullopt;
+    const auto replica = static_cast<Replica>(open_.first());
+    if (replicas_[replica].reserve) return std::nullopt;
+    return completion_time(replica, questions);
+}
+
 bool Scheduler::has_idle_place(Replica replica) const {
     return ledger_.of(replica).copies.size() < replicas_[replica].places;
 }
