@@ -46,7 +46,9 @@ TEST(RunAfterRun, GoesOnWithTheSceneOfTheRunBefore) {
         options.job.width += wider;
         Cluster cluster(std::move(options));
         cluster.gather(slowdown * 5s, never);
-        if (wider == 0) EXPECT_TRUE(learning.networked(cluster) == expected);
+        if (wider == 0) {
+            EXPECT_TRUE(learning.networked(cluster) == expected);
+        }
         cluster.finish(slowdown * 10s);
         return found.load();
     };

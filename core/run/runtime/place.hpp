@@ -68,8 +68,8 @@ private:
     struct Remote {
         std::unique_ptr<BundlePort> port;
         RemoteChannels<Query>::Edge edge;
-        double own_seconds =
-            0;  // that one of its questions takes here, where others answer for this place; 0: not known
+        // Where others answer for this place:
+        double own_seconds = 0;      // that one of its questions takes here; 0: not known
         std::size_t own_fibers = 0;  // that answer them here now
     };
 

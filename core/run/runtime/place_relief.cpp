@@ -1,6 +1,7 @@
 // What other places take off one that has more to do than they.
 #include <algorithm>
 #include <chrono>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -96,7 +97,9 @@ bool Place::start_own() {
 
 void Place::answer_own(const Relieved& relieved, const Bundle<Query>& bundle) {
     auto& remote = remotes_.at({relieved.node, relieved.width});
+    const auto leave = [](Remote* left) { --left->own_fibers; };
     ++remote.own_fibers;
+    const std::unique_ptr<Remote, decltype(leave)> counted(&remote, leave);  // also when the run ends meanwhile
     const auto& questions = *bundle.questions;
     std::vector<Rgb> answers(questions.size() * relieved.width);
     try {
@@ -105,7 +108,6 @@ void Place::answer_own(const Relieved& relieved, const Bundle<Query>& bundle) {
     } catch (const NodeError& error) {
         remote.port->failed(bundle, {error.what(), error.host()});
     }
-    --remote.own_fibers;
     const double seconds =
         std::chrono::duration<double>(fibers_.running_time(fibers_.current())).count() / double(questions.size());
     remote.own_seconds = remote.own_seconds > 0 ? 0.8 * remote.own_seconds + 0.2 * seconds : seconds;
