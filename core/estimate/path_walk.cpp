@@ -309,6 +309,7 @@ private:
     /// Russian roulette: paths end by chance, and the others carry more. `kept` is the share of light that the last
     /// surface leaves: by it alone, not by all that was lost before, paths end gradually from `roulette_depth` on.
     /// Measured on rooms, variance × rays is a quarter to a half less than with a chance by the whole weight.
+    // DECISIONS: roulette-from-the-third
     static float chance_to_survive(float kept) { return std::min(kept, 0.95f); }
     // With a guide, by what the path may still bring, beside what all of it is thought to bring: Vorba & Křivánek 2016,
     // "Adjoint-Driven Russian Roulette and Splitting in Light Transport Simulation", without splitting.

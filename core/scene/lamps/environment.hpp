@@ -38,6 +38,7 @@ public:
     /// The same for up to `lanes` numbers. The memory that they need is fetched at once, and they don't wait for it one
     /// after the other.
     /// DECISIONS: memory-of-a-sky-ahead
+    /// DECISIONS: skies-not-learnt
     void sample(std::span<const Vec2> u, std::span<SkyRadiance> seen) const;
 
     /// Irradiance of its mean over all directions, were it all to arrive head-on: ∫ radiance dω, W·m⁻².
