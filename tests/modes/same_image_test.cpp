@@ -123,7 +123,7 @@ TEST_P(SameImage, InVectorsOfAnyWidth) {
     for (const std::string width : {"narrow", "avx2"}) {
         const auto out = folder / "picture.exr";
         const auto words = launch_words(graph, out, with(small, {"--threads", "1"}));
-        Process process(with({"/usr/bin/env", "LIGHTNET_WIDTH=" + width}, words));
+        Process process(with({"/usr/bin/env", "LIGHTNET_VECTORS=" + width}, words));
         expect_same(finish(process, out), "vectors: " + width);
     }
 }

@@ -9,7 +9,7 @@ namespace {
 Width widest() {
 #if defined(__x86_64__)
     __builtin_cpu_init();
-    const char* text = std::getenv("LIGHTNET_WIDTH");
+    const char* text = std::getenv("LIGHTNET_VECTORS");
     const std::string_view named = text ? text : "";
     if (named == "narrow" || !__builtin_cpu_supports("avx2")) return Width::narrow;
     const bool all =

@@ -51,7 +51,7 @@ struct InLines {
 
 /// Vectors of which width loops over many points are compiled for.
 enum class Width { narrow, avx2, avx512 };
-/// The widest that this processor has; or a narrower one that LIGHTNET_WIDTH names (narrow, avx2), to compare them.
+/// The widest that this processor has; or a narrower one that LIGHTNET_VECTORS names (narrow, avx2), to compare them.
 Width vector_width();
 
 /// Calls many.work(), an always_inline loop over lanes, in vectors as wide as vector_width(). With no fused operations

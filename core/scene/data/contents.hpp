@@ -8,7 +8,7 @@
 
 namespace lightnet {
 
-/// 0 of spheres.
+/// 0 of what is no mesh.
 std::uint64_t triangles_of(const Shape& shape);
 /// Of all shapes once, however many instances they stand in.
 std::uint64_t triangles_of(const SceneData& scene);

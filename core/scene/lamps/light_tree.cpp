@@ -70,7 +70,7 @@ struct Reach {
         half = (0.5f * step) * (last - first);
     }
 };
-/// A box as it is seen, times the distance.
+/// A box as it is seen from a point: distance² and its reciprocal, half its diagonal, and how far its rim is.
 struct SeenBox {
     Eight square, per_square, radius, rim;
     // The cosine of the angle less the one that the box fills. Worked out times the distance, and the difference times
