@@ -43,7 +43,7 @@ public:
             plain_.add(path, shape, hit, outgoing);
             return;
         }
-        points_.push_back(scene_.surface(hit));
+        scene_.add_surface(hit, points_);
         views_.push_back({outgoing, lobes, inside});
         add_to_last(path);
     }

@@ -189,6 +189,7 @@ private:
 
     void visit(Batch& batch, std::size_t first, std::size_t last, std::uint32_t depth) const {
         batch.vertices.clear();
+        scene_.expect(std::span(batch.hits).subspan(first, last - first));
         std::size_t leaving = 0;
         for (std::size_t i = first; i < last; ++i) {
             Path& path = batch.paths[i];

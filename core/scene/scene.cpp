@@ -152,6 +152,14 @@ SurfacePoint Scene::surface(const Hit& hit) const {
     return hit.instance == Query::no_instance ? point : built_->placements[hit.instance].place(point);
 }
 
+void Scene::add_surface(const Hit& hit, std::vector<SurfacePoint>& to) const {
+    SurfacePoint& point = to.emplace_back();
+    built_->shading.find(hit.geometry, hit.primitive, hit.u, hit.v, point);
+    if (hit.instance != Query::no_instance) point = built_->placements[hit.instance].place(point);
+}
+
+void Scene::expect(std::span<const std::optional<Hit>> hits) const { built_->shading.expect(hits); }
+
 std::span<const LambertianShape> Scene::lambertian_shapes() const { return built_->shading.lambertian_shapes(); }
 
 Hit Scene::hit(const Query& query) const {

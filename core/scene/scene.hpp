@@ -79,6 +79,10 @@ public:
     std::optional<Hit> nearest(Vec3 position, Vec3 normal, float reach) const;
 
     SurfacePoint surface(const Hit& hit) const;
+    /// The same, made where it is to stay; appended.
+    void add_surface(const Hit& hit, std::vector<SurfacePoint>& to) const;
+    /// Fetches what will be asked about them from memory: of some at once, before the first is.
+    void expect(std::span<const std::optional<Hit>> hits) const;
     SurfacePoint surface(const Query& query) const { return surface(hit(query)); }
     /// What a question names, as if a ray had met it. Throws Error if it isn't there: it may come from another host.
     Hit hit(const Query& query) const;

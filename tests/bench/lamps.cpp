@@ -4,7 +4,7 @@
 // three orders of magnitude. Points on the floor ask for light. The variance is that of the irradiance at a point
 // without anything in between, relative to its square, by one sample; it is compared with that of lamps chosen by their
 // power alone, worked out here from the triangles. Processor time of samples is measured in turns. One sample is
-// choosing a lamp and a point on it, and asking whether anything is in the way.
+// choosing a lamp and a point on it, for a column of points at once, and asking whether anything is in the way.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/math/columns.hpp"
 #include "core/base/math/frame.hpp"
 #include "core/base/math/samples.hpp"
 #include "core/base/math/sampling.hpp"
@@ -161,11 +162,24 @@ Cost cost(const Scene& scene) {
     constexpr std::uint32_t rounds = 400;
     const auto places = points(scene);
     std::vector<Ray> rays;
+    std::array<LitPoint, lanes> from;
+    std::array<float, lanes> choices;
+    std::array<Vec2, lanes> u;
+    LightSamples found;
     const double begun = thread_seconds();
     for (std::uint32_t i = 0; i < rounds; ++i)
-        for (const auto& place : places)
-            if (const auto lamp = look(scene, place, Samples(15, i * asked + std::uint32_t(&place - places.data()))))
-                rays.push_back(scene.ray_to(place, *lamp));
+        for (std::uint32_t first = 0; first < asked; first += lanes) {
+            for (std::uint32_t k = 0; k < lanes; ++k) {
+                const auto& place = places[first + k];
+                Samples samples(15, i * asked + first + k);
+                from[k] = {place.position, place.normal};
+                choices[k] = samples.next();
+                u[k] = samples.next_2d();
+            }
+            scene.sample_lights(from, choices, u, found);
+            for (std::uint32_t k = 0; k < lanes; ++k)
+                if (found.found[k]) rays.push_back(scene.ray_to(places[first + k], found[k]));
+        }
     const double chosen = thread_seconds();
     std::vector<std::uint8_t> hidden(rays.size());
     scene.occluded(rays, hidden);

@@ -6,6 +6,7 @@
 #include "core/base/math/sampling.hpp"
 #include "core/scene/lamps/quadric_lamp.hpp"
 #include "core/scene/lamps/shares.hpp"
+#include "core/scene/surfaces/fetch_ahead.hpp"
 #include "core/scene/surfaces/triangle.hpp"
 #include "core/scene/textures/look_up.hpp"
 
@@ -221,6 +222,22 @@ std::optional<LightSample> AreaLamps::sample(std::size_t index, Vec3 from, Vec2 
     const Lamp one = lamp(index);
     if (is_mesh(one.source)) return from_mesh(one, from, u);
     return ball_of(one.source) ? from_sphere(one, from, u) : from_quadric(one, from, u);
+}
+
+void AreaLamps::expect(std::span<const LightTree::Choice> chosen) const {
+    const auto each = [&](const auto& fetch) {
+        for (const auto& [lamp, chance] : chosen)
+            if (chance > 0 && lamp < size()) fetch(lamp);
+    };
+    const auto each_triangle = [&](const auto& fetch) {
+        each([&](std::uint32_t lamp) {
+            const Source& source = sources_[source_of_[lamp]];
+            if (source.by_triangle) fetch(mesh_of(source), lamp - source.first_lamp);
+        });
+    };
+    each([&](std::uint32_t lamp) { __builtin_prefetch(&source_of_[lamp]); });
+    each_triangle([](const Mesh& mesh, std::uint32_t triangle) { fetch_triangle(mesh, triangle); });
+    each_triangle([](const Mesh& mesh, std::uint32_t triangle) { fetch_corners(mesh, triangle); });
 }
 
 std::optional<LightSample> AreaLamps::from_mesh(const Lamp& lamp, Vec3 from, Vec2 u) const {

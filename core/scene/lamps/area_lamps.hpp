@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/base/lamp_groups.hpp"
@@ -30,6 +31,8 @@ public:
     std::size_t size() const { return source_of_.size(); }
     /// A point on a lamp that is chosen for certain. None: it sends no light this way.
     std::optional<LightSample> sample(std::size_t lamp, Vec3 from, Vec2 u) const;
+    /// Fetches what sample() will read of some lamps from memory.
+    void expect(std::span<const LightTree::Choice> chosen) const;
     /// The same lamp for many points at once, if it's a uniform triangle or parallelogram.
     std::optional<FlatLamp> flat(std::size_t lamp) const;
     /// Density with which sample() finds the emitting point `on`, which lies in `direction` from `from`.

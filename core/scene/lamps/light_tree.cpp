@@ -14,6 +14,7 @@ namespace lightnet {
 namespace {
 
 constexpr std::uint32_t width = LightTree::width;
+constexpr std::size_t line_of_cache = 64;  // bytes
 // Of light that arrives, as what counts it by: where the shading normal leans over, the true normal's cosine may be 0.
 constexpr float least_cosine = 0.05f;
 using Node = LightTree::Node;
@@ -156,24 +157,44 @@ struct LightTree::Choosing {
     std::span<float> places;
     std::span<Choice> chosen;
 
+    // Level by level, not point by point: one step of a point waits for the one before it, but not for other points; and
+    // the nodes to which some go down are fetched while others choose theirs.
     [[gnu::always_inline]] void work() {
-        for (std::size_t i = 0; i < from.size(); ++i) chosen[i] = choice(from[i], places[i]);
-    }
-    [[gnu::always_inline]] Choice choice(const LitPoint& point, float& u) const {
-        Choice choice{0, 1};
-        for (bool leaf = false; !leaf;) {
-            const Node& node = nodes[choice.light];
-            const Importances all = importances(node, point);
-            const Sums sums(all);
-            if (!(sums.all() > 0)) return {0, 0};
-            const float place = u * sums.all();
-            const std::uint32_t i = child_at(place, all, sums);
-            u = std::clamp((place - sums.before[i]) / all[i], 0.0f, 0x1.fffffep-1f);
-            choice.chance *= all[i] / sums.all();
-            choice.light = node.child[i];
-            leaf = node.leaves >> i & 1;
+        for (std::size_t first = 0; first < from.size(); first += lanes) {
+            std::array<std::size_t, lanes> open;
+            std::size_t count = 0;
+            for (std::size_t i = first; i < std::min(first + lanes, from.size()); ++i) {
+                chosen[i] = {0, 1};
+                open[count++] = i;
+            }
+            while (count > 0) {
+                std::size_t kept = 0;
+                for (std::size_t k = 0; k < count; ++k) {
+                    const std::size_t i = open[k];
+                    open[kept] = i;
+                    kept += goes_down(from[i], places[i], chosen[i]);
+                }
+                count = kept;
+            }
         }
-        return choice;
+    }
+    /// From a node to one of its children: is that a node again?
+    [[gnu::always_inline]] bool goes_down(const LitPoint& point, float& u, Choice& choice) const {
+        const Node& node = nodes[choice.light];
+        const Importances all = importances(node, point);
+        const Sums sums(all);
+        if (!(sums.all() > 0)) {
+            choice = {0, 0};
+            return false;
+        }
+        const float place = u * sums.all();
+        const std::uint32_t i = child_at(place, all, sums);
+        u = std::clamp((place - sums.before[i]) / all[i], 0.0f, 0x1.fffffep-1f);
+        choice = {node.child[i], choice.chance * (all[i] / sums.all())};
+        const bool more = !(node.leaves >> i & 1);
+        const auto* next = reinterpret_cast<const std::byte*>(&nodes[more ? choice.light : 0]);
+        for (std::size_t line = 0; line < sizeof(Node); line += line_of_cache) __builtin_prefetch(next + line);
+        return more;
     }
 };
 

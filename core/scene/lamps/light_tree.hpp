@@ -44,6 +44,8 @@ public:
     /// The chance with which choose() finds a light.
     float chance(const LitPoint& from, std::uint32_t light) const;
 
+    /// Are there more lights than the nearest cache is likely to hold?
+    bool large() const { return nodes_.size() > 64; }
     std::size_t memory() const { return nodes_.size() * sizeof(Node) + place_of_.size() * sizeof(place_of_[0]); }
 
     static constexpr std::uint32_t width = 8;

@@ -182,6 +182,7 @@ void Lights::sample_tree(const SomePoints& some, LightSamples& samples) const {
     std::array<LightTree::Choice, lanes> chosen;
     std::array<float, lanes> places = some.choices;
     tree_.choose(std::span(some.from).first(some.count), places, chosen);
+    if (tree_.large()) lamps_.expect(std::span(chosen).first(some.count));
     for (std::size_t k = 0; k < some.count; ++k)
         samples.set(some.who[k],
                     chosen[k].chance > 0 ? from_chosen(chosen[k], some.from[k].position, some.u[k]) : std::nullopt);

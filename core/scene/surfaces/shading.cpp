@@ -4,6 +4,7 @@
 #include "core/base/math/random.hpp"
 #include "core/base/math/sampling.hpp"
 #include "core/scene/surfaces/bumps.hpp"
+#include "core/scene/surfaces/fetch_ahead.hpp"
 #include "core/scene/surfaces/triangle.hpp"
 
 #include <algorithm>
@@ -75,7 +76,8 @@ OnSphere laid_on(const Sphere& sphere, Vec3 outwards) {
 
 Shading::Shading(const SceneData& data) : data_(data), materials_(data) {
     for (const auto& shape : data.shapes) {
-        needs_.push_back({materials_.needs(shape.material), least_offset(shape)});
+        needs_.push_back(
+            {materials_.needs(shape.material), least_offset(shape), std::get_if<Mesh>(&shape.geometry)});
         needs_.back().material.texture |= shape.emission && shape.emission->texture;
         lambertian_.push_back(lambertian(shape, needs_.back()));
         const auto* quadric = std::get_if<Quadric>(&shape.geometry);
@@ -84,10 +86,9 @@ Shading::Shading(const SceneData& data) : data_(data), materials_(data) {
 }
 
 LambertianShape Shading::lambertian(const Shape& shape, const Needs& needs) const {
-    const auto* mesh = std::get_if<Mesh>(&shape.geometry);
-    if (!mesh || !materials_.is_lambertian(shape.material)) return {};
+    if (!needs.mesh || !materials_.is_lambertian(shape.material)) return {};
     const Rgb* albedo = materials_.constant_albedo(shape.material);
-    return {mesh,
+    return {needs.mesh,
             albedo ? *albedo : Rgb{},
             albedo ? nullptr : this,
             needs.offset,
@@ -106,16 +107,27 @@ void Shading::find(std::uint32_t geometry, std::uint32_t primitive, float u, flo
     point.primitive = primitive;
     point.u = u;
     point.v = v;
-    const Shape& shape = data_.shapes[geometry];
-    if (const auto* mesh = std::get_if<Mesh>(&shape.geometry))
-        on_mesh(*mesh, needs_[geometry], point);
-    else if (const auto* sphere = std::get_if<Sphere>(&shape.geometry))
-        on_sphere(*sphere, needs_[geometry], point);
+    const Needs& needs = needs_[geometry];
+    if (needs.mesh)
+        on_mesh(needs, point);
+    else if (const auto* sphere = std::get_if<Sphere>(&data_.shapes[geometry].geometry))
+        on_sphere(*sphere, needs, point);
     else
-        on_quadric(*quadrics_[geometry], needs_[geometry], point);
+        on_quadric(*quadrics_[geometry], needs, point);
 }
 
-void Shading::on_mesh(const Mesh& mesh, const Needs& needs, SurfacePoint& point) const {
+void Shading::expect(std::span<const std::optional<Hit>> hits) const {
+    const auto each_triangle = [&](const auto& fetch) {
+        for (const auto& hit : hits)
+            if (hit)
+                if (const Mesh* mesh = needs_[hit->geometry].mesh) fetch(*mesh, hit->primitive);
+    };
+    each_triangle([](const Mesh& mesh, std::uint32_t triangle) { fetch_triangle(mesh, triangle); });
+    each_triangle([](const Mesh& mesh, std::uint32_t triangle) { fetch_corners(mesh, triangle); });
+}
+
+void Shading::on_mesh(const Needs& needs, SurfacePoint& point) const {
+    const Mesh& mesh = *needs.mesh;
     const Corners at = corners(mesh, point.primitive);
     Vec3 interpolated;
     if (!mesh.normals.empty()) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,6 +32,8 @@ public:
     }
     /// The same, put where it is wanted: copies of what has just been written wait for it.
     void find(std::uint32_t geometry, std::uint32_t primitive, float u, float v, SurfacePoint& point) const;
+    /// Fetches what find() will read of them from memory.
+    void expect(std::span<const std::optional<Hit>> hits) const;
     Bsdf bsdf(const SurfacePoint& point) const;
     void add_bsdf(const SurfacePoint& point, std::vector<Bsdf>& to) const;
     /// By shape: null meshes where it is not Lambertian.
@@ -53,10 +56,11 @@ public:
 private:
     struct Needs {
         MaterialNeeds material;
-        float offset = 0;  // least distance by which rays must leave the shape, m
+        float offset = 0;            // least distance by which rays must leave the shape, m
+        const Mesh* mesh = nullptr;  // null: the shape is another
     };
     LambertianShape lambertian(const Shape& shape, const Needs& needs) const;
-    void on_mesh(const Mesh& mesh, const Needs& needs, SurfacePoint& point) const;
+    void on_mesh(const Needs& needs, SurfacePoint& point) const;
     /// Adds what textures, grooves and bumps need.
     void dress(const Mesh& mesh, const Needs& needs, SurfacePoint& point) const;
     void on_sphere(const Sphere& sphere, const Needs& needs, SurfacePoint& point) const;
