@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "core/base/math/many_samples.hpp"
+#include "core/estimate/first_rays.hpp"
 #include "core/estimate/path_vertices.hpp"
 #include "core/network/graph/kind.hpp"
 #include "core/network/light/light_op.hpp"
@@ -33,6 +35,7 @@ public:
         : scene_(here.scene()),
           groups_(scene_.groups()),
           key_(here.key()),
+          first_rays_(here.shared<FirstRays>()),
           samples_(static_cast<std::uint32_t>(here.integer("samples"))),
           most_(std::bit_ceil(static_cast<std::uint32_t>(here.integer("most_samples")))),
           error_(static_cast<float>(here.number("error"))),
@@ -40,9 +43,15 @@ public:
           heuristic_(heuristic_called(here.text("heuristic"))) {}
 
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
-        Samplers samplers(scene_);
+        FirstRays own;
+        Samplers samplers(scene_, error_ > 0 ? own : *first_rays_);
         Wanted wanted{questions, std::vector<std::uint32_t>(questions.size(), samples_), samples_, {}};
-        if (error_ > 0) wanted = enough_for_error(samplers, questions);
+        if (error_ > 0) {
+            own.begin_alone(scene_);
+            wanted = enough_for_error(samplers, questions);
+        } else {
+            first_rays_->begin(scene_, questions, samples_);
+        }
         std::fill(answers.begin(), answers.end(), Rgb{});
         each_sample(samplers, wanted, [&](std::size_t q, std::span<const Rgb> found) {
             for (std::size_t g = 0; g < groups_; ++g) answers[q * groups_ + g] += found[g];
@@ -60,40 +69,41 @@ private:
         std::uint32_t room;  // numbers of a question's samples: more than counts
         Key key;             // of their random numbers; 0: those of the answer
     };
-    /// A ray that a sample draws from the BSDF.
-    struct BsdfRay {
-        std::uint32_t sample;
-        PathVertices::Step step;
-    };
     /// Some samples, and scratch space for them.
     struct Samplers {
-        explicit Samplers(const Scene& scene) : vertices(scene) {}
+        Samplers(const Scene& scene, FirstRays& rays) : first_rays(rays), vertices(scene) {}
 
+        FirstRays& first_rays;
+        std::size_t before = 0;          // so many samples were taken before
         std::vector<std::size_t> asked;  // whose each sample is
         std::vector<Rgb> found;          // by each, group by group of lamps
         ManySamples numbers;             // of each
+        ManySamples first_numbers;       // of the directions of each
         std::vector<float> choices;
         std::vector<Vec2> places, directions;
         PathVertices vertices;
         ShadowRays shadow_rays;
         std::vector<std::uint8_t> occluded;
-        std::vector<BsdfRay> bsdf_rays;
-        std::vector<Ray> rays;  // the same
-        std::vector<std::optional<Hit>> hits;
-        std::vector<std::size_t> leaving;  // of these rays: they meet nothing
+        std::span<FirstRays::One> by_direction;  // of each
+        std::vector<std::uint32_t> looking;      // those whose direction may find light
+        std::vector<std::uint32_t> leaving;      // of these: they meet nothing
     };
-    /// Numbers of a sample.
-    enum Dimension : std::uint32_t { choice_of_lamp, place_on_lamp, choice_of_lobe, direction };
+    /// Numbers of a sample, beside those of its direction.
+    enum Dimension : std::uint32_t { choice_of_lamp, place_on_lamp };
 
     /// take(index of question, what one sample of it finds of each group), in the order of questions and samples.
     template <class Take>
     void each_sample(Samplers& some, const Wanted& wanted, Take&& take) const {
         const auto& questions = wanted.questions;
+        some.before = 0;
         for (std::size_t q = 0; q < questions.size(); ++q) {
-            const Key stream = child(questions[q].stream, key_), key = wanted.key ? child(stream, wanted.key) : stream;
+            const auto apart = [&](Key stream) { return wanted.key ? child(stream, wanted.key) : stream; };
+            const Key key = apart(child(questions[q].stream, key_)), first_key = apart(FirstRays::stream(questions[q]));
             for (std::uint32_t i = 0; i < wanted.counts[q]; ++i) {
                 some.asked.push_back(q);
-                some.numbers.add(key, questions[q].sample * wanted.room + i);
+                const auto index = questions[q].sample * wanted.room + i;
+                some.numbers.add(key, index);
+                some.first_numbers.add(first_key, index);
                 if (some.asked.size() == samples_at_once) finish(some, questions, take);
             }
         }
@@ -105,18 +115,25 @@ private:
         some.found.assign(some.asked.size() * groups_, Rgb{});
         if (scene_.has_lamps()) some.numbers.draw(place_on_lamp, some.places);
         if (scene_.has_many_lamps()) some.numbers.draw(choice_of_lamp, some.choices);
-        some.numbers.draw(direction, some.directions);
-        for (std::size_t next = 0; next < some.asked.size();) next = draw_rays(some, questions, next);
+        const std::size_t end = some.before + some.asked.size();
+        some.by_direction = some.first_rays.some(some.before, end);
+        const bool known = some.first_rays.known(end);
+        if (!known) some.first_numbers.draw(FirstRays::direction, some.directions);
+        for (std::size_t next = 0; next < some.asked.size();) next = draw_rays(some, questions, next, known);
+        some.first_rays.set_known(end);
         find_lamps(some);
         find_by_direction(some);
+        some.before = end;
         for (std::size_t i = 0; i < some.asked.size(); ++i)
             take(some.asked[i], std::span(some.found).subspan(i * groups_, groups_));
         some.asked.clear();
         some.numbers.keep(0);
+        some.first_numbers.keep(0);
     }
 
-    /// Draws the rays by which some samples from `next` on look for light. Returns where the next ones begin.
-    std::size_t draw_rays(Samplers& some, std::span<const Query> questions, std::size_t next) const {
+    /// Draws the rays by which some samples from `next` on look for light. `known`: but for their directions. Returns
+    /// where the next ones begin.
+    std::size_t draw_rays(Samplers& some, std::span<const Query> questions, std::size_t next, bool known) const {
         next = some.vertices.begin(next, some.asked.size(),
                                    [&](std::size_t i) -> const Query& { return questions[some.asked[i]]; });
         some.vertices.find_bsdfs();
@@ -127,11 +144,10 @@ private:
                     return Rgb{1, 1, 1};
                 },
                 [&](std::uint32_t i) { return i * static_cast<std::uint32_t>(groups_); });
-        const auto choice = [&](std::uint32_t i) { return some.numbers.at(i, choice_of_lobe).next(); };
+        if (known) return next;
+        const auto choice = [&](std::uint32_t i) { return some.first_numbers.at(i, FirstRays::choice_of_lobe).next(); };
         some.vertices.scatter(some.directions, choice, [&](std::uint32_t i, const PathVertices::Step& step) {
-            if (!scene_.may_shine(step.ray)) return;
-            some.bsdf_rays.push_back({i, step});
-            some.rays.push_back(step.ray);
+            some.by_direction[i].step = step;
         });
         return next;
     }
@@ -146,36 +162,39 @@ private:
     }
 
     void find_by_direction(Samplers& some) const {
-        some.hits.resize(some.rays.size());
-        scene_.intersect(some.rays, some.hits);
-        for (std::size_t i = 0; i < some.bsdf_rays.size(); ++i) {
-            if (!some.hits[i])
+        for (std::uint32_t i = 0; i < some.by_direction.size(); ++i)
+            if (some.by_direction[i].step && scene_.may_shine(some.by_direction[i].step->ray))
+                some.looking.push_back(i);
+        some.first_rays.trace(some.by_direction, some.looking);
+        for (const std::uint32_t i : some.looking) {
+            const auto& [step, hit, traced] = some.by_direction[i];
+            if (!hit)
                 some.leaving.push_back(i);
-            else if (scene_.shines(*some.hits[i]))
-                meet_lamp(some, some.bsdf_rays[i], *some.hits[i]);
+            else if (scene_.shines(*hit))
+                meet_lamp(some, i, *step, *hit);
         }
         for (std::size_t i = 0; scene_.has_environment() && i < some.leaving.size(); i += lanes)
             leave(some, std::span(some.leaving).subspan(i, std::min(lanes, some.leaving.size() - i)));
         some.leaving.clear();
-        some.bsdf_rays.clear();
-        some.rays.clear();
+        some.looking.clear();
     }
-    void meet_lamp(Samplers& some, const BsdfRay& ray, const Hit& hit) const {
+    void meet_lamp(Samplers& some, std::size_t sample, const PathVertices::Step& step, const Hit& hit) const {
         const SurfacePoint end = scene_.surface(hit);
-        const Rgb arriving = light_by_bsdf(scene_, ray.step.from, ray.step.sample, &end, heuristic_);
+        const Rgb arriving = light_by_bsdf(scene_, step.from, step.sample, &end, heuristic_);
         if (is_black(arriving)) return;
-        some.found[ray.sample * groups_ + scene_.group_of(end)] +=
-            ray.step.sample.weight * left_after(ray.step.inside, hit.distance) * arriving;
+        some.found[sample * groups_ + scene_.group_of(end)] +=
+            step.sample.weight * left_after(step.inside, hit.distance) * arriving;
     }
-    void leave(Samplers& some, std::span<const std::size_t> rays) const {
+    void leave(Samplers& some, std::span<const std::uint32_t> samples) const {
         std::array<Vec3, lanes> directions;
         std::array<SkyRadiance, lanes> sky;
-        for (std::size_t k = 0; k < rays.size(); ++k) directions[k] = some.rays[rays[k]].direction;
-        scene_.look_at_sky(std::span(directions).first(rays.size()), sky);
-        for (std::size_t k = 0; k < rays.size(); ++k) {
-            const auto& [sample, step] = some.bsdf_rays[rays[k]];
-            some.found[sample * groups_ + scene_.environment_group()] +=
-                step.sample.weight * sky_by_bsdf(sky[k], step.sample, heuristic_);
+        for (std::size_t k = 0; k < samples.size(); ++k)
+            directions[k] = some.by_direction[samples[k]].step->ray.direction;
+        scene_.look_at_sky(std::span(directions).first(samples.size()), sky);
+        for (std::size_t k = 0; k < samples.size(); ++k) {
+            const BsdfSample& sample = some.by_direction[samples[k]].step->sample;
+            some.found[samples[k] * groups_ + scene_.environment_group()] +=
+                sample.weight * sky_by_bsdf(sky[k], sample, heuristic_);
         }
     }
 
@@ -212,6 +231,7 @@ private:
     const Scene& scene_;
     std::size_t groups_;  // of lamps
     Key key_;
+    std::shared_ptr<FirstRays> first_rays_;
     static constexpr std::uint32_t trials = 16;
     static constexpr double surely = 2.07;  // 95 of 100 variances are below so many times what 16 normal values show
     static constexpr Key trial_key = key_of("trials");

@@ -18,6 +18,7 @@ public:
     explicit PathTracing(const NodeContext& here)
         : key_(here.key()),
           guide_(here.has("guide") ? &here.taken("guide") : nullptr),
+          first_rays_(here.shared<FirstRays>()),
           paths_(here.scene(),
                  {static_cast<std::uint32_t>(here.integer("samples")),
                   static_cast<std::uint32_t>(here.integer("max_depth")),
@@ -25,9 +26,10 @@ public:
 
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
         std::fill(answers.begin(), answers.end(), Rgb{});
-        if (!guide_) return paths_.light(questions, key_, nullptr, answers);
+        if (!guide_) return paths_.light(questions, key_, *first_rays_, answers);
         const auto guide = guide_->frozen().as<LightGuide>();
-        if (guide) return paths_.light(questions, key_, guide->size() > 0 ? guide.get() : nullptr, answers);
+        if (guide && guide->size() == 0) return paths_.light(questions, key_, *first_rays_, answers);
+        if (guide) return paths_.light(questions, key_, *guide, answers);
         // It learns where it is asked for: from the questions of its rehearsals.
         std::vector<Rgb> none(questions.size());
         guide_->light(questions, none);
@@ -36,6 +38,7 @@ public:
 private:
     Key key_;
     const LightOp* guide_;  // null: none
+    std::shared_ptr<FirstRays> first_rays_;
     PathWalk paths_;
 };
 // A limit counts the surfaces between the lamp and the one asked about.

@@ -7,6 +7,7 @@
 
 #include "core/base/math/columns.hpp"
 #include "core/base/math/many_samples.hpp"
+#include "core/estimate/first_rays.hpp"
 #include "core/estimate/path_lessons.hpp"
 #include "core/estimate/path_vertices.hpp"
 #include "core/scene/direct_light.hpp"
@@ -18,9 +19,11 @@ namespace {
 template <bool guided>
 class Walker {
 public:
-    Walker(const Scene& scene, const PathPlan& plan, Key key, const LightGuide* guide)
+    /// `first`: null where paths begin by a guide, or for one.
+    Walker(const Scene& scene, const PathPlan& plan, Key key, const LightGuide* guide, FirstRays* first)
         : scene_(scene),
           guide_(guide),
+          first_rays_(plan.all ? nullptr : first),
           groups_(static_cast<std::uint32_t>(scene.groups())),
           key_(key),
           samples_(plan.samples),
@@ -31,6 +34,7 @@ public:
 
     void walk(std::span<const Query> questions, std::span<Rgb> answers, Learnt* learnt) const {
         const std::size_t paths = questions.size() * samples_;
+        if (first_rays_) first_rays_->begin(scene_, questions, samples_);
         Batch batch(scene_, guide_);
         Lessons lessons;
         if (learnt) batch.learn(lessons);
@@ -61,6 +65,7 @@ public:
     }
 
 private:
+    using Step = PathVertices::Step;
     static constexpr std::size_t paths_at_once = 256;
     static constexpr std::size_t vertices_at_once = lanes;
 
@@ -95,7 +100,9 @@ private:
         std::vector<Path> paths;
         std::vector<Ray> rays;  // of each path
         std::vector<std::optional<Hit>> hits;
-        ManySamples samples;  // of each path
+        ManySamples samples;                   // of each path
+        std::span<FirstRays::One> first_rays;  // of those that began
+        std::vector<std::uint32_t> begun;      // of paths that go on by them: which of those
         Numbers numbers;
         PathVertices vertices;
         ShadowRays shadow_rays;
@@ -139,17 +146,58 @@ private:
         draw(batch, 0);
         batch.kept = 0;
         const auto question = [&](std::size_t path) -> const Query& { return questions[batch.asked[path]]; };
-        for (std::size_t next = 0; next < batch.paths.size();) {
-            next = batch.vertices.begin(next, batch.paths.size(), question);
-            go_round(batch, 0);
+        if (first_rays_) {
+            batch.first_rays = first_rays_->some(first, last);
+            if (!first_rays_->known(last)) find_first_rays(batch, question, first);
+            first_rays_->set_known(last);
+            begin_by_first_rays(batch);
+        } else {
+            for (std::size_t next = 0; next < batch.paths.size();) {
+                next = batch.vertices.begin(next, batch.paths.size(), question);
+                go_round(batch, 0);
+            }
         }
         close(batch);
     }
 
+    /// Of the paths that begin: `before` of the call's were before them.
+    template <class Question>
+    void find_first_rays(Batch& batch, const Question& question, std::size_t before) const {
+        ManySamples samples;
+        for (std::size_t i = 0; i < batch.asked.size(); ++i) {
+            const Query& asked = question(i);
+            const auto sample = static_cast<std::uint32_t>((before + i) % samples_);
+            samples.add(FirstRays::stream(asked), asked.sample * samples_ + sample);
+        }
+        samples.draw(FirstRays::direction, batch.numbers.directions);
+        const auto choice = [&](std::uint32_t i) { return samples.at(i, FirstRays::choice_of_lobe).next(); };
+        for (std::size_t next = 0; next < batch.asked.size();) {
+            next = batch.vertices.begin(next, batch.asked.size(), question);
+            batch.vertices.find_bsdfs();
+            batch.vertices.scatter(batch.numbers.directions, choice,
+                                   [&](std::uint32_t i, const Step& step) { batch.first_rays[i].step = step; });
+        }
+    }
+    void begin_by_first_rays(Batch& batch) const {
+        batch.begun.clear();
+        for (std::uint32_t i = 0; i < batch.first_rays.size(); ++i) {
+            if (!batch.first_rays[i].step) continue;
+            const std::size_t before = batch.kept;
+            send_on(batch, i, *batch.first_rays[i].step, 0);
+            if (batch.kept > before) batch.begun.push_back(i);
+        }
+    }
+    /// What paths meet next.
+    void trace(Batch& batch, std::uint32_t depth) const {
+        batch.hits.resize(batch.rays.size());
+        if (!first_rays_ || depth > 1) return scene_.intersect(batch.rays, batch.hits);
+        first_rays_->trace(batch.first_rays, batch.begun);
+        for (std::size_t i = 0; i < batch.begun.size(); ++i) batch.hits[i] = batch.first_rays[batch.begun[i]].hit;
+    }
+
     /// Takes all paths over their next vertex: the one of number `depth`.
     void go_on(Batch& batch, std::uint32_t depth) const {
-        batch.hits.resize(batch.rays.size());
-        scene_.intersect(batch.rays, batch.hits);
+        trace(batch, depth);
         draw(batch, depth);
         batch.kept = 0;
         for (std::size_t first = 0; first < batch.paths.size(); first += vertices_at_once)
@@ -183,7 +231,7 @@ private:
         const std::uint32_t first = depth * dimensions;
         if (scene_.has_lamps() && (all_ || depth > 0)) samples.draw(first + place_on_lamp, numbers.places);
         if (scene_.has_many_lamps()) samples.draw(first + choice_of_lamp, numbers.choices);
-        samples.draw(first + direction, numbers.directions);
+        if (depth > 0 || !first_rays_) samples.draw(first + direction, numbers.directions);
         if (guide_ || depth >= roulette_depth_) samples.draw(first + survival, numbers.survivals);
     }
 
@@ -270,14 +318,13 @@ private:
         const auto choice = [&](std::uint32_t i) {
             return batch.samples.at(i, depth * dimensions + choice_of_lobe).next();
         };
-        const auto on = [&](std::uint32_t i, const PathVertices::Step& step) { send_on(batch, i, step, depth); };
+        const auto on = [&](std::uint32_t i, const Step& step) { send_on(batch, i, step, depth); };
         batch.vertices.template scatter<guided>(batch.numbers.directions, choice, on);
     }
 
     /// Puts a path that goes on into the place of one that was here before, or of itself. Who ends by chance, which
     /// can't be foretold, is put there as well, and written over by the next.
-    [[gnu::always_inline]] void send_on(Batch& batch, std::size_t i, const PathVertices::Step& on,
-                                        std::uint32_t depth) const {
+    [[gnu::always_inline]] void send_on(Batch& batch, std::size_t i, const Step& on, std::uint32_t depth) const {
         const std::size_t to = batch.kept;
         const Path& path = batch.paths[i];
         Rgb weight = path.weight * on.sample.weight;
@@ -321,7 +368,8 @@ private:
 
     const Scene& scene_;
     const LightGuide* guide_;
-    std::uint32_t groups_;  // of lamps
+    FirstRays* first_rays_;  // null: found anew
+    std::uint32_t groups_;   // of lamps
     Key key_;
     std::uint32_t samples_;
     std::uint32_t max_depth_;
@@ -332,16 +380,17 @@ private:
 
 }  // namespace
 
-void PathWalk::light(std::span<const Query> questions, Key key, const LightGuide* guide, std::span<Rgb> answers) const {
-    if (guide)
-        Walker<true>(scene_, plan_, key, guide).walk(questions, answers, nullptr);
-    else
-        Walker<false>(scene_, plan_, key, nullptr).walk(questions, answers, nullptr);
+void PathWalk::light(std::span<const Query> questions, Key key, FirstRays& first, std::span<Rgb> answers) const {
+    Walker<false>(scene_, plan_, key, nullptr, &first).walk(questions, answers, nullptr);
+}
+
+void PathWalk::light(std::span<const Query> questions, Key key, const LightGuide& guide, std::span<Rgb> answers) const {
+    Walker<true>(scene_, plan_, key, &guide, nullptr).walk(questions, answers, nullptr);
 }
 
 void PathWalk::learn(std::span<const Query> questions, Key key, const LightGuide* guide, Learnt& learnt) const {
     std::vector<Rgb> answers(questions.size());
-    Walker<true>(scene_, plan_, key, guide).walk(questions, answers, &learnt);
+    Walker<true>(scene_, plan_, key, guide, nullptr).walk(questions, answers, &learnt);
 }
 
 }  // namespace lightnet

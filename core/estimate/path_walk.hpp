@@ -8,6 +8,7 @@
 #include "core/base/math/random.hpp"
 #include "core/base/math/rgb.hpp"
 #include "core/base/query.hpp"
+#include "core/estimate/first_rays.hpp"
 #include "core/estimate/light_guide.hpp"
 #include "core/scene/scene.hpp"
 
@@ -49,10 +50,13 @@ public:
     PathWalk(const Scene& scene, const PathPlan& plan) : scene_(scene), plan_(plan) {}
 
     /// Adds the mean light of each question's paths to its answer, group by group of lamps. Random numbers come from
-    /// child(question.stream, key). `guide`: by which paths go on; null: by surfaces alone.
-    void light(std::span<const Query> questions, Key key, const LightGuide* guide, std::span<Rgb> answers) const;
+    /// child(question.stream, key), those of first directions from FirstRays::stream(question).
+    void light(std::span<const Query> questions, Key key, FirstRays& first, std::span<Rgb> answers) const;
+    /// The same where paths go on by a guide, not by surfaces alone.
+    void light(std::span<const Query> questions, Key key, const LightGuide& guide, std::span<Rgb> answers) const;
 
-    /// Follows the same paths, and appends what each of them has found. Of a scene that keeps no groups apart.
+    /// Follows paths by a guide, or null, and appends what each of them has found. Of a scene that keeps no groups
+    /// apart.
     void learn(std::span<const Query> questions, Key key, const LightGuide* guide, Learnt& learnt) const;
 
 private:

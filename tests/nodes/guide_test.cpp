@@ -41,8 +41,8 @@ Brightness measured(const SmallNetwork& network, std::uint32_t samples, int pict
 }
 
 void expect_the_same(const SceneData& data, const char* paths) {
-    const auto alone = measured(network_of(data, false, paths), 32, 8);
-    const auto guided = measured(network_of(data, true, paths), 32, 8);
+    const auto alone = measured(network_of(data, false, paths), 32, 12);
+    const auto guided = measured(network_of(data, true, paths), 32, 12);
     EXPECT_NEAR(guided.mean, alone.mean, 4 * std::hypot(guided.error, alone.error)) << paths;
     EXPECT_LT(std::hypot(guided.error, alone.error) / alone.mean, 0.02) << "the bound says too little";
 }

@@ -38,13 +38,15 @@ class Rig {
 public:
     using Params = std::map<std::string, Value>;
 
-    explicit Rig(const Scene& scene, std::uint64_t seed = 1) : scene_(scene), seed_(seed) {}
+    /// `shares`: do nodes share scratch space, as those of one place do? Else each is as on a host of its own.
+    explicit Rig(const Scene& scene, std::uint64_t seed = 1, bool shares = true)
+        : scene_(scene), seed_(seed), shares_(shares) {}
 
     /// Makes a node; parameters that aren't given have their defaults.
     const LightOp& add(const std::string& kind, const std::string& name, const std::vector<std::string>& inputs = {},
                        const Params& params = {}) {
         const Kind& known = kind_of(kind);
-        const NodeContext here(node(known, name, params), ports(inputs, 0), scene_, seed_);
+        const NodeContext here(node(known, name, params), ports(inputs, 0), scene_, seed_, services());
         return *ops_.emplace(name, known.make_light(here)).first->second;
     }
 
@@ -69,6 +71,8 @@ private:
         throw std::logic_error("no kind called " + name);
     }
 
+    NodeServices services() { return {.scratch = shares_ ? &scratch_ : nullptr}; }
+
     const Node& node(const Kind& kind, const std::string& name, const Params& params) {
         auto made = std::make_unique<Node>(Node{name, kind.name, {}, params, {}});
         for (const auto& param : kind.params)
@@ -87,6 +91,8 @@ private:
 
     const Scene& scene_;
     std::uint64_t seed_;
+    bool shares_;
+    Scratch scratch_;
     std::vector<Kind> kinds_ = standard_nodes();
     std::vector<std::unique_ptr<Node>> nodes_;
     std::vector<std::unique_ptr<CallPort>> ports_;

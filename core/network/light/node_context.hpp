@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "core/network/graph/graph.hpp"
 #include "core/network/light/concurrent.hpp"
 #include "core/network/light/inputs.hpp"
+#include "core/network/light/scratch.hpp"
 #include "core/network/light/whereabouts.hpp"
 
 namespace lightnet {
@@ -22,11 +24,12 @@ class Rehearsal;
 class Scene;
 
 /// What a place gives each node beside its inputs. Null: a rehearsal that is never on, locks that are always free, one
-/// piece of work after the other, one place.
+/// piece of work after the other, scratch space of its own, one place.
 struct NodeServices {
     Rehearsal* rehearsal = nullptr;
     Locks* locks = nullptr;
     Concurrent* concurrent = nullptr;
+    Scratch* scratch = nullptr;
     std::function<Whereabouts()> whereabouts = {};
     std::uint64_t* off_surface = nullptr;  // counts points asked about that no surface is near
     bool checking = false;                 // is this a run that looks for wrapped classes with a memory?
@@ -52,6 +55,12 @@ public:
     Rehearsal& rehearsal() const { return *services_.rehearsal; }
     /// For nodes whose kind says that it locks. Lives as long as the node.
     Locks& locks() const { return *services_.locks; }
+    /// Something of this type that the nodes of a place share: one may find there what another has just worked out. It
+    /// saves work, and no answer depends on it.
+    template <class T>
+    std::shared_ptr<T> shared() const {
+        return services_.scratch ? services_.scratch->of<T>() : std::make_shared<T>();
+    }
     /// For display, budgets and names of locks alone.
     Whereabouts whereabouts() const { return services_.whereabouts ? services_.whereabouts() : Whereabouts{}; }
     /// The node asks about a point that no surface is near: the run says how often it did.

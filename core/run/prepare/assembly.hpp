@@ -78,6 +78,7 @@ public:
     /// `tap` may be empty.
     Assembly(const Network& network, PortTo port_to, NodeServices services, Tap tap = {})
         : network_(network), port_to_(std::move(port_to)), tap_(std::move(tap)), services_(std::move(services)) {
+        services_.scratch = &scratch_;
         services_.checking = network.check_answers;
         services_.has_passes = network.has_passes();
         services_.taken = [this](const std::string& name) -> const LightOp& {
@@ -118,6 +119,7 @@ private:
     PortTo port_to_;
     Tap tap_;
     NodeServices services_;
+    Scratch scratch_;
     Gauge* gauge_ = nullptr;
     std::vector<std::unique_ptr<Port>> guarded_;
     std::map<std::size_t, Rehearsal> rehearsals_;
