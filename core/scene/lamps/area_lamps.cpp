@@ -4,6 +4,7 @@
 #include "core/base/math/frame.hpp"
 #include "core/base/math/octahedral.hpp"
 #include "core/base/math/sampling.hpp"
+#include "core/scene/lamps/ball_lamp.hpp"
 #include "core/scene/lamps/quadric_lamp.hpp"
 #include "core/scene/lamps/shares.hpp"
 #include "core/scene/surfaces/fetch_ahead.hpp"
@@ -19,14 +20,6 @@ namespace lightnet {
 namespace {
 
 constexpr std::uint32_t few_facets = 4;  // that are chosen by area alone where they lie in one plane
-
-// 1 - cos of the cone that a sphere fills, seen from a distance; without cancellation for small ones.
-float one_minus_cosine(float radius, float distance2) {
-    const float sine2 = radius * radius / distance2;
-    return sine2 / (1 + std::sqrt(std::max(0.0f, 1 - sine2)));
-}
-
-bool inside(const Sphere& sphere, float distance2) { return distance2 <= sphere.radius * sphere.radius * 1.00001f; }
 
 bool shines_towards(bool two_sided, Vec3 normal, Vec3 direction) { return two_sided || dot(normal, direction) > 0; }
 
@@ -272,29 +265,14 @@ std::optional<FlatLamp> AreaLamps::flat(std::size_t index) const {
 std::optional<LightSample> AreaLamps::from_sphere(const Lamp& lamp, Vec3 from, Vec2 u) const {
     const Source& source = lamp.source;
     const Sphere& ball = *ball_of(source);
-    const Vec3 to_center = ball.center - from;
-    const float distance2 = length_squared(to_center);
-    Vec3 outwards;
-    float pdf = 0;
-    if (inside(ball, distance2)) {
-        outwards = sphere(u);
-    } else {
-        const float drop = one_minus_cosine(ball.radius, distance2);
-        const Vec3 axis = to_center / std::sqrt(distance2);
-        const Vec3 ray = Frame::around(axis).to_world(cone(u, drop));
-        // Where the ray meets the sphere; at its rim where rounding lets it pass by.
-        const float along = dot(to_center, ray);
-        const Vec3 aside = ray * along - to_center;
-        const float rest = std::max(0.0f, ball.radius * ball.radius - length_squared(aside));
-        outwards = normalize(aside - ray * std::sqrt(rest));
-        pdf = 1 / (2 * pi * drop);
-    }
+    const SeenBall seen(ball, from);
+    const Vec3 outwards = seen.sample(u);
     const PointOnLamp point = on_sphere(ball, outwards);
     const Vec3 way = point.position - from;
     const float way2 = length_squared(way);
     if (!(way2 > 0)) return {};
     const Vec3 direction = way / std::sqrt(way2);
-    if (pdf == 0) pdf = way2 / (lamp.area * std::max(1e-6f, std::fabs(dot(outwards, direction))));
+    const float pdf = seen.pdf(outwards, direction, way2, lamp.area);
     if (!shines_towards(source.two_sided, point.normal, -direction) || !is_there(source, point)) return {};
     return LightSample{point.position, direction, radiance_at(source, point), pdf, false, false, source.group};
 }
@@ -317,14 +295,13 @@ std::optional<LightSample> AreaLamps::from_quadric(const Lamp& lamp, Vec3 from, 
 
 float AreaLamps::pdf(std::size_t index, Vec3 from, Vec3 direction, const SurfacePoint& on) const {
     const Lamp one = lamp(index);
-    if (const Sphere* ball = ball_of(one.source)) {
-        const float distance2 = length_squared(ball->center - from);
-        if (!inside(*ball, distance2)) return 1 / (2 * pi * one_minus_cosine(ball->radius, distance2));
-    }
+    const float way2 = length_squared(on.position - from);
+    if (const Sphere* ball = ball_of(one.source))
+        return SeenBall(*ball, from).pdf(on.normal, direction, way2, one.area);
     if (const PlacedQuadric* quadric = quadric_of(one.source))
         return SeenQuadric(*quadric, from, one.source.two_sided).pdf(direction, quadric->own_point({on.u, on.v}));
     const float cosine = std::max(1e-6f, std::fabs(dot(on.normal, direction)));
-    return one.area > 0 ? length_squared(on.position - from) / (one.area * cosine) : 0;
+    return one.area > 0 ? way2 / (one.area * cosine) : 0;
 }
 
 bool AreaLamps::may_meet(const Ray& ray) const {
