@@ -154,6 +154,7 @@ private:
             else if (scene_.shines(*some.hits[i]))
                 meet_lamp(some, some.bsdf_rays[i], *some.hits[i]);
         }
+        if (scene_.has_suns()) meet_suns(some);
         for (std::size_t i = 0; scene_.has_environment() && i < some.leaving.size(); i += lanes)
             leave(some, std::span(some.leaving).subspan(i, std::min(lanes, some.leaving.size() - i)));
         some.leaving.clear();
@@ -166,6 +167,14 @@ private:
         if (is_black(arriving)) return;
         some.found[ray.sample * groups_ + scene_.group_of(end)] +=
             ray.step.sample.weight * left_after(ray.step.inside, hit.distance) * arriving;
+    }
+    void meet_suns(Samplers& some) const {
+        for (const std::size_t ray : some.leaving) {
+            const auto& [sample, step] = some.bsdf_rays[ray];
+            if (const auto sun = scene_.sun(step.ray.direction))
+                some.found[sample * groups_ + sun->group] +=
+                    step.sample.weight * sky_by_bsdf(sun->light, step.sample, heuristic_);
+        }
     }
     void leave(Samplers& some, std::span<const std::size_t> rays) const {
         std::array<Vec3, lanes> directions;
