@@ -16,6 +16,7 @@ namespace lightnet {
 
 /// All directional lights of a scene. Those with an angle are suns, which rays can meet: cones of directions of the
 /// same radiance, sampled uniformly. Where suns overlap they count as one: of the group of the first of them.
+/// DECISIONS: suns-beside-the-tree
 class Suns {
 public:
     /// `groups`: those of lamps are told apart; else all are of group 0.
