@@ -72,7 +72,7 @@ TEST(ClearSky, ChangesSmoothlyWithAllThatItDependsOn) {
             if (HasFatalFailure()) FAIL() << ground << ' ' << height;
         }
     for (const double haze : {1.0, 2.5, 6.0, 10.0}) {
-        along([&](double height) { return ClearSky(haze, {0.2f, 0.2f, 0.2f}, height); }, 0.05, pi / 2, 200);
+        along([&](double height) { return ClearSky(haze, {0.2f, 0.2f, 0.2f}, height); }, 0.1, pi / 2, 200);
         along([&](double ground) { return ClearSky(haze, Rgb{1, 1, 1} * float(ground), 0.6); }, 0, 1, 20);
         if (HasFatalFailure()) FAIL() << haze;
     }
