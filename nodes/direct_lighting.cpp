@@ -173,6 +173,7 @@ private:
             else if (scene_.shines(*hit))
                 meet_lamp(some, i, *step, *hit);
         }
+        if (scene_.has_suns()) meet_suns(some);
         for (std::size_t i = 0; scene_.has_environment() && i < some.leaving.size(); i += lanes)
             leave(some, std::span(some.leaving).subspan(i, std::min(lanes, some.leaving.size() - i)));
         some.leaving.clear();
@@ -184,6 +185,14 @@ private:
         if (is_black(arriving)) return;
         some.found[sample * groups_ + scene_.group_of(end)] +=
             step.sample.weight * left_after(step.inside, hit.distance) * arriving;
+    }
+    void meet_suns(Samplers& some) const {
+        for (const std::uint32_t i : some.leaving) {
+            const PathVertices::Step& step = *some.by_direction[i].step;
+            if (const auto sun = scene_.sun(step.ray.direction))
+                some.found[i * groups_ + sun->group] +=
+                    step.sample.weight * sky_by_bsdf(sun->light, step.sample, heuristic_);
+        }
     }
     void leave(Samplers& some, std::span<const std::uint32_t> samples) const {
         std::array<Vec3, lanes> directions;

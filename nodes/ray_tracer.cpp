@@ -162,8 +162,10 @@ private:
     void visit(const TileSample& sample, Branch branch, std::uint32_t surface, PixelQuestions& met) const {
         if (!branch.hit) {
             if (!background_ && surface == 0) return;
-            met.emitted[scene_.environment_group()] +=
-                branch.path.weight() * scene_.environment(branch.path.ray().direction);
+            const Vec3 ahead = branch.path.ray().direction;
+            met.emitted[scene_.environment_group()] += branch.path.weight() * scene_.environment(ahead);
+            if (const auto sun = scene_.sun(ahead))
+                met.emitted[sun->group] += branch.path.weight() * sun->light.radiance;
             return;
         }
         branch.path.arrive(branch.hit->distance);

@@ -269,6 +269,7 @@ private:
 
     /// What so many paths find that meet nothing any more.
     void leave(Batch& batch, std::size_t count, std::uint32_t depth) const {
+        if (scene_.has_suns()) meet_suns(batch, count);
         if (count == 0 || !scene_.has_environment()) return;
         scene_.look_at_sky(std::span(batch.skywards).first(count), batch.sky);
         const float part = two_looks(depth - 1) ? 0.5f : 1.0f;
@@ -276,6 +277,15 @@ private:
             const Path& path = batch.paths[batch.leaving[k]];
             batch.sums[path.sum + scene_.environment_group()] +=
                 part * path.weight * sky_by_bsdf(batch.sky[k], step_of(path), heuristic);
+        }
+    }
+
+    void meet_suns(Batch& batch, std::size_t count) const {
+        for (std::size_t k = 0; k < count; ++k) {
+            const auto sun = scene_.sun(batch.skywards[k]);
+            if (!sun) continue;
+            const Path& path = batch.paths[batch.leaving[k]];
+            batch.sums[path.sum + sun->group] += path.weight * sky_by_bsdf(sun->light, step_of(path), heuristic);
         }
     }
 
@@ -304,7 +314,9 @@ private:
         const float choice = at.bsdf.chooses() ? samples.next() : samples.skip();
         const auto found = at.bsdf.sample(at.outgoing, choice, samples.next_2d(), at.lobes);
         if (!found) return;
-        const Rgb sky = found->weight * light_by_bsdf(scene_, lit_point(at), *found, nullptr, heuristic);
+        SkyRadiance seen;
+        scene_.look_at_sky({&found->incoming, 1}, {&seen, 1});
+        const Rgb sky = found->weight * sky_by_bsdf(seen, *found, heuristic);
         if (is_black(sky)) return;
         batch.shadow_rays.add({at.point.origin_towards(found->incoming), found->incoming}, path.weight * (0.5f * sky),
                               path.sum + scene_.environment_group());

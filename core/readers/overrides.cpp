@@ -1,9 +1,12 @@
 #include "core/readers/overrides.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +14,7 @@
 #include "core/base/in_quotes.hpp"
 #include "core/base/joined.hpp"
 #include "core/base/suggestion.hpp"
+#include "core/readers/daylight/daylight.hpp"
 #include "core/readers/image_file.hpp"
 
 namespace lightnet {
@@ -109,6 +113,29 @@ EnvironmentData picture_around(const std::string& path, const SceneData& scene, 
     return environment;
 }
 
+void put_sky(const SkyOverride& wanted, SceneData& scene, const SourceLine& where) {
+    Daylight day;
+    day.up = upwards(scene);
+    const Matrix turn = stand_up(1, day.up);
+    const Vec3 towards = wanted.towards.value_or(transform_direction(turn, {0, 1, 1}));
+    const float size = length(towards);
+    if (!(size > 0)) throw UserError(where, "'sky': 'towards' must be a direction, not { 0, 0, 0 }");
+    day.to_sun = towards / size;
+    const float height = dot(day.up, day.to_sun);
+    if (height < 0)
+        throw UserError(where, fmt::format("'sky': the sun is {:.1f}° below the horizon (up is {{ {}, {}, {} }}), and "
+                                           "the sky is known by day only",
+                                           std::asin(std::min(1.0f, -height)) * 180 / std::numbers::pi_v<float>,
+                                           day.up.x, day.up.y, day.up.z));
+    day.turbidity = wanted.turbidity;
+    day.albedo = Rgb{1, 1, 1} * wanted.albedo;
+    day.scale = wanted.scale;
+    scene.environments = {sky_of(day)};
+    day.scale *= wanted.sun_scale;
+    const float angle = wanted.sun_angle ? *wanted.sun_angle / 2 * std::numbers::pi_v<float> / 180 : angle_of_sun;
+    if (day.scale > 0) scene.lights.push_back(sun_of(day, angle));
+}
+
 /// What is cut out stays cut out, and what isn't there stays away.
 void make_clay(SceneData& scene) {
     scene.textures.push_back({{0.5f, 0.5f, 0.5f}, {}, false});
@@ -134,6 +161,11 @@ void apply(const SceneOverrides& overrides, SceneData& scene, Files& files, cons
         if (!is_black(*colour)) scene.environments.emplace_back().radiance = *colour;
     } else if (const auto* path = std::get_if<std::string>(&overrides.environment)) {
         scene.environments = {picture_around(*path, scene, files, where)};
+    }
+    if (overrides.sky) {
+        if (!std::holds_alternative<std::monostate>(overrides.environment))
+            throw UserError(where, "'sky' and 'environment': only one of them can be around the scene");
+        put_sky(*overrides.sky, scene, where);
     }
     for (auto& environment : scene.environments) environment.radiance *= overrides.environment_scale;
     scene.film.scale *= std::exp2(overrides.exposure);

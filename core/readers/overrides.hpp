@@ -22,15 +22,24 @@ struct CameraOverride {
     std::optional<float> lens, focus;  // radius, and distance of what is sharp: metres
 };
 
+/// A clear sky and its sun, instead of what is around the scene.
+struct SkyOverride {
+    std::optional<Vec3> towards;  // the sun; world space; else half-way up
+    float turbidity = 3, albedo = 0.2f, scale = 1;
+    float sun_scale = 1;             // times that of all
+    std::optional<float> sun_angle;  // degrees, from rim to rim; else as it is
+};
+
 struct SceneOverrides {
     std::string seen_by{};  // camera of the file, by its name or number (1, 2, …); "": the first one
     std::optional<CameraOverride> camera;
     std::variant<std::monostate, Rgb, std::string> environment;  // a colour, or the path of a picture: instead of all
-    float environment_scale = 1;                                 // of whatever is around the scene then
-    float exposure = 0;                                          // stops: doublings of the picture's brightness
-    bool clay = false;                                           // all surfaces grey and diffuse
-    bool two_sided = false;                                      // none is black from behind
-    std::vector<LampGroup> groups{};                             // of lamps
+    std::optional<SkyOverride> sky{};
+    float environment_scale = 1;      // of whatever is around the scene then
+    float exposure = 0;               // stops: doublings of the picture's brightness
+    bool clay = false;                // all surfaces grey and diffuse
+    bool two_sided = false;           // none is black from behind
+    std::vector<LampGroup> groups{};  // of lamps
 };
 
 /// Changes the scene, the same on every host. Opens files only through `files`. Throws UserError, which names `where`.

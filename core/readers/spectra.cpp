@@ -139,6 +139,15 @@ Rgb light_colour(std::span<const SpectrumPoint> spectrum) {
     return with_luminance_one(balanced([&](double w, double) { return value_at(spectrum, w); }));
 }
 
+Rgb mean_colour(std::span<const SpectrumPoint> spectrum) {
+    const auto sums = project([&](double w, double) { return value_at(spectrum, w); });
+    double whole = 0;
+    for (std::size_t i = 0; i < daylight.size(); ++i)
+        whole += matching_functions(first_wavelength + step * static_cast<double>(i))[1];
+    const auto part = [&](double sum) { return float(std::max(0.0, sum / whole)); };
+    return {part(sums[0]), part(sums[1]), part(sums[2])};
+}
+
 Rgb blackbody_colour(float kelvin) {
     constexpr double second_radiation_constant = 1.438776877e7;  // nm·K
     const auto planck = [&](double w) {

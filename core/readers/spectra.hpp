@@ -23,6 +23,9 @@ Rgb surface_colour(std::span<const SpectrumPoint> spectrum);
 /// The colour of a light with that spectrum, of luminance 1; D65 gives {1, 1, 1}. Colours that no screen can show are
 /// cut at 0. Black when the spectrum is.
 Rgb light_colour(std::span<const SpectrumPoint> spectrum);
+/// The mean over the wavelengths, as the eye sees it and without any adaptation: the same value c everywhere gives
+/// {1.205, 0.948, 0.909} c. Colours that no screen can show are cut at 0.
+Rgb mean_colour(std::span<const SpectrumPoint> spectrum);
 /// The colour of a black body of that many kelvin (> 0), of luminance 1.
 Rgb blackbody_colour(float kelvin);
 

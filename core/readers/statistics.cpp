@@ -91,7 +91,8 @@ void count_lights(const SceneData& scene, SceneStatistics& found) {
     for (const auto& light : scene.lights) {
         static constexpr std::array names{"points", "spots", "directions"};
         static_assert(names.size() == std::variant_size_v<BareLight>);
-        ++found.lights[names[light.index()]];
+        const auto* far = std::get_if<DirectionalLight>(&light);
+        ++found.lights[far && far->half_angle > 0 ? "suns" : names[light.index()]];
     }
     for (const auto& environment : scene.environments)
         ++found.lights[environment.image ? "environments with an image" : "constant environments"];

@@ -52,7 +52,9 @@ Rgb light_by_bsdf(const Scene& scene, const LitPoint& from, const BsdfSample& sa
     if (!end) {
         SkyRadiance sky;
         scene.look_at_sky({&sample.incoming, 1}, {&sky, 1});
-        return sky_by_bsdf(sky, sample, heuristic);
+        const auto sun = scene.sun(sample.incoming);
+        const Rgb light = sky_by_bsdf(sky, sample, heuristic);
+        return sun ? light + sky_by_bsdf(sun->light, sample, heuristic) : light;
     }
     const Rgb emitted = scene.emission(*end, -sample.incoming);
     if (is_black(emitted)) return {};

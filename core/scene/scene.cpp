@@ -206,6 +206,8 @@ void Scene::look_at_sky(std::span<const Vec3> directions, std::span<SkyRadiance>
     lights_->look_at_sky(directions, seen);
 }
 bool Scene::has_environment() const { return lights_->has_environment(); }
+std::optional<SeenSun> Scene::sun(Vec3 direction) const { return lights_->sun(direction); }
+bool Scene::has_suns() const { return lights_->has_suns(); }
 bool Scene::has_lamps() const { return !lights_->empty(); }
 bool Scene::has_many_lamps() const { return lights_->many(); }
 
@@ -213,7 +215,7 @@ std::optional<Emission> Scene::emit(float choice, Vec2 position_sample, Vec2 dir
     return lights_->emit(choice, position_sample, direction_sample);
 }
 
-bool Scene::may_shine(const Ray& ray) const { return has_environment() || may_meet_lamp(ray); }
+bool Scene::may_shine(const Ray& ray) const { return has_environment() || may_meet_lamp(ray) || sun(ray.direction); }
 bool Scene::may_meet_lamp(const Ray& ray) const { return lights_->may_meet_lamp(ray); }
 
 Ray Scene::ray_to(const SurfacePoint& from, const LightSample& lamp) const {

@@ -99,11 +99,14 @@ public:
     Rgb emission(const SurfacePoint& point, Vec3 direction) const;
     /// Does it emit any? False is certain.
     bool shines(const Hit& hit) const;
-    /// Radiance arriving from infinity, from `direction` (unit, away from the eye).
+    /// Radiance arriving from infinity, from `direction` (unit, away from the eye), without that of suns.
     Rgb environment(Vec3 direction) const;
+    /// The sun in that direction, if a ray can meet one there, and the density with which sample_light() finds it.
+    std::optional<SeenSun> sun(Vec3 direction) const;
+    bool has_suns() const;
 
-    /// Chooses a light and a direction to it from `from`: to a point of a lamp, to a bare light, or to the environment.
-    /// None: no light can reach the point by this sample.
+    /// Chooses a light and a direction to it from `from`: to a point of a lamp, to a bare light, a sun or the
+    /// environment. None: no light can reach the point by this sample.
     std::optional<LightSample> sample_light(const LitPoint& from, float choice, Vec2 u) const;
     /// The same for up to `lanes` points at once, which is quicker. No `choices`: there is but one light.
     void sample_lights(std::span<const LitPoint> from, std::span<const float> choices, std::span<const Vec2> u,

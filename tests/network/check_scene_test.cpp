@@ -29,6 +29,10 @@ TEST(CheckScene, TakesAllThatItDescribes) {
             "environment = 'sky.exr', environment_scale = 2, exposure = -1.5, material = 'clay'"),
         IsEmpty());
     EXPECT_THAT(problems_of("environment = { 0.5, 0.6, 0.7 }"), IsEmpty());
+    EXPECT_THAT(problems_of("sky = { towards = { 1, 2, 3 }, turbidity = 2.5, albedo = 0, scale = 9, sun_scale = 0, "
+                            "sun_angle = 1 }"),
+                IsEmpty());
+    EXPECT_THAT(problems_of("sky = { turbidity = 11 }"), HasSubstr("'turbidity' is 11, but must be 1 … 10"));
     EXPECT_THAT(problems_of("constants = { spp = 16, wood = 'oak.jpg', hidden = true }"), IsEmpty());
     EXPECT_THAT(problems_of("constants = { spp = { 16 } }"),
                 HasSubstr("'constants': 'spp' must be a number, a text or a flag, not a table"));

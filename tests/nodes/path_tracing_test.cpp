@@ -1,6 +1,7 @@
 // Rooms whose light is known exactly.
 #include <gtest/gtest.h>
 
+#include "core/base/math/sampling.hpp"
 #include "tests/support/rig.hpp"
 #include "tests/support/small_scenes.hpp"
 
@@ -69,6 +70,23 @@ TEST(WhiteSky, HidesAnythingThatLosesNothing) {
     Rig rig(scene);
     const auto [mean, error] = measure(*rig.path_tracer(), 24, 64);
     EXPECT_NEAR(mean, 1, 4 * error + 1e-3);  // the chain of reflections inside glass is cut at some depth
+    EXPECT_LT(error, 5e-3);
+}
+
+// Two suns that fill half of the sky each are a white sky, before which white things can't be seen.
+TEST(WhiteSky, MadeOfTwoSunsHidesAnythingThatLosesNothing) {
+    SceneData data;
+    for (const float side : {-1.0f, 1.0f})
+        data.lights.push_back(DirectionalLight{{side, 0, 0}, Rgb{1, 1, 1} * pi, {}, pi / 2});
+    data.camera = camera({0, 2, 6}, {0, 0.5f, 0}, 40);
+    data.camera_given = true;
+    add(data, quad({-20, 0, -20}, {0, 0, 40}, {40, 0, 0}), diffuse(data, 1));
+    add(data, ball({-1.2f, 1, 0}, 0.9f), material(data, DielectricMaterial{}));
+    add(data, ball({1.2f, 1, 0}, 0.9f), material(data, CoatedDiffuseMaterial{colour(data, {1, 1, 1})}));
+    const Scene scene(data);
+    Rig rig(scene);
+    const auto [mean, error] = measure(*rig.path_tracer(), 24, 64);
+    EXPECT_NEAR(mean, 1, 4 * error + 1e-3);
     EXPECT_LT(error, 5e-3);
 }
 

@@ -42,6 +42,16 @@ TEST(PhotonMap, SeesAPlaneAsBrightAsTheSunMakesIt) {
     EXPECT_NEAR(mean_of(network.picture(1)), exact, 0.02 * exact);
 }
 
+// All of the sun is above the horizon, so only its middle counts.
+TEST(PhotonMap, SeesAPlaneAsBrightAsAWideSunMakesIt) {
+    SceneData data = lit_floor();
+    data.lights = {DirectionalLight{normalize({1, -1, 0}), {2, 2, 2}, {}, 0.4f}};
+    SmallNetwork network(std::move(data), 16, 16);
+    network.add("map", "PhotonMap", {}, {{"paths", word("all")}, {"photons", number(100000)}, {"gather", number(200)}});
+    const double exact = 0.5 * 2 / 3.14159265358979 * std::sqrt(0.5);
+    EXPECT_NEAR(mean_of(network.picture(1)), exact, 0.02 * exact);
+}
+
 // Narrower than the discs in which photons are counted, and as far from one another.
 SceneData lit_slats() {
     SceneData data;

@@ -256,21 +256,6 @@ TEST(MitsubaEnvironments, HaveTheirMiddleAtPlusZ) {
     EXPECT_EQ(right, (Vec3{-1, 0, 0}));
 }
 
-TEST(MitsubaSky, IsBlueAndBrightestAtTheSun) {
-    const auto scene =
-        read_mitsuba(one_ball + "<emitter type='sunsky'><vector name='sun_direction' x='1' y='1' z='0'/></emitter>");
-    ASSERT_THAT(scene.environments, SizeIs(1));
-    ASSERT_THAT(scene.lights, SizeIs(1));
-    EXPECT_NEAR(std::get<DirectionalLight>(scene.lights[0]).direction.x, -std::sqrt(0.5f), 1e-5f);
-    const auto& sky = *scene.environments[0].image;
-    const Rgb near = sky.colour(sky.width * 3 / 4, sky.height / 4), far = sky.colour(sky.width / 4, sky.height / 4);
-    EXPECT_GT(luminance(near), 3 * luminance(far));
-    EXPECT_GT(far.b, far.r);
-    EXPECT_GT(luminance(far), 1);  // some thousand candela per square metre over 137 lm/W
-    EXPECT_LT(luminance(far), 100);
-    EXPECT_THAT(warnings_of(scene), HasSubstr("emitter 'sunsky' is approximated"));
-}
-
 SceneData seen_by(const std::string& sensor) { return read_mitsuba(one_ball + "<sensor " + sensor + "</sensor>"); }
 
 const std::string wide_film =

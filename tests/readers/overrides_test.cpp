@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "tests/support/memory_files.hpp"
 
 namespace lightnet::overrides_test {
@@ -133,6 +136,47 @@ TEST(SceneOverrides, PutAPictureAroundWhoseTopIsUp) {
     expect_near(transform_direction(turn, {0, 1, 0}), {0, 0, 1});
     EXPECT_FALSE(swaps_handedness(turn));
     EXPECT_THAT(error_of(with_camera(), overrides), HasSubstr("g.lua:3: 'environment': can't read 'sky.hdr'"));
+}
+
+TEST(SceneOverrides, PutASkyAroundWithItsSun) {
+    SceneOverrides overrides;
+    overrides.sky = SkyOverride{};
+    overrides.sky->towards = Vec3{0, 2, -2};
+    overrides.sky->scale = 3;
+    overrides.sky->sun_scale = 2;
+    overrides.sky->sun_angle = 4.0f;
+    SceneData old = with_camera();
+    old.environments.resize(2);
+    const auto scene = changed(old, overrides);
+    ASSERT_EQ(scene.environments.size(), 1u);
+    EXPECT_EQ(scene.environments[0].radiance, (Rgb{3, 3, 3}));
+    ASSERT_EQ(scene.lights.size(), 1u);
+    const auto& sun = std::get<DirectionalLight>(scene.lights[0]);
+    expect_near(sun.direction, normalize({0, -1, 1}));
+    EXPECT_NEAR(sun.half_angle, 2 * std::numbers::pi_v<float> / 180, 1e-6f);
+    overrides.sky->scale = 1;
+    overrides.sky->sun_scale = 1;
+    const auto plain = std::get<DirectionalLight>(changed(old, overrides).lights.at(0));
+    EXPECT_NEAR(sun.irradiance.g / plain.irradiance.g, 6, 1e-4f);
+    overrides.sky->sun_scale = 0;
+    EXPECT_TRUE(changed(old, overrides).lights.empty());
+}
+
+TEST(SceneOverrides, PutTheSunAboveTheHorizon) {
+    SceneOverrides overrides;
+    overrides.sky = SkyOverride{};
+    SceneData flat = with_camera();  // z is up
+    flat.camera.to_world.m = {{{1, 0, 0, 0}, {0, 0, 1, 0}, {0, 1, 0, 0}, {0, 0, 0, 1}}};
+    const auto sun = std::get<DirectionalLight>(changed(flat, overrides).lights.at(0));
+    EXPECT_NEAR(sun.direction.z, -std::sqrt(0.5f), 1e-6f) << "half-way up";
+    overrides.sky->towards = Vec3{0, 1, -1};
+    EXPECT_THAT(error_of(flat, overrides),
+                HasSubstr("g.lua:3: 'sky': the sun is 45.0° below the horizon (up is { 0, 0, 1 })"));
+    overrides.sky->towards = Vec3{};
+    EXPECT_THAT(error_of(flat, overrides), HasSubstr("'towards' must be a direction"));
+    overrides.sky->towards = Vec3{0, 0, 1};
+    overrides.environment = Rgb{1, 1, 1};
+    EXPECT_THAT(error_of(flat, overrides), HasSubstr("'sky' and 'environment': only one of them"));
 }
 
 TEST(SceneOverrides, ExposeInStops) {

@@ -206,7 +206,7 @@ TEST_P(Maps, GiveManyAtOnceWhatTheyGiveOneByOne) {
     }
 }
 
-// Of lamps, a distant light and a map.
+// Of lamps, a distant light, a sun and a map.
 TEST(ManyLights, AreFoundAtOnceAsOneByOne) {
     for (const bool map : {false, true}) {
         SceneData data;
@@ -214,6 +214,7 @@ TEST(ManyLights, AreFoundAtOnceAsOneByOne) {
         add(data, quad({-1, -1, 2}, {0, 2, 0}, {2, 0, 0}), black).emission = AreaEmission{{1, 2, 3}, false};
         add(data, ball({3, 0, 1}, 0.5f), black).emission = AreaEmission{{4, 1, 1}, false};
         data.lights.push_back(DirectionalLight{.direction = {0, 0, -1}, .irradiance = {1, 1, 1}});
+        data.lights.push_back(DirectionalLight{.direction = {0, 1, 0}, .irradiance = {1, 1, 1}, .half_angle = 0.1f});
         if (map) data.environments.push_back(map_of(Layout::equal_area));
         const Scene scene(data);
         for (std::uint32_t first = 0; first < 512; first += lanes) {

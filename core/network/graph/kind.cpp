@@ -28,6 +28,33 @@ std::vector<Param> camera_fields() {
             {.name = "focus", .help = "distance in focus", .unit = "scene units", .least = 1e-6, .optional = true}};
 }
 
+std::vector<Param> sky_fields() {
+    return {
+        {.name = "towards",
+         .type = ParamType::numbers,
+         .help = "where the sun stands: from the scene towards it; by default half-way up",
+         .optional = true,
+         .count = 3},
+        {.name = "turbidity",
+         .help = "haze: 2 is arctic air, 3 (the default) a clear day, 10 a hazy one",
+         .least = 1,
+         .most = 10,
+         .optional = true},
+        {.name = "albedo",
+         .help = "what the ground sends back to the sky; 0.2 by default",
+         .least = 0,
+         .most = 1,
+         .optional = true},
+        {.name = "scale", .help = "times all its light, which else is in W/(m²·sr·nm)", .least = 0, .optional = true},
+        {.name = "sun_scale", .help = "times the light of the sun; 0: none", .least = 0, .optional = true},
+        {.name = "sun_angle",
+         .help = "of the sun from rim to rim, with the same light; 0: shadows without soft edges",
+         .unit = "degrees",
+         .least = 0,
+         .most = 179,
+         .optional = true}};
+}
+
 Kind scene_kind() {
     Kind kind;
     kind.name = "Scene";
@@ -48,6 +75,11 @@ Kind scene_kind() {
          .help =
              "instead of what the file has around the scene; images: equal-area where square, else latitude-longitude",
          .optional = true},
+        {.name = "sky",
+         .type = ParamType::table,
+         .help = "a clear sky in daytime and its sun, instead of what the file has around the scene",
+         .optional = true,
+         .fields = sky_fields()},
         {.name = "environment_scale", .help = "times what is around the scene", .initial = Value{1.0}, .least = 0},
         {.name = "exposure",
          .help = "how many times the image becomes twice as bright",

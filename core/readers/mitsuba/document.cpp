@@ -78,6 +78,7 @@ private:
             return error({path, source.lines.line(result.offset)}, fmt::format("not sound XML: {}", what));
         }
         const auto root = xml.document_element();
+        if (&into == &document_->scene && open_.empty()) document_->version = root.attribute("version").as_int();
         if (std::string_view(root.name()) == "scene")
             children(root, source, into, 1);
         else if (&into == &document_->scene && open_.empty())

@@ -31,6 +31,7 @@ struct Document {
     Node scene;
     std::map<std::string, const Node*, std::less<>> ids;
     std::vector<std::string> folders;  // further ones in which files may be
+    int version = 0;                   // of Mitsuba, the first number of it; 0: the file says none
 };
 
 /// "toWorld" → "to_world", "intIOR" → "int_ior".

@@ -7,8 +7,9 @@
 #include <numbers>
 
 #include "core/base/suggestion.hpp"
+#include "core/readers/daylight/daylight.hpp"
+#include "core/readers/daylight/sun_position.hpp"
 #include "core/readers/mitsuba/colours.hpp"
-#include "core/readers/mitsuba/sky.hpp"
 #include "core/readers/mitsuba/transforms.hpp"
 
 namespace lightnet::mitsuba {
@@ -92,25 +93,87 @@ void environment_map(Properties& properties, SceneData& scene) {
     scene.environments.push_back(environment);
 }
 
-/// Both in one, or one of both.
+/// Does any of these stand there?
+bool has_any(Properties& properties, std::initializer_list<std::string_view> names) {
+    bool any = false;
+    for (const auto name : names) any |= properties.has(name);
+    return any;
+}
+
+TimeAndPlace time_and_place(Properties& properties) {
+    TimeAndPlace at;
+    at.year = properties.integer("year", at.year);
+    at.month = properties.integer("month", at.month);
+    at.day = properties.integer("day", at.day);
+    const auto number = [&](const char* name, double& value) { value = double{properties.number(name, float(value))}; };
+    number("hour", at.hour), number("minute", at.minute), number("second", at.second);
+    number("latitude", at.latitude), number("longitude", at.longitude), number("timezone", at.timezone);
+    if (at.month < 1 || at.month > 12 || at.day < 1 || at.day > 31)
+        properties.context().error(properties.node(), fmt::format("there is no day {} of month {}", at.day, at.month));
+    return at;
+}
+
+/// In world space. Up is +y, north -z and east +x, turned by the emitter's transform; version 3 has +z up, and the sun
+/// in the north at -x, in the east at -y.
+Daylight daylight_of(Properties& properties) {
+    const auto& context = properties.context();
+    const bool third = context.document.version >= 3;
+    const Matrix turn = rotation_of(transform_of(properties));
+    Daylight day;
+    day.up = transform_direction(turn, third ? Vec3{0, 0, 1} : Vec3{0, 1, 0});
+    if (properties.has("sun_direction")) {
+        day.to_sun = unit(properties.point("sun_direction", day.up), day.up);
+        if (has_any(properties,
+                    {"year", "month", "day", "hour", "minute", "second", "latitude", "longitude", "timezone"}))
+            context.error(properties.node(), "a sun has a direction or a time and a place, not both");
+    } else {
+        const auto [from_zenith, azimuth] = sun_position(time_and_place(properties));
+        const auto flat = float(std::sin(from_zenith)), high = float(std::cos(from_zenith));
+        const float north = flat * float(std::cos(azimuth)), east = flat * float(std::sin(azimuth));
+        day.to_sun =
+            unit(transform_direction(turn, third ? Vec3{-north, -east, high} : Vec3{east, high, -north}), day.up);
+    }
+    return day;
+}
+
+/// A number of a sky, which has bounds.
+float bounded(Properties& properties, std::string_view name, float fallback, float least, float most) {
+    const float value = properties.number(name, fallback);
+    if (value >= least && value <= most) return value;
+    properties.context().error(properties.node(),
+                               fmt::format("'{}' is {}, but must be {} … {}", name, value, least, most));
+    return fallback;
+}
+
+/// Both in one, or one of both. By default the sun is as bright as the sky, whose scale is that of both.
 void sun_and_sky(Properties& properties, SceneData& scene) {
     const auto& context = properties.context();
-    const auto& type = properties.node().type;
-    Sky sky;
-    sky.turbidity = std::clamp(properties.number("turbidity", 3), 1.7f, 10.0f);
-    sky.to_sun = unit(properties.point("sun_direction", {0, 0.7071f, 0.7071f}), {0, 1, 0});
-    sky.to_world = rotation_of(transform_of(properties));
-    sky.sun = properties.node().id;
-    if (properties.has("year") || properties.has("hour") || properties.has("latitude"))
-        context.warn(properties.node(), "the time and place of a sun are left out: give its 'sunDirection'");
+    const auto& node = properties.node();
+    const bool third = context.document.version >= 3;
+    Daylight day = daylight_of(properties);
+    if (dot(day.up, day.to_sun) < 0)
+        context.error(node, fmt::format("the sun is {:.1f}° below the horizon, and the sky is known by day only",
+                                        std::asin(-dot(day.up, day.to_sun)) / to_radians));
+    day.turbidity = bounded(properties, "turbidity", 3, 1, 10);
+    day.stretch = bounded(properties, "stretch", 1, 1, 2);
+    day.extended = properties.boolean("extend", false);
+    const float ground = third ? 0.3f : 0.2f;
+    day.albedo = colour_of(properties, "albedo", {ground, ground, ground});
     const float scale = properties.number("scale", 1);
-    const float sun_scale = properties.number("sun_scale", 1) * scale,
-                sky_scale = properties.number("sky_scale", 1) * scale;
-    properties.ignore_all();
-    context.warn(properties.node(),
-                 fmt::format("emitter '{}' is approximated: Preetham's sky, and a sun without extent", type));
-    if (type != "sun") add_sky(sky, sky_scale, scene);
-    if (type != "sky") add_sun(sky, sun_scale, scene);
+    const float sun_scale = properties.number("sun_scale", scale), sky_scale = properties.number("sky_scale", scale);
+    const auto columns = std::uint32_t(bounded(properties, "resolution", 512, 4, 16384));
+    float angle = angle_of_sun * bounded(properties, "sun_radius_scale", 1, 0, 300);
+    if (properties.has("sun_aperture")) angle = bounded(properties, "sun_aperture", 0.5358f, 0, 179) / 2 * to_radians;
+    if (node.type != "sun") {
+        day.scale = sky_scale;
+        scene.environments.push_back(sky_of(day, columns));
+    }
+    if (node.type == "sky") return;
+    day.scale = sun_scale;
+    DirectionalLight sun = sun_of(day, angle);
+    sun.label.name = node.id;
+    scene.lights.push_back(sun);
+    if (third) context.warn(node, "the sun is as bright to its rim, and as Mitsuba 0.6 has it");
 }
 
 }  // namespace

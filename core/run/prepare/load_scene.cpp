@@ -35,6 +35,17 @@ CameraOverride camera_of(const Values& camera) {
             number(camera, "fov"), number(camera, "lens"), number(camera, "focus")};
 }
 
+SkyOverride sky_override(const Values& sky) {
+    SkyOverride wanted;
+    wanted.towards = point(sky, "towards");
+    wanted.turbidity = number(sky, "turbidity").value_or(wanted.turbidity);
+    wanted.albedo = number(sky, "albedo").value_or(wanted.albedo);
+    wanted.scale = number(sky, "scale").value_or(wanted.scale);
+    wanted.sun_scale = number(sky, "sun_scale").value_or(wanted.sun_scale);
+    wanted.sun_angle = number(sky, "sun_angle");
+    return wanted;
+}
+
 }  // namespace
 
 SceneOverrides scene_overrides(const Graph& graph, const Registry& registry) {
@@ -52,6 +63,8 @@ SceneOverrides scene_overrides(const Graph& graph, const Registry& registry) {
             overrides.environment = Rgb{colour.x, colour.y, colour.z};
         }
     }
+    if (const auto sky = params.find("sky"); sky != params.end())
+        overrides.sky = sky_override(std::get<Table>(sky->second.data).named);
     overrides.environment_scale = number(params, "environment_scale").value_or(1);
     overrides.exposure = number(params, "exposure").value_or(0);
     overrides.clay = params.contains("material");

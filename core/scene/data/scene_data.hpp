@@ -153,7 +153,7 @@ void visit_members(Is<EnvironmentData> auto& environment, const auto& visit) {
     visit(radiance, image, layout, to_world);
 }
 
-/// Lights without extent. World space.
+/// Lights that stand for no shape. World space.
 struct PointLight {
     Vec3 position;
     Rgb intensity;  // W·sr⁻¹
@@ -177,14 +177,16 @@ void visit_members(Is<SpotLight> auto& light, const auto& visit) {
     visit(position, axis, intensity, inner, outer, falloff);
 }
 
+/// From infinity. With an angle it is a disk in the sky, a sun, which rays can meet.
 struct DirectionalLight {
-    Vec3 direction{0, 0, -1};  // in which it shines, unit
+    Vec3 direction{0, 0, -1};  // in which its middle shines, unit
     Rgb irradiance;            // W·m⁻², on a plane across it
     LampLabel label{};
+    float half_angle = 0;  // radians, from the middle of the disk to its rim, below π/2; 0: one direction only
 };
 void visit_members(Is<DirectionalLight> auto& light, const auto& visit) {
-    auto& [direction, irradiance, label] = light;
-    visit(direction, irradiance);
+    auto& [direction, irradiance, label, half_angle] = light;
+    visit(direction, irradiance, half_angle);
 }
 
 using BareLight = std::variant<PointLight, SpotLight, DirectionalLight>;
@@ -196,7 +198,7 @@ struct SceneData {
     std::vector<Material> materials;
     std::vector<Texture> textures;
     std::vector<EnvironmentData> environments;  // their radiances add up
-    std::vector<BareLight> lights;              // that no ray can meet
+    std::vector<BareLight> lights;              // that belong to no shape
     std::vector<std::string> groups{};          // of lamps, which their labels name by index; none: all are one
     std::uint32_t environment_group = 0;        // of all environments
     CameraData camera;

@@ -46,11 +46,6 @@ std::optional<LightSample> light_from(const SpotLight& light, Vec3 from) {
     return from_point(light.position, light.intensity * spot_falloff(light, dot(way, light.axis) / length(way)), from);
 }
 
-std::optional<LightSample> light_from(const DirectionalLight& light, Vec3) {
-    if (is_black(light.irradiance)) return {};
-    return LightSample{{}, -light.direction, light.irradiance, 1, true, true};
-}
-
 LightBounds bounds_of(const PointLight& light) {
     return {light.position, light.position, {0, 0, 1}, -1, 0, luminance(light.intensity), false};
 }

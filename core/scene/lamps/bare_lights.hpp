@@ -17,7 +17,6 @@ float spot_falloff(const SpotLight& light, float cosine);
 /// Light from a point or spot light, chosen for certain. None: it does not shine that way.
 std::optional<LightSample> light_from(const PointLight& light, Vec3 from);
 std::optional<LightSample> light_from(const SpotLight& light, Vec3 from);
-std::optional<LightSample> light_from(const DirectionalLight& light, Vec3 from);
 
 /// For the light tree.
 LightBounds bounds_of(const PointLight& light);

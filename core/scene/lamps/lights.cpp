@@ -36,7 +36,7 @@ Lights::Lights(const SceneData& data, const Shading& shading, const Ball& around
     for (const auto& light : data.lights) {
         if (!std::visit([&](const auto& one) { return is_wanted(one.label.group); }, light)) continue;
         const auto* directional = std::get_if<DirectionalLight>(&light);
-        directional ? far_.push_back(*directional) : near_.push_back(light);
+        directional ? far_.add(*directional, groups_ > 1) : near_.push_back(light);
     }
     std::vector<double> light_of_maps;
     for (const auto& each : data.environments) {
@@ -75,7 +75,7 @@ void Lights::build_tree() {
 
 std::optional<LightSample> Lights::sample(const LitPoint& from, float choice, Vec2 u) const {
     if (only_lamp_) return lamps_.sample(*only_lamp_, from.position, u);
-    return takes_tree(choice) ? from_tree(from, choice, u) : from_beside(from.position, choice, u);
+    return takes_tree(choice) ? from_tree(from, choice, u) : from_beside(choice, u);
 }
 
 std::optional<LightSample> Lights::from_tree(const LitPoint& from, float choice, Vec2 u) const {
@@ -97,21 +97,17 @@ std::optional<LightSample> Lights::from_chosen(const LightTree::Choice& chosen, 
     return sample;
 }
 
-std::optional<LightSample> Lights::from_beside(Vec3 from, float choice, Vec2 u) const {
+std::optional<LightSample> Lights::from_beside(float choice, Vec2 u) const {
     if (!(share_of_far_ > 0)) return {};
-    auto sample = from_infinity(from, (choice - share_of_tree_) / share_of_far_, u);
+    auto sample = from_infinity((choice - share_of_tree_) / share_of_far_, u);
     if (sample) sample->pdf *= share_of_far_;
     return sample;
 }
 
 // `choice` counts the directional lights, and all maps as the last of them.
-std::optional<LightSample> Lights::from_infinity(Vec3 from, float choice, Vec2 u) const {
+std::optional<LightSample> Lights::from_infinity(float choice, Vec2 u) const {
     const auto light = std::size_t(std::max(0.0f, choice));
-    if (light < far_.size()) {
-        auto sun = light_from(far_[light], from);
-        if (sun) sun->group = group(far_[light].label);
-        return sun;
-    }
+    if (light < far_.size()) return far_.sample(light, u);
     return maps_.empty() ? std::nullopt : from_map(within(choice, float(far_.size()), 1), u);
 }
 
@@ -172,7 +168,7 @@ void Lights::sample(std::span<const LitPoint> from, std::span<const float> choic
         else if (takes_only_map(choice))
             by_map.add(i, from[i], choice, u[i]);
         else
-            samples.set(i, from_beside(from[i].position, choice, u[i]));
+            samples.set(i, from_beside(choice, u[i]));
     }
     if (by_tree.count > 0) sample_tree(by_tree, samples);
     if (by_map.count > 0) sample_map(by_map, samples);
@@ -231,12 +227,18 @@ void Lights::look_at_sky(std::span<const Vec3> directions, std::span<SkyRadiance
         seen[i] = {directions[i], environment(directions[i]), environment_pdf(directions[i])};
 }
 
+std::optional<SeenSun> Lights::sun(Vec3 direction) const {
+    auto seen = far_.look(direction);
+    if (seen) seen->light.pdf *= share_of_far_;
+    return seen;
+}
+
 std::vector<Rgb> Lights::powers() const {
     const float disk = pi * around_.radius * around_.radius;
     std::vector<Rgb> all;
     for (std::size_t i = 0; i < lamps_.size(); ++i) all.push_back(lamps_.power(i));
     for (const auto& light : near_) all.push_back(near_light(light, [](const auto& l) { return power_of(l); }));
-    for (const auto& light : far_) all.push_back(light.irradiance * disk);
+    for (std::size_t i = 0; i < far_.size(); ++i) all.push_back(far_.total(i) * disk);
     for (const auto& environment : environments_) all.push_back(environment.total() * disk);
     return all;
 }
@@ -266,8 +268,8 @@ std::optional<Emission> Lights::emit(float choice, Vec2 position_sample, Vec2 di
                           [&](const auto& l) { return weighted(emission_of(l, direction_sample), group(l.label)); });
     light -= near_.size();
     if (light < far_.size()) {
-        const auto& sun = far_[light];
-        return weighted(through_ball(sun.direction, sun.irradiance, position_sample), group(sun.label));
+        const Vec3 along = far_.shines_along(light, direction_sample);
+        return weighted(through_ball(along, far_.total(light), position_sample), far_.group(light));
     }
     const auto& sky = environments_[light - far_.size()];
     return weighted(from_sky(sky, position_sample, direction_sample), environment_group_);

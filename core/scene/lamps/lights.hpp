@@ -14,6 +14,7 @@
 #include "core/scene/lamps/environment.hpp"
 #include "core/scene/lamps/light_tree.hpp"
 #include "core/scene/lamps/lit_point.hpp"
+#include "core/scene/lamps/suns.hpp"
 #include "core/scene/surfaces/light_sample.hpp"
 #include "core/scene/surfaces/ray.hpp"
 #include "core/scene/surfaces/shading.hpp"
@@ -21,9 +22,9 @@
 
 namespace lightnet {
 
-/// Lamps, bare lights and environments. Lamps and bare lights that are somewhere are chosen by a tree; directional ones
-/// and the maps of the sky (all of them as one) stand beside that tree with equal chances. A constant environment is
-/// never chosen: directions from the BSDF are the better ones for it everywhere. Any thread may ask.
+/// Lamps, bare lights, suns and environments. Lamps and bare lights that are somewhere are chosen by a tree;
+/// directional ones and the maps of the sky (all of them as one) stand beside that tree with equal chances. A constant
+/// environment is never chosen: directions from the BSDF are the better ones for it everywhere. Any thread may ask.
 class Lights {
 public:
     /// A ball around all shapes.
@@ -71,6 +72,10 @@ public:
     /// Both of up to `lanes` directions: radiance, and density with which sample() finds it.
     void look_at_sky(std::span<const Vec3> directions, std::span<SkyRadiance> seen) const;
     bool has_environment() const { return has_environment_; }
+    /// The sun in that direction, and density with which sample() finds it. None: there is none, or of one direction
+    /// only, which no ray meets.
+    std::optional<SeenSun> sun(Vec3 direction) const;
+    bool has_suns() const { return far_.visible(); }
     /// Could the ray meet a lamp? False is certain.
     bool may_meet_lamp(const Ray& ray) const { return lamps_.may_meet(ray); }
 
@@ -80,7 +85,7 @@ public:
     /// All that is emitted, W: by lamps, nearly where they are textured; from infinity, into that ball.
     Rgb power() const;
 
-    /// Lamps (see AreaLamps), bare lights and environments.
+    /// Lamps (see AreaLamps), bare lights, suns and environments.
     std::size_t count() const { return lamps_.size() + near_.size() + far_.size() + environments_.size(); }
     std::size_t memory() const;
 
@@ -89,8 +94,8 @@ private:
     std::vector<Rgb> powers() const;
     std::optional<LightSample> from_tree(const LitPoint& from, float choice, Vec2 u) const;
     std::optional<LightSample> from_chosen(const LightTree::Choice& chosen, Vec3 from, Vec2 u) const;
-    std::optional<LightSample> from_beside(Vec3 from, float choice, Vec2 u) const;
-    std::optional<LightSample> from_infinity(Vec3 from, float choice, Vec2 u) const;
+    std::optional<LightSample> from_beside(float choice, Vec2 u) const;
+    std::optional<LightSample> from_infinity(float choice, Vec2 u) const;
     std::optional<LightSample> from_map(float choice, Vec2 u) const;
     bool takes_tree(float choice) const { return share_of_tree_ == 1 || choice < share_of_tree_; }
     float place_in_tree(float choice) const;
@@ -109,7 +114,7 @@ private:
     std::uint32_t environment_group_;
     AreaLamps lamps_;
     std::vector<BareLight> near_;  // points and spots
-    std::vector<DirectionalLight> far_;
+    Suns far_;
     std::vector<Environment> environments_;
     std::vector<std::uint32_t> maps_;  // into environments_: those that are sampled
     std::vector<float> map_ends_;      // share of the light of maps up to and with each

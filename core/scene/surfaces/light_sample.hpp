@@ -59,6 +59,12 @@ struct SkyRadiance {
     float pdf = 0;  // with which sampling lights finds it, per steradian
 };
 
+/// A sun, or several of them, in one direction.
+struct SeenSun {
+    SkyRadiance light;
+    std::uint32_t group = 0;  // as for samples
+};
+
 /// Light that leaves a lamp.
 struct Emission {
     Vec3 origin, direction;   // of the ray, off the lamp's surface; direction: unit

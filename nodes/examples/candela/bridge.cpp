@@ -42,7 +42,12 @@ public:
         const Vec3 direction = normalize(ours(to) - ours(from));
         return scene_.occluded(ray_between(lookup_.origin(ours(from), direction), ours(to), direction));
     }
-    candela::Colour sky(const candela::Vec& towards) override { return theirs(scene_.environment(ours(towards))); }
+    candela::Colour sky(const candela::Vec& towards) override {
+        const Vec3 direction = ours(towards);
+        const auto sun = scene_.sun(direction);
+        const Rgb around = scene_.environment(direction);
+        return theirs(sun ? around + sun->light.radiance : around);
+    }
 
     bool choose(const candela::Vec& from, const double (&numbers)[3], candela::LampPoint& point) override {
         const auto lamp =
