@@ -2,7 +2,7 @@
 -- all other light by path tracing. Caustics are left out: figure5.lua has them.
 -- lightnet run graphs/irradiance_cache.lua -D file=/somewhere/scene.pbrt -D width=640 -D height=360
 file = "cornell_box.pbrt"
-width, height, samples, rays = 256, 256, 16, 1024
+width, height, samples, rays = 256, 256, 16, 0    -- 0 rays: as many as the error wants
 wanted_error = 0.01    -- how far light may be off between records
 
 scene    = Scene           { file }

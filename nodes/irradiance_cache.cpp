@@ -36,8 +36,9 @@ public:
           inputs_(here.inputs()),
           rehearsal_(here.rehearsal()),
           key_(here.key()),
-          hemisphere_(static_cast<std::size_t>(here.integer("rays"))),
-          lone_(std::max<std::size_t>(least_lone_rays, static_cast<std::size_t>(here.integer("rays")) / 16)),
+          wanted_noise_(here.integer("rays") > 0 ? 0 : records_beside * here.number("error")),
+          hemisphere_(wanted_noise_ > 0 ? least_rays : static_cast<std::size_t>(here.integer("rays"))),
+          lone_(lone_rays()),
           glossy_rays_(static_cast<std::uint32_t>(here.integer("glossy_rays"))),
           finest_(static_cast<std::uint32_t>(here.integer("stride"))),
           kept_(here.kept()),
@@ -59,7 +60,9 @@ public:
         if (!records.empty()) freeze(services, records);
         for (std::uint32_t stride = coarsest; stride >= finest_; stride /= 2) {
             services.doing("looks where records lack, every " + std::to_string(stride) + " pixels");
-            learn(services, services.rehearse(stride), records);
+            std::vector<Query> noted = services.rehearse(stride);
+            if (stride == coarsest && wanted_noise_ > 0) choose_rays(services, noted);
+            learn(services, std::move(noted), records);
         }
         services.say(std::to_string(records.size() / groups_) + " records" +
                      (known > 0 ? ", " + std::to_string(known) + " of them from an earlier run" : ""));
@@ -97,6 +100,10 @@ private:
         Rgb scattered;  // radiance per irradiance on that side, sr⁻¹
     };
     using Sides = std::array<Side, 2>;
+    /// How noisy a record would be, relative.
+    struct Trial {
+        float noise;
+    };
     /// A side without records.
     struct Wanted {
         std::size_t question;
@@ -173,31 +180,77 @@ private:
         }
     }
 
-    std::vector<IrradianceRecord> records_for(std::span<const Query> questions) const {
+    std::vector<Wanted> without_records(std::span<const Query> questions) const {
         std::vector<Wanted> wanted;
         for (std::size_t i = 0; i < questions.size(); ++i)
             for (const Side& side : sides_of(questions[i]))
                 if (!is_black(side.scattered) && !covered(side)) wanted.push_back({i, side});
-        return compute(questions, wanted, hemisphere_);
+        return wanted;
     }
 
-    static constexpr std::size_t least_lone_rays = 16;
+    std::vector<IrradianceRecord> records_for(std::span<const Query> questions) const {
+        return compute(questions, without_records(questions), hemisphere_);
+    }
 
-    // A record for each group of lamps, side by side.
-    std::vector<IrradianceRecord> compute(std::span<const Query> questions, std::span<const Wanted> wanted,
-                                          const Hemisphere& hemisphere) const {
+    /// Decides how many rays records have: as many that their noise is what is wanted, on average of some points all
+    /// over the image, each of which looks around twice. A number for each record by itself, from its own first rays,
+    /// would be too small where these missed what is bright, and the picture too dark.
+    void choose_rays(Services& services, std::span<const Query> noted) {
+        const auto some = noted.first(std::min(noted.size(), trial_points));
+        const auto trials = services.map<Trial>(
+            (some.size() + points_per_shard - 1) / points_per_shard, [&](std::size_t shard, std::vector<Trial>& out) {
+                const std::size_t first = shard * points_per_shard;
+                const auto questions = some.subspan(first, std::min(points_per_shard, some.size() - first));
+                const auto wanted = without_records(questions);
+                const std::array<std::vector<GatherResult>, 2> found{looked_around(questions, wanted, hemisphere_, 1),
+                                                                     looked_around(questions, wanted, hemisphere_, 2)};
+                const std::size_t each = hemisphere_.size() * groups_;
+                for (std::size_t i = 0; i < wanted.size(); ++i)
+                    out.push_back({Hemisphere::noise({found[0].data() + i * each, each},
+                                                     {found[1].data() + i * each, each}, groups_)});
+            });
+        double noise = 0;
+        std::size_t count = 0;
+        for (const Trial& trial : trials) noise += double{trial.noise}, ++count;
+        if (count > 0) noise /= double(count);
+        const double times = std::pow(noise / wanted_noise_, 2);
+        hemisphere_ = Hemisphere(std::size_t(double(least_rays) * std::clamp(times, 1.0, most_times)));
+        lone_ = Hemisphere(lone_rays());
+        services.say(std::to_string(hemisphere_.size()) + " rays of each record, as the error wants");
+    }
+
+    std::size_t lone_rays() const { return std::max<std::size_t>(least_lone_rays, hemisphere_.size() / 16); }
+
+    static constexpr std::size_t least_lone_rays = 16;
+    // DECISIONS: rays-by-error
+    static constexpr std::size_t least_rays = 384, trial_points = 128;
+    static constexpr double most_times = 16;
+    static constexpr double records_beside = 2;  // a point lies between some four records, whose noise is halved so
+
+    // What rays find all around each point, a result for each group of lamps side by side. `trial`: 0, it counts.
+    std::vector<GatherResult> looked_around(std::span<const Query> questions, std::span<const Wanted> wanted,
+                                            const Hemisphere& hemisphere, Key trial) const {
         std::vector<GatherRay> rays;
         rays.reserve(wanted.size() * hemisphere.size());
         for (std::size_t i = 0; i < wanted.size(); ++i) {
             const Query& question = questions[wanted[i].question];
             const bool second = i > 0 && wanted[i - 1].question == wanted[i].question;
-            const Key stream = child(child(question.stream, key_, second), question.sample);
+            const Key own = child(child(question.stream, key_, second), question.sample);
             const std::size_t before = rays.size();
-            hemisphere.add_rays(wanted[i].side.origin, wanted[i].side.normal, stream, question.depth, rays);
+            hemisphere.add_rays(wanted[i].side.origin, wanted[i].side.normal,
+                                trial ? child(own, key_of("trial"), trial) : own, question.depth, rays);
             for (std::size_t r = before; r < rays.size(); ++r) rays[r].pass = question.pass;
         }
-        std::vector<GatherResult> results(rays.size() * groups_), of_group(hemisphere.size());
+        std::vector<GatherResult> results(rays.size() * groups_);
         gather(scene_, inputs_, 0, rays, results);
+        return results;
+    }
+
+    // A record for each group of lamps, side by side.
+    std::vector<IrradianceRecord> compute(std::span<const Query> questions, std::span<const Wanted> wanted,
+                                          const Hemisphere& hemisphere) const {
+        const auto results = looked_around(questions, wanted, hemisphere, 0);
+        std::vector<GatherResult> of_group(hemisphere.size());
         std::vector<IrradianceRecord> records;
         for (std::size_t i = 0; i < wanted.size(); ++i)
             for (std::size_t g = 0; g < groups_; ++g) {
@@ -244,6 +297,7 @@ private:
     Inputs inputs_;
     Rehearsal& rehearsal_;
     Key key_;
+    double wanted_noise_;  // of a record, relative; 0: it has as many rays as somebody said
     Hemisphere hemisphere_;
     Hemisphere lone_;  // of points that no record reaches: each sample of a pixel has one of its own
     std::uint32_t glossy_rays_;
@@ -258,14 +312,14 @@ std::vector<Param> irradiance_cache_params() {
     return {
         {.name = "rays",
          .type = ParamType::integer,
-         .help = "rays of each record",
+         .help = "rays of each record; 0: as many as the error wants, up to 6144",
          .unit = "rays",
-         .initial = Value{1024.0},
-         .least = 8,
+         .initial = Value{0.0},
+         .least = 0,
          .most = 1 << 20},
         {.name = "error",
          .type = ParamType::number,
-         .help = "how far light may be off between records: less makes more of them",
+         .help = "how far light may be off: less makes more records, and more rays of each",
          .initial = Value{0.01},
          .least = 0.0001,
          .most = 1},

@@ -43,6 +43,10 @@ public:
           radius_(gather_radius(here)) {}
 
     void prepare(Services& services) override {
+        if (!may_keep_any(scene_, shooting_.paths)) {
+            tree_ = services.once<PhotonTree>([] { return PhotonTree(std::span<const Photon>{}); });
+            return;
+        }
         services.doing("tries where to aim");
         const auto aim = take_aim(services, scene_, shooting_);
         services.doing("tries how far photons lie apart");
@@ -58,6 +62,7 @@ public:
 
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
         assert(tree_ && "nobody asks before it is prepared");
+        if (tree_->size() == 0) return;
         Nearest scratch;
         gather_each(scene_, questions, [&](std::uint32_t i, const Gathering& at) {
             tree_->radiance({at.point, at.bsdf, at.outgoing, at.lobes}, radius_, gather_, scratch,

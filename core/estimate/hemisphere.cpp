@@ -91,4 +91,19 @@ IrradianceRecord Hemisphere::record(Vec3 position, Vec3 normal, std::span<const 
     return record;
 }
 
+float Hemisphere::noise(std::span<const GatherResult> once, std::span<const GatherResult> again, std::size_t groups) {
+    // Both rays of a cell differ by its noise alone.
+    double differences = 0, sum = 0;
+    for (std::size_t first = 0; first < once.size(); first += groups) {
+        double here = 0, there = 0;
+        for (std::size_t g = first; g < first + groups; ++g) {
+            here += double{luminance(once[g].light)};
+            there += double{luminance(again[g].light)};
+        }
+        differences += (here - there) * (here - there);
+        sum += here + there;
+    }
+    return sum > 0 ? float(std::sqrt(2 * differences) / sum) : 0;
+}
+
 }  // namespace lightnet

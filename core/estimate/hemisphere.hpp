@@ -39,6 +39,9 @@ public:
     void add_rays(Vec3 origin, Vec3 normal, Key stream, std::uint8_t depth, std::vector<GatherRay>& rays) const;
     /// What they found, as a record. Gradients: Ward & Heckbert 1992, in the form of Krivanek et al. 2005, equation 14.
     IrradianceRecord record(Vec3 position, Vec3 normal, std::span<const GatherResult> found) const;
+    /// How noisy the irradiance is that rays find from one point, from two times that they looked from there: standard
+    /// deviation of either, relative. Light of `groups` of lamps stands side by side.
+    static float noise(std::span<const GatherResult> once, std::span<const GatherResult> again, std::size_t groups = 1);
 
 private:
     struct Ring {

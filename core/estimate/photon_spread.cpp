@@ -15,8 +15,10 @@ constexpr std::size_t pilot_photons = 8;  // that a disc of the pilot has
 // What is less than an eighth of its disc, such as a wire, stays too dark: its few photons would be so bright that each
 // makes a spot of its own. Who misses as often counts as many as make corners right on average, a quarter of a disc.
 constexpr std::uint32_t most_tries = 8, when_all_miss = 12;
-constexpr float narrow = 0.25f;           // of the radius: from below such a ceiling nobody sees how far a surface goes
-constexpr float rounding = 1.001f;        // of squares of distances
+constexpr float narrow = 0.25f;      // of the radius: from below such a ceiling nobody sees how far a surface goes
+constexpr float rounding = 1.001f;   // of squares of distances
+constexpr float just_above = 0.02f;  // of the radius: lower than what stands on the surface
+constexpr float wide_open = 4;       // radii: what is free as far as that somebody may look at
 
 // As densely as Epanechnikov's kernel is high, in the unit disc.
 Vec2 point_of_kernel(Vec2 u) {
@@ -35,12 +37,25 @@ struct PhotonSpread::Disc {
     float radius;
     Vec3 eye;  // above it, in the free
 
-    Ray ray_to(Vec2 point) const {
+    Vec3 at(Vec2 point) const {
         const Frame frame = Frame::around(normal);
-        const Vec3 way = position + (frame.x * point.x + frame.y * point.y) * radius - eye;
+        return position + (frame.x * point.x + frame.y * point.y) * radius;
+    }
+    Ray ray_to(Vec2 point) const {
+        const Vec3 way = at(point) - eye;
         const float distance = length(way);
         return {eye, way / distance, 2 * distance};
     }
+    Ray down_at(Vec2 point) const {
+        return {at(point) + normal * (just_above * radius), -normal, (just_above + PhotonTree::flatness) * radius};
+    }
+};
+
+/// Of a point of its disc.
+struct PhotonSpread::Try {
+    std::size_t photon;
+    Vec2 point, way_out;
+    bool landed;
 };
 
 PhotonSpread::PhotonSpread(const Scene& scene, std::shared_ptr<const PhotonTree> pilot, std::size_t gather,
@@ -87,6 +102,32 @@ bool PhotonSpread::lands(const Disc& disc, const std::optional<Hit>& hit) const 
            PhotonTree::turned_alike(dot(disc.normal, point.normal));
 }
 
+// Light also leaks behind what hides the surface, and is looked at there where it is open.
+void PhotonSpread::look_behind(std::span<const Disc> discs, std::span<Try> tries) const {
+    std::vector<Ray> rays;
+    std::vector<Try*> missed;
+    for (Try& one : tries)
+        if (!one.landed) {
+            missed.push_back(&one);
+            rays.push_back(discs[one.photon].down_at(one.point));
+        }
+    std::vector<std::optional<Hit>> hits(rays.size());
+    scene_.intersect(rays, hits);
+    std::vector<Ray> ways_out;
+    std::size_t left = 0;
+    for (std::size_t k = 0; k < missed.size(); ++k) {
+        const Disc& disc = discs[missed[k]->photon];
+        if (!lands(disc, hits[k])) continue;
+        const Vec3 out = Frame::around(disc.normal).to_world(cosine_hemisphere(missed[k]->way_out));
+        const Vec3 position = scene_.surface(*hits[k]).position;
+        ways_out.push_back({position + disc.normal * offset_at(position, 0), out, wide_open * disc.radius});
+        missed[left++] = missed[k];
+    }
+    hits.resize(ways_out.size());
+    scene_.intersect(ways_out, hits);
+    for (std::size_t k = 0; k < left; ++k) missed[k]->landed = !hits[k];
+}
+
 /// landed(photon, how many tries it took) of each that landed within so many tries.
 template <class Landed>
 void PhotonSpread::try_all(std::span<const Photon> photons, Key key, std::uint32_t tries, const Landed& landed) const {
@@ -97,23 +138,28 @@ void PhotonSpread::try_all(std::span<const Photon> photons, Key key, std::uint32
             waiting.push_back(i);
         else
             landed(i, 1u);
+    std::vector<Try> all;
     std::vector<Ray> rays;
     std::vector<std::optional<Hit>> hits;
     for (std::uint32_t done = 1; done <= tries && !waiting.empty(); ++done) {
+        all.clear();
         rays.clear();
-        for (const std::size_t i : waiting)  // each with a key of its own, as points of one sequence avoid each other
-            rays.push_back(discs[i].ray_to(point_of_kernel(Samples(child(key, i, done), 0).next_2d())));
+        for (const std::size_t i : waiting) {  // each with a key of its own, as points of one sequence avoid each other
+            Samples samples(child(key, i, done), 0);
+            const Vec2 point = point_of_kernel(samples.next_2d());
+            all.push_back({i, point, samples.next_2d(), false});
+            rays.push_back(discs[i].ray_to(point));
+        }
         hits.resize(rays.size());
         scene_.intersect(rays, hits);
-        std::size_t left = 0;
-        for (std::size_t k = 0; k < waiting.size(); ++k) {
-            const std::size_t i = waiting[k];
-            if (lands(discs[i], hits[k]))
-                landed(i, done);
+        for (std::size_t k = 0; k < all.size(); ++k) all[k].landed = lands(discs[all[k].photon], hits[k]);
+        look_behind(discs, all);
+        waiting.clear();
+        for (const Try& one : all)
+            if (one.landed)
+                landed(one.photon, done);
             else
-                waiting[left++] = i;
-        }
-        waiting.resize(left);
+                waiting.push_back(one.photon);
     }
 }
 

@@ -40,10 +40,12 @@ public:
 
 private:
     struct Disc;
+    struct Try;
     template <class Landed>
     void try_all(std::span<const Photon> photons, Key key, std::uint32_t tries, const Landed& landed) const;
     std::vector<Disc> discs_of(std::span<const Photon> photons) const;
     float radius_of(const Photon& photon, Nearest& scratch) const;
+    void look_behind(std::span<const Disc> discs, std::span<Try> tries) const;
     bool lands(const Disc& disc, const std::optional<Hit>& hit) const;
 
     const Scene& scene_;

@@ -38,6 +38,8 @@ public:
         const float height = dot(offset, normal);
         return length_squared(offset) + height_counts * height * height;
     }
+    /// How high above the surface a photon is found, as a part of how far along it.
+    static constexpr float flatness = 0.25f;
     static bool turned_alike(float cosine) { return std::fabs(cosine) >= least_cosine; }
 
     /// What `photons` may need beyond their number so that they need not be copied.
@@ -73,7 +75,7 @@ public:
 
 private:
     static constexpr float height_counts =
-        15;  // of a height squared, beside its part of the distance: a flat ellipsoid
+        1 / (flatness * flatness) - 1;  // of a height squared, beside its part of the distance: a flat ellipsoid
     static constexpr float least_cosine = 0.7f;  // between normals of a surface that is taken for the same one
 
     struct Light;

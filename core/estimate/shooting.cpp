@@ -3,6 +3,7 @@
 #include "core/base/error.hpp"
 
 #include <algorithm>
+#include <variant>
 
 namespace lightnet {
 namespace {
@@ -116,6 +117,13 @@ float gather_radius(const NodeContext& here) {
 
 std::vector<std::string> paths_of_photons(const Node& node) {
     return {expression_of(photon_paths(std::get<std::string>(node.params.at("paths").data)))};
+}
+
+bool may_keep_any(const Scene& scene, PhotonPaths paths) {
+    const auto& materials = scene.data().materials;
+    return paths != PhotonPaths::caustic || !std::all_of(materials.begin(), materials.end(), [](const Material& one) {
+               return std::holds_alternative<DiffuseMaterial>(one.model);
+           });
 }
 
 std::shared_ptr<const Aim> take_aim(Services& services, const Scene& scene, const Shooting& shooting) {

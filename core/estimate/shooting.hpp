@@ -42,6 +42,8 @@ float gather_radius(const NodeContext& here);
 /// Light paths that such a node counts: for LightTraits::paths.
 std::vector<std::string> paths_of_photons(const Node& node);
 
+/// Could any photon be kept? False is certain: nothing in the scene makes caustics.
+bool may_keep_any(const Scene& scene, PhotonPaths paths);
 /// Learns where to aim, from trials: two rounds on all places. Even, unless it is asked for.
 std::shared_ptr<const Aim> take_aim(Services& services, const Scene& scene, const Shooting& shooting);
 /// Some of the maps that can be shot anew without end, each of other photons.

@@ -5,6 +5,7 @@
 #include "core/estimate/hemisphere.hpp"
 #include "core/estimate/irradiance_octree.hpp"
 
+#include <cmath>
 #include <functional>
 
 namespace lightnet::hemisphere_test {
@@ -27,6 +28,31 @@ GatherResult ceiling(Vec3 origin, Vec3 direction) {
     const float way = (1 - origin.y) / direction.y;
     const float x = origin.x + way * direction.x, z = origin.z + way * direction.z;
     return {{1 / (1 + (x - 0.6f) * (x - 0.6f) + z * z), 1, 0.5f + 0.5f * x / (1 + x * x)}, way};
+}
+
+// Light that a third of all directions bring, by chance: of n rays, its relative standard deviation is √(2 / n).
+TEST(Hemisphere, TellsTheNoiseOfItsRaysFromTwoLooksAround) {
+    const std::size_t count = Hemisphere(384).size();
+    Key next = 5;
+    const auto look = [&] {
+        std::vector<GatherResult> found(count, GatherResult{{}, 1});
+        for (auto& one : found) {
+            next = mix(next + 1);
+            if (next % 3 == 0) one.light = {2, 2, 2};
+        }
+        return found;
+    };
+    double noise = 0;
+    for (int trial = 0; trial < 100; ++trial) noise += double{Hemisphere::noise(look(), look())} / 100;
+    EXPECT_NEAR(noise, std::sqrt(2 / double(count)), 0.02 * noise);
+}
+
+TEST(Hemisphere, FindsNoNoiseInWhatDiffersFromCellToCellAlone) {
+    std::vector<GatherResult> sky;
+    for (int i = 0; i < 100; ++i) sky.push_back({{float(i), 1, 0}, 1});
+    EXPECT_EQ(Hemisphere::noise(sky, sky), 0);
+    const std::vector<GatherResult> night(100, GatherResult{{}, 1});
+    EXPECT_EQ(Hemisphere::noise(night, night), 0);
 }
 
 TEST(Hemisphere, SumsUpAnEvenSkyToPi) {

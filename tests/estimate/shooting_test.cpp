@@ -51,6 +51,15 @@ std::uint64_t emitted_with(const Scene& scene, std::uint64_t memory) {
     return shooting.emitted;
 }
 
+TEST(Shooting, LooksForCausticsOnlyWhereSomethingCouldMakeThem) {
+    SceneData data;
+    add(data, quad({0, 0, 0}, {0, 0, 1}, {1, 0, 0}), diffuse(data, 0.5f));
+    EXPECT_FALSE(may_keep_any(Scene(data), PhotonPaths::caustic));
+    EXPECT_TRUE(may_keep_any(Scene(data), PhotonPaths::diffuse));
+    add(data, quad({0, 1, 0}, {1, 0, 0}, {0, 0, 1}), mirror(data, 0.9f));
+    EXPECT_TRUE(may_keep_any(Scene(data), PhotonPaths::caustic));
+}
+
 TEST(Shooting, SendsAsManyPhotonsOnEveryMachine) {
     const Scene scene(furnace(0.5f, 1));
     const auto few = emitted_with(scene, std::uint64_t{1} << 30);

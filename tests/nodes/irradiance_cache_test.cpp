@@ -70,6 +70,29 @@ TEST(IrradianceCache, SeesTheFurnaceAsBrightAsItIs) {
     }
 }
 
+// All light is that of a small bright patch of the ceiling, which most rays of a record miss.
+TEST(IrradianceCache, TakesSoManyRaysThatItsLightIsHardlyNoisy) {
+    SceneData data;
+    add(data, room(), diffuse(data, 0.02f));
+    add(data, quad({0.45f, 0.98f, 0.45f}, {0.1f, 0, 0}, {0, 0, 0.1f}), diffuse(data, 0.9f));
+    add(data, quad({0.45f, 0.9f, 0.45f}, {0, 0, 0.1f}, {0.1f, 0, 0}), diffuse(data, 0)).emission =
+        AreaEmission{{100, 100, 100}, false};
+    data.camera = camera({0.1f, 0.6f, 0.1f}, {0.6f, 0.3f, 0.6f}, 80);
+    data.camera_given = true;
+    const auto apart = [&](SmallNetwork::Params params) {
+        SmallNetwork network(data, 24, 24);
+        network.add("all", "PathTracing", {}, {{"paths", word("all")}}).add("soft", "IrradianceCache", {"all"}, params);
+        const auto one = network.picture(1, 1), other = network.picture(1, 2);
+        double difference = 0, sum = 0;
+        for (std::size_t i = 0; i < one.size(); ++i) {
+            difference += std::fabs(double{one[i].g} - double{other[i].g});
+            sum += double{one[i].g};
+        }
+        return difference / sum;
+    };
+    EXPECT_LT(apart({}), 0.7 * apart({{"rays", number(384)}}));
+}
+
 TEST(IrradianceCache, ComesNearerTheMoreAccurateItIs) {
     const auto picture = [&](const char* kind, SmallNetwork::Params params, std::uint32_t samples) {
         SmallNetwork network(room_with_ball(matte), 16, 16);
