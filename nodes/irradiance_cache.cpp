@@ -196,11 +196,13 @@ private:
     /// over the image, each of which looks around twice. A number for each record by itself, from its own first rays,
     /// would be too small where these missed what is bright, and the picture too dark.
     void choose_rays(Services& services, std::span<const Query> noted) {
-        const auto some = noted.first(std::min(noted.size(), trial_points));
+        std::vector<Query> some;  // all over the image, as questions are noted in its order
+        const std::size_t count = std::min(noted.size(), trial_points);
+        for (std::size_t i = 0; i < count; ++i) some.push_back(noted[i * noted.size() / count]);
         const auto trials = services.map<Trial>(
             (some.size() + points_per_shard - 1) / points_per_shard, [&](std::size_t shard, std::vector<Trial>& out) {
                 const std::size_t first = shard * points_per_shard;
-                const auto questions = some.subspan(first, std::min(points_per_shard, some.size() - first));
+                const auto questions = std::span(some).subspan(first, std::min(points_per_shard, count - first));
                 const auto wanted = without_records(questions);
                 const std::array<std::vector<GatherResult>, 2> found{looked_around(questions, wanted, hemisphere_, 1),
                                                                      looked_around(questions, wanted, hemisphere_, 2)};
@@ -210,9 +212,7 @@ private:
                                                      {found[1].data() + i * each, each}, groups_)});
             });
         double noise = 0;
-        std::size_t count = 0;
-        for (const Trial& trial : trials) noise += double{trial.noise}, ++count;
-        if (count > 0) noise /= double(count);
+        for (const Trial& trial : trials) noise += double{trial.noise} / double(trials.size());
         const double times = std::pow(noise / wanted_noise_, 2);
         hemisphere_ = Hemisphere(std::size_t(double(least_rays) * std::clamp(times, 1.0, most_times)));
         lone_ = Hemisphere(lone_rays());

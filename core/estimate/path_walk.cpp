@@ -1,15 +1,10 @@
 #include "core/estimate/path_walk.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <optional>
 
 #include "core/base/math/columns.hpp"
-#include "core/base/math/many_samples.hpp"
-#include "core/estimate/first_rays.hpp"
-#include "core/estimate/path_lessons.hpp"
-#include "core/estimate/path_vertices.hpp"
+#include "core/estimate/path_batch.hpp"
 #include "core/scene/direct_light.hpp"
 
 namespace lightnet {
@@ -68,52 +63,10 @@ private:
     using Step = PathVertices::Step;
     static constexpr std::size_t paths_at_once = 256;
     static constexpr std::size_t vertices_at_once = lanes;
+    using Batch = PathBatch;
+    using Path = PathBatch::Path;
+    using Numbers = PathBatch::Numbers;
 
-    /// A path between two of its vertices.
-    struct Path {
-        std::uint32_t sum;  // index into Batch::sums: of the first group of lamps
-        float eta_scale;    // of radiance by refraction, which is no loss: roulette must not see it
-        Rgb weight;
-        const Rgb* inside;  // what fills the space that it crosses; may be null
-        LitPoint from;
-        // of the sample by which it goes on
-        Vec3 incoming;
-        float pdf = 0;
-        std::uint8_t lobe = 0;
-        float hoped = 0;  // light that all of the path is thought to bring, by a guide; 0: nobody knows
-    };
-    /// Random numbers of each path at its vertex, dimension by dimension.
-    struct Numbers {
-        std::vector<float> choices, survivals;
-        std::vector<Vec2> places, directions;
-    };
-    /// Some paths, and scratch space for them.
-    struct Batch {
-        Batch(const Scene& scene, const LightGuide* guide) : vertices(scene, guide) {}
-        void learn(Lessons& from) {
-            lessons = &from;
-            vertices.learn();
-        }
-
-        std::vector<Rgb> sums;           // of each path that began, group by group of lamps
-        std::vector<std::size_t> asked;  // the same: which question it's for
-        std::vector<Path> paths;
-        std::vector<Ray> rays;  // of each path
-        std::vector<std::optional<Hit>> hits;
-        ManySamples samples;                   // of each path
-        std::span<FirstRays::One> first_rays;  // of those that began
-        std::vector<std::uint32_t> begun;      // of paths that go on by them: which of those
-        Numbers numbers;
-        PathVertices vertices;
-        ShadowRays shadow_rays;
-        std::vector<std::uint8_t> occluded;
-        std::size_t kept = 0;  // paths and rays that go on
-        // some that meet nothing any more, and what they find there
-        std::array<std::uint32_t, vertices_at_once> leaving;
-        std::array<Vec3, vertices_at_once> skywards;
-        std::array<SkyRadiance, vertices_at_once> sky;
-        Lessons* lessons = nullptr;  // null: nobody learns
-    };
     /// Each vertex of a path has these dimensions of its own, used or not.
     enum Dimension : std::uint32_t {
         choice_of_lamp,

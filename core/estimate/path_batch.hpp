@@ -1,0 +1,67 @@
+// Light paths that go on together.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/base/math/columns.hpp"
+#include "core/base/math/many_samples.hpp"
+#include "core/estimate/first_rays.hpp"
+#include "core/estimate/path_lessons.hpp"
+#include "core/estimate/path_vertices.hpp"
+#include "core/estimate/shadow_rays.hpp"
+#include "core/scene/scene.hpp"
+
+namespace lightnet {
+
+/// Some paths between two of their vertices, and scratch space for them. One thread's.
+struct PathBatch {
+    /// A path between two of its vertices.
+    struct Path {
+        std::uint32_t sum;  // index into PathBatch::sums: of the first group of lamps
+        float eta_scale;    // of radiance by refraction, which is no loss: roulette must not see it
+        Rgb weight;
+        const Rgb* inside;  // what fills the space that it crosses; may be null
+        LitPoint from;
+        // of the sample by which it goes on
+        Vec3 incoming;
+        float pdf = 0;
+        std::uint8_t lobe = 0;
+        float hoped = 0;  // light that all of the path is thought to bring, by a guide; 0: nobody knows
+    };
+    /// Random numbers of each path at its vertex, dimension by dimension.
+    struct Numbers {
+        std::vector<float> choices, survivals;
+        std::vector<Vec2> places, directions;
+    };
+    PathBatch(const Scene& scene, const LightGuide* guide) : vertices(scene, guide) {}
+    void learn(Lessons& from) {
+        lessons = &from;
+        vertices.learn();
+    }
+
+    std::vector<Rgb> sums;           // of each path that began, group by group of lamps
+    std::vector<std::size_t> asked;  // the same: which question it's for
+    std::vector<Path> paths;
+    std::vector<Ray> rays;  // of each path
+    std::vector<std::optional<Hit>> hits;
+    ManySamples samples;                   // of each path
+    std::span<FirstRays::One> first_rays;  // of those that began
+    std::vector<std::uint32_t> begun;      // of paths that go on by them: which of those
+    Numbers numbers;
+    PathVertices vertices;
+    ShadowRays shadow_rays;
+    std::vector<std::uint8_t> occluded;
+    std::size_t kept = 0;  // paths and rays that go on
+    // some that meet nothing any more, and what they find there
+    std::array<std::uint32_t, lanes> leaving;
+    std::array<Vec3, lanes> skywards;
+    std::array<SkyRadiance, lanes> sky;
+    Lessons* lessons = nullptr;  // null: nobody learns
+};
+
+}  // namespace lightnet
