@@ -147,6 +147,33 @@ TEST_F(BundlePortTest, WaitsLongerForCompanyWhereAnswersTakeLong) {
     run_ready();
 }
 
+TEST_F(BundlePortTest, SendsNoLessAtOnceWhereAnswersWaitLongAndAreLittleWork) {
+    FakeChannel<Query> busy(1000, 1000);  // a microsecond of work each
+    BundlePort to_busy{fibers, [this](Fibers::Fiber* fiber) { ready.push_back(fiber); }, 1, rules};
+    double now = 0;
+    MultiplexerRules by_hand;
+    by_hand.clock = [&now] { return now; };
+    to_busy.replicas().follow(by_hand);
+    to_busy.replicas().use({&busy});
+    const auto ask_it = [&](std::uint32_t count) {
+        fibers.start("asker", [&, count] {
+            const auto queries = questions(count);
+            std::vector<Rgb> answers(queries.size());
+            to_busy.finish(to_busy.begin(queries, answers));
+        });
+    };
+    ask_it(1);
+    to_busy.flush(BundlePort::Clock::now(), true);
+    now = 1;  // others were answered first
+    busy.answer();
+    run_ready();
+    ask_it(8);
+    ASSERT_EQ(busy.sent.size(), 1u);
+    EXPECT_EQ(busy.sent.front().questions->size(), 8u);
+    busy.answer();
+    run_ready();
+}
+
 TEST_F(BundlePortTest, UsesItsBuffersAgain) {
     ask(8);
     const auto* const first = channel.sent.front().questions->data();

@@ -91,6 +91,17 @@ TEST(ServiceTimes, AssumeTheMeanOfWhatIsNotMeasured) {
     EXPECT_EQ(times.of(0), 0);
 }
 
+TEST(ServiceTimes, KeepWhatReplicasSayOfTheirWorkApartFromWhatIsWaitedFor) {
+    ServiceTimes times;
+    EXPECT_EQ(times.said(), 0);
+    times.measure(0, 2, 10, 0.1);
+    EXPECT_DOUBLE_EQ(times.said(), 0.1);
+    times.measure(1, 2, 10, 0);
+    EXPECT_DOUBLE_EQ(times.said(), 0.1) << "who says nothing changes nothing";
+    for (int i = 0; i < 50; ++i) times.measure(1, 2, 10, 0.3);
+    EXPECT_NEAR(times.said(), 0.3, 1e-4);
+}
+
 // ---- Ledger ----
 
 Ledger::Copy copy_of(Ledger::WorkId work, Ledger::Time overdue = 1) {

@@ -84,7 +84,9 @@ std::chrono::nanoseconds BundlePort::patience() const {
     return std::clamp<std::chrono::nanoseconds>(answer_time_ / 2, rules_.oldest, 16 * rules_.oldest);
 }
 
-std::size_t BundlePort::full() const { return full_bundle(rules_.questions, replicas_.scheduler().service()); }
+// By the work alone: what waits at replicas that are busy, or for others whom they ask, is no reason to send less at
+// once.
+std::size_t BundlePort::full() const { return full_bundle(rules_.questions, replicas_.scheduler().work_of_each()); }
 
 bool BundlePort::due(Clock::time_point now, bool idle) {
     if (waiting_ == 0 || kept_back_) return false;

@@ -181,6 +181,8 @@ public:
     bool half_idle() const { return 2 * (idle_count_ + reserve_.has_value()) >= present_; }
     /// Seconds per question at one place, on average; 0: not known.
     double service() const { return times_.mean(); }
+    /// Seconds per question that replicas say they work on it; 0: not known.
+    double work_of_each() const { return times_.said(); }
     /// Seconds per question that is answered by all together; 0: not known.
     double pace() const { return times_.any() ? 1 / times_.rate() : 0; }
     /// When `replica` would have answered `questions` more, in seconds from now, as far as is known.

@@ -23,7 +23,9 @@ void ServiceTimes::measure(Replica replica, double seconds, std::size_t question
     auto& measured = at(replica);
     measured.seconds = fading * measured.seconds + seconds;
     measured.questions = fading * measured.questions + static_cast<double>(questions);
-    if (reported > 0) measured.reported = reported;
+    if (reported <= 0) return;
+    measured.reported = reported;
+    said_ = said_ > 0 ? fading * said_ + (1 - fading) * reported : reported;
 }
 
 void ServiceTimes::take_part(Replica replica, std::uint32_t places) {

@@ -29,6 +29,8 @@ public:
     double of(Replica replica) const;
     /// The same, or the mean of the others where it is not known.
     double assumed(Replica replica) const;
+    /// Seconds per question that those who answered lately say they worked on it, all waiting left out; 0: nobody has.
+    double said() const { return said_; }
     /// Does any replica that takes part have a known rate?
     bool any() const { return rate_ > 0; }
     /// Of those that take part, on average; 0: not known.
@@ -46,6 +48,7 @@ private:
     Measured& at(Replica replica);
 
     std::vector<Measured> measured_;  // by replica
+    double said_ = 0;
     double rate_ = 0;
     std::size_t known_ = 0;  // places that have a part in rate_
 };
