@@ -215,7 +215,6 @@ private:
         for (const Trial& trial : trials) noise += double{trial.noise} / double(trials.size());
         const double times = std::pow(noise / wanted_noise_, 2);
         hemisphere_ = Hemisphere(std::size_t(double(least_rays) * std::clamp(times, 1.0, most_times)));
-        lone_ = Hemisphere(lone_rays());
         services.say(std::to_string(hemisphere_.size()) + " rays of each record, as the error wants");
     }
 
@@ -224,8 +223,8 @@ private:
     static constexpr std::size_t least_lone_rays = 16;
     // DECISIONS: rays-by-error
     static constexpr std::size_t least_rays = 384, trial_points = 128;
-    static constexpr double most_times = 16;
-    static constexpr double records_beside = 2;  // a point lies between some four records, whose noise is halved so
+    static constexpr double most_times = 4;
+    static constexpr double records_beside = 4;  // what is seen of one is between others, whose noise is their own
 
     // What rays find all around each point, a result for each group of lamps side by side. `trial`: 0, it counts.
     std::vector<GatherResult> looked_around(std::span<const Query> questions, std::span<const Wanted> wanted,
@@ -312,7 +311,7 @@ std::vector<Param> irradiance_cache_params() {
     return {
         {.name = "rays",
          .type = ParamType::integer,
-         .help = "rays of each record; 0: as many as the error wants, up to 6144",
+         .help = "rays of each record; 0: as many as the error wants, 384 to 1536",
          .unit = "rays",
          .initial = Value{0.0},
          .least = 0,
