@@ -51,6 +51,7 @@ struct PathBatch {
     std::vector<std::optional<Hit>> hits;
     ManySamples samples;                   // of each path
     std::span<FirstRays::One> first_rays;  // of those that began
+    ManySamples first_samples;             // the same, of their random numbers
     std::vector<std::uint32_t> begun;      // of paths that go on by them: which of those
     Numbers numbers;
     PathVertices vertices;

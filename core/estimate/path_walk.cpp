@@ -116,7 +116,8 @@ private:
     /// Of the paths that begin: `before` of the call's were before them.
     template <class Question>
     void find_first_rays(Batch& batch, const Question& question, std::size_t before) const {
-        ManySamples samples;
+        ManySamples& samples = batch.first_samples;
+        samples.keep(0);
         for (std::size_t i = 0; i < batch.asked.size(); ++i) {
             const Query& asked = question(i);
             const auto sample = static_cast<std::uint32_t>((before + i) % samples_);
