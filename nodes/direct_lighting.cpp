@@ -167,7 +167,7 @@ private:
                 some.looking.push_back(i);
         some.first_rays.trace(some.by_direction, some.looking);
         for (const std::uint32_t i : some.looking) {
-            const auto& [step, hit, traced] = some.by_direction[i];
+            const auto& [step, traced, hit] = some.by_direction[i];
             if (!hit)
                 some.leaving.push_back(i);
             else if (scene_.shines(*hit))

@@ -11,7 +11,7 @@ void FirstRays::begin(const Scene& scene, std::span<const Query> questions, std:
     if (!kept_) return;
     samples_ = samples;
     questions_.assign(questions.begin(), questions.end());
-    all_.assign(questions.size() * samples, One{});
+    forget(questions.size() * samples);
 }
 
 void FirstRays::begin_alone(const Scene& scene) {
@@ -20,10 +20,16 @@ void FirstRays::begin_alone(const Scene& scene) {
     found_ = 0;
 }
 
+// Writes no more than says that nothing is known: what they were takes as much as the nearest cache.
+void FirstRays::forget(std::size_t count) {
+    if (all_.size() < count) all_.resize(count);
+    for (One& one : std::span(all_).first(count)) one.step.reset(), one.traced = false;
+}
+
 std::span<FirstRays::One> FirstRays::some(std::size_t first, std::size_t last) {
     if (kept_) return std::span(all_).subspan(first, last - first);
-    all_.assign(last - first, One{});
-    return all_;
+    forget(last - first);
+    return std::span(all_).first(last - first);
 }
 
 void FirstRays::trace(std::span<One> some, std::span<const std::uint32_t> which) {

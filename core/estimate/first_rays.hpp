@@ -24,8 +24,8 @@ public:
     /// The first ray of a path.
     struct One {
         std::optional<PathVertices::Step> step;  // none: the light is absorbed
-        std::optional<Hit> hit;                  // none: it meets nothing, if it has been traced
         bool traced = false;
+        std::optional<Hit> hit;  // if it has been traced; none: it meets nothing
     };
     /// The stream that they are drawn from, and its dimensions.
     static Key stream(const Query& question) { return child(question.stream, key_of("first rays")); }
@@ -46,6 +46,8 @@ public:
     void trace(std::span<One> some, std::span<const std::uint32_t> which);
 
 private:
+    void forget(std::size_t count);
+
     // More would be out of the nearest caches before they are used again.
     static constexpr std::size_t most = 1024;
 
