@@ -366,12 +366,15 @@ std::vector<Param> irradiance_cache_params() {
     };
 }
 
-// A file of records has no place for groups.
 std::vector<std::string> irradiance_cache_mistakes(const Node& node, const SceneData*) {
     const auto given = [&](const char* name) { return !std::get<std::string>(node.params.at(name).data).empty(); };
-    const bool files = given("keep") || given("extend");
-    if (!files || !std::get<bool>(node.params.at("groups").data)) return {};
-    return {"'groups' exclude 'keep' and 'extend': files hold the light of all lamps together"};
+    std::vector<std::string> mistakes;
+    const double rays = std::get<double>(node.params.at("rays").data);
+    if (rays > 0 && rays < 8) mistakes.push_back("'rays' must be 0, for as many as the error wants, or at least 8");
+    // A file of records has no place for groups.
+    if ((given("keep") || given("extend")) && std::get<bool>(node.params.at("groups").data))
+        mistakes.push_back("'groups' exclude 'keep' and 'extend': files hold the light of all lamps together");
+    return mistakes;
 }
 
 }  // namespace

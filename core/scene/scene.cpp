@@ -97,6 +97,11 @@ struct Scene::Built {
         return data.camera;
     }
 
+    void find(const Hit& hit, SurfacePoint& point) const {
+        shading.find(hit.geometry, hit.primitive, hit.u, hit.v, point);
+        if (hit.instance != Query::no_instance) point = placements[hit.instance].place(point);
+    }
+
     std::unique_ptr<const Lights> lights(const Lights::Wanted& wanted) const {
         return std::make_unique<const Lights>(data, shading, Lights::Ball{box.center(), length(box.size()) / 2},
                                               wanted);
@@ -148,15 +153,12 @@ std::optional<Hit> Scene::nearest(Vec3 position, Vec3 normal, float reach) const
 }
 
 SurfacePoint Scene::surface(const Hit& hit) const {
-    const SurfacePoint point = built_->shading.point(hit.geometry, hit.primitive, hit.u, hit.v);
-    return hit.instance == Query::no_instance ? point : built_->placements[hit.instance].place(point);
+    SurfacePoint point;
+    built_->find(hit, point);
+    return point;
 }
 
-void Scene::add_surface(const Hit& hit, std::vector<SurfacePoint>& to) const {
-    SurfacePoint& point = to.emplace_back();
-    built_->shading.find(hit.geometry, hit.primitive, hit.u, hit.v, point);
-    if (hit.instance != Query::no_instance) point = built_->placements[hit.instance].place(point);
-}
+void Scene::add_surface(const Hit& hit, std::vector<SurfacePoint>& to) const { built_->find(hit, to.emplace_back()); }
 
 void Scene::expect(std::span<const std::optional<Hit>> hits) const { built_->shading.expect(hits); }
 
