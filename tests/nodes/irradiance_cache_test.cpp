@@ -93,6 +93,20 @@ TEST(IrradianceCache, TakesSoManyRaysThatItsLightIsHardlyNoisy) {
     EXPECT_LT(apart({}), 0.85 * apart({{"rays", number(384)}}));
 }
 
+TEST(IrradianceCache, RefusesFewerRaysThanMakeARecord) {
+    const Registry registry(standard_nodes());
+    const Kind& kind = *registry.find("IrradianceCache");
+    Node node{"soft", kind.name, {}, {}, {}};
+    for (const auto& param : kind.params)
+        if (param.initial) node.params.emplace(param.name, *param.initial);
+    for (const double rays : {0.0, 8.0}) {
+        node.params.insert_or_assign("rays", number(rays));
+        EXPECT_TRUE(kind.mistakes(node, nullptr).empty()) << rays;
+    }
+    node.params.insert_or_assign("rays", number(7));
+    EXPECT_EQ(kind.mistakes(node, nullptr).size(), 1u);
+}
+
 TEST(IrradianceCache, ComesNearerTheMoreAccurateItIs) {
     const auto picture = [&](const char* kind, SmallNetwork::Params params, std::uint32_t samples) {
         SmallNetwork network(room_with_ball(matte), 16, 16);
