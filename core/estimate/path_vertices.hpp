@@ -92,7 +92,7 @@ public:
 
     /// How they scatter: before anything of the following is asked.
     void find_bsdfs() {
-        for (const SurfacePoint& point : points_) scene_.add_bsdf(point, bsdfs_);
+        scene_.add_bsdfs(points_, bsdfs_);
         if (guide_) find_guided();
     }
 

@@ -180,7 +180,9 @@ const SceneData& Scene::data() const { return built_->data; }
 
 Bsdf Scene::bsdf(const SurfacePoint& point) const { return built_->shading.bsdf(point); }
 
-void Scene::add_bsdf(const SurfacePoint& point, std::vector<Bsdf>& to) const { built_->shading.add_bsdf(point, to); }
+void Scene::add_bsdfs(std::span<const SurfacePoint> points, std::vector<Bsdf>& to) const {
+    built_->shading.add_bsdfs(points, to);
+}
 
 Rgb Scene::emission(const SurfacePoint& point, Vec3 direction) const { return lights_->emission(point, direction); }
 

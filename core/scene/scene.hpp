@@ -92,8 +92,8 @@ public:
     std::span<const LambertianShape> lambertian_shapes() const;
     /// How the surface scatters there.
     Bsdf bsdf(const SurfacePoint& point) const;
-    /// The same, made where it is to stay; appended.
-    void add_bsdf(const SurfacePoint& point, std::vector<Bsdf>& to) const;
+    /// The same of many, made where they are to stay; appended.
+    void add_bsdfs(std::span<const SurfacePoint> points, std::vector<Bsdf>& to) const;
 
     /// Radiance that the surface itself emits into `direction` (unit, away from it).
     Rgb emission(const SurfacePoint& point, Vec3 direction) const;

@@ -1,6 +1,7 @@
 #include "core/scene/surfaces/lambertian_surfaces.hpp"
 
 #include "core/scene/direct_light.hpp"
+#include "core/scene/surfaces/shading.hpp"
 
 namespace lightnet {
 
@@ -24,6 +25,22 @@ struct LambertianSurfaces::Points {
 void LambertianSurfaces::find_points() {
     Points points{*this};
     work_in_lanes(points);
+    look_up_textures();
+}
+
+// What is read of pictures is fetched for all before it is read for the first: the memory is waited for but once.
+void LambertianSurfaces::look_up_textures() {
+    std::array<TexturePlace, lanes> places;
+    for (std::size_t i = 0; i < textured_count_; ++i) {
+        const auto& [point, shading, hit] = textured_[i];
+        places[i] = shading->place(hit.geometry, hit.primitive, hit.u, hit.v);
+        shading->expect_pictures(hit.geometry, places[i].uv);
+    }
+    for (std::size_t i = 0; i < textured_count_; ++i) {
+        const Textured& at = textured_[i];
+        const Rgb albedo = at.shading->albedo(at.hit.geometry, places[i]);
+        albedo_.set(at.point, {albedo.r, albedo.g, albedo.b});
+    }
 }
 
 SurfacePoint LambertianSurfaces::point(std::size_t i) const {

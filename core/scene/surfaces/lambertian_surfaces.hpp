@@ -34,7 +34,7 @@ class LambertianSurfaces {
 public:
     std::size_t size() const { return count_; }
     bool full() const { return count_ == lanes; }
-    void clear() { count_ = 0; }
+    void clear() { count_ = 0, textured_count_ = 0; }
 
     /// Adds the point of a hit on `shape`, seen from `outgoing`; there is room for it. `who`: the caller's.
     void add(std::uint32_t who, const LambertianShape& shape, const Hit& hit, Vec3 outgoing);
@@ -85,6 +85,13 @@ public:
     const RaysToLamp& rays_to_lamp() const { return rays_; }
 
 private:
+    /// A point whose albedo depends on the place.
+    struct Textured {
+        std::size_t point;
+        const Shading* shading;
+        Hit hit;
+    };
+    void look_up_textures();
     struct Points;
     struct Sampling;
     template <Sharing sharing, bool parallelogram>
@@ -103,6 +110,8 @@ private:
     Columns3 interpolated_, towards_;  // shading normals: there, and their sum over the corners; nothing: it has none
     Flags flip_, one_sided_;
     Columns3 outgoing_, albedo_;
+    std::size_t textured_count_ = 0;
+    std::array<Textured, lanes> textured_;
 
     Columns3 position_, normal_, shading_;
     Column offset_;
@@ -110,9 +119,6 @@ private:
     Steps steps_;
     RaysToLamp rays_;
 };
-
-/// Reflectance of a textured Lambertian shape there.
-Rgb albedo_at(const Shading& shading, const Hit& hit);
 
 inline void LambertianSurfaces::add(std::uint32_t who, const LambertianShape& shape, const Hit& hit, Vec3 outgoing) {
     const std::size_t to = count_++;
@@ -127,8 +133,10 @@ inline void LambertianSurfaces::add(std::uint32_t who, const LambertianShape& sh
     least_offset_[to] = shape.least_offset;
     one_sided_[to] = shape.one_sided;
     outgoing_.set(to, outgoing);
-    const Rgb albedo = shape.textured ? albedo_at(*shape.textured, hit) : shape.albedo;
-    albedo_.set(to, {albedo.r, albedo.g, albedo.b});
+    if (shape.textured)
+        textured_[textured_count_++] = {to, shape.textured, hit};
+    else
+        albedo_.set(to, {shape.albedo.r, shape.albedo.g, shape.albedo.b});
     if (mesh.normals.empty()) {
         interpolated_.set(to, {});
         towards_.set(to, {});

@@ -24,6 +24,12 @@ Bsdf::Model as_model(const std::variant<Models...>& model) {
     return std::visit([](const auto& one) -> Bsdf::Model { return one; }, model);
 }
 
+void add_pictures(const SceneData& data, TextureId id, std::vector<const ImageTexture*>& to) {
+    const Texture& texture = data.textures[id];
+    if (const auto* picture = std::get_if<ImageTexture>(&texture.pattern)) to.push_back(picture);
+    for (const TextureId input : inputs_of(texture)) add_pictures(data, input, to);
+}
+
 }  // namespace
 
 Materials::Materials(const SceneData& data) : data_(data) {
@@ -56,11 +62,15 @@ void Materials::make(MaterialId id) {
 MaterialNeeds Materials::needs_of(MaterialId id) {
     const Material& material = data_.materials[id];
     MaterialNeeds needs;
-    visit_each<TextureId>(material, [&](TextureId texture) { needs.texture |= !is_constant(data_.textures[texture]); });
+    visit_each<TextureId>(material, [&](TextureId texture) {
+        needs.texture |= !is_constant(data_.textures[texture]);
+        add_pictures(data_, texture, made_[id].pictures);
+    });
     needs.tangent = anisotropic(material) || material.normal_map || material.bump_map;
     visit_each<MaterialId>(material, [&](MaterialId part) {
         make(part);
         needs = needs | made_[part].needs;
+        made_[id].pictures.insert(made_[id].pictures.end(), made_[part].pictures.begin(), made_[part].pictures.end());
     });
     // parts of a blend may be windows, but holes are the whole's
     needs.holes = material.opacity || std::holds_alternative<NoMaterial>(material.model);

@@ -46,6 +46,14 @@ public:
     /// Reflectance of a Lambertian one; null: it depends on the place.
     const Rgb* constant_albedo(MaterialId material) const;
     Rgb albedo(MaterialId material, const TexturePlace& place) const;
+    /// Fetches from memory what bsdf() and albedo() will read of pictures there.
+    [[gnu::always_inline]] void expect(MaterialId material, Vec2 uv) const {
+        for (const ImageTexture* picture : made_[material].pictures) {
+            const auto [upper, lower] = lines_of(*picture, uv);
+            __builtin_prefetch(upper);
+            __builtin_prefetch(lower);
+        }
+    }
     /// Share of the light that meets the surface.
     float opacity(MaterialId material, const TexturePlace& place) const;
 
@@ -59,6 +67,7 @@ private:
         bool bumpy = false;   // normal or bump map
         float step = 0;       // of texture coordinates, over which a bump map is taken to be straight
         bool filled = false;  // with what absorbs
+        std::vector<const ImageTexture*> pictures;  // all that it looks into
     };
     void make(MaterialId material);
     MaterialNeeds needs_of(MaterialId material);

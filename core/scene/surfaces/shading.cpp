@@ -96,12 +96,6 @@ LambertianShape Shading::lambertian(const Shape& shape, const Needs& needs) cons
             shape.emission.has_value()};
 }
 
-Rgb Shading::albedo(const Hit& hit) const {
-    return materials_.albedo(data_.shapes[hit.geometry].material, place(hit.geometry, hit.primitive, hit.u, hit.v));
-}
-
-Rgb albedo_at(const Shading& shading, const Hit& hit) { return shading.albedo(hit); }
-
 void Shading::find(std::uint32_t geometry, std::uint32_t primitive, float u, float v, SurfacePoint& point) const {
     point.geometry = geometry;
     point.primitive = primitive;
@@ -222,8 +216,9 @@ bool Shading::is_there(std::uint32_t geometry, std::uint32_t primitive, float u,
     return float(here >> 40) * 0x1p-24f < opacity;
 }
 
-void Shading::add_bsdf(const SurfacePoint& point, std::vector<Bsdf>& to) const {
-    materials_.add_bsdf(data_.shapes[point.geometry].material, point, to);
+void Shading::add_bsdfs(std::span<const SurfacePoint> points, std::vector<Bsdf>& to) const {
+    for (const SurfacePoint& point : points) expect_pictures(point.geometry, point.uv);
+    for (const SurfacePoint& point : points) materials_.add_bsdf(data_.shapes[point.geometry].material, point, to);
 }
 
 Bsdf Shading::bsdf(const SurfacePoint& point) const {

@@ -35,11 +35,18 @@ public:
     /// Fetches what find() will read of them from memory.
     void expect(std::span<const std::optional<Hit>> hits) const;
     Bsdf bsdf(const SurfacePoint& point) const;
-    void add_bsdf(const SurfacePoint& point, std::vector<Bsdf>& to) const;
+    /// Those of many, appended.
+    void add_bsdfs(std::span<const SurfacePoint> points, std::vector<Bsdf>& to) const;
     /// By shape: null meshes where it is not Lambertian.
     std::span<const LambertianShape> lambertian_shapes() const { return lambertian_; }
-    /// Reflectance there of a Lambertian one.
-    Rgb albedo(const Hit& hit) const;
+    /// Reflectance of a Lambertian one, there.
+    Rgb albedo(std::uint32_t geometry, const TexturePlace& place) const {
+        return materials_.albedo(data_.shapes[geometry].material, place);
+    }
+    /// Fetches from memory what is read of pictures there, by albedo() or bsdf().
+    [[gnu::always_inline]] void expect_pictures(std::uint32_t geometry, Vec2 uv) const {
+        materials_.expect(data_.shapes[geometry].material, uv);
+    }
 
     /// What textures may depend on there, by the same coordinates.
     TexturePlace place(std::uint32_t geometry, std::uint32_t primitive, float u, float v) const;

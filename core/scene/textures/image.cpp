@@ -66,11 +66,13 @@ Image::Square Image::square(std::uint32_t left, std::uint32_t right, std::uint32
     return all([from = std::get<std::vector<float>>(numbers_).data()](std::size_t at) { return from[at]; });
 }
 
-void Image::expect(std::uint32_t x, std::uint32_t y) const {
+const void* Image::where(std::uint32_t x, std::uint32_t y) const {
     const std::size_t at = (std::size_t{y} * width + x) * channels_;
-    // Here and not in a function that visit() calls: that one would seem to do nothing, and compilers leave it out.
-    __builtin_prefetch(std::visit([&](const auto& numbers) -> const void* { return &numbers[at]; }, numbers_));
+    return std::visit([&](const auto& numbers) -> const void* { return &numbers[at]; }, numbers_);
 }
+
+// Here and not in a function that visit() calls: that one would seem to do nothing, and compilers leave it out.
+void Image::expect(std::uint32_t x, std::uint32_t y) const { __builtin_prefetch(where(x, y)); }
 
 float Image::alpha(std::uint32_t x, std::uint32_t y) const {
     if (!has_alpha()) return 1;

@@ -44,6 +44,8 @@ public:
         }
     };
     Square square(std::uint32_t left, std::uint32_t right, std::uint32_t above, std::uint32_t below) const;
+    /// Where its first number lies in memory.
+    const void* where(std::uint32_t x, std::uint32_t y) const;
     /// A pixel that will soon be asked for.
     void expect(std::uint32_t x, std::uint32_t y) const;
     /// How opaque that pixel is: 1 where nothing else is said.

@@ -121,6 +121,20 @@ Rgb look_up(std::span<const Texture> textures, TextureId texture, const TextureP
     return {std::max(0.0f, value.r), std::max(0.0f, value.g), std::max(0.0f, value.b)};
 }
 
+PictureLines lines_of(const ImageTexture& texture, Vec2 uv) {
+    if (!texture.image || texture.image->empty()) return {};
+    const Image& image = *texture.image;
+    const Vec2 at = laid(texture.uv, uv);
+    const float left = std::floor(at.x * float(image.width) - 0.5f);
+    const float top = std::floor((1 - at.y) * float(image.height) - 0.5f);
+    const auto x = wrapped(std::int64_t(left), image.width, texture.wrap_u);
+    const auto row = [&](float y) -> const void* {
+        const auto j = wrapped(std::int64_t(y), image.height, texture.wrap_v);
+        return x < 0 || j < 0 ? nullptr : image.where(std::uint32_t(x), std::uint32_t(j));
+    };
+    return {row(top), row(top + 1)};
+}
+
 bool is_constant(const Texture& texture) { return std::holds_alternative<std::monostate>(texture.pattern); }
 
 std::vector<TextureId> inputs_of(const Texture& texture) {

@@ -21,6 +21,14 @@ struct TexturePlace {
 /// DECISIONS: textures-of-one-size
 Rgb look_up(std::span<const Texture> textures, TextureId texture, const TexturePlace& place);
 
+/// Where in memory the numbers of a picture lie that look_up() will read first: null where it reads none. For who looks
+/// up many: he fetches them all before he needs the first.
+struct PictureLines {
+    const void* upper = nullptr;
+    const void* lower = nullptr;
+};
+PictureLines lines_of(const ImageTexture& texture, Vec2 uv);
+
 /// Does the texture say the same everywhere?
 bool is_constant(const Texture& texture);
 
