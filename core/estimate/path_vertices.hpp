@@ -12,6 +12,7 @@
 #include "core/estimate/shadow_rays.hpp"
 #include "core/scene/direct_light.hpp"
 #include "core/scene/scene.hpp"
+#include "core/scene/surfaces/glossy_surfaces.hpp"
 #include "core/scene/surfaces/lambertian_surfaces.hpp"
 
 namespace lightnet {
@@ -24,35 +25,28 @@ public:
     explicit PathVertices(const Scene& scene, const LightGuide* guide = nullptr)
         : scene_(scene),
           guide_(guide),
-          lambertian_shapes_(scene.lambertian_shapes()),
+          shapes_(scene.column_shapes()),
           only_lamp_(scene.only_flat_lamp()) {}
 
     void clear() {
-        plain_.clear(), shining_.clear(), points_.clear(), views_.clear(), bsdfs_.clear(), visitors_.clear(),
-            guided_.clear();
+        plain_.clear(), coated_.clear(), metal_.clear();
+        points_.clear(), views_.clear(), bsdfs_.clear(), visitors_.clear(), guided_.clear();
+        stops_.clear();
     }
-    bool full() const { return plain_.full(); }
+    bool full() const { return stops_.size() == lanes; }
     /// Path `path`, after those added before, has come to a surface, as seen from `outgoing`, through `inside`. Not
     /// when it is full. Only these `lobes` count.
     void add(std::uint32_t path, const Hit& hit, Vec3 outgoing, std::uint8_t lobes, const Rgb* inside) {
-        plain_last_ = hit.instance == Query::no_instance && lambertian_shapes_[hit.geometry].mesh && !inside &&
-                      (lobes & lobe::diffuse);
-        if (plain_last_) {
-            const LambertianShape& shape = lambertian_shapes_[hit.geometry];
-            if (shape.shines) shining_.push_back({path, plain_.size(), hit.geometry, hit.primitive});
-            plain_.add(path, shape, hit, outgoing);
-            return;
+        last_ = kind_of(hit, lobes, inside);
+        if (last_ == Kind::none) {
+            scene_.add_surface(hit, points_);
+            views_.push_back({outgoing, lobes, inside});
         }
-        scene_.add_surface(hit, points_);
-        views_.push_back({outgoing, lobes, inside});
-        add_to_last(path);
+        add_to_last(path, hit, outgoing, lobes);
     }
     /// The place of the one added last again.
-    void add_again(std::uint32_t path, const Hit& hit, Vec3 outgoing) {
-        if (plain_last_)
-            plain_.add(path, lambertian_shapes_[hit.geometry], hit, outgoing);
-        else
-            add_to_last(path);
+    void add_again(std::uint32_t path, const Hit& hit, Vec3 outgoing, std::uint8_t lobes) {
+        add_to_last(path, hit, outgoing, lobes);
     }
     /// Begins anew: `first` and the paths after it stand where questions are asked about, question(path), as many as
     /// there is room for. Those of one question follow one another. Returns the first path for which there was no room.
@@ -65,7 +59,7 @@ public:
         for (; path < last && !full(); ++path) {
             const Query& asked = question(path);
             if (before == &asked) {
-                add_again(static_cast<std::uint32_t>(path), hit, asked.outgoing);
+                add_again(static_cast<std::uint32_t>(path), hit, asked.outgoing, asked.lobes);
                 continue;
             }
             before = &asked;
@@ -76,23 +70,27 @@ public:
         return path;
     }
     /// All have been added.
-    void find_points() { plain_.find_points(); }
+    void find_points() {
+        if (plain_.size() > 0) plain_.find_points();
+        if (coated_.size() > 0) coated_.find_points();
+        if (metal_.size() > 0) metal_.find_points();
+    }
 
     /// with(path, point) of all that may be lamps, of what add() added.
     template <class With>
     void each_that_may_shine(With&& with) const {
-        for (const Shining& lamp : shining_) {
-            SurfacePoint point = plain_.point(lamp.point);
-            point.geometry = lamp.geometry;
-            point.primitive = lamp.primitive;
-            with(lamp.path, point);
-        }
+        each_group([&](const auto& group) {
+            for (std::size_t i = 0; i < group.size(); ++i)
+                if (group.shines(i)) with(group.who(i), group.point(i));
+        });
         for (const auto [path, point] : visitors_) with(path, points_[point]);
     }
 
     /// How they scatter: before anything of the following is asked.
     void find_bsdfs() {
         scene_.add_bsdfs(points_, bsdfs_);
+        if (coated_.size() > 0) coated_.find_bsdfs();
+        if (metal_.size() > 0) metal_.find_bsdfs();
         if (guide_) find_guided();
     }
 
@@ -105,6 +103,14 @@ public:
             const Bsdf bsdf = plain_.bsdf(i);
             with(plain_.who(i), Gathering{point, bsdf, plain_.outgoing(i), lobe::all, nullptr, guidance_of_plain(i)});
         }
+        const auto each_of = [&](const auto& glossy) {
+            for (std::size_t i = 0; i < glossy.size(); ++i) {
+                const SurfacePoint point = glossy.point(i);
+                const Bsdf bsdf = glossy.bsdf(i);
+                with(glossy.who(i), Gathering{point, bsdf, glossy.outgoing(i), glossy.lobes(i)});
+            }
+        };
+        each_of(coated_), each_of(metal_);
     }
 
     /// Random numbers of each path, by its index. Empty: nobody needs them.
@@ -125,20 +131,28 @@ public:
                 add(path, ray_to_lamp(scene_, at, LampNumbers{choice, numbers.places[path]}, heuristic));
             });
         for (std::size_t next = 0; next < visitors_.size();) next = look_from_some(next, numbers, heuristic, add);
-        const auto& found = look_from_plain(numbers, heuristic);
-        // Also what finds nothing is written, and then written over: what a point finds can't be foretold.
-        std::size_t end = to.rays.size();
-        to.resize(end + plain_.size());
-        for (std::size_t i = 0; i < plain_.size(); ++i) {
-            const std::uint32_t path = plain_.who(i);
-            const Vec3 light = found.light[i];
-            to.rays[end] = {found.origin[i], found.direction[i], found.far[i]};
-            to.light[end] = weight(path) * Rgb{light.x, light.y, light.z};
-            if (guide_ && found.found[i]) to.light[end] *= guided_share(i, heuristic);
-            to.sums[end] = sum(path) + found.group[i];
-            end += found.found[i];
-        }
-        to.resize(end);
+        const auto append = [&](const auto& group, const RaysToLamp& found, auto&& part) {
+            // Also what finds nothing is written, and then written over: what a point finds can't be foretold.
+            std::size_t end = to.rays.size();
+            to.resize(end + group.size());
+            for (std::size_t i = 0; i < group.size(); ++i) {
+                const std::uint32_t path = group.who(i);
+                const Vec3 light = found.light[i];
+                to.rays[end] = {found.origin[i], found.direction[i], found.far[i]};
+                to.light[end] = weight(path) * Rgb{light.x, light.y, light.z};
+                part(i, found.found[i] != 0, to.light[end]);
+                to.sums[end] = sum(path) + found.group[i];
+                end += found.found[i];
+            }
+            to.resize(end);
+        };
+        const auto all_of_it = [](std::size_t, bool, Rgb&) {};
+        if (coated_.size() > 0) append(coated_, look_from_glossy(coated_, numbers, heuristic), all_of_it);
+        if (metal_.size() > 0) append(metal_, look_from_glossy(metal_, numbers, heuristic), all_of_it);
+        if (plain_.size() == 0) return;
+        append(plain_, look_from_plain(numbers, heuristic), [&](std::size_t i, bool found, Rgb& light) {
+            if (guide_ && found) light *= guided_share(i, heuristic);
+        });
     }
 
     /// A scattering event, and the ray by which the path goes on.
@@ -150,7 +164,7 @@ public:
         float known = -1;   // mean radiance that arrives there, by the guide; below 0: it does not know
         float favour = 1;   // how much denser the direction is sampled than by the surface alone
     };
-    /// From now on step_record() can be asked.
+    /// From now on step_record() can be asked: before the first surface is added.
     void learn() { learns_ = true; }
     /// In on() of scatter(): what of the last step a guide can learn from, without its light. None: nothing.
     const std::optional<GuideRecord>& step_record() const { return record_; }
@@ -163,50 +177,39 @@ public:
             const Vec2 u = directions[plain_.who(i)];
             plain_.set_numbers(i, guided && guide_ ? warped(i, u) : u);
         }
-        const auto& steps = plain_.sample();
-        for (std::size_t i = 0, other = 0; i < plain_.size() || other < visitors_.size();) {
-            if (other < visitors_.size() && (i == plain_.size() || visitors_[other].path < plain_.who(i))) {
-                const auto& visitor = visitors_[other++];
-                const Gathering at = gathering(visitor);
-                if (guided && guide_ && guided_[visitor.point]) {
-                    const Vec2 numbers = directions[visitor.path];
-                    const auto step = guided_step(at, guided_[visitor.point], choice(visitor.path), numbers);
-                    if (!step) continue;
-                    if (learns_) note_step(at, *step);
-                    on(visitor.path, *step);
-                    continue;
-                }
-                const float chosen = at.bsdf.chooses() ? choice(visitor.path) : 0;
-                const auto sample = at.bsdf.sample(at.outgoing, chosen, directions[visitor.path], at.lobes);
-                if (!sample) continue;
-                const Step step = step_to(at, *sample);
-                if (guided && learns_) note_step(at, step);
-                on(visitor.path, step);
-                continue;
+        const auto draw = [&](auto& glossy) {
+            for (std::size_t i = 0; i < glossy.size(); ++i) {
+                glossy.set_numbers(i, directions[glossy.who(i)]);
+                if (glossy.chooses) glossy.set_choice(i, choice(glossy.who(i)));
             }
-            if (steps.pdf[i] != 0) {
-                BsdfSample step{steps.incoming[i], plain_.albedo(i), steps.pdf[i], lobe::diffuse};
-                float favour = 1, known = -1;
-                if constexpr (guided) {
-                    if (guide_) favour = favours_[i], known = known_at_plain(i);
-                    step.weight *= 1 / favour, step.pdf *= favour;
-                    if (learns_) note_plain_step(i, favour);
-                }
-                const Vec3 at = plain_.position(i);
-                const LitPoint from = only_lamp_ ? LitPoint(at)  // nothing to choose
-                                                 : lit_point(at, plain_.normal(i), plain_.outgoing(i));
-                on(plain_.who(i), Step{step, plain_.ray_from(i, step.incoming), from, nullptr, known, favour});
+            if (glossy.size() > 0) glossy.sample();
+        };
+        draw(coated_), draw(metal_);
+        if (plain_.size() > 0) plain_.sample();
+        for (const auto [kind, i] : stops_) {
+            switch (kind) {
+                case Kind::none:
+                    go_on_from_visitor<guided>(visitors_[i], directions, choice, on);
+                    break;
+                case Kind::lambertian:
+                    go_on_from_plain<guided>(i, on);
+                    break;
+                case Kind::coated:
+                    go_on_from_glossy(coated_, i, on);
+                    break;
+                case Kind::metal:
+                    go_on_from_glossy(metal_, i, on);
+                    break;
             }
-            ++i;
         }
     }
 
 private:
-    /// A plain surface that may be a lamp.
-    struct Shining {
-        std::uint32_t path;
-        std::size_t point;
-        std::uint32_t geometry, primitive;
+    using Kind = ColumnShape::Kind;
+    /// Where a path has come to: which of those of its kind.
+    struct Stop {
+        Kind kind;
+        std::uint32_t index;
     };
     struct Visitor {
         std::uint32_t path, point;
@@ -216,6 +219,81 @@ private:
         std::uint8_t lobes;
         const Rgb* inside;
     };
+    template <class With>
+    void each_group(With&& with) const {
+        with(plain_), with(coated_), with(metal_);
+    }
+    /// In which columns it goes; none: it is worked out alone.
+    Kind kind_of(const Hit& hit, std::uint8_t lobes, const Rgb* inside) const {
+        if (hit.instance != Query::no_instance || inside) return Kind::none;
+        const Kind kind = shapes_[hit.geometry].kind;
+        if (kind == Kind::lambertian) return lobes & lobe::diffuse ? kind : Kind::none;
+        const bool alone = guide_ || learns_ || (lobes & lobe::rough) != lobe::rough;
+        return alone ? Kind::none : kind;
+    }
+    void add_to_last(std::uint32_t path, const Hit& hit, Vec3 outgoing, std::uint8_t lobes) {
+        const auto put = [&](const auto& to) { stops_.push_back({last_, static_cast<std::uint32_t>(to.size())}); };
+        switch (last_) {
+            case Kind::none:
+                put(visitors_);
+                visitors_.push_back({path, static_cast<std::uint32_t>(points_.size() - 1)});
+                break;
+            case Kind::lambertian:
+                put(plain_);
+                plain_.add(path, shapes_[hit.geometry], hit, outgoing);
+                break;
+            case Kind::coated:
+                put(coated_);
+                coated_.add(path, shapes_[hit.geometry], hit, outgoing, lobes);
+                break;
+            case Kind::metal:
+                put(metal_);
+                metal_.add(path, shapes_[hit.geometry], hit, outgoing, lobes);
+                break;
+        }
+    }
+    template <bool guided, class Choice, class On>
+    void go_on_from_visitor(const Visitor& visitor, std::span<const Vec2> directions, Choice&& choice, On&& on) {
+        const Gathering at = gathering(visitor);
+        if (guided && guide_ && guided_[visitor.point]) {
+            const Vec2 numbers = directions[visitor.path];
+            const auto step = guided_step(at, guided_[visitor.point], choice(visitor.path), numbers);
+            if (!step) return;
+            if (learns_) note_step(at, *step);
+            return on(visitor.path, *step);
+        }
+        const float chosen = at.bsdf.chooses() ? choice(visitor.path) : 0;
+        const auto sample = at.bsdf.sample(at.outgoing, chosen, directions[visitor.path], at.lobes);
+        if (!sample) return;
+        const Step step = step_to(at, *sample);
+        if (guided && learns_) note_step(at, step);
+        on(visitor.path, step);
+    }
+    template <bool guided, class On>
+    void go_on_from_plain(std::size_t i, On&& on) {
+        const auto& steps = plain_.steps();
+        if (steps.pdf[i] == 0) return;
+        BsdfSample step{steps.incoming[i], plain_.albedo(i), steps.pdf[i], lobe::diffuse};
+        float favour = 1, known = -1;
+        if constexpr (guided) {
+            if (guide_) favour = favours_[i], known = known_at_plain(i);
+            step.weight *= 1 / favour, step.pdf *= favour;
+            if (learns_) note_plain_step(i, favour);
+        }
+        const Vec3 at = plain_.position(i);
+        const LitPoint from = only_lamp_ ? LitPoint(at)  // nothing to choose
+                                         : lit_point(at, plain_.normal(i), plain_.outgoing(i));
+        on(plain_.who(i), Step{step, plain_.ray_from(i, step.incoming), from, nullptr, known, favour});
+    }
+    template <class Glossy, class On>
+    static void go_on_from_glossy(const Glossy& glossy, std::size_t i, On&& on) {
+        const auto& steps = glossy.steps();
+        if (!steps.found[i]) return;
+        const Vec3 weight = steps.weight[i];
+        const BsdfSample step{steps.incoming[i], {weight.x, weight.y, weight.z}, steps.pdf[i],
+                              static_cast<std::uint8_t>(steps.lobe[i])};
+        on(glossy.who(i), Step{step, glossy.ray_from(i, step.incoming), glossy.lit_point(i), nullptr});
+    }
     /// Lamps for points that were put into lit_, with the numbers of paths who(i).
     template <class Who>
     void sample_lit(const Numbers& numbers, Who&& who) {
@@ -245,7 +323,14 @@ private:
         }
         return next;
     }
-    const LambertianSurfaces::RaysToLamp& look_from_plain(const Numbers& numbers, Heuristic heuristic) {
+    template <class Glossy>
+    const RaysToLamp& look_from_glossy(Glossy& glossy, const Numbers& numbers, Heuristic heuristic) {
+        lit_.clear();
+        for (std::size_t i = 0; i < glossy.size(); ++i) lit_.push_back(glossy.lit_point(i));
+        sample_lit(numbers, [&](std::size_t i) { return glossy.who(i); });
+        return glossy.look_at(lamps_, heuristic == Heuristic::power);
+    }
+    const RaysToLamp& look_from_plain(const Numbers& numbers, Heuristic heuristic) {
         const bool by_power = heuristic == Heuristic::power;
         if (only_lamp_) {
             for (std::size_t i = 0; i < plain_.size(); ++i) plain_.set_numbers(i, numbers.places[plain_.who(i)]);
@@ -256,9 +341,6 @@ private:
             lit_.push_back(lit_point(plain_.position(i), plain_.normal(i), plain_.outgoing(i)));
         sample_lit(numbers, [&](std::size_t i) { return plain_.who(i); });
         return guide_ ? plain_.look_at_whole(lamps_) : plain_.look_at(lamps_, by_power);
-    }
-    void add_to_last(std::uint32_t path) {
-        visitors_.push_back({path, static_cast<std::uint32_t>(points_.size() - 1)});
     }
     Gathering gathering(const Visitor& visitor) const {
         const auto& [outgoing, lobes, inside] = views_[visitor.point];
@@ -369,11 +451,13 @@ private:
 
     const Scene& scene_;
     const LightGuide* guide_;
-    std::span<const LambertianShape> lambertian_shapes_;
+    std::span<const ColumnShape> shapes_;
     const FlatLamp* only_lamp_;
+    std::vector<Stop> stops_;  // in the order of paths
+    Kind last_ = Kind::none;   // where the last one was put
     LambertianSurfaces plain_;
-    bool plain_last_ = false;
-    std::vector<Shining> shining_;  // of those
+    CoatedSurfaces coated_;
+    MetalSurfaces metal_;
     // the others, and who has come to which
     std::vector<SurfacePoint> points_;
     std::vector<View> views_;

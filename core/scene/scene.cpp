@@ -162,7 +162,7 @@ void Scene::add_surface(const Hit& hit, std::vector<SurfacePoint>& to) const { b
 
 void Scene::expect(std::span<const std::optional<Hit>> hits) const { built_->shading.expect(hits); }
 
-std::span<const LambertianShape> Scene::lambertian_shapes() const { return built_->shading.lambertian_shapes(); }
+std::span<const ColumnShape> Scene::column_shapes() const { return built_->shading.column_shapes(); }
 
 Hit Scene::hit(const Query& query) const {
     const auto& shapes = built_->data.shapes;

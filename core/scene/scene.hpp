@@ -17,8 +17,8 @@
 #include "core/scene/camera.hpp"
 #include "core/scene/data/scene_data.hpp"
 #include "core/scene/lamps/lit_point.hpp"
+#include "core/scene/surfaces/column_shape.hpp"
 #include "core/scene/surfaces/flat_lamp.hpp"
-#include "core/scene/surfaces/lambertian_surfaces.hpp"
 #include "core/scene/surfaces/light_sample.hpp"
 #include "core/scene/surfaces/ray.hpp"
 #include "core/scene/surfaces/surface.hpp"
@@ -88,8 +88,8 @@ public:
     Hit hit(const Query& query) const;
     /// What the scene was built from: names of shapes, materials and objects. Its meshes may be gone.
     const SceneData& data() const;
-    /// By shape: what is Lambertian of it. What is hit in an instance is not.
-    std::span<const LambertianShape> lambertian_shapes() const;
+    /// By shape: how its points are shaded many at once. What is hit in an instance is not.
+    std::span<const ColumnShape> column_shapes() const;
     /// How the surface scatters there.
     Bsdf bsdf(const SurfacePoint& point) const;
     /// The same of many, made where they are to stay; appended.

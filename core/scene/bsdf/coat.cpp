@@ -132,7 +132,13 @@ float Coat::left_within(float cosine) const {
 
 float Coat::series(float reflectance, float back) const {
     const float sum = reflectance / (1 - back);
-    return layer_.bounces ? sum * (1 - std::pow(back, float(layer_.bounces))) : sum;
+    if (!layer_.bounces) return sum;
+    float lost = 1, power = back;  // back to the power of `bounces`, the same on every libm
+    for (std::uint32_t left = layer_.bounces; left > 0; left /= 2) {
+        if (left % 2) lost *= power;
+        power *= power;
+    }
+    return sum * (1 - lost);
 }
 
 float Coat::inner_reflectance(const Microfacets& facets) const {

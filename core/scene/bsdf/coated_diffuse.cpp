@@ -6,7 +6,6 @@
 
 namespace lightnet {
 
-// With which probability the coat is sampled, not the base.
 float CoatedDiffuseBsdf::coat_chance(float reflectance, std::uint8_t lobes) const {
     if (!(lobes & lobe::diffuse)) return 1;
     if (!(lobes & coat_lobe())) return 0;
@@ -14,12 +13,10 @@ float CoatedDiffuseBsdf::coat_chance(float reflectance, std::uint8_t lobes) cons
     return top > 0 ? top / (top + base) : 0;
 }
 
-Rgb CoatedDiffuseBsdf::base_value(Vec3 outgoing, Vec3 incoming) const {
+Rgb CoatedDiffuseBsdf::base_reflectance() const {
     const float inner = coat->inner_reflectance(facets);
-    const float passes =
-        coat->transmittance(facets, outgoing.z) * coat->transmittance(facets, incoming.z) / (coat->eta() * coat->eta());
     const auto series = [&](float rho) { return coat->series(rho, (base_colours_repeat ? rho : 1) * inner); };
-    return Rgb{series(albedo.r), series(albedo.g), series(albedo.b)} * (passes * incoming.z * inverse_pi);
+    return {series(albedo.r), series(albedo.g), series(albedo.b)};
 }
 
 BsdfValue CoatedDiffuseBsdf::evaluate(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const {
@@ -28,7 +25,9 @@ BsdfValue CoatedDiffuseBsdf::evaluate(Vec3 outgoing, Vec3 incoming, std::uint8_t
     const float chance = coat_chance(reflectance, lobes);
     BsdfValue sum;
     if (lobes & lobe::diffuse) {
-        sum.value += base_value(outgoing, incoming);
+        const float passes = coat->transmittance(facets, outgoing.z) * coat->transmittance(facets, incoming.z) /
+                             (coat->eta() * coat->eta());
+        sum.value += coated_base(base_reflectance(), passes, incoming.z);
         sum.pdf += (1 - chance) * incoming.z * inverse_pi;
     }
     if ((lobes & lobe::glossy) && !smooth()) {

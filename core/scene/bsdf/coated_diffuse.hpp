@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "core/base/math/sampling.hpp"
 #include "core/scene/bsdf/coat.hpp"
 #include "core/scene/bsdf/material_inputs.hpp"
 #include "core/scene/bsdf/scattering.hpp"
@@ -25,13 +26,18 @@ struct CoatedDiffuseBsdf {
     bool smooth() const { return is_specular(facets.alpha_u, facets.alpha_v); }
     std::uint8_t coat_lobe() const { return smooth() ? lobe::specular : lobe::glossy; }
     std::uint8_t lobes() const { return static_cast<std::uint8_t>(coat_lobe() | lobe::diffuse); }
+    /// With which probability the coat is sampled, not the base, where it reflects that share.
+    float coat_chance(float reflectance, std::uint8_t lobes) const;
+    /// What all ways off the base come to, by colour: without what the coat lets in and out.
+    Rgb base_reflectance() const;
     BsdfValue evaluate(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const;
     std::optional<BsdfSample> sample(Vec3 outgoing, float choice, Vec2 u, std::uint8_t lobes) const;
-
-private:
-    float coat_chance(float reflectance, std::uint8_t lobes) const;
-    Rgb base_value(Vec3 outgoing, Vec3 incoming) const;
 };
+
+/// What the base sends on: `passes` is what the coat lets in and out, where radiance shrinks by η².
+inline Rgb coated_base(Rgb reflectance, float passes, float cosine) {
+    return reflectance * (passes * cosine * inverse_pi);
+}
 
 class Coats;
 

@@ -16,13 +16,18 @@ struct Facets {
 };
 
 /// Both directions lie above the surface.
-inline Facets reflection(const Microfacets& facets, Vec3 outgoing, Vec3 incoming) {
+template <class Law>
+inline Facets reflection(const FacetsOf<Law>& facets, Vec3 outgoing, Vec3 incoming) {
     const Vec3 m = normalize(outgoing + incoming);
     const float cosine = dot(outgoing, m);
-    if (!(cosine > 0)) return {};
     const float both = facets.density(m) / (4 * outgoing.z);
     const float lambda_o = facets.lambda(outgoing), lambda_i = facets.lambda(incoming);
-    return {both * facets.visible_to_both(lambda_o, lambda_i), both / (1 + lambda_o), cosine};
+    const float value = both * facets.visible_to_both(lambda_o, lambda_i), pdf = both / (1 + lambda_o);
+    const bool seen = cosine > 0;
+    return {seen ? value : 0, seen ? pdf : 0, seen ? cosine : 0};
+}
+inline Facets reflection(const Microfacets& facets, Vec3 outgoing, Vec3 incoming) {
+    return facets.as_they_are([&](const auto& f) { return reflection(f, outgoing, incoming); });
 }
 
 /// The directions lie on different sides; `eta` inside over outside. The value holds the squeezing of radiance.

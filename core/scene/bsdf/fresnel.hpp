@@ -12,34 +12,38 @@ namespace lightnet {
 /// Unpolarised reflectance of a dielectric. `cosine` of the arriving direction, positive outside; `eta` inside over
 /// outside. 1 where all is reflected.
 inline float fresnel_dielectric(float cosine, float eta) {
-    cosine = std::clamp(cosine, -1.0f, 1.0f);
-    if (cosine < 0) {
-        eta = 1 / eta;
-        cosine = -cosine;
-    }
+    // Without a branch, as loops over many surfaces want it.
+    const bool inside = cosine < 0;
+    cosine = std::fabs(cosine);
+    cosine = cosine < 1 ? cosine : 1;
+    const float turned = 1 / eta;
+    eta = inside ? turned : eta;
     const float sine2_t = (1 - cosine * cosine) / (eta * eta);
-    if (sine2_t >= 1) return 1;
-    const float cosine_t = std::sqrt(1 - sine2_t);
+    const float cosine_t = std::sqrt(std::fabs(1 - sine2_t));
     const float parallel = (eta * cosine - cosine_t) / (eta * cosine + cosine_t);
     const float perpendicular = (cosine - eta * cosine_t) / (cosine + eta * cosine_t);
-    return 0.5f * (parallel * parallel + perpendicular * perpendicular);
+    const float reflected = 0.5f * (parallel * parallel + perpendicular * perpendicular);
+    return sine2_t >= 1 ? 1 : reflected;
 }
 
 /// The same of a conductor with the complex index eta + i k, for cosine in [0,1].
 /// Lagarde 2013, "Memo on Fresnel equations", as in pbrt.
 inline float fresnel_conductor(float cosine, float eta, float k) {
-    cosine = std::clamp(cosine, 0.0f, 1.0f);
+    cosine = cosine > 0 ? cosine : 0;
+    cosine = cosine < 1 ? cosine : 1;
     const float cos2 = cosine * cosine, sin2 = 1 - cos2;
     const float t0 = eta * eta - k * k - sin2;
     const float a2_plus_b2 = std::sqrt(t0 * t0 + 4 * eta * eta * k * k);
     const float t1 = a2_plus_b2 + cos2;
-    const float a = std::sqrt(std::max(0.0f, 0.5f * (a2_plus_b2 + t0)));
+    const float a2 = 0.5f * (a2_plus_b2 + t0);
+    const float a = std::sqrt(a2 > 0 ? a2 : 0);
     const float t2 = 2 * cosine * a;
     const float perpendicular = (t1 - t2) / (t1 + t2);
     const float t3 = cos2 * a2_plus_b2 + sin2 * sin2;
     const float t4 = t2 * sin2;
     const float parallel = perpendicular * (t3 - t4) / (t3 + t4);
-    return std::clamp(0.5f * (perpendicular + parallel), 0.0f, 1.0f);
+    const float reflected = 0.5f * (perpendicular + parallel), least = reflected > 0 ? reflected : 0;
+    return least < 1 ? least : 1;
 }
 
 inline Rgb fresnel_conductor(float cosine, Rgb eta, Rgb k) {

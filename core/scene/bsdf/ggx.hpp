@@ -21,13 +21,16 @@ struct GgxLaw {
     /// Distribution of Visible Normals".
     static Vec3 sample_visible(Vec3 w, Vec2 u) {
         const float across = w.x * w.x + w.y * w.y;
-        const Vec3 t1 = across > 1e-8f ? Vec3{-w.y, w.x, 0} / std::sqrt(across) : Vec3{1, 0, 0};
+        const bool slanted = across > 1e-8f;
+        const float per_across = 1 / std::sqrt(across);
+        const Vec3 t1{slanted ? -w.y * per_across : 1, slanted ? w.x * per_across : 0, 0};
         const Vec3 t2 = cross(w, t1);
         const Vec2 d = disk(u);
-        const float half = std::sqrt(std::max(0.0f, 1 - d.x * d.x));
+        const auto root = [](float square) { return std::sqrt(square > 0 ? square : 0); };
+        const float half = root(1 - d.x * d.x);
         const float s = 0.5f * (1 + w.z);
         const float y = (1 - s) * half + s * d.y;
-        const float z = std::sqrt(std::max(0.0f, 1 - d.x * d.x - y * y));
+        const float z = root(1 - d.x * d.x - y * y);
         return t1 * d.x + t2 * y + w * z;
     }
 };

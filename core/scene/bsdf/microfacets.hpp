@@ -27,33 +27,62 @@ struct FacetLaw {
     }
 };
 
-/// Walter et al. 2007 and Heitz 2014; anisotropic. A value.
-struct Microfacets {
+/// Facets of one law (GgxLaw, BeckmannLaw), by roughness along both tangents. Walter et al. 2007 and Heitz 2014. Without
+/// a branch where the law has none, so that loops over many surfaces become vectors.
+template <class Law>
+struct FacetsOf {
     float alpha_u = 0, alpha_v = 0;
-    FacetLaw law{};
+    bool by_height = true;  // FacetLaw::Masking
 
     /// Density of normals `m`, per steradian.
     float density(Vec3 m) const {
         const float x = m.x / alpha_u, y = m.y / alpha_v;
-        return law.with_normals([&](auto l) { return l.density(x * x + y * y, m.z * m.z); }) / (alpha_u * alpha_v);
+        return Law::density(x * x + y * y, m.z * m.z) / (alpha_u * alpha_v);
     }
     /// Smith's Λ: 1/(1 + Λ) of the microfacets facing `w` are visible from it.
     float lambda(Vec3 w) const {
         const float x = alpha_u * w.x, y = alpha_v * w.y, z2 = w.z * w.z;
-        return z2 == 0 ? 1e18f : law.with_normals([&](auto l) { return l.lambda(x * x + y * y, z2); });
+        const float found = Law::lambda(x * x + y * y, z2);
+        return z2 == 0 ? 1e18f : found;
     }
-    float visible(Vec3 w) const { return 1 / (1 + lambda(w)); }
     /// Seen from both directions, whose Λ are these (Heitz 2014, eq. 98 and 99).
     float visible_to_both(float a, float b) const {
-        return law.masking == FacetLaw::Masking::by_height ? 1 / (1 + a + b) : 1 / ((1 + a) * (1 + b));
+        const float correlated = 1 + a + b, apart = (1 + a) * (1 + b);
+        return 1 / (by_height ? correlated : apart);
     }
-    float visible(Vec3 a, Vec3 b) const { return visible_to_both(lambda(a), lambda(b)); }
     /// A visible normal.
     Vec3 sample_visible(Vec3 w, Vec2 u) const {
         Vec3 stretched = normalize({alpha_u * w.x, alpha_v * w.y, w.z});
-        if (stretched.z < 0) stretched = -stretched;
-        const Vec3 n = law.with_normals([&](auto l) { return l.sample_visible(stretched, u); });
-        return normalize({alpha_u * n.x, alpha_v * n.y, std::max(1e-6f, n.z)});
+        const float side = stretched.z < 0 ? -1.0f : 1.0f;
+        stretched = stretched * side;
+        const Vec3 n = Law::sample_visible(stretched, u);
+        return normalize({alpha_u * n.x, alpha_v * n.y, n.z > 1e-6f ? n.z : 1e-6f});
+    }
+};
+
+/// Of any law; anisotropic. A value.
+struct Microfacets {
+    float alpha_u = 0, alpha_v = 0;
+    FacetLaw law{};
+
+    /// use(FacetsOf<GgxLaw>) or use(FacetsOf<BeckmannLaw>): these.
+    template <class Use>
+    auto as_they_are(Use use) const {
+        const bool by_height = law.masking == FacetLaw::Masking::by_height;
+        return law.with_normals([&]<class Law>(Law) { return use(FacetsOf<Law>{alpha_u, alpha_v, by_height}); });
+    }
+    float lambda(Vec3 w) const {
+        return as_they_are([&](const auto& facets) { return facets.lambda(w); });
+    }
+    float visible(Vec3 w) const { return 1 / (1 + lambda(w)); }
+    float visible(Vec3 a, Vec3 b) const {
+        return as_they_are([&](const auto& f) { return f.visible_to_both(f.lambda(a), f.lambda(b)); });
+    }
+    float density(Vec3 m) const {
+        return as_they_are([&](const auto& facets) { return facets.density(m); });
+    }
+    Vec3 sample_visible(Vec3 w, Vec2 u) const {
+        return as_they_are([&](const auto& facets) { return facets.sample_visible(w, u); });
     }
 };
 

@@ -1,57 +1,20 @@
 #include "core/scene/surfaces/lambertian_surfaces.hpp"
 
 #include "core/scene/direct_light.hpp"
-#include "core/scene/surfaces/shading.hpp"
+#include "core/scene/surfaces/looking_up.hpp"
 
 namespace lightnet {
 
-// As Shading::on_mesh().
-struct LambertianSurfaces::Points {
-    LambertianSurfaces& all;
-
-    [[gnu::always_inline]] void work() {
-        for (std::size_t i = 0; i < all.count_; ++i) {
-            const Corners at{all.a_[i], all.b_[i], all.c_[i]};
-            const Vec3 p = on_triangle(at, all.u_[i], all.v_[i]);
-            const Vec3 n = geometric_normal(at, all.towards_[i], all.flip_[i] != 0);
-            all.position_.set(i, p);
-            all.normal_.set(i, n);
-            all.offset_[i] = offset_at(p, all.least_offset_[i]);
-            all.shading_.set(i, shading_normal(all.interpolated_[i], n));
-        }
-    }
-};
-
 void LambertianSurfaces::find_points() {
-    Points points{*this};
-    work_in_lanes(points);
-    look_up_textures();
-}
-
-// What is read of pictures is fetched for all before it is read for the first: the memory is waited for but once.
-void LambertianSurfaces::look_up_textures() {
-    std::array<TexturePlace, lanes> places;
-    for (std::size_t i = 0; i < textured_count_; ++i) {
-        const auto& [point, shading, hit] = textured_[i];
-        places[i] = shading->place(hit.geometry, hit.primitive, hit.u, hit.v);
-        shading->expect_pictures(hit.geometry, places[i].uv);
-    }
-    for (std::size_t i = 0; i < textured_count_; ++i) {
-        const Textured& at = textured_[i];
-        const Rgb albedo = at.shading->albedo(at.hit.geometry, places[i]);
-        albedo_.set(at.point, {albedo.r, albedo.g, albedo.b});
-    }
-}
-
-SurfacePoint LambertianSurfaces::point(std::size_t i) const {
-    SurfacePoint point;
-    point.position = position_[i];
-    point.normal = normal_[i];
-    point.shading = Frame::around(shading_[i]);
-    point.offset = offset_[i];
-    point.u = u_[i];
-    point.v = v_[i];
-    return point;
+    find_places();
+    std::array<std::size_t, lanes> textured;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < size(); ++i)
+        if (!shapes_[i]->model) textured[count++] = i;
+    look_up(std::span(textured).first(count), [&](std::size_t i, const TexturePlace& place) {
+        const Rgb albedo = shapes_[i]->shading->albedo(hits_[i].geometry, place);
+        albedo_.set(i, {albedo.r, albedo.g, albedo.b});
+    });
 }
 
 Bsdf LambertianSurfaces::bsdf(std::size_t i) const {
@@ -160,28 +123,28 @@ struct LambertianSurfaces::LookingAtMany {
 };
 
 template <LambertianSurfaces::Sharing sharing>
-const LambertianSurfaces::RaysToLamp& LambertianSurfaces::look(const FlatLamp& lamp) {
+const RaysToLamp& LambertianSurfaces::look(const FlatLamp& lamp) {
     const auto work = [](auto looking) { work_in_lanes(looking); };
     lamp.whole ? work(Looking<sharing, true>{*this, lamp}) : work(Looking<sharing, false>{*this, lamp});
     return rays_;
 }
 
-const LambertianSurfaces::RaysToLamp& LambertianSurfaces::look_at(const FlatLamp& lamp, bool by_power) {
+const RaysToLamp& LambertianSurfaces::look_at(const FlatLamp& lamp, bool by_power) {
     return by_power ? look<Sharing::by_power>(lamp) : look<Sharing::balanced>(lamp);
 }
 
-const LambertianSurfaces::RaysToLamp& LambertianSurfaces::look_at_whole(const FlatLamp& lamp) {
+const RaysToLamp& LambertianSurfaces::look_at_whole(const FlatLamp& lamp) {
     return look<Sharing::whole>(lamp);
 }
 
-const LambertianSurfaces::RaysToLamp& LambertianSurfaces::look_at(const LightSamples& lamps, bool by_power) {
+const RaysToLamp& LambertianSurfaces::look_at(const LightSamples& lamps, bool by_power) {
     LookingAtMany<Sharing::by_power> powered{*this, lamps};
     LookingAtMany<Sharing::balanced> balanced{*this, lamps};
     by_power ? work_in_lanes(powered) : work_in_lanes(balanced);
     return rays_;
 }
 
-const LambertianSurfaces::RaysToLamp& LambertianSurfaces::look_at_whole(const LightSamples& lamps) {
+const RaysToLamp& LambertianSurfaces::look_at_whole(const LightSamples& lamps) {
     LookingAtMany<Sharing::whole> looking{*this, lamps};
     work_in_lanes(looking);
     return rays_;

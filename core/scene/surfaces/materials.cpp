@@ -108,15 +108,30 @@ Bsdf Materials::blend(std::span<const BlendPart> of, const SurfacePoint& point) 
     return {point.normal, std::move(parts)};
 }
 
-bool Materials::is_lambertian(MaterialId id) const {
-    const auto* diffuse = std::get_if<DiffuseMaterial>(&data_.materials[id].model);
+// DECISIONS: plain-surfaces-in-columns
+ColumnShape::Kind Materials::column_kind(MaterialId id) const {
+    using Kind = ColumnShape::Kind;
     const Made& made = made_[id];
-    return diffuse && diffuse->lambertian() && !made.bumpy && !made.filled && !made.needs.tangent;
+    if (made.bumpy || made.filled || made.needs.tangent) return Kind::none;
+    const auto& model = data_.materials[id].model;
+    const auto by_ggx = [](const Roughness& roughness) { return roughness.law.normals == FacetLaw::Normals::ggx; };
+    if (const auto* diffuse = std::get_if<DiffuseMaterial>(&model))
+        return diffuse->lambertian() ? Kind::lambertian : Kind::none;
+    if (const auto* coated = std::get_if<CoatedDiffuseMaterial>(&model))
+        return by_ggx(coated->roughness) ? Kind::coated : Kind::none;
+    const auto* metal = std::get_if<ConductorMaterial>(&model);
+    if (!metal || !by_ggx(metal->roughness)) return Kind::none;
+    const FacetRange facets = facet_range_of(metal->roughness);
+    return facets.varies || is_specular(facets.facets.alpha_u, facets.facets.alpha_v) ? Kind::none : Kind::metal;
 }
 
-const Rgb* Materials::constant_albedo(MaterialId id) const {
-    const auto& model = made_[id].constant;
-    return model ? &std::get<DiffuseBsdf>(*model).albedo : nullptr;
+CoatedDiffuseBsdf Materials::coated(MaterialId id, const TexturePlace& place) const {
+    const auto& material = std::get<CoatedDiffuseMaterial>(data_.materials[id].model);
+    return material.at({data_.textures, place, made_[id].coating});
+}
+
+ConductorBsdf Materials::metal(MaterialId id, const TexturePlace& place) const {
+    return std::get<ConductorMaterial>(data_.materials[id].model).at({data_.textures, place, made_[id].coating});
 }
 
 Rgb Materials::albedo(MaterialId id, const TexturePlace& place) const {

@@ -9,6 +9,7 @@
 #include "core/scene/bsdf/bsdf.hpp"
 #include "core/scene/bsdf/coats.hpp"
 #include "core/scene/data/scene_data.hpp"
+#include "core/scene/surfaces/column_shape.hpp"
 #include "core/scene/surfaces/surface.hpp"
 #include "core/scene/textures/look_up.hpp"
 
@@ -41,11 +42,17 @@ public:
         else
             to.push_back(bsdf(material, point));
     }
-    /// Is it an ideal diffuse reflector, without bumps?
-    bool is_lambertian(MaterialId material) const;
-    /// Reflectance of a Lambertian one; null: it depends on the place.
-    const Rgb* constant_albedo(MaterialId material) const;
+    /// How its points are shaded many at once, if they are.
+    ColumnShape::Kind column_kind(MaterialId material) const;
+    /// The same everywhere; null: it depends on the place.
+    const Bsdf::Model* constant_model(MaterialId material) const {
+        return made_[material].constant ? &*made_[material].constant : nullptr;
+    }
+    /// Reflectance of a Lambertian one.
     Rgb albedo(MaterialId material, const TexturePlace& place) const;
+    /// Of a material whose models are of this one kind alone.
+    CoatedDiffuseBsdf coated(MaterialId material, const TexturePlace& place) const;
+    ConductorBsdf metal(MaterialId material, const TexturePlace& place) const;
     /// Fetches from memory what bsdf() and albedo() will read of pictures there.
     [[gnu::always_inline]] void expect(MaterialId material, Vec2 uv) const {
         for (const ImageTexture* picture : made_[material].pictures) {

@@ -79,18 +79,22 @@ Shading::Shading(const SceneData& data) : data_(data), materials_(data) {
         needs_.push_back(
             {materials_.needs(shape.material), least_offset(shape), std::get_if<Mesh>(&shape.geometry)});
         needs_.back().material.texture |= shape.emission && shape.emission->texture;
-        lambertian_.push_back(lambertian(shape, needs_.back()));
+        column_shapes_.push_back(column_shape(shape, needs_.back()));
         const auto* quadric = std::get_if<Quadric>(&shape.geometry);
         quadrics_.push_back(quadric ? std::make_unique<const PlacedQuadric>(*quadric) : nullptr);
     }
 }
 
-LambertianShape Shading::lambertian(const Shape& shape, const Needs& needs) const {
-    if (!needs.mesh || !materials_.is_lambertian(shape.material)) return {};
-    const Rgb* albedo = materials_.constant_albedo(shape.material);
-    return {needs.mesh,
-            albedo ? *albedo : Rgb{},
-            albedo ? nullptr : this,
+ColumnShape Shading::column_shape(const Shape& shape, const Needs& needs) const {
+    const auto kind = needs.mesh ? materials_.column_kind(shape.material) : ColumnShape::Kind::none;
+    if (kind == ColumnShape::Kind::none) return {};
+    const Bsdf::Model* model = materials_.constant_model(shape.material);
+    const auto* diffuse = model ? std::get_if<DiffuseBsdf>(model) : nullptr;
+    return {kind,
+            needs.mesh,
+            diffuse ? diffuse->albedo : Rgb{},
+            model,
+            this,
             needs.offset,
             data_.materials[shape.material].one_sided,
             shape.emission.has_value()};

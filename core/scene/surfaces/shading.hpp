@@ -1,6 +1,7 @@
 // From the name of a surface point to all that shading needs.
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -9,7 +10,7 @@
 
 #include "core/scene/bsdf/bsdf.hpp"
 #include "core/scene/data/scene_data.hpp"
-#include "core/scene/surfaces/lambertian_surfaces.hpp"
+#include "core/scene/surfaces/column_shape.hpp"
 #include "core/scene/surfaces/materials.hpp"
 #include "core/scene/surfaces/placed_quadric.hpp"
 #include "core/scene/surfaces/ray.hpp"
@@ -37,11 +38,20 @@ public:
     Bsdf bsdf(const SurfacePoint& point) const;
     /// Those of many, appended.
     void add_bsdfs(std::span<const SurfacePoint> points, std::vector<Bsdf>& to) const;
-    /// By shape: null meshes where it is not Lambertian.
-    std::span<const LambertianShape> lambertian_shapes() const { return lambertian_; }
+    /// By shape.
+    std::span<const ColumnShape> column_shapes() const { return column_shapes_; }
     /// Reflectance of a Lambertian one, there.
     Rgb albedo(std::uint32_t geometry, const TexturePlace& place) const {
         return materials_.albedo(data_.shapes[geometry].material, place);
+    }
+    /// How a coated one scatters there, or a metal.
+    template <class Model>
+    Model model(std::uint32_t geometry, const TexturePlace& place) const {
+        const MaterialId material = data_.shapes[geometry].material;
+        if constexpr (std::same_as<Model, CoatedDiffuseBsdf>)
+            return materials_.coated(material, place);
+        else
+            return materials_.metal(material, place);
     }
     /// Fetches from memory what is read of pictures there, by albedo() or bsdf().
     [[gnu::always_inline]] void expect_pictures(std::uint32_t geometry, Vec2 uv) const {
@@ -66,7 +76,7 @@ private:
         float offset = 0;            // least distance by which rays must leave the shape, m
         const Mesh* mesh = nullptr;  // null: the shape is another
     };
-    LambertianShape lambertian(const Shape& shape, const Needs& needs) const;
+    ColumnShape column_shape(const Shape& shape, const Needs& needs) const;
     void on_mesh(const Needs& needs, SurfacePoint& point) const;
     /// Adds what textures, grooves and bumps need.
     void dress(const Mesh& mesh, const Needs& needs, SurfacePoint& point) const;
@@ -77,7 +87,7 @@ private:
     const SceneData& data_;
     Materials materials_;
     std::vector<Needs> needs_;  // by shape
-    std::vector<LambertianShape> lambertian_;
+    std::vector<ColumnShape> column_shapes_;
     std::vector<std::unique_ptr<const PlacedQuadric>> quadrics_;  // by shape
 };
 

@@ -1,0 +1,178 @@
+#include "core/scene/surfaces/glossy_surfaces.hpp"
+
+#include "core/scene/direct_light.hpp"
+#include "core/scene/surfaces/looking_up.hpp"
+
+namespace lightnet {
+
+// As value_of_any() and sample_of_any() of Bsdf begin.
+template <class Columns>
+struct GlossySurfaces<Columns>::Facing {
+    GlossySurfaces& at;
+
+    [[gnu::always_inline]] void work() {
+        for (std::size_t i = 0; i < at.count_; ++i) {
+            const Vec3 outgoing = at.outgoing_[i], normal = at.normal_[i], shading = at.shading_[i];
+            const float seen = dot(outgoing, normal);
+            const float side = seen > 0 ? 1 : 0, shading_side = dot(outgoing, shading) > 0 ? 1 : 0;
+            const bool agree = side == shading_side;
+            const Frame frame = Frame::around({agree ? shading.x : normal.x, agree ? shading.y : normal.y,
+                                               agree ? shading.z : normal.z});
+            const Vec3 local = frame.to_local(outgoing);
+            at.across_.set(i, frame.x);
+            at.along_.set(i, frame.y);
+            at.up_.set(i, frame.z);
+            at.seen_.set(i, {local.x, local.y, local.z < 0 ? -local.z : local.z});
+            at.turned_[i] = local.z < 0;
+            at.dark_[i] = ((at.one_sided_[i] != 0) & (seen <= 0)) | (local.z == 0);
+        }
+    }
+};
+
+template <class Columns>
+void GlossySurfaces<Columns>::find_bsdfs() {
+    using Model = typename Columns::Model;
+    std::array<std::size_t, lanes> textured;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < size(); ++i) {
+        if (const Bsdf::Model* model = shapes_[i]->model)
+            columns_.set(i, *std::get_if<Model>(model));
+        else
+            textured[count++] = i;
+    }
+    look_up(std::span(textured).first(count), [&](std::size_t i, const TexturePlace& place) {
+        columns_.set(i, shapes_[i]->shading->template model<Model>(hits_[i].geometry, place));
+    });
+    Facing facing{*this};
+    work_in_lanes(facing);
+    for (std::size_t i = 0; i < size(); ++i) columns_.see(i, seen_.z[i], lobes_[i]);
+}
+
+template <class Columns>
+Bsdf GlossySurfaces<Columns>::bsdf(std::size_t i) const {
+    Bsdf bsdf(Frame::around(shading_[i]), normal_[i], columns_.model(i));
+    if (one_sided_[i]) bsdf.make_one_sided();
+    return bsdf;
+}
+
+template <class Columns>
+LitPoint GlossySurfaces<Columns>::lit_point(std::size_t i) const {
+    return columns_.has_gloss(i) ? LitPoint(position_[i])
+                                 : lightnet::lit_point(position_[i], normal_[i], outgoing_[i]);
+}
+
+// As value_of_any() of Bsdf goes on.
+template <class Columns>
+struct GlossySurfaces<Columns>::Arriving {
+    GlossySurfaces& at;
+    const LightSamples& lamps;
+
+    [[gnu::always_inline]] void work() {
+        for (std::size_t i = 0; i < at.count_; ++i) {
+            const Vec3 direction = lamps.direction[i];
+            const Vec3 local = Frame{at.across_[i], at.along_[i], at.up_[i]}.to_local(direction);
+            const float side = local.z > 0 ? 1 : 0, true_side = dot(direction, at.normal_[i]) > 0 ? 1 : 0;
+            const float height = at.turned_[i] != 0 ? -local.z : local.z;
+            at.lit_.set(i, {local.x, local.y, height});
+            at.leaks_[i] = (side != true_side) | (height <= 0) | (at.dark_[i] != 0);
+        }
+    }
+};
+
+// As ray_to_lamp().
+template <class Columns>
+struct GlossySurfaces<Columns>::Looking {
+    GlossySurfaces& at;
+    const LightSamples& lamps;
+    bool by_power;
+
+    [[gnu::always_inline]] void work() {
+        for (std::size_t i = 0; i < at.count_; ++i) {
+            const Vec3 position = at.position_[i], normal = at.normal_[i], direction = lamps.direction[i];
+            const BsdfValue found = at.columns_.value(i, at.seen_[i], at.lit_[i]);
+            const bool dark = at.leaks_[i] != 0;
+            const Rgb value{dark ? 0 : found.value.r, dark ? 0 : found.value.g, dark ? 0 : found.value.b};
+            const float pdf = dark ? 0 : found.pdf;
+            const float power = share(Heuristic::power, lamps.pdf[i], pdf);
+            const float balance = share(Heuristic::balance, lamps.pdf[i], pdf);
+            const float shared = by_power ? power : balance, part = lamps.bare[i] != 0 ? 1 : shared;
+            const Rgb radiance{lamps.radiance.x[i], lamps.radiance.y[i], lamps.radiance.z[i]};
+            const Rgb arriving = value * radiance * (part / lamps.pdf[i]);
+            const Vec3 origin = off_surface(position, normal, at.offset_[i], direction);
+            const Ray near = ray_between(origin, lamps.position[i], direction);
+            const bool infinite = lamps.from_infinity[i] != 0;
+            at.rays_.origin.set(i, origin);
+            at.rays_.direction.set(
+                i, {infinite ? direction.x : near.direction.x, infinite ? direction.y : near.direction.y,
+                    infinite ? direction.z : near.direction.z});
+            at.rays_.far[i] = infinite ? Ray().far : near.far;
+            at.rays_.light.set(i, {arriving.r, arriving.g, arriving.b});
+            at.rays_.group[i] = lamps.group[i];
+            at.rays_.found[i] = lamps.found[i] & ((value.r != 0) | (value.g != 0) | (value.b != 0));
+        }
+    }
+};
+
+template <class Columns>
+const RaysToLamp& GlossySurfaces<Columns>::look_at(const LightSamples& lamps, bool by_power) {
+    Arriving arriving{*this, lamps};
+    work_in_lanes(arriving);
+    for (std::size_t i = 0; i < size(); ++i) columns_.arrive(i, lit_.z[i]);
+    Looking looking{*this, lamps, by_power};
+    work_in_lanes(looking);
+    return rays_;
+}
+
+template <class Columns>
+struct GlossySurfaces<Columns>::Proposing {
+    GlossySurfaces& at;
+
+    [[gnu::always_inline]] void work() {
+        for (std::size_t i = 0; i < at.count_; ++i) {
+            const Proposal proposal = at.columns_.propose(i, at.seen_[i], at.choices_[i], at.numbers_[i]);
+            at.lit_.set(i, proposal.incoming);
+            at.proposed_[i] = proposal.lobe;
+        }
+    }
+};
+
+// As sample_of_any() of Bsdf, and the models' sample(), end.
+template <class Columns>
+struct GlossySurfaces<Columns>::Finishing {
+    GlossySurfaces& at;
+
+    [[gnu::always_inline]] void work() {
+        for (std::size_t i = 0; i < at.count_; ++i) {
+            const Vec3 incoming = at.lit_[i];
+            const bool specular = at.proposed_[i] == lobe::specular;
+            const BsdfValue found = at.columns_.value(i, at.seen_[i], incoming);
+            const Rgb rough = found.value / found.pdf, smooth = at.columns_.specular_weight(i);
+            const float height = at.turned_[i] != 0 ? -incoming.z : incoming.z;
+            const Frame frame{at.across_[i], at.along_[i], at.up_[i]};
+            const Vec3 direction = normalize(frame.to_world({incoming.x, incoming.y, height}));
+            const float side = height > 0 ? 1 : 0, true_side = dot(direction, at.normal_[i]) > 0 ? 1 : 0;
+            at.steps_.incoming.set(i, direction);
+            at.steps_.weight.set(i, {specular ? smooth.r : rough.r, specular ? smooth.g : rough.g,
+                                     specular ? smooth.b : rough.b});
+            at.steps_.pdf[i] = specular ? 0 : found.pdf;
+            at.steps_.lobe[i] = at.proposed_[i];
+            at.steps_.found[i] = (specular | ((incoming.z > 0) & (found.pdf > 0))) & (side == true_side) &
+                                 (at.dark_[i] == 0);
+        }
+    }
+};
+
+template <class Columns>
+const typename GlossySurfaces<Columns>::Steps& GlossySurfaces<Columns>::sample() {
+    Proposing proposing{*this};
+    work_in_lanes(proposing);
+    for (std::size_t i = 0; i < size(); ++i) columns_.arrive(i, lit_.z[i]);
+    Finishing finishing{*this};
+    work_in_lanes(finishing);
+    return steps_;
+}
+
+template class GlossySurfaces<CoatedColumns>;
+template class GlossySurfaces<MetalColumns>;
+
+}  // namespace lightnet

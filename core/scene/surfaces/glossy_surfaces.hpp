@@ -1,0 +1,74 @@
+// Surfaces with gloss, many at once.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/scene/bsdf/bsdf.hpp"
+#include "core/scene/bsdf/glossy_columns.hpp"
+#include "core/scene/lamps/lit_point.hpp"
+#include "core/scene/surfaces/light_sample.hpp"
+#include "core/scene/surfaces/mesh_points.hpp"
+
+namespace lightnet {
+
+/// Points of one model with gloss (CoatedColumns, MetalColumns), which is shaded in columns as LambertianSurfaces are:
+/// what each is told is what it would be told alone, to the bit.
+template <class Columns>
+class GlossySurfaces : public MeshPoints {
+public:
+    /// Adds the point of a hit on `shape`, seen from `outgoing`; there is room for it. `who`: the caller's. Only these
+    /// `lobes` count: all rough ones, and maybe specular ones.
+    void add(std::uint32_t who, const ColumnShape& shape, const Hit& hit, Vec3 outgoing, std::uint8_t lobes) {
+        lobes_[size()] = lobes;
+        add_point(who, shape, hit, outgoing);
+    }
+    void find_points() { find_places(); }
+    /// How they scatter: before anything of the following is asked.
+    void find_bsdfs();
+
+    Bsdf bsdf(std::size_t i) const;
+    std::uint8_t lobes(std::size_t i) const { return lobes_[i]; }
+    LitPoint lit_point(std::size_t i) const;
+
+    /// Does sample() look at choices?
+    static constexpr bool chooses = Columns::Model::chooses;
+    void set_choice(std::size_t i, float choice) { choices_[i] = choice; }
+    /// What Bsdf::sample() gives for each, by set_numbers() and set_choice().
+    struct Steps {
+        Columns3 incoming, weight;
+        Column pdf;
+        Flags found, lobe;
+    };
+    const Steps& sample();
+    /// What was drawn last.
+    const Steps& steps() const { return steps_; }
+
+    /// What ray_to_lamp() gives for each, of lamps that were sampled for it.
+    const RaysToLamp& look_at(const LightSamples& lamps, bool by_power);
+
+private:
+    struct Facing;
+    struct Arriving;
+    struct Looking;
+    struct Proposing;
+    struct Finishing;
+
+    std::array<std::uint8_t, lanes> lobes_;
+    Columns columns_;
+    Columns3 across_, along_, up_;  // the frame of each
+    Columns3 seen_;                 // outgoing, in it; z above 0
+    Flags turned_, dark_;           // it is seen from below; nothing is seen of it
+    Columns3 lit_;                  // where light comes from, in the frame; z as that of seen_
+    Flags leaks_;                   // of that light nothing arrives
+    Column choices_;
+    Flags proposed_;
+    Steps steps_;
+};
+
+extern template class GlossySurfaces<CoatedColumns>;
+extern template class GlossySurfaces<MetalColumns>;
+using CoatedSurfaces = GlossySurfaces<CoatedColumns>;
+using MetalSurfaces = GlossySurfaces<MetalColumns>;
+
+}  // namespace lightnet

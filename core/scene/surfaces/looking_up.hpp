@@ -1,0 +1,25 @@
+// Textures of many points.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "core/scene/surfaces/mesh_points.hpp"
+#include "core/scene/surfaces/shading.hpp"
+
+namespace lightnet {
+
+// What is read of pictures is fetched for all before it is read for the first: the memory is waited for but once.
+template <class Look>
+void MeshPoints::look_up(std::span<const std::size_t> which, Look&& look) const {
+    std::array<TexturePlace, lanes> places;
+    for (std::size_t k = 0; k < which.size(); ++k) {
+        const Hit& hit = hits_[which[k]];
+        const Shading& shading = *shapes_[which[k]]->shading;
+        places[k] = shading.place(hit.geometry, hit.primitive, hit.u, hit.v);
+        shading.expect_pictures(hit.geometry, places[k].uv);
+    }
+    for (std::size_t k = 0; k < which.size(); ++k) look(which[k], places[k]);
+}
+
+}  // namespace lightnet

@@ -1,0 +1,40 @@
+#include "core/scene/surfaces/mesh_points.hpp"
+
+namespace lightnet {
+
+// As Shading::on_mesh().
+struct MeshPoints::Places {
+    MeshPoints& all;
+
+    [[gnu::always_inline]] void work() {
+        for (std::size_t i = 0; i < all.count_; ++i) {
+            const Corners at{all.a_[i], all.b_[i], all.c_[i]};
+            const Vec3 p = on_triangle(at, all.u_[i], all.v_[i]);
+            const Vec3 n = geometric_normal(at, all.towards_[i], all.flip_[i] != 0);
+            all.position_.set(i, p);
+            all.normal_.set(i, n);
+            all.offset_[i] = offset_at(p, all.least_offset_[i]);
+            all.shading_.set(i, shading_normal(all.interpolated_[i], n));
+        }
+    }
+};
+
+void MeshPoints::find_places() {
+    Places places{*this};
+    work_in_lanes(places);
+}
+
+SurfacePoint MeshPoints::point(std::size_t i) const {
+    SurfacePoint point;
+    point.position = position_[i];
+    point.normal = normal_[i];
+    point.shading = Frame::around(shading_[i]);
+    point.offset = offset_[i];
+    point.geometry = hits_[i].geometry;
+    point.primitive = hits_[i].primitive;
+    point.u = u_[i];
+    point.v = v_[i];
+    return point;
+}
+
+}  // namespace lightnet

@@ -1,0 +1,112 @@
+// Points of meshes, many at once.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "core/base/math/columns.hpp"
+#include "core/scene/surfaces/column_shape.hpp"
+#include "core/scene/surfaces/ray.hpp"
+#include "core/scene/surfaces/surface.hpp"
+#include "core/scene/surfaces/triangle.hpp"
+
+namespace lightnet {
+
+/// Shadow rays of many points: what ray_to_lamp() gives for each.
+struct RaysToLamp {
+    Columns3 origin, direction, light;
+    Column far;
+    Flags found, group;
+    Column lamp_pdf, pdf;  // where the light is whole: of the lamp, and of the surface
+    Flags bare;            // the same: no ray can meet the lamp
+};
+
+/// Points as a structure of arrays: each coordinate has a column of its own, for vectors of the processor (SIMD). They
+/// are put there once and stay: all is worked out in loops without a branch, by the formulas of one point alone, to the
+/// bit.
+class MeshPoints {
+public:
+    std::size_t size() const { return count_; }
+    bool full() const { return count_ == lanes; }
+    void clear() { count_ = 0; }
+
+    std::uint32_t who(std::size_t i) const { return who_[i]; }
+    /// May it be on a lamp?
+    bool shines(std::size_t i) const { return shapes_[i]->shines; }
+    Vec3 position(std::size_t i) const { return position_[i]; }
+    Vec3 normal(std::size_t i) const { return normal_[i]; }
+    Vec3 shading(std::size_t i) const { return shading_[i]; }
+    Vec3 outgoing(std::size_t i) const { return outgoing_[i]; }
+    /// As of one alone; but the point knows nothing of textures.
+    SurfacePoint point(std::size_t i) const;
+
+    /// The random numbers that are used next.
+    void set_numbers(std::size_t i, Vec2 u) { numbers_.set(i, u); }
+    Vec2 numbers(std::size_t i) const { return numbers_[i]; }
+
+    Ray ray_from(std::size_t i, Vec3 direction) const {
+        return {off_surface(position_[i], normal_[i], offset_[i], direction), direction};
+    }
+    /// What was found last.
+    const RaysToLamp& rays_to_lamp() const { return rays_; }
+
+protected:
+    /// Adds the point of a hit on `shape`, seen from `outgoing`; there is room for it. `who`: the caller's.
+    void add_point(std::uint32_t who, const ColumnShape& shape, const Hit& hit, Vec3 outgoing);
+    /// Works out where the points are, and how they are turned.
+    void find_places();
+    /// What holds for the points with these indices is not the same all over their shapes: look(i, place) of each, when
+    /// what it reads of pictures has been fetched for all.
+    template <class Look>
+    void look_up(std::span<const std::size_t> which, Look&& look) const;
+
+    // All in one place, so that the compiler sees that no column is another.
+
+    std::size_t count_ = 0;
+    std::array<std::uint32_t, lanes> who_;
+    std::array<const ColumnShape*, lanes> shapes_;
+    std::array<Hit, lanes> hits_;
+    Columns3 a_, b_, c_;  // corners
+    Column u_, v_, least_offset_;
+    Columns3 interpolated_, towards_;  // shading normals: there, and their sum over the corners; nothing: it has none
+    Flags flip_, one_sided_;
+    Columns3 outgoing_;
+
+    Columns3 position_, normal_, shading_;
+    Column offset_;
+    Columns2 numbers_;
+    RaysToLamp rays_;
+
+private:
+    struct Places;
+};
+
+inline void MeshPoints::add_point(std::uint32_t who, const ColumnShape& shape, const Hit& hit, Vec3 outgoing) {
+    const std::size_t to = count_++;
+    const Mesh& mesh = *shape.mesh;
+    const auto [i, j, k] = mesh.triangles[hit.primitive];
+    who_[to] = who;
+    shapes_[to] = &shape;
+    hits_[to] = hit;
+    a_.set(to, mesh.positions[i]);
+    b_.set(to, mesh.positions[j]);
+    c_.set(to, mesh.positions[k]);
+    u_[to] = hit.u;
+    v_[to] = hit.v;
+    least_offset_[to] = shape.least_offset;
+    one_sided_[to] = shape.one_sided;
+    outgoing_.set(to, outgoing);
+    if (mesh.normals.empty()) {
+        interpolated_.set(to, {});
+        towards_.set(to, {});
+        flip_[to] = mesh.flip_normals;
+        return;
+    }
+    const Corners normals{mesh.normals[i], mesh.normals[j], mesh.normals[k]};
+    interpolated_.set(to, on_triangle(normals, hit.u, hit.v));
+    towards_.set(to, normals.a + normals.b + normals.c);
+    flip_[to] = 0;
+}
+
+}  // namespace lightnet
