@@ -8,23 +8,9 @@
 
 #include "core/base/math/rgb.hpp"
 #include "core/scene/scene.hpp"
+#include "core/scene/surfaces/heuristic.hpp"
 
 namespace lightnet {
-
-/// How two sampling techniques share the light that both find: multiple importance sampling. Veach 1997, section 9.2.
-/// Or not at all: all of it is found by points on lamps, or by directions from the BSDF, but for what the other alone
-/// can find. That is for comparison, as either is noisy where the other is good.
-enum class Heuristic { balance, power, lamps, directions };
-
-/// Do both techniques find the same light?
-constexpr bool shares(Heuristic heuristic) { return heuristic == Heuristic::balance || heuristic == Heuristic::power; }
-
-/// Weight of the technique with density `mine`, when `other` is the density of the other one, and both share.
-inline float share(Heuristic heuristic, float mine, float other) {
-    const float ratio = other / mine;
-    const float part = 1 / (1 + (heuristic == Heuristic::power ? ratio * ratio : ratio));
-    return other == 0 ? 1 : part;
-}
 
 /// What is left of light after that distance in something that absorbs: Beer and Lambert's law. `absorption` per metre,
 /// null: nothing absorbs. What has no end, as behind a solid that has a hole, absorbs nothing.

@@ -19,7 +19,8 @@ namespace {
 
 using namespace test;
 
-constexpr std::size_t many = 1000;  // not a multiple of anything
+constexpr std::uint32_t flake = 10;    // which shape of everything() has no area
+constexpr std::size_t many = 2000;  // not a multiple of anything
 
 auto parts(const Frame& f) { return std::tuple(f.x, f.y, f.z); }
 auto parts(const Ray& r) { return std::tuple(r.origin, r.direction, r.far); }
@@ -46,7 +47,7 @@ Mesh waves() {
 }
 
 // Meshes with and without normals, flipped ones, ones with textures and vertex colours, triangles without area, balls
-// and instances; surfaces that are diffuse, black from behind, mirrors, glass and blends.
+// and instances; surfaces that are diffuse, coated, black from behind, metals, mirrors, glass and blends.
 SceneData everything() {
     SceneData data;
     const auto grey = diffuse(data, 0.5f), steel = mirror(data, 0.8f);
@@ -59,6 +60,29 @@ SceneData everything() {
     data.textures.emplace_back().pattern = VertexColour{};
     const auto painted = material(data, DiffuseMaterial{TextureId(data.textures.size() - 1)});
 
+    const TextureId paint(data.textures.size() - 1);
+    const auto raised = [](float by) {
+        Mesh mesh = waves();
+        for (Vec3& p : mesh.positions) {
+            p.z += by;
+            mesh.colours.push_back({std::fabs(p.x) / 3, 0.5f, std::fabs(p.y) / 3});
+        }
+        return mesh;
+    };
+    const Roughness satin{0.3f, 0.3f}, grooved{0.3f, 0.1f};
+    Roughness by_beckmann = satin, apart = satin;
+    by_beckmann.law.normals = FacetLaw::Normals::beckmann;
+    apart.law.masking = FacetLaw::Masking::independent;
+    const auto eta = colour(data, {0.2f, 0.9f, 1.5f}), k = colour(data, {3.9f, 2.4f, 1.9f});
+    add(data, raised(-2), material(data, CoatedDiffuseMaterial{colour(data, {0.7f, 0.5f, 0.1f}), 1.5f, satin}));
+    add(data, raised(1.5f), material(data, CoatedDiffuseMaterial{paint, 1.7f, apart, paint, false, {0.1f, 5}}));
+    add(data, raised(-1.5f), material(data, CoatedDiffuseMaterial{paint, 1.4f, {}}));
+    add(data, raised(2), material(data, CoatedDiffuseMaterial{paint, 1.4f, by_beckmann}));
+    const auto copper = material(data, ConductorMaterial{{eta, k}, satin});
+    data.materials[copper].one_sided = true;
+    add(data, raised(0.5f), copper);
+    add(data, raised(-0.5f), material(data, ConductorMaterial{{eta, k}, apart, paint}));
+    add(data, raised(2.5f), material(data, ConductorMaterial{{eta, k}, grooved}));
     add(data, waves(), brown);
     Mesh flat = waves();
     flat.normals.clear();
@@ -72,8 +96,8 @@ SceneData everything() {
         bright.uvs.push_back({p.x, p.y});
     }
     add(data, bright, painted);
-    Mesh flake = quad({0, 0, -3}, {0, 0, 0}, {2, 0, 0});  // no area
-    add(data, flake, grey);
+    Mesh nothing = quad({0, 0, -3}, {0, 0, 0}, {2, 0, 0});  // no area
+    add(data, nothing, grey);
     add(data, ball({1, 2, 0}, 0.7f), brown);
     add(data, ball({-1, 1, 0}, 0.5f), glass);
     add(data, quad({-3, -3, 2}, {6, 0, 0}, {0, 6, 0}), blend);
@@ -94,7 +118,7 @@ std::vector<Hit> some_hits(const Scene& scene) {
         const Vec3 origin = somewhere(samples);
         if (const auto hit = scene.intersect({origin, sphere(samples.next_2d())})) hits.push_back(*hit);
     }
-    hits[many / 2] = {Query::no_instance, 3, 0, 0.25f, 0.5f, 1};  // no ray meets the flake
+    hits[many / 2] = {Query::no_instance, flake, 0, 0.25f, 0.5f, 1};  // no ray meets the flake
     return hits;
 }
 
@@ -120,8 +144,8 @@ std::size_t each_plain(const Scene& scene, With&& with) {
         plain = {};
     };
     for (std::uint32_t i = 0; i < many; ++i) {
-        const LambertianShape& shape = scene.lambertian_shapes()[hits[i].geometry];
-        if (!shape.mesh || hits[i].instance != Query::no_instance) continue;
+        const ColumnShape& shape = scene.column_shapes()[hits[i].geometry];
+        if (shape.kind != ColumnShape::Kind::lambertian || hits[i].instance != Query::no_instance) continue;
         Samples samples(8, i);
         plain.points.push_back(scene.surface(hits[i]));
         plain.bsdfs.push_back(scene.bsdf(plain.points.back()));
@@ -157,6 +181,16 @@ TEST(Many, PointsAreThoseOfOne) {
     EXPECT_GT(black_behind, 20u);
 }
 
+TEST(Many, ShapesAreSortedByWhatTheyAre) {
+    using Kind = ColumnShape::Kind;
+    std::vector<Kind> kinds;
+    const Scene scene(everything());
+    for (const ColumnShape& shape : scene.column_shapes()) kinds.push_back(shape.kind);
+    kinds.resize(flake + 1);
+    EXPECT_EQ(kinds, (std::vector{Kind::coated, Kind::coated, Kind::coated, Kind::none, Kind::metal, Kind::metal,
+                                  Kind::none, Kind::lambertian, Kind::lambertian, Kind::lambertian, Kind::lambertian}));
+}
+
 // Whatever is more than an ideal diffuse mesh is worked out alone.
 TEST(Many, WhatIsNotPlainIsLeftOut) {
     const auto is_lambertian = [](auto&& change) {
@@ -164,7 +198,7 @@ TEST(Many, WhatIsNotPlainIsLeftOut) {
         const auto grey = diffuse(data, 0.5f);
         add(data, waves(), grey);
         change(data);
-        return Scene(std::move(data)).lambertian_shapes()[0].mesh != nullptr;
+        return Scene(std::move(data)).column_shapes()[0].kind == ColumnShape::Kind::lambertian;
     };
     EXPECT_TRUE(is_lambertian([](SceneData&) {}));
     EXPECT_TRUE(is_lambertian([](SceneData& d) { d.materials[0].one_sided = true; }));
@@ -324,13 +358,13 @@ TEST(Many, StopsTellEachWalkWhatOneIsTold) {
         };
         for (std::uint32_t i = 0; i < many; ++i) {
             Samples samples(9, i);
-            Walk walk{hits[i], sphere(samples.next_2d()), i % 7 ? lobe::all : lobe::specular,
+            Walk walk{hits[i], sphere(samples.next_2d()), i % 7 == 0 ? lobe::specular : i % 5 == 0 ? lobe::rough : lobe::all,
                       i % 11 ? nullptr : &absorption, samples.next()};
             vertices.add(std::uint32_t(walks.size()), walk.hit, walk.outgoing, walk.lobes, walk.inside);
             walks.push_back(walk);
             numbers.push_back(samples.next_2d());
             if (i % 3 == 0 && !vertices.full()) {
-                vertices.add_again(std::uint32_t(walks.size()), walk.hit, walk.outgoing);
+                vertices.add_again(std::uint32_t(walks.size()), walk.hit, walk.outgoing, walk.lobes);
                 walks.push_back(walk);
                 numbers.push_back(samples.next_2d());
             }

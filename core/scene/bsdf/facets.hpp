@@ -17,7 +17,7 @@ struct Facets {
 
 /// Both directions lie above the surface.
 template <class Law>
-inline Facets reflection(const FacetsOf<Law>& facets, Vec3 outgoing, Vec3 incoming) {
+[[gnu::always_inline]] inline Facets reflection(const FacetsOf<Law>& facets, Vec3 outgoing, Vec3 incoming) {
     const Vec3 m = normalize(outgoing + incoming);
     const float cosine = dot(outgoing, m);
     const float both = facets.density(m) / (4 * outgoing.z);

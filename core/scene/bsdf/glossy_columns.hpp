@@ -28,7 +28,7 @@ struct FacetColumns {
     }
     FacetsOf<GgxLaw> at(std::size_t i) const { return {alpha_u[i], alpha_v[i], by_height[i] != 0}; }
     /// Where facets that are seen from `outgoing` reflect it to.
-    Vec3 reflected(std::size_t i, Vec3 outgoing, Vec2 u) const {
+    [[gnu::always_inline]] Vec3 reflected(std::size_t i, Vec3 outgoing, Vec2 u) const {
         return normalize(reflect(outgoing, at(i).sample_visible(outgoing, u)));
     }
 };
@@ -65,7 +65,7 @@ struct CoatedColumns {
     void arrive(std::size_t i, float incoming) {
         passed_in_[i] = models_[i].coat->transmittance(models_[i].facets, incoming);
     }
-    BsdfValue value(std::size_t i, Vec3 outgoing, Vec3 incoming) const {
+    [[gnu::always_inline]] BsdfValue value(std::size_t i, Vec3 outgoing, Vec3 incoming) const {
         const Rgb reflectance{base_.x[i], base_.y[i], base_.z[i]}, tint{tint_.x[i], tint_.y[i], tint_.z[i]};
         const float eta = eta_[i], chance = chance_[i];
         const Rgb base = coated_base(reflectance, passed_out_[i] * passed_in_[i] / (eta * eta), incoming.z);
@@ -76,7 +76,7 @@ struct CoatedColumns {
         return {{smooth ? base.r : both.r, smooth ? base.g : both.g, smooth ? base.b : both.b},
                 smooth ? base_pdf : base_pdf + chance * pdf};
     }
-    Proposal propose(std::size_t i, Vec3 outgoing, float choice, Vec2 u) const {
+    [[gnu::always_inline]] Proposal propose(std::size_t i, Vec3 outgoing, float choice, Vec2 u) const {
         const Vec3 by_base = cosine_hemisphere(u), by_facets = facets_.reflected(i, outgoing, u);
         const bool base = choice >= chance_[i], smooth = smooth_[i] != 0;
         const Vec3 by_coat{smooth ? -outgoing.x : by_facets.x, smooth ? -outgoing.y : by_facets.y,
@@ -113,14 +113,14 @@ struct MetalColumns {
         tint_.set(i, {model.tint.r, model.tint.g, model.tint.b});
     }
     void arrive(std::size_t, float) const {}
-    BsdfValue value(std::size_t i, Vec3 outgoing, Vec3 incoming) const {
+    [[gnu::always_inline]] BsdfValue value(std::size_t i, Vec3 outgoing, Vec3 incoming) const {
         const auto [value, pdf, cosine] = reflection(facets_.at(i), outgoing, incoming);
         const Rgb tint{tint_.x[i], tint_.y[i], tint_.z[i]};
         const Rgb reflected{fresnel_conductor(cosine, eta_.x[i], k_.x[i]), fresnel_conductor(cosine, eta_.y[i], k_.y[i]),
                             fresnel_conductor(cosine, eta_.z[i], k_.z[i])};
         return {tint * reflected * value, pdf};
     }
-    Proposal propose(std::size_t i, Vec3 outgoing, float, Vec2 u) const {
+    [[gnu::always_inline]] Proposal propose(std::size_t i, Vec3 outgoing, float, Vec2 u) const {
         return {facets_.reflected(i, outgoing, u), lobe::glossy};
     }
     Rgb specular_weight(std::size_t) const { return {}; }

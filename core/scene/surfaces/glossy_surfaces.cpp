@@ -65,11 +65,10 @@ LitPoint GlossySurfaces<Columns>::lit_point(std::size_t i) const {
 template <class Columns>
 struct GlossySurfaces<Columns>::Arriving {
     GlossySurfaces& at;
-    const LightSamples& lamps;
 
     [[gnu::always_inline]] void work() {
         for (std::size_t i = 0; i < at.count_; ++i) {
-            const Vec3 direction = lamps.direction[i];
+            const Vec3 direction = at.lamps_.direction[i];
             const Vec3 local = Frame{at.across_[i], at.along_[i], at.up_[i]}.to_local(direction);
             const float side = local.z > 0 ? 1 : 0, true_side = dot(direction, at.normal_[i]) > 0 ? 1 : 0;
             const float height = at.turned_[i] != 0 ? -local.z : local.z;
@@ -81,21 +80,19 @@ struct GlossySurfaces<Columns>::Arriving {
 
 // As ray_to_lamp().
 template <class Columns>
+template <Heuristic by>
 struct GlossySurfaces<Columns>::Looking {
     GlossySurfaces& at;
-    const LightSamples& lamps;
-    bool by_power;
 
     [[gnu::always_inline]] void work() {
+        const LightSamples& lamps = at.lamps_;
         for (std::size_t i = 0; i < at.count_; ++i) {
             const Vec3 position = at.position_[i], normal = at.normal_[i], direction = lamps.direction[i];
             const BsdfValue found = at.columns_.value(i, at.seen_[i], at.lit_[i]);
             const bool dark = at.leaks_[i] != 0;
             const Rgb value{dark ? 0 : found.value.r, dark ? 0 : found.value.g, dark ? 0 : found.value.b};
             const float pdf = dark ? 0 : found.pdf;
-            const float power = share(Heuristic::power, lamps.pdf[i], pdf);
-            const float balance = share(Heuristic::balance, lamps.pdf[i], pdf);
-            const float shared = by_power ? power : balance, part = lamps.bare[i] != 0 ? 1 : shared;
+            const float part = lamps.bare[i] != 0 ? 1 : share(by, lamps.pdf[i], pdf);
             const Rgb radiance{lamps.radiance.x[i], lamps.radiance.y[i], lamps.radiance.z[i]};
             const Rgb arriving = value * radiance * (part / lamps.pdf[i]);
             const Vec3 origin = off_surface(position, normal, at.offset_[i], direction);
@@ -115,11 +112,12 @@ struct GlossySurfaces<Columns>::Looking {
 
 template <class Columns>
 const RaysToLamp& GlossySurfaces<Columns>::look_at(const LightSamples& lamps, bool by_power) {
-    Arriving arriving{*this, lamps};
+    lamps_ = lamps;
+    Arriving arriving{*this};
     work_in_lanes(arriving);
     for (std::size_t i = 0; i < size(); ++i) columns_.arrive(i, lit_.z[i]);
-    Looking looking{*this, lamps, by_power};
-    work_in_lanes(looking);
+    const auto work = [](auto looking) { work_in_lanes(looking); };
+    by_power ? work(Looking<Heuristic::power>{*this}) : work(Looking<Heuristic::balance>{*this});
     return rays_;
 }
 
@@ -154,10 +152,8 @@ struct GlossySurfaces<Columns>::Finishing {
             at.steps_.incoming.set(i, direction);
             at.steps_.weight.set(i, {specular ? smooth.r : rough.r, specular ? smooth.g : rough.g,
                                      specular ? smooth.b : rough.b});
-            at.steps_.pdf[i] = specular ? 0 : found.pdf;
-            at.steps_.lobe[i] = at.proposed_[i];
-            at.steps_.found[i] = (specular | ((incoming.z > 0) & (found.pdf > 0))) & (side == true_side) &
-                                 (at.dark_[i] == 0);
+            at.steps_.pdf[i] = found.pdf;
+            at.leaks_[i] = side != true_side;
         }
     }
 };
@@ -169,6 +165,13 @@ const typename GlossySurfaces<Columns>::Steps& GlossySurfaces<Columns>::sample()
     for (std::size_t i = 0; i < size(); ++i) columns_.arrive(i, lit_.z[i]);
     Finishing finishing{*this};
     work_in_lanes(finishing);
+    for (std::size_t i = 0; i < size(); ++i) {  // apart: compilers make no vectors of so many conditions
+        const bool specular = proposed_[i] == lobe::specular;
+        const bool absorbed = !specular && !(lit_.z[i] > 0 && steps_.pdf[i] > 0);
+        steps_.found[i] = !absorbed && !leaks_[i] && !dark_[i];
+        steps_.lobe[i] = proposed_[i];
+        if (specular) steps_.pdf[i] = 0;
+    }
     return steps_;
 }
 

@@ -7,6 +7,7 @@
 #include "core/scene/bsdf/bsdf.hpp"
 #include "core/scene/bsdf/glossy_columns.hpp"
 #include "core/scene/lamps/lit_point.hpp"
+#include "core/scene/surfaces/heuristic.hpp"
 #include "core/scene/surfaces/light_sample.hpp"
 #include "core/scene/surfaces/mesh_points.hpp"
 
@@ -50,12 +51,14 @@ public:
 private:
     struct Facing;
     struct Arriving;
+    template <Heuristic by>
     struct Looking;
     struct Proposing;
     struct Finishing;
 
     std::array<std::uint8_t, lanes> lobes_;
     Columns columns_;
+    LightSamples lamps_;            // those that it looks at: here, so that the compiler sees that they are no column
     Columns3 across_, along_, up_;  // the frame of each
     Columns3 seen_;                 // outgoing, in it; z above 0
     Flags turned_, dark_;           // it is seen from below; nothing is seen of it
