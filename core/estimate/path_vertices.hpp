@@ -31,9 +31,9 @@ public:
     void clear() {
         plain_.clear(), coated_.clear(), metal_.clear();
         points_.clear(), views_.clear(), bsdfs_.clear(), visitors_.clear(), guided_.clear();
-        stops_.clear();
+        stop_count_ = 0;
     }
-    bool full() const { return stops_.size() == lanes; }
+    bool full() const { return stop_count_ == lanes; }
     /// Path `path`, after those added before, has come to a surface, as seen from `outgoing`, through `inside`. Not
     /// when it is full. Only these `lobes` count.
     void add(std::uint32_t path, const Hit& hit, Vec3 outgoing, std::uint8_t lobes, const Rgb* inside) {
@@ -80,8 +80,7 @@ public:
     template <class With>
     void each_that_may_shine(With&& with) const {
         each_group([&](const auto& group) {
-            for (std::size_t i = 0; i < group.size(); ++i)
-                if (group.shines(i)) with(group.who(i), group.point(i));
+            for (const std::uint32_t i : group.shining()) with(group.who(i), group.point(i));
         });
         for (const auto [path, point] : visitors_) with(path, points_[point]);
     }
@@ -186,7 +185,11 @@ public:
         };
         draw(coated_), draw(metal_);
         if (plain_.size() > 0) plain_.sample();
-        for (const auto [kind, i] : stops_) {
+        if (plain_.size() == stop_count_) {  // as in most scenes
+            for (std::size_t i = 0; i < plain_.size(); ++i) go_on_from_plain<guided>(i, on);
+            return;
+        }
+        for (const auto [kind, i] : std::span(stops_).first(stop_count_)) {
             switch (kind) {
                 case Kind::none:
                     go_on_from_visitor<guided>(visitors_[i], directions, choice, on);
@@ -232,7 +235,7 @@ private:
         return alone ? Kind::none : kind;
     }
     void add_to_last(std::uint32_t path, const Hit& hit, Vec3 outgoing, std::uint8_t lobes) {
-        const auto put = [&](const auto& to) { stops_.push_back({last_, static_cast<std::uint32_t>(to.size())}); };
+        const auto put = [&](const auto& to) { stops_[stop_count_++] = {last_, static_cast<std::uint32_t>(to.size())}; };
         switch (last_) {
             case Kind::none:
                 put(visitors_);
@@ -270,7 +273,7 @@ private:
         on(visitor.path, step);
     }
     template <bool guided, class On>
-    void go_on_from_plain(std::size_t i, On&& on) {
+    [[gnu::always_inline]] void go_on_from_plain(std::size_t i, On&& on) {
         const auto& steps = plain_.steps();
         if (steps.pdf[i] == 0) return;
         BsdfSample step{steps.incoming[i], plain_.albedo(i), steps.pdf[i], lobe::diffuse};
@@ -453,8 +456,9 @@ private:
     const LightGuide* guide_;
     std::span<const ColumnShape> shapes_;
     const FlatLamp* only_lamp_;
-    std::vector<Stop> stops_;  // in the order of paths
-    Kind last_ = Kind::none;   // where the last one was put
+    std::size_t stop_count_ = 0;
+    std::array<Stop, lanes> stops_;  // in the order of paths
+    Kind last_ = Kind::none;         // where the last one was put
     LambertianSurfaces plain_;
     CoatedSurfaces coated_;
     MetalSurfaces metal_;

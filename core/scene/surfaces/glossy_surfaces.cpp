@@ -32,15 +32,9 @@ struct GlossySurfaces<Columns>::Facing {
 template <class Columns>
 void GlossySurfaces<Columns>::find_bsdfs() {
     using Model = typename Columns::Model;
-    std::array<std::size_t, lanes> textured;
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < size(); ++i) {
-        if (const Bsdf::Model* model = shapes_[i]->model)
-            columns_.set(i, *std::get_if<Model>(model));
-        else
-            textured[count++] = i;
-    }
-    look_up(std::span(textured).first(count), [&](std::size_t i, const TexturePlace& place) {
+    for (std::size_t i = 0; i < size(); ++i)
+        if (const Bsdf::Model* model = shapes_[i]->model) columns_.set(i, *std::get_if<Model>(model));
+    look_up([&](std::size_t i, const TexturePlace& place) {
         columns_.set(i, shapes_[i]->shading->template model<Model>(hits_[i].geometry, place));
     });
     Facing facing{*this};

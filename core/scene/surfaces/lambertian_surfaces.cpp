@@ -7,11 +7,7 @@ namespace lightnet {
 
 void LambertianSurfaces::find_points() {
     find_places();
-    std::array<std::size_t, lanes> textured;
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < size(); ++i)
-        if (!shapes_[i]->model) textured[count++] = i;
-    look_up(std::span(textured).first(count), [&](std::size_t i, const TexturePlace& place) {
+    if (various_count_ > 0) look_up([&](std::size_t i, const TexturePlace& place) {
         const Rgb albedo = shapes_[i]->shading->albedo(hits_[i].geometry, place);
         albedo_.set(i, {albedo.r, albedo.g, albedo.b});
     });

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <span>
 
 #include "core/scene/surfaces/mesh_points.hpp"
 #include "core/scene/surfaces/shading.hpp"
@@ -11,15 +10,15 @@ namespace lightnet {
 
 // What is read of pictures is fetched for all before it is read for the first: the memory is waited for but once.
 template <class Look>
-void MeshPoints::look_up(std::span<const std::size_t> which, Look&& look) const {
+void MeshPoints::look_up(Look&& look) const {
     std::array<TexturePlace, lanes> places;
-    for (std::size_t k = 0; k < which.size(); ++k) {
-        const Hit& hit = hits_[which[k]];
-        const Shading& shading = *shapes_[which[k]]->shading;
+    for (std::size_t k = 0; k < various_count_; ++k) {
+        const Hit& hit = hits_[various_[k]];
+        const Shading& shading = *shapes_[various_[k]]->shading;
         places[k] = shading.place(hit.geometry, hit.primitive, hit.u, hit.v);
         shading.expect_pictures(hit.geometry, places[k].uv);
     }
-    for (std::size_t k = 0; k < which.size(); ++k) look(which[k], places[k]);
+    for (std::size_t k = 0; k < various_count_; ++k) look(various_[k], places[k]);
 }
 
 }  // namespace lightnet

@@ -29,11 +29,11 @@ class MeshPoints {
 public:
     std::size_t size() const { return count_; }
     bool full() const { return count_ == lanes; }
-    void clear() { count_ = 0; }
+    void clear() { count_ = shining_count_ = various_count_ = 0; }
 
     std::uint32_t who(std::size_t i) const { return who_[i]; }
-    /// May it be on a lamp?
-    bool shines(std::size_t i) const { return shapes_[i]->shines; }
+    /// Those that may be on a lamp.
+    std::span<const std::uint32_t> shining() const { return std::span(shining_).first(shining_count_); }
     Vec3 position(std::size_t i) const { return position_[i]; }
     Vec3 normal(std::size_t i) const { return normal_[i]; }
     Vec3 shading(std::size_t i) const { return shading_[i]; }
@@ -56,15 +56,15 @@ protected:
     void add_point(std::uint32_t who, const ColumnShape& shape, const Hit& hit, Vec3 outgoing);
     /// Works out where the points are, and how they are turned.
     void find_places();
-    /// What holds for the points with these indices is not the same all over their shapes: look(i, place) of each, when
-    /// what it reads of pictures has been fetched for all.
+    /// look(i, place) of each whose shape is not the same everywhere, when what it reads of pictures has been fetched for
+    /// all.
     template <class Look>
-    void look_up(std::span<const std::size_t> which, Look&& look) const;
+    void look_up(Look&& look) const;
 
     // All in one place, so that the compiler sees that no column is another.
 
-    std::size_t count_ = 0;
-    std::array<std::uint32_t, lanes> who_;
+    std::size_t count_ = 0, shining_count_ = 0, various_count_ = 0;
+    std::array<std::uint32_t, lanes> who_, shining_, various_;  // the latter: which, on shapes that have no one model
     std::array<const ColumnShape*, lanes> shapes_;
     std::array<Hit, lanes> hits_;
     Columns3 a_, b_, c_;  // corners
@@ -89,6 +89,8 @@ inline void MeshPoints::add_point(std::uint32_t who, const ColumnShape& shape, c
     who_[to] = who;
     shapes_[to] = &shape;
     hits_[to] = hit;
+    if (shape.shines) shining_[shining_count_++] = static_cast<std::uint32_t>(to);
+    if (!shape.model) various_[various_count_++] = static_cast<std::uint32_t>(to);
     a_.set(to, mesh.positions[i]);
     b_.set(to, mesh.positions[j]);
     c_.set(to, mesh.positions[k]);
