@@ -58,7 +58,6 @@ private:
 
     std::array<std::uint8_t, lanes> lobes_;
     Columns columns_;
-    LightSamples lamps_;            // those that it looks at: here, so that the compiler sees that they are no column
     Columns3 across_, along_, up_;  // the frame of each
     Columns3 seen_;                 // outgoing, in it; z above 0
     Flags turned_, dark_;           // it is seen from below; nothing is seen of it

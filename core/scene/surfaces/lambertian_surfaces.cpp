@@ -47,7 +47,7 @@ const LambertianSurfaces::Steps& LambertianSurfaces::sample() {
 template <LambertianSurfaces::Sharing sharing, bool parallelogram>
 struct LambertianSurfaces::Looking {
     LambertianSurfaces& at;
-    const FlatLamp& lamp;
+    FlatLamp lamp;  // a copy, as the lamps below are: nothing that is written is any of it
 
     // As ray_to_lamp().
     [[gnu::always_inline]] void work() {
@@ -85,10 +85,10 @@ struct LambertianSurfaces::Looking {
 template <LambertianSurfaces::Sharing sharing>
 struct LambertianSurfaces::LookingAtMany {
     LambertianSurfaces& at;
-    const LightSamples& lamps;
 
     // As ray_to_lamp().
     [[gnu::always_inline]] void work() {
+        const LightSamples& lamps = at.lamps_;
         constexpr Heuristic by = sharing == Sharing::by_power ? Heuristic::power : Heuristic::balance;
         for (std::size_t i = 0; i < at.count_; ++i) {
             const Vec3 position = at.position_[i], normal = at.normal_[i], direction = lamps.direction[i];
@@ -134,14 +134,16 @@ const RaysToLamp& LambertianSurfaces::look_at_whole(const FlatLamp& lamp) {
 }
 
 const RaysToLamp& LambertianSurfaces::look_at(const LightSamples& lamps, bool by_power) {
-    LookingAtMany<Sharing::by_power> powered{*this, lamps};
-    LookingAtMany<Sharing::balanced> balanced{*this, lamps};
+    lamps_ = lamps;
+    LookingAtMany<Sharing::by_power> powered{*this};
+    LookingAtMany<Sharing::balanced> balanced{*this};
     by_power ? work_in_lanes(powered) : work_in_lanes(balanced);
     return rays_;
 }
 
 const RaysToLamp& LambertianSurfaces::look_at_whole(const LightSamples& lamps) {
-    LookingAtMany<Sharing::whole> looking{*this, lamps};
+    lamps_ = lamps;
+    LookingAtMany<Sharing::whole> looking{*this};
     work_in_lanes(looking);
     return rays_;
 }

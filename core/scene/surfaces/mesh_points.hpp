@@ -7,6 +7,7 @@
 
 #include "core/base/math/columns.hpp"
 #include "core/scene/surfaces/column_shape.hpp"
+#include "core/scene/surfaces/light_sample.hpp"
 #include "core/scene/surfaces/ray.hpp"
 #include "core/scene/surfaces/surface.hpp"
 #include "core/scene/surfaces/triangle.hpp"
@@ -45,7 +46,7 @@ public:
     void set_numbers(std::size_t i, Vec2 u) { numbers_.set(i, u); }
     Vec2 numbers(std::size_t i) const { return numbers_[i]; }
 
-    Ray ray_from(std::size_t i, Vec3 direction) const {
+    [[gnu::always_inline]] Ray ray_from(std::size_t i, Vec3 direction) const {
         return {off_surface(position_[i], normal_[i], offset_[i], direction), direction};
     }
     /// What was found last.
@@ -76,6 +77,7 @@ protected:
     Columns3 position_, normal_, shading_;
     Column offset_;
     Columns2 numbers_;
+    LightSamples lamps_;  // that are looked at
     RaysToLamp rays_;
 
 private:
