@@ -7,6 +7,5 @@ scene    = Scene          { file }
 direct   = DirectLighting { samples = 1 }
 guide    = Guide          { paths = paths, when = when }
 bounce   = PathTracing    { samples = 1, guide = guide }
-known    = GuideRadiance  { of = guide }
 lighting = Combine        { direct, bounce }
-image    = RayTracer { lighting, show = { known }, scene = scene, samples = samples, film = { width, height, file = "guided.exr" } }
+image    = RayTracer { lighting, scene = scene, samples = samples, film = { width, height, file = "guided.exr" } }

@@ -1,6 +1,8 @@
 // Path guiding: learns beforehand where light comes from, for path tracing.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <span>
 #include <string>
@@ -36,21 +38,19 @@ public:
           keeps_(!here.text("keep").empty()) {}
 
     void prepare(Services& services) override {
-        std::vector<GuideRecord> records = older();
-        const bool goes_on = !records.empty();
-        auto guide = goes_on ? made(services, records) : nullptr;
+        Found found = older();
+        const bool goes_on = !found.empty(), tries = !always_ && !goes_on;
+        auto guide = goes_on ? made(services, found) : nullptr;
         const std::vector<Query> questions = points(services);
-        GuideTrial trial(questions.size());
         bool helps = true;
         for (std::size_t round = 0; round < rounds && helps && !questions.empty(); ++round) {
-            learn(services, {questions, round, guide.get()}, records, trial);
-            if (!always_ && !goes_on && round > 0) helps = trial.gain() >= (round + 1 < rounds ? hopeless : worth_it);
-            guide = made(services, records);
+            found.push_back(learn(services, {questions, round, guide.get()}));
+            if (tries && round > 0) helps = gain(services, found, questions.size()) >= least_gain[round];
+            if (helps) guide = made(services, found);
         }
-        const std::string learnt =
-            std::to_string(records.size()) + " directions in " + std::to_string(guide ? guide->size() : 0) + " places";
-        services.say(learnt + (helps ? "" : ", which help too little: paths go on by surfaces alone"));
-        if (keeps_) keep(services, records);
+        services.say(std::to_string(count_of(found)) + " directions in " + std::to_string(guide ? guide->size() : 0) +
+                     " places" + (helps ? "" : ", which help too little: paths go on by surfaces alone"));
+        if (keeps_) keep(services, found);
         guide_ = helps && guide ? guide : std::make_shared<const LightGuide>();
     }
 
@@ -61,6 +61,7 @@ public:
     Frozen frozen() const override { return Frozen(guide_); }
 
 private:
+    using Found = std::vector<Mapped<GuideRecord>>;  // in each round: directions and, between them, whole paths
     struct Round {
         std::span<const Query> questions;
         std::size_t number;
@@ -76,17 +77,20 @@ private:
         return questions;
     }
 
+    std::size_t first_path(std::size_t round) const {
+        return std::max<std::size_t>(1, paths_ / ((1u << rounds) - 1)) * ((1u << round) - 1);
+    }
+
     /// Follows the paths of one round, on all places.
-    void learn(Services& services, const Round& round, std::vector<GuideRecord>& records, GuideTrial& trial) const {
+    Mapped<GuideRecord> learn(Services& services, const Round& round) const {
         services.doing("follows paths, round " + std::to_string(round.number + 1) + " of " + std::to_string(rounds));
-        const std::size_t unit = std::max<std::size_t>(1, paths_ / ((1u << rounds) - 1));
-        const std::size_t first = unit * ((1u << round.number) - 1), last = unit * ((2u << round.number) - 1);
+        const std::size_t first = first_path(round.number), last = first_path(round.number + 1);
         const auto asked = [&](std::size_t path) {
             Query question = round.questions[path % round.questions.size()];
             question.sample = static_cast<std::uint32_t>(path / round.questions.size());
             return question;
         };
-        const auto found = services.map<GuideRecord>(
+        return services.map<GuideRecord>(
             (last - first + paths_per_shard - 1) / paths_per_shard, [&](std::size_t shard, auto& out) {
                 const std::size_t begin = first + shard * paths_per_shard;
                 std::vector<Query> some;
@@ -97,46 +101,67 @@ private:
                 out.swap(learnt.records);
                 for (const PathRecord& path : learnt.paths) out.push_back(GuideTrial::record_of(path));
             });
-        std::size_t path = first;
-        for (const GuideRecord& record : found) {
-            if (LightGuide::learns_from(record))
-                records.push_back(record);
-            else
-                trial.add(round.number, path++ % round.questions.size(), record);
-        }
     }
 
-    static std::shared_ptr<const LightGuide> made(Services& services, const std::vector<GuideRecord>& records) {
+    /// Of guided paths, by the rounds so far.
+    double gain(Services& services, const Found& found, std::size_t points) const {
+        return *services.once<double>([&] {
+            GuideTrial trial(points);
+            for (std::size_t round = 0; round < found.size(); ++round) {
+                std::size_t path = first_path(round);
+                for (const GuideRecord& record : found[round])
+                    if (!LightGuide::learns_from(record)) trial.add(round, path++ % points, record);
+            }
+            return trial.gain();
+        });
+    }
+
+    static std::shared_ptr<const LightGuide> made(Services& services, const Found& found) {
         services.doing("builds its tree");
-        return services.once<LightGuide>([&](Builders& builders) { return LightGuide(records, builders); });
+        return services.once<LightGuide>([&](Builders& builders) {
+            std::vector<std::span<const GuideRecord>> rounds;
+            for (const auto& round : found) rounds.push_back(round.all());
+            return LightGuide(rounds, builders);
+        });
+    }
+    static std::size_t count_of(const Found& found) {
+        std::size_t count = 0;
+        for (const auto& round : found)
+            count += std::size_t(std::count_if(round.begin(), round.end(), LightGuide::learns_from));
+        return count;
     }
 
     // What an earlier run has kept of the same scene.
-    std::vector<GuideRecord> older() const {
-        if (!kept_) return {};
-        const Mapped<GuideRecord> records(kept_);
+    Found older() const {
+        Found found;
+        if (!kept_) return found;
+        found.emplace_back(kept_);
         const auto wrong = [](const GuideRecord& record) { return !LightGuide::learns_from(record); };
-        if (std::any_of(records.begin(), records.end(), wrong))
+        if (std::any_of(found[0].begin(), found[0].end(), wrong))
             throw Error("'extend' names a file with directions of light that no path can have found");
-        return {records.begin(), records.end()};
+        if (found[0].size() == 0) found.clear();
+        return found;
     }
 
     // The result of the last call is what is kept.
-    static void keep(Services& services, std::span<const GuideRecord> records) {
+    static void keep(Services& services, const Found& found) {
+        std::vector<GuideRecord> records;
+        for (const auto& round : found)
+            std::copy_if(round.begin(), round.end(), std::back_inserter(records), LightGuide::learns_from);
         services.map<GuideRecord>(
             (records.size() + records_per_shard - 1) / records_per_shard, [&](std::size_t shard, auto& out) {
-                const auto some = records.subspan(shard * records_per_shard);
+                const auto some = std::span(records).subspan(shard * records_per_shard);
                 out.assign(some.begin(), some.begin() + std::ptrdiff_t(std::min(some.size(), records_per_shard)));
             });
     }
 
-    static constexpr std::size_t rounds = 3;
+    static constexpr std::size_t rounds = 4;
     static constexpr std::uint32_t coarsest = 8;          // pixels between points of the first rehearsal
     static constexpr std::size_t most_points = 4096;      // at which paths begin
     static constexpr std::size_t paths_per_shard = 1024;  // some ms
     static constexpr std::size_t records_per_shard = 65536;
-    static constexpr double hopeless = 0.5;   // of variance × work without a guide: after the first guided round
-    static constexpr double worth_it = 1.05;  // after the last
+    // How many times less variance × work there must be after each round: a guide that has learnt little helps little.
+    static constexpr std::array<double, rounds> least_gain{0, 0.7, 0.9, 1.1};
 
     Rehearsal& rehearsal_;
     Key key_;

@@ -1,6 +1,7 @@
 // A density over the unit square that has been learnt: where samples of directions go.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -22,8 +23,8 @@ struct SquarePoint {
     float density = 1;
 };
 
-/// A density over the unit square, the same everywhere within each of some cells of equal size.
-/// DECISIONS: guides-are-squares
+/// A density over the unit square, the same everywhere within each of some cells of equal size. In whole numbers of
+/// 16 bits: a guide has many squares, and what is asked of them stays in the cache. DECISIONS: guides-are-squares
 class GuideSquare {
 public:
     static constexpr std::size_t side = 16;  // cells along a side
@@ -33,17 +34,13 @@ public:
     GuideSquare() : GuideSquare(std::vector<double>(cells, 1)) {}
     /// How much lies in each cell, column by column: all of them more than nothing.
     explicit GuideSquare(std::span<const double> parts) {
-        double all = 0, before = 0;
-        for (const double part : parts) all += part;
+        std::array<double, side> columns{};
         for (std::size_t x = 0; x < side; ++x) {
-            double column = 0, below = 0;
-            for (std::size_t y = 0; y < side; ++y) column += parts[x * side + y];
-            columns_[x] = float((before += column) / all);
-            for (std::size_t y = 0; y < side; ++y) {
-                rows_[x][y] = float((below += parts[x * side + y]) / column);
-                density_[x][y] = float(parts[x * side + y] / all * cells);
-            }
+            const auto column = parts.subspan(x * side, side);
+            for (const double part : column) columns[x] += part;
+            rows_[x] = begins_of(column);
         }
+        columns_ = begins_of(columns);
     }
 
     static std::size_t cell_of(Vec2 place) {
@@ -51,32 +48,55 @@ public:
     }
     /// At a place of the square, whose coordinates are below 1.
     float density(Vec2 place) const {
-        return density_[std::size_t(place.x * float(side))][std::size_t(place.y * float(side))];
+        return density(std::size_t(place.x * float(side)), std::size_t(place.y * float(side)));
     }
     /// Takes evenly distributed points to those of the density, well stratified ones to well stratified ones.
     SquarePoint warp(Vec2 u) const {
         const auto [x, across] = found(columns_, u.x);
         const auto [y, up] = found(rows_[x], u.y);
-        return {{(float(x) + across) / float(side), (float(y) + up) / float(side)}, density_[x][y]};
+        return {{(float(x) + across) / float(side), (float(y) + up) / float(side)}, density(x, y)};
     }
 
 private:
-    using Ends = std::array<float, side>;
+    static constexpr std::uint32_t whole = 65536;
+    using Begins = std::array<std::uint16_t, side>;  // of cells, where all of them together are `whole`
     struct Found {
         std::size_t at;
         float part;
     };
+
+    // Each has something, so that no place of the square is never found.
+    static Begins begins_of(std::span<const double> parts) {
+        double all = 0, before = 0;
+        for (const double part : parts) all += part;
+        Begins begins{};
+        for (std::size_t i = 1; i < side; ++i) {
+            before += parts[i - 1];
+            const std::uint32_t least = begins[i - 1] + 1u, most = whole - std::uint32_t(side - i);
+            begins[i] = std::uint16_t(std::clamp(std::uint32_t(before / all * whole + 0.5), least, most));
+        }
+        return begins;
+    }
+    // Of the last one, too: 65536 is 0.
+    static std::uint16_t width(const Begins& begins, std::size_t i) {
+        return std::uint16_t(begins[(i + 1) % side] - begins[i]);
+    }
+    float density(std::size_t x, std::size_t y) const {
+        constexpr float scale = float(cells) / (float(whole) * float(whole));
+        return float(width(columns_, x)) * float(width(rows_[x], y)) * scale;
+    }
     // Without a branch, as where it ends can't be foretold.
-    static Found found(const Ends& ends, float u) {
-        std::uint32_t at = 0;
-        for (std::size_t i = 0; i + 1 < side; ++i) at += u >= ends[i];
-        const float begin = at > 0 ? ends[at - 1] : 0;
-        return {at, std::fmin((u - begin) / (ends[at] - begin), 0x1.ffffp-1f)};
+    static Found found(const Begins& begins, float u) {
+        const float at = u * float(whole);
+        const auto below = std::uint16_t(at);
+        std::uint16_t count = 0;
+        for (std::size_t i = 0; i < side; ++i) count = std::uint16_t(count + (begins[i] <= below));
+        const std::size_t i = (count - 1u) % side;
+        return {i, std::fmin((at - float(begins[i])) / float(width(begins, i)), 0x1.ffffp-1f)};
     }
 
-    Ends columns_;                 // running sums of columns
-    std::array<Ends, side> rows_;  // in each column, of its cells
-    std::array<Ends, side> density_;
+    Begins columns_;
+    std::array<Begins, side> rows_;  // of each column
 };
 
 /// The place of the unit square that disk() takes to this point of the unit disk.
@@ -85,15 +105,19 @@ inline Vec2 from_disk(Vec2 p) {
     const float along = flat ? p.x : p.y, aside = flat ? p.y : p.x;
     const float radius = std::copysign(std::sqrt(p.x * p.x + p.y * p.y), along);
     // arctangent of 0 … 1, as Cephes has it: a few ulps, and the same on every libm
-    const float t = along == 0 ? 0 : std::fabs(aside / along);
+    const float t = std::fabs(aside / (along == 0 ? 1 : along));
     const bool steep = t > 0.41421356f;
-    const float x = steep ? (t - 1) / (t + 1) : t, z = x * x;
+    const float x = (steep ? t - 1 : t) / (steep ? t + 1 : 1), z = x * x;
     const float small =
         (((8.05374449538e-2f * z - 1.38776856032e-1f) * z + 1.99777106478e-1f) * z - 3.33329491539e-1f) * z * x + x;
-    const float angle = steep ? pi / 4 + small : small;
+    const float angle = small + (steep ? pi / 4 : 0);
     const float other = std::copysign(angle * (4 / pi), aside * along) * radius;
-    const auto unit = [](float v) { return std::fmin(std::fmax(0.5f * v + 0.5f, 0.0f), below_one); };
-    return flat ? Vec2{unit(radius), unit(other)} : Vec2{unit(other), unit(radius)};
+    const auto unit = [](float v) {
+        const float from_zero = 0.5f * v + 0.5f, least = from_zero > 0 ? from_zero : 0;
+        return least < below_one ? least : below_one;
+    };
+    const float first = unit(radius), second = unit(other);
+    return {flat ? first : second, flat ? second : first};
 }
 
 }  // namespace lightnet

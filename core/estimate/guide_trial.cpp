@@ -5,22 +5,19 @@
 namespace lightnet {
 namespace {
 
-constexpr double work_of_guide = 1.35;  // per surface, beside paths without one: measured on rooms
+constexpr double work_of_guide = 1.25;  // beside paths without one: measured on rooms
+constexpr double work_before = 2;       // of ray and direct light of the point where a path begins, in surfaces
 constexpr double dark = 0.5;            // of the mean over all points
 
 }  // namespace
 
-GuideRecord GuideTrial::record_of(const PathRecord& path) {
-    GuideRecord record;
-    record.radiance = path.radiance;
-    record.density = path.surfaces + 1;
-    record.turn = LightGuide::turns;
-    return record;
-}
+GuideRecord GuideTrial::record_of(const PathRecord& path) { return GuideRecord(Vec3{path.radiance, path.surfaces, 0}); }
 
 void GuideTrial::add(std::size_t round, std::size_t point, const GuideRecord& path) {
     if (rounds_.size() <= round) rounds_.resize(round + 1);
-    if (point < points_ && path.sound()) rounds_[round].push_back({point, path.radiance, path.density});
+    const auto [radiance, surfaces, nothing] = path.position();
+    const bool sound = path.sound() && radiance >= 0 && surfaces >= 0;
+    if (point < points_ && sound) rounds_[round].push_back({point, radiance, surfaces});
 }
 
 double GuideTrial::gain() const {
@@ -34,12 +31,13 @@ double GuideTrial::gain() const {
         }
     if (!(sum > 0)) return 0;
     const double least = dark * sum / count;
-    const double guided = work_of_guide * cost_of(rounds_.back(), points, least);
-    return guided > 0 ? cost_of(rounds_.front(), points, least) / guided : 0;
+    const double guided = cost_of(rounds_.back(), work_of_guide, points, least);
+    return guided > 0 ? cost_of(rounds_.front(), 1, points, least) / guided : 0;
 }
 
-// Mean square error × surfaces. A path is compared with the others of its point: a bright one must not hide itself.
-double GuideTrial::cost_of(const std::vector<Path>& round, std::span<const Point> points, double least) const {
+// Mean square error × work. A path is compared with the others of its point: a bright one must not hide itself.
+double GuideTrial::cost_of(const std::vector<Path>& round, double work, std::span<const Point> points,
+                           double least) const {
     double squares = 0, surfaces = 0;
     for (const Path& path : round) {
         const Point& point = points[path.point];
@@ -49,7 +47,7 @@ double GuideTrial::cost_of(const std::vector<Path>& round, std::span<const Point
         surfaces += path.surfaces;
     }
     const auto count = double(round.size());
-    return count > 0 ? squares / count * (surfaces / count) : 0;
+    return count > 0 ? squares / count * (work * surfaces / count + work_before) : 0;
 }
 
 }  // namespace lightnet

@@ -20,9 +20,9 @@ public:
     static GuideRecord record_of(const PathRecord& path);
     /// Path of a round that began at that point.
     void add(std::size_t round, std::size_t point, const GuideRecord& path);
-    /// How many times more variance × work there is in the first round than in the last: work as if a guide took as
-    /// much as a third of a surface. Variance is relative to what all paths have found at the same point, on average;
-    /// the darkest points count less. Where nothing was found: 0.
+    /// How many times more variance × work there is in the first round than in the last. A guided surface counts as a
+    /// quarter more work, and every path has its point, whatever guides it. Variance is relative to what all paths have
+    /// found at the same point, on average; the darkest points count less. Where nothing was found: 0.
     double gain() const;
 
 private:
@@ -33,7 +33,7 @@ private:
     struct Point {
         double radiance = 0, paths = 0;
     };
-    double cost_of(const std::vector<Path>& round, std::span<const Point> points, double least) const;
+    double cost_of(const std::vector<Path>& round, double work, std::span<const Point> points, double least) const;
 
     std::size_t points_;
     std::vector<std::vector<Path>> rounds_;

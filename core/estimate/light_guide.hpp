@@ -2,12 +2,16 @@
 #pragma once
 
 #include <array>
+#include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "core/base/math/box.hpp"
+#include "core/base/math/columns.hpp"
 #include "core/base/math/frame.hpp"
 #include "core/base/math/rgb.hpp"
 #include "core/estimate/guide_square.hpp"
@@ -16,23 +20,50 @@
 
 namespace lightnet {
 
-/// Light that a path has found in one direction: what a guide learns from.
-struct GuideRecord {
+/// A direction by which a path has gone on from a surface.
+struct GuideStep {
     Vec3 position;
-    float radiance = 0;                    // that arrived, luminance, W·sr⁻¹·m⁻²
-    float density = 1;                     // with which the direction was sampled, as of its place in the square
-    std::uint32_t turn = 0;                // of the surface: LightGuide::turn_of()
-    std::array<std::uint16_t, 2> place{};  // of the direction: 0 … 65535 of the square
-
-    static std::uint16_t packed(float x) { return static_cast<std::uint16_t>(x * 65536); }
-    Vec2 at() const { return {(float(place[0]) + 0.5f) / 65536, (float(place[1]) + 0.5f) / 65536}; }
-    /// Is it one that a path can have made?
-    bool sound() const {
-        return finite(position) && std::isfinite(radiance) && radiance >= 0 && std::isfinite(density) && density > 0;
-    }
-    friend bool operator==(const GuideRecord&, const GuideRecord&) = default;
+    float density = 1;       // with which the direction was sampled, as of its place in the square
+    std::uint32_t turn = 0;  // of the surface: LightGuide::turn_of()
+    Vec2 place;              // of the direction, in the square
 };
-static_assert(sizeof(GuideRecord) == 28);
+
+/// Light that a path has found in one direction: what a guide learns from. Small, as many travel.
+class GuideRecord {
+public:
+    GuideRecord() = default;
+    /// `radiance`: that arrived, luminance, W·sr⁻¹·m⁻².
+    GuideRecord(const GuideStep& step, float radiance)
+        : position_(step.position),
+          bits_(step.turn << turn_at | packed(step.place.x) << place_bits | packed(step.place.y) |
+                rounded(radiance / step.density) << light_at) {}
+    /// Of another kind, whose three numbers mean something else: no guide learns from it.
+    explicit GuideRecord(Vec3 numbers) : position_(numbers), bits_(strange << turn_at) {}
+
+    Vec3 position() const { return position_; }
+    /// Radiance over density.
+    float light() const { return std::bit_cast<float>((bits_ >> light_at & light_mask) << light_cut); }
+    std::uint32_t turn() const { return bits_ >> turn_at; }
+    Vec2 place() const { return {unpacked(bits_ >> place_bits), unpacked(bits_)}; }
+    /// Is it one that a path can have made?
+    bool sound() const { return finite(position_) && std::isfinite(light()); }
+    friend bool operator==(const GuideRecord&, const GuideRecord&) = default;
+
+private:
+    static constexpr int place_bits = 7, light_at = 2 * place_bits, light_bits = 13, turn_at = light_at + light_bits;
+    static constexpr int light_cut = 31 - light_bits;  // of a float without its sign
+    static constexpr std::uint32_t light_mask = (1u << light_bits) - 1, place_mask = (1u << place_bits) - 1;
+    static constexpr std::uint32_t strange = 31;
+    static std::uint32_t rounded(float light) {
+        return (std::bit_cast<std::uint32_t>(light) + (1u << (light_cut - 1))) >> light_cut & light_mask;
+    }
+    static std::uint32_t packed(float x) { return std::uint32_t(x * (1 << place_bits)) & place_mask; }
+    static float unpacked(std::uint32_t x) { return (float(x & place_mask) + 0.5f) / (1 << place_bits); }
+
+    Vec3 position_;
+    std::uint32_t bits_ = 0;
+};
+static_assert(sizeof(GuideRecord) == 16);
 
 /// A part of the scene's surfaces, and what is known there.
 struct GuideCell {
@@ -50,8 +81,9 @@ struct GuideSide {
 
     /// As Bsdf has it.
     static GuideSide of(Vec3 normal, Vec3 shading, Vec3 outgoing) {
-        const bool front = dot(outgoing, normal) > 0, front_shading = dot(outgoing, shading) > 0;
-        const Vec3 up = front == front_shading ? shading : normal;
+        const float front = dot(outgoing, normal) > 0 ? 1 : 0, front_shading = dot(outgoing, shading) > 0 ? 1 : 0;
+        const bool agree = front == front_shading;
+        const Vec3 up{agree ? shading.x : normal.x, agree ? shading.y : normal.y, agree ? shading.z : normal.z};
         return {up, dot(outgoing, up) < 0};
     }
 };
@@ -101,30 +133,37 @@ private:
 class LightGuide {
 public:
     /// Knows nothing.
-    LightGuide() { roots_.fill(nothing); }
+    LightGuide() { roots_.fill(0); }
     /// Records that it does not learn from are passed over.
-    LightGuide(std::span<const GuideRecord> records, Builders& builders);
+    LightGuide(std::span<const GuideRecord> records, Builders& builders)
+        : LightGuide(std::span<const std::span<const GuideRecord>>(&records, 1), builders) {}
+    /// From several lots of them.
+    LightGuide(std::span<const std::span<const GuideRecord>> lots, Builders& builders);
 
-    static bool learns_from(const GuideRecord& record) { return record.turn < turns && record.sound(); }
+    static bool learns_from(const GuideRecord& record) { return record.turn() < turns && record.sound(); }
 
     /// Sides of surfaces that are turned alike have a tree of their own: within one, frames around their normals turn
     /// without a jump.
     static constexpr std::uint32_t turns = 24;
     static std::uint32_t turn_of(const GuideSide& side) {
+        const auto negative = [](float v) { return std::bit_cast<std::uint32_t>(v) >> 31; };
         const float x = std::fabs(side.up.x), y = std::fabs(side.up.y), z = std::fabs(side.up.z);
-        const std::uint32_t axis = z >= x && z >= y ? 2 : y >= x ? 1 : 0;
-        const bool negative = std::signbit(axis == 2 ? side.up.z : axis == 1 ? side.up.y : side.up.x);
-        return axis * 8 + negative * 4u + std::signbit(side.up.z) * 2u + side.turned;
+        const bool most_z = (z >= x) & (z >= y), most_y = y >= x;
+        const std::uint32_t low = most_y ? 1 : 0, axis = most_z ? 2 : low;
+        const float lower = most_y ? side.up.y : side.up.x, along = most_z ? side.up.z : lower;
+        return axis * 8 + negative(along) * 4 + negative(side.up.z) * 2 + std::uint32_t{side.turned};
     }
 
     /// What is known there; null: nothing.
     const GuideCell* find(Vec3 position, const GuideSide& side) const {
-        const std::uint32_t root = roots_[turn_of(side)];
-        if (root == nothing) return nullptr;
-        const Branch* branch = &branches_[root];
-        while (branch->axis < 3) branch = &branches_[branch->next + (position[branch->axis] >= branch->border)];
-        return &cells_[branch->next];
+        std::uint32_t at = roots_[turn_of(side)];
+        while (branches_[at].next != at)
+            at = branches_[at].next + (position[branches_[at].axis] >= branches_[at].border);
+        return cell_at(at);
     }
+    /// The same of `count` positions, with turn_of() their sides.
+    void find(const Columns3& positions, const Flags& turns, std::size_t count,
+              std::array<const GuideCell*, lanes>& cells) const;
     /// The point as it knows it; `even`: the surface scatters evenly. False: it knows nothing.
     GuidedPoint at(Vec3 position, const GuideSide& side, bool even) const {
         const GuideCell* cell = find(position, side);
@@ -133,16 +172,25 @@ public:
     std::size_t size() const { return cells_.size(); }
 
 private:
+    void learn(std::span<const std::span<GuideRecord>> leaves, Builders& builders);
+
     static constexpr std::uint32_t nothing = 0xffffffffu;
+    // A leaf is followed by itself, so that many may go on together until the last of them has come to its own.
     struct Branch {
-        float border = 0;
-        std::uint32_t axis = 3;  // 3: a leaf
-        std::uint32_t next = 0;  // of the two that follow, or the cell
+        float border = std::numeric_limits<float>::quiet_NaN();  // of a leaf: nothing lies above
+        std::uint32_t axis = 0;
+        std::uint32_t next = 0;        // of the two that follow
+        std::uint32_t cell = nothing;  // of a leaf
     };
+    const GuideCell* cell_at(std::uint32_t branch) const {
+        const std::uint32_t cell = branches_[branch].cell;
+        return cell == nothing ? nullptr : &cells_[cell];
+    }
 
     std::array<std::uint32_t, turns> roots_;
-    std::vector<Branch> branches_;
+    std::vector<Branch> branches_{Branch{}};  // the first: where nothing is known
     std::vector<GuideCell> cells_;
+    int most_cuts_ = 0;
 };
 
 }  // namespace lightnet

@@ -24,8 +24,8 @@ public:
     }
     /// A path goes on in a direction that brings `weight` times the light that it finds. `scattered`: what the surface
     /// scatters of what the guide knows to arrive; below 0: it does not know.
-    void add(std::size_t path, const std::optional<GuideRecord>& record, Rgb weight, float scattered) {
-        lessons_.push_back({path, found_.size(), weight, scattered, record});
+    void add(std::size_t path, const std::optional<GuideStep>& step, Rgb weight, float scattered) {
+        lessons_.push_back({path, found_.size(), weight, scattered, step, 0});
         ++surfaces_[path];
     }
     /// All paths have been at their next surface. Takes what they found there.
@@ -44,7 +44,10 @@ public:
             for (std::size_t i = 0; i < paths_; ++i) later_[i] += found_[round][i];
         }
         for (const Lesson& lesson : lessons_)
-            if (lesson.record && lesson.record->sound()) records.push_back(*lesson.record);
+            if (lesson.step && lesson.radiance >= 0) {
+                records.emplace_back(*lesson.step, lesson.radiance);
+                if (!records.back().sound()) records.pop_back();
+            }
     }
     std::size_t surfaces(std::size_t path) const { return surfaces_[path]; }
 
@@ -53,7 +56,8 @@ private:
         std::size_t path, round;
         Rgb weight;
         float scattered;
-        std::optional<GuideRecord> record;
+        std::optional<GuideStep> step;
+        float radiance;
     };
     void finish(Lesson& lesson) {
         const auto arrived = [&](const Rgb& found) {
@@ -62,9 +66,9 @@ private:
             return luminance({part(found.r, w.r), part(found.g, w.g), part(found.b, w.b)});
         };
         float& scattered = scattered_[lesson.path];
-        if (lesson.record && lesson.round + 1 < found_.size())
-            lesson.record->radiance = scattered < 0 ? arrived(later_[lesson.path])
-                                                    : arrived(found_[lesson.round + 1][lesson.path]) + scattered;
+        if (lesson.round + 1 < found_.size())
+            lesson.radiance = scattered < 0 ? arrived(later_[lesson.path])
+                                            : arrived(found_[lesson.round + 1][lesson.path]) + scattered;
         scattered = lesson.scattered;
     }
 

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "core/estimate/guided_columns.hpp"
 #include "core/estimate/light_guide.hpp"
 #include "core/estimate/shadow_rays.hpp"
 #include "core/scene/direct_light.hpp"
@@ -31,6 +32,7 @@ public:
     void clear() {
         plain_.clear(), coated_.clear(), metal_.clear();
         points_.clear(), views_.clear(), bsdfs_.clear(), visitors_.clear(), guided_.clear();
+        guided_plain_.clear();
         stop_count_ = 0;
     }
     bool full() const { return stop_count_ == lanes; }
@@ -100,7 +102,9 @@ public:
         for (std::size_t i = 0; i < plain_.size(); ++i) {
             const SurfacePoint point = plain_.point(i);
             const Bsdf bsdf = plain_.bsdf(i);
-            with(plain_.who(i), Gathering{point, bsdf, plain_.outgoing(i), lobe::all, nullptr, guidance_of_plain(i)});
+            const GuidedPoint guided = guided_plain_.point(i);
+            with(plain_.who(i),
+                 Gathering{point, bsdf, plain_.outgoing(i), lobe::all, nullptr, guided ? &guided : nullptr});
         }
         const auto each_of = [&](const auto& glossy) {
             for (std::size_t i = 0; i < glossy.size(); ++i) {
@@ -139,18 +143,20 @@ public:
                 const Vec3 light = found.light[i];
                 to.rays[end] = {found.origin[i], found.direction[i], found.far[i]};
                 to.light[end] = weight(path) * Rgb{light.x, light.y, light.z};
-                part(i, found.found[i] != 0, to.light[end]);
+                part(i, to.light[end]);
                 to.sums[end] = sum(path) + found.group[i];
                 end += found.found[i];
             }
             to.resize(end);
         };
-        const auto all_of_it = [](std::size_t, bool, Rgb&) {};
+        const auto all_of_it = [](std::size_t, Rgb&) {};
         if (coated_.size() > 0) append(coated_, look_from_glossy(coated_, numbers, heuristic), all_of_it);
         if (metal_.size() > 0) append(metal_, look_from_glossy(metal_, numbers, heuristic), all_of_it);
         if (plain_.size() == 0) return;
-        append(plain_, look_from_plain(numbers, heuristic), [&](std::size_t i, bool found, Rgb& light) {
-            if (guide_ && found) light *= guided_share(i, heuristic);
+        const RaysToLamp& found = look_from_plain(numbers, heuristic);
+        if (guide_) guided_plain_.share(found, heuristic == Heuristic::power);
+        append(plain_, found, [&](std::size_t i, Rgb& light) {
+            if (guide_) light *= guided_plain_.share(i);
         });
     }
 
@@ -166,7 +172,7 @@ public:
     /// From now on step_record() can be asked: before the first surface is added.
     void learn() { learns_ = true; }
     /// In on() of scatter(): what of the last step a guide can learn from, without its light. None: nothing.
-    const std::optional<GuideRecord>& step_record() const { return record_; }
+    const std::optional<GuideStep>& step_record() const { return record_; }
     /// on(path, Step) of each whose light is not absorbed, in the order in which they were added. choice(path) for
     /// those who need it.
     /// Not `guided`: nobody learns, and there is no guide.
@@ -279,7 +285,7 @@ private:
         BsdfSample step{steps.incoming[i], plain_.albedo(i), steps.pdf[i], lobe::diffuse};
         float favour = 1, known = -1;
         if constexpr (guided) {
-            if (guide_) favour = favours_[i], known = known_at_plain(i);
+            if (guide_) favour = favours_[i], known = guided_plain_.radiance(i);
             step.weight *= 1 / favour, step.pdf *= favour;
             if (learns_) note_plain_step(i, favour);
         }
@@ -366,9 +372,7 @@ private:
         return GuideSide::of(plain_.normal(i), plain_.shading(i), plain_.outgoing(i));
     }
     void find_guided() {
-        guided_plain_.resize(plain_.size());
-        for (std::size_t i = 0; i < plain_.size(); ++i)
-            guided_plain_[i] = guide_->at(plain_.position(i), side_of_plain(i), true);
+        guided_plain_.find(*guide_, plain_);
         guided_.resize(points_.size());
         for (std::size_t i = 0; i < points_.size(); ++i) {
             const SurfacePoint& point = points_[i];
@@ -378,24 +382,10 @@ private:
             guided_[i] = rough ? guide_->at(point.position, side, even) : GuidedPoint();
         }
     }
-    const Guidance* guidance_of_plain(std::size_t i) const {
-        return guide_ && i < guided_plain_.size() && guided_plain_[i] ? &guided_plain_[i] : nullptr;
-    }
-    float known_at_plain(std::size_t i) const { return guide_ && guided_plain_[i] ? guided_plain_[i].radiance() : -1; }
     Vec2 warped(std::size_t i, Vec2 u) {
-        favours_[i] = 1;
-        if (!guided_plain_[i]) return u;
-        const SquarePoint at = guided_plain_[i].warped(u);
+        const SquarePoint at = guided_plain_.warped(i, u);
         favours_[i] = at.density;
         return at.place;
-    }
-    /// Of the light that a point of the only lamp sends to a plain surface.
-    float guided_share(std::size_t i, Heuristic heuristic) const {
-        const auto& rays = plain_.rays_to_lamp();
-        if (rays.bare[i]) return 1;
-        const Vec3 direction = rays.direction[i];
-        const float pdf = guided_plain_[i] ? guided_plain_[i].pdf(direction, rays.pdf[i]) : rays.pdf[i];
-        return share(heuristic, rays.lamp_pdf[i], pdf);
     }
     /// One sample of guide and BSDF together.
     static std::optional<Step> guided_step(const Gathering& at, const GuidedPoint& guided, float choice, Vec2 u) {
@@ -428,12 +418,7 @@ private:
     }
 
     void note_plain_step(std::size_t i, float favour) {
-        const Vec2 place = plain_.numbers(i);
-        record_ = GuideRecord{plain_.position(i),
-                              0,
-                              favour,
-                              LightGuide::turn_of(side_of_plain(i)),
-                              {GuideRecord::packed(place.x), GuideRecord::packed(place.y)}};
+        record_ = GuideStep{plain_.position(i), favour, LightGuide::turn_of(side_of_plain(i)), plain_.numbers(i)};
     }
     void note_step(const Gathering& at, const Step& step) {
         record_.reset();
@@ -443,11 +428,7 @@ private:
         const Frame frame = Frame::around(side.up);
         const Vec2 place = from_disk({dot(step.sample.incoming, frame.x), dot(step.sample.incoming, frame.y)});
         const float density = step.sample.pdf * pi / height;
-        record_ = GuideRecord{at.point.position,
-                              0,
-                              density,
-                              LightGuide::turn_of(side),
-                              {GuideRecord::packed(place.x), GuideRecord::packed(place.y)}};
+        record_ = GuideStep{at.point.position, density, LightGuide::turn_of(side), place};
     }
 
     static constexpr float least_height = 1e-3f;
@@ -473,10 +454,11 @@ private:
     std::vector<Vec2> places_;
     LightSamples lamps_;
     // as the guide knows them
-    std::vector<GuidedPoint> guided_, guided_plain_;
+    std::vector<GuidedPoint> guided_;
+    GuidedColumns guided_plain_;
     std::array<float, lanes> favours_;
     bool learns_ = false;
-    std::optional<GuideRecord> record_;
+    std::optional<GuideStep> record_;
 };
 
 }  // namespace lightnet
