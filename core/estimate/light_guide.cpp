@@ -196,10 +196,10 @@ void LightGuide::learn(std::span<const std::span<GuideRecord>> leaves, Builders&
     }
 }
 
-void LightGuide::find(const Columns3& positions, const Flags& turns, std::size_t count,
+void LightGuide::find(const Columns3& positions, const Flags& sides, std::size_t count,
                       std::array<const GuideCell*, lanes>& cells) const {
     std::array<std::uint32_t, lanes> at;
-    for (std::size_t i = 0; i < count; ++i) at[i] = roots_[turns[i]];
+    for (std::size_t i = 0; i < count; ++i) at[i] = roots_[sides[i]];
     const std::array<const float*, 3> columns{positions.x.data(), positions.y.data(), positions.z.data()};
     for (int cut = 0; cut < most_cuts_; ++cut)
         for (std::size_t i = 0; i < count; ++i) {

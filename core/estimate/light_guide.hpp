@@ -162,7 +162,7 @@ public:
         return cell_at(at);
     }
     /// The same of `count` positions, with turn_of() their sides.
-    void find(const Columns3& positions, const Flags& turns, std::size_t count,
+    void find(const Columns3& positions, const Flags& sides, std::size_t count,
               std::array<const GuideCell*, lanes>& cells) const;
     /// The point as it knows it; `even`: the surface scatters evenly. False: it knows nothing.
     GuidedPoint at(Vec3 position, const GuideSide& side, bool even) const {

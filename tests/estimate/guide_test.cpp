@@ -160,7 +160,7 @@ TEST(LightGuide, DoesNotDependOnWhoBuildsItInWhichOrder) {
 }
 
 // Points of a room, of which every third wall is unknown.
-LambertianSurfaces points_of(const LambertianShape& shape) {
+LambertianSurfaces points_of(const ColumnShape& shape) {
     LambertianSurfaces surfaces;
     for (std::uint32_t i = 0; i < lanes - 1; ++i) {
         Samples numbers(6, i);
@@ -190,14 +190,17 @@ LightGuide guide_of(const LambertianSurfaces& surfaces) {
 
 TEST(GuidedColumns, KnowWhatOnePointAloneKnowsToTheBit) {
     const Mesh walls = test::room();
-    LambertianShape shape;
+    const Bsdf::Model grey = DiffuseBsdf{{0.5f, 0.5f, 0.5f}};
+    ColumnShape shape;
+    shape.kind = ColumnShape::Kind::lambertian;
     shape.mesh = &walls;
+    shape.model = &grey;
     shape.albedo = {0.5f, 0.5f, 0.5f};
     const LambertianSurfaces surfaces = points_of(shape);
     const LightGuide guide = guide_of(surfaces);
     GuidedColumns columns;
     columns.find(guide, surfaces);
-    LambertianSurfaces::RaysToLamp rays;
+    RaysToLamp rays;
     for (std::uint32_t i = 0; i < surfaces.size(); ++i) {
         Samples numbers(5, i);
         rays.direction.set(i, sphere(numbers.next_2d()));
