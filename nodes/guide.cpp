@@ -161,7 +161,7 @@ private:
     static constexpr std::size_t paths_per_shard = 1024;  // some ms
     static constexpr std::size_t records_per_shard = 65536;
     // How many times less variance × work there must be after each round: a guide that has learnt little helps little.
-    static constexpr std::array<double, rounds> least_gain{0, 0.7, 0.9, 1.1};
+    static constexpr std::array<double, rounds> least_gain{0, 0.8, 0.9, 1.05};
 
     Rehearsal& rehearsal_;
     Key key_;

@@ -1,6 +1,7 @@
 // Whether guided paths find more for the same work.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -33,7 +34,8 @@ private:
     struct Point {
         double radiance = 0, paths = 0;
     };
-    double cost_of(const std::vector<Path>& round, double work, std::span<const Point> points, double least) const;
+    using Cost = std::array<double, 2>;
+    Cost cost_of(const std::vector<Path>& round, double work, std::span<const Point> points, double least) const;
 
     std::size_t points_;
     std::vector<std::vector<Path>> rounds_;

@@ -9,7 +9,6 @@ constexpr std::size_t most_in_leaf = 4000;  // records, of a part of space that 
 constexpr int most_cuts = 32;               // of space, one after the other
 constexpr double records_of_parent = 32;    // as if so many had been found as in all of the larger part
 constexpr double guide_even_share = 0.3;    // of all directions, for what records overlooked
-constexpr float glossy_share = 0.1f;        // of directions that go by the guide where a surface is not even
 
 using Records = std::span<GuideRecord>;
 
@@ -62,7 +61,7 @@ std::vector<double> shape_of(const Found& found, const std::vector<double>& larg
 GuideCell made_cell(const Found& found, const std::vector<double>& shape) {
     std::vector<double> parts(shape);
     for (double& part : parts) part = (1 - guide_even_share) * part + guide_even_share / double(GuideSquare::cells);
-    return {GuideSquare(parts), glossy_share, float(found.all / found.count)};
+    return {GuideSquare(parts), float(found.all / found.count)};
 }
 
 /// Cuts records up, and what it cuts is in order: each part lies side by side.

@@ -68,7 +68,6 @@ static_assert(sizeof(GuideRecord) == 16);
 /// A part of the scene's surfaces, and what is known there.
 struct GuideCell {
     GuideSquare square;
-    float share = 0.5f;  // of samples by the guide, where the BSDF has other lobes than an even one
     float radiance = 0;  // mean over the hemisphere, cosine-weighted, luminance, W·sr⁻¹·m⁻²
 };
 
@@ -88,19 +87,18 @@ struct GuideSide {
     }
 };
 
-/// One point as a guide knows it. Directions are distributed partly by the guide and partly by the BSDF, or all by the
-/// guide where the surface scatters evenly: one-sample model of multiple importance sampling, Veach 1997,
-/// section 9.2.4.
+/// One point as a guide knows it. Directions follow the guide where the surface scatters evenly, and else the BSDF
+/// alone. DECISIONS: guides-are-squares
 class GuidedPoint final : public Guidance {
 public:
     GuidedPoint() = default;
     GuidedPoint(const GuideCell* cell, const GuideSide& side, bool even)
-        : cell_(cell), frame_(Frame::around(side.up)), turned_(side.turned), share_(even ? 1 : cell->share) {}
+        : cell_(cell), frame_(Frame::around(side.up)), turned_(side.turned), leads_(even) {}
 
     explicit operator bool() const { return cell_; }
     float radiance() const { return cell_->radiance; }
-    /// Of samples by the guide.
-    float share() const { return share_; }
+    /// Do directions follow it?
+    bool leads() const { return leads_; }
     SquarePoint warped(Vec2 u) const { return cell_->square.warp(u); }
     float density(Vec2 place) const { return cell_->square.density(place); }
     /// How high a direction stands on the guide's side.
@@ -115,16 +113,16 @@ public:
         return normalize(frame_.to_world(local));
     }
     float pdf(Vec3 direction, float bsdf) const override {
+        if (!leads_) return bsdf;
         const float z = height(direction);
-        const float guided = z > 0 && share_ > 0 ? density(place(direction)) * z * inverse_pi : 0;
-        return share_ * guided + (1 - share_) * bsdf;
+        return z > 0 ? density(place(direction)) * z * inverse_pi : 0;
     }
 
 private:
     const GuideCell* cell_ = nullptr;
     Frame frame_;
     bool turned_ = false;
-    float share_ = 0;
+    bool leads_ = false;
 };
 
 /// Müller, Gross & Novák 2017, "Practical Path Guiding for Efficient Light-Transport Simulation": a tree over surfaces,

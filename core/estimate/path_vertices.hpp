@@ -264,9 +264,8 @@ private:
     template <bool guided, class Choice, class On>
     void go_on_from_visitor(const Visitor& visitor, std::span<const Vec2> directions, Choice&& choice, On&& on) {
         const Gathering at = gathering(visitor);
-        if (guided && guide_ && guided_[visitor.point]) {
-            const Vec2 numbers = directions[visitor.path];
-            const auto step = guided_step(at, guided_[visitor.point], choice(visitor.path), numbers);
+        if (guided && guide_ && guided_[visitor.point].leads()) {
+            const auto step = guided_step(at, guided_[visitor.point], directions[visitor.path]);
             if (!step) return;
             if (learns_) note_step(at, *step);
             return on(visitor.path, *step);
@@ -274,7 +273,9 @@ private:
         const float chosen = at.bsdf.chooses() ? choice(visitor.path) : 0;
         const auto sample = at.bsdf.sample(at.outgoing, chosen, directions[visitor.path], at.lobes);
         if (!sample) return;
-        const Step step = step_to(at, *sample);
+        Step step = step_to(at, *sample);
+        if (guided && guide_ && guided_[visitor.point] && sample->lobe != lobe::specular)
+            step.known = guided_[visitor.point].radiance();
         if (guided && learns_) note_step(at, step);
         on(visitor.path, step);
     }
@@ -353,7 +354,7 @@ private:
     }
     Gathering gathering(const Visitor& visitor) const {
         const auto& [outgoing, lobes, inside] = views_[visitor.point];
-        const bool guided = guide_ && visitor.point < guided_.size() && guided_[visitor.point];
+        const bool guided = guide_ && visitor.point < guided_.size() && guided_[visitor.point].leads();
         return {points_[visitor.point],
                 bsdfs_[visitor.point],
                 outgoing,
@@ -387,25 +388,11 @@ private:
         favours_[i] = at.density;
         return at.place;
     }
-    /// One sample of guide and BSDF together.
-    static std::optional<Step> guided_step(const Gathering& at, const GuidedPoint& guided, float choice, Vec2 u) {
-        const float part = guided.share();
+    /// From a surface that scatters evenly.
+    static std::optional<Step> guided_step(const Gathering& at, const GuidedPoint& guided, Vec2 u) {
         BsdfSample sample;
-        if (choice < part) {
-            sample.incoming = guided.direction(guided.warped(u).place);
-            sample.lobe = lobe::glossy;
-        } else {
-            const float rest = std::fmin((choice - part) / (1 - part), below_one);
-            const auto by_bsdf = at.bsdf.sample(at.outgoing, rest, u, at.lobes);
-            if (!by_bsdf) return {};
-            sample = *by_bsdf;
-            if (sample.lobe == lobe::specular) {
-                sample.weight *= 1 / (1 - part);
-                Step step = step_to(at, sample);
-                step.favour = 1 - part;
-                return step;
-            }
-        }
+        sample.incoming = guided.direction(guided.warped(u).place);
+        sample.lobe = lobe::glossy;
         const auto [value, pdf] = at.bsdf.value_and_pdf(at.outgoing, sample.incoming, at.lobes);
         if (is_black(value)) return {};
         sample.pdf = guided.pdf(sample.incoming, pdf);

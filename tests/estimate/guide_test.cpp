@@ -59,11 +59,11 @@ TEST(GuideSquare, FindsThePlaceThatTheDiskCameFrom) {
     EXPECT_LT(from_disk({1, 0}).x, 1) << "there is a cell for it";
 }
 
-GuideCell uneven_cell(float share) { return {uneven_square(), share, 1}; }
+GuideCell uneven_cell() { return {uneven_square(), 1}; }
 
 // The density integrates to one over all directions, and is that of the directions that come.
 TEST(GuidedPoint, FindsDirectionsWithTheDensityThatItSays) {
-    const GuideCell cell = uneven_cell(0.6f);
+    const GuideCell cell = uneven_cell();
     for (const bool turned : {false, true}) {
         const GuideSide side{normalize({0.3f, -0.5f, 0.2f}), turned};
         for (const bool even : {false, true}) {
