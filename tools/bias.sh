@@ -38,7 +38,7 @@ table="path|path.lua|samples=16|samples=64|samples=256
 path_all|path_all.lua|samples=4|samples=16|samples=64
 irradiance_cache|irradiance_cache.lua|rays=64|rays=256|rays=1024
 figure5|paper/figure5.lua|wanted_error=0.04|wanted_error=0.02|wanted_error=0.01
-progressive|progressive.lua|passes=16|passes=64|passes=256"
+progressive|progressive.lua|samples=16|samples=64|samples=256"
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -77,14 +77,14 @@ echo "| scene | algorithm | budget | mean R G B (worst) | blocks (worst) |"
 echo "|---|---|---|---|---|"
 for name in $strict; do
     among "$name" ${wanted[@]+"${wanted[@]}"} || continue
-    reference=$(ls "$references/$name".*.exr 2>/dev/null | head -n 1)
+    reference=$(ls "$references/$name".*.exr 2>/dev/null | head -n 1) || true
     if [ -n "$reference" ]; then row "$name" "$references/$name.pbrt" "$reference" 256 256; else missing+=("$name"); fi
 done
 for entry in $real; do
     IFS=: read -r name width height <<<"$entry"
     among "$name" ${wanted[@]+"${wanted[@]}"} || continue
-    file=$(ls "$scenes/$name/$name.pbrt" "$scenes/$name/$name.xml" 2>/dev/null | head -n 1)
-    if [ -n "$file" ] && [ -e "$scenes/$name/$name.exr" ]; then
+    for file in "$scenes/$name/$name.pbrt" "$scenes/$name/$name.xml"; do [ -e "$file" ] && break; done
+    if [ -e "$file" ] && [ -e "$scenes/$name/$name.exr" ]; then
         row "$name" "$file" "$scenes/$name/$name.exr" "$width" "$height"
     else
         missing+=("$name")

@@ -24,10 +24,7 @@ class PathVertices {
 public:
     /// `guide`: by which paths go on; null: by surfaces alone.
     explicit PathVertices(const Scene& scene, const LightGuide* guide = nullptr)
-        : scene_(scene),
-          guide_(guide),
-          shapes_(scene.column_shapes()),
-          only_lamp_(scene.only_flat_lamp()) {}
+        : scene_(scene), guide_(guide), shapes_(scene.column_shapes()), only_lamp_(scene.only_flat_lamp()) {}
 
     void clear() {
         plain_.clear(), coated_.clear(), metal_.clear();
@@ -241,7 +238,9 @@ private:
         return alone ? Kind::none : kind;
     }
     void add_to_last(std::uint32_t path, const Hit& hit, Vec3 outgoing, std::uint8_t lobes) {
-        const auto put = [&](const auto& to) { stops_[stop_count_++] = {last_, static_cast<std::uint32_t>(to.size())}; };
+        const auto put = [&](const auto& to) {
+            stops_[stop_count_++] = {last_, static_cast<std::uint32_t>(to.size())};
+        };
         switch (last_) {
             case Kind::none:
                 put(visitors_);
@@ -300,8 +299,8 @@ private:
         const auto& steps = glossy.steps();
         if (!steps.found[i]) return;
         const Vec3 weight = steps.weight[i];
-        const BsdfSample step{steps.incoming[i], {weight.x, weight.y, weight.z}, steps.pdf[i],
-                              static_cast<std::uint8_t>(steps.lobe[i])};
+        const BsdfSample step{
+            steps.incoming[i], {weight.x, weight.y, weight.z}, steps.pdf[i], static_cast<std::uint8_t>(steps.lobe[i])};
         on(glossy.who(i), Step{step, glossy.ray_from(i, step.incoming), glossy.lit_point(i), nullptr});
     }
     /// Lamps for points that were put into lit_, with the numbers of paths who(i).

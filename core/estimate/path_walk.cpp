@@ -285,8 +285,9 @@ private:
             return batch.samples.at(i, depth * dimensions + choice_of_lobe).next();
         };
         // Inlined wherever surfaces send paths on: a step is too large to be handed over.
-        const auto on = [&](std::uint32_t i, const Step& step)
-                            __attribute__((always_inline)) { send_on(batch, i, step, depth); };
+        const auto on = [&](std::uint32_t i, const Step& step) __attribute__((always_inline)) {
+            send_on(batch, i, step, depth);
+        };
         batch.vertices.template scatter<guided>(batch.numbers.directions, choice, on);
     }
 

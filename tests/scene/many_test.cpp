@@ -19,8 +19,8 @@ namespace {
 
 using namespace test;
 
-constexpr std::uint32_t flake = 10;    // which shape of everything() has no area
-constexpr std::size_t many = 2000;  // not a multiple of anything
+constexpr std::uint32_t flake = 10;  // which shape of everything() has no area
+constexpr std::size_t many = 2000;   // not a multiple of anything
 
 auto parts(const Frame& f) { return std::tuple(f.x, f.y, f.z); }
 auto parts(const Ray& r) { return std::tuple(r.origin, r.direction, r.far); }
@@ -358,7 +358,10 @@ TEST(Many, StopsTellEachWalkWhatOneIsTold) {
         };
         for (std::uint32_t i = 0; i < many; ++i) {
             Samples samples(9, i);
-            Walk walk{hits[i], sphere(samples.next_2d()), i % 7 == 0 ? lobe::specular : i % 5 == 0 ? lobe::rough : lobe::all,
+            Walk walk{hits[i], sphere(samples.next_2d()),
+                      i % 7 == 0   ? lobe::specular
+                      : i % 5 == 0 ? lobe::rough
+                                   : lobe::all,
                       i % 11 ? nullptr : &absorption, samples.next()};
             vertices.add(std::uint32_t(walks.size()), walk.hit, walk.outgoing, walk.lobes, walk.inside);
             walks.push_back(walk);

@@ -116,7 +116,8 @@ struct MetalColumns {
     [[gnu::always_inline]] BsdfValue value(std::size_t i, Vec3 outgoing, Vec3 incoming) const {
         const auto [value, pdf, cosine] = reflection(facets_.at(i), outgoing, incoming);
         const Rgb tint{tint_.x[i], tint_.y[i], tint_.z[i]};
-        const Rgb reflected{fresnel_conductor(cosine, eta_.x[i], k_.x[i]), fresnel_conductor(cosine, eta_.y[i], k_.y[i]),
+        const Rgb reflected{fresnel_conductor(cosine, eta_.x[i], k_.x[i]),
+                            fresnel_conductor(cosine, eta_.y[i], k_.y[i]),
                             fresnel_conductor(cosine, eta_.z[i], k_.z[i])};
         return {tint * reflected * value, pdf};
     }

@@ -27,8 +27,8 @@ struct FacetLaw {
     }
 };
 
-/// Facets of one law (GgxLaw, BeckmannLaw), by roughness along both tangents. Walter et al. 2007 and Heitz 2014. Without
-/// a branch where the law has none, so that loops over many surfaces become vectors.
+/// Facets of one law (GgxLaw, BeckmannLaw), by roughness along both tangents. Walter et al. 2007 and Heitz 2014.
+/// Without a branch where the law has none, so that loops over many surfaces become vectors.
 template <class Law>
 struct FacetsOf {
     float alpha_u = 0, alpha_v = 0;

@@ -16,8 +16,8 @@ struct GlossySurfaces<Columns>::Facing {
             const float seen = dot(outgoing, normal);
             const float side = seen > 0 ? 1 : 0, shading_side = dot(outgoing, shading) > 0 ? 1 : 0;
             const bool agree = side == shading_side;
-            const Frame frame = Frame::around({agree ? shading.x : normal.x, agree ? shading.y : normal.y,
-                                               agree ? shading.z : normal.z});
+            const Frame frame = Frame::around(
+                {agree ? shading.x : normal.x, agree ? shading.y : normal.y, agree ? shading.z : normal.z});
             const Vec3 local = frame.to_local(outgoing);
             at.across_.set(i, frame.x);
             at.along_.set(i, frame.y);
@@ -51,8 +51,7 @@ Bsdf GlossySurfaces<Columns>::bsdf(std::size_t i) const {
 
 template <class Columns>
 LitPoint GlossySurfaces<Columns>::lit_point(std::size_t i) const {
-    return columns_.has_gloss(i) ? LitPoint(position_[i])
-                                 : lightnet::lit_point(position_[i], normal_[i], outgoing_[i]);
+    return columns_.has_gloss(i) ? LitPoint(position_[i]) : lightnet::lit_point(position_[i], normal_[i], outgoing_[i]);
 }
 
 // As value_of_any() of Bsdf goes on.
@@ -144,8 +143,8 @@ struct GlossySurfaces<Columns>::Finishing {
             const Vec3 direction = normalize(frame.to_world({incoming.x, incoming.y, height}));
             const float side = height > 0 ? 1 : 0, true_side = dot(direction, at.normal_[i]) > 0 ? 1 : 0;
             at.steps_.incoming.set(i, direction);
-            at.steps_.weight.set(i, {specular ? smooth.r : rough.r, specular ? smooth.g : rough.g,
-                                     specular ? smooth.b : rough.b});
+            at.steps_.weight.set(
+                i, {specular ? smooth.r : rough.r, specular ? smooth.g : rough.g, specular ? smooth.b : rough.b});
             at.steps_.pdf[i] = found.pdf;
             at.leaks_[i] = side != true_side;
         }

@@ -7,10 +7,11 @@ namespace lightnet {
 
 void LambertianSurfaces::find_points() {
     find_places();
-    if (various_count_ > 0) look_up([&](std::size_t i, const TexturePlace& place) {
-        const Rgb albedo = shapes_[i]->shading->albedo(hits_[i].geometry, place);
-        albedo_.set(i, {albedo.r, albedo.g, albedo.b});
-    });
+    if (various_count_ > 0)
+        look_up([&](std::size_t i, const TexturePlace& place) {
+            const Rgb albedo = shapes_[i]->shading->albedo(hits_[i].geometry, place);
+            albedo_.set(i, {albedo.r, albedo.g, albedo.b});
+        });
 }
 
 Bsdf LambertianSurfaces::bsdf(std::size_t i) const {
@@ -129,9 +130,7 @@ const RaysToLamp& LambertianSurfaces::look_at(const FlatLamp& lamp, bool by_powe
     return by_power ? look<Sharing::by_power>(lamp) : look<Sharing::balanced>(lamp);
 }
 
-const RaysToLamp& LambertianSurfaces::look_at_whole(const FlatLamp& lamp) {
-    return look<Sharing::whole>(lamp);
-}
+const RaysToLamp& LambertianSurfaces::look_at_whole(const FlatLamp& lamp) { return look<Sharing::whole>(lamp); }
 
 const RaysToLamp& LambertianSurfaces::look_at(const LightSamples& lamps, bool by_power) {
     lamps_ = lamps;

@@ -57,8 +57,8 @@ protected:
     void add_point(std::uint32_t who, const ColumnShape& shape, const Hit& hit, Vec3 outgoing);
     /// Works out where the points are, and how they are turned.
     void find_places();
-    /// look(i, place) of each whose shape is not the same everywhere, when what it reads of pictures has been fetched for
-    /// all.
+    /// look(i, place) of each whose shape is not the same everywhere, when what it reads of pictures has been fetched
+    /// for all.
     template <class Look>
     void look_up(Look&& look) const;
 
