@@ -260,48 +260,17 @@ private:
                 break;
         }
     }
+    // In path_steps.hpp.
     template <bool guided, class Choice, class On>
-    void go_on_from_visitor(const Visitor& visitor, std::span<const Vec2> directions, Choice&& choice, On&& on) {
-        const Gathering at = gathering(visitor);
-        if (guided && guide_ && guided_[visitor.point].leads()) {
-            const auto step = guided_step(at, guided_[visitor.point], directions[visitor.path]);
-            if (!step) return;
-            if (learns_) note_step(at, *step);
-            return on(visitor.path, *step);
-        }
-        const float chosen = at.bsdf.chooses() ? choice(visitor.path) : 0;
-        const auto sample = at.bsdf.sample(at.outgoing, chosen, directions[visitor.path], at.lobes);
-        if (!sample) return;
-        Step step = step_to(at, *sample);
-        if (guided && guide_ && guided_[visitor.point] && sample->lobe != lobe::specular)
-            step.known = guided_[visitor.point].radiance();
-        if (guided && learns_) note_step(at, step);
-        on(visitor.path, step);
-    }
+    void go_on_from_visitor(const Visitor& visitor, std::span<const Vec2> directions, Choice&& choice, On&& on);
     template <bool guided, class On>
-    [[gnu::always_inline]] void go_on_from_plain(std::size_t i, On&& on) {
-        const auto& steps = plain_.steps();
-        if (steps.pdf[i] == 0) return;
-        BsdfSample step{steps.incoming[i], plain_.albedo(i), steps.pdf[i], lobe::diffuse};
-        float favour = 1, known = -1;
-        if constexpr (guided) {
-            if (guide_) favour = favours_[i], known = guided_plain_.radiance(i);
-            step.weight *= 1 / favour, step.pdf *= favour;
-            if (learns_) note_plain_step(i, favour);
-        }
-        const Vec3 at = plain_.position(i);
-        const LitPoint from = only_lamp_ ? LitPoint(at)  // nothing to choose
-                                         : lit_point(at, plain_.normal(i), plain_.outgoing(i));
-        on(plain_.who(i), Step{step, plain_.ray_from(i, step.incoming), from, nullptr, known, favour});
-    }
+    void go_on_from_plain(std::size_t i, On&& on);
     template <class Glossy, class On>
-    static void go_on_from_glossy(const Glossy& glossy, std::size_t i, On&& on) {
-        const auto& steps = glossy.steps();
-        if (!steps.found[i]) return;
-        const Vec3 weight = steps.weight[i];
-        const BsdfSample step{
-            steps.incoming[i], {weight.x, weight.y, weight.z}, steps.pdf[i], static_cast<std::uint8_t>(steps.lobe[i])};
-        on(glossy.who(i), Step{step, glossy.ray_from(i, step.incoming), glossy.lit_point(i), nullptr});
+    void go_on_from_glossy(const Glossy& glossy, std::size_t i, On&& on);
+    template <class Glossy>
+    static LitPoint lit_point_of(const Glossy& glossy, std::size_t i) {
+        const Vec3 at = glossy.position(i);
+        return glossy.has_gloss(i) ? LitPoint(at) : lit_point(at, glossy.normal(i), glossy.outgoing(i));
     }
     /// Lamps for points that were put into lit_, with the numbers of paths who(i).
     template <class Who>
@@ -335,7 +304,7 @@ private:
     template <class Glossy>
     const RaysToLamp& look_from_glossy(Glossy& glossy, const Numbers& numbers, Heuristic heuristic) {
         lit_.clear();
-        for (std::size_t i = 0; i < glossy.size(); ++i) lit_.push_back(glossy.lit_point(i));
+        for (std::size_t i = 0; i < glossy.size(); ++i) lit_.push_back(lit_point_of(glossy, i));
         sample_lit(numbers, [&](std::size_t i) { return glossy.who(i); });
         return glossy.look_at(lamps_, heuristic == Heuristic::power);
     }
@@ -388,34 +357,12 @@ private:
         return at.place;
     }
     /// From a surface that scatters evenly.
-    static std::optional<Step> guided_step(const Gathering& at, const GuidedPoint& guided, Vec2 u) {
-        BsdfSample sample;
-        sample.incoming = guided.direction(guided.warped(u).place);
-        sample.lobe = lobe::glossy;
-        const auto [value, pdf] = at.bsdf.value_and_pdf(at.outgoing, sample.incoming, at.lobes);
-        if (is_black(value)) return {};
-        sample.pdf = guided.pdf(sample.incoming, pdf);
-        if (!(sample.pdf > 0)) return {};
-        sample.weight = value / sample.pdf;
-        Step step = step_to(at, sample);
-        step.known = guided.radiance();
-        step.favour = pdf > 0 ? sample.pdf / pdf : 1;
-        return step;
-    }
+    static std::optional<Step> guided_step(const Gathering& at, const GuidedPoint& guided, Vec2 u);
 
     void note_plain_step(std::size_t i, float favour) {
         record_ = GuideStep{plain_.position(i), favour, LightGuide::turn_of(side_of_plain(i)), plain_.numbers(i)};
     }
-    void note_step(const Gathering& at, const Step& step) {
-        record_.reset();
-        const GuideSide side = GuideSide::of(at.point.normal, at.point.shading.z, at.outgoing);
-        const float z = dot(step.sample.incoming, side.up), height = side.turned ? -z : z;
-        if (step.sample.lobe == lobe::specular || !(height > least_height)) return;
-        const Frame frame = Frame::around(side.up);
-        const Vec2 place = from_disk({dot(step.sample.incoming, frame.x), dot(step.sample.incoming, frame.y)});
-        const float density = step.sample.pdf * pi / height;
-        record_ = GuideStep{at.point.position, density, LightGuide::turn_of(side), place};
-    }
+    void note_step(const Gathering& at, const Step& step);
 
     static constexpr float least_height = 1e-3f;
 
@@ -448,3 +395,5 @@ private:
 };
 
 }  // namespace lightnet
+
+#include "core/estimate/path_steps.hpp"

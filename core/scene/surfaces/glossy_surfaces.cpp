@@ -49,11 +49,6 @@ Bsdf GlossySurfaces<Columns>::bsdf(std::size_t i) const {
     return bsdf;
 }
 
-template <class Columns>
-LitPoint GlossySurfaces<Columns>::lit_point(std::size_t i) const {
-    return columns_.has_gloss(i) ? LitPoint(position_[i]) : lightnet::lit_point(position_[i], normal_[i], outgoing_[i]);
-}
-
 // As value_of_any() of Bsdf goes on.
 template <class Columns>
 struct GlossySurfaces<Columns>::Arriving {

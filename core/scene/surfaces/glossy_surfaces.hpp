@@ -6,7 +6,6 @@
 
 #include "core/scene/bsdf/bsdf.hpp"
 #include "core/scene/bsdf/glossy_columns.hpp"
-#include "core/scene/lamps/lit_point.hpp"
 #include "core/scene/surfaces/heuristic.hpp"
 #include "core/scene/surfaces/light_sample.hpp"
 #include "core/scene/surfaces/mesh_points.hpp"
@@ -30,7 +29,8 @@ public:
 
     Bsdf bsdf(std::size_t i) const;
     std::uint8_t lobes(std::size_t i) const { return lobes_[i]; }
-    LitPoint lit_point(std::size_t i) const;
+    /// Else what it sends on from lamps goes by the cosine.
+    bool has_gloss(std::size_t i) const { return columns_.has_gloss(i); }
 
     /// Does sample() look at choices?
     static constexpr bool chooses = Columns::Model::chooses;
