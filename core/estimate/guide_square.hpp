@@ -24,8 +24,8 @@ struct SquarePoint {
 };
 
 /// A density over the unit square, the same everywhere within each of some cells of equal size. In whole numbers of
-/// 16 bits: a guide has many squares, and what is asked of them stays in the cache. DECISIONS: guides-are-squares
-// DECISIONS: guides-are-squares
+/// 16 bits: a guide has many squares, and what is asked of them stays in the cache.
+/// DECISIONS: guides-are-squares
 class GuideSquare {
 public:
     static constexpr std::size_t side = 16;  // cells along a side

@@ -88,7 +88,8 @@ struct GuideSide {
 };
 
 /// One point as a guide knows it. Directions follow the guide where the surface scatters evenly, and else the BSDF
-/// alone. DECISIONS: guides-are-squares
+/// alone.
+/// DECISIONS: guides-are-squares
 class GuidedPoint final : public Guidance {
 public:
     GuidedPoint() = default;

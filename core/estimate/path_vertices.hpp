@@ -18,8 +18,9 @@
 
 namespace lightnet {
 
-/// Where each of some paths has come to: its vertex. Plain surfaces go through the formulas many at once, as a
-/// structure of arrays, the others one by one: what each path is told is the same, to the bit. One thread.
+/// Where each of some paths has come to: its vertex. Diffuse and coated meshes and rough metals go through the formulas
+/// many at once, as structures of arrays, the others one by one: what each path is told is the same, to the bit. One
+/// thread.
 class PathVertices {
 public:
     /// `guide`: by which paths go on; null: by surfaces alone.

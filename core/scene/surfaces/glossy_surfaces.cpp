@@ -75,25 +75,12 @@ struct GlossySurfaces<Columns>::Looking {
     [[gnu::always_inline]] void work() {
         const LightSamples& lamps = at.lamps_;
         for (std::size_t i = 0; i < at.count_; ++i) {
-            const Vec3 position = at.position_[i], normal = at.normal_[i], direction = lamps.direction[i];
             const BsdfValue found = at.columns_.value(i, at.seen_[i], at.lit_[i]);
             const bool dark = at.leaks_[i] != 0;
             const Rgb value{dark ? 0 : found.value.r, dark ? 0 : found.value.g, dark ? 0 : found.value.b};
             const float pdf = dark ? 0 : found.pdf;
             const float part = lamps.bare[i] != 0 ? 1 : share(by, lamps.pdf[i], pdf);
-            const Rgb radiance{lamps.radiance.x[i], lamps.radiance.y[i], lamps.radiance.z[i]};
-            const Rgb arriving = value * radiance * (part / lamps.pdf[i]);
-            const Vec3 origin = off_surface(position, normal, at.offset_[i], direction);
-            const Ray near = ray_between(origin, lamps.position[i], direction);
-            const bool infinite = lamps.from_infinity[i] != 0;
-            at.rays_.origin.set(i, origin);
-            at.rays_.direction.set(
-                i, {infinite ? direction.x : near.direction.x, infinite ? direction.y : near.direction.y,
-                    infinite ? direction.z : near.direction.z});
-            at.rays_.far[i] = infinite ? Ray().far : near.far;
-            at.rays_.light.set(i, {arriving.r, arriving.g, arriving.b});
-            at.rays_.group[i] = lamps.group[i];
-            at.rays_.found[i] = lamps.found[i] & ((value.r != 0) | (value.g != 0) | (value.b != 0));
+            at.set_ray_to_lamp(i, value, part);
         }
     }
 };

@@ -92,29 +92,17 @@ struct LambertianSurfaces::LookingAtMany {
         const LightSamples& lamps = at.lamps_;
         constexpr Heuristic by = sharing == Sharing::by_power ? Heuristic::power : Heuristic::balance;
         for (std::size_t i = 0; i < at.count_; ++i) {
-            const Vec3 position = at.position_[i], normal = at.normal_[i], direction = lamps.direction[i];
-            const float pdf = diffuse_pdf(at.shading_[i], normal, at.one_sided_[i] != 0, at.outgoing_[i], direction);
+            const float pdf =
+                diffuse_pdf(at.shading_[i], at.normal_[i], at.one_sided_[i] != 0, at.outgoing_[i], lamps.direction[i]);
             const Rgb value = Rgb{at.albedo_.x[i], at.albedo_.y[i], at.albedo_.z[i]} * pdf;
             const bool whole = (sharing == Sharing::whole) | (lamps.bare[i] != 0);
             const float part = whole ? 1 : share(by, lamps.pdf[i], pdf);
-            const Rgb radiance{lamps.radiance.x[i], lamps.radiance.y[i], lamps.radiance.z[i]};
-            const Rgb arriving = value * radiance * (part / lamps.pdf[i]);
-            const Vec3 origin = off_surface(position, normal, at.offset_[i], direction);
-            const Ray near = ray_between(origin, lamps.position[i], direction);
-            const bool infinite = lamps.from_infinity[i] != 0;
-            at.rays_.origin.set(i, origin);
-            at.rays_.direction.set(
-                i, {infinite ? direction.x : near.direction.x, infinite ? direction.y : near.direction.y,
-                    infinite ? direction.z : near.direction.z});
-            at.rays_.far[i] = infinite ? Ray().far : near.far;
-            at.rays_.light.set(i, {arriving.r, arriving.g, arriving.b});
-            at.rays_.group[i] = lamps.group[i];
+            at.set_ray_to_lamp(i, value, part);
             if constexpr (sharing == Sharing::whole) {
                 at.rays_.lamp_pdf[i] = lamps.pdf[i];
                 at.rays_.pdf[i] = pdf;
                 at.rays_.bare[i] = lamps.bare[i];
             }
-            at.rays_.found[i] = lamps.found[i] & ((value.r != 0) | (value.g != 0) | (value.b != 0));
         }
     }
 };

@@ -49,8 +49,6 @@ public:
     [[gnu::always_inline]] Ray ray_from(std::size_t i, Vec3 direction) const {
         return {off_surface(position_[i], normal_[i], offset_[i], direction), direction};
     }
-    /// What was found last.
-    const RaysToLamp& rays_to_lamp() const { return rays_; }
 
 protected:
     /// Adds the point of a hit on `shape`, seen from `outgoing`; there is room for it. `who`: the caller's.
@@ -61,6 +59,9 @@ protected:
     /// for all.
     template <class Look>
     void look_up(Look&& look) const;
+    /// As ray_to_lamp(): the ray to the lamp of lamps_, and what light it brings where the surface sends on `value` of
+    /// it, and this `part` of it is the lamp's to find.
+    [[gnu::always_inline]] void set_ray_to_lamp(std::size_t i, Rgb value, float part);
 
     // All in one place, so that the compiler sees that no column is another.
 
@@ -83,6 +84,21 @@ protected:
 private:
     struct Places;
 };
+
+[[gnu::always_inline]] inline void MeshPoints::set_ray_to_lamp(std::size_t i, Rgb value, float part) {
+    const Vec3 direction = lamps_.direction[i], origin = off_surface(position_[i], normal_[i], offset_[i], direction);
+    const Rgb radiance{lamps_.radiance.x[i], lamps_.radiance.y[i], lamps_.radiance.z[i]};
+    const Rgb arriving = value * radiance * (part / lamps_.pdf[i]);
+    const Ray near = ray_between(origin, lamps_.position[i], direction);
+    const bool infinite = lamps_.from_infinity[i] != 0;
+    rays_.origin.set(i, origin);
+    rays_.direction.set(i, {infinite ? direction.x : near.direction.x, infinite ? direction.y : near.direction.y,
+                            infinite ? direction.z : near.direction.z});
+    rays_.far[i] = infinite ? Ray().far : near.far;
+    rays_.light.set(i, {arriving.r, arriving.g, arriving.b});
+    rays_.group[i] = lamps_.group[i];
+    rays_.found[i] = lamps_.found[i] & ((value.r != 0) | (value.g != 0) | (value.b != 0));
+}
 
 inline void MeshPoints::add_point(std::uint32_t who, const ColumnShape& shape, const Hit& hit, Vec3 outgoing) {
     const std::size_t to = count_++;
