@@ -169,20 +169,16 @@ private:
             return;
         }
         branch.path.arrive(branch.hit->distance);
+        // Most surfaces only scatter, everywhere alike: who is asked works them out.
+        const std::uint8_t everywhere = scene_.lobes(*branch.hit);
+        if (everywhere && !(everywhere & lobe::specular) && !scene_.shines(*branch.hit))
+            return ask_about(sample, branch, surface, everywhere, met);
         const SurfacePoint point = scene_.surface(*branch.hit);
         const Bsdf bsdf = scene_.bsdf(point);
         const Vec3 outgoing = -branch.path.ray().direction;
         const std::uint8_t lobes = bsdf.lobes();
         met.emitted[scene_.group_of(point)] += branch.path.weight() * scene_.emission(point, outgoing);
-        if (lobes & lobe::rough) {
-            Query question = branch.path.question_about(*branch.hit, lobes, branch.depth);
-            question.stream = child(sample.key, key_, surface);
-            question.sample = sample.sample;
-            question.pass = here_.pass_mark(sample.sample);
-            met.questions.push_back(question);
-            met.pixels.push_back(sample.pixel);
-            met.weights.push_back(branch.path.weight());
-        }
+        if (lobes & lobe::rough) ask_about(sample, branch, surface, lobes, met);
         if (!(lobes & lobe::specular) || branch.depth >= max_depth_) return;
         if (const auto reflected = branch.path.split(point, bsdf, both_carry)) {
             met.branches.push_back({*reflected, scene_.intersect(reflected->ray()), branch.depth + 1});
@@ -191,6 +187,18 @@ private:
             return;
         }
         met.branches.push_back({branch.path, scene_.intersect(branch.path.ray()), branch.depth + 1});
+    }
+
+    /// The question about rough lobes of that surface.
+    void ask_about(const TileSample& sample, const Branch& branch, std::uint32_t surface, std::uint8_t lobes,
+                   PixelQuestions& met) const {
+        Query question = branch.path.question_about(*branch.hit, lobes, branch.depth);
+        question.stream = child(sample.key, key_, surface);
+        question.sample = sample.sample;
+        question.pass = here_.pass_mark(sample.sample);
+        met.questions.push_back(question);
+        met.pixels.push_back(sample.pixel);
+        met.weights.push_back(branch.path.weight());
     }
 
     void add_answers(const PixelQuestions& met, std::span<Rgb> pixels) const {

@@ -12,7 +12,7 @@ void PathVertices::go_on_from_visitor(const Visitor& visitor, std::span<const Ve
     if (guided && guide_ && guided_[visitor.point].leads()) {
         const auto step = guided_step(at, guided_[visitor.point], directions[visitor.path]);
         if (!step) return;
-        if (learns_) note_step(at, *step);
+        if (learns_) note_step(side_of(at), *step);
         return on(visitor.path, *step);
     }
     const float chosen = at.bsdf.chooses() ? choice(visitor.path) : 0;
@@ -21,7 +21,7 @@ void PathVertices::go_on_from_visitor(const Visitor& visitor, std::span<const Ve
     Step step = step_to(at, *sample);
     if (guided && guide_ && guided_[visitor.point] && sample->lobe != lobe::specular)
         step.known = guided_[visitor.point].radiance();
-    if (guided && learns_) note_step(at, step);
+    if (guided && learns_) note_step(side_of(at), step);
     on(visitor.path, step);
 }
 
@@ -42,14 +42,41 @@ template <bool guided, class On>
     on(plain_.who(i), Step{step, plain_.ray_from(i, step.incoming), from, nullptr, known, favour});
 }
 
-template <class Glossy, class On>
-void PathVertices::go_on_from_glossy(const Glossy& glossy, std::size_t i, On&& on) {
+template <bool guided, class Glossy, class On>
+void PathVertices::go_on_from_glossy(const Glossy& glossy, std::size_t i, const GuidedPoint& known, On&& on) {
     const auto& steps = glossy.steps();
     if (!steps.found[i]) return;
     const Vec3 weight = steps.weight[i];
-    const BsdfSample step{
-        steps.incoming[i], {weight.x, weight.y, weight.z}, steps.pdf[i], static_cast<std::uint8_t>(steps.lobe[i])};
-    on(glossy.who(i), Step{step, glossy.ray_from(i, step.incoming), lit_point_of(glossy, i), nullptr});
+    Step step{
+        {steps.incoming[i], {weight.x, weight.y, weight.z}, steps.pdf[i], static_cast<std::uint8_t>(steps.lobe[i])},
+        glossy.ray_from(i, steps.incoming[i]),
+        lit_point_of(glossy, i),
+        nullptr};
+    if constexpr (guided) {
+        if (guide_ && known && step.sample.lobe != lobe::specular) step.known = known.radiance();
+        if (learns_) note_step(side_of(glossy, i), step);
+    }
+    on(glossy.who(i), step);
+}
+
+inline void PathVertices::find_guided() {
+    guided_plain_.find(*guide_, plain_);
+    guided_.resize(points_.size());
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+        const SurfacePoint& point = points_[i];
+        const GuideSide side = GuideSide::of(point.normal, point.shading.z, views_[i].outgoing);
+        const bool rough = bsdfs_[i].lobes() & views_[i].lobes & lobe::rough;
+        const bool even = bsdfs_[i].diffuse_albedo();
+        guided_[i] = rough ? guide_->at(point.position, side, even) : GuidedPoint();
+    }
+    for (std::size_t s = 0; s < stop_count_; ++s) {
+        const auto [kind, i] = stops_[s];
+        const auto known = [&](const auto& glossy) {
+            return guide_->at(glossy.position(i), side_of(glossy, i), false);
+        };
+        if (kind == Kind::coated) guided_glossy_[s] = known(coated_);
+        if (kind == Kind::metal) guided_glossy_[s] = known(metal_);
+    }
 }
 
 inline std::optional<PathVertices::Step> PathVertices::guided_step(const Gathering& at, const GuidedPoint& guided,
@@ -68,15 +95,14 @@ inline std::optional<PathVertices::Step> PathVertices::guided_step(const Gatheri
     return step;
 }
 
-inline void PathVertices::note_step(const Gathering& at, const Step& step) {
+inline void PathVertices::note_step(const GuideSide& side, const Step& step) {
     record_.reset();
-    const GuideSide side = GuideSide::of(at.point.normal, at.point.shading.z, at.outgoing);
     const float z = dot(step.sample.incoming, side.up), height = side.turned ? -z : z;
     if (step.sample.lobe == lobe::specular || !(height > least_height)) return;
     const Frame frame = Frame::around(side.up);
     const Vec2 place = from_disk({dot(step.sample.incoming, frame.x), dot(step.sample.incoming, frame.y)});
     const float density = step.sample.pdf * pi / height;
-    record_ = GuideStep{at.point.position, density, LightGuide::turn_of(side), place};
+    record_ = GuideStep{step.from.position, density, LightGuide::turn_of(side), place};
 }
 
 }  // namespace lightnet

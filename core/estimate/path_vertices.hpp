@@ -193,7 +193,8 @@ public:
             for (std::size_t i = 0; i < plain_.size(); ++i) go_on_from_plain<guided>(i, on);
             return;
         }
-        for (const auto [kind, i] : std::span(stops_).first(stop_count_)) {
+        for (std::size_t s = 0; s < stop_count_; ++s) {
+            const auto [kind, i] = stops_[s];
             switch (kind) {
                 case Kind::none:
                     go_on_from_visitor<guided>(visitors_[i], directions, choice, on);
@@ -202,10 +203,10 @@ public:
                     go_on_from_plain<guided>(i, on);
                     break;
                 case Kind::coated:
-                    go_on_from_glossy(coated_, i, on);
+                    go_on_from_glossy<guided>(coated_, i, guided_glossy_[s], on);
                     break;
                 case Kind::metal:
-                    go_on_from_glossy(metal_, i, on);
+                    go_on_from_glossy<guided>(metal_, i, guided_glossy_[s], on);
                     break;
             }
         }
@@ -233,10 +234,8 @@ private:
     /// In which columns it goes; none: it is worked out alone.
     Kind kind_of(const Hit& hit, std::uint8_t lobes, const Rgb* inside) const {
         if (hit.instance != Query::no_instance || inside) return Kind::none;
-        const Kind kind = shapes_[hit.geometry].kind;
-        if (kind == Kind::lambertian) return lobes & lobe::diffuse ? kind : Kind::none;
-        const bool alone = guide_ || learns_ || (lobes & lobe::rough) != lobe::rough;
-        return alone ? Kind::none : kind;
+        const ColumnShape& shape = shapes_[hit.geometry];
+        return (lobes & shape.lobes) == shape.lobes ? shape.kind : Kind::none;
     }
     void add_to_last(std::uint32_t path, const Hit& hit, Vec3 outgoing, std::uint8_t lobes) {
         const auto put = [&](const auto& to) {
@@ -266,8 +265,8 @@ private:
     void go_on_from_visitor(const Visitor& visitor, std::span<const Vec2> directions, Choice&& choice, On&& on);
     template <bool guided, class On>
     void go_on_from_plain(std::size_t i, On&& on);
-    template <class Glossy, class On>
-    void go_on_from_glossy(const Glossy& glossy, std::size_t i, On&& on);
+    template <bool guided, class Glossy, class On>
+    void go_on_from_glossy(const Glossy& glossy, std::size_t i, const GuidedPoint& known, On&& on);
     template <class Glossy>
     static LitPoint lit_point_of(const Glossy& glossy, std::size_t i) {
         const Vec3 at = glossy.position(i);
@@ -338,20 +337,14 @@ private:
                 filling(at.bsdf, at.point, at.outgoing, sample.incoming, at.inside)};
     }
 
-    GuideSide side_of_plain(std::size_t i) const {
-        return GuideSide::of(plain_.normal(i), plain_.shading(i), plain_.outgoing(i));
+    static GuideSide side_of(const Gathering& at) {
+        return GuideSide::of(at.point.normal, at.point.shading.z, at.outgoing);
     }
-    void find_guided() {
-        guided_plain_.find(*guide_, plain_);
-        guided_.resize(points_.size());
-        for (std::size_t i = 0; i < points_.size(); ++i) {
-            const SurfacePoint& point = points_[i];
-            const GuideSide side = GuideSide::of(point.normal, point.shading.z, views_[i].outgoing);
-            const bool rough = bsdfs_[i].lobes() & views_[i].lobes & lobe::rough;
-            const bool even = bsdfs_[i].diffuse_albedo();
-            guided_[i] = rough ? guide_->at(point.position, side, even) : GuidedPoint();
-        }
+    template <class Group>
+    static GuideSide side_of(const Group& group, std::size_t i) {
+        return GuideSide::of(group.normal(i), group.shading(i), group.outgoing(i));
     }
+    void find_guided();
     Vec2 warped(std::size_t i, Vec2 u) {
         const SquarePoint at = guided_plain_.warped(i, u);
         favours_[i] = at.density;
@@ -361,9 +354,9 @@ private:
     static std::optional<Step> guided_step(const Gathering& at, const GuidedPoint& guided, Vec2 u);
 
     void note_plain_step(std::size_t i, float favour) {
-        record_ = GuideStep{plain_.position(i), favour, LightGuide::turn_of(side_of_plain(i)), plain_.numbers(i)};
+        record_ = GuideStep{plain_.position(i), favour, LightGuide::turn_of(side_of(plain_, i)), plain_.numbers(i)};
     }
-    void note_step(const Gathering& at, const Step& step);
+    void note_step(const GuideSide& side, const Step& step);
 
     static constexpr float least_height = 1e-3f;
 
@@ -390,6 +383,7 @@ private:
     // as the guide knows them
     std::vector<GuidedPoint> guided_;
     GuidedColumns guided_plain_;
+    std::array<GuidedPoint, lanes> guided_glossy_;  // by stop
     std::array<float, lanes> favours_;
     bool learns_ = false;
     std::optional<GuideStep> record_;

@@ -178,6 +178,8 @@ Hit Scene::hit(const Query& query) const {
 
 const SceneData& Scene::data() const { return built_->data; }
 
+std::uint8_t Scene::lobes(const Hit& hit) const { return built_->shading.lobes(hit.geometry); }
+
 Bsdf Scene::bsdf(const SurfacePoint& point) const { return built_->shading.bsdf(point); }
 
 void Scene::add_bsdfs(std::span<const SurfacePoint> points, std::vector<Bsdf>& to) const {

@@ -90,6 +90,8 @@ public:
     const SceneData& data() const;
     /// By shape: how its points are shaded many at once. What is hit in an instance is not.
     std::span<const ColumnShape> column_shapes() const;
+    /// Bsdf::lobes() all over the surface that was hit; 0: they are not the same everywhere, or it has none.
+    std::uint8_t lobes(const Hit& hit) const;
     /// How the surface scatters there.
     Bsdf bsdf(const SurfacePoint& point) const;
     /// The same of many, made where they are to stay; appended.

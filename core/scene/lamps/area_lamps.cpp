@@ -19,7 +19,8 @@
 namespace lightnet {
 namespace {
 
-constexpr std::uint32_t few_facets = 4;  // that are chosen by area alone where they lie in one plane
+constexpr std::uint32_t few_facets = 4;   // that are chosen by area alone where they lie in one plane
+constexpr std::size_t most_known = 4096;  // more wouldn't stay in the cache
 
 bool shines_towards(bool two_sided, Vec3 normal, Vec3 direction) { return two_sided || dot(normal, direction) > 0; }
 
@@ -45,15 +46,15 @@ AreaLamps::AreaLamps(const SceneData& data, const Shading& shading, GroupSet gro
             add_mesh(s, *mesh);
         } else if (const PlacedQuadric* quadric = shading.quadric(s)) {
             const Box box = quadric->bounds();
-            balls_.push_back({box.center(), length(box.size()) / 2});
+            balls_.add(box.center(), length(box.size()) / 2);
             add_source(s, 1, 0);
         } else {
             const auto& ball = std::get<Sphere>(shape.geometry);
-            balls_.push_back({ball.center, ball.radius});
+            balls_.add(ball.center, ball.radius);
             add_source(s, 1, 0);
         }
-        balls_.back().radius *= 1.001f;  // roundings
     }
+    for (std::size_t i = 0; size() <= most_known && i < size(); ++i) known_.push_back(even(i));
 }
 
 void AreaLamps::add_mesh(std::uint32_t shape, const Mesh& mesh) {
@@ -72,7 +73,7 @@ void AreaLamps::add_mesh(std::uint32_t shape, const Mesh& mesh) {
         const Corners at = corners(mesh, t);
         for (const Vec3 p : {at.a, at.b, at.c}) radius2 = std::max(radius2, length_squared(p - center));
     }
-    balls_.push_back({center, std::sqrt(radius2)});
+    balls_.add(center, std::sqrt(radius2));
     if (!flat) return add_source(shape, count, 0);
 
     std::vector<double> areas;
@@ -251,8 +252,7 @@ std::optional<LightSample> AreaLamps::from_mesh(const Lamp& lamp, Vec3 from, Vec
     return LightSample{position, direction, radiance, pdf, false, false, source.group};
 }
 
-std::optional<FlatLamp> AreaLamps::flat(std::size_t index) const {
-    const Lamp one = lamp(index);
+std::optional<FlatLamp> AreaLamps::flat(const Lamp& one) const {
     const Source& source = one.source;
     const bool whole = source.whole != none;
     if (!is_mesh(source) || !source.uniform || (!whole && source.facets > 1)) return {};
@@ -262,19 +262,30 @@ std::optional<FlatLamp> AreaLamps::flat(std::size_t index) const {
     return FlatLamp{facet, whole, one.area, source.radiance, source.two_sided, source.group};
 }
 
+BallLamp AreaLamps::ball(const Lamp& one) const {
+    const Source& source = one.source;
+    const Sphere& ball = *ball_of(source);
+    return {ball.center, ball.radius, one.area, source.radiance, ball.flip_normals, source.two_sided, source.group};
+}
+
+AreaLamps::EvenLamp AreaLamps::even(std::size_t index) const {
+    const Lamp one = lamp(index);
+    if (ball_of(one.source)) return one.source.uniform ? EvenLamp(ball(one)) : EvenLamp();
+    const auto found = flat(one);
+    return found ? EvenLamp(*found) : EvenLamp();
+}
+
 std::optional<LightSample> AreaLamps::from_sphere(const Lamp& lamp, Vec3 from, Vec2 u) const {
     const Source& source = lamp.source;
-    const Sphere& ball = *ball_of(source);
-    const SeenBall seen(ball, from);
-    const Vec3 outwards = seen.sample(u);
-    const PointOnLamp point = on_sphere(ball, outwards);
-    const Vec3 way = point.position - from;
-    const float way2 = length_squared(way);
-    if (!(way2 > 0)) return {};
-    const Vec3 direction = way / std::sqrt(way2);
-    const float pdf = seen.pdf(outwards, direction, way2, lamp.area);
-    if (!shines_towards(source.two_sided, point.normal, -direction) || !is_there(source, point)) return {};
-    return LightSample{point.position, direction, radiance_at(source, point), pdf, false, false, source.group};
+    const WayToBall way = way_to_ball(ball(lamp), from, u);
+    if (!way.found) return {};
+    Rgb radiance = source.radiance;
+    if (!source.uniform) {
+        const PointOnLamp point = on_sphere(*ball_of(source), way.outwards);
+        if (!is_there(source, point)) return {};
+        radiance = radiance_at(source, point);
+    }
+    return LightSample{way.position, way.direction, radiance, way.pdf, false, false, source.group};
 }
 
 std::optional<LightSample> AreaLamps::from_quadric(const Lamp& lamp, Vec3 from, Vec2 u) const {
@@ -297,22 +308,11 @@ float AreaLamps::pdf(std::size_t index, Vec3 from, Vec3 direction, const Surface
     const Lamp one = lamp(index);
     const float way2 = length_squared(on.position - from);
     if (const Sphere* ball = ball_of(one.source))
-        return SeenBall(*ball, from).pdf(on.normal, direction, way2, one.area);
+        return SeenBall(ball->center, ball->radius, from).pdf(on.normal, direction, way2, one.area);
     if (const PlacedQuadric* quadric = quadric_of(one.source))
         return SeenQuadric(*quadric, from, one.source.two_sided).pdf(direction, quadric->own_point({on.u, on.v}));
     const float cosine = std::max(1e-6f, std::fabs(dot(on.normal, direction)));
     return one.area > 0 ? way2 / (one.area * cosine) : 0;
-}
-
-bool AreaLamps::may_meet(const Ray& ray) const {
-    constexpr std::size_t few = 32;  // looking at more costs as much as the ray
-    if (balls_.size() > few) return true;
-    return std::any_of(balls_.begin(), balls_.end(), [&](const Ball& ball) {
-        const Vec3 to_center = ball.center - ray.origin;
-        const float along = dot(to_center, ray.direction), distance2 = length_squared(to_center);
-        const float radius2 = ball.radius * ball.radius;
-        return distance2 <= radius2 || (along > 0 && distance2 - along * along <= radius2 + distance2 * 1e-5f);
-    });
 }
 
 LightBounds AreaLamps::bounds(std::size_t index) const {
@@ -383,7 +383,7 @@ bool AreaLamps::is_there(const Source& source, const PointOnLamp& point) const {
 std::size_t AreaLamps::memory() const {
     return sources_.size() * sizeof(Source) + source_of_.size() * sizeof(std::uint32_t) +
            facets_.size() * sizeof(Facet) + ends_.size() * sizeof(float) + wholes_.size() * sizeof(Facet) +
-           balls_.size() * sizeof(Ball) + sources_of_shapes_.size() * sizeof(std::uint32_t);
+           known_.size() * sizeof(EvenLamp) + sources_of_shapes_.size() * sizeof(std::uint32_t);
 }
 
 }  // namespace lightnet

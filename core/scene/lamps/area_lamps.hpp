@@ -5,12 +5,15 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <variant>
 #include <vector>
 
 #include "core/base/lamp_groups.hpp"
 #include "core/base/math/rgb.hpp"
 #include "core/base/math/vec.hpp"
 #include "core/scene/data/scene_data.hpp"
+#include "core/scene/lamps/ball_lamp.hpp"
+#include "core/scene/lamps/lamp_balls.hpp"
 #include "core/scene/lamps/light_tree.hpp"
 #include "core/scene/surfaces/flat_lamp.hpp"
 #include "core/scene/surfaces/light_sample.hpp"
@@ -33,8 +36,12 @@ public:
     std::optional<LightSample> sample(std::size_t lamp, Vec3 from, Vec2 u) const;
     /// Fetches what sample() will read of some lamps from memory.
     void expect(std::span<const LightTree::Choice> chosen) const;
-    /// The same lamp for many points at once, if it's a uniform triangle or parallelogram.
-    std::optional<FlatLamp> flat(std::size_t lamp) const;
+    /// A uniform triangle or parallelogram, or a uniform ball, which many points can look at at once; or nothing of
+    /// the kind.
+    using EvenLamp = std::variant<std::monostate, FlatLamp, BallLamp>;
+    EvenLamp even(std::size_t lamp) const;
+    /// The same, kept. Null: there are too many.
+    const EvenLamp* known(std::size_t lamp) const { return known_.empty() ? nullptr : &known_[lamp]; }
     /// Density with which sample() finds the emitting point `on`, which lies in `direction` from `from`.
     float pdf(std::size_t lamp, Vec3 from, Vec3 direction, const SurfacePoint& on) const;
     /// The lamp that a point of a surface belongs to.
@@ -46,7 +53,7 @@ public:
     /// Does the shape have lamps?
     bool shines(std::uint32_t shape) const { return sources_of_shapes_[shape] != none; }
     /// Could the ray meet a lamp? False is certain.
-    bool may_meet(const Ray& ray) const;
+    bool may_meet(const Ray& ray) const { return balls_.may_meet(ray); }
 
     LightBounds bounds(std::size_t lamp) const;
     /// All that the lamp emits, W; of a textured one, nearly.
@@ -76,10 +83,6 @@ private:
         std::uint32_t triangle;  // which, where each is a lamp
         float area;
     };
-    struct Ball {
-        Vec3 center;
-        float radius = 0;
-    };
     /// A point on a lamp.
     struct PointOnLamp {
         Vec3 position, normal;
@@ -103,6 +106,8 @@ private:
     Rgb radiance_at(const Source& source, const PointOnLamp& point) const;
     bool is_there(const Source& source, const PointOnLamp& point) const;
     Facet facet_of(const Lamp& lamp, std::uint32_t& primitive, float& u) const;
+    std::optional<FlatLamp> flat(const Lamp& lamp) const;
+    BallLamp ball(const Lamp& lamp) const;
     PointOnLamp on_mesh(const Lamp& lamp, Vec2 u) const;
     PointOnLamp on_sphere(const Sphere& ball, Vec3 outwards) const;
     PointOnLamp on_quadric(const PlacedQuadric& quadric, Vec3 own) const;
@@ -114,11 +119,12 @@ private:
     const Shading& shading_;
     const bool apart_;
     std::vector<Source> sources_;
-    std::vector<std::uint32_t> source_of_;          // by lamp
-    std::vector<Facet> facets_;                     // of meshes that are one lamp
-    std::vector<float> ends_;                       // by facet: share of its lamp's area up to and with it
-    std::vector<Facet> wholes_;                     // parallelograms of two triangles, which can be chosen from at once
-    std::vector<Ball> balls_;                       // one around each shape that shines
+    std::vector<std::uint32_t> source_of_;  // by lamp
+    std::vector<Facet> facets_;             // of meshes that are one lamp
+    std::vector<float> ends_;               // by facet: share of its lamp's area up to and with it
+    std::vector<Facet> wholes_;             // parallelograms of two triangles, which can be chosen from at once
+    LampBalls balls_;
+    std::vector<EvenLamp> known_;                   // by lamp, or nothing
     std::vector<std::uint32_t> sources_of_shapes_;  // none: does not shine
 };
 

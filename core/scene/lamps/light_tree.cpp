@@ -1,55 +1,24 @@
 #include "core/scene/lamps/light_tree.hpp"
 
 #include "core/base/math/columns.hpp"
+#include "core/scene/lamps/light_importance.hpp"
 #include "core/scene/lamps/light_tree_builder.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
-// How vectors are handed over depends on the processor that is compiled for. Here nothing is: all is inlined.
-#pragma GCC diagnostic ignored "-Wpsabi"
-
 namespace lightnet {
 namespace {
 
 constexpr std::uint32_t width = LightTree::width;
 constexpr std::size_t line_of_cache = 64;  // bytes
-// Of light that arrives, as what counts it by: where the shading normal leans over, the true normal's cosine may be 0.
-constexpr float least_cosine = 0.05f;
 using Node = LightTree::Node;
 using Importances = Node::Each<float>;
 
-// A number of each child, all at once. The compiler's own vectors: it would not make any of loops with so many
-// conditions.
-using Eight = float __attribute__((vector_size(32)));
-using Mask = std::int32_t __attribute__((vector_size(32)));
 static_assert(width == 8);
 
-[[gnu::always_inline]] inline Eight select(const Mask& mask, const Eight& a, const Eight& b) {
-    return (Eight)((mask & (Mask)a) | (~mask & (Mask)b));
-}
-[[gnu::always_inline]] inline Eight greater_of(const Eight& a, const Eight& b) { return select(a > b, a, b); }
-[[gnu::always_inline]] inline Eight all_of(float x) { return Eight{x, x, x, x, x, x, x, x}; }
-[[gnu::always_inline]] inline Eight magnitude(const Eight& a) { return (Eight)((Mask)a & 0x7fffffff); }
-[[gnu::always_inline]] inline Eight root(const Eight& a) {
-    Eight roots;
-    for (std::uint32_t i = 0; i < width; ++i) roots[i] = std::sqrt(a[i]);
-    return roots;
-}
-
-/// The cosine and the sine of an angle, times a distance.
-struct Turn {
-    Eight cosine, sine;
-};
-// The angle less another one: at least 0.
-[[gnu::always_inline]] inline Turn less(const Turn& angle, const Eight& distance, const Eight& cosine,
-                                        const Eight& sine) {
-    const Mask none_left = angle.cosine > distance * cosine;
-    return {select(none_left, distance, angle.cosine * cosine + angle.sine * sine),
-            select(none_left, all_of(0), angle.sine * cosine - angle.cosine * sine)};
-}
-
+// A number of each child, all at once.
 [[gnu::always_inline]] inline Eight numbers(const Node::Each<float>& each) {
     Eight eight;
     std::memcpy(&eight, each.data(), sizeof(eight));
@@ -71,51 +40,31 @@ struct Reach {
         half = (0.5f * step) * (last - first);
     }
 };
-/// A box as it is seen from a point: distance² and its reciprocal, half its diagonal, and how far its rim is.
-struct SeenBox {
-    Eight square, per_square, radius, rim;
-    // The cosine of the angle less the one that the box fills. Worked out times the distance, and the difference times
-    // its square, so that no root waits for another, nor for the quotient.
-    [[gnu::always_inline]] Eight cosine_beyond(const Turn& angle) const {
-        return select(angle.cosine > rim, square, angle.cosine * rim + angle.sine * radius) * per_square;
-    }
-};
-
-// DECISIONS: tree-of-lamps
-// Section 4.1: intensity × cosines / distance², the cosines as large as any light in the box could have them.
-[[gnu::always_inline]] inline Importances importances(const Node& node, const LitPoint& from) {
-    constexpr float roundings = 3e-4f, unit = 1.0f / 32767;
-    const Vec3 at = from.position, n = from.normal;
+/// Its children.
+[[gnu::always_inline]] inline EightLights lights_of(const Node& node) {
+    constexpr float unit = 1.0f / 32767;
     const Reach x(node.lows.x, node.highs.x, node.low.x, node.step.x);
     const Reach y(node.lows.y, node.highs.y, node.low.y, node.step.y);
     const Reach z(node.lows.z, node.highs.z, node.low.z, node.step.z);
-    const Eight way_x = at.x - x.middle, way_y = at.y - y.middle, way_z = at.z - z.middle;
-    const Eight distance2 = way_x * way_x + way_y * way_y + way_z * way_z;
     const Eight radius2 = x.half * x.half + y.half * y.half + z.half * z.half;
-    // As near as the size of the box the distance says nothing.
-    const Eight square = greater_of(distance2, greater_of(radius2, all_of(1e-30f)));
-    const SeenBox box{square, 1 / square, root(radius2), root(square - radius2)};
-    const Eight distance = root(square), falloff = numbers(node.intensity) * box.per_square;
+    const Mask two_sided = (all_of(std::int32_t{node.two_sided}) & Mask{1, 2, 4, 8, 16, 32, 64, 128}) != 0;
+    return {{x.middle, y.middle, z.middle},
+            radius2,
+            root(radius2),
+            {numbers(node.axis.x) * unit, numbers(node.axis.y) * unit, numbers(node.axis.z) * unit},
+            numbers(node.cos_spread) * unit,
+            numbers(node.sin_spread) * unit,
+            numbers(node.cos_reach) * unit,
+            numbers(node.intensity),
+            two_sided};
+}
 
-    const Eight along =
-        (way_x * numbers(node.axis.x) + way_y * numbers(node.axis.y) + way_z * numbers(node.axis.z)) * unit;
-    const std::int32_t bits = node.two_sided;
-    const Mask two_sided =
-        (Mask{bits, bits, bits, bits, bits, bits, bits, bits} & Mask{1, 2, 4, 8, 16, 32, 64, 128}) != 0;
-    const Turn to_axis{select(two_sided, magnitude(along), along), root(magnitude(square - along * along))};
-    const Eight cos_leaving =
-        box.cosine_beyond(less(to_axis, distance, numbers(node.cos_spread) * unit, numbers(node.sin_spread) * unit));
-    const Eight lit = select(cos_leaving < numbers(node.cos_reach) * unit - roundings, all_of(0),
-                             greater_of(cos_leaving, all_of(roundings)));
-    const Mask inside = distance2 <= radius2;  // the box is all around: any direction is possible
-    Eight found = falloff * select(inside, all_of(1), lit);
-    if (n != Vec3{}) {
-        const Eight up = way_x * -n.x + way_y * -n.y + way_z * -n.z;
-        const Eight cos_arriving = box.cosine_beyond({up, root(magnitude(square - up * up))});
-        const Eight above =
-            select(cos_arriving < -roundings, all_of(0), greater_of(cos_arriving, all_of(least_cosine)));
-        found = falloff * select(inside, all_of(1), lit * above);
-    }
+[[gnu::always_inline]] inline Importances importances(const Node& node, const LitPoint& from) {
+    const Vec3 at = from.position, n = from.normal;
+    const EightPoints eight_times{{all_of(at.x), all_of(at.y), all_of(at.z)},
+                                  {all_of(n.x), all_of(n.y), all_of(n.z)},
+                                  all_of(std::int32_t{n == Vec3{} ? -1 : 0})};
+    const Eight found = importance(lights_of(node), eight_times);
     Importances each;
     std::memcpy(each.data(), &found, sizeof(found));
     return each;
@@ -157,8 +106,8 @@ struct LightTree::Choosing {
     std::span<float> places;
     std::span<Choice> chosen;
 
-    // Level by level, not point by point: one step of a point waits for the one before it, but not for other points; and
-    // the nodes to which some go down are fetched while others choose theirs.
+    // Level by level, not point by point: one step of a point waits for the one before it, but not for other points;
+    // and the nodes to which some go down are fetched while others choose theirs.
     [[gnu::always_inline]] void work() {
         for (std::size_t first = 0; first < from.size(); first += lanes) {
             std::array<std::size_t, lanes> open;
@@ -199,6 +148,7 @@ struct LightTree::Choosing {
 };
 
 void LightTree::choose(std::span<const LitPoint> from, std::span<float> places, std::span<Choice> chosen) const {
+    if (!few_.empty()) return few_.choose(from, places, chosen);
     if (nodes_.empty()) {
         std::ranges::fill(chosen, Choice{0, 0});
         return;
@@ -233,13 +183,20 @@ struct LightTree::Looking {
 };
 
 float LightTree::chance(const LitPoint& from, std::uint32_t light) const {
+    if (!few_.empty()) return few_.chance(from, light);
     if (place_of_[light] == none) return 0;
     Looking looking{nodes_, from, place_of_[light]};
     work_in_lanes(looking);
     return looking.chance;
 }
 
-LightTree::LightTree(const std::vector<LightBounds>& lights) : place_of_(lights.size(), none) {
+LightTree::LightTree(const std::vector<LightBounds>& lights) {
+    const auto shining = std::ranges::count_if(lights, [](const LightBounds& one) { return one.intensity > 0; });
+    if (shining <= FewLights::most) {
+        few_ = FewLights(lights);
+        return;
+    }
+    place_of_.assign(lights.size(), none);
     nodes_ = LightTreeBuilder(lights).build();
     for (std::uint32_t n = 0; n < nodes_.size(); ++n)
         for (std::uint32_t i = 0; i < width; ++i)

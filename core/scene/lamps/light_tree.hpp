@@ -9,34 +9,22 @@
 #include <vector>
 
 #include "core/base/math/vec.hpp"
+#include "core/scene/lamps/few_lights.hpp"
+#include "core/scene/lamps/light_bounds.hpp"
 #include "core/scene/lamps/lit_point.hpp"
 
 namespace lightnet {
 
-/// Where some lights are and into which directions they shine: a box, and a cone of normals around which each of them
-/// shines within an angle.
-struct LightBounds {
-    Vec3 low, high;
-    Vec3 axis{0, 0, 1};    // unit
-    float cos_spread = 1;  // of the greatest angle between the axis and a normal
-    float cos_reach = 0;   // of the greatest angle, from a normal, at which light leaves; at most a right angle
-    float intensity = 0;   // W·sr⁻¹, along the normals, of all together
-    bool two_sided = false;
-};
-
 /// A tree over lights (a light BVH), of up to eight children each, which are looked at together. Conty Estévez & Kulla
-/// 2018, "Importance Sampling of Many Lights with Adaptive Tree Splitting", without the splitting. Immutable; any
-/// thread may ask.
+/// 2018, "Importance Sampling of Many Lights with Adaptive Tree Splitting", without the splitting. A few lights
+/// are looked at without it. Immutable; any thread may ask.
 class LightTree {
 public:
     LightTree() = default;
     /// Lights without intensity are never chosen.
     explicit LightTree(const std::vector<LightBounds>& lights);
 
-    struct Choice {
-        std::uint32_t light;
-        float chance;
-    };
+    using Choice = LightChoice;
     /// `u` becomes the place within the choice. None: no light reaches the point.
     std::optional<Choice> choose(const LitPoint& from, float& u) const;
     /// The same for many points at once. Chance 0: no light reaches the point.
@@ -74,6 +62,7 @@ private:
     struct Choosing;
     struct Looking;
 
+    FewLights few_;  // all of them; none: they are in the tree
     std::vector<Node> nodes_;
     std::vector<std::uint32_t> place_of_;  // by light: its node × width, plus which child of it; none
     static constexpr std::uint32_t none = 0xffffffffu;

@@ -3,12 +3,14 @@
 #include "core/base/math/frame.hpp"
 #include "core/base/math/sampling.hpp"
 #include "core/scene/lamps/bare_lights.hpp"
+#include "core/scene/lamps/lamp_points.hpp"
 #include "core/scene/lamps/shares.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
+#include <variant>
 
 namespace lightnet {
 namespace {
@@ -68,9 +70,11 @@ void Lights::build_tree() {
     choices_ = in_tree + beside;
     for (std::size_t i = 0; choices_ == 1 && i < lamps_.size(); ++i)
         if (bounds[i].intensity > 0) only_lamp_ = i;
-    if (only_lamp_) only_flat_lamp_ = lamps_.flat(*only_lamp_);
     share_of_tree_ = in_tree ? 1 / float(1 + beside) : 0;
     share_of_far_ = beside ? (1 - share_of_tree_) / float(beside) : 0;
+    if (!only_lamp_) return;
+    const AreaLamps::EvenLamp only = lamps_.even(*only_lamp_);
+    if (const auto* flat = std::get_if<FlatLamp>(&only)) only_flat_lamp_ = *flat;
 }
 
 std::optional<LightSample> Lights::sample(const LitPoint& from, float choice, Vec2 u) const {
@@ -179,9 +183,22 @@ void Lights::sample_tree(const SomePoints& some, LightSamples& samples) const {
     std::array<float, lanes> places = some.choices;
     tree_.choose(std::span(some.from).first(some.count), places, chosen);
     if (tree_.large()) lamps_.expect(std::span(chosen).first(some.count));
-    for (std::size_t k = 0; k < some.count; ++k)
-        samples.set(some.who[k],
-                    chosen[k].chance > 0 ? from_chosen(chosen[k], some.from[k].position, some.u[k]) : std::nullopt);
+    FlatLampPoints on_flat;
+    BallLampPoints on_balls;
+    for (std::size_t k = 0; k < some.count; ++k) {
+        const LightTree::Choice& one = chosen[k];
+        const LampAsked asked{some.who[k], some.from[k].position, some.u[k], one.chance};
+        const bool shape = one.chance > 0 && one.light < lamps_.size();
+        const AreaLamps::EvenLamp* known = shape ? lamps_.known(one.light) : nullptr;
+        if (const auto* flat = std::get_if<FlatLamp>(known))
+            on_flat.add(asked, *flat);
+        else if (const auto* ball = std::get_if<BallLamp>(known))
+            on_balls.add(asked, *ball);
+        else
+            samples.set(asked.who, one.chance > 0 ? from_chosen(one, asked.from, asked.u) : std::nullopt);
+    }
+    on_flat.find(share_of_tree_, samples);
+    on_balls.find(share_of_tree_, samples);
 }
 
 void Lights::sample_map(const SomePoints& some, LightSamples& samples) const {

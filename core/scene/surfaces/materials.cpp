@@ -57,6 +57,22 @@ void Materials::make(MaterialId id) {
     if (material.bump_map) made.step = step_of(data_, *material.bump_map);
     made.filled = transparency_of(material) == Transparency::solid && !is_black(material.absorption);
     made.simple = made.constant && !made.bumpy && !made.filled && !material.one_sided;
+    made.lobes = lobes_everywhere(id);
+}
+
+std::uint8_t Materials::lobes_everywhere(MaterialId id) const {
+    if (made_[id].constant) return Bsdf({}, {}, *made_[id].constant).lobes();
+    const auto& model = data_.materials[id].model;
+    if (std::holds_alternative<DiffuseMaterial>(model)) return DiffuseBsdf().lobes();
+    const auto with = [](auto bsdf, const Roughness& roughness) -> std::uint8_t {
+        const FacetRange range = facet_range_of(roughness);
+        bsdf.facets = range.facets;
+        return range.varies ? 0 : bsdf.lobes();
+    };
+    if (const auto* coated = std::get_if<CoatedDiffuseMaterial>(&model))
+        return with(CoatedDiffuseBsdf(), coated->roughness);
+    if (const auto* metal = std::get_if<ConductorMaterial>(&model)) return with(ConductorBsdf(), metal->roughness);
+    return 0;
 }
 
 MaterialNeeds Materials::needs_of(MaterialId id) {

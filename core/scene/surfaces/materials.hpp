@@ -48,6 +48,8 @@ public:
     const Bsdf::Model* constant_model(MaterialId material) const {
         return made_[material].constant ? &*made_[material].constant : nullptr;
     }
+    /// Bsdf::lobes() at all of its points; 0: that depends on the place.
+    std::uint8_t lobes(MaterialId material) const { return made_[material].lobes; }
     /// Reflectance of a Lambertian one.
     Rgb albedo(MaterialId material, const TexturePlace& place) const;
     /// Of a material whose models are of this one kind alone.
@@ -74,9 +76,11 @@ private:
         bool bumpy = false;   // normal or bump map
         float step = 0;       // of texture coordinates, over which a bump map is taken to be straight
         bool filled = false;  // with what absorbs
+        std::uint8_t lobes = 0;
         std::vector<const ImageTexture*> pictures;  // all that it looks into
     };
     void make(MaterialId material);
+    std::uint8_t lobes_everywhere(MaterialId material) const;
     MaterialNeeds needs_of(MaterialId material);
     Bsdf blend(std::span<const BlendPart> parts, const SurfacePoint& point) const;
 

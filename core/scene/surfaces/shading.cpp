@@ -76,7 +76,8 @@ OnSphere laid_on(const Sphere& sphere, Vec3 outwards) {
 
 Shading::Shading(const SceneData& data) : data_(data), materials_(data) {
     for (const auto& shape : data.shapes) {
-        needs_.push_back({materials_.needs(shape.material), least_offset(shape), std::get_if<Mesh>(&shape.geometry)});
+        needs_.push_back({materials_.needs(shape.material), least_offset(shape), std::get_if<Mesh>(&shape.geometry),
+                          materials_.lobes(shape.material)});
         needs_.back().material.texture |= shape.emission && shape.emission->texture;
         column_shapes_.push_back(column_shape(shape, needs_.back()));
         const auto* quadric = std::get_if<Quadric>(&shape.geometry);
@@ -89,8 +90,10 @@ ColumnShape Shading::column_shape(const Shape& shape, const Needs& needs) const 
     if (kind == ColumnShape::Kind::none) return {};
     const Bsdf::Model* model = materials_.constant_model(shape.material);
     const auto* diffuse = model ? std::get_if<DiffuseBsdf>(model) : nullptr;
-    return {kind, needs.mesh,   diffuse ? diffuse->albedo : Rgb{},         model,
-            this, needs.offset, data_.materials[shape.material].one_sided, shape.emission.has_value()};
+    const auto lobes = static_cast<std::uint8_t>((needs.lobes ? needs.lobes : lobe::all) & lobe::rough);
+    const bool one_sided = data_.materials[shape.material].one_sided;
+    return {kind,  needs.mesh, diffuse ? diffuse->albedo : Rgb{}, model, this, needs.offset,
+            lobes, one_sided,  shape.emission.has_value()};
 }
 
 void Shading::find(std::uint32_t geometry, std::uint32_t primitive, float u, float v, SurfacePoint& point) const {

@@ -40,6 +40,8 @@ public:
     void add_bsdfs(std::span<const SurfacePoint> points, std::vector<Bsdf>& to) const;
     /// By shape.
     std::span<const ColumnShape> column_shapes() const { return column_shapes_; }
+    /// Bsdf::lobes() all over a shape; 0: they are not the same everywhere.
+    std::uint8_t lobes(std::uint32_t geometry) const { return needs_[geometry].lobes; }
     /// Reflectance of a Lambertian one, there.
     Rgb albedo(std::uint32_t geometry, const TexturePlace& place) const {
         return materials_.albedo(data_.shapes[geometry].material, place);
@@ -75,6 +77,7 @@ private:
         MaterialNeeds material;
         float offset = 0;            // least distance by which rays must leave the shape, m
         const Mesh* mesh = nullptr;  // null: the shape is another
+        std::uint8_t lobes = 0;      // 0: not the same everywhere
     };
     ColumnShape column_shape(const Shape& shape, const Needs& needs) const;
     void on_mesh(const Needs& needs, SurfacePoint& point) const;
