@@ -24,7 +24,7 @@ struct Tuning {
     std::uint32_t side_fibers = 2048;
     bool check_answers = false;
     std::uint32_t verify = 0;
-    std::uint32_t oldest_us = 1000;
+    std::uint32_t oldest_us = 3000;
     std::uint32_t eager = 2;
     std::uint32_t credit_questions = 8192;
     std::uint64_t credit_bytes = std::uint64_t{8} << 20;

@@ -86,7 +86,13 @@ std::chrono::nanoseconds BundlePort::patience() const {
 
 // By the work alone: what waits at replicas that are busy, or for others whom they ask, is no reason to send less at
 // once.
-std::size_t BundlePort::full() const { return full_bundle(rules_.questions, replicas_.scheduler().work_of_each()); }
+// DECISIONS: little-for-strangers
+std::size_t BundlePort::full() const {
+    constexpr std::size_t for_strangers = 64;
+    const double each = replicas_.scheduler().work_of_each();
+    const std::size_t most = each > 0 || kept_back_ ? rules_.questions : std::min(rules_.questions, for_strangers);
+    return full_bundle(most, each);
+}
 
 bool BundlePort::due(Clock::time_point now, bool idle) {
     if (waiting_ == 0 || kept_back_) return false;
