@@ -213,6 +213,10 @@ TEST(ManyLights, AreFoundAtOnceAsOneByOne) {
         const auto black = diffuse(data, 0);
         add(data, quad({-1, -1, 2}, {0, 2, 0}, {2, 0, 0}), black).emission = AreaEmission{{1, 2, 3}, false};
         add(data, ball({3, 0, 1}, 0.5f), black).emission = AreaEmission{{4, 1, 1}, false};
+        add(data, ball({0.5f, 0, 0}, 1), black).emission = AreaEmission{{1, 1, 4}, true};  // around some of the points
+        add(data, quad({-2, 1, 1}, {0, 1, 0}, {1, 0, 0.5f}), black).emission = AreaEmission{{2, 2, 1}, true};
+        data.shapes.push_back(data.shapes.back());
+        std::get<Mesh>(data.shapes.back().geometry).triangles.pop_back();
         data.lights.push_back(DirectionalLight{.direction = {0, 0, -1}, .irradiance = {1, 1, 1}});
         data.lights.push_back(DirectionalLight{.direction = {0, 1, 0}, .irradiance = {1, 1, 1}, .half_angle = 0.1f});
         if (map) data.environments.push_back(map_of(Layout::equal_area));

@@ -359,9 +359,11 @@ TEST(Many, StopsTellEachWalkWhatOneIsTold) {
         for (std::uint32_t i = 0; i < many; ++i) {
             Samples samples(9, i);
             Walk walk{hits[i], sphere(samples.next_2d()),
-                      i % 7 == 0   ? lobe::specular
-                      : i % 5 == 0 ? lobe::rough
-                                   : lobe::all,
+                      i % 7 == 0    ? lobe::specular
+                      : i % 5 == 0  ? lobe::rough
+                      : i % 13 == 0 ? lobe::diffuse
+                      : i % 17 == 0 ? lobe::glossy
+                                    : lobe::all,
                       i % 11 ? nullptr : &absorption, samples.next()};
             vertices.add(std::uint32_t(walks.size()), walk.hit, walk.outgoing, walk.lobes, walk.inside);
             walks.push_back(walk);
