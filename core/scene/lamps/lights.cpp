@@ -144,7 +144,14 @@ bool Lights::takes_only_map(float choice) const {
     return (choice - share_of_tree_) / share_of_far_ >= float(far_.size());
 }
 
-/// Those of many points that go the same way.
+/// Points that go the same way. No `who`: they are all.
+struct Lights::PointsAsked {
+    std::span<const std::uint32_t> who;
+    std::span<const LitPoint> from;
+    std::span<const float> choices;
+    std::span<const Vec2> u;
+};
+/// The same, picked from many.
 struct Lights::SomePoints {
     std::size_t count = 0;
     std::array<std::uint32_t, lanes> who;
@@ -158,10 +165,16 @@ struct Lights::SomePoints {
         choices[count] = choice;
         u[count++] = place;
     }
+    PointsAsked all() const {
+        return {std::span(who).first(count), std::span(from).first(count), std::span(choices).first(count),
+                std::span(u).first(count)};
+    }
 };
 
 void Lights::sample(std::span<const LitPoint> from, std::span<const float> choices, std::span<const Vec2> u,
                     LightSamples& samples) const {
+    const bool tree_alone = !only_lamp_ && share_of_tree_ == 1 && !choices.empty();
+    if (tree_alone) return sample_tree({{}, from, choices, u}, samples);
     SomePoints by_tree, by_map;
     for (std::uint32_t i = 0; i < u.size(); ++i) {
         const float choice = choices.empty() ? 0 : choices[i];
@@ -174,20 +187,23 @@ void Lights::sample(std::span<const LitPoint> from, std::span<const float> choic
         else
             samples.set(i, from_beside(choice, u[i]));
     }
-    if (by_tree.count > 0) sample_tree(by_tree, samples);
+    if (by_tree.count > 0) sample_tree(by_tree.all(), samples);
     if (by_map.count > 0) sample_map(by_map, samples);
 }
 
-void Lights::sample_tree(const SomePoints& some, LightSamples& samples) const {
+void Lights::sample_tree(const PointsAsked& some, LightSamples& samples) const {
+    const std::size_t count = some.u.size();
     std::array<LightTree::Choice, lanes> chosen;
-    std::array<float, lanes> places = some.choices;
-    tree_.choose(std::span(some.from).first(some.count), places, chosen);
-    if (tree_.large()) lamps_.expect(std::span(chosen).first(some.count));
+    std::array<float, lanes> places;
+    std::copy_n(some.choices.begin(), count, places.begin());
+    tree_.choose(some.from.first(count), places, chosen);
+    if (tree_.large()) lamps_.expect(std::span(chosen).first(count));
     FlatLampPoints on_flat;
     BallLampPoints on_balls;
-    for (std::size_t k = 0; k < some.count; ++k) {
+    for (std::size_t k = 0; k < count; ++k) {
         const LightTree::Choice& one = chosen[k];
-        const LampAsked asked{some.who[k], some.from[k].position, some.u[k], one.chance};
+        const auto who = some.who.empty() ? static_cast<std::uint32_t>(k) : some.who[k];
+        const LampAsked asked{who, some.from[k].position, some.u[k], one.chance};
         const bool shape = one.chance > 0 && one.light < lamps_.size();
         const AreaLamps::EvenLamp* known = shape ? lamps_.known(one.light) : nullptr;
         if (const auto* flat = std::get_if<FlatLamp>(known))

@@ -100,8 +100,9 @@ private:
     bool takes_tree(float choice) const { return share_of_tree_ == 1 || choice < share_of_tree_; }
     float place_in_tree(float choice) const;
     bool takes_only_map(float choice) const;
+    struct PointsAsked;
     struct SomePoints;
-    void sample_tree(const SomePoints& some, LightSamples& samples) const;
+    void sample_tree(const PointsAsked& some, LightSamples& samples) const;
     void sample_map(const SomePoints& some, LightSamples& samples) const;
     LightSample from_only_map(const SkyRadiance& seen) const;
     Emission from_sky(const Environment& environment, Vec2 position_sample, Vec2 direction_sample) const;
