@@ -206,9 +206,9 @@ TEST_P(Maps, GiveManyAtOnceWhatTheyGiveOneByOne) {
     }
 }
 
-// Of lamps, a distant light, a sun and a map.
+// Of lamps, alone, with a distant light and a sun, and with a map as well.
 TEST(ManyLights, AreFoundAtOnceAsOneByOne) {
-    for (const bool map : {false, true}) {
+    for (const auto& [far, map] : {std::pair(false, false), std::pair(true, false), std::pair(true, true)}) {
         SceneData data;
         const auto black = diffuse(data, 0);
         add(data, quad({-1, -1, 2}, {0, 2, 0}, {2, 0, 0}), black).emission = AreaEmission{{1, 2, 3}, false};
@@ -217,8 +217,11 @@ TEST(ManyLights, AreFoundAtOnceAsOneByOne) {
         add(data, quad({-2, 1, 1}, {0, 1, 0}, {1, 0, 0.5f}), black).emission = AreaEmission{{2, 2, 1}, true};
         data.shapes.push_back(data.shapes.back());
         std::get<Mesh>(data.shapes.back().geometry).triangles.pop_back();
-        data.lights.push_back(DirectionalLight{.direction = {0, 0, -1}, .irradiance = {1, 1, 1}});
-        data.lights.push_back(DirectionalLight{.direction = {0, 1, 0}, .irradiance = {1, 1, 1}, .half_angle = 0.1f});
+        if (far) {
+            data.lights.push_back(DirectionalLight{.direction = {0, 0, -1}, .irradiance = {1, 1, 1}});
+            data.lights.push_back(
+                DirectionalLight{.direction = {0, 1, 0}, .irradiance = {1, 1, 1}, .half_angle = 0.1f});
+        }
         if (map) data.environments.push_back(map_of(Layout::equal_area));
         const Scene scene(data);
         for (std::uint32_t first = 0; first < 512; first += lanes) {

@@ -60,7 +60,7 @@ TEST_P(LightTrees, ChooseForManyPointsAsForEach) {
             places.push_back(samples.next());
         }
         auto alone = places;
-        std::vector<LightTree::Choice> chosen(points);
+        std::vector<LightChoice> chosen(points);
         tree.choose(from, places, chosen);
         for (std::size_t i = 0; i < points; ++i) {
             const auto one = tree.choose(from[i], alone[i]);
@@ -73,20 +73,12 @@ TEST_P(LightTrees, ChooseForManyPointsAsForEach) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, LightTrees, testing::Values(7, 20, 33, 34, 80),
-                         [](const auto& count) { return std::to_string(count.param) + "Lights"; });
+/// As LightTrees, of more lights, too.
+class LargerLightTrees : public LightTrees {};
 
-TEST(LightTree, OfNoLightsChoosesNone) {
-    for (const LightTree& tree :
-         {LightTree(), LightTree(std::vector<LightBounds>{}), LightTree(std::vector<LightBounds>(3))}) {
-        float u = 0.5f;
-        EXPECT_FALSE(tree.choose(LitPoint({0, 0, 0}), u));
-    }
-}
-
-TEST(LightTree, ReachesEveryLightThatShinesOnThePoint) {
+TEST_P(LargerLightTrees, ReachEveryLightThatShinesOnThePoint) {
     std::vector<LightBounds> lights;
-    for (std::uint32_t i = 0; i < 300; ++i) {
+    for (std::uint32_t i = 0; i < GetParam(); ++i) {
         Samples samples(9, i);
         const Vec3 at = sphere(samples.next_2d()) * 3;
         lights.push_back({at, at, sphere(samples.next_2d()), 1, i % 2 ? 0.0f : 0.8f, 1, false});
@@ -102,9 +94,9 @@ TEST(LightTree, ReachesEveryLightThatShinesOnThePoint) {
 }
 
 // Boxes, some of which the plane of the surface cuts: whatever has a corner above it can light it.
-TEST(LightTree, LeavesOutNothingThatIsAboveTheSurface) {
+TEST_P(LargerLightTrees, LeaveOutNothingThatIsAboveTheSurface) {
     std::vector<LightBounds> lights;
-    for (std::uint32_t i = 0; i < 300; ++i) {
+    for (std::uint32_t i = 0; i < GetParam(); ++i) {
         Samples samples(11, i);
         const Vec3 at = sphere(samples.next_2d()) * (3 * samples.next());
         const Vec2 size = samples.next_2d();
@@ -123,7 +115,19 @@ TEST(LightTree, LeavesOutNothingThatIsAboveTheSurface) {
             left_out += chance == 0;
         }
     }
-    EXPECT_GT(left_out, 200u * 100);
+    EXPECT_GT(left_out, 200u * GetParam() / 3);
+}
+
+const auto as_name = [](const auto& count) { return std::to_string(count.param) + "Lights"; };
+INSTANTIATE_TEST_SUITE_P(Of, LightTrees, testing::Values(7, 20, 33, 34, 80), as_name);
+INSTANTIATE_TEST_SUITE_P(Of, LargerLightTrees, testing::Values(30, 300), as_name);
+
+TEST(LightTree, OfNoLightsChoosesNone) {
+    for (const LightTree& tree :
+         {LightTree(), LightTree(std::vector<LightBounds>{}), LightTree(std::vector<LightBounds>(3))}) {
+        float u = 0.5f;
+        EXPECT_FALSE(tree.choose(LitPoint({0, 0, 0}), u));
+    }
 }
 
 TEST(LightTree, PrefersWhatStandsAboveToWhatIsSeenFromTheSide) {

@@ -133,6 +133,35 @@ TEST(Materials, MayBeBlackFromBehind) {
     EXPECT_FALSE(bsdf.sample(-up, 0.5f, {0.3f, 0.4f}, lobe::all));
 }
 
+// What is known of a whole surface holds at each of its points.
+TEST(Materials, KnowTheirLobesWhereTheseAreTheSameEverywhere) {
+    SceneData data;
+    const auto stripes = picture(data, 2, 1, {{0, 0, 0}, {1, 1, 1}});
+    const Roughness smooth{}, satin{0.3f, 0.3f}, striped{0.5f, 0.5f, stripes};
+    const auto eta = colour(data, {0.2f, 0.9f, 1.5f}), k = colour(data, {3.9f, 2.4f, 1.9f});
+    const auto known = [&](auto model) {
+        SceneData one = data;
+        add(one, square(), material(one, model));
+        const Shading shading(one);
+        const std::uint8_t everywhere = shading.lobes(0);
+        for (const float x : {0.25f, 0.75f}) {
+            const std::uint8_t here = shading.bsdf(at(shading, x, 0.2f)).lobes();
+            EXPECT_TRUE(everywhere == 0 || everywhere == here);
+        }
+        return everywhere != 0;
+    };
+    EXPECT_TRUE(known(DiffuseMaterial{eta}));
+    EXPECT_TRUE(known(DiffuseMaterial{stripes}));
+    EXPECT_TRUE(known(CoatedDiffuseMaterial{stripes, 1.5f, smooth}));
+    EXPECT_TRUE(known(CoatedDiffuseMaterial{stripes, 1.5f, satin}));
+    EXPECT_FALSE(known(CoatedDiffuseMaterial{stripes, 1.5f, striped}));
+    EXPECT_TRUE(known(ConductorMaterial{{eta, k}, smooth}));
+    EXPECT_TRUE(known(ConductorMaterial{{eta, k}, satin, stripes}));
+    EXPECT_FALSE(known(ConductorMaterial{{eta, k}, striped}));
+    EXPECT_TRUE(known(DielectricMaterial{}));
+    EXPECT_FALSE(known(MixtureMaterial{diffuse(data, 0.5f), mirror(data, 0.8f), stripes}));
+}
+
 TEST(Materials, TakeRoughnessFromTextures) {
     SceneData data;
     ConductorMaterial metal;

@@ -80,6 +80,7 @@ void BundlePort::finish(Ticket ticket) {
 }
 
 // Who waits long for an answer anyway loses little by waiting for company first.
+// DECISIONS: three-milliseconds-of-patience
 std::chrono::nanoseconds BundlePort::patience() const {
     return std::clamp<std::chrono::nanoseconds>(answer_time_ / 2, rules_.oldest, 16 * rules_.oldest);
 }

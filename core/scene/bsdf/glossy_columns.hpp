@@ -40,7 +40,7 @@ struct Proposal {
 };
 
 // Models of many points. All directions are local, z > 0. Before anything else see() tells from where a point is seen
-// and which lobes count (diffuse and glossy ones at least), and before value() arrive() from where light comes: they
+// and which lobes count (all rough ones that the model has, at least), and before value() arrive() from where light comes: they
 // look into tables, and so are no part of loops.
 
 /// As CoatedDiffuseBsdf has it.

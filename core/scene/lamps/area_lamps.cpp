@@ -218,7 +218,7 @@ std::optional<LightSample> AreaLamps::sample(std::size_t index, Vec3 from, Vec2 
     return ball_of(one.source) ? from_sphere(one, from, u) : from_quadric(one, from, u);
 }
 
-void AreaLamps::expect(std::span<const LightTree::Choice> chosen) const {
+void AreaLamps::expect(std::span<const LightChoice> chosen) const {
     const auto each = [&](const auto& fetch) {
         for (const auto& [lamp, chance] : chosen)
             if (chance > 0 && lamp < size()) fetch(lamp);

@@ -35,7 +35,7 @@ public:
     /// A point on a lamp that is chosen for certain. None: it sends no light this way.
     std::optional<LightSample> sample(std::size_t lamp, Vec3 from, Vec2 u) const;
     /// Fetches what sample() will read of some lamps from memory.
-    void expect(std::span<const LightTree::Choice> chosen) const;
+    void expect(std::span<const LightChoice> chosen) const;
     /// A uniform triangle or parallelogram, or a uniform ball, which many points can look at at once; or nothing of
     /// the kind.
     using EvenLamp = std::variant<std::monostate, FlatLamp, BallLamp>;

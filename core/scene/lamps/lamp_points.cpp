@@ -1,20 +1,84 @@
 #include "core/scene/lamps/lamp_points.hpp"
 
 namespace lightnet {
+namespace {
 
-void LampPoints::add(const LampAsked& asked, Rgb radiance, bool two_sided, float area, std::uint32_t group) {
+struct Way {
+    Vec3 position, direction;
+    float pdf;
+    bool found;
+};
+[[gnu::always_inline]] inline Way way_to(const FlatLamp& lamp, Vec3 from, Vec2 u) {
+    const Vec2 folded = triangle(u);
+    const Vec3 position = lamp.facet.at({lamp.whole ? u.x : folded.x, lamp.whole ? u.y : folded.y});
+    const auto [direction, pdf, found] =
+        direction_to_lamp(from, position, lamp.facet.normal, lamp.area, lamp.two_sided);
+    return {position, direction, pdf, found};
+}
+[[gnu::always_inline]] inline Way way_to(const BallLamp& lamp, Vec3 from, Vec2 u) {
+    const WayToBall way = way_to_ball(lamp, from, u);
+    return {way.position, way.direction, way.pdf, way.found};
+}
+
+}  // namespace
+
+void FlatLampColumns::set(std::size_t i, const FlatLamp& lamp) {
+    corner.set(i, lamp.facet.corner);
+    first_edge.set(i, lamp.facet.first_edge);
+    second_edge.set(i, lamp.facet.second_edge);
+    normal.set(i, lamp.facet.normal);
+    whole[i] = lamp.whole;
+}
+
+void BallLampColumns::set(std::size_t i, const BallLamp& lamp) {
+    center.set(i, lamp.center);
+    radius[i] = lamp.radius;
+    inwards[i] = lamp.inwards;
+}
+
+template <class Forms>
+void LampPoints<Forms>::add(const LampAsked& asked, const typename Forms::Lamp& lamp) {
     const std::size_t i = count_++;
     who_[i] = asked.who;
     from_.set(i, asked.from);
     u_.set(i, asked.u);
     chance_[i] = asked.chance;
-    radiance_.set(i, {radiance.r, radiance.g, radiance.b});
-    two_sided_[i] = two_sided;
-    area_[i] = area;
-    group_[i] = group;
+    forms_.set(i, lamp);
+    radiance_.set(i, {lamp.radiance.r, lamp.radiance.g, lamp.radiance.b});
+    two_sided_[i] = lamp.two_sided;
+    area_[i] = lamp.area;
+    group_[i] = lamp.group;
 }
 
-void LampPoints::write(LightSamples& samples) const {
+template <class Forms>
+struct LampPoints<Forms>::Finding {
+    LampPoints& at;
+    float share;
+
+    [[gnu::always_inline]] void work() {
+        for (std::size_t i = 0; i < at.count_; ++i) {
+            auto lamp = at.forms_[i];
+            lamp.area = at.area_[i];
+            lamp.two_sided = at.two_sided_[i] != 0;
+            const Way way = way_to(lamp, at.from_[i], at.u_[i]);
+            at.position_.set(i, way.position);
+            at.direction_.set(i, way.direction);
+            at.pdf_[i] = way.pdf * at.chance_[i] * share;
+            at.found_[i] = way.found;
+        }
+    }
+};
+
+template <class Forms>
+void LampPoints<Forms>::find(float share, LightSamples& samples) {
+    if (count_ == 0) return;
+    Finding finding{*this, share};
+    work_in_lanes(finding);
+    write(samples);
+}
+
+template <class Forms>
+void LampPoints<Forms>::write(LightSamples& samples) const {
     for (std::size_t i = 0; i < count_; ++i) {
         const std::uint32_t to = who_[i];
         samples.position.set(to, position_[i]);
@@ -27,77 +91,7 @@ void LampPoints::write(LightSamples& samples) const {
     }
 }
 
-void FlatLampPoints::add(const LampAsked& asked, const FlatLamp& lamp) {
-    const std::size_t i = count_;
-    LampPoints::add(asked, lamp.radiance, lamp.two_sided, lamp.area, lamp.group);
-    corner_.set(i, lamp.facet.corner);
-    first_edge_.set(i, lamp.facet.first_edge);
-    second_edge_.set(i, lamp.facet.second_edge);
-    normal_.set(i, lamp.facet.normal);
-    whole_[i] = lamp.whole;
-}
-
-struct FlatLampPoints::Finding {
-    FlatLampPoints& at;
-    float share;
-
-    [[gnu::always_inline]] void work() {
-        for (std::size_t i = 0; i < at.count_; ++i) {
-            const Vec2 u = at.u_[i], folded = triangle(u);
-            const bool whole = at.whole_[i] != 0;
-            const Facet facet{at.corner_[i], at.first_edge_[i], at.second_edge_[i], at.normal_[i]};
-            const Vec3 position = facet.at({whole ? u.x : folded.x, whole ? u.y : folded.y});
-            const DirectionToLamp way =
-                direction_to_lamp(at.from_[i], position, facet.normal, at.area_[i], at.two_sided_[i] != 0);
-            at.position_.set(i, position);
-            at.direction_.set(i, way.direction);
-            at.pdf_[i] = way.pdf * at.chance_[i] * share;
-            at.found_[i] = way.found;
-        }
-    }
-};
-
-void FlatLampPoints::find(float share, LightSamples& samples) {
-    if (count_ == 0) return;
-    Finding finding{*this, share};
-    work_in_lanes(finding);
-    write(samples);
-}
-
-void BallLampPoints::add(const LampAsked& asked, const BallLamp& lamp) {
-    const std::size_t i = count_;
-    LampPoints::add(asked, lamp.radiance, lamp.two_sided, lamp.area, lamp.group);
-    center_.set(i, lamp.center);
-    radius_[i] = lamp.radius;
-    inwards_[i] = lamp.inwards;
-}
-
-struct BallLampPoints::Finding {
-    BallLampPoints& at;
-    float share;
-
-    [[gnu::always_inline]] void work() {
-        for (std::size_t i = 0; i < at.count_; ++i) {
-            BallLamp ball;
-            ball.center = at.center_[i];
-            ball.radius = at.radius_[i];
-            ball.area = at.area_[i];
-            ball.inwards = at.inwards_[i] != 0;
-            ball.two_sided = at.two_sided_[i] != 0;
-            const WayToBall way = way_to_ball(ball, at.from_[i], at.u_[i]);
-            at.position_.set(i, way.position);
-            at.direction_.set(i, way.direction);
-            at.pdf_[i] = way.pdf * at.chance_[i] * share;
-            at.found_[i] = way.found;
-        }
-    }
-};
-
-void BallLampPoints::find(float share, LightSamples& samples) {
-    if (count_ == 0) return;
-    Finding finding{*this, share};
-    work_in_lanes(finding);
-    write(samples);
-}
+template class LampPoints<FlatLampColumns>;
+template class LampPoints<BallLampColumns>;
 
 }  // namespace lightnet

@@ -1,6 +1,7 @@
 // Points on lamps, many at once: what AreaLamps::sample() gives, to the bit.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -20,13 +21,53 @@ struct LampAsked {
     float chance;  // of the lamp
 };
 
-/// What is the same for lamps of all forms. One thread's, as what follows.
+// Where lamps are, without what those of all forms have.
+
+/// Triangles and parallelograms.
+struct FlatLampColumns {
+    using Lamp = FlatLamp;
+    Columns3 corner, first_edge, second_edge, normal;
+    Flags whole;
+
+    void set(std::size_t i, const FlatLamp& lamp);
+    [[gnu::always_inline]] FlatLamp operator[](std::size_t i) const {
+        FlatLamp lamp;
+        lamp.facet = {corner[i], first_edge[i], second_edge[i], normal[i]};
+        lamp.whole = whole[i] != 0;
+        return lamp;
+    }
+};
+
+struct BallLampColumns {
+    using Lamp = BallLamp;
+    Columns3 center;
+    Column radius;
+    Flags inwards;
+
+    void set(std::size_t i, const BallLamp& lamp);
+    [[gnu::always_inline]] BallLamp operator[](std::size_t i) const {
+        BallLamp ball;
+        ball.center = center[i];
+        ball.radius = radius[i];
+        ball.inwards = inwards[i] != 0;
+        return ball;
+    }
+};
+
+/// Some points, each of which looks at a lamp of its own. One thread's.
+template <class Forms>
 class LampPoints {
-protected:
-    void add(const LampAsked& asked, Rgb radiance, bool two_sided, float area, std::uint32_t group);
+public:
+    void add(const LampAsked& asked, const typename Forms::Lamp& lamp);
+    /// Samples of all that were added. `share`: the chance that it is lamps that are looked at.
+    void find(float share, LightSamples& samples);
+
+private:
+    struct Finding;
     void write(LightSamples& samples) const;
 
     std::size_t count_ = 0;
+    Forms forms_;
     std::array<std::uint32_t, lanes> who_;
     Columns3 from_, radiance_, position_, direction_;
     Columns2 u_;
@@ -34,31 +75,7 @@ protected:
     Flags two_sided_, group_, found_;
 };
 
-/// On triangles and parallelograms.
-class FlatLampPoints : LampPoints {
-public:
-    void add(const LampAsked& asked, const FlatLamp& lamp);
-    /// Samples of all that were added. `share`: the chance that it is lamps that are looked at.
-    void find(float share, LightSamples& samples);
-
-private:
-    struct Finding;
-    Columns3 corner_, first_edge_, second_edge_, normal_;
-    Flags whole_;
-};
-
-/// On balls.
-class BallLampPoints : LampPoints {
-public:
-    void add(const LampAsked& asked, const BallLamp& lamp);
-    /// As FlatLampPoints::find().
-    void find(float share, LightSamples& samples);
-
-private:
-    struct Finding;
-    Columns3 center_;
-    Column radius_;
-    Flags inwards_;
-};
+extern template class LampPoints<FlatLampColumns>;
+extern template class LampPoints<BallLampColumns>;
 
 }  // namespace lightnet

@@ -15,7 +15,6 @@ constexpr std::uint32_t width = LightTree::width;
 constexpr std::size_t line_of_cache = 64;  // bytes
 using Node = LightTree::Node;
 using Importances = Node::Each<float>;
-
 static_assert(width == 8);
 
 // A number of each child, all at once.
@@ -40,6 +39,7 @@ struct Reach {
         half = (0.5f * step) * (last - first);
     }
 };
+
 /// Its children.
 [[gnu::always_inline]] inline EightLights lights_of(const Node& node) {
     constexpr float unit = 1.0f / 32767;
@@ -104,7 +104,7 @@ struct LightTree::Choosing {
     std::span<const Node> nodes;
     std::span<const LitPoint> from;
     std::span<float> places;
-    std::span<Choice> chosen;
+    std::span<LightChoice> chosen;
 
     // Level by level, not point by point: one step of a point waits for the one before it, but not for other points;
     // and the nodes to which some go down are fetched while others choose theirs.
@@ -128,7 +128,7 @@ struct LightTree::Choosing {
         }
     }
     /// From a node to one of its children: is that a node again?
-    [[gnu::always_inline]] bool goes_down(const LitPoint& point, float& u, Choice& choice) const {
+    [[gnu::always_inline]] bool goes_down(const LitPoint& point, float& u, LightChoice& choice) const {
         const Node& node = nodes[choice.light];
         const Importances all = importances(node, point);
         const Sums sums(all);
@@ -147,18 +147,18 @@ struct LightTree::Choosing {
     }
 };
 
-void LightTree::choose(std::span<const LitPoint> from, std::span<float> places, std::span<Choice> chosen) const {
+void LightTree::choose(std::span<const LitPoint> from, std::span<float> places, std::span<LightChoice> chosen) const {
     if (!few_.empty()) return few_.choose(from, places, chosen);
     if (nodes_.empty()) {
-        std::ranges::fill(chosen, Choice{0, 0});
+        std::ranges::fill(chosen, LightChoice{0, 0});
         return;
     }
     Choosing choosing{nodes_, from, places, chosen};
     work_in_lanes(choosing);
 }
 
-std::optional<LightTree::Choice> LightTree::choose(const LitPoint& from, float& u) const {
-    Choice choice{};
+std::optional<LightChoice> LightTree::choose(const LitPoint& from, float& u) const {
+    LightChoice choice{};
     choose({&from, 1}, {&u, 1}, {&choice, 1});
     return choice.chance > 0 ? std::optional(choice) : std::nullopt;
 }

@@ -24,11 +24,10 @@ public:
     /// Lights without intensity are never chosen.
     explicit LightTree(const std::vector<LightBounds>& lights);
 
-    using Choice = LightChoice;
     /// `u` becomes the place within the choice. None: no light reaches the point.
-    std::optional<Choice> choose(const LitPoint& from, float& u) const;
+    std::optional<LightChoice> choose(const LitPoint& from, float& u) const;
     /// The same for many points at once. Chance 0: no light reaches the point.
-    void choose(std::span<const LitPoint> from, std::span<float> places, std::span<Choice> chosen) const;
+    void choose(std::span<const LitPoint> from, std::span<float> places, std::span<LightChoice> chosen) const;
     /// The chance with which choose() finds a light.
     float chance(const LitPoint& from, std::uint32_t light) const;
 

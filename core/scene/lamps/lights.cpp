@@ -88,7 +88,7 @@ std::optional<LightSample> Lights::from_tree(const LitPoint& from, float choice,
     return chosen ? from_chosen(*chosen, from.position, u) : std::nullopt;
 }
 
-std::optional<LightSample> Lights::from_chosen(const LightTree::Choice& chosen, Vec3 from, Vec2 u) const {
+std::optional<LightSample> Lights::from_chosen(const LightChoice& chosen, Vec3 from, Vec2 u) const {
     const std::size_t light = chosen.light;
     const auto from_near = [&](const auto& one) {
         auto found = light_from(one, from);
@@ -152,7 +152,7 @@ struct Lights::PointsAsked {
     std::span<const Vec2> u;
 };
 /// The same, picked from many.
-struct Lights::SomePoints {
+struct Lights::PointsPicked {
     std::size_t count = 0;
     std::array<std::uint32_t, lanes> who;
     std::array<LitPoint, lanes> from;
@@ -175,7 +175,7 @@ void Lights::sample(std::span<const LitPoint> from, std::span<const float> choic
                     LightSamples& samples) const {
     const bool tree_alone = !only_lamp_ && share_of_tree_ == 1 && !choices.empty();
     if (tree_alone) return sample_tree({{}, from, choices, u}, samples);
-    SomePoints by_tree, by_map;
+    PointsPicked by_tree, by_map;
     for (std::uint32_t i = 0; i < u.size(); ++i) {
         const float choice = choices.empty() ? 0 : choices[i];
         if (only_lamp_)
@@ -188,20 +188,20 @@ void Lights::sample(std::span<const LitPoint> from, std::span<const float> choic
             samples.set(i, from_beside(choice, u[i]));
     }
     if (by_tree.count > 0) sample_tree(by_tree.all(), samples);
-    if (by_map.count > 0) sample_map(by_map, samples);
+    if (by_map.count > 0) sample_map(by_map.all(), samples);
 }
 
 void Lights::sample_tree(const PointsAsked& some, LightSamples& samples) const {
     const std::size_t count = some.u.size();
-    std::array<LightTree::Choice, lanes> chosen;
+    std::array<LightChoice, lanes> chosen;
     std::array<float, lanes> places;
     std::copy_n(some.choices.begin(), count, places.begin());
     tree_.choose(some.from.first(count), places, chosen);
     if (tree_.large()) lamps_.expect(std::span(chosen).first(count));
-    FlatLampPoints on_flat;
-    BallLampPoints on_balls;
+    LampPoints<FlatLampColumns> on_flat;
+    LampPoints<BallLampColumns> on_balls;
     for (std::size_t k = 0; k < count; ++k) {
-        const LightTree::Choice& one = chosen[k];
+        const LightChoice& one = chosen[k];
         const auto who = some.who.empty() ? static_cast<std::uint32_t>(k) : some.who[k];
         const LampAsked asked{who, some.from[k].position, some.u[k], one.chance};
         const bool shape = one.chance > 0 && one.light < lamps_.size();
@@ -217,10 +217,10 @@ void Lights::sample_tree(const PointsAsked& some, LightSamples& samples) const {
     on_balls.find(share_of_tree_, samples);
 }
 
-void Lights::sample_map(const SomePoints& some, LightSamples& samples) const {
+void Lights::sample_map(const PointsAsked& some, LightSamples& samples) const {
     std::array<SkyRadiance, lanes> seen;
-    environments_[maps_[0]].sample(std::span(some.u).first(some.count), seen);
-    for (std::size_t k = 0; k < some.count; ++k) {
+    environments_[maps_[0]].sample(some.u, seen);
+    for (std::size_t k = 0; k < some.u.size(); ++k) {
         LightSample found = from_only_map(seen[k]);
         found.pdf *= share_of_far_;
         samples.set(some.who[k], found);

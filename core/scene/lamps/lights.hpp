@@ -93,7 +93,7 @@ private:
     void build_tree();
     std::vector<Rgb> powers() const;
     std::optional<LightSample> from_tree(const LitPoint& from, float choice, Vec2 u) const;
-    std::optional<LightSample> from_chosen(const LightTree::Choice& chosen, Vec3 from, Vec2 u) const;
+    std::optional<LightSample> from_chosen(const LightChoice& chosen, Vec3 from, Vec2 u) const;
     std::optional<LightSample> from_beside(float choice, Vec2 u) const;
     std::optional<LightSample> from_infinity(float choice, Vec2 u) const;
     std::optional<LightSample> from_map(float choice, Vec2 u) const;
@@ -101,9 +101,9 @@ private:
     float place_in_tree(float choice) const;
     bool takes_only_map(float choice) const;
     struct PointsAsked;
-    struct SomePoints;
+    struct PointsPicked;
     void sample_tree(const PointsAsked& some, LightSamples& samples) const;
-    void sample_map(const SomePoints& some, LightSamples& samples) const;
+    void sample_map(const PointsAsked& some, LightSamples& samples) const;
     LightSample from_only_map(const SkyRadiance& seen) const;
     Emission from_sky(const Environment& environment, Vec2 position_sample, Vec2 direction_sample) const;
     Emission through_ball(Vec3 direction, Rgb irradiance, Vec2 position_sample) const;

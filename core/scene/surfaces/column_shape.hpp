@@ -26,7 +26,7 @@ struct ColumnShape {
     const Bsdf::Model* model = nullptr;  // of any of them; null: it is not the same everywhere
     const Shading* shading = nullptr;    // knows what it is where
     float least_offset = 0;              // by which rays must leave the shape, m
-    std::uint8_t lobes = 0;              // rough ones that it may have: those who leave one out are told alone
+    std::uint8_t lobes = 0;              // rough ones of it: who leaves one of them out is shaded alone
     bool one_sided = false;
     bool shines = false;  // emits light as well
 };
