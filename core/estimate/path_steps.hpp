@@ -70,12 +70,10 @@ inline void PathVertices::find_guided() {
         guided_[i] = rough ? guide_->at(point.position, side, even) : GuidedPoint();
     }
     for (std::size_t s = 0; s < stop_count_; ++s) {
-        const auto [kind, i] = stops_[s];
-        const auto known = [&](const auto& glossy) {
-            return guide_->at(glossy.position(i), side_of(glossy, i), false);
-        };
-        if (kind == Kind::coated) guided_glossy_[s] = known(coated_);
-        if (kind == Kind::metal) guided_glossy_[s] = known(metal_);
+        const std::size_t i = stops_[s].index;
+        glossy_.of(stops_[s].kind, [&](const auto& group) {
+            guided_glossy_[s] = guide_->at(group.position(i), side_of(group, i), false);
+        });
     }
 }
 

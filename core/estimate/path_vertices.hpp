@@ -8,19 +8,18 @@
 #include <span>
 #include <vector>
 
+#include "core/estimate/glossy_groups.hpp"
 #include "core/estimate/guided_columns.hpp"
 #include "core/estimate/light_guide.hpp"
 #include "core/estimate/shadow_rays.hpp"
 #include "core/scene/direct_light.hpp"
 #include "core/scene/scene.hpp"
-#include "core/scene/surfaces/glossy_surfaces.hpp"
 #include "core/scene/surfaces/lambertian_surfaces.hpp"
 
 namespace lightnet {
 
-/// Where each of some paths has come to: its vertex. Diffuse and coated meshes and rough metals go through the formulas
-/// many at once, as structures of arrays, the others one by one: what each path is told is the same, to the bit. One
-/// thread.
+/// Where each of some paths has come to: its vertex. Meshes of the most usual materials go through the formulas many at
+/// once, as structures of arrays, the others one by one: what each path is told is the same, to the bit. One thread.
 class PathVertices {
 public:
     /// `guide`: by which paths go on; null: by surfaces alone.
@@ -28,7 +27,7 @@ public:
         : scene_(scene), guide_(guide), shapes_(scene.column_shapes()), only_lamp_(scene.only_flat_lamp()) {}
 
     void clear() {
-        plain_.clear(), coated_.clear(), metal_.clear();
+        plain_.clear(), glossy_.clear();
         points_.clear(), views_.clear(), bsdfs_.clear(), visitors_.clear(), guided_.clear();
         guided_plain_.clear();
         stop_count_ = 0;
@@ -72,8 +71,7 @@ public:
     /// All have been added.
     void find_points() {
         if (plain_.size() > 0) plain_.find_points();
-        if (coated_.size() > 0) coated_.find_points();
-        if (metal_.size() > 0) metal_.find_points();
+        glossy_.each([](auto& group) { group.find_points(); });
     }
 
     /// with(path, point) of all that may be lamps, of what add() added.
@@ -88,8 +86,7 @@ public:
     /// How they scatter: before anything of the following is asked.
     void find_bsdfs() {
         scene_.add_bsdfs(points_, bsdfs_);
-        if (coated_.size() > 0) coated_.find_bsdfs();
-        if (metal_.size() > 0) metal_.find_bsdfs();
+        glossy_.each([](auto& group) { group.find_bsdfs(); });
         if (guide_) find_guided();
     }
 
@@ -104,14 +101,13 @@ public:
             with(plain_.who(i),
                  Gathering{point, bsdf, plain_.outgoing(i), lobe::all, nullptr, guided ? &guided : nullptr});
         }
-        const auto each_of = [&](const auto& glossy) {
-            for (std::size_t i = 0; i < glossy.size(); ++i) {
-                const SurfacePoint point = glossy.point(i);
-                const Bsdf bsdf = glossy.bsdf(i);
-                with(glossy.who(i), Gathering{point, bsdf, glossy.outgoing(i), glossy.lobes(i)});
+        glossy_.each([&](const auto& group) {
+            for (std::size_t i = 0; i < group.size(); ++i) {
+                const SurfacePoint point = group.point(i);
+                const Bsdf bsdf = group.bsdf(i);
+                with(group.who(i), Gathering{point, bsdf, group.outgoing(i), group.lobes(i)});
             }
-        };
-        each_of(coated_), each_of(metal_);
+        });
     }
 
     /// Random numbers of each path, by its index. Empty: nobody needs them.
@@ -148,8 +144,7 @@ public:
             to.resize(end);
         };
         const auto all_of_it = [](std::size_t, Rgb&) {};
-        if (coated_.size() > 0) append(coated_, look_from_glossy(coated_, numbers, heuristic), all_of_it);
-        if (metal_.size() > 0) append(metal_, look_from_glossy(metal_, numbers, heuristic), all_of_it);
+        glossy_.each([&](auto& group) { append(group, look_from_glossy(group, numbers, heuristic), all_of_it); });
         if (plain_.size() == 0) return;
         const RaysToLamp& found = look_from_plain(numbers, heuristic);
         if (guide_) guided_plain_.share(found, heuristic == Heuristic::power);
@@ -180,35 +175,28 @@ public:
             const Vec2 u = directions[plain_.who(i)];
             plain_.set_numbers(i, guided && guide_ ? warped(i, u) : u);
         }
-        const auto draw = [&](auto& glossy) {
-            for (std::size_t i = 0; i < glossy.size(); ++i) {
-                glossy.set_numbers(i, directions[glossy.who(i)]);
-                if (glossy.chooses) glossy.set_choice(i, choice(glossy.who(i)));
+        glossy_.each([&](auto& group) {
+            for (std::size_t i = 0; i < group.size(); ++i) {
+                group.set_numbers(i, directions[group.who(i)]);
+                if (group.chooses) group.set_choice(i, choice(group.who(i)));
             }
-            if (glossy.size() > 0) glossy.sample();
-        };
-        draw(coated_), draw(metal_);
+            group.sample();
+        });
         if (plain_.size() > 0) plain_.sample();
         if (plain_.size() == stop_count_) {  // as in most scenes
             for (std::size_t i = 0; i < plain_.size(); ++i) go_on_from_plain<guided>(i, on);
             return;
         }
         for (std::size_t s = 0; s < stop_count_; ++s) {
-            const auto [kind, i] = stops_[s];
-            switch (kind) {
-                case Kind::none:
-                    go_on_from_visitor<guided>(visitors_[i], directions, choice, on);
-                    break;
-                case Kind::lambertian:
-                    go_on_from_plain<guided>(i, on);
-                    break;
-                case Kind::coated:
-                    go_on_from_glossy<guided>(coated_, i, guided_glossy_[s], on);
-                    break;
-                case Kind::metal:
-                    go_on_from_glossy<guided>(metal_, i, guided_glossy_[s], on);
-                    break;
-            }
+            const Kind kind = stops_[s].kind;
+            const std::size_t i = stops_[s].index;
+            if (kind == Kind::none)
+                go_on_from_visitor<guided>(visitors_[i], directions, choice, on);
+            else if (kind == Kind::lambertian)
+                go_on_from_plain<guided>(i, on);
+            else
+                glossy_.of(kind,
+                           [&](const auto& group) { go_on_from_glossy<guided>(group, i, guided_glossy_[s], on); });
         }
     }
 
@@ -229,35 +217,29 @@ private:
     };
     template <class With>
     void each_group(With&& with) const {
-        with(plain_), with(coated_), with(metal_);
+        with(plain_), glossy_.each(with);
     }
     /// In which columns it goes; none: it is worked out alone.
     Kind kind_of(const Hit& hit, std::uint8_t lobes, const Rgb* inside) const {
-        if (hit.instance != Query::no_instance || inside) return Kind::none;
+        if (inside) return Kind::none;
         const ColumnShape& shape = shapes_[hit.geometry];
         return (lobes & shape.lobes) == shape.lobes ? shape.kind : Kind::none;
     }
-    void add_to_last(std::uint32_t path, const Hit& hit, Vec3 outgoing, std::uint8_t lobes) {
+    [[gnu::always_inline]] void add_to_last(std::uint32_t path, const Hit& hit, Vec3 outgoing, std::uint8_t lobes) {
         const auto put = [&](const auto& to) {
             stops_[stop_count_++] = {last_, static_cast<std::uint32_t>(to.size())};
         };
-        switch (last_) {
-            case Kind::none:
-                put(visitors_);
-                visitors_.push_back({path, static_cast<std::uint32_t>(points_.size() - 1)});
-                break;
-            case Kind::lambertian:
-                put(plain_);
-                plain_.add(path, shapes_[hit.geometry], hit, outgoing);
-                break;
-            case Kind::coated:
-                put(coated_);
-                coated_.add(path, shapes_[hit.geometry], hit, outgoing, lobes);
-                break;
-            case Kind::metal:
-                put(metal_);
-                metal_.add(path, shapes_[hit.geometry], hit, outgoing, lobes);
-                break;
+        if (last_ == Kind::none) {
+            put(visitors_);
+            visitors_.push_back({path, static_cast<std::uint32_t>(points_.size() - 1)});
+        } else if (last_ == Kind::lambertian) {
+            put(plain_);
+            plain_.add(path, shapes_[hit.geometry], hit, outgoing);
+        } else {
+            glossy_.of(last_, [&](auto& group) {
+                put(group);
+                group.add(path, shapes_[hit.geometry], hit, outgoing, lobes);
+            });
         }
     }
     // In path_steps.hpp.
@@ -368,8 +350,7 @@ private:
     std::array<Stop, lanes> stops_;  // in the order of paths
     Kind last_ = Kind::none;         // where the last one was put
     LambertianSurfaces plain_;
-    CoatedSurfaces coated_;
-    MetalSurfaces metal_;
+    GlossyGroups glossy_;
     // the others, and who has come to which
     std::vector<SurfacePoint> points_;
     std::vector<View> views_;

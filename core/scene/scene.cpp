@@ -7,7 +7,6 @@
 #include "core/scene/ray_witness.hpp"
 #include "core/scene/scene_size.hpp"
 #include "core/scene/surfaces/placed_quadric.hpp"
-#include "core/scene/surfaces/placement.hpp"
 #include "core/scene/surfaces/shading.hpp"
 
 #include <algorithm>
@@ -55,13 +54,6 @@ SceneData checked(SceneData data) {
     return data;
 }
 
-std::vector<Placement> placements_of(const SceneData& data) {
-    std::vector<Placement> placements;
-    placements.reserve(data.instances.size());
-    for (const auto& instance : data.instances) placements.emplace_back(instance.to_world);
-    return placements;
-}
-
 FilmData sized(FilmData film, const SceneOptions& options) {
     if (options.width) film.width = options.width;
     if (options.height) film.height = options.height;
@@ -85,7 +77,6 @@ struct Scene::Built {
         : data(checked(std::move(given))),
           shading(data),
           geometry(data, shading, {options.isa, options.build_threads}),
-          placements(placements_of(data)),
           box(finite_box(geometry.bounds())),
           film(sized(data.film, options)),
           camera(looked_at(film), film.width, film.height) {}
@@ -97,11 +88,6 @@ struct Scene::Built {
         return data.camera;
     }
 
-    void find(const Hit& hit, SurfacePoint& point) const {
-        shading.find(hit.geometry, hit.primitive, hit.u, hit.v, point);
-        if (hit.instance != Query::no_instance) point = placements[hit.instance].place(point);
-    }
-
     std::unique_ptr<const Lights> lights(const Lights::Wanted& wanted) const {
         return std::make_unique<const Lights>(data, shading, Lights::Ball{box.center(), length(box.size()) / 2},
                                               wanted);
@@ -110,7 +96,6 @@ struct Scene::Built {
     SceneData data;
     Shading shading;
     Geometry geometry;
-    std::vector<Placement> placements;  // by instance
     Box box;
     FilmData film;
     Camera camera;
@@ -149,16 +134,16 @@ void Scene::occluded(std::span<const Ray> rays, std::span<std::uint8_t> hidden) 
 }
 
 std::optional<Hit> Scene::nearest(Vec3 position, Vec3 normal, float reach) const {
-    return built_->geometry.nearest({built_->data, built_->shading, built_->placements}, {position, normal, reach});
+    return built_->geometry.nearest({built_->data, built_->shading}, {position, normal, reach});
 }
 
 SurfacePoint Scene::surface(const Hit& hit) const {
     SurfacePoint point;
-    built_->find(hit, point);
+    built_->shading.find(hit, point);
     return point;
 }
 
-void Scene::add_surface(const Hit& hit, std::vector<SurfacePoint>& to) const { built_->find(hit, to.emplace_back()); }
+void Scene::add_surface(const Hit& hit, std::vector<SurfacePoint>& to) const { built_->shading.find(hit, to.emplace_back()); }
 
 void Scene::expect(std::span<const std::optional<Hit>> hits) const { built_->shading.expect(hits); }
 
@@ -171,7 +156,7 @@ Hit Scene::hit(const Query& query) const {
         return mesh ? mesh->triangles.size() : 1;
     };
     if (query.geometry >= shapes.size() || query.primitive >= primitives(shapes[query.geometry]) ||
-        (query.instance != Query::no_instance && query.instance >= built_->placements.size()))
+        (query.instance != Query::no_instance && query.instance >= built_->shading.placements().size()))
         throw Error("scene", "a question names a surface that isn't there");
     return {query.instance, query.geometry, query.primitive, query.u, query.v, 0};
 }

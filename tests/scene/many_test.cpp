@@ -1,10 +1,10 @@
 // What is worked out for many points at once is, to the bit, what is worked out for each of them alone.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <ostream>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "core/base/math/samples.hpp"
@@ -12,104 +12,19 @@
 #include "core/estimate/path_vertices.hpp"
 #include "core/scene/direct_light.hpp"
 #include "core/scene/scene.hpp"
-#include "tests/support/small_scenes.hpp"
+#include "tests/scene/many_surfaces.hpp"
 
 namespace lightnet::many_test {
 namespace {
 
 using namespace test;
 
-constexpr std::uint32_t flake = 10;  // which shape of everything() has no area
-constexpr std::size_t many = 2000;   // not a multiple of anything
+constexpr std::size_t many = 2000;  // not a multiple of anything
 
 auto parts(const Frame& f) { return std::tuple(f.x, f.y, f.z); }
 auto parts(const Ray& r) { return std::tuple(r.origin, r.direction, r.far); }
 
 Vec3 somewhere(Samples& samples) { return sphere(samples.next_2d()) * (3 * samples.next()); }
-
-// A wavy sheet: its shading normals are far from its geometric ones, and turn away from some who see it.
-Mesh waves() {
-    Mesh mesh;
-    constexpr std::uint32_t side = 6;
-    for (std::uint32_t y = 0; y <= side; ++y)
-        for (std::uint32_t x = 0; x <= side; ++x) {
-            const float a = float(x) - 3, b = float(y) - 3;
-            mesh.positions.push_back({a, b, 0.8f * std::sin(2 * a) * std::cos(b)});
-            mesh.normals.push_back(normalize({-std::sin(a), std::cos(3 * b), 0.4f}));
-        }
-    for (std::uint32_t y = 0; y < side; ++y)
-        for (std::uint32_t x = 0; x < side; ++x) {
-            const std::uint32_t at = y * (side + 1) + x;
-            mesh.triangles.push_back({at, at + 1, at + side + 1});
-            mesh.triangles.push_back({at + 1, at + side + 2, at + side + 1});
-        }
-    return mesh;
-}
-
-// Meshes with and without normals, flipped ones, ones with textures and vertex colours, triangles without area, balls
-// and instances; surfaces that are diffuse, coated, black from behind, metals, mirrors, glass and blends.
-SceneData everything() {
-    SceneData data;
-    const auto grey = diffuse(data, 0.5f), steel = mirror(data, 0.8f);
-    const auto brown = material(data, DiffuseMaterial{colour(data, {0.6f, 0.4f, 0.2f})});
-    const auto dark_behind = diffuse(data, 0.7f);
-    data.materials[dark_behind].one_sided = true;
-    const auto blend = material(data, MixtureMaterial{brown, steel, colour(data, {0.3f, 0.3f, 0.3f})});
-    const auto glass = material(data, DielectricMaterial{});
-    data.materials[glass].absorption = {1, 2, 3};
-    data.textures.emplace_back().pattern = VertexColour{};
-    const auto painted = material(data, DiffuseMaterial{TextureId(data.textures.size() - 1)});
-
-    const TextureId paint(data.textures.size() - 1);
-    const auto raised = [](float by) {
-        Mesh mesh = waves();
-        for (Vec3& p : mesh.positions) {
-            p.z += by;
-            mesh.colours.push_back({std::fabs(p.x) / 3, 0.5f, std::fabs(p.y) / 3});
-        }
-        return mesh;
-    };
-    const Roughness satin{0.3f, 0.3f}, grooved{0.3f, 0.1f};
-    Roughness by_beckmann = satin, apart = satin;
-    by_beckmann.law.normals = FacetLaw::Normals::beckmann;
-    apart.law.masking = FacetLaw::Masking::independent;
-    const auto eta = colour(data, {0.2f, 0.9f, 1.5f}), k = colour(data, {3.9f, 2.4f, 1.9f});
-    add(data, raised(-2), material(data, CoatedDiffuseMaterial{colour(data, {0.7f, 0.5f, 0.1f}), 1.5f, satin}));
-    add(data, raised(1.5f), material(data, CoatedDiffuseMaterial{paint, 1.7f, apart, paint, false, {0.1f, 5}}));
-    add(data, raised(-1.5f), material(data, CoatedDiffuseMaterial{paint, 1.4f, {}}));
-    add(data, raised(2), material(data, CoatedDiffuseMaterial{paint, 1.4f, by_beckmann}));
-    const auto copper = material(data, ConductorMaterial{{eta, k}, satin});
-    data.materials[copper].one_sided = true;
-    add(data, raised(0.5f), copper);
-    add(data, raised(-0.5f), material(data, ConductorMaterial{{eta, k}, apart, paint}));
-    add(data, raised(2.5f), material(data, ConductorMaterial{{eta, k}, grooved}));
-    add(data, waves(), brown);
-    Mesh flat = waves();
-    flat.normals.clear();
-    flat.flip_normals = true;
-    for (Vec3& p : flat.positions) p.z -= 1;
-    add(data, flat, dark_behind);
-    Mesh bright = waves();
-    for (Vec3& p : bright.positions) {
-        p.z += 1;
-        bright.colours.push_back({std::fabs(p.x) / 3, std::fabs(p.y) / 3, 0.5f});
-        bright.uvs.push_back({p.x, p.y});
-    }
-    add(data, bright, painted);
-    Mesh nothing = quad({0, 0, -3}, {0, 0, 0}, {2, 0, 0});  // no area
-    add(data, nothing, grey);
-    add(data, ball({1, 2, 0}, 0.7f), brown);
-    add(data, ball({-1, 1, 0}, 0.5f), glass);
-    add(data, quad({-3, -3, 2}, {6, 0, 0}, {0, 6, 0}), blend);
-    add(data, quad({-3, -3, -2}, {6, 0, 0}, {0, 6, 0}), steel);
-    const auto part = std::uint32_t(data.shapes.size());
-    add(data, waves(), dark_behind);
-    data.objects.push_back({"waves", {part}});
-    Matrix upright;
-    upright.m = {{{0, 0, 1, 2}, {0, 2, 0, 0}, {-1, 0, 0, 1}, {0, 0, 0, 1}}};
-    data.instances.push_back({0, upright});
-    return data;
-}
 
 std::vector<Hit> some_hits(const Scene& scene) {
     std::vector<Hit> hits;
@@ -191,7 +106,7 @@ TEST(Many, ShapesAreSortedByWhatTheyAre) {
                                   Kind::none, Kind::lambertian, Kind::lambertian, Kind::lambertian, Kind::lambertian}));
 }
 
-// Whatever is more than an ideal diffuse mesh is worked out alone.
+// Whatever is more than an ideal diffuse mesh is none, but for bumps.
 TEST(Many, WhatIsNotPlainIsLeftOut) {
     const auto is_lambertian = [](auto&& change) {
         SceneData data;
@@ -209,7 +124,27 @@ TEST(Many, WhatIsNotPlainIsLeftOut) {
     EXPECT_FALSE(is_lambertian([](SceneData& d) {
         std::get<DiffuseMaterial>(d.materials[0].model).transmittance = colour(d, {0.1f, 0.1f, 0.1f});
     }));
-    EXPECT_FALSE(is_lambertian([](SceneData& d) { d.materials[0].bump_map = colour(d, {0.1f, 0.1f, 0.1f}); }));
+    EXPECT_TRUE(is_lambertian([](SceneData& d) { d.materials[0].bump_map = colour(d, {0.1f, 0.1f, 0.1f}); }));
+}
+
+// As far as one formula serves them all.
+TEST(Many, PrincipledOnesAreOpaqueAndWithoutClothOrGrooves) {
+    using Kind = ColumnShape::Kind;
+    const auto kind = [](auto&& change) {
+        SceneData data;
+        PrincipledMaterial model;
+        model.base_colour = colour(data, {0.5f, 0.5f, 0.5f});
+        change(model);
+        add(data, waves(), material(data, model));
+        return Scene(std::move(data)).column_shapes()[0].kind;
+    };
+    EXPECT_EQ(kind([](PrincipledMaterial&) {}), Kind::principled);
+    EXPECT_EQ(kind([](PrincipledMaterial& m) { m.clearcoat = 1; }), Kind::principled);
+    EXPECT_EQ(kind([](PrincipledMaterial& m) { m.roughness = {0, 0}; }), Kind::principled);
+    EXPECT_EQ(kind([](PrincipledMaterial& m) { m.roughness = {0, 0}, m.metallic = 1; }), Kind::none);  // a mirror
+    EXPECT_EQ(kind([](PrincipledMaterial& m) { m.roughness.u = 0.1f; }), Kind::none);
+    EXPECT_EQ(kind([](PrincipledMaterial& m) { m.transmission = 0.5f; }), Kind::none);
+    EXPECT_EQ(kind([](PrincipledMaterial& m) { m.sheen = 0.5f; }), Kind::none);
 }
 
 TEST(Many, DirectionsAreThoseOfOne) {

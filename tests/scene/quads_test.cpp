@@ -103,17 +103,15 @@ SceneData landscape(float opacity) {
 
 struct World {
     explicit World(std::size_t quads_from, float opacity = 0.5f)
-        : data(landscape(opacity)),
-          geometry(data, shading, {.quads_from = quads_from}),
-          placements{Placement(data.instances[0].to_world), Placement(data.instances[1].to_world)} {}
+        : data(landscape(opacity)), geometry(data, shading, {.quads_from = quads_from}) {}
     Vec3 position(const Hit& hit) const {
-        const SurfacePoint point = shading.point(hit.geometry, hit.primitive, hit.u, hit.v);
-        return (hit.instance == Query::no_instance ? point : placements[hit.instance].place(point)).position;
+        SurfacePoint point;
+        shading.find(hit, point);
+        return point.position;
     }
     SceneData data;
     Shading shading{data};
     Geometry geometry;
-    std::vector<Placement> placements;
 };
 
 std::vector<Ray> rays_into(std::size_t count) {
@@ -176,8 +174,8 @@ TEST(Quads, LeaveTheNearestSurfaceAsItIs) {
     for (std::uint32_t i = 0; i < 500; ++i) {
         Samples samples(6, i);
         const SurfaceWish wish{sphere(samples.next_2d()) * 0.6f, {}, 0.3f};
-        const auto a = plain.geometry.nearest({plain.data, plain.shading, plain.placements}, wish);
-        const auto b = paired.geometry.nearest({paired.data, paired.shading, paired.placements}, wish);
+        const auto a = plain.geometry.nearest({plain.data, plain.shading}, wish);
+        const auto b = paired.geometry.nearest({paired.data, paired.shading}, wish);
         ASSERT_TRUE(same_hit(a, b)) << i;
         there += a.has_value();
     }

@@ -51,7 +51,7 @@ struct FacetsOf {
         return 1 / (by_height ? correlated : apart);
     }
     /// A visible normal.
-    Vec3 sample_visible(Vec3 w, Vec2 u) const {
+    [[gnu::always_inline]] Vec3 sample_visible(Vec3 w, Vec2 u) const {
         Vec3 stretched = normalize({alpha_u * w.x, alpha_v * w.y, w.z});
         const float side = stretched.z < 0 ? -1.0f : 1.0f;
         stretched = stretched * side;

@@ -10,17 +10,6 @@
 namespace lightnet {
 namespace {
 
-constexpr float coat_f0 = 0.04f;
-
-float schlick(float f0, float f90, float cosine) {
-    const float rest = 1 - std::clamp(std::fabs(cosine), 0.0f, 1.0f), square = rest * rest;
-    return f0 + (f90 - f0) * square * square * rest;
-}
-
-Rgb schlick(Rgb f0, float f90, float cosine) {
-    return {schlick(f0.r, f90, cosine), schlick(f0.g, f90, cosine), schlick(f0.b, f90, cosine)};
-}
-
 constexpr Rgb grey(float value) { return {value, value, value}; }
 
 }  // namespace
@@ -45,7 +34,7 @@ float PrincipledBsdf::glass_reflectance(float cosine) const { return fresnel_die
 
 /// Of a facet seen at `cosine`, which is below 0 from inside a solid.
 Rgb PrincipledBsdf::reflectance(float cosine) const {
-    Rgb sum = schlick(base, 1, cosine) * metallic + schlick(f0, f90, cosine) * plastic_share();
+    Rgb sum = principled_mirror(base, metallic, f0, f90, plastic_share(), cosine);
     if (glass_share() > 0) {
         const float glass = glass_reflectance(cosine);
         // what is reflected totally has nowhere else to go
@@ -66,43 +55,45 @@ float PrincipledBsdf::reflection_chance(float cosine) const {
     return r > 0 ? r / (r + t) : 0;
 }
 
-/// Of the dielectric's reflection alone; what the diffuse part below it doesn't get.
-float PrincipledBsdf::plastic_albedo(float cosine) const {
-    return std::min(1.0f, ggx_albedo(alpha(), cosine)(max_component(f0), f90));
+float PrincipledBsdf::passes(float height) const {
+    return 1 - std::min(1.0f, ggx_albedo(alpha(), height)(max_component(f0), f90));
 }
 
-PrincipledBsdf::Layers PrincipledBsdf::layers(Vec3 outgoing, Vec3 incoming) const {
+float PrincipledBsdf::passes_on_average() const {
+    return std::max(1e-4f, 1 - ggx_mean_albedo(alpha())(max_component(f0), f90));
+}
+
+PrincipledBsdf::Layers PrincipledBsdf::layers(float height) const {
     Layers result;
-    const float cloth = std::min(1.0f, max_component(sheen));
-    for (const Vec3 w : {outgoing, incoming}) {
-        if (w.z < 0 && !thin) continue;  // inside there are no layers
-        const float cosine = std::fabs(w.z);
-        if (coat > 0)
-            result.below_coat = std::min(result.below_coat, 1 - coat * ggx_albedo(coat_alpha, cosine)(coat_f0, 1));
-        if (cloth > 0)
-            result.below_sheen =
-                std::min(result.below_sheen, 1 - cloth * std::min(1.0f, sheen_albedo(sheen_alpha, cosine)));
-    }
+    if (height < 0 && !thin) return result;  // inside there are none
+    const float cosine = std::fabs(height), cloth = std::min(1.0f, max_component(sheen));
+    if (coat > 0) result.below_coat = 1 - coat * ggx_albedo(coat_alpha, cosine)(principled_coat_f0, 1);
+    if (cloth > 0) result.below_sheen = 1 - cloth * std::min(1.0f, sheen_albedo(sheen_alpha, cosine));
     return result;
 }
 
-PrincipledBsdf::Chances PrincipledBsdf::chances(Vec3 o, std::uint8_t lobes) const {
-    const float cosine = std::fabs(o.z);
-    const auto [below_coat, below_sheen] = layers(o, o);
+PrincipledBsdf::Layers PrincipledBsdf::layers(Vec3 outgoing, Vec3 incoming) const {
+    const Layers out = layers(outgoing.z), in = layers(incoming.z);
+    return {std::min(out.below_coat, in.below_coat), std::min(out.below_sheen, in.below_sheen)};
+}
+
+PrincipledBsdf::Chances PrincipledBsdf::chances(float height, std::uint8_t lobes) const {
+    const float cosine = std::fabs(height);
+    const auto [below_coat, below_sheen] = layers(height);
     const std::uint8_t own = smooth() ? lobe::specular : lobe::glossy;
     Chances result;
     float rest = below_coat;
-    if (coat > 0 && o.z > 0 && (lobes & (smooth_coat() ? lobe::specular : lobe::glossy))) result.coat = 1 - below_coat;
-    if ((lobes & lobe::diffuse) && o.z > 0) result.sheen = rest * (1 - below_sheen);
+    if (coat > 0 && height > 0 && (lobes & (smooth_coat() ? lobe::specular : lobe::glossy)))
+        result.coat = 1 - below_coat;
+    if ((lobes & lobe::diffuse) && height > 0) result.sheen = rest * (1 - below_sheen);
     rest *= below_sheen;
-    const float plastic = plastic_share() > 0 ? plastic_albedo(cosine) : 0;
+    const GgxAlbedo albedo = ggx_albedo(alpha(), cosine);
+    const float plastic = std::min(1.0f, albedo(max_component(f0), f90));
     if (lobes & lobe::diffuse) result.diffuse = rest * plastic_share() * (1 - plastic) * max_component(base);
     if (lobes & own) {
-        const GgxAlbedo metal = ggx_albedo(alpha(), cosine);
-        const float glass = glass_reflectance(o.z);
-        const float window = glass < 1 ? (1 - glass) * max_component(base) + glass * max_component(glass_tint()) : 1;
-        result.facets =
-            rest * (metallic * metal(max_component(base), 1) + plastic_share() * plastic + glass_share() * window);
+        result.facets = metallic * albedo(max_component(base), 1) + plastic_share() * plastic;
+        if (glass_share() > 0) result.facets += glass_share() * window_share(height);
+        result.facets *= rest;
     }
     const float sum = result.coat + result.sheen + result.diffuse + result.facets;
     if (!(sum > 0)) return {};
@@ -110,15 +101,18 @@ PrincipledBsdf::Chances PrincipledBsdf::chances(Vec3 o, std::uint8_t lobes) cons
     return result;
 }
 
+/// Of light on glass: what it reflects or lets through.
+float PrincipledBsdf::window_share(float height) const {
+    const float glass = glass_reflectance(height);
+    return glass < 1 ? (1 - glass) * max_component(base) + glass * max_component(glass_tint()) : 1;
+}
+
 /// Both directions turned upwards: the diffuse base below the dielectric's reflection, and cloth.
 void PrincipledBsdf::add_diffuse(Vec3 o, Vec3 i, const Layers& layers, const Chances& chances, BsdfValue& sum) const {
-    const float even = i.z * inverse_pi;
     if (plastic_share() > 0) {
-        const float mean = ggx_mean_albedo(alpha())(max_component(f0), f90);
-        // Kelemen and Szirmay-Kalos 2001: symmetric, and the base gets all that the reflection leaves
-        const float passes = (1 - plastic_albedo(o.z)) * (1 - plastic_albedo(i.z)) / std::max(1e-4f, 1 - mean);
-        sum.value += base * (plastic_share() * layers.below_coat * layers.below_sheen * passes * even);
-        sum.pdf += chances.diffuse * even;
+        sum.value += principled_base(base, plastic_share() * (layers.below_coat * layers.below_sheen), passes(o.z),
+                                     passes(i.z), passes_on_average(), i.z);
+        sum.pdf += chances.diffuse * (i.z * inverse_pi);
     }
     if (chances.sheen > 0) {
         const float most = std::max({1.0f, sheen_albedo(sheen_alpha, o.z), sheen_albedo(sheen_alpha, i.z)});
@@ -143,7 +137,7 @@ void PrincipledBsdf::add_glossy(Vec3 o, Vec3 i, const Layers& layers, const Chan
     }
     if (coat > 0 && !smooth_coat() && reflected && o.z > 0) {
         const auto [value, pdf, cosine] = reflection({coat_alpha, coat_alpha}, o, i);
-        sum.value += grey(coat * schlick(coat_f0, 1, cosine) * value);
+        sum.value += grey(principled_coat(coat, cosine) * value);
         sum.pdf += chances.coat * pdf;
     }
 }
@@ -151,7 +145,7 @@ void PrincipledBsdf::add_glossy(Vec3 o, Vec3 i, const Layers& layers, const Chan
 BsdfValue PrincipledBsdf::upright_value(Vec3 o, Vec3 i, std::uint8_t lobes) const {
     if (o.z == 0 || i.z == 0) return {};
     const Layers above = layers(o, i);
-    const Chances by = chances(o, lobes);
+    const Chances by = chances(o.z, lobes);
     BsdfValue sum;
     const float side = o.z > 0 ? 1.0f : -1.0f;
     if ((lobes & lobe::diffuse) && o.z * i.z > 0) add_diffuse(o * side, i * side, above, by, sum);
@@ -212,11 +206,11 @@ std::optional<BsdfSample> PrincipledBsdf::sample_facets(Vec3 o, float choice, Ve
 }
 
 std::optional<BsdfSample> PrincipledBsdf::upright_sample(Vec3 o, float choice, Vec2 u, std::uint8_t lobes) const {
-    const Chances by = chances(o, lobes);
+    const Chances by = chances(o.z, lobes);
     std::optional<BsdfSample> result = BsdfSample{};
     result->lobe = lobe::diffuse;
     if (choice < by.coat) {
-        if (smooth_coat()) return mirror(o, grey(coat * schlick(coat_f0, 1, o.z)), by.coat);
+        if (smooth_coat()) return mirror(o, grey(principled_coat(coat, o.z)), by.coat);
         result->lobe = lobe::glossy;
         result->incoming = normalize(reflect(o, Microfacets{coat_alpha, coat_alpha}.sample_visible(o, u)));
         if (result->incoming.z <= 0) return {};

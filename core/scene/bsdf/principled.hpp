@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "core/base/math/sampling.hpp"
 #include "core/scene/bsdf/material_inputs.hpp"
 #include "core/scene/bsdf/microfacets.hpp"
 #include "core/scene/bsdf/scattering.hpp"
@@ -33,26 +34,35 @@ struct PrincipledBsdf {
     BsdfValue evaluate(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const;
     std::optional<BsdfSample> sample(Vec3 outgoing, float choice, Vec2 u, std::uint8_t lobes) const;
 
-private:
+    // What the formulas of one point and of many are made of. Heights are the z of directions.
+
+    /// With which probability each part is sampled, seen from that height.
     struct Chances {
         float coat = 0, sheen = 0, diffuse = 0, facets = 0;
     };
-    /// Of the layers above the base: how much of the light to and from the base they leave.
+    Chances chances(float height, std::uint8_t lobes) const;
+    /// Of the layers above the base: how much of the light to or from the base they leave.
     struct Layers {
         float below_coat = 1, below_sheen = 1;
     };
+    Layers layers(float height) const;
+    float plastic_share() const { return (1 - metallic) * (1 - transmission); }
+    /// Share of light from that height that the dielectric's reflection leaves to the diffuse part below it.
+    float passes(float height) const;
+    /// The same of diffuse light.
+    float passes_on_average() const;
+
+private:
     bool turned(Vec3 outgoing) const { return outgoing.z < 0 && (thin || transmission == 0); }
     float alpha() const;
-    float plastic_share() const { return (1 - metallic) * (1 - transmission); }
     float glass_share() const { return (1 - metallic) * transmission; }
     Rgb glass_tint() const;
     float glass_reflectance(float cosine) const;
     Rgb reflectance(float cosine) const;
     Rgb transmittance(float cosine) const;
     float reflection_chance(float cosine) const;
-    float plastic_albedo(float cosine) const;
+    float window_share(float height) const;
     Layers layers(Vec3 outgoing, Vec3 incoming) const;
-    Chances chances(Vec3 outgoing, std::uint8_t lobes) const;
     void add_diffuse(Vec3 o, Vec3 i, const Layers& layers, const Chances& chances, BsdfValue& sum) const;
     void add_glossy(Vec3 o, Vec3 i, const Layers& layers, const Chances& chances, BsdfValue& sum) const;
     BsdfValue upright_value(Vec3 o, Vec3 i, std::uint8_t lobes) const;
@@ -62,6 +72,33 @@ private:
     std::optional<BsdfSample> sample_smooth(Vec3 o, float choice, float chance) const;
     std::optional<BsdfSample> sample_facets(Vec3 o, float choice, Vec2 u) const;
 };
+
+/// Schlick 1994, "An Inexpensive BRDF Model for Physically-based Rendering", between `f0` head-on and `f90`.
+[[gnu::always_inline]] inline float schlick(float f0, float f90, float cosine) {
+    cosine = cosine < 0 ? -cosine : cosine;
+    cosine = cosine < 1 ? cosine : 1;
+    const float rest = 1 - cosine, square = rest * rest;
+    return f0 + (f90 - f0) * square * square * rest;
+}
+[[gnu::always_inline]] inline Rgb schlick(Rgb f0, float f90, float cosine) {
+    return {schlick(f0.r, f90, cosine), schlick(f0.g, f90, cosine), schlick(f0.b, f90, cosine)};
+}
+/// What an opaque facet reflects, by the shares of metal and of plastic.
+[[gnu::always_inline]] inline Rgb principled_mirror(Rgb base, float metallic, Rgb f0, float f90, float plastic,
+                                                    float cosine) {
+    return schlick(base, 1, cosine) * metallic + schlick(f0, f90, cosine) * plastic;
+}
+inline constexpr float principled_coat_f0 = 0.04f;  // its index is 1.5
+/// The reflection of a clear coat.
+[[gnu::always_inline]] inline float principled_coat(float coat, float cosine) {
+    return coat * schlick(principled_coat_f0, 1, cosine);
+}
+/// The diffuse base, of which `share` counts, below the dielectric's reflection. Kelemen and Szirmay-Kalos 2001:
+/// symmetric, and the base gets all that the reflection leaves.
+[[gnu::always_inline]] inline Rgb principled_base(Rgb base, float share, float passes_out, float passes_in,
+                                                  float passes_on_average, float cosine) {
+    return base * (share * (passes_out * passes_in / passes_on_average) * (cosine * inverse_pi));
+}
 
 /// The principled model of Burley (2012, 2015), of which glTF's metallic-roughness model with its extensions is a part.
 /// Numbers are 0 … 1 where nothing else is said; a texture multiplies.
@@ -87,6 +124,8 @@ struct PrincipledMaterial {
         if (!(transmission > 0)) return Transparency::opaque;
         return thin ? Transparency::sheet : Transparency::solid;
     }
+    /// Opaque, and without cloth.
+    bool plain() const { return !(transmission > 0) && !(sheen > 0); }
     PrincipledBsdf at(const MaterialInputs& inputs) const;
 };
 void visit_members(Is<PrincipledMaterial> auto& material, const auto& visit) {

@@ -66,7 +66,7 @@ public:
 private:
     void look_at(Hit hit) {
         const bool placed = hit.instance != Query::no_instance;
-        const Placement* placement = placed ? &surfaces_.placements[hit.instance] : nullptr;
+        const Placement* placement = placed ? &surfaces_.shading.placements()[hit.instance] : nullptr;
         const auto& shape = surfaces_.data.shapes[hit.geometry].geometry;
         if (const auto* sphere = std::get_if<Sphere>(&shape))
             put_on_sphere(hit, *sphere, placement);

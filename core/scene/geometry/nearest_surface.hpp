@@ -5,7 +5,6 @@
 #include <span>
 
 #include "core/scene/data/scene_data.hpp"
-#include "core/scene/surfaces/placement.hpp"
 #include "core/scene/surfaces/ray.hpp"
 #include "core/scene/surfaces/shading.hpp"
 
@@ -26,7 +25,6 @@ struct SurfaceWish {
 struct PlacedSurfaces {
     const SceneData& data;
     const Shading& shading;
-    std::span<const Placement> placements;  // by instance
 };
 
 /// The surface point that fits best: that is near, and lies as the normal says. A surface at right angles to the normal

@@ -51,12 +51,12 @@ Frame frame_along(Vec3 z, Vec3 tangent) {
     return {x / size, cross(z, x / size), z};
 }
 
-Frame bumpy_frame(const SceneData& data, const Material& material, const SurfacePoint& point, float step) {
+Vec3 bumpy_normal(const SceneData& data, const Material& material, const SurfacePoint& point, float step) {
     const Vec3 turned = material.normal_map ? mapped_normal(data, material, point)
                                             : bumped_normal(data, *material.bump_map, point, step);
     const float size = length(turned);
-    if (!(size > 0) || !std::isfinite(size)) return point.shading;
-    return frame_along(kept_above(turned / size, point.normal), point.along_u);
+    if (!(size > 0) || !std::isfinite(size)) return point.shading.z;
+    return kept_above(turned / size, point.normal);
 }
 
 float step_of(const SceneData& data, TextureId texture) {

@@ -9,9 +9,9 @@ namespace lightnet {
 /// The frame around `z` whose x axis lies along `tangent`.
 Frame frame_along(Vec3 z, Vec3 tangent);
 
-/// The shading frame under the material's normal map or bump map, whichever it has; the normal stays on its side of the
+/// The shading normal under the material's normal map or bump map, whichever it has; it stays on its side of the
 /// surface. Heights are compared over `step` of the texture coordinates.
-Frame bumpy_frame(const SceneData& data, const Material& material, const SurfacePoint& point, float step);
+Vec3 bumpy_normal(const SceneData& data, const Material& material, const SurfacePoint& point, float step);
 
 /// A step that suits the images of a texture: half a pixel.
 float step_of(const SceneData& data, TextureId texture);

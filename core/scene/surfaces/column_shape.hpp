@@ -11,7 +11,7 @@ namespace lightnet {
 
 class Shading;
 
-/// A mesh that is filled with nothing and has neither bumps nor grooves. Others are shaded point by point.
+/// A mesh that is filled with nothing and has no grooves. Others are shaded point by point.
 /// DECISIONS: plain-surfaces-in-columns
 struct ColumnShape {
     enum class Kind : std::uint8_t {
@@ -19,6 +19,7 @@ struct ColumnShape {
         lambertian,  // an ideal diffuse reflector
         coated,      // CoatedDiffuseBsdf, of facets by the GGX law
         metal,       // ConductorBsdf of such facets, not smooth
+        principled,  // PrincipledBsdf, opaque, without cloth
     };
     Kind kind = Kind::none;
     const Mesh* mesh = nullptr;
@@ -28,6 +29,7 @@ struct ColumnShape {
     float least_offset = 0;              // by which rays must leave the shape, m
     std::uint8_t lobes = 0;              // rough ones of it: who leaves one of them out is shaded alone
     bool one_sided = false;
+    bool bumpy = false;
     bool shines = false;  // emits light as well
 };
 

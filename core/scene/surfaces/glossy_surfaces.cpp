@@ -5,6 +5,13 @@
 
 namespace lightnet {
 
+template <class Columns>
+void GlossySurfaces<Columns>::add(std::uint32_t who, const ColumnShape& shape, const Hit& hit, Vec3 outgoing,
+                                  std::uint8_t lobes) {
+    lobes_[size()] = lobes;
+    add_point(who, shape, hit, outgoing);
+}
+
 // As value_of_any() and sample_of_any() of Bsdf begin.
 template <class Columns>
 struct GlossySurfaces<Columns>::Facing {
@@ -152,5 +159,6 @@ const typename GlossySurfaces<Columns>::Steps& GlossySurfaces<Columns>::sample()
 
 template class GlossySurfaces<CoatedColumns>;
 template class GlossySurfaces<MetalColumns>;
+template class GlossySurfaces<PrincipledColumns>;
 
 }  // namespace lightnet

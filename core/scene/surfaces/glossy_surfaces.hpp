@@ -12,17 +12,14 @@
 
 namespace lightnet {
 
-/// Points of one model with gloss (CoatedColumns, MetalColumns), which is shaded in columns as LambertianSurfaces are:
+/// Points of one model with gloss (CoatedColumns, MetalColumns, PrincipledColumns), which is shaded in columns as LambertianSurfaces are:
 /// what each is told is what it would be told alone, to the bit.
 template <class Columns>
 class GlossySurfaces : public MeshPoints {
 public:
     /// Adds the point of a hit on `shape`, seen from `outgoing`; there is room for it. `who`: the caller's. Only these
     /// `lobes` count: all rough ones, and maybe specular ones.
-    void add(std::uint32_t who, const ColumnShape& shape, const Hit& hit, Vec3 outgoing, std::uint8_t lobes) {
-        lobes_[size()] = lobes;
-        add_point(who, shape, hit, outgoing);
-    }
+    void add(std::uint32_t who, const ColumnShape& shape, const Hit& hit, Vec3 outgoing, std::uint8_t lobes);
     void find_points() { find_places(); }
     /// How they scatter: before anything of the following is asked.
     void find_bsdfs();
@@ -70,7 +67,9 @@ private:
 
 extern template class GlossySurfaces<CoatedColumns>;
 extern template class GlossySurfaces<MetalColumns>;
+extern template class GlossySurfaces<PrincipledColumns>;
 using CoatedSurfaces = GlossySurfaces<CoatedColumns>;
 using MetalSurfaces = GlossySurfaces<MetalColumns>;
+using PrincipledSurfaces = GlossySurfaces<PrincipledColumns>;
 
 }  // namespace lightnet

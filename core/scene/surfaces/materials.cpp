@@ -82,7 +82,8 @@ MaterialNeeds Materials::needs_of(MaterialId id) {
         needs.texture |= !is_constant(data_.textures[texture]);
         add_pictures(data_, texture, made_[id].pictures);
     });
-    needs.tangent = anisotropic(material) || material.normal_map || material.bump_map;
+    needs.grooves = anisotropic(material);
+    needs.tangent = needs.grooves || material.normal_map || material.bump_map;
     visit_each<MaterialId>(material, [&](MaterialId part) {
         make(part);
         needs = needs | made_[part].needs;
@@ -98,8 +99,7 @@ Bsdf Materials::bsdf(MaterialId id, const SurfacePoint& point) const {
     if (made.simple) return {point.shading, point.normal, *made.constant};
     const Material& material = data_.materials[id];
     const auto whole = [&](const Bsdf::Model& model) {
-        const Frame shading = made.bumpy ? bumpy_frame(data_, material, point, made.step) : point.shading;
-        Bsdf result(shading, point.normal, model);
+        Bsdf result(made.bumpy ? bumpy_frame(id, point) : point.shading, point.normal, model);
         if (material.one_sided) result.make_one_sided();
         if (made.filled) result.fill_with(&material.absorption);
         return result;
@@ -116,6 +116,15 @@ Bsdf Materials::bsdf(MaterialId id, const SurfacePoint& point) const {
         material.model);
 }
 
+Vec3 Materials::bumpy_normal(MaterialId id, const SurfacePoint& point) const {
+    return lightnet::bumpy_normal(data_, data_.materials[id], point, made_[id].step);
+}
+
+Frame Materials::bumpy_frame(MaterialId id, const SurfacePoint& point) const {
+    const Vec3 normal = bumpy_normal(id, point);
+    return made_[id].needs.grooves ? frame_along(normal, point.along_u) : Frame::around(normal);
+}
+
 Bsdf Materials::blend(std::span<const BlendPart> of, const SurfacePoint& point) const {
     std::vector<Bsdf::Part> parts;
     for (const BlendPart& part : of)
@@ -128,26 +137,19 @@ Bsdf Materials::blend(std::span<const BlendPart> of, const SurfacePoint& point) 
 ColumnShape::Kind Materials::column_kind(MaterialId id) const {
     using Kind = ColumnShape::Kind;
     const Made& made = made_[id];
-    if (made.bumpy || made.filled || made.needs.tangent) return Kind::none;
+    if (made.filled || made.needs.grooves) return Kind::none;
+    if (made.lobes && !(made.lobes & lobe::rough)) return Kind::none;  // a mirror, say
     const auto& model = data_.materials[id].model;
     const auto by_ggx = [](const Roughness& roughness) { return roughness.law.normals == FacetLaw::Normals::ggx; };
     if (const auto* diffuse = std::get_if<DiffuseMaterial>(&model))
         return diffuse->lambertian() ? Kind::lambertian : Kind::none;
     if (const auto* coated = std::get_if<CoatedDiffuseMaterial>(&model))
         return by_ggx(coated->roughness) ? Kind::coated : Kind::none;
-    const auto* metal = std::get_if<ConductorMaterial>(&model);
-    if (!metal || !by_ggx(metal->roughness)) return Kind::none;
-    const FacetRange facets = facet_range_of(metal->roughness);
-    return facets.varies || is_specular(facets.facets.alpha_u, facets.facets.alpha_v) ? Kind::none : Kind::metal;
-}
-
-CoatedDiffuseBsdf Materials::coated(MaterialId id, const TexturePlace& place) const {
-    const auto& material = std::get<CoatedDiffuseMaterial>(data_.materials[id].model);
-    return material.at({data_.textures, place, made_[id].coating});
-}
-
-ConductorBsdf Materials::metal(MaterialId id, const TexturePlace& place) const {
-    return std::get<ConductorMaterial>(data_.materials[id].model).at({data_.textures, place, made_[id].coating});
+    if (const auto* metal = std::get_if<ConductorMaterial>(&model))
+        return by_ggx(metal->roughness) && made.lobes ? Kind::metal : Kind::none;
+    if (const auto* principled = std::get_if<PrincipledMaterial>(&model))
+        return by_ggx(principled->roughness) && principled->plain() ? Kind::principled : Kind::none;
+    return Kind::none;
 }
 
 Rgb Materials::albedo(MaterialId id, const TexturePlace& place) const {

@@ -1,9 +1,11 @@
 // From materials as data to scattering at a point.
 #pragma once
 
+#include <concepts>
 #include <memory>
 #include <optional>
 #include <span>
+#include <variant>
 #include <vector>
 
 #include "core/scene/bsdf/bsdf.hpp"
@@ -18,11 +20,12 @@ namespace lightnet {
 /// What a material wants to know of a point.
 struct MaterialNeeds {
     bool texture = false;  // texture coordinates, vertex colours
-    bool tangent = false;  // a frame along the texture, and how fast the surface runs along u and v
+    bool tangent = false;  // how fast the surface runs along u and v
+    bool grooves = false;  // the same, and a frame along u
     bool holes = false;    // its opacity is below 1 somewhere
 
     friend MaterialNeeds operator|(MaterialNeeds a, MaterialNeeds b) {
-        return {a.texture || b.texture, a.tangent || b.tangent, a.holes || b.holes};
+        return {a.texture || b.texture, a.tangent || b.tangent, a.grooves || b.grooves, a.holes || b.holes};
     }
 };
 
@@ -50,11 +53,15 @@ public:
     }
     /// Bsdf::lobes() at all of its points; 0: that depends on the place.
     std::uint8_t lobes(MaterialId material) const { return made_[material].lobes; }
+    /// Has it a normal or bump map?
+    bool bumpy(MaterialId material) const { return made_[material].bumpy; }
+    /// By such a map: the shading normal there, on the side of the geometric one.
+    Vec3 bumpy_normal(MaterialId material, const SurfacePoint& point) const;
     /// Reflectance of a Lambertian one.
     Rgb albedo(MaterialId material, const TexturePlace& place) const;
     /// Of a material whose models are of this one kind alone.
-    CoatedDiffuseBsdf coated(MaterialId material, const TexturePlace& place) const;
-    ConductorBsdf metal(MaterialId material, const TexturePlace& place) const;
+    template <class Model>
+    Model model(MaterialId material, const TexturePlace& place) const;
     /// Fetches from memory what bsdf() and albedo() will read of pictures there.
     [[gnu::always_inline]] void expect(MaterialId material, Vec2 uv) const {
         for (const ImageTexture* picture : made_[material].pictures) {
@@ -73,7 +80,7 @@ private:
         Coating coating;                      // of coated models
         bool done = false;
         bool simple = false;  // `constant` is all there is to it
-        bool bumpy = false;   // normal or bump map
+        bool bumpy = false;
         float step = 0;       // of texture coordinates, over which a bump map is taken to be straight
         bool filled = false;  // with what absorbs
         std::uint8_t lobes = 0;
@@ -82,11 +89,25 @@ private:
     void make(MaterialId material);
     std::uint8_t lobes_everywhere(MaterialId material) const;
     MaterialNeeds needs_of(MaterialId material);
+    Frame bumpy_frame(MaterialId material, const SurfacePoint& point) const;
     Bsdf blend(std::span<const BlendPart> parts, const SurfacePoint& point) const;
 
     const SceneData& data_;
     Coats coats_;
     std::vector<Made> made_;
 };
+
+template <class Model>
+Model Materials::model(MaterialId id, const TexturePlace& place) const {
+    const MaterialInputs inputs(data_.textures, place, made_[id].coating);
+    return std::visit(
+        [&]<class M>(const M& material) -> Model {
+            if constexpr (std::same_as<typename ScatteringOf<M>::type, Model>)
+                return material.at(inputs);
+            else
+                throw std::bad_variant_access();
+        },
+        data_.materials[id].model);
+}
 
 }  // namespace lightnet

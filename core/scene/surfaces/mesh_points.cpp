@@ -1,5 +1,7 @@
 #include "core/scene/surfaces/mesh_points.hpp"
 
+#include "core/scene/surfaces/shading.hpp"
+
 namespace lightnet {
 
 // As Shading::on_mesh().
@@ -22,13 +24,33 @@ struct MeshPoints::Places {
 void MeshPoints::find_places() {
     Places places{*this};
     work_in_lanes(places);
+    if (apart_count_ > 0) find_apart();
+}
+
+// What is read of pictures is fetched for all before it is read for the first.
+void MeshPoints::find_apart() {
+    std::array<SurfacePoint, lanes> points;
+    for (std::size_t k = 0; k < apart_count_; ++k) {
+        const Hit& hit = hits_[apart_[k]];
+        const Shading& shading = *shapes_[apart_[k]]->shading;
+        shading.find(hit, points[k]);
+        shading.expect_pictures(hit.geometry, points[k].uv);
+    }
+    for (std::size_t k = 0; k < apart_count_; ++k) {
+        const std::uint32_t i = apart_[k];
+        position_.set(i, points[k].position);
+        normal_.set(i, points[k].normal);
+        offset_[i] = points[k].offset;
+        smooth_.set(i, points[k].shading.z);
+        shading_.set(i, shapes_[i]->shading->bumpy_normal(points[k]));
+    }
 }
 
 SurfacePoint MeshPoints::point(std::size_t i) const {
     SurfacePoint point;
     point.position = position_[i];
     point.normal = normal_[i];
-    point.shading = Frame::around(shading_[i]);
+    point.shading = Frame::around(shapes_[i]->bumpy ? smooth_[i] : shading_[i]);
     point.offset = offset_[i];
     point.geometry = hits_[i].geometry;
     point.primitive = hits_[i].primitive;

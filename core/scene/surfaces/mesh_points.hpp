@@ -30,13 +30,14 @@ class MeshPoints {
 public:
     std::size_t size() const { return count_; }
     bool full() const { return count_ == lanes; }
-    void clear() { count_ = shining_count_ = various_count_ = 0; }
+    void clear() { count_ = shining_count_ = various_count_ = apart_count_ = 0; }
 
     std::uint32_t who(std::size_t i) const { return who_[i]; }
     /// Those that may be on a lamp.
     std::span<const std::uint32_t> shining() const { return std::span(shining_).first(shining_count_); }
     Vec3 position(std::size_t i) const { return position_[i]; }
     Vec3 normal(std::size_t i) const { return normal_[i]; }
+    /// By bumps, too, which those of point() don't follow.
     Vec3 shading(std::size_t i) const { return shading_[i]; }
     Vec3 outgoing(std::size_t i) const { return outgoing_[i]; }
     /// As of one alone; but the point knows nothing of textures.
@@ -65,8 +66,9 @@ protected:
 
     // All in one place, so that the compiler sees that no column is another.
 
-    std::size_t count_ = 0, shining_count_ = 0, various_count_ = 0;
+    std::size_t count_ = 0, shining_count_ = 0, various_count_ = 0, apart_count_ = 0;
     std::array<std::uint32_t, lanes> who_, shining_, various_;  // the latter: which, on shapes that have no one model
+    std::array<std::uint32_t, lanes> apart_;                    // which are of instances, or have bumps
     std::array<const ColumnShape*, lanes> shapes_;
     std::array<Hit, lanes> hits_;
     Columns3 a_, b_, c_;  // corners
@@ -76,6 +78,7 @@ protected:
     Columns3 outgoing_;
 
     Columns3 position_, normal_, shading_;
+    Columns3 smooth_;  // shading normals without bumps, of those that have any
     Column offset_;
     Columns2 numbers_;
     LightSamples lamps_;  // that are looked at
@@ -83,6 +86,7 @@ protected:
 
 private:
     struct Places;
+    void find_apart();
 };
 
 [[gnu::always_inline]] inline void MeshPoints::set_ray_to_lamp(std::size_t i, Rgb value, float part) {
@@ -100,7 +104,8 @@ private:
     rays_.found[i] = lamps_.found[i] & ((value.r != 0) | (value.g != 0) | (value.b != 0));
 }
 
-inline void MeshPoints::add_point(std::uint32_t who, const ColumnShape& shape, const Hit& hit, Vec3 outgoing) {
+[[gnu::always_inline]] inline void MeshPoints::add_point(std::uint32_t who, const ColumnShape& shape, const Hit& hit,
+                                                         Vec3 outgoing) {
     const std::size_t to = count_++;
     const Mesh& mesh = *shape.mesh;
     const auto [i, j, k] = mesh.triangles[hit.primitive];
@@ -108,6 +113,7 @@ inline void MeshPoints::add_point(std::uint32_t who, const ColumnShape& shape, c
     shapes_[to] = &shape;
     hits_[to] = hit;
     if (shape.shines) shining_[shining_count_++] = static_cast<std::uint32_t>(to);
+    if (shape.bumpy || hit.instance != Query::no_instance) apart_[apart_count_++] = static_cast<std::uint32_t>(to);
     if (!shape.model) various_[various_count_++] = static_cast<std::uint32_t>(to);
     a_.set(to, mesh.positions[i]);
     b_.set(to, mesh.positions[j]);

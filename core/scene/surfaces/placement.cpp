@@ -70,16 +70,9 @@ SurfacePoint Placement::place(const SurfacePoint& point) const {
     placed.offset = std::max(
         {point.offset / steepness, 0x1p-16f * largest(placed.position), 0x1p-20f * dot(rounded, at) / steepness});
 
-    placed.along_u = direction_to_world(point.along_u);
-    placed.along_v = direction_to_world(point.along_v);
-
-    Vec3 z = normal_to_world(point.shading.z);
+    const Vec3 z = normal_to_world(point.shading.z);
     const float size = length(z);
-    z = size > 0 && dot(z, placed.normal) > 0 ? z / size : placed.normal;
-    Vec3 x = direction_to_world(point.shading.x);
-    x = x - z * dot(z, x);
-    const float width = length(x);
-    placed.shading = width > 1e-12f ? Frame{x / width, cross(z, x / width), z} : Frame::around(z);
+    placed.shading = Frame::around(size > 0 && dot(z, placed.normal) > 0 ? z / size : placed.normal);
     return placed;
 }
 

@@ -17,7 +17,7 @@ public:
 
     /// Columns, as Embree wants them: x, y and z axis, then the origin.
     const std::array<float, 12>& columns() const { return columns_; }
-    /// A point of the object's surface, in world space.
+    /// A point of the object's surface, in world space. Its frame follows no texture.
     SurfacePoint place(const SurfacePoint& point) const;
     Vec3 point_to_world(Vec3 p) const;
     Vec3 point_to_object(Vec3 p) const;

@@ -75,6 +75,7 @@ OnSphere laid_on(const Sphere& sphere, Vec3 outwards) {
 }  // namespace
 
 Shading::Shading(const SceneData& data) : data_(data), materials_(data) {
+    for (const auto& instance : data.instances) placements_.emplace_back(instance.to_world);
     for (const auto& shape : data.shapes) {
         needs_.push_back({materials_.needs(shape.material), least_offset(shape), std::get_if<Mesh>(&shape.geometry),
                           materials_.lobes(shape.material)});
@@ -91,9 +92,11 @@ ColumnShape Shading::column_shape(const Shape& shape, const Needs& needs) const 
     const Bsdf::Model* model = materials_.constant_model(shape.material);
     const auto* diffuse = model ? std::get_if<DiffuseBsdf>(model) : nullptr;
     const auto lobes = static_cast<std::uint8_t>((needs.lobes ? needs.lobes : lobe::all) & lobe::rough);
-    const bool one_sided = data_.materials[shape.material].one_sided;
-    return {kind,  needs.mesh, diffuse ? diffuse->albedo : Rgb{}, model, this, needs.offset,
-            lobes, one_sided,  shape.emission.has_value()};
+    ColumnShape made{kind, needs.mesh, diffuse ? diffuse->albedo : Rgb{}, model, this, needs.offset, lobes};
+    made.one_sided = data_.materials[shape.material].one_sided;
+    made.bumpy = materials_.bumpy(shape.material);
+    made.shines = shape.emission.has_value();
+    return made;
 }
 
 void Shading::find(std::uint32_t geometry, std::uint32_t primitive, float u, float v, SurfacePoint& point) const {
@@ -108,6 +111,18 @@ void Shading::find(std::uint32_t geometry, std::uint32_t primitive, float u, flo
         on_sphere(*sphere, needs, point);
     else
         on_quadric(*quadrics_[geometry], needs, point);
+}
+
+void Shading::find(const Hit& hit, SurfacePoint& point) const {
+    find(hit.geometry, hit.primitive, hit.u, hit.v, point);
+    if (hit.instance == Query::no_instance) return;
+    point = placements_[hit.instance].place(point);
+    if (needs_[hit.geometry].material.grooves) point.shading = frame_along(point.shading.z, point.along_u);
+}
+
+Vec3 Shading::bumpy_normal(const SurfacePoint& point) const {
+    const MaterialId material = data_.shapes[point.geometry].material;
+    return materials_.bumpy(material) ? materials_.bumpy_normal(material, point) : point.shading.z;
 }
 
 void Shading::expect(std::span<const std::optional<Hit>> hits) const {
@@ -136,7 +151,7 @@ void Shading::on_mesh(const Needs& needs, SurfacePoint& point) const {
 }
 
 void Shading::dress(const Mesh& mesh, const Needs& needs, SurfacePoint& point) const {
-    const auto& [texture, tangent, holes] = needs.material;
+    const auto& [texture, tangent, grooves, holes] = needs.material;
     if (!texture && !tangent) return;
     const auto [a, b, c] = uvs_of(mesh, point.primitive);
     const float u = point.u, v = point.v, w = 1 - u - v;
@@ -150,7 +165,7 @@ void Shading::dress(const Mesh& mesh, const Needs& needs, SurfacePoint& point) c
     const auto along = along_triangle(corners(mesh, point.primitive), a, b, c);
     point.along_u = along.u;
     point.along_v = along.v;
-    point.shading = frame_along(point.shading.z, along.u);
+    if (grooves) point.shading = frame_along(point.shading.z, along.u);
 }
 
 void Shading::on_sphere(const Sphere& sphere, const Needs& needs, SurfacePoint& point) const {
@@ -166,7 +181,7 @@ void Shading::on_sphere(const Sphere& sphere, const Needs& needs, SurfacePoint& 
     if (!needs.material.tangent) return;
     point.along_u = along.u;
     point.along_v = along.v;
-    point.shading = frame_along(point.normal, along.u);
+    if (needs.material.grooves) point.shading = frame_along(point.normal, along.u);
 }
 
 void Shading::on_quadric(const PlacedQuadric& quadric, const Needs& needs, SurfacePoint& point) const {
@@ -182,7 +197,7 @@ void Shading::on_quadric(const PlacedQuadric& quadric, const Needs& needs, Surfa
     const auto [along_u, along_v] = quadric.along(own);
     point.along_u = along_u;
     point.along_v = along_v;
-    point.shading = frame_along(point.normal, along_u);
+    if (needs.material.grooves) point.shading = frame_along(point.normal, along_u);
 }
 
 TexturePlace Shading::place(std::uint32_t geometry, std::uint32_t primitive, float u, float v) const {

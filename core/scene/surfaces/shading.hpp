@@ -1,7 +1,6 @@
 // From the name of a surface point to all that shading needs.
 #pragma once
 
-#include <concepts>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -13,6 +12,7 @@
 #include "core/scene/surfaces/column_shape.hpp"
 #include "core/scene/surfaces/materials.hpp"
 #include "core/scene/surfaces/placed_quadric.hpp"
+#include "core/scene/surfaces/placement.hpp"
 #include "core/scene/surfaces/ray.hpp"
 #include "core/scene/surfaces/surface.hpp"
 #include "core/scene/textures/look_up.hpp"
@@ -25,14 +25,18 @@ public:
     /// Keeps looking at `data`. Throws Error as Materials does.
     explicit Shading(const SceneData& data);
 
-    /// The point with these coordinates (see Query) on a primitive of a shape.
+    /// The point with these coordinates (see Query) on a primitive of a shape, as the shape was made.
     SurfacePoint point(std::uint32_t geometry, std::uint32_t primitive, float u, float v) const {
         SurfacePoint point;
         find(geometry, primitive, u, v, point);
         return point;
     }
-    /// The same, put where it is wanted: copies of what has just been written wait for it.
-    void find(std::uint32_t geometry, std::uint32_t primitive, float u, float v, SurfacePoint& point) const;
+    /// The point of a hit, in world space, put where it is wanted: copies of what has just been written wait for it.
+    void find(const Hit& hit, SurfacePoint& point) const;
+    /// The shading normal there by bumps, if the shape has any.
+    Vec3 bumpy_normal(const SurfacePoint& point) const;
+    /// By instance.
+    std::span<const Placement> placements() const { return placements_; }
     /// Fetches what find() will read of them from memory.
     void expect(std::span<const std::optional<Hit>> hits) const;
     Bsdf bsdf(const SurfacePoint& point) const;
@@ -46,14 +50,10 @@ public:
     Rgb albedo(std::uint32_t geometry, const TexturePlace& place) const {
         return materials_.albedo(data_.shapes[geometry].material, place);
     }
-    /// How a coated one scatters there, or a metal.
+    /// How one scatters there whose models are of this one kind alone.
     template <class Model>
     Model model(std::uint32_t geometry, const TexturePlace& place) const {
-        const MaterialId material = data_.shapes[geometry].material;
-        if constexpr (std::same_as<Model, CoatedDiffuseBsdf>)
-            return materials_.coated(material, place);
-        else
-            return materials_.metal(material, place);
+        return materials_.model<Model>(data_.shapes[geometry].material, place);
     }
     /// Fetches from memory what is read of pictures there, by albedo() or bsdf().
     [[gnu::always_inline]] void expect_pictures(std::uint32_t geometry, Vec2 uv) const {
@@ -79,6 +79,7 @@ private:
         const Mesh* mesh = nullptr;  // null: the shape is another
         std::uint8_t lobes = 0;      // 0: not the same everywhere
     };
+    void find(std::uint32_t geometry, std::uint32_t primitive, float u, float v, SurfacePoint& point) const;
     ColumnShape column_shape(const Shape& shape, const Needs& needs) const;
     void on_mesh(const Needs& needs, SurfacePoint& point) const;
     /// Adds what textures, grooves and bumps need.
@@ -89,7 +90,8 @@ private:
 
     const SceneData& data_;
     Materials materials_;
-    std::vector<Needs> needs_;  // by shape
+    std::vector<Placement> placements_;  // by instance
+    std::vector<Needs> needs_;           // by shape
     std::vector<ColumnShape> column_shapes_;
     std::vector<std::unique_ptr<const PlacedQuadric>> quadrics_;  // by shape
 };
