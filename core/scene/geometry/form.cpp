@@ -1,12 +1,15 @@
 #include "core/scene/geometry/form.hpp"
 
+#include "core/base/math/columns.hpp"
 #include "core/scene/data/contents.hpp"
 #include "core/scene/geometry/sphere_hit.hpp"
 
 #include <embree/rtcore.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <type_traits>
 
 namespace lightnet {
@@ -52,6 +55,46 @@ const Round& round_of(const Form& form) {
         return *form.quadric;
 }
 
+constexpr unsigned most_rays = 16;  // in a packet of Embree's
+
+/// Which rays of a packet meet a sphere at all, up to `stretch` times as far as they go: all at once, as most don't.
+struct MeetingSphere {
+    Vec3 center;
+    float radius, stretch;
+    unsigned n;
+    std::array<float, most_rays> x, y, z, dx, dy, dz, near, far;
+    std::array<std::uint64_t, most_rays> met;  // as wide as the numbers of the formula
+
+    MeetingSphere(const Sphere& sphere, RTCRayN* rays, unsigned count, float stretched)
+        : center(sphere.center), radius(sphere.radius), stretch(stretched), n(count) {
+        const auto copy = [&](const float& first, auto& to) { std::copy_n(&first, n, to.begin()); };
+        copy(RTCRayN_org_x(rays, n, 0), x), copy(RTCRayN_org_y(rays, n, 0), y), copy(RTCRayN_org_z(rays, n, 0), z);
+        copy(RTCRayN_dir_x(rays, n, 0), dx), copy(RTCRayN_dir_y(rays, n, 0), dy), copy(RTCRayN_dir_z(rays, n, 0), dz);
+        copy(RTCRayN_tnear(rays, n, 0), near), copy(RTCRayN_tfar(rays, n, 0), far);
+    }
+    [[gnu::always_inline]] void work() {
+        for (unsigned i = 0; i < n; ++i) {
+            const auto [first, second] = crossings(center, radius, {x[i], y[i], z[i]}, {dx[i], dy[i], dz[i]});
+            const double from = near[i], to = far[i] * stretch;
+            met[i] = ((first > from) & (first < to)) | ((second > from) & (second < to));
+        }
+    }
+};
+
+/// Of quadrics all may.
+template <class Round>
+std::array<std::uint64_t, most_rays> which_may_meet(const Form& form, RTCRayN* rays, unsigned n, float stretch) {
+    if constexpr (std::is_same_v<Round, Sphere>) {
+        MeetingSphere meeting(*form.sphere, rays, n, stretch);
+        work_in_lanes(meeting);
+        return meeting.met;
+    } else {
+        std::array<std::uint64_t, most_rays> all;
+        all.fill(1);
+        return all;
+    }
+}
+
 // Calls `found(distance, name)` with points of a sphere or quadric that are there and nearer than `far`, until it
 // returns true.
 template <class Round, class Found>
@@ -70,9 +113,10 @@ void meet_round(const RTCIntersectFunctionNArguments* args) {
     const unsigned n = args->N, instance = args->context->instID[0];
     RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, n);
     RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, n);
+    constexpr float just_beyond = 1 + 0x1p-23f;  // an equal distance is looked at, too
+    const auto may_meet = which_may_meet<Round>(form_of(args->geometryUserPtr), rays, n, just_beyond);
     for (unsigned i = 0; i < n; ++i) {
-        if (!args->valid[i]) continue;
-        constexpr float just_beyond = 1 + 0x1p-23f;  // an equal distance is looked at, too
+        if (!args->valid[i] || !may_meet[i]) continue;
         const float far = RTCRayN_tfar(rays, n, i);
         const auto found = [&](float t, Vec2 name) {
             const unsigned other = RTCHitN_geomID(hits, n, i), its_instance = RTCHitN_instID(hits, n, i, 0);
@@ -94,13 +138,18 @@ void meet_round(const RTCIntersectFunctionNArguments* args) {
 template <class Round>
 void hide_behind_round(const RTCOccludedFunctionNArguments* args) {
     const unsigned n = args->N;
+    const Form& form = form_of(args->geometryUserPtr);
+    const auto may_meet = which_may_meet<Round>(form, args->ray, n, 1);
     for (unsigned i = 0; i < n; ++i) {
-        if (!args->valid[i]) continue;
+        if (!args->valid[i] || !may_meet[i]) continue;
         const auto found = [&](float, Vec2) {
             RTCRayN_tfar(args->ray, n, i) = -INFINITY;
             return true;
         };
-        nearest_on_round<Round>(form_of(args->geometryUserPtr), args->ray, n, i, RTCRayN_tfar(args->ray, n, i), found);
+        if (std::is_same_v<Round, Sphere> && !form.holes)
+            found(0, {});
+        else
+            nearest_on_round<Round>(form, args->ray, n, i, RTCRayN_tfar(args->ray, n, i), found);
     }
 }
 

@@ -173,14 +173,17 @@ struct Lights::PointsPicked {
 
 void Lights::sample(std::span<const LitPoint> from, std::span<const float> choices, std::span<const Vec2> u,
                     LightSamples& samples) const {
-    const bool tree_alone = !only_lamp_ && share_of_tree_ == 1 && !choices.empty();
+    if (only_lamp_) {
+        std::array<LightChoice, lanes> chosen;
+        chosen.fill({std::uint32_t(*only_lamp_), 1});
+        return sample_chosen({{}, from, choices, u}, chosen, samples);
+    }
+    const bool tree_alone = share_of_tree_ == 1 && !choices.empty();
     if (tree_alone) return sample_tree({{}, from, choices, u}, samples);
     PointsPicked by_tree, by_map;
     for (std::uint32_t i = 0; i < u.size(); ++i) {
         const float choice = choices.empty() ? 0 : choices[i];
-        if (only_lamp_)
-            samples.set(i, lamps_.sample(*only_lamp_, from[i].position, u[i]));
-        else if (takes_tree(choice))
+        if (takes_tree(choice))
             by_tree.add(i, from[i], place_in_tree(choice), u[i]);
         else if (takes_only_map(choice))
             by_map.add(i, from[i], choice, u[i]);
@@ -198,9 +201,13 @@ void Lights::sample_tree(const PointsAsked& some, LightSamples& samples) const {
     std::copy_n(some.choices.begin(), count, places.begin());
     tree_.choose(some.from.first(count), places, chosen);
     if (tree_.large()) lamps_.expect(std::span(chosen).first(count));
+    sample_chosen(some, chosen, samples);
+}
+
+void Lights::sample_chosen(const PointsAsked& some, std::span<const LightChoice> chosen, LightSamples& samples) const {
     LampPoints<FlatLampColumns> on_flat;
     LampPoints<BallLampColumns> on_balls;
-    for (std::size_t k = 0; k < count; ++k) {
+    for (std::size_t k = 0; k < some.u.size(); ++k) {
         const LightChoice& one = chosen[k];
         const auto who = some.who.empty() ? static_cast<std::uint32_t>(k) : some.who[k];
         const LampAsked asked{who, some.from[k].position, some.u[k], one.chance};

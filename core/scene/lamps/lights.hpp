@@ -103,6 +103,7 @@ private:
     struct PointsAsked;
     struct PointsPicked;
     void sample_tree(const PointsAsked& some, LightSamples& samples) const;
+    void sample_chosen(const PointsAsked& some, std::span<const LightChoice> chosen, LightSamples& samples) const;
     void sample_map(const PointsAsked& some, LightSamples& samples) const;
     LightSample from_only_map(const SkyRadiance& seen) const;
     Emission from_sky(const Environment& environment, Vec2 position_sample, Vec2 direction_sample) const;
