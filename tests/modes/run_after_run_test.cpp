@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <filesystem>
 
 #include "tests/modes/learning.hpp"
 #include "tests/support/folder.hpp"
@@ -57,6 +58,28 @@ TEST(RunAfterRun, GoesOnWithTheSceneOfTheRunBefore) {
     EXPECT_EQ(run(8), 1) << "another camera's picture";
     EXPECT_EQ(run(0), 1) << "the scene before the last is gone";
     EXPECT_EQ(run(0), 2);
+}
+
+TEST(RunAfterRun, NeedsNoFilesOfASceneThatIsThere) {
+    const Learning learning;
+    const auto expected = learning.serial();
+    const Folder folder;
+    Host::Options host;
+    host.places = 1;
+    host.cache = folder.file("one");
+    const HostThread one(learning.registry, std::move(host));
+    const std::atomic<bool> never{false};
+    const auto run = [&] {
+        Cluster cluster(cluster_of(learning, {one.endpoint()}));
+        cluster.gather(slowdown * 5s, never);
+        EXPECT_TRUE(learning.networked(cluster) == expected);
+        cluster.finish(slowdown * 10s);
+    };
+    const auto file = folder.file("one") + "/" + to_hex(cluster_of(learning, {}).job.files.at(0).hash);
+    run();
+    EXPECT_TRUE(std::filesystem::remove(file));
+    run();
+    EXPECT_FALSE(std::filesystem::exists(file)) << "it was brought once more";
 }
 
 }  // namespace

@@ -15,8 +15,13 @@ HostedRun::HostedRun(std::shared_ptr<const SocketContext> context, BlobCache& ca
       last_scene_(last_scene),
       assignment_(std::move(assignment)) {
     expect(assignment_.plan);
+    // DECISIONS: last-scene-stays
+    last_ = last_scene_.take(scene_source(assignment_.job, registry_));
+    if (goes_on_from_kept(assignment_.job.graph, registry_)) last_.reset();
+    has_last_scene_ = last_ != nullptr;
     looking_ = background_.start([this] {
         std::set<Hash> missing;
+        if (has_last_scene_) return missing;
         for (const auto& file : assignment_.job.files)
             if (!cache_.has(file.hash)) missing.insert(file.hash);
         return missing;
@@ -116,12 +121,8 @@ bool HostedRun::advance() {
     return state_ != before;
 }
 
-// DECISIONS: last-scene-stays
 void HostedRun::begin_to_build() {
-    auto last = last_scene_.take(scene_source(assignment_.job, registry_));
-    if (goes_on_from_kept(assignment_.job.graph, registry_)) last.reset();
-    has_last_scene_ = last != nullptr;
-    building_ = background_.start([this, last = std::move(last)] {
+    building_ = background_.start([this, last = std::move(last_)] {
         const auto find = [results = results_](const Hash& hash) { return results->find(hash); };
         if (last) return build_network(assignment_.job, registry_, last, find);
         BlobFiles files(cache_, assignment_.job.files);

@@ -23,7 +23,8 @@
 namespace lightnet {
 
 /// Looks for the files of a job in the cache, takes in those that are missing, builds the network, and starts the
-/// places. Used by one thread, which must stay free for heartbeats: what takes time happens in the background.
+/// places. If it has the scene of the run before, and that is its own, no file is needed. Used by one thread, which
+/// must stay free for heartbeats: what takes time happens in the background.
 class HostedRun {
 public:
     struct Assignment {
@@ -41,7 +42,7 @@ public:
     std::uint64_t id() const { return assignment_.id; }
     State state() const { return state_; }
     bool serving() const { return state_ == State::serving; }
-    /// Files that the cache does not have; known when it no longer looks.
+    /// Files that are needed, and that the cache does not have; known when it no longer looks.
     const std::set<Hash>& missing() const { return missing_; }
     /// The files will be sent from their beginnings.
     void expect_files_anew() { incoming_.clear(); }
@@ -99,6 +100,7 @@ private:
     LastScene& last_scene_;
     Assignment assignment_;
     State state_ = State::looking;
+    std::shared_ptr<const Scene> last_;  // of the run before, until it is built on
     bool has_last_scene_ = false;
     std::future<std::set<Hash>> looking_;
     std::set<Hash> missing_;

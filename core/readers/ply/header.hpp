@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,18 +37,17 @@ public:
     std::size_t left() const { return text_.size() - at_; }
     /// One line of the header, without its end.
     std::string_view line();
-    /// The next list, if it is a triangle as most large files have it: a byte, and three whole numbers of 32 bits. Else
-    /// nothing is read.
-    std::optional<std::array<std::uint32_t, 3>> plain_triangle(Format format, const Property& list) {
-        constexpr std::size_t size = 1 + 3 * sizeof(std::uint32_t);
-        const bool plain = format == Format::little && std::endian::native == std::endian::little &&
-                           list.count_type == Scalar::u8 && (list.type == Scalar::i32 || list.type == Scalar::u32);
-        if (!plain || left() < size || text_[at_] != 3) return {};
-        std::array<std::uint32_t, 3> corners;
-        std::memcpy(corners.data(), text_.data() + at_ + 1, sizeof corners);
-        if (list.type == Scalar::i32 && ((corners[0] | corners[1] | corners[2]) >> 31) != 0) return {};
-        at_ += size;
-        return corners;
+    /// Appends the next lists, up to `most`, as long as they are triangles as most large files have them: a byte, and
+    /// three whole numbers of 32 bits. Returns how many it has read.
+    std::uint64_t plain_triangles(Format format, const Property& list, std::uint64_t most,
+                                  std::vector<std::array<std::uint32_t, 3>>& to);
+    /// The next `to.size()` numbers, if they are floats as they lie in memory. Else nothing is read.
+    bool plain_floats(Format format, std::span<float> to) {
+        if (format != Format::little || std::endian::native != std::endian::little || left() < to.size_bytes())
+            return false;
+        std::memcpy(to.data(), text_.data() + at_, to.size_bytes());
+        at_ += to.size_bytes();
+        return true;
     }
     double number(Format format, Scalar type) { return format == Format::ascii ? word() : binary(format, type); }
 

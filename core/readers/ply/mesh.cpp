@@ -87,6 +87,11 @@ float colour_value(double value, Scalar type) {
     return static_cast<float>(encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4));
 }
 
+bool all_floats(const Element& element) {
+    return std::all_of(element.properties.begin(), element.properties.end(),
+                       [](const Property& p) { return !p.list && p.type == Scalar::f32; });
+}
+
 void read_vertices(Input& input, Format format, const Element& element, Mesh& mesh) {
     std::array<bool, slots> has{};
     std::vector<int> slot_by_property;
@@ -97,13 +102,17 @@ void read_vertices(Input& input, Format format, const Element& element, Mesh& me
     if (!has[0] || !has[1] || !has[2]) fail("the vertices have no x, y and z");
     const bool normals = has[3] && has[4] && has[5], uvs = has[6] && has[7];
     const bool colours = has[red] && has[red + 1] && has[red + 2];
+    std::vector<float> row(all_floats(element) ? element.properties.size() : 0);
     mesh.positions.reserve(element.count);
     if (normals) mesh.normals.reserve(element.count);
     if (uvs) mesh.uvs.reserve(element.count);
     if (colours) mesh.colours.reserve(element.count);
     for (std::uint64_t i = 0; i < element.count; ++i) {
         std::array<float, slots> v{};
-        for (std::size_t j = 0; j < element.properties.size(); ++j) {
+        const bool plain = !row.empty() && input.plain_floats(format, row);
+        for (std::size_t j = 0; plain && j < row.size(); ++j)
+            if (slot_by_property[j] >= 0) v[slot_by_property[j]] = row[j];
+        for (std::size_t j = 0; !plain && j < element.properties.size(); ++j) {
             const auto& property = element.properties[j];
             const int slot = slot_by_property[j];
             if (slot < 0) {
@@ -121,8 +130,9 @@ void read_vertices(Input& input, Format format, const Element& element, Mesh& me
     }
 }
 
-void read_face(Input& input, Format format, const Property& list, Mesh& mesh) {
-    if (const auto triangle = input.plain_triangle(format, list)) return mesh.triangles.push_back(*triangle);
+// Up to `most` faces. Returns how many.
+std::uint64_t read_faces(Input& input, Format format, const Property& list, std::uint64_t most, Mesh& mesh) {
+    if (const std::uint64_t count = input.plain_triangles(format, list, most, mesh.triangles)) return count;
     const std::size_t corners = list_length(input, format, list);
     std::array<std::uint32_t, 3> fan{};
     for (std::size_t i = 0; i < corners; ++i) {
@@ -135,10 +145,11 @@ void read_face(Input& input, Format format, const Property& list, Mesh& mesh) {
         fan[1] = fan[2];
     }
     if (corners < 3) fail(fmt::format("a face has {} corners", corners));
+    return 1;
 }
 
 /// Strips one behind the other, with -1 between them.
-void read_strip(Input& input, Format format, const Property& list, Mesh& mesh) {
+std::uint64_t read_strip(Input& input, Format format, const Property& list, std::uint64_t, Mesh& mesh) {
     const std::size_t length = list_length(input, format, list);
     std::array<std::uint32_t, 2> last{};
     std::size_t seen = 0;
@@ -156,9 +167,11 @@ void read_strip(Input& input, Format format, const Property& list, Mesh& mesh) {
         last = {last[1], corner};
         ++seen;
     }
+    return 1;
 }
 
-/// Reads the elements whose list of corners `read` understands.
+/// Reads the elements whose list of corners `read` understands: at least one at a time, and several where they have
+/// nothing but that list.
 template <class Read>
 void read_lists(Input& input, Format format, const Element& element, Mesh& mesh, const Read& read) {
     const auto corners = [](const Property& p) {
@@ -167,13 +180,17 @@ void read_lists(Input& input, Format format, const Element& element, Mesh& mesh,
     if (std::none_of(element.properties.begin(), element.properties.end(), corners))
         fail(fmt::format("'{}' has no list 'vertex_indices'", element.name.substr(0, 32)));
     mesh.triangles.reserve(mesh.triangles.size() + element.count);
-    for (std::uint64_t i = 0; i < element.count; ++i)
+    const bool alone = element.properties.size() == 1;
+    for (std::uint64_t i = 0; i < element.count;) {
+        std::uint64_t count = 1;
         for (const auto& property : element.properties) {
             if (corners(property))
-                read(input, format, property, mesh);
+                count = read(input, format, property, alone ? element.count - i : 1, mesh);
             else
                 skip(input, format, property);
         }
+        i += count;
+    }
 }
 
 void check_indices(const Mesh& mesh) {
@@ -196,7 +213,7 @@ Mesh read_ply(std::span<const std::byte> bytes) {
         if (element.name == "vertex" && !std::exchange(vertices, true)) {
             read_vertices(input, header.format, element, mesh);
         } else if (element.name == "face" && !std::exchange(faces, true)) {
-            read_lists(input, header.format, element, mesh, read_face);
+            read_lists(input, header.format, element, mesh, read_faces);
         } else if (element.name == "tristrips" && !std::exchange(faces, true)) {
             read_lists(input, header.format, element, mesh, read_strip);
         } else {
