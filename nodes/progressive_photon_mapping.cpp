@@ -17,8 +17,9 @@ namespace {
 
 /// Knaus & Zwicker 2011, "Progressive photon mapping: a probabilistic approach". Sample s of every pixel has a map of
 /// its own, with photons and a radius that follow from s alone, so that a picture is the mean of as many maps as it has
-/// samples. Noise and bias both vanish as samples grow. It is made anew for each pass, and has the maps of that one.
-/// Others than the renderer ask about samples of their own: they get the maps of the pass in turn.
+/// samples. Noise and bias both vanish as samples grow; at edges light is not lost (PhotonSpread). It is made anew for
+/// each pass, and has the maps of that one. Others than the renderer ask about samples of their own: they get the maps
+/// of the pass in turn.
 class ProgressivePhotonMapping final : public LightOp {
 public:
     explicit ProgressivePhotonMapping(const NodeContext& here)
@@ -35,7 +36,7 @@ public:
 
     void prepare(Services& services) override {
         const auto aim = take_aim(services, scene_, shooting_);
-        const auto photons = shoot(services, scene_, shooting_, *aim, {first_map_, samples_per_block});
+        const auto photons = shoot(services, scene_, shooting_, *aim, {first_map_, radii_});
         const std::size_t each = shards_each(shooting_);
         for (std::size_t map = 0; map < samples_per_block; ++map)
             maps_.push_back(services.once<PhotonTree>([&](Builders& builders) {

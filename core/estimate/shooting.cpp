@@ -147,14 +147,16 @@ std::size_t shards_each(const Shooting& shooting) {
 }
 
 Mapped<Photon> shoot(Services& services, const Scene& scene, const Shooting& shooting, const Aim& aim,
-                     PhotonMaps maps) {
+                     const PhotonMaps& maps) {
     const std::size_t each = shards_each(shooting);
-    auto photons = services.map<Photon>(maps.count * each, [&](std::size_t shard, std::vector<Photon>& out) {
+    auto photons = services.map<Photon>(maps.radii.size() * each, [&](std::size_t shard, std::vector<Photon>& out) {
         const std::uint64_t first = shard % each * paths_per_shard;
         const PhotonShooter shooter(scene, shooting.paths,
                                     child(shooting.key, key_of("ways"), maps.first + shard / each));
         shooter.shoot(first, std::min<std::uint64_t>(paths_per_shard, shooting.emitted - first),
                       1 / double(shooting.emitted), aim, out);
+        const PhotonSpread spread(scene, nullptr, 0, 1, maps.radii[shard / each]);
+        spread.spread(out, child(shooting.key, key_of("spread"), maps.first * each + shard));
     });
     check_memory(photons.size(), shooting);
     return photons;

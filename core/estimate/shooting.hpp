@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -46,14 +47,15 @@ std::vector<std::string> paths_of_photons(const Node& node);
 bool may_keep_any(const Scene& scene, PhotonPaths paths);
 /// Learns where to aim, from trials: two rounds on all places. Even, unless it is asked for.
 std::shared_ptr<const Aim> take_aim(Services& services, const Scene& scene, const Shooting& shooting);
-/// Some of the maps that can be shot anew without end, each of other photons.
+/// Some of the maps that can be shot anew without end, each of other photons, which are spread in discs of its radius.
 struct PhotonMaps {
     std::uint64_t first = 0;
-    std::size_t count = 1;
+    std::span<const float> radii;  // m
 };
-/// Shoots these on all places; photons come in the order of their paths. Shards (see Mapped) of each map stand
-/// together: shards_each() of them. Throws Error when that takes more memory than it may.
-Mapped<Photon> shoot(Services& services, const Scene& scene, const Shooting& shooting, const Aim& aim, PhotonMaps maps);
+/// Shoots these on all places, and spreads; photons come in the order of their paths. Shards (see Mapped) of each map
+/// stand together: shards_each() of them. Throws Error when that takes more memory than it may.
+Mapped<Photon> shoot(Services& services, const Scene& scene, const Shooting& shooting, const Aim& aim,
+                     const PhotonMaps& maps);
 std::size_t shards_each(const Shooting& shooting);
 
 /// How photons are spread that the node has had sent, in discs of `gather` photons, no larger than `radius` (m): from
