@@ -139,6 +139,7 @@ inline SceneData everything() {
     add(data, ball({-1, 1, 0}, 0.5f), glass);
     add(data, quad({-3, -3, 2}, {6, 0, 0}, {0, 6, 0}), blend);
     add(data, quad({-3, -3, -2}, {6, 0, 0}, {0, 6, 0}), steel);
+    add(data, raised(-2.5f), material(data, ConductorMaterial{{eta, k}, by_beckmann, paint}));
     add_principled(data, paint);
     add_bumpy(data, grey, copper, steel);
     const auto part = std::uint32_t(data.shapes.size());

@@ -102,8 +102,9 @@ TEST(Many, ShapesAreSortedByWhatTheyAre) {
     const Scene scene(everything());
     for (const ColumnShape& shape : scene.column_shapes()) kinds.push_back(shape.kind);
     kinds.resize(flake + 1);
-    EXPECT_EQ(kinds, (std::vector{Kind::coated, Kind::coated, Kind::coated, Kind::none, Kind::metal, Kind::metal,
-                                  Kind::none, Kind::lambertian, Kind::lambertian, Kind::lambertian, Kind::lambertian}));
+    EXPECT_EQ(kinds,
+              (std::vector{Kind::coated, Kind::coated, Kind::coated, Kind::coated_beckmann, Kind::metal, Kind::metal,
+                           Kind::none, Kind::lambertian, Kind::lambertian, Kind::lambertian, Kind::lambertian}));
 }
 
 // Whatever is more than an ideal diffuse mesh is none, but for bumps.

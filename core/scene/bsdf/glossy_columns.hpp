@@ -17,7 +17,8 @@
 
 namespace lightnet {
 
-/// Facets of many surfaces, by the GGX law.
+/// Facets of many surfaces, all by one law.
+template <class Law>
 struct FacetColumns {
     Column alpha_u, alpha_v;
     Flags by_height;
@@ -27,7 +28,7 @@ struct FacetColumns {
         alpha_v[i] = facets.alpha_v;
         by_height[i] = facets.law.masking == FacetLaw::Masking::by_height;
     }
-    FacetsOf<GgxLaw> at(std::size_t i) const { return {alpha_u[i], alpha_v[i], by_height[i] != 0}; }
+    FacetsOf<Law> at(std::size_t i) const { return {alpha_u[i], alpha_v[i], by_height[i] != 0}; }
     /// Where facets that are seen from `outgoing` reflect it to.
     [[gnu::always_inline]] Vec3 reflected(std::size_t i, Vec3 outgoing, Vec2 u) const {
         return normalize(reflect(outgoing, at(i).sample_visible(outgoing, u)));
@@ -45,6 +46,7 @@ struct Proposal {
 // comes: they look into tables, and so are no part of loops.
 
 /// As CoatedDiffuseBsdf has it.
+template <class Law>
 struct CoatedColumns {
     using Model = CoatedDiffuseBsdf;
 
@@ -93,13 +95,14 @@ struct CoatedColumns {
 
 private:
     std::array<Model, lanes> models_;
-    FacetColumns facets_;
+    FacetColumns<Law> facets_;
     Columns3 base_, tint_;
     Column eta_, reflected_, chance_, passed_out_, passed_in_;
     Flags smooth_;
 };
 
 /// As ConductorBsdf has it, where it is not smooth.
+template <class Law>
 struct MetalColumns {
     using Model = ConductorBsdf;
 
@@ -129,7 +132,7 @@ struct MetalColumns {
 
 private:
     std::array<Model, lanes> models_;
-    FacetColumns facets_;
+    FacetColumns<Law> facets_;
     Columns3 eta_, k_, tint_;
 };
 
@@ -222,7 +225,7 @@ private:
     }
 
     std::array<Model, lanes> models_;
-    FacetColumns facets_, coat_facets_;
+    FacetColumns<GgxLaw> facets_, coat_facets_;
     Columns3 base_, f0_;
     Column f90_, metallic_, plastic_, coat_;
     Column by_coat_, by_base_, by_facets_;  // chances

@@ -35,12 +35,12 @@ struct FacetsOf {
     bool by_height = true;  // FacetLaw::Masking
 
     /// Density of normals `m`, per steradian.
-    float density(Vec3 m) const {
+    [[gnu::always_inline]] float density(Vec3 m) const {
         const float x = m.x / alpha_u, y = m.y / alpha_v;
         return Law::density(x * x + y * y, m.z * m.z) / (alpha_u * alpha_v);
     }
     /// Smith's Λ: 1/(1 + Λ) of the microfacets facing `w` are visible from it.
-    float lambda(Vec3 w) const {
+    [[gnu::always_inline]] float lambda(Vec3 w) const {
         const float x = alpha_u * w.x, y = alpha_v * w.y, z2 = w.z * w.z;
         const float found = Law::lambda(x * x + y * y, z2);
         return z2 == 0 ? 1e18f : found;

@@ -15,11 +15,13 @@ class Shading;
 /// DECISIONS: plain-surfaces-in-columns
 struct ColumnShape {
     enum class Kind : std::uint8_t {
-        none,        // it is another
-        lambertian,  // an ideal diffuse reflector
-        coated,      // CoatedDiffuseBsdf, of facets by the GGX law
-        metal,       // ConductorBsdf of such facets, not smooth
-        principled,  // PrincipledBsdf, opaque, without cloth
+        none,             // it is another
+        lambertian,       // an ideal diffuse reflector
+        coated,           // CoatedDiffuseBsdf, of facets by the GGX law
+        coated_beckmann,  // the same, by Beckmann's
+        metal,            // ConductorBsdf, not smooth, of facets by the GGX law
+        metal_beckmann,   // the same, by Beckmann's
+        principled,       // PrincipledBsdf, opaque, without cloth
     };
     Kind kind = Kind::none;
     const Mesh* mesh = nullptr;

@@ -157,8 +157,10 @@ const typename GlossySurfaces<Columns>::Steps& GlossySurfaces<Columns>::sample()
     return steps_;
 }
 
-template class GlossySurfaces<CoatedColumns>;
-template class GlossySurfaces<MetalColumns>;
+template class GlossySurfaces<CoatedColumns<GgxLaw>>;
+template class GlossySurfaces<CoatedColumns<BeckmannLaw>>;
+template class GlossySurfaces<MetalColumns<GgxLaw>>;
+template class GlossySurfaces<MetalColumns<BeckmannLaw>>;
 template class GlossySurfaces<PrincipledColumns>;
 
 }  // namespace lightnet

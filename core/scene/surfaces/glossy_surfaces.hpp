@@ -12,8 +12,8 @@
 
 namespace lightnet {
 
-/// Points of one model with gloss (CoatedColumns, MetalColumns, PrincipledColumns), which is shaded in columns as LambertianSurfaces are:
-/// what each is told is what it would be told alone, to the bit.
+/// Points of one model with gloss (CoatedColumns, MetalColumns, PrincipledColumns), which is shaded in columns as
+/// LambertianSurfaces are: what each is told is what it would be told alone, to the bit.
 template <class Columns>
 class GlossySurfaces : public MeshPoints {
 public:
@@ -65,11 +65,15 @@ private:
     Steps steps_;
 };
 
-extern template class GlossySurfaces<CoatedColumns>;
-extern template class GlossySurfaces<MetalColumns>;
+extern template class GlossySurfaces<CoatedColumns<GgxLaw>>;
+extern template class GlossySurfaces<CoatedColumns<BeckmannLaw>>;
+extern template class GlossySurfaces<MetalColumns<GgxLaw>>;
+extern template class GlossySurfaces<MetalColumns<BeckmannLaw>>;
 extern template class GlossySurfaces<PrincipledColumns>;
-using CoatedSurfaces = GlossySurfaces<CoatedColumns>;
-using MetalSurfaces = GlossySurfaces<MetalColumns>;
+template <class Law>
+using CoatedSurfaces = GlossySurfaces<CoatedColumns<Law>>;
+template <class Law>
+using MetalSurfaces = GlossySurfaces<MetalColumns<Law>>;
 using PrincipledSurfaces = GlossySurfaces<PrincipledColumns>;
 
 }  // namespace lightnet

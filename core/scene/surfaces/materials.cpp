@@ -140,15 +140,17 @@ ColumnShape::Kind Materials::column_kind(MaterialId id) const {
     if (made.filled || made.needs.grooves) return Kind::none;
     if (made.lobes && !(made.lobes & lobe::rough)) return Kind::none;  // a mirror, say
     const auto& model = data_.materials[id].model;
-    const auto by_ggx = [](const Roughness& roughness) { return roughness.law.normals == FacetLaw::Normals::ggx; };
+    const auto by_law = [](const Roughness& roughness, Kind ggx, Kind beckmann) {
+        return roughness.law.normals == FacetLaw::Normals::ggx ? ggx : beckmann;
+    };
     if (const auto* diffuse = std::get_if<DiffuseMaterial>(&model))
         return diffuse->lambertian() ? Kind::lambertian : Kind::none;
     if (const auto* coated = std::get_if<CoatedDiffuseMaterial>(&model))
-        return by_ggx(coated->roughness) ? Kind::coated : Kind::none;
+        return by_law(coated->roughness, Kind::coated, Kind::coated_beckmann);
     if (const auto* metal = std::get_if<ConductorMaterial>(&model))
-        return by_ggx(metal->roughness) && made.lobes ? Kind::metal : Kind::none;
+        return made.lobes ? by_law(metal->roughness, Kind::metal, Kind::metal_beckmann) : Kind::none;
     if (const auto* principled = std::get_if<PrincipledMaterial>(&model))
-        return by_ggx(principled->roughness) && principled->plain() ? Kind::principled : Kind::none;
+        return principled->plain() ? by_law(principled->roughness, Kind::principled, Kind::none) : Kind::none;
     return Kind::none;
 }
 
