@@ -1,8 +1,6 @@
 // Surfaces with gloss that many light paths have come to at once, sorted by their models.
 #pragma once
 
-#include <cstdint>
-
 #include "core/scene/surfaces/glossy_surfaces.hpp"
 
 namespace lightnet {
@@ -15,17 +13,15 @@ public:
     /// with(group) of each that holds a point.
     template <class With>
     void each(With&& with) {
-        each_of(*this, with);
+        all(*this, [&](Kind, auto& group) {
+            if (group.size() > 0) with(group);
+        });
     }
     template <class With>
     void each(With&& with) const {
-        each_of(*this, with);
-    }
-    /// with(group) of the one for points of `kind`: it will hold one.
-    template <class With>
-    [[gnu::always_inline]] void add(Kind kind, With&& with) {
-        held_ |= bit(kind);
-        of(kind, with);
+        all(*this, [&](Kind, const auto& group) {
+            if (group.size() > 0) with(group);
+        });
     }
     /// with(group) of the one for points of `kind`, if there is one.
     template <class With>
@@ -35,20 +31,10 @@ public:
         });
     }
     void clear() {
-        each([](auto& group) { group.clear(); });
-        held_ = 0;
+        all(*this, [](Kind, auto& group) { group.clear(); });
     }
 
 private:
-    static std::uint32_t bit(Kind kind) { return 1u << static_cast<std::uint32_t>(kind); }
-    // Most scenes hold few: the others are not even looked at.
-    template <class Self, class With>
-    static void each_of(Self& self, With&& with) {
-        if (self.held_ == 0) return;
-        all(self, [&](Kind kind, auto& group) {
-            if ((self.held_ & bit(kind)) != 0) with(group);
-        });
-    }
     template <class Self, class With>
     [[gnu::always_inline]] static void all(Self& self, With&& with) {
         with(Kind::coated, self.coated_), with(Kind::coated_beckmann, self.coated_beckmann_);
@@ -56,7 +42,6 @@ private:
         with(Kind::principled, self.principled_);
     }
 
-    std::uint32_t held_ = 0;  // by kind
     CoatedSurfaces<GgxLaw> coated_;
     CoatedSurfaces<BeckmannLaw> coated_beckmann_;
     MetalSurfaces<GgxLaw> metal_;

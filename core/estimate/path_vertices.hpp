@@ -236,7 +236,7 @@ private:
             put(plain_);
             plain_.add(path, shapes_[hit.geometry], hit, outgoing);
         } else {
-            glossy_.add(last_, [&](auto& group) {
+            glossy_.of(last_, [&](auto& group) {
                 put(group);
                 group.add(path, shapes_[hit.geometry], hit, outgoing, lobes);
             });

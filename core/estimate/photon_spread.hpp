@@ -27,6 +27,9 @@ public:
     PhotonSpread(const Scene& scene, std::shared_ptr<const PhotonTree> pilot, std::size_t gather, double times,
                  float most);
 
+    /// Discs that are all of this radius (m).
+    PhotonSpread(const Scene& scene, float radius) : PhotonSpread(scene, nullptr, 0, 1, radius) {}
+
     /// Multiplies their light by 1 / the part of their discs that is surface, as it is seen from a little above them:
     /// by the number of tries until a point of the disc is on it, which is the same on average. Where little of a disc
     /// is surface, or a low ceiling hides it, that is bounded: single photons would make spots.

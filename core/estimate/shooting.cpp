@@ -146,17 +146,26 @@ std::size_t shards_each(const Shooting& shooting) {
     return std::size_t((shooting.emitted + paths_per_shard - 1) / paths_per_shard);
 }
 
+namespace {
+
+// A shard of the map with this number.
+void shoot_shard(const Scene& scene, const Shooting& shooting, const Aim& aim, const PhotonSpread& spread,
+                 std::uint64_t map, std::size_t shard, std::vector<Photon>& out) {
+    const std::uint64_t first = shard * paths_per_shard;
+    const PhotonShooter shooter(scene, shooting.paths, child(shooting.key, key_of("ways"), map));
+    shooter.shoot(first, std::min<std::uint64_t>(paths_per_shard, shooting.emitted - first),
+                  1 / double(shooting.emitted), aim, out);
+    spread.spread(out, child(shooting.key, key_of("spread"), map * shards_each(shooting) + shard));
+}
+
+}  // namespace
+
 Mapped<Photon> shoot(Services& services, const Scene& scene, const Shooting& shooting, const Aim& aim,
                      const PhotonMaps& maps) {
     const std::size_t each = shards_each(shooting);
     auto photons = services.map<Photon>(maps.radii.size() * each, [&](std::size_t shard, std::vector<Photon>& out) {
-        const std::uint64_t first = shard % each * paths_per_shard;
-        const PhotonShooter shooter(scene, shooting.paths,
-                                    child(shooting.key, key_of("ways"), maps.first + shard / each));
-        shooter.shoot(first, std::min<std::uint64_t>(paths_per_shard, shooting.emitted - first),
-                      1 / double(shooting.emitted), aim, out);
-        const PhotonSpread spread(scene, nullptr, 0, 1, maps.radii[shard / each]);
-        spread.spread(out, child(shooting.key, key_of("spread"), maps.first * each + shard));
+        const std::size_t map = shard / each;
+        shoot_shard(scene, shooting, aim, {scene, maps.radii[map]}, maps.first + map, shard % each, out);
     });
     check_memory(photons.size(), shooting);
     return photons;
@@ -189,12 +198,8 @@ PhotonSpread take_spread(Services& services, const Scene& scene, Shooting& shoot
 
 std::vector<Mapped<Photon>> shoot_near(Services& services, const Scene& scene, const Shooting& shooting, const Aim& aim,
                                        const PhotonSpread& spread, float reach) {
-    const PhotonShooter shooter(scene, shooting.paths, child(shooting.key, key_of("ways"), 0));
     const auto emit = [&](std::size_t shard, std::vector<Photon>& out) {
-        const std::uint64_t first = shard * paths_per_shard;
-        shooter.shoot(first, std::min<std::uint64_t>(paths_per_shard, shooting.emitted - first),
-                      1 / double(shooting.emitted), aim, out);
-        spread.spread(out, child(shooting.key, key_of("spread"), shard));
+        shoot_shard(scene, shooting, aim, spread, 0, shard, out);
     };
     auto photons = services.map_near<Photon>(shards_each(shooting), reach, emit,
                                              [](const Photon& photon) { return photon.position; });

@@ -143,7 +143,9 @@ SurfacePoint Scene::surface(const Hit& hit) const {
     return point;
 }
 
-void Scene::add_surface(const Hit& hit, std::vector<SurfacePoint>& to) const { built_->shading.find(hit, to.emplace_back()); }
+void Scene::add_surface(const Hit& hit, std::vector<SurfacePoint>& to) const {
+    built_->shading.find(hit, to.emplace_back());
+}
 
 void Scene::expect(std::span<const std::optional<Hit>> hits) const { built_->shading.expect(hits); }
 

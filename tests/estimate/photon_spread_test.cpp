@@ -15,9 +15,7 @@ using namespace test;
 constexpr Vec3 up{0, 1, 0};
 constexpr float radius = 0.2f;
 
-PhotonSpread spread_over(const Scene& scene) {
-    return {scene, std::make_shared<const PhotonTree>(std::span<const Photon>{}), 0, 1, radius};
-}
+PhotonSpread spread_over(const Scene& scene) { return {scene, radius}; }
 
 // What many photons at one place bring, each of which brought 1.
 double brought_at(const Scene& scene, Vec3 position) {

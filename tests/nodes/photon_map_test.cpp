@@ -178,6 +178,15 @@ TEST(ProgressivePhotonMapping, ComesNearerToWhatPathTracingFindsWithEveryPass) {
     EXPECT_LT(third, 0.8 * second);
 }
 
+// Discs of .3 of the room's size lie off each wall at all of its edges. All light, by way of one wall or more, is
+// ρ / (1 - ρ) bright.
+TEST(ProgressivePhotonMapping, LosesNoLightInCorners) {
+    SmallNetwork mapped(furnace(0.5f, 1), 16, 16);
+    mapped.add("maps", "ProgressivePhotonMapping", {},
+               {{"paths", word("all")}, {"photons", number(12000)}, {"radius", number(0.3)}});
+    EXPECT_NEAR(mean_of(mapped.picture(16)) - 1, 1, 0.02);  // without what the renderer sees shine
+}
+
 // Whoever asks for the light of all surfaces once more gets the maps of the pass whose picture it is made for. In a
 // closed room of albedo ρ whose walls emit 1, that is ρ / (1 - ρ) bright when a map of all light is asked.
 TEST(ProgressivePhotonMapping, ServesThoseWhoGatherItInEveryPass) {

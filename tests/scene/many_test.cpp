@@ -107,7 +107,7 @@ TEST(Many, ShapesAreSortedByWhatTheyAre) {
                            Kind::none, Kind::lambertian, Kind::lambertian, Kind::lambertian, Kind::lambertian}));
 }
 
-// Whatever is more than an ideal diffuse mesh is none, but for bumps.
+// Whatever is more than an ideal diffuse mesh is not taken for one; bumps are no more.
 TEST(Many, WhatIsNotPlainIsLeftOut) {
     const auto is_lambertian = [](auto&& change) {
         SceneData data;

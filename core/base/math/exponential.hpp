@@ -14,7 +14,8 @@ namespace lightnet {
     constexpr float least = -87, most = 88, per_two = 1.44269504f;
     constexpr float two_high = 0.693359375f, two_low = -2.12194440e-4f;  // ln 2, in two parts
     const float above = x > least ? x : least, within = above < most ? above : most;
-    // Rounded to a whole number by adding one whose last bit is 1: compilers leave conversions in branches.
+    // Rounded by adding a number beside which no fraction fits: where a loop has conditions, compilers make no vectors
+    // of conversions to integers.
     constexpr float rounder = 0x1.8p23f;
     const float shifted = within * per_two + rounder, whole = shifted - rounder;
     const std::int32_t power = std::bit_cast<std::int32_t>(shifted) - std::bit_cast<std::int32_t>(rounder);

@@ -81,14 +81,14 @@ std::uint64_t Input::plain_triangles(Format format, const Property& list, std::u
     const bool plain = format == Format::little && std::endian::native == std::endian::little &&
                        list.count_type == Scalar::u8 && (list.type == Scalar::i32 || list.type == Scalar::u32);
     if (!plain) return 0;
-    const std::uint32_t too_large = list.type == Scalar::i32 ? 0x80000000u : 0;  // below 0
+    const std::uint32_t sign = list.type == Scalar::i32 ? 0x80000000u : 0;
     const char* at = text_.data() + at_;
     const std::uint64_t room = std::min<std::uint64_t>(most, left() / size);
     std::uint64_t count = 0;
     for (; count < room && *at == 3; ++count, at += size) {
         std::array<std::uint32_t, 3> corners;
         std::memcpy(corners.data(), at + 1, sizeof corners);
-        if (((corners[0] | corners[1] | corners[2]) & too_large) != 0) break;
+        if (((corners[0] | corners[1] | corners[2]) & sign) != 0) break;
         to.push_back(corners);
     }
     at_ += count * size;

@@ -110,11 +110,13 @@ void read_vertices(Input& input, Format format, const Element& element, Mesh& me
     for (std::uint64_t i = 0; i < element.count; ++i) {
         std::array<float, slots> v{};
         const bool plain = !row.empty() && input.plain_floats(format, row);
-        for (std::size_t j = 0; plain && j < row.size(); ++j)
-            if (slot_by_property[j] >= 0) v[slot_by_property[j]] = row[j];
-        for (std::size_t j = 0; !plain && j < element.properties.size(); ++j) {
+        for (std::size_t j = 0; j < element.properties.size(); ++j) {
             const auto& property = element.properties[j];
             const int slot = slot_by_property[j];
+            if (plain) {
+                if (slot >= 0) v[slot] = row[j];
+                continue;
+            }
             if (slot < 0) {
                 skip(input, format, property);
                 continue;

@@ -20,8 +20,8 @@ struct BeckmannLaw {
     [[gnu::always_inline]] static float lambda(float across2, float z2) {
         const float a = std::sqrt(z2 / across2);  // across2 = 0: nothing is hidden
         const float hidden = 0.5f * (inverse_root_pi * exponential(-a * a) / a - complementary_error(a));
-        const float least = hidden > 0 ? hidden : 0;
-        return across2 > 0 ? least : 0;
+        const float rounded = hidden > 0 ? hidden : 0;
+        return across2 > 0 ? rounded : 0;
     }
     /// As that of GgxLaw. The slope along `w` by inversion of its distribution: Heitz and d'Eon 2014, "Importance
     /// Sampling Microfacet-Based BSDFs using the Distribution of Visible Normals"; the search within erf's range is
@@ -49,7 +49,7 @@ private:
         const float high = 1 - complementary_error(cotangent), place = u > least ? u : least;
         const float all = up_to(high, cotangent), wanted = place * all;
         float s = first_guess(cosine, high, place);
-        // Newton's steps: three are within 3e-6 of all, whatever the angle and the place.
+        // Newton's steps: after three, less than 3e-6 of all is missing, whatever the angle and the place.
 #pragma GCC unroll 3
         for (int step = 0; step < 3; ++step) {
             const float x = inverse_error(within(s));

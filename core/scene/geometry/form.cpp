@@ -81,7 +81,7 @@ struct MeetingSphere {
     }
 };
 
-/// Of quadrics all may.
+/// The same of quadrics, too: all of them may.
 template <class Round>
 std::array<std::uint64_t, most_rays> which_may_meet(const Form& form, RTCRayN* rays, unsigned n, float stretch) {
     if constexpr (std::is_same_v<Round, Sphere>) {
@@ -142,14 +142,14 @@ void hide_behind_round(const RTCOccludedFunctionNArguments* args) {
     const auto may_meet = which_may_meet<Round>(form, args->ray, n, 1);
     for (unsigned i = 0; i < n; ++i) {
         if (!args->valid[i] || !may_meet[i]) continue;
-        const auto found = [&](float, Vec2) {
+        const auto hide = [&](auto...) {
             RTCRayN_tfar(args->ray, n, i) = -INFINITY;
             return true;
         };
         if (std::is_same_v<Round, Sphere> && !form.holes)
-            found(0, {});
+            hide();
         else
-            nearest_on_round<Round>(form, args->ray, n, i, RTCRayN_tfar(args->ray, n, i), found);
+            nearest_on_round<Round>(form, args->ray, n, i, RTCRayN_tfar(args->ray, n, i), hide);
     }
 }
 
