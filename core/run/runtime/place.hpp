@@ -60,7 +60,8 @@ private:
         std::size_t questions = 0;  // in `waiting`, and in answering
         std::size_t answering = 0;  // that fibers answer now
         std::size_t fibers = 0;     // that answer for this node now
-        double service_ns = 0;      // per question, smoothed
+        double question_ns = 0;     // that one takes, smoothed
+        double shard_ns = 0;        // as well; a shard may take as long as ten thousand questions
         NodeRecord figures;
     };
 
@@ -119,7 +120,7 @@ private:
     std::chrono::nanoseconds patience() const;
     void wait();
     PlaceRecord record() const;
-    Load load_of(std::size_t node) const;
+    Load load_of(std::size_t node, double service_ns) const;
     std::string my_name() const;
     Whereabouts whereabouts() const;
 

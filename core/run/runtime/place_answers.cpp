@@ -15,7 +15,7 @@ std::vector<Message> Place::next_asks(std::size_t node) {
     auto& waiting = inboxes_[node].waiting;
     std::vector<Message> asks;
     std::size_t questions = 0;
-    const std::size_t most = full_bundle(tuning_.bundle, 1e-9 * inboxes_[node].service_ns);
+    const std::size_t most = full_bundle(tuning_.bundle, 1e-9 * inboxes_[node].question_ns);
     const auto fits = [&](const Message& ask) {
         return asks.empty() || (std::holds_alternative<Questions<Query>>(ask.questions) &&
                                 std::holds_alternative<Questions<Query>>(asks.front().questions) &&
@@ -47,8 +47,10 @@ void Place::answer(std::vector<Message>& asks) {
     const auto ran = fibers_.running_time(fiber);
     inbox.figures.answered += questions;
     inbox.figures.busy_ns += static_cast<std::uint64_t>(ran.count());
+    const bool shards = std::holds_alternative<Questions<Step>>(asks.front().questions);
+    double& each_ns = shards ? inbox.shard_ns : inbox.question_ns;
     const double ns = static_cast<double>(ran.count()) / static_cast<double>(questions);
-    inbox.service_ns = inbox.service_ns > 0 ? 0.8 * inbox.service_ns + 0.2 * ns : ns;
+    each_ns = each_ns > 0 ? 0.8 * each_ns + 0.2 * ns : ns;
     inbox.questions -= questions;
     inbox.answering -= questions;
     gauge_.nodes[asks.front().node].waiting.set(inbox.questions);
@@ -56,8 +58,9 @@ void Place::answer(std::vector<Message>& asks) {
     spare_in_use_ -= spare;
     const auto node = asks.front().node;
     asks.clear();  // before the replies: an asker may use the memory of its questions again
+    const Load load = load_of(node, each_ns);
     for (auto& reply : replies) {
-        reply.load = load_of(node);
+        reply.load = load;
         progress_->fetch_add(1, std::memory_order_relaxed);  // before: the run may end with this reply
         carrier_.reply(std::move(reply));
     }
@@ -135,10 +138,9 @@ std::vector<Rgb> Place::pixel_answers(const Message& message, const Tile*& at) {
     return pixels;
 }
 
-Load Place::load_of(std::size_t node) const {
-    const auto& inbox = inboxes_[node];
-    return {static_cast<std::uint32_t>(inbox.questions),
-            static_cast<std::uint32_t>(std::clamp(inbox.service_ns, 1.0, 4e9))};
+Load Place::load_of(std::size_t node, double service_ns) const {
+    return {static_cast<std::uint32_t>(inboxes_[node].questions),
+            static_cast<std::uint32_t>(std::clamp(service_ns, 1.0, 4e9))};
 }
 
 }  // namespace lightnet
