@@ -60,8 +60,8 @@ private:
         std::size_t questions = 0;  // in `waiting`, and in answering
         std::size_t answering = 0;  // that fibers answer now
         std::size_t fibers = 0;     // that answer for this node now
-        double question_ns = 0;     // that one takes, smoothed
-        double shard_ns = 0;        // as well; a shard may take as long as ten thousand questions
+        double question_ns = 0;     // per question about light or block of a tile, smoothed
+        double shard_ns = 0;        // per shard, smoothed: one may take as long as ten thousand questions
         NodeRecord figures;
     };
 

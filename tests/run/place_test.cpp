@@ -1,0 +1,115 @@
+// A place, which is asked by the test.
+#include "core/run/runtime/place.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "core/network/graph/check.hpp"
+#include "core/network/light/services.hpp"
+#include "nodes/standard_nodes.hpp"
+#include "tests/support/small_scenes.hpp"
+
+namespace lightnet::place_test {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto shard_takes = 200ms;
+constexpr std::uint32_t slow = 1;  // in the graph
+
+/// Its shards take long, its answers don't.
+class SlowToPrepare final : public LightOp {
+public:
+    void prepare(Services& services) override {
+        services.map<int>(1, [](std::size_t, std::vector<int>&) { std::this_thread::sleep_for(shard_takes); });
+    }
+    void light(std::span<const Query>, std::span<Rgb> answers) const override {
+        std::fill(answers.begin(), answers.end(), Rgb{1, 1, 1});
+    }
+};
+
+Registry kinds() {
+    Kind kind{.name = "SlowToPrepare", .help = "takes long to prepare"};
+    kind.run.prepares = true;
+    kind.make_light = [](const NodeContext&) { return std::make_unique<SlowToPrepare>(); };
+    auto all = standard_nodes();
+    all.push_back(std::move(kind));
+    return Registry(std::move(all));
+}
+
+/// Asks one thing after another, each when the one before has been answered; then ends the run.
+class OneByOne final : public Carrier {
+public:
+    bool ask(const PlaceAt&, Message&) override { return false; }
+    void reply(Message message) override {
+        replies.push_back(std::move(message));
+        waits = false;
+    }
+    std::optional<Message> receive() override {
+        if (waits) return std::nullopt;
+        waits = true;
+        Message message;
+        message.type = Message::Type::stop;
+        if (!asks.empty()) {
+            message = std::move(asks.front());
+            asks.pop_front();
+        }
+        message.run = 1;
+        message.node = slow;
+        return message;
+    }
+    void wait(std::chrono::nanoseconds) override {}
+    void forget(const PlaceAt&) override {}
+    const Counters& counters() const override { return none; }
+
+    void add(Step step) {
+        asks.emplace_back().questions = std::make_shared<const std::vector<Step>>(std::vector<Step>{step});
+    }
+
+    std::deque<Message> asks;
+    std::vector<Message> replies;
+    bool waits = false;
+    Counters none;
+};
+
+// A shard takes as long as thousands of questions: askers would think that these take as long.
+TEST(Place, TellsHowLongAQuestionTakesWhateverShardsTook) {
+    const Registry registry = kinds();
+    const Graph graph =
+        check({"test.lua",
+               {{"scene", "Scene", {Value{std::string("none.pbrt")}}, {}, {"test.lua", 1}},
+                {"slow", "SlowToPrepare", {}, {}, {"test.lua", 2}},
+                {"image",
+                 "RayTracer",
+                 {Value{NodeRef{"slow"}}},
+                 {{"scene", Value{NodeRef{"scene"}}}, {"film", Value{Table{{Value{8.0}, Value{8.0}}, {}}}}},
+                 {"test.lua", 3}}}},
+              registry);
+    const Network network{graph, registry, std::make_shared<const Scene>(test::furnace(0.5f, 1), SceneOptions{}), 1};
+    const Plan plan{{{"", 0}}, std::vector<std::vector<std::uint32_t>>(graph.nodes.size(), {0})};
+    Gauge gauge(graph.nodes.size(), asking_edges(graph, network.layers, registry).size());
+    OneByOne carrier;
+    carrier.add({Step::Kind::prepare});
+    carrier.add({Step::Kind::shards, 0, 0, 1});
+    carrier.asks.emplace_back().questions = std::make_shared<const std::vector<Query>>(64);
+    std::atomic<bool> stop{false};
+    std::atomic<std::uint64_t> progress{0};
+    Place(network, plan.places[0], plan, 1, {}, carrier, gauge).serve(stop, progress);
+    ASSERT_EQ(carrier.replies.size(), 3u);
+    const auto told = [&](std::size_t i) { return std::chrono::nanoseconds(carrier.replies[i].load.service_ns); };
+    EXPECT_GE(told(1), shard_takes * 0.9);
+    EXPECT_LT(told(2), shard_takes * 0.1);
+    EXPECT_EQ(carrier.replies[2].answers, std::vector<Rgb>(64, Rgb{1, 1, 1}));
+}
+
+}  // namespace
+}  // namespace lightnet::place_test
