@@ -145,10 +145,7 @@ private:
                 },
                 [&](std::uint32_t i) { return i * static_cast<std::uint32_t>(groups_); });
         if (known) return next;
-        const auto choice = [&](std::uint32_t i) { return some.first_numbers.at(i, FirstRays::choice_of_lobe).next(); };
-        some.vertices.scatter(some.directions, choice, [&](std::uint32_t i, const PathVertices::Step& step) {
-            some.by_direction[i].step = step;
-        });
+        FirstRays::draw(some.vertices, some.directions, some.first_numbers, some.by_direction);
         return next;
     }
 
@@ -163,15 +160,15 @@ private:
 
     void find_by_direction(Samplers& some) const {
         for (std::uint32_t i = 0; i < some.by_direction.size(); ++i)
-            if (some.by_direction[i].step && scene_.may_shine(some.by_direction[i].step->ray))
+            if (some.by_direction[i].goes_on && scene_.may_shine(some.by_direction[i].step.ray))
                 some.looking.push_back(i);
         some.first_rays.trace(some.by_direction, some.looking);
         for (const std::uint32_t i : some.looking) {
-            const auto& [step, traced, hit] = some.by_direction[i];
-            if (!hit)
+            const FirstRays::One& one = some.by_direction[i];
+            if (!one.hit)
                 some.leaving.push_back(i);
-            else if (scene_.shines(*hit))
-                meet_lamp(some, i, *step, *hit);
+            else if (scene_.shines(*one.hit))
+                meet_lamp(some, i, one.step, *one.hit);
         }
         if (scene_.has_suns()) meet_suns(some);
         for (std::size_t i = 0; scene_.has_environment() && i < some.leaving.size(); i += lanes)
@@ -188,7 +185,7 @@ private:
     }
     void meet_suns(Samplers& some) const {
         for (const std::uint32_t i : some.leaving) {
-            const PathVertices::Step& step = *some.by_direction[i].step;
+            const PathVertices::Step& step = some.by_direction[i].step;
             if (const auto sun = scene_.sun(step.ray.direction))
                 some.found[i * groups_ + sun->group] +=
                     step.sample.weight * sky_by_bsdf(sun->light, step.sample, heuristic_);
@@ -198,10 +195,10 @@ private:
         std::array<Vec3, lanes> directions;
         std::array<SkyRadiance, lanes> sky;
         for (std::size_t k = 0; k < samples.size(); ++k)
-            directions[k] = some.by_direction[samples[k]].step->ray.direction;
+            directions[k] = some.by_direction[samples[k]].step.ray.direction;
         scene_.look_at_sky(std::span(directions).first(samples.size()), sky);
         for (std::size_t k = 0; k < samples.size(); ++k) {
-            const BsdfSample& sample = some.by_direction[samples[k]].step->sample;
+            const BsdfSample& sample = some.by_direction[samples[k]].step.sample;
             some.found[samples[k] * groups_ + scene_.environment_group()] +=
                 sample.weight * sky_by_bsdf(sky[k], sample, heuristic_);
         }

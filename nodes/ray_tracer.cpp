@@ -110,23 +110,7 @@ private:
 
     void render_some(const Tile& tile, std::size_t first, std::size_t last, std::span<Rgb> pixels) const {
         std::vector<TileSample> samples;
-        std::vector<Ray> rays;
-        samples.reserve((last - first) * tile.samples);
-        rays.reserve((last - first) * tile.samples);
-        for (std::size_t pixel = first; pixel < last; ++pixel) {
-            const auto x = tile.x + static_cast<std::uint32_t>(pixel % tile.width);
-            const auto y = tile.y + static_cast<std::uint32_t>(pixel / tile.width);
-            if (!tile.looks_at(x, y)) continue;
-            const Key key = pixel_key(seed_, x, y);
-            for (std::uint32_t s = 0; s < tile.samples; ++s) {
-                const auto& sample = samples.emplace_back(TileSample{pixel, key, tile.first_sample + s});
-                Samples numbers(key, sample.sample);
-                const Vec2 u = filter_.place(numbers.next_2d());
-                const Camera& camera = scene_.camera();
-                rays.push_back(camera.has_lens() ? camera.ray(float(x) + u.x, float(y) + u.y, numbers.next_2d())
-                                                 : camera.ray(float(x) + u.x, float(y) + u.y));
-            }
-        }
+        const std::vector<Ray> rays = rays_through(tile, first, last, samples);
         std::vector<std::optional<Hit>> hits(rays.size());
         scene_.intersect(rays, hits);
 
@@ -143,11 +127,46 @@ private:
             if (hits[i]) pixels[(samples[i].pixel + 1) * inputs_.layers() - 1] += Rgb{1, 1, 1};
     }
 
+    /// The rays of the eye through some pixels, sample by sample, which are told.
+    std::vector<Ray> rays_through(const Tile& tile, std::size_t first, std::size_t last,
+                                  std::vector<TileSample>& samples) const {
+        std::vector<Key> keys;
+        std::vector<std::uint32_t> indices;
+        std::vector<Vec2> corners;
+        for (std::size_t pixel = first; pixel < last; ++pixel) {
+            const auto x = tile.x + static_cast<std::uint32_t>(pixel % tile.width);
+            const auto y = tile.y + static_cast<std::uint32_t>(pixel / tile.width);
+            if (!tile.looks_at(x, y)) continue;
+            const Key key = pixel_key(seed_, x, y);
+            for (std::uint32_t s = 0; s < tile.samples; ++s) {
+                samples.push_back({pixel, key, tile.first_sample + s});
+                keys.push_back(key);
+                indices.push_back(tile.first_sample + s);
+                corners.push_back({float(x), float(y)});
+            }
+        }
+        std::vector<Vec2> positions(samples.size()), lens;
+        Samples::many_2d(keys, indices, 0, positions);
+        for (std::size_t i = 0; i < positions.size(); ++i) {
+            const Vec2 place = filter_.place(positions[i]);
+            positions[i] = {corners[i].x + place.x, corners[i].y + place.y};
+        }
+        if (scene_.camera().has_lens()) {
+            lens.resize(samples.size());
+            Samples::many_2d(keys, indices, 1, lens);
+        }
+        std::vector<Ray> rays(samples.size());
+        scene_.camera().rays(positions, lens, rays);
+        return rays;
+    }
+
     /// Follows one ray until no mirror or glass carries it on, and adds to the pixel what shines by itself on its path.
     /// At glass both branches are followed as long as they carry much: a lamp that is seen in it by chance is noise for
     /// long.
     void follow(const TileSample& sample, const Ray& ray, const std::optional<Hit>& hit, PixelQuestions& met,
                 std::span<Rgb> pixel) const {
+        if (hit && only_scatters(*hit))
+            return ask(sample, 0, SpecularPath(ray).question_about(*hit, scene_.lobes(*hit), 0), {1, 1, 1}, met);
         met.emitted.assign(scene_.groups(), Rgb{});
         met.branches.assign(1, {SpecularPath(ray), hit, 0});
         for (std::uint32_t surface = 0; !met.branches.empty(); ++surface) {
@@ -169,10 +188,7 @@ private:
             return;
         }
         branch.path.arrive(branch.hit->distance);
-        // Most surfaces only scatter, everywhere alike: who is asked works them out.
-        const std::uint8_t everywhere = scene_.lobes(*branch.hit);
-        if (everywhere && !(everywhere & lobe::specular) && !scene_.shines(*branch.hit))
-            return ask_about(sample, branch, surface, everywhere, met);
+        if (only_scatters(*branch.hit)) return ask_about(sample, branch, surface, scene_.lobes(*branch.hit), met);
         const SurfacePoint point = scene_.surface(*branch.hit);
         const Bsdf bsdf = scene_.bsdf(point);
         const Vec3 outgoing = -branch.path.ray().direction;
@@ -189,16 +205,25 @@ private:
         met.branches.push_back({branch.path, scene_.intersect(branch.path.ray()), branch.depth + 1});
     }
 
+    /// Most surfaces do, everywhere alike: who is asked works them out.
+    bool only_scatters(const Hit& hit) const {
+        const std::uint8_t everywhere = scene_.lobes(hit);
+        return everywhere && !(everywhere & lobe::specular) && !scene_.shines(hit);
+    }
+
     /// The question about rough lobes of that surface.
     void ask_about(const TileSample& sample, const Branch& branch, std::uint32_t surface, std::uint8_t lobes,
                    PixelQuestions& met) const {
-        Query question = branch.path.question_about(*branch.hit, lobes, branch.depth);
+        ask(sample, surface, branch.path.question_about(*branch.hit, lobes, branch.depth), branch.path.weight(), met);
+    }
+    void ask(const TileSample& sample, std::uint32_t surface, Query question, const Rgb& weight,
+             PixelQuestions& met) const {
         question.stream = child(sample.key, key_, surface);
         question.sample = sample.sample;
         question.pass = here_.pass_mark(sample.sample);
         met.questions.push_back(question);
         met.pixels.push_back(sample.pixel);
-        met.weights.push_back(branch.path.weight());
+        met.weights.push_back(weight);
     }
 
     void add_answers(const PixelQuestions& met, std::span<Rgb> pixels) const {

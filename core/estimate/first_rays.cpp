@@ -23,7 +23,7 @@ void FirstRays::begin_alone(const Scene& scene) {
 // Writes no more than says that nothing is known: what they were takes as much as the nearest cache.
 void FirstRays::forget(std::size_t count) {
     if (all_.size() < count) all_.resize(count);
-    for (One& one : std::span(all_).first(count)) one.step.reset(), one.traced = false;
+    for (One& one : std::span(all_).first(count)) one.goes_on = one.traced = false;
 }
 
 std::span<FirstRays::One> FirstRays::some(std::size_t first, std::size_t last) {
@@ -37,7 +37,7 @@ void FirstRays::trace(std::span<One> some, std::span<const std::uint32_t> which)
     for (const std::uint32_t i : which) {
         if (some[i].traced) continue;
         traced_.push_back(i);
-        rays_.push_back(some[i].step->ray);
+        rays_.push_back(some[i].step.ray);
     }
     hits_.resize(rays_.size());
     scene_->intersect(rays_, hits_);

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/math/many_samples.hpp"
 #include "core/base/math/random.hpp"
 #include "core/base/query.hpp"
 #include "core/estimate/path_vertices.hpp"
@@ -23,9 +24,29 @@ class FirstRays {
 public:
     /// The first ray of a path.
     struct One {
-        std::optional<PathVertices::Step> step;  // none: the light is absorbed
+        bool goes_on = false;  // else the light is absorbed, and the rest means nothing
         bool traced = false;
+        PathVertices::Step step;
         std::optional<Hit> hit;  // if it has been traced; none: it meets nothing
+
+        // Number by number, each from where it was worked out: a step that is copied whole has to lie in memory first.
+        [[gnu::always_inline]] void go_on_by(const PathVertices::Step& by) {
+            goes_on = true;
+            step.sample.incoming = by.sample.incoming;
+            step.sample.weight = by.sample.weight;
+            step.sample.pdf = by.sample.pdf;
+            step.sample.lobe = by.sample.lobe;
+            step.sample.transmitted = by.sample.transmitted;
+            step.sample.eta = by.sample.eta;
+            step.ray.origin = by.ray.origin;
+            step.ray.direction = by.ray.direction;
+            step.ray.far = by.ray.far;
+            step.from.position = by.from.position;
+            step.from.normal = by.from.normal;
+            step.inside = by.inside;
+            step.known = by.known;
+            step.favour = by.favour;
+        }
     };
     /// The stream that they are drawn from, and its dimensions.
     static Key stream(const Query& question) { return child(question.stream, key_of("first rays")); }
@@ -42,6 +63,15 @@ public:
     /// Are all steps of paths before `last` known? If not, all of some() are unset: the caller finds them.
     bool known(std::size_t last) const { return last <= found_; }
     void set_known(std::size_t last) { found_ = kept_ ? last : 0; }
+    /// Draws them for paths that begin at `vertices`, with the numbers of each.
+    static void draw(PathVertices& vertices, std::span<const Vec2> directions, const ManySamples& numbers,
+                     std::span<One> some) {
+        const auto choice = [&](std::uint32_t i) { return numbers.at(i, choice_of_lobe).next(); };
+        const auto on = [&](std::uint32_t i, const PathVertices::Step& step) __attribute__((always_inline)) {
+            some[i].go_on_by(step);
+        };
+        vertices.scatter(directions, choice, on);
+    }
     /// Traces those of some() that have not been yet.
     void trace(std::span<One> some, std::span<const std::uint32_t> which);
 

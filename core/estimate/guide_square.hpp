@@ -53,19 +53,27 @@ public:
     }
     /// Takes evenly distributed points to those of the density, well stratified ones to well stratified ones.
     SquarePoint warp(Vec2 u) const {
-        const auto [x, across] = found(columns_, u.x);
-        const auto [y, up] = found(rows_[x], u.y);
-        return {{(float(x) + across) / float(side), (float(y) + up) / float(side)}, density(x, y)};
+        const Part column = column_at(u.x);
+        return warped(u, column, cell_at(column.index, u.y));
+    }
+
+    // What warp() is made of.
+
+    /// One of some in a row, which share the numbers of [0, 1) by their sizes.
+    struct Part {
+        std::int32_t index, begin, width;  // the latter two where all of them are `whole`
+    };
+    /// To whom a number belongs: of the columns, and of the cells of one.
+    Part column_at(float u) const { return part_at(columns_, u); }
+    Part cell_at(std::int32_t column, float u) const { return part_at(rows_[std::size_t(column)], u); }
+    [[gnu::always_inline]] static SquarePoint warped(Vec2 u, Part column, Part cell) {
+        return {{along(u.x, column), along(u.y, cell)}, float(column.width) * float(cell.width) * density_scale};
     }
 
 private:
     static constexpr std::uint32_t whole = 65536;
+    static constexpr float density_scale = float(cells) / (float(whole) * float(whole));
     using Begins = std::array<std::uint16_t, side>;  // of cells, where all of them together are `whole`
-    struct Found {
-        std::size_t at;
-        float part;
-    };
-
     // Each has something, so that no place of the square is never found.
     static Begins begins_of(std::span<const double> parts) {
         double all = 0, before = 0;
@@ -83,17 +91,19 @@ private:
         return std::uint16_t(begins[(i + 1) % side] - begins[i]);
     }
     float density(std::size_t x, std::size_t y) const {
-        constexpr float scale = float(cells) / (float(whole) * float(whole));
-        return float(width(columns_, x)) * float(width(rows_[x], y)) * scale;
+        return float(width(columns_, x)) * float(width(rows_[x], y)) * density_scale;
     }
-    // Without a branch, as where it ends can't be foretold.
-    static Found found(const Begins& begins, float u) {
-        const float at = u * float(whole);
-        const auto below = std::uint16_t(at);
-        std::uint16_t count = 0;
-        for (std::size_t i = 0; i < side; ++i) count = std::uint16_t(count + (begins[i] <= below));
-        const std::size_t i = (count - 1u) % side;
-        return {i, std::fmin((at - float(begins[i])) / float(width(begins, i)), 0x1.ffffp-1f)};
+    // Halves what is left four times, without a branch, as where it ends can't be foretold.
+    static Part part_at(const Begins& begins, float u) {
+        const auto below = std::uint16_t(std::int32_t(u * float(whole)));
+        std::size_t i = 0;
+        for (std::size_t half = side / 2; half > 0; half /= 2) i += std::size_t{begins[i + half] <= below} * half;
+        return {std::int32_t(i), begins[i], width(begins, i)};
+    }
+    [[gnu::always_inline]] static float along(float u, const Part& part) {
+        constexpr float most = 0x1.ffffp-1f;
+        const float within = (u * float(whole) - float(part.begin)) / float(part.width);
+        return (float(part.index) + (within < most ? within : most)) / float(side);
     }
 
     Begins columns_;

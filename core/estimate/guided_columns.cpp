@@ -27,6 +27,37 @@ void GuidedColumns::find(const LightGuide& guide, const LambertianSurfaces& surf
     Sides sides{*this};
     work_in_lanes(sides);
     guide.find(position_, turn_, count_, cells_);
+    for (std::size_t i = 0; i < count_; ++i) known_[i] = cells_[i] != nullptr;
+}
+
+// As GuidedPoint::warped().
+struct GuidedColumns::Warping {
+    GuidedColumns& all;
+
+    [[gnu::always_inline]] void work() {
+        for (std::size_t i = 0; i < all.count_; ++i) {
+            const Vec2 u = all.numbers_[i];
+            const SquarePoint at = GuideSquare::warped(u, all.column_of_[i], all.cell_of_[i]);
+            const bool known = all.known_[i] != 0;
+            all.warped_.set(i, {known ? at.place.x : u.x, known ? at.place.y : u.y});
+            all.favour_[i] = known ? at.density : 1;
+        }
+    }
+};
+
+void GuidedColumns::warp(LambertianSurfaces& surfaces) {
+    static const GuideSquare even;
+    for (std::size_t i = 0; i < count_; ++i) {
+        const GuideSquare& square = cells_[i] ? cells_[i]->square : even;
+        const Vec2 u = surfaces.numbers(i);
+        const GuideSquare::Part column = square.column_at(u.x);
+        numbers_.set(i, u);
+        column_of_.set(i, column);
+        cell_of_.set(i, square.cell_at(column.index, u.y));
+    }
+    Warping warping{*this};
+    work_in_lanes(warping);
+    for (std::size_t i = 0; i < count_; ++i) surfaces.set_numbers(i, warped_[i]);
 }
 
 // As GuidedPoint::height() and place().
@@ -67,10 +98,8 @@ void GuidedColumns::share(const RaysToLamp& rays, bool by_power) {
     bare_ = rays.bare;
     Places places{*this};
     work_in_lanes(places);
-    for (std::size_t i = 0; i < count_; ++i) {
-        known_[i] = cells_[i] != nullptr;
+    for (std::size_t i = 0; i < count_; ++i)
         density_[i] = cells_[i] && height_[i] > 0 ? cells_[i]->square.density(place_[i]) : 0;
-    }
     Shares<Heuristic::power> by_powers{*this};
     Shares<Heuristic::balance> balanced{*this};
     by_power ? work_in_lanes(by_powers) : work_in_lanes(balanced);

@@ -25,8 +25,12 @@ public:
     GuidedPoint point(std::size_t i) const {
         return knows(i) ? GuidedPoint(cells_[i], {up_[i], turned_[i] != 0}, true) : GuidedPoint();
     }
-    /// By the guide where it knows something: else the numbers as they are.
-    SquarePoint warped(std::size_t i, Vec2 u) const { return knows(i) ? cells_[i]->square.warp(u) : SquarePoint{u, 1}; }
+
+    /// Takes the numbers by which surfaces, those of find(), send paths on to where they lie by the guide; leaves them
+    /// as they are where it knows nothing.
+    void warp(LambertianSurfaces& surfaces);
+    /// How much denser than by the surface alone.
+    float favour(std::size_t i) const { return favour_[i]; }
 
     /// What is left of the light of lamps, sampled whole, when directions by the guide find it as well: share(i).
     void share(const RaysToLamp& rays, bool by_power);
@@ -34,6 +38,7 @@ public:
 
 private:
     struct Sides;
+    struct Warping;
     struct Places;
     template <Heuristic by>
     struct Shares;
@@ -45,6 +50,17 @@ private:
     Columns3 up_;
     Flags turned_, turn_;
     std::array<const GuideCell*, lanes> cells_;
+
+    struct Parts {
+        std::array<std::int32_t, lanes> index, begin, width;
+        void set(std::size_t i, const GuideSquare::Part& part) {
+            index[i] = part.index, begin[i] = part.begin, width[i] = part.width;
+        }
+        GuideSquare::Part operator[](std::size_t i) const { return {index[i], begin[i], width[i]}; }
+    };
+    Columns2 numbers_, warped_;
+    Parts column_of_, cell_of_;
+    Column favour_;
 
     Columns3 direction_;
     Columns2 place_;

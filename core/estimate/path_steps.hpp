@@ -32,7 +32,7 @@ template <bool guided, class On>
     BsdfSample step{steps.incoming[i], plain_.albedo(i), steps.pdf[i], lobe::diffuse};
     float favour = 1, known = -1;
     if constexpr (guided) {
-        if (guide_) favour = favours_[i], known = guided_plain_.radiance(i);
+        if (guide_) favour = guided_plain_.favour(i), known = guided_plain_.radiance(i);
         step.weight *= 1 / favour, step.pdf *= favour;
         if (learns_) note_plain_step(i, favour);
     }

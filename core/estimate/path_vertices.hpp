@@ -171,10 +171,8 @@ public:
     /// Not `guided`: nobody learns, and there is no guide.
     template <bool guided = false, class Choice, class On>
     void scatter(std::span<const Vec2> directions, Choice&& choice, On&& on) {
-        for (std::size_t i = 0; i < plain_.size(); ++i) {
-            const Vec2 u = directions[plain_.who(i)];
-            plain_.set_numbers(i, guided && guide_ ? warped(i, u) : u);
-        }
+        for (std::size_t i = 0; i < plain_.size(); ++i) plain_.set_numbers(i, directions[plain_.who(i)]);
+        if (guided && guide_) guided_plain_.warp(plain_);
         glossy_.each([&](auto& group) {
             for (std::size_t i = 0; i < group.size(); ++i) {
                 group.set_numbers(i, directions[group.who(i)]);
@@ -327,11 +325,6 @@ private:
         return GuideSide::of(group.normal(i), group.shading(i), group.outgoing(i));
     }
     void find_guided();
-    Vec2 warped(std::size_t i, Vec2 u) {
-        const SquarePoint at = guided_plain_.warped(i, u);
-        favours_[i] = at.density;
-        return at.place;
-    }
     /// From a surface that scatters evenly.
     static std::optional<Step> guided_step(const Gathering& at, const GuidedPoint& guided, Vec2 u);
 
@@ -365,7 +358,6 @@ private:
     std::vector<GuidedPoint> guided_;
     GuidedColumns guided_plain_;
     std::array<GuidedPoint, lanes> guided_glossy_;  // by stop
-    std::array<float, lanes> favours_;
     bool learns_ = false;
     std::optional<GuideStep> record_;
 };

@@ -124,20 +124,18 @@ private:
             samples.add(FirstRays::stream(asked), asked.sample * samples_ + sample);
         }
         samples.draw(FirstRays::direction, batch.numbers.directions);
-        const auto choice = [&](std::uint32_t i) { return samples.at(i, FirstRays::choice_of_lobe).next(); };
         for (std::size_t next = 0; next < batch.asked.size();) {
             next = batch.vertices.begin(next, batch.asked.size(), question);
             batch.vertices.find_bsdfs();
-            batch.vertices.scatter(batch.numbers.directions, choice,
-                                   [&](std::uint32_t i, const Step& step) { batch.first_rays[i].step = step; });
+            FirstRays::draw(batch.vertices, batch.numbers.directions, samples, batch.first_rays);
         }
     }
     void begin_by_first_rays(Batch& batch) const {
         batch.begun.clear();
         for (std::uint32_t i = 0; i < batch.first_rays.size(); ++i) {
-            if (!batch.first_rays[i].step) continue;
+            if (!batch.first_rays[i].goes_on) continue;
             const std::size_t before = batch.kept;
-            send_on(batch, i, *batch.first_rays[i].step, 0);
+            send_on(batch, i, batch.first_rays[i].step, 0);
             if (batch.kept > before) batch.begun.push_back(i);
         }
     }
@@ -186,7 +184,7 @@ private:
         if (scene_.has_lamps() && (all_ || depth > 0)) samples.draw(first + place_on_lamp, numbers.places);
         if (scene_.has_many_lamps()) samples.draw(first + choice_of_lamp, numbers.choices);
         if (depth > 0 || !first_rays_) samples.draw(first + direction, numbers.directions);
-        if (guide_ || depth >= roulette_depth_) samples.draw(first + survival, numbers.survivals);
+        if (guided || depth >= roulette_depth_) samples.draw(first + survival, numbers.survivals);
     }
 
     void visit(Batch& batch, std::size_t first, std::size_t last, std::uint32_t depth) const {
@@ -309,10 +307,10 @@ private:
             const bool known = on.known >= 0;
             const float hope = known ? max_component(path.weight) * std::min(kept, 1.0f) * on.known : 0;
             hoped = known && depth == 0 ? hope : path.hoped;
-            if (known && depth > 0 && hoped > 0) chance = std::clamp(hope_counts * hope / hoped, least_chance, 1.0f);
+            if (known && depth > 0 && hoped > 0) chance = chance_by_hope(hope / hoped);
         }
         bool survives = true;
-        if (depth >= roulette_depth_ || (guided && chance < 1)) {
+        if (guided || depth >= roulette_depth_) {  // with a chance of 1 nothing changes
             survives = batch.numbers.survivals[i] < chance;
             weight *= 1 / chance;
         }
@@ -330,6 +328,16 @@ private:
     static float chance_to_survive(float kept) { return std::min(kept, 0.95f); }
     // With a guide, by what the path may still bring, beside what all of it is thought to bring: Vorba & Křivánek 2016,
     // "Adjoint-Driven Russian Roulette and Splitting in Light Transport Simulation", without splitting.
+    // Without a branch, as what is left can't be foretold: a compiler would make one for the chance of 1.
+    static float chance_by_hope(float left) {
+        const auto select = [](bool first, float a, float b) {
+            const std::uint32_t mask = std::uint32_t{first} - 1;
+            return std::bit_cast<float>((std::bit_cast<std::uint32_t>(a) & ~mask) |
+                                        (std::bit_cast<std::uint32_t>(b) & mask));
+        };
+        const float wish = hope_counts * left, least = select(wish > least_chance, wish, least_chance);
+        return select(least < 1, least, 1);
+    }
     static constexpr float hope_counts = 4;
     static constexpr float least_chance = 0.1f;
 

@@ -10,17 +10,6 @@ void SpecularPath::arrive(float distance) {
     if (inside_) weight_ *= left_after(inside_, distance);
 }
 
-Query SpecularPath::question_about(const Hit& hit, std::uint8_t lobes, std::uint32_t depth) const {
-    return {.instance = hit.instance,
-            .geometry = hit.geometry,
-            .primitive = hit.primitive,
-            .u = hit.u,
-            .v = hit.v,
-            .outgoing = -ray_.direction,
-            .lobes = static_cast<std::uint8_t>(lobes & lobe::rough),
-            .depth = static_cast<std::uint8_t>(std::min(depth, 255u))};
-}
-
 bool SpecularPath::go_on(const SurfacePoint& point, const Bsdf& bsdf, Samples samples, float keep) {
     const Vec3 outgoing = -ray_.direction;
     const float choice = bsdf.chooses() ? samples.next() : samples.skip();

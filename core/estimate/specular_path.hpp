@@ -1,6 +1,7 @@
 // A path through mirrors and glass alone: specular reflections and refractions.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 
@@ -24,7 +25,16 @@ public:
     /// The ray meets a surface at this distance.
     void arrive(float distance);
     /// The question about rough lobes of that surface, after `depth` scattering events; whose it is, the asker adds.
-    Query question_about(const Hit& hit, std::uint8_t lobes, std::uint32_t depth) const;
+    Query question_about(const Hit& hit, std::uint8_t lobes, std::uint32_t depth) const {
+        return {.instance = hit.instance,
+                .geometry = hit.geometry,
+                .primitive = hit.primitive,
+                .u = hit.u,
+                .v = hit.v,
+                .outgoing = -ray_.direction,
+                .lobes = static_cast<std::uint8_t>(lobes & lobe::rough),
+                .depth = static_cast<std::uint8_t>(std::min(depth, 255u))};
+    }
     /// Goes on from that surface by one sample of its specular lobes; false: it ends. Paths whose weight is below
     /// 1 / `keep` are followed seldom, and count more for it: Russian roulette.
     bool go_on(const SurfacePoint& point, const Bsdf& bsdf, Samples samples, float keep);

@@ -43,6 +43,13 @@ Ray Camera::ray(float x, float y, Vec2 lens) const {
     return {origin_ + aside, normalize(at * focus_ - aside)};
 }
 
+void Camera::rays(std::span<const Vec2> positions, std::span<const Vec2> lens, std::span<Ray> rays) const {
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const auto [x, y] = positions[i];
+        rays[i] = lens.empty() ? ray(x, y) : ray(x, y, lens[i]);
+    }
+}
+
 // Solves position - origin = corner w + right x + down y (perspective), or corner + right x + down y + axis d, by
 // Cramer's rule.
 Vec3 Camera::project(Vec3 position) const {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "core/base/math/vec.hpp"
 #include "core/scene/data/scene_data.hpp"
@@ -24,6 +25,8 @@ public:
     /// The ray through a picture position and a point of the lens, uniform over its disk if `lens` is over [0,1)². All
     /// rays of one position meet on the plane in focus.
     Ray ray(float x, float y, Vec2 lens) const;
+    /// The same of many positions; no points of the `lens`: through its middle.
+    void rays(std::span<const Vec2> positions, std::span<const Vec2> lens, std::span<Ray> rays) const;
 
     /// Where in the picture `position` (world space) is seen from the middle of the lens, as homogeneous coordinates:
     /// pixel (x / z, y / z) from the upper left corner. z is above 0 for what lies before the eye.

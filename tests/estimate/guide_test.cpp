@@ -196,7 +196,7 @@ TEST(GuidedColumns, KnowWhatOnePointAloneKnowsToTheBit) {
     shape.mesh = &walls;
     shape.model = &grey;
     shape.albedo = {0.5f, 0.5f, 0.5f};
-    const LambertianSurfaces surfaces = points_of(shape);
+    LambertianSurfaces surfaces = points_of(shape);
     const LightGuide guide = guide_of(surfaces);
     GuidedColumns columns;
     columns.find(guide, surfaces);
@@ -209,6 +209,9 @@ TEST(GuidedColumns, KnowWhatOnePointAloneKnowsToTheBit) {
     std::size_t known = 0;
     for (const bool by_power : {false, true}) {
         columns.share(rays, by_power);
+        for (std::size_t i = 0; i < surfaces.size(); ++i)
+            surfaces.set_numbers(i, Samples(4, std::uint32_t(i)).next_2d());
+        columns.warp(surfaces);
         for (std::size_t i = 0; i < surfaces.size(); ++i) {
             const auto side = GuideSide::of(surfaces.normal(i), surfaces.shading(i), surfaces.outgoing(i));
             const auto point = guide.at(surfaces.position(i), side, true);
@@ -217,8 +220,9 @@ TEST(GuidedColumns, KnowWhatOnePointAloneKnowsToTheBit) {
             const auto heuristic = by_power ? Heuristic::power : Heuristic::balance;
             EXPECT_EQ(columns.share(i), rays.bare[i] ? 1 : share(heuristic, rays.lamp_pdf[i], pdf)) << i;
             const Vec2 numbers = Samples(4, std::uint32_t(i)).next_2d();
-            const auto warped = columns.warped(i, numbers);
-            EXPECT_EQ(warped.place, point ? point.warped(numbers).place : numbers);
+            const SquarePoint alone = point ? point.warped(numbers) : SquarePoint{numbers, 1};
+            EXPECT_EQ(surfaces.numbers(i), alone.place);
+            EXPECT_EQ(columns.favour(i), alone.density);
             EXPECT_EQ(columns.radiance(i), point ? point.radiance() : -1);
             EXPECT_EQ(columns.point(i).pdf(rays.direction[i], 0), point ? point.pdf(rays.direction[i], 0) : 0);
             known += bool(point);
