@@ -166,7 +166,7 @@ private:
     void follow(const TileSample& sample, const Ray& ray, const std::optional<Hit>& hit, PixelQuestions& met,
                 std::span<Rgb> pixel) const {
         if (hit && only_scatters(*hit))
-            return ask(sample, 0, SpecularPath(ray).question_about(*hit, scene_.lobes(*hit), 0), {1, 1, 1}, met);
+            return ask_about(sample, SpecularPath(ray), *hit, 0, 0, scene_.lobes(*hit), met);
         met.emitted.assign(scene_.groups(), Rgb{});
         met.branches.assign(1, {SpecularPath(ray), hit, 0});
         for (std::uint32_t surface = 0; !met.branches.empty(); ++surface) {
@@ -188,13 +188,16 @@ private:
             return;
         }
         branch.path.arrive(branch.hit->distance);
-        if (only_scatters(*branch.hit)) return ask_about(sample, branch, surface, scene_.lobes(*branch.hit), met);
+        const auto ask = [&](std::uint8_t lobes) {
+            ask_about(sample, branch.path, *branch.hit, branch.depth, surface, lobes, met);
+        };
+        if (only_scatters(*branch.hit)) return ask(scene_.lobes(*branch.hit));
         const SurfacePoint point = scene_.surface(*branch.hit);
         const Bsdf bsdf = scene_.bsdf(point);
         const Vec3 outgoing = -branch.path.ray().direction;
         const std::uint8_t lobes = bsdf.lobes();
         met.emitted[scene_.group_of(point)] += branch.path.weight() * scene_.emission(point, outgoing);
-        if (lobes & lobe::rough) ask_about(sample, branch, surface, lobes, met);
+        if (lobes & lobe::rough) ask(lobes);
         if (!(lobes & lobe::specular) || branch.depth >= max_depth_) return;
         if (const auto reflected = branch.path.split(point, bsdf, both_carry)) {
             met.branches.push_back({*reflected, scene_.intersect(reflected->ray()), branch.depth + 1});
@@ -211,19 +214,17 @@ private:
         return everywhere && !(everywhere & lobe::specular) && !scene_.shines(hit);
     }
 
-    /// The question about rough lobes of that surface.
-    void ask_about(const TileSample& sample, const Branch& branch, std::uint32_t surface, std::uint8_t lobes,
-                   PixelQuestions& met) const {
-        ask(sample, surface, branch.path.question_about(*branch.hit, lobes, branch.depth), branch.path.weight(), met);
-    }
-    void ask(const TileSample& sample, std::uint32_t surface, Query question, const Rgb& weight,
-             PixelQuestions& met) const {
+    /// The question about rough lobes of that surface, so many mirrors and panes behind the eye.
+    void ask_about(const TileSample& sample, const SpecularPath& path, const Hit& hit, std::uint32_t depth,
+                   std::uint32_t surface, std::uint8_t lobes, PixelQuestions& met) const {
+        // Written where it stays: one that is put together and then copied would have to lie in memory first.
+        Query& question = met.questions.emplace_back();
+        question = path.question_about(hit, lobes, depth);
         question.stream = child(sample.key, key_, surface);
         question.sample = sample.sample;
         question.pass = here_.pass_mark(sample.sample);
-        met.questions.push_back(question);
         met.pixels.push_back(sample.pixel);
-        met.weights.push_back(weight);
+        met.weights.push_back(path.weight());
     }
 
     void add_answers(const PixelQuestions& met, std::span<Rgb> pixels) const {
