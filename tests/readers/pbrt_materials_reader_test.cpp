@@ -4,6 +4,7 @@
 
 #include "core/readers/spectra.hpp"
 #include "core/scene/textures/look_up.hpp"
+#include "core/scene/textures/noise.hpp"
 #include "tests/support/pbrt_text.hpp"
 
 namespace lightnet::test::pbrt_materials_reader_test {
@@ -295,11 +296,77 @@ TEST(PbrtTextures, VaryRoughness) {
 
 TEST(PbrtTextures, OfUnsupportedClassesAreTheirMean) {
     const auto scene = with(
-        "Texture \"t\" \"spectrum\" \"fbm\" \"integer octaves\" 8 Texture \"u\" \"spectrum\" \"fbm\"\n"
+        "Texture \"t\" \"spectrum\" \"ptex\" \"string filename\" \"t.ptx\"\n"
+        "Texture \"u\" \"spectrum\" \"ptex\" \"string filename\" \"u.ptx\"\n"
         "Material \"diffuse\" \"texture reflectance\" \"t\"");
     EXPECT_EQ(colour_of(scene, model_of<DiffuseMaterial>(scene).reflectance), (Rgb{0.5f, 0.5f, 0.5f}));
-    EXPECT_THAT(warnings_of(scene), HasSubstr("textures of class 'fbm' are not supported"));
+    EXPECT_THAT(warnings_of(scene), HasSubstr("textures of class 'ptex' are not supported"));
     EXPECT_THAT(warnings_of(scene), HasSubstr("(2 times)"));
+}
+
+// Where the statement stands, the world is moved and turned: what is at `position` there is seen at a texture's own.
+Rgb solid_value(const std::string& texture, Vec3 position, Vec3 normal = {0, 0, 1}) {
+    const auto scene = with("AttributeBegin Translate 10 0 0 Scale 2 2 2\n" + texture +
+                                "\nAttributeEnd Material \"diffuse\" \"texture reflectance\" \"t\"",
+                            pictures());
+    EXPECT_THAT(scene.warnings, IsEmpty());
+    return look_up(scene.textures, model_of<DiffuseMaterial>(scene).reflectance, {{}, {1, 1, 1}, position, normal});
+}
+
+TEST(PbrtTextures, LieWhereTheirStatementStands) {
+    const std::string red_green = " \"rgb tex1\" [ 1 0 0 ] \"rgb tex2\" [ 0 1 0 ] ";
+    const std::string squares = "Texture \"t\" \"spectrum\" \"checkerboard\"" + red_green;
+    const Rgb red{1, 0, 0}, green{0, 1, 0};
+    const std::string cubes = squares + "\"integer dimension\" 3";
+    EXPECT_EQ(solid_value(cubes, {11, 1, 1}), red);
+    EXPECT_EQ(solid_value(cubes, {13, 1, 1}), green);
+    const std::string plane =
+        squares + "\"string mapping\" \"planar\" \"vector3 v1\" [ 0 0 4 ] \"vector3 v2\" [ 1 0 0 ] \"float vdelta\" 1";
+    EXPECT_EQ(solid_value(plane, {10.2f, 9, 0.1f}), green);
+    EXPECT_EQ(solid_value(plane, {10.2f, 9, 0.6f}), red);
+    EXPECT_EQ(solid_value(plane, {13, 9, 0.6f}), green);
+    const std::string cylinder = squares + "\"string mapping\" \"cylindrical\"";
+    EXPECT_EQ(solid_value(cylinder, {11, 1, 1}), red);
+    EXPECT_EQ(solid_value(cylinder, {11, 1, 3}), green);
+    const std::string image = "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"p.hdr\"";
+    const std::string sphere = image + " \"string mapping\" \"spherical\"";
+    EXPECT_NEAR(solid_value(sphere, {10 + std::sqrt(2.0f), -std::sqrt(2.0f), 2}).r, value_at(image, {0.25f, 0.875f}).r,
+                1e-5f);
+}
+
+TEST(PbrtTextures, MixByDirectionTakeTheirDirectionAlong) {
+    const std::string t =
+        "Rotate 90 0 0 1 Texture \"t\" \"spectrum\" \"directionmix\" \"rgb tex1\" [ 1 0 0 ] \"rgb tex2\" [ 0 1 0 ]";
+    EXPECT_NEAR(solid_value(t, {}, {1, 0, 0}).r, 1, 1e-6f);
+    EXPECT_NEAR(solid_value(t, {}, {0, 1, 0}).g, 1, 1e-6f);
+}
+
+TEST(PbrtTextures, MayBeNoise) {
+    const Vec3 own{0.3f, 0.6f, -0.2f}, there{10.6f, 1.2f, -0.4f};
+    const auto grey = [&](const std::string& type) {
+        return solid_value("Texture \"t\" \"spectrum\" \"" + type, there).r;
+    };
+    EXPECT_NEAR(grey("fbm\" \"integer octaves\" 3 \"float roughness\" .4"), std::max(0.0f, fractal_noise(own, 3, 0.4f)),
+                1e-5f);
+    EXPECT_NEAR(grey("wrinkled\""), turbulence(own, 8, 0.5f), 1e-5f);
+    EXPECT_NEAR(grey("windy\""), std::max(0.0f, wind_waves(own)), 1e-5f);
+    EXPECT_NEAR(grey("marble\" \"float scale\" 3 \"float variation\" 2"), marble(own * 3, 8, 0.5f, 2).r, 1e-5f);
+}
+
+TEST(PbrtTextures, HaveDotsOfWhatIsOutside) {
+    int red = 0;
+    for (int i = 0; i < 400; ++i) {
+        const std::string t = "Texture \"t\" \"spectrum\" \"dots\" \"rgb inside\" [ 0 1 0 ] \"rgb outside\" [ 1 0 0 ]";
+        const Rgb found = value_at(t, {0.73f * float(i), 0.41f * float(i)});
+        red += found == Rgb{1, 0, 0};
+    }
+    EXPECT_GT(red, 20);
+    EXPECT_LT(red, 120);
+}
+
+TEST(PbrtTextures, OfNoiseNameWrongOctaves) {
+    EXPECT_THAT(errors_of_world("Texture \"t\" \"float\" \"fbm\" \"integer octaves\" 99"),
+                HasSubstr("'octaves' is 99, not 0 to 32"));
 }
 
 TEST(PbrtTextures, OfAnotherKindAreNamed) {

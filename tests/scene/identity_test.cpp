@@ -5,7 +5,6 @@
 
 #include <map>
 
-
 namespace lightnet::identity_test {
 namespace {
 
@@ -47,7 +46,13 @@ std::vector<Texture> all_textures() {
             {{1, 1, 1}, CheckerTexture{0, 1, {}}, false},
             {{1, 1, 1}, ProductTexture{0, 1}, false},
             {{1, 1, 1}, MixTexture{0, 1, 2}, false},
-            {{1, 1, 1}, VertexColour{}, false}};
+            {{1, 1, 1}, VertexColour{}, false},
+            {{1, 1, 1}, ProjectedTexture{1, {}, {}}, false},
+            {{1, 1, 1}, CubesTexture{0, 1, {}}, false},
+            {{1, 1, 1}, DotsTexture{0, 1, {}}, false},
+            {{1, 1, 1}, DirectionTexture{0, 1, {0, 0, 1}}, false},
+            {{1, 1, 1}, NoiseTexture{}, false},
+            {{1, 1, 1}, MarbleTexture{}, false}};
 }
 
 SceneData room() {

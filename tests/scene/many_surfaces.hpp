@@ -82,6 +82,22 @@ inline void add_bumpy(SceneData& data, std::uint32_t plain, std::uint32_t gloss,
         }
 }
 
+// Patterns that follow from where points lie, and how they are turned.
+inline TextureId solid(SceneData& data) {
+    const auto red = colour(data, {0.8f, 0.2f, 0.1f});
+    Matrix twice;
+    for (std::size_t i = 0; i < 3; ++i) twice.m[i][i] = 2;
+    const auto pattern = [&](const auto& made) {
+        data.textures.emplace_back().pattern = made;
+        return TextureId(data.textures.size() - 1);
+    };
+    const auto creases = pattern(NoiseTexture{NoiseTexture::Kind::turbulence, 4, 0.5f, twice});
+    const auto cubes = pattern(CubesTexture{red, creases, twice});
+    const auto around =
+        pattern(ProjectedTexture{squares(data, {0, 0, 1}, {0, 1, 0}), ProjectedTexture::By::sphere, {}});
+    return pattern(DirectionTexture{cubes, around, {0.6f, 0, 0.8f}});
+}
+
 // Meshes with and without normals, flipped ones, ones with textures and vertex colours, triangles without area, balls
 // and instances; surfaces that are diffuse, coated, black from behind,
 // metals, mirrors, glass, principled and blends; some with bumps.
@@ -142,6 +158,12 @@ inline SceneData everything() {
     add(data, raised(-2.5f), material(data, ConductorMaterial{{eta, k}, by_beckmann, paint}));
     add_principled(data, paint);
     add_bumpy(data, grey, copper, steel);
+    const TextureId veined = solid(data);
+    const auto stone = material(data, DiffuseMaterial{veined});
+    Mesh rough = raised(3);
+    data.materials[material(data, CoatedDiffuseMaterial{veined, 1.5f, satin})].bump_map = veined;
+    add(data, rough, std::uint32_t(data.materials.size() - 1));
+    add(data, raised(-3), stone);
     const auto part = std::uint32_t(data.shapes.size());
     add(data, waves(), dark_behind);
     Mesh tile = waves();
@@ -149,7 +171,8 @@ inline SceneData everything() {
     const auto carved = material(data, PrincipledMaterial{});
     data.materials[carved].bump_map = squares(data, {0.1f, 0.2f, 0.3f}, {0.9f, 0.2f, 0.1f});
     add(data, tile, carved);
-    data.objects.push_back({"waves", {part, part + 1}});
+    add(data, raised(0.2f), stone);
+    data.objects.push_back({"waves", {part, part + 1, part + 2}});
     Matrix upright;
     upright.m = {{{0, 0, 1, 2}, {0, 2, 0, 0}, {-1, 0, 0, 1}, {0, 0, 0, 1}}};
     data.instances.push_back({0, upright});

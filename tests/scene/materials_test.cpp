@@ -280,6 +280,51 @@ TEST(BumpMaps, AreSlopesOfTheirHeights) {
     EXPECT_NEAR(length(normal_under(data, 0.5f, 0.2f) - normalize({-0.2f, 0, 1})), 0, 1e-4f);
 }
 
+TEST(BumpMaps, MayLieBelowTheSurface) {
+    SceneData data;
+    add(data, square(), mirror(data, 1));
+    std::vector<Rgb> ramp;
+    for (int x = 0; x < 64; ++x) ramp.push_back({0.2f * (float(x) + 0.5f) / 64, 0, 0});
+    const TextureId heights = picture(data, 64, 1, ramp);
+    data.textures[heights].scale = {-1, -1, -1};
+    data.materials[0].bump_map = heights;
+    EXPECT_NEAR(length(normal_under(data, 0.5f, 0.2f) - normalize({0.2f, 0, 1})), 0, 1e-4f);
+}
+
+// A ramp twice as long as the square, across its texture coordinates.
+TEST(BumpMaps, FollowPlacesWhereTheirTexturesDo) {
+    SceneData data;
+    add(data, square(), mirror(data, 1));
+    std::vector<Rgb> ramp;
+    for (int x = 0; x < 64; ++x) ramp.push_back({0.2f * (float(x) + 0.5f) / 64, 0, 0});
+    Matrix across;
+    across.m[0] = {0, 0.5, 0, 0.2};
+    across.m[1] = {1, 0, 0, 0};
+    const TextureId heights = picture(data, 64, 1, ramp);
+    data.textures.push_back({{1, 1, 1}, ProjectedTexture{heights, ProjectedTexture::By::plane, across}, false});
+    data.materials[0].bump_map = TextureId(data.textures.size() - 1);
+    EXPECT_NEAR(length(normal_under(data, 0.5f, 0.2f) - normalize({0, -0.1f, 1})), 0, 1e-4f);
+}
+
+// Holes and lamps, too.
+TEST(Textures, OfHolesAndLampsMayFollowPlaces) {
+    SceneData data;
+    const auto none = colour(data, {0, 0, 0}), whole = colour(data, {1, 1, 1});
+    Matrix thirds;
+    for (std::size_t i = 0; i < 3; ++i) thirds.m[i][i] = 3;
+    data.textures.push_back({{1, 1, 1}, CubesTexture{whole, none, thirds}, false});
+    const TextureId cubes(data.textures.size() - 1);
+    const auto grey = diffuse(data, 0.5f);
+    data.materials[grey].opacity = cubes;
+    add(data, square(), grey);
+    data.shapes[0].emission = AreaEmission{.radiance = {2, 2, 2}, .texture = cubes};
+    const Scene scene(data);
+    const auto hit = [&](float x, float y) { return scene.intersect({{x, y, 3}, {0, 0, -1}}); };
+    ASSERT_TRUE(hit(0.1f, 0.1f));
+    EXPECT_FALSE(hit(0.5f, 0.1f));
+    EXPECT_EQ(scene.emission(scene.surface(*hit(0.5f, 0.5f)), {0, 0, 1}), (Rgb{2, 2, 2}));
+}
+
 TEST(BumpMaps, OnBallsFollowLongitudeAndLatitude) {
     SceneData data;
     add(data, ball({0, 0, 0}, 2), mirror(data, 1));

@@ -55,7 +55,7 @@ void Builder::named_material(Statement& s) { state_.material = use_of(s.names[0]
 
 void Builder::texture(Statement& s) {
     s.parameters.inherit(state_.defaults["texture"]);
-    textures_.define(s.names[0], s.names[1], s.names[2], s.parameters);
+    textures_.define(s.names[0], s.names[1], s.names[2], state_.to_world, s.parameters);
     s.parameters.warn_unused();
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/suggestion.hpp"
+#include "core/readers/pbrt/transforms.hpp"
 
 namespace lightnet::pbrt {
 namespace {
@@ -24,19 +25,18 @@ std::vector<std::string> names_of(const std::map<std::string, Value, std::less<>
     return names;
 }
 
-/// How `mapping` "uv" lays a texture over the surface.
+/// How `mapping` "uv" lays a texture over the surface; others ask for no scale, see projected().
 UvTransform laid(Parameters& parameters) {
-    if (const std::string mapping = parameters.text("mapping", "uv"); mapping != "uv") {
-        static const std::vector<std::string> known{"cylindrical", "planar", "spherical", "uv"};
-        if (std::find(known.begin(), known.end(), mapping) == known.end())
-            parameters.error(fmt::format("unknown mapping '{}'{}", mapping, did_you_mean(mapping, known)));
-        else
-            parameters.warn(fmt::format("the mapping '{}' is not supported: texture coordinates are taken", mapping));
-        parameters.ignore({"v1", "v2"});
-    }
+    if (parameters.text("mapping", "uv") != "uv") return {};
     return {{parameters.number("uscale", 1), parameters.number("vscale", 1)},
             {parameters.number("udelta", 0), parameters.number("vdelta", 0)},
             0};
+}
+
+// pbrt's own vectors, or its fallbacks.
+Vec3 vector_of(Parameters& parameters, std::string_view name, Vec3 fallback) {
+    const auto given = parameters.triples(name, Type::vector3);
+    return given.size() == 1 ? given[0] : fallback;
 }
 
 Wrap wrap_of(Parameters& parameters) {
@@ -81,7 +81,7 @@ void Textures::finish() {
             picture->channel = ImageTexture::Channel::alpha;
 }
 
-void Textures::define(const std::string& name, const std::string& kind, const std::string& type,
+void Textures::define(const std::string& name, const std::string& kind, const std::string& type, const Matrix& to_world,
                       Parameters& parameters) {
     if (kind != "float" && kind != "spectrum") {
         parameters.error(fmt::format("a texture is of kind 'float' or 'spectrum', not '{}'{}", kind,
@@ -90,23 +90,30 @@ void Textures::define(const std::string& name, const std::string& kind, const st
     }
     Named& named = kind == "float" ? floats_ : spectra_;
     if (named.contains(name)) parameters.error("a texture of that name and kind is there already");
+    const auto from_world = inverse(to_world);
+    if (!from_world) parameters.error("the transform here has no inverse");
+    to_world_ = to_world, from_world_ = from_world.value_or(Matrix{});
     auto texture = make(type, named, parameters);
     named.insert_or_assign(name, add(texture ? std::move(*texture) : Texture{middle_grey, {}, false}));
 }
 
 std::optional<Texture> Textures::make(const std::string& type, Named& named, Parameters& parameters) {
     if (type == "imagemap")
-        return imagemap(parameters, &named == &floats_ ? ImageTexture::Channel::mean : ImageTexture::Channel::colour);
+        return projected(
+            imagemap(parameters, &named == &floats_ ? ImageTexture::Channel::mean : ImageTexture::Channel::colour),
+            parameters);
     if (type == "constant") return scene_.textures[input(named, parameters, "value", 1)];
     if (type == "scale") return scale(named, parameters);
     if (type == "mix") return mix(named, parameters);
     if (type == "directionmix") return direction_mix(named, parameters);
     if (type == "checkerboard") return checkerboard(named, parameters);
-    if (type == "dots") return dots(named, parameters);
-    if (type == "bilerp") return bilinear(parameters);
-    if (type == "marble") return unsupported(type, parameters, {0.8f, 0.8f, 0.82f});  // the mean of its colours
-    if (type == "fbm" || type == "windy" || type == "wrinkled" || type == "ptex")
-        return unsupported(type, parameters, middle_grey);
+    if (type == "dots") return projected(dots(named, parameters), parameters);
+    if (type == "bilerp") return projected(bilinear(parameters), parameters);
+    if (type == "marble") return marble(parameters);
+    if (type == "fbm") return noise(NoiseTexture::Kind::fractal, parameters);
+    if (type == "wrinkled") return noise(NoiseTexture::Kind::turbulence, parameters);
+    if (type == "windy") return noise(NoiseTexture::Kind::wind, parameters);
+    if (type == "ptex") return unsupported(type, parameters, middle_grey);
     static const std::vector<std::string> known{"bilerp", "checkerboard", "constant", "directionmix", "dots",
                                                 "fbm",    "imagemap",     "marble",   "mix",          "ptex",
                                                 "scale",  "windy",        "wrinkled"};
@@ -121,6 +128,50 @@ Texture Textures::unsupported(const std::string& type, Parameters& parameters, R
                                                          "their mean, stands for each",
                                                          type));
     return {mean, {}, false};
+}
+
+// What lies over texture coordinates, laid by `mapping`. A plane's vectors are a part of the way into its space.
+Texture Textures::projected(Texture texture, Parameters& parameters) {
+    using By = ProjectedTexture::By;
+    const std::string mapping = parameters.text("mapping", "uv");
+    if (mapping == "uv") return texture;
+    if (mapping == "spherical") return {{1, 1, 1}, ProjectedTexture{add(std::move(texture)), By::sphere, from_world_}};
+    if (mapping == "cylindrical")
+        return {{1, 1, 1}, ProjectedTexture{add(std::move(texture)), By::cylinder, from_world_}};
+    if (mapping == "planar") {
+        const Vec3 u = vector_of(parameters, "v1", {1, 0, 0}), v = vector_of(parameters, "v2", {0, 1, 0});
+        Matrix onto;
+        onto.m[0] = {u.x, u.y, u.z, parameters.number("udelta", 0)};
+        onto.m[1] = {v.x, v.y, v.z, parameters.number("vdelta", 0)};
+        return {{1, 1, 1}, ProjectedTexture{add(std::move(texture)), By::plane, onto * from_world_}};
+    }
+    static const std::vector<std::string> known{"cylindrical", "planar", "spherical", "uv"};
+    parameters.error(fmt::format("unknown mapping '{}'{}", mapping, did_you_mean(mapping, known)));
+    return texture;
+}
+
+std::int32_t Textures::octaves(Parameters& parameters) const {
+    constexpr int most = 32;  // beyond, floats have no digits left for their places
+    const int count = parameters.integer("octaves", 8);
+    if (count < 0 || count > most) parameters.error(fmt::format("'octaves' is {}, not 0 to {}", count, most));
+    return std::clamp(count, 0, most);
+}
+
+Texture Textures::noise(NoiseTexture::Kind kind, Parameters& parameters) {
+    NoiseTexture pattern{kind, 8, 0.5f, from_world_};
+    if (kind != NoiseTexture::Kind::wind) {
+        pattern.octaves = octaves(parameters);
+        pattern.roughness = parameters.number("roughness", 0.5f);
+    }
+    return {{1, 1, 1}, pattern, false};
+}
+
+Texture Textures::marble(Parameters& parameters) {
+    const float scale = parameters.number("scale", 1);
+    return {{1, 1, 1},
+            MarbleTexture{octaves(parameters), parameters.number("roughness", 0.5f),
+                          parameters.number("variation", 0.2f), scaling(scale, scale, scale) * from_world_},
+            false};
 }
 
 Texture Textures::imagemap(Parameters& parameters, ImageTexture::Channel channel) {
@@ -188,29 +239,24 @@ Texture Textures::mix(Named& named, Parameters& parameters) {
 
 Texture Textures::direction_mix(Named& named, Parameters& parameters) {
     const TextureId first = input(named, parameters, "tex1", 0), second = input(named, parameters, "tex2", 1);
-    parameters.ignore({"dir"});
-    sources_.report.warn(parameters.where(),
-                         "textures of class 'directionmix' are not supported: the mean of both is taken");
-    return {{1, 1, 1}, MixTexture{first, second, constant(middle_grey)}, false};
+    const Vec3 direction = transform_direction(to_world_, vector_of(parameters, "dir", {0, 1, 0}));
+    const float size = length(direction);
+    if (!(size > 0)) parameters.error("'dir' has no direction");
+    return {{1, 1, 1}, DirectionTexture{first, second, size > 0 ? direction / size : Vec3{0, 1, 0}}, false};
 }
 
 Texture Textures::checkerboard(Named& named, Parameters& parameters) {
     const TextureId even = input(named, parameters, "tex1", 1), odd = input(named, parameters, "tex2", 0);
-    if (const int dimension = parameters.integer("dimension", 2); dimension == 3) {
-        parameters.warn("a checkerboard of dimension 3 is not supported: the mean of both is taken");
-        return {{1, 1, 1}, MixTexture{even, odd, constant(middle_grey)}, false};
-    } else if (dimension != 2) {
-        parameters.error(fmt::format("a checkerboard has 2 or 3 dimensions, not {}", dimension));
-    }
-    return {{1, 1, 1}, CheckerTexture{even, odd, laid(parameters)}, false};
+    const int dimension = parameters.integer("dimension", 2);
+    if (dimension == 3) return {{1, 1, 1}, CubesTexture{even, odd, from_world_}, false};
+    if (dimension != 2) parameters.error(fmt::format("a checkerboard has 2 or 3 dimensions, not {}", dimension));
+    return projected({{1, 1, 1}, CheckerTexture{even, odd, laid(parameters)}, false}, parameters);
 }
 
+// In pbrt's pictures the dots have what it calls `outside`, and `inside` lies around them.
 Texture Textures::dots(Named& named, Parameters& parameters) {
     const TextureId inside = input(named, parameters, "inside", 1), outside = input(named, parameters, "outside", 0);
-    laid(parameters);
-    parameters.warn("dots are not supported: the mean of inside and outside is taken");
-    // every second cell has a dot of radius 0.35
-    return {{1, 1, 1}, MixTexture{outside, inside, constant(all(0.19f))}, false};
+    return {{1, 1, 1}, DotsTexture{outside, inside, laid(parameters)}, false};
 }
 
 // The colours are the pixels of an image of two by two; its pixels' centres lie at 1/4 and 3/4.

@@ -21,8 +21,9 @@ public:
     Textures(const Sources& sources, SceneData& scene, Pictures& pictures)
         : sources_(sources), scene_(scene), pictures_(pictures) {}
 
-    /// `Texture "name" "float|spectrum" "class" …`
-    void define(const std::string& name, const std::string& kind, const std::string& type, Parameters& parameters);
+    /// `Texture "name" "float|spectrum" "class" …`, where it stands in the world.
+    void define(const std::string& name, const std::string& kind, const std::string& type, const Matrix& to_world,
+                Parameters& parameters);
 
     /// What the parameter says, as a texture of the scene: rgb, spectrum or the name of a texture.
     TextureId colour(Parameters& parameters, std::string_view name, Rgb fallback, Use use = Use::surface);
@@ -47,12 +48,16 @@ private:
     using Named = std::map<std::string, TextureId, std::less<>>;
 
     std::optional<Texture> make(const std::string& type, Named& named, Parameters& parameters);
+    Texture projected(Texture texture, Parameters& parameters);
     Texture imagemap(Parameters& parameters, ImageTexture::Channel channel);
     Texture scale(Named& named, Parameters& parameters);
     Texture mix(Named& named, Parameters& parameters);
     Texture direction_mix(Named& named, Parameters& parameters);
     Texture checkerboard(Named& named, Parameters& parameters);
     Texture dots(Named& named, Parameters& parameters);
+    Texture noise(NoiseTexture::Kind kind, Parameters& parameters);
+    Texture marble(Parameters& parameters);
+    std::int32_t octaves(Parameters& parameters) const;
     Texture bilinear(Parameters& parameters);
     Texture unsupported(const std::string& type, Parameters& parameters, Rgb mean);
     Rgb corner(Parameters& parameters, std::string_view name, float fallback);
@@ -65,6 +70,7 @@ private:
     SceneData& scene_;
     Pictures& pictures_;
     Named floats_, spectra_;
+    Matrix to_world_, from_world_;  // of the texture that is being made
 };
 
 }  // namespace lightnet::pbrt

@@ -21,7 +21,7 @@ Vec3 kept_above(Vec3 z, Vec3 normal) {
 }
 
 Vec3 mapped_normal(const SceneData& data, const Material& material, const SurfacePoint& point) {
-    const Rgb colour = look_up(data.textures, *material.normal_map, {point.uv, point.vertex_colour});
+    const Rgb colour = look_up(data.textures, *material.normal_map, place_of(point));
     const float x = (2 * colour.r - 1) * material.normal_scale, y = (2 * colour.g - 1) * material.normal_scale;
     const Frame frame = frame_along(point.shading.z, point.along_u);
     // pictures are laid either way round on a surface
@@ -31,9 +31,14 @@ Vec3 mapped_normal(const SceneData& data, const Material& material, const Surfac
 
 // Blinn 1978, "Simulation of Wrinkled Surfaces"; without the change of the normal along the surface.
 Vec3 bumped_normal(const SceneData& data, TextureId map, const SurfacePoint& point, float step) {
-    const auto height = [&](Vec2 uv) { return look_up(data.textures, map, {uv, point.vertex_colour}).r; };
-    const float low_u = height({point.uv.x - step, point.uv.y}), high_u = height({point.uv.x + step, point.uv.y});
-    const float low_v = height({point.uv.x, point.uv.y - step}), high_v = height({point.uv.x, point.uv.y + step});
+    const auto height = [&](float u, float v) {
+        TexturePlace place = place_of(point);
+        place.uv = {place.uv.x + u, place.uv.y + v};
+        place.position = place.position + point.along_u * u + point.along_v * v;
+        return value_at(data.textures, map, place).r;
+    };
+    const float low_u = height(-step, 0), high_u = height(step, 0);
+    const float low_v = height(0, -step), high_v = height(0, step);
     const Vec3 z = point.shading.z;
     const auto flat = [&](Vec3 along) { return along - z * dot(z, along); };
     const Vec3 u = flat(point.along_u) + z * ((high_u - low_u) / (2 * step));

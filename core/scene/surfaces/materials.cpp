@@ -24,8 +24,10 @@ Bsdf::Model as_model(const std::variant<Models...>& model) {
     return std::visit([](const auto& one) -> Bsdf::Model { return one; }, model);
 }
 
+// Those that are looked up by texture coordinates.
 void add_pictures(const SceneData& data, TextureId id, std::vector<const ImageTexture*>& to) {
     const Texture& texture = data.textures[id];
+    if (std::holds_alternative<ProjectedTexture>(texture.pattern)) return;
     if (const auto* picture = std::get_if<ImageTexture>(&texture.pattern)) to.push_back(picture);
     for (const TextureId input : inputs_of(texture)) add_pictures(data, input, to);
 }
@@ -105,7 +107,7 @@ Bsdf Materials::bsdf(MaterialId id, const SurfacePoint& point) const {
         return result;
     };
     if (made.constant) return whole(*made.constant);
-    const MaterialInputs inputs(data_.textures, {point.uv, point.vertex_colour}, made.coating);
+    const MaterialInputs inputs(data_.textures, place_of(point), made.coating);
     return std::visit(
         [&]<class M>(const M& model) {
             if constexpr (Blends<M>)

@@ -80,6 +80,11 @@ Shading::Shading(const SceneData& data) : data_(data), materials_(data) {
         needs_.push_back({materials_.needs(shape.material), least_offset(shape), std::get_if<Mesh>(&shape.geometry),
                           materials_.lobes(shape.material)});
         needs_.back().material.texture |= shape.emission && shape.emission->texture;
+        const auto by_place = [&](const std::optional<TextureId>& texture) {
+            return texture && depends_on_place(data.textures, *texture);
+        };
+        needs_.back().place =
+            by_place(data.materials[shape.material].opacity) || (shape.emission && by_place(shape.emission->texture));
         column_shapes_.push_back(column_shape(shape, needs_.back()));
         const auto* quadric = std::get_if<Quadric>(&shape.geometry);
         quadrics_.push_back(quadric ? std::make_unique<const PlacedQuadric>(*quadric) : nullptr);
@@ -201,6 +206,11 @@ void Shading::on_quadric(const PlacedQuadric& quadric, const Needs& needs, Surfa
 }
 
 TexturePlace Shading::place(std::uint32_t geometry, std::uint32_t primitive, float u, float v) const {
+    if (needs_[geometry].place) return place_of(point(geometry, primitive, u, v));
+    return coordinates(geometry, primitive, u, v);
+}
+
+TexturePlace Shading::coordinates(std::uint32_t geometry, std::uint32_t primitive, float u, float v) const {
     const auto& shape = data_.shapes[geometry].geometry;
     if (const auto* sphere = std::get_if<Sphere>(&shape))
         return {laid_on(*sphere, from_octahedral({u, v})).uv, {1, 1, 1}};

@@ -60,8 +60,10 @@ public:
         materials_.expect(data_.shapes[geometry].material, uv);
     }
 
-    /// What textures may depend on there, by the same coordinates.
+    /// What textures may depend on there, by the same coordinates, of a shape as it was made.
     TexturePlace place(std::uint32_t geometry, std::uint32_t primitive, float u, float v) const;
+    /// The same, but for where the point is.
+    TexturePlace coordinates(std::uint32_t geometry, std::uint32_t primitive, float u, float v) const;
     /// Null: the shape is none.
     const PlacedQuadric* quadric(std::uint32_t geometry) const { return quadrics_[geometry].get(); }
     /// Can rays go through the shape? Only then the next two need to be asked.
@@ -78,6 +80,7 @@ private:
         float offset = 0;            // least distance by which rays must leave the shape, m
         const Mesh* mesh = nullptr;  // null: the shape is another
         std::uint8_t lobes = 0;      // 0: not the same everywhere
+        bool place = false;          // textures of opacity or emission depend on where a point is
     };
     void find(std::uint32_t geometry, std::uint32_t primitive, float u, float v, SurfacePoint& point) const;
     ColumnShape column_shape(const Shape& shape, const Needs& needs) const;

@@ -7,6 +7,7 @@
 #include "core/base/math/frame.hpp"
 #include "core/base/math/rgb.hpp"
 #include "core/base/math/vec.hpp"
+#include "core/scene/textures/look_up.hpp"
 
 namespace lightnet {
 
@@ -27,6 +28,11 @@ struct SurfacePoint {
     /// Where a ray into `direction` starts: off the surface, on the side into which it goes.
     Vec3 origin_towards(Vec3 direction) const;
 };
+
+/// What its textures may depend on.
+inline TexturePlace place_of(const SurfacePoint& point) {
+    return {point.uv, point.vertex_colour, point.position, point.normal};
+}
 
 inline float largest_coordinate(Vec3 v) {
     const float x = std::fabs(v.x), y = std::fabs(v.y), z = std::fabs(v.z), xy = x > y ? x : y;

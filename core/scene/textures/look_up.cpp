@@ -6,6 +6,8 @@
 #include <string>
 
 #include "core/base/error.hpp"
+#include "core/base/math/sampling.hpp"
+#include "core/scene/textures/noise.hpp"
 
 namespace lightnet {
 namespace {
@@ -71,22 +73,36 @@ Rgb bilinear(const ImageTexture& texture, float x, float y) {
            (pixel(texture, i, j + 1) * (1 - dx) + pixel(texture, i + 1, j + 1) * dx) * dy;
 }
 
+// Far outside, floats can't tell pixels apart; staying within ±2²⁰ repeats keeps the integers small.
+float tame(float t) { return std::isfinite(t) ? std::clamp(t, -0x1p20f, 0x1p20f) : 0.0f; }
+
 Vec2 laid(const UvTransform& by, Vec2 uv) {
     uv = {uv.x * by.scale.x, uv.y * by.scale.y};
     if (by.turn != 0) {
         const float c = std::cos(by.turn), s = std::sin(by.turn);
         uv = {c * uv.x - s * uv.y, s * uv.x + c * uv.y};
     }
-    // Far outside, floats can't tell pixels apart; staying within ±2²⁰ repeats keeps the integers small.
-    const auto tame = [](float t) { return std::isfinite(t) ? std::clamp(t, -0x1p20f, 0x1p20f) : 0.0f; };
     return {tame(uv.x + by.offset.x), tame(uv.y + by.offset.y)};
 }
+
+Vec2 projected(const ProjectedTexture& by, Vec3 position) {
+    const Vec3 p = transform_point(by.from_world, position);
+    using By = ProjectedTexture::By;
+    if (by.by == By::plane) return {p.x, p.y};
+    const float turn = std::atan2(p.y, p.x);
+    if (by.by == By::cylinder) return {(pi + turn) / (2 * pi), p.z};
+    const float from_axis = std::atan2(std::sqrt(p.x * p.x + p.y * p.y), p.z);
+    return {from_axis / pi, (turn < 0 ? turn + 2 * pi : turn) / (2 * pi)};
+}
+
+Rgb grey(float value) { return {value, value, value}; }
 
 /// The value of a pattern; one function for each.
 struct Pattern {
     std::span<const Texture> textures;
     const TexturePlace& place;
 
+    Rgb of(TextureId texture) const { return value_at(textures, texture, place); }
     Rgb operator()(std::monostate) const { return {1, 1, 1}; }
     Rgb operator()(const ImageTexture& t) const {
         if (!t.image || t.image->empty()) return {1, 1, 1};
@@ -98,26 +114,52 @@ struct Pattern {
     Rgb operator()(const CheckerTexture& t) const {
         const Vec2 at = laid(t.uv, place.uv);
         const auto sum = std::int64_t(std::floor(at.x)) + std::int64_t(std::floor(at.y));
-        return look_up(textures, sum % 2 == 0 ? t.even : t.odd, place);
+        return of(sum % 2 == 0 ? t.even : t.odd);
     }
-    Rgb operator()(const ProductTexture& t) const {
-        return look_up(textures, t.first, place) * look_up(textures, t.second, place);
-    }
+    Rgb operator()(const ProductTexture& t) const { return of(t.first) * of(t.second); }
     Rgb operator()(const MixTexture& t) const {
-        const Rgb amount = look_up(textures, t.amount, place);
-        return look_up(textures, t.first, place) * (Rgb{1, 1, 1} - amount) +
-               look_up(textures, t.second, place) * amount;
+        const Rgb amount = of(t.amount);
+        return of(t.first) * (Rgb{1, 1, 1} - amount) + of(t.second) * amount;
     }
     Rgb operator()(VertexColour) const { return place.vertex_colour; }
+    Rgb operator()(const ProjectedTexture& t) const {
+        TexturePlace there = place;
+        there.uv = projected(t, place.position);
+        return value_at(textures, t.texture, there);
+    }
+    Rgb operator()(const CubesTexture& t) const {
+        const Vec3 at = transform_point(t.from_world, place.position);
+        const auto cube = [](float x) { return std::int64_t(std::floor(tame(x))); };
+        return of((cube(at.x) + cube(at.y) + cube(at.z)) % 2 == 0 ? t.even : t.odd);
+    }
+    Rgb operator()(const DotsTexture& t) const { return of(in_dot(laid(t.uv, place.uv)) ? t.dots : t.around); }
+    Rgb operator()(const DirectionTexture& t) const {
+        const float along = std::min(std::fabs(dot(place.normal, t.direction)), 1.0f);
+        return of(t.along) * along + of(t.across) * (1 - along);
+    }
+    Rgb operator()(const NoiseTexture& t) const {
+        const Vec3 at = transform_point(t.from_world, place.position);
+        using Kind = NoiseTexture::Kind;
+        return grey(t.kind == Kind::fractal      ? fractal_noise(at, t.octaves, t.roughness)
+                    : t.kind == Kind::turbulence ? turbulence(at, t.octaves, t.roughness)
+                                                 : wind_waves(at));
+    }
+    Rgb operator()(const MarbleTexture& t) const {
+        return marble(transform_point(t.from_world, place.position), t.octaves, t.roughness, t.variation);
+    }
 };
 
 }  // namespace
 
-Rgb look_up(std::span<const Texture> textures, TextureId texture, const TexturePlace& place) {
+Rgb value_at(std::span<const Texture> textures, TextureId texture, const TexturePlace& place) {
     const Texture& t = textures[texture];
     Rgb value = t.scale;
     if (!is_constant(t)) value = value * std::visit(Pattern{textures, place}, t.pattern);
-    if (t.invert) value = Rgb{1, 1, 1} - value;
+    return t.invert ? Rgb{1, 1, 1} - value : value;
+}
+
+Rgb look_up(std::span<const Texture> textures, TextureId texture, const TexturePlace& place) {
+    const Rgb value = value_at(textures, texture, place);
     return {std::max(0.0f, value.r), std::max(0.0f, value.g), std::max(0.0f, value.b)};
 }
 
@@ -133,6 +175,18 @@ PictureLines lines_of(const ImageTexture& texture, Vec2 uv) {
         return x < 0 || j < 0 ? nullptr : image.where(std::uint32_t(x), std::uint32_t(j));
     };
     return {row(top), row(top + 1)};
+}
+
+bool depends_on_place(std::span<const Texture> textures, TextureId texture) {
+    const auto& pattern = textures[texture].pattern;
+    const auto is = [&]<class... Kind>(std::variant<Kind...>*) {
+        return (std::holds_alternative<Kind>(pattern) || ...);
+    };
+    using Solid = std::variant<ProjectedTexture, CubesTexture, DirectionTexture, NoiseTexture, MarbleTexture>;
+    if (is(static_cast<Solid*>(nullptr))) return true;
+    const std::vector<TextureId> inputs = inputs_of(textures[texture]);
+    return std::any_of(inputs.begin(), inputs.end(),
+                       [&](TextureId input) { return depends_on_place(textures, input); });
 }
 
 bool is_constant(const Texture& texture) { return std::holds_alternative<std::monostate>(texture.pattern); }

@@ -14,11 +14,16 @@ namespace lightnet {
 struct TexturePlace {
     Vec2 uv;
     Rgb vertex_colour{1, 1, 1};
+    // world space; only where depends_on_place() says so
+    Vec3 position{};
+    Vec3 normal{};  // geometric, unit
 };
 
-/// The colour of a texture at a place: bilinear, not filtered over an area. Coordinate v counts upwards from the
-/// image's bottom row.
+/// The value of a texture at a place: bilinear, not filtered over an area. Coordinate v counts upwards from the
+/// image's bottom row. May lie below 0, as heights do.
 /// DECISIONS: textures-of-one-size
+Rgb value_at(std::span<const Texture> textures, TextureId texture, const TexturePlace& place);
+/// The same as a colour: never below 0.
 Rgb look_up(std::span<const Texture> textures, TextureId texture, const TexturePlace& place);
 
 /// Where in memory the numbers of a picture lie that look_up() will read first: null where it reads none. For who looks
@@ -31,6 +36,9 @@ PictureLines lines_of(const ImageTexture& texture, Vec2 uv);
 
 /// Does the texture say the same everywhere?
 bool is_constant(const Texture& texture);
+
+/// Does its value follow from more of a place than texture coordinates and colours of vertices?
+bool depends_on_place(std::span<const Texture> textures, TextureId texture);
 
 /// The textures that a texture is made of.
 std::vector<TextureId> inputs_of(const Texture& texture);

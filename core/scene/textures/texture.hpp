@@ -8,6 +8,7 @@
 
 #include "core/base/index_of.hpp"
 #include "core/base/math/rgb.hpp"
+#include "core/base/math/transform.hpp"
 #include "core/base/math/vec.hpp"
 #include "core/scene/textures/image.hpp"
 #include "core/scene/textures/members.hpp"
@@ -72,15 +73,86 @@ void visit_members(Is<MixTexture> auto& texture, const auto& visit) {
     visit(first, second, amount);
 }
 
+/// Another texture, laid over surfaces by where they are in the world, whatever their texture coordinates.
+struct ProjectedTexture {
+    /// How places of the texture's own space become coordinates: x and y themselves; the angles from the z axis over π
+    /// and around it over 2π; the angle around the z axis from -x over 2π, and z.
+    enum class By { plane, sphere, cylinder };
+    TextureId texture = 0;
+    By by = By::plane;
+    Matrix from_world{};  // into that space
+};
+void visit_members(Is<ProjectedTexture> auto& projected, const auto& visit) {
+    auto& [texture, by, from_world] = projected;
+    visit(texture, by, from_world);
+}
+
+/// Cubes of side 1 in a space of their own, alternating: `even` where ⌊x⌋ + ⌊y⌋ + ⌊z⌋ is.
+struct CubesTexture {
+    TextureId even = 0, odd = 0;
+    Matrix from_world{};
+};
+void visit_members(Is<CubesTexture> auto& cubes, const auto& visit) {
+    auto& [even, odd, from_world] = cubes;
+    visit(even, odd, from_world);
+}
+
+/// Dots over texture coordinates, one in about two of five squares of side 1.
+struct DotsTexture {
+    TextureId dots = 0, around = 0;
+    UvTransform uv{};
+};
+void visit_members(Is<DotsTexture> auto& pattern, const auto& visit) {
+    auto& [dots, around, uv] = pattern;
+    visit(dots, around, uv);
+}
+
+/// `along` where the surface's normal lies along a direction (unit), `across` where it lies across it; between, a mix
+/// by the cosine.
+struct DirectionTexture {
+    TextureId along = 0, across = 0;
+    Vec3 direction{0, 1, 0};
+};
+void visit_members(Is<DirectionTexture> auto& mix, const auto& visit) {
+    auto& [along, across, direction] = mix;
+    visit(along, across, direction);
+}
+
+/// Sums of noise in a space of its own: see noise.hpp.
+struct NoiseTexture {
+    enum class Kind { fractal, turbulence, wind } kind = Kind::fractal;
+    std::int32_t octaves = 8;  // of wind: not used
+    float roughness = 0.5f;    // the same: of an octave beside the one before
+    Matrix from_world{};
+};
+void visit_members(Is<NoiseTexture> auto& noise, const auto& visit) {
+    auto& [kind, octaves, roughness, from_world] = noise;
+    visit(kind, octaves, roughness, from_world);
+}
+
+/// Veins across the y axis of a space of their own.
+struct MarbleTexture {
+    std::int32_t octaves = 8;
+    float roughness = 0.5f;
+    float variation = 0.2f;  // of the veins, by noise
+    Matrix from_world{};
+};
+void visit_members(Is<MarbleTexture> auto& marble, const auto& visit) {
+    auto& [octaves, roughness, variation, from_world] = marble;
+    visit(octaves, roughness, variation, from_world);
+}
+
 /// The colours of the mesh's vertices; white where it has none.
 struct VertexColour {};
 void visit_members(Is<VertexColour> auto&, const auto&) { static_assert(std::is_empty_v<VertexColour>); }
 
 /// A colour (or a number, then a grey) over a surface: `scale` × what the pattern says, then 1 - that if inverted.
-/// Values below 0 count as 0. May name textures that stand before it only.
+/// May name textures that stand before it only.
 struct Texture {
     Rgb scale{1, 1, 1};
-    std::variant<std::monostate, ImageTexture, CheckerTexture, ProductTexture, MixTexture, VertexColour> pattern;
+    std::variant<std::monostate, ImageTexture, CheckerTexture, ProductTexture, MixTexture, VertexColour,
+                 ProjectedTexture, CubesTexture, DotsTexture, DirectionTexture, NoiseTexture, MarbleTexture>
+        pattern;
     bool invert = false;
 };
 void visit_members(Is<Texture> auto& texture, const auto& visit) {
