@@ -192,11 +192,10 @@ private:
         }
     }
     void leave(Samplers& some, std::span<const std::uint32_t> samples) const {
-        std::array<Vec3, lanes> directions;
+        std::array<Ray, lanes> rays;
         std::array<SkyRadiance, lanes> sky;
-        for (std::size_t k = 0; k < samples.size(); ++k)
-            directions[k] = some.by_direction[samples[k]].step.ray.direction;
-        scene_.look_at_sky(std::span(directions).first(samples.size()), sky);
+        for (std::size_t k = 0; k < samples.size(); ++k) rays[k] = some.by_direction[samples[k]].step.ray;
+        scene_.look_at_sky(std::span(rays).first(samples.size()), sky);
         for (std::size_t k = 0; k < samples.size(); ++k) {
             const BsdfSample& sample = some.by_direction[samples[k]].step.sample;
             some.found[samples[k] * groups_ + scene_.environment_group()] +=

@@ -46,8 +46,9 @@ private:
             const float choice = bsdf.chooses() ? samples.next() : samples.skip();
             const auto sample = bsdf.sample(question.outgoing, choice, samples.next_2d(), question.lobes);
             if (!sample) continue;
-            rays.rays.push_back({point.origin_towards(sample->incoming), sample->incoming});
-            rays.light.push_back(sample->weight * scene_.environment(sample->incoming) / float(samples_));
+            const Ray ray{point.origin_towards(sample->incoming), sample->incoming};
+            rays.rays.push_back(ray);
+            rays.light.push_back(sample->weight * scene_.environment(ray) / float(samples_));
             rays.askers.push_back(asker);
         }
     }

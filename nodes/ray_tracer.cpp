@@ -181,9 +181,9 @@ private:
     void visit(const TileSample& sample, Branch branch, std::uint32_t surface, PixelQuestions& met) const {
         if (!branch.hit) {
             if (!background_ && surface == 0) return;
-            const Vec3 ahead = branch.path.ray().direction;
-            met.emitted[scene_.environment_group()] += branch.path.weight() * scene_.environment(ahead);
-            if (const auto sun = scene_.sun(ahead))
+            const Ray& ray = branch.path.ray();
+            met.emitted[scene_.environment_group()] += branch.path.weight() * scene_.environment(ray);
+            if (const auto sun = scene_.sun(ray.direction))
                 met.emitted[sun->group] += branch.path.weight() * sun->light.radiance;
             return;
         }

@@ -60,7 +60,7 @@ struct PathBatch {
     std::size_t kept = 0;  // paths and rays that go on
     // some that meet nothing any more, and what they find there
     std::array<std::uint32_t, lanes> leaving;
-    std::array<Vec3, lanes> skywards;
+    std::array<Ray, lanes> skywards;
     std::array<SkyRadiance, lanes> sky;
     Lessons* lessons = nullptr;  // null: nobody learns
 };

@@ -25,7 +25,7 @@ public:
           max_depth_(plan.max_depth),
           roulette_depth_(plan.roulette_depth),
           all_(plan.all),
-          looks_twice_(scene_.has_environment() && scene_.environment_pdf({0, 0, 1}) == 0) {}
+          looks_twice_(scene_.has_environment() && !scene_.samples_environment()) {}
 
     void walk(std::span<const Query> questions, std::span<Rgb> answers, Learnt* learnt) const {
         const std::size_t paths = questions.size() * samples_;
@@ -195,7 +195,7 @@ private:
             Path& path = batch.paths[i];
             if (!batch.hits[i]) {
                 batch.leaving[leaving] = static_cast<std::uint32_t>(i);
-                batch.skywards[leaving++] = path.incoming;
+                batch.skywards[leaving++] = batch.rays[i];
                 continue;
             }
             const Hit& hit = *batch.hits[i];
@@ -234,7 +234,7 @@ private:
 
     void meet_suns(Batch& batch, std::size_t count) const {
         for (std::size_t k = 0; k < count; ++k) {
-            const auto sun = scene_.sun(batch.skywards[k]);
+            const auto sun = scene_.sun(batch.skywards[k].direction);
             if (!sun) continue;
             const Path& path = batch.paths[batch.leaving[k]];
             batch.sums[path.sum + sun->group] += path.weight * sky_by_bsdf(sun->light, step_of(path), heuristic);
@@ -266,12 +266,12 @@ private:
         const float choice = at.bsdf.chooses() ? samples.next() : samples.skip();
         const auto found = at.bsdf.sample(at.outgoing, choice, samples.next_2d(), at.lobes);
         if (!found) return;
+        const Ray ray{at.point.origin_towards(found->incoming), found->incoming};
         SkyRadiance seen;
-        scene_.look_at_sky({&found->incoming, 1}, {&seen, 1});
+        scene_.look_at_sky({&ray, 1}, {&seen, 1});
         const Rgb sky = found->weight * sky_by_bsdf(seen, *found, heuristic);
         if (is_black(sky)) return;
-        batch.shadow_rays.add({at.point.origin_towards(found->incoming), found->incoming}, path.weight * (0.5f * sky),
-                              path.sum + scene_.environment_group());
+        batch.shadow_rays.add(ray, path.weight * (0.5f * sky), path.sum + scene_.environment_group());
     }
 
     /// Is the environment seen from the surface number `depth` looked at by two directions?

@@ -59,6 +59,7 @@ struct PhotonShooter::Batch {
     std::vector<PhotonPath> paths, before;
     std::vector<Ray> rays, rays_before;
     std::vector<std::optional<Hit>> hits;
+    std::vector<float> free;  // of each path that begins: Emission::free
 };
 
 bool PhotonShooter::keeps(bool met_mirror, bool met_rough) const {
@@ -114,6 +115,7 @@ void PhotonShooter::follow(std::uint64_t first, std::size_t count, float share, 
         if (!light || !(max_component(light->flux) > 0)) continue;
         batch.paths.push_back({samples, static_cast<std::uint32_t>(i), light->flux * (weight * share), light->group});
         batch.rays.push_back({light->origin, light->direction});
+        batch.free.push_back(light->free);
     }
     for (std::uint32_t surface = 0; !batch.paths.empty() && surface < most_surfaces; ++surface) {
         batch.hits.resize(batch.rays.size());
@@ -123,7 +125,8 @@ void PhotonShooter::follow(std::uint64_t first, std::size_t count, float share, 
         batch.paths.clear();
         batch.rays.clear();
         for (std::size_t i = 0; i < batch.before.size(); ++i)
-            if (batch.hits[i]) visit(batch.before[i], batch.rays_before[i], *batch.hits[i], keep, batch);
+            if (batch.hits[i] && (surface > 0 || batch.hits[i]->distance >= batch.free[i]))
+                visit(batch.before[i], batch.rays_before[i], *batch.hits[i], keep, batch);
     }
 }
 

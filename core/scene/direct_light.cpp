@@ -51,7 +51,8 @@ Rgb light_by_bsdf(const Scene& scene, const LitPoint& from, const BsdfSample& sa
                   Heuristic heuristic) {
     if (!end) {
         SkyRadiance sky;
-        scene.look_at_sky({&sample.incoming, 1}, {&sky, 1});
+        const Ray ray{from.position, sample.incoming};
+        scene.look_at_sky({&ray, 1}, {&sky, 1});
         const auto sun = scene.sun(sample.incoming);
         const Rgb light = sky_by_bsdf(sky, sample, heuristic);
         return sun ? light + sky_by_bsdf(sun->light, sample, heuristic) : light;

@@ -177,7 +177,7 @@ Rgb Scene::emission(const SurfacePoint& point, Vec3 direction) const { return li
 
 bool Scene::shines(const Hit& hit) const { return lights_->shines(hit.geometry); }
 
-Rgb Scene::environment(Vec3 direction) const { return lights_->environment(direction); }
+Rgb Scene::environment(const Ray& ray) const { return lights_->environment(ray); }
 
 std::optional<LightSample> Scene::sample_light(const LitPoint& from, float choice, Vec2 u) const {
     return lights_->sample(from, choice, u);
@@ -194,9 +194,10 @@ float Scene::light_pdf(const LitPoint& from, Vec3 direction, const SurfacePoint&
     return lights_->pdf(from, direction, on);
 }
 
-float Scene::environment_pdf(Vec3 direction) const { return lights_->environment_pdf(direction); }
-void Scene::look_at_sky(std::span<const Vec3> directions, std::span<SkyRadiance> seen) const {
-    lights_->look_at_sky(directions, seen);
+float Scene::environment_pdf(const Ray& ray) const { return lights_->environment_pdf(ray); }
+bool Scene::samples_environment() const { return lights_->samples_environment(); }
+void Scene::look_at_sky(std::span<const Ray> rays, std::span<SkyRadiance> seen) const {
+    lights_->look_at_sky(rays, seen);
 }
 bool Scene::has_environment() const { return lights_->has_environment(); }
 std::optional<SeenSun> Scene::sun(Vec3 direction) const { return lights_->sun(direction); }

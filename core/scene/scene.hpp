@@ -101,8 +101,8 @@ public:
     Rgb emission(const SurfacePoint& point, Vec3 direction) const;
     /// Does it emit any? False is certain.
     bool shines(const Hit& hit) const;
-    /// Radiance arriving from infinity, from `direction` (unit, away from the eye), without that of suns.
-    Rgb environment(Vec3 direction) const;
+    /// Radiance arriving from infinity against a ray that meets nothing, without that of suns.
+    Rgb environment(const Ray& ray) const;
     /// The sun in that direction, if a ray can meet one there, and the density with which sample_light() finds it.
     std::optional<SeenSun> sun(Vec3 direction) const;
     bool has_suns() const;
@@ -118,10 +118,12 @@ public:
     /// Density with which sample_light() finds the emitting point `on`, which lies in `direction` from `from`. 0 if it
     /// is not on a lamp.
     float light_pdf(const LitPoint& from, Vec3 direction, const SurfacePoint& on) const;
-    /// The same for the environment. Always 0 for a constant one, which sample_light() never chooses.
-    float environment_pdf(Vec3 direction) const;
-    /// Both of up to `lanes` directions: environment() and environment_pdf().
-    void look_at_sky(std::span<const Vec3> directions, std::span<SkyRadiance> seen) const;
+    /// The same for the environment along a ray.
+    float environment_pdf(const Ray& ray) const;
+    /// Does sample_light() choose the environment at all? It never chooses one that is the same everywhere.
+    bool samples_environment() const;
+    /// Both of up to `lanes` rays: environment() and environment_pdf().
+    void look_at_sky(std::span<const Ray> rays, std::span<SkyRadiance> seen) const;
     bool has_environment() const;
     /// Is there anything that sample_light() could find, and has it more than one light to choose from?
     bool has_lamps() const;

@@ -52,6 +52,26 @@ TEST(PhotonShooter, LandsAllPowerOnTheWallsOfAClosedRoom) {
     EXPECT_TRUE(shot(scene, PhotonPaths::indirect).empty()) << "black walls send nothing on";
 }
 
+// A skylight over a black floor, and a board above the half of it, on which nothing of the sky is seen from below.
+TEST(PhotonShooter, ComesThroughPortalsAloneAndNotThroughWhatStandsBeforeThem) {
+    const auto room_under = [](bool board) {
+        SceneData data;
+        add(data, quad({-50, 0, -50}, {0, 0, 100}, {100, 0, 0}), diffuse(data, 0));
+        if (board) add(data, quad({-50, 2.001f, 0}, {0, 0, 50}, {100, 0, 0}), diffuse(data, 0));
+        EnvironmentData sky;
+        sky.radiance = {3, 3, 3};
+        sky.portal = Portal{{0, 2, -0.5f}, {0, 0, 1}, {1, 0, 0}};
+        data.environments = {sky};
+        return Scene(data);
+    };
+    const double power = 3 * double(pi);  // times its area
+    const double open = flux(shot(room_under(false), PhotonPaths::all));
+    EXPECT_NEAR(open / power, 1, 0.02);
+    const auto half = shot(room_under(true), PhotonPaths::all);
+    EXPECT_NEAR(flux(half) / power, 0.5, 0.02);
+    for (const Photon& photon : half) ASSERT_LT(photon.position.y, 1);
+}
+
 // Each wall passes half of what it gets on: P + P/2 + P/4 + …, but for what the black lamp takes.
 TEST(PhotonShooter, LandsWhatTheGeometricSeriesSays) {
     const Scene scene(closed_room(0.5f));

@@ -42,6 +42,20 @@ TEST(PbrtPointLights, HaveThePowerThatIsAskedFor) {
     EXPECT_NEAR(light<PointLight>("LightSource \"point\" \"float power\" 100").intensity.g * 4 * pi, 100, 1e-4f);
 }
 
+// Its corners stand in the world, whatever the transform.
+TEST(PbrtInfiniteLights, MayShineThroughAPortal) {
+    const auto scene = read_world(
+        "Rotate 90 1 0 0 LightSource \"infinite\" \"rgb L\" [ 1 2 3 ]\n"
+        "\"point3 portal\" [ 0 2 0  0 2 1  3 2 1  3 2 0 ]");
+    ASSERT_TRUE(scene.environments.at(0).portal);
+    const Portal& portal = *scene.environments[0].portal;
+    expect_near(portal.corner, {0, 2, 0});
+    expect_near(portal.side, {3, 0, 0});
+    expect_near(portal.other, {0, 0, 1});
+    EXPECT_TRUE(portal.passes({1, 5, 0.5f}, {0, -1, 0}));
+    EXPECT_THAT(scene.warnings, IsEmpty());
+}
+
 TEST(PbrtSpotLights, HaveACone) {
     const auto lamp = light<SpotLight>(
         "LightSource \"spot\" \"point3 from\" [ 0 5 0 ] \"point3 to\" [ 0 0 0 ] \"float coneangle\" 40 "

@@ -150,6 +150,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"LightSource \"spot\" \"float coneangle\" 0", "LightSource 'spot': 'coneangle' must be above 0"},
         Mistake{"LightSource \"distant\" \"point3 to\" [ 0 0 0 ]",
                 "LightSource 'distant': 'from' and 'to' are the same"},
+        Mistake{"LightSource \"infinite\" \"point3 portal\" [ 0 2 0  0 2 1  3 2 1  3 2 0.5 ]",
+                "LightSource 'infinite': 'portal' is not four corners of a rectangle, one after the other"},
         Mistake{"LightSource \"infinit\"", "LightSource 'infinit': unknown light 'infinit' (did you mean 'infinite'?)"},
         Mistake{"AreaLightSource \"area\"", "AreaLightSource 'area': unknown area light 'area'"},
         Mistake{"AreaLightSource \"diffuse\" \"float scale\" -1",

@@ -52,6 +52,29 @@ TEST(Camera, TakesAScreenThatIsGiven) {
     EXPECT_NEAR(length(camera.ray(64, 64).direction - normalize({1, -1, -1})), 0, 1e-6f);
 }
 
+TEST(Camera, GivesManyRaysAsItGivesOne) {
+    for (const float lens_radius : {0.0f, 0.1f}) {
+        CameraData data = test::camera({1, 2, 3}, {0, 1, 0}, 50);
+        data.lens_radius = lens_radius;
+        data.focus_distance = 4;
+        const Camera camera(data, 60, 40);
+        std::vector<Vec2> positions, lens;
+        for (std::uint32_t i = 0; i < 50; ++i) {
+            Samples numbers(2, i);
+            positions.push_back(numbers.next_2d() * 40);
+            if (camera.has_lens()) lens.push_back(numbers.next_2d());
+        }
+        std::vector<Ray> rays(positions.size());
+        camera.rays(positions, lens, rays);
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            const auto [x, y] = positions[i];
+            const Ray one = lens.empty() ? camera.ray(x, y) : camera.ray(x, y, lens[i]);
+            EXPECT_EQ(rays[i].origin, one.origin);
+            EXPECT_EQ(rays[i].direction, one.direction);
+        }
+    }
+}
+
 TEST(Camera, IsSharpInItsFocusAndNowhereElse) {
     CameraData data = test::camera({1, 2, 3}, {1, 2, 0}, 60);
     data.lens_radius = 0.1f;

@@ -264,7 +264,10 @@ TEST_P(Maps, LightAFloorAsMuchAsTheyShould) {
     add(data, quad({-1, 20, -1}, {2, 0, 0}, {0, 0, 2}), diffuse(data, 0)).emission = AreaEmission{{400, 400, 400}};
     const Scene both(data);
     const double expected =
-        over_the_sphere(500, [&](Vec3 d) { return d.y > 0 ? double{sky_only.environment(d).r} * d.y : 0; }) /
+        over_the_sphere(500,
+                        [&](Vec3 d) {
+                            return d.y > 0 ? double{sky_only.environment(Ray{{0, 0, 0}, d}).r} * d.y : 0;
+                        }) /
         std::numbers::pi;
     const double of_lamp = 400 * 4.0 / (20 * 20) / std::numbers::pi;  // nearly: it is far away
     for (const auto* scene : {&sky_only, &both}) {

@@ -181,6 +181,9 @@ TEST(Identity, KnowsGlassRoughnessMetalsCutOutsBumpsAndTheSidesOfLamps) {
     expect_another("metalness", [](SceneData& scene) { first<PrincipledMaterial>(scene).metallic = 1; });
     expect_another("which texture", [](SceneData& scene) { first<DiffuseMaterial>(scene).reflectance = 0; });
     expect_another("opacity", [](SceneData& scene) { scene.materials[0].opacity = std::nullopt; });
+    expect_another("a portal", [](SceneData& scene) {
+        scene.environments[0].portal = Portal{{}, {1, 0, 0}, {0, 1, 0}};
+    });
     expect_another("bumps", [](SceneData& scene) { scene.materials[0].normal_scale = 2; });
     expect_another("normals", [](SceneData& scene) { std::get<Mesh>(scene.shapes[0].geometry).normals[1].x = 1; });
     expect_another("uv", [](SceneData& scene) { std::get<Mesh>(scene.shapes[0].geometry).uvs[2].y = 0.5f; });

@@ -140,8 +140,9 @@ TEST(Lights, NeverChooseAConstantEnvironment) {
     const Scene scene(data);
     EXPECT_TRUE(scene.has_environment());
     EXPECT_FALSE(draw(scene, {0, 0, 0}, 0));
-    EXPECT_EQ(scene.environment_pdf({0, 0, 1}), 0);
-    EXPECT_EQ(scene.environment({0, 0, 1}), (Rgb{1, 2, 3}));
+    EXPECT_EQ(scene.environment_pdf(Ray{{0, 0, 0}, {0, 0, 1}}), 0);
+    EXPECT_FALSE(scene.samples_environment());
+    EXPECT_EQ(scene.environment(Ray{{0, 0, 0}, {0, 0, 1}}), (Rgb{1, 2, 3}));
 }
 
 TEST(Lights, RuleOutOnlyRaysThatCannotMeetThem) {

@@ -124,6 +124,23 @@ Matrix turn_of(const Making& making) {
     return turn;
 }
 
+// pbrt's rectangle, whose corners are in world space whatever the transform; light comes in against the cross product
+// of the sides from its first corner to the last and to the second.
+std::optional<Portal> portal_of(Parameters& parameters) {
+    if (!parameters.find("portal")) return {};
+    const auto corners = parameters.triples("portal", Type::point3);
+    constexpr float square = 1e-3f;  // cosine to a right angle
+    const auto nearly_0 = [](Vec3 a, Vec3 b) { return std::fabs(dot(a, b)) <= square * length(a) * length(b); };
+    if (corners.size() == 4) {
+        const Portal portal{corners[0], corners[3] - corners[0], corners[1] - corners[0]};
+        const Vec3 across = corners[2] - corners[1] - portal.side;
+        const bool flat = length(across) <= square * length(portal.side);
+        if (flat && nearly_0(portal.side, portal.other) && length(cross(portal.side, portal.other)) > 0) return portal;
+    }
+    parameters.error("'portal' is not four corners of a rectangle, one after the other");
+    return {};
+}
+
 void infinite_light(const Making& making) {
     auto& parameters = making.parameters;
     EnvironmentData environment;
@@ -136,8 +153,7 @@ void infinite_light(const Making& making) {
         making.textures.pictures().finish();  // its shape tells how it is laid out
         environment.layout = layout_of(*environment.image);
     }
-    if (parameters.find("portal"))
-        parameters.warn("'portal' is left out: light comes from all directions of the environment");
+    environment.portal = portal_of(parameters);
     if (!colour) return;
     environment.radiance = *colour;
     if (const float lux = parameters.number("illuminance", -1); lux > 0) {

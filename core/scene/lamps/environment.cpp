@@ -56,7 +56,7 @@ std::uint32_t cell(float at, std::uint32_t count) {
 }  // namespace
 
 Environment::Environment(const EnvironmentData& data)
-    : scale_(data.radiance), layout_(data.layout), axes_(axes_of(data.to_world)) {
+    : portal_(data.portal), scale_(data.radiance), layout_(data.layout), axes_(axes_of(data.to_world)) {
     total_ = scale_ * (4 * pi);
     if (!data.image || data.image->empty()) return;
     image_ = data.image;

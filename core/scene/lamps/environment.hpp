@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "core/base/math/vec.hpp"
 #include "core/scene/data/scene_data.hpp"
 #include "core/scene/surfaces/light_sample.hpp"
+#include "core/scene/surfaces/ray.hpp"
 
 namespace lightnet {
 
@@ -22,8 +24,12 @@ class Environment {
 public:
     explicit Environment(const EnvironmentData& data);
 
-    /// Radiance from `direction` (unit, away from the eye), W·sr⁻¹·m⁻².
+    /// Radiance from `direction` (unit, away from the eye), W·sr⁻¹·m⁻², where it shows().
     Rgb radiance(Vec3 direction) const;
+
+    /// Is it seen along the ray, if nothing is in the way?
+    bool shows(const Ray& ray) const { return !portal_ || portal_->passes(ray.origin, ray.direction); }
+    const std::optional<Portal>& portal() const { return portal_; }
 
     /// Without a map it is the same everywhere, and sampled uniformly.
     bool has_map() const { return image_ != nullptr; }
@@ -69,6 +75,7 @@ private:
     void find_row(float u, Cell& cell) const;
     void find_column(float u, Cell& cell) const;
 
+    std::optional<Portal> portal_;
     Rgb scale_;
     std::shared_ptr<const Image> image_;
     EnvironmentData::Layout layout_;

@@ -45,8 +45,10 @@ Lights::Lights(const SceneData& data, const Shading& shading, const Ball& around
         if (!is_wanted(data.environment_group)) break;
         const Environment& environment = environments_.emplace_back(each);
         has_environment_ |= !is_black(environment.total());
-        if (!environment.has_map()) constant_ += each.radiance;
-        if (!environment.has_map() || is_black(environment.total())) continue;
+        has_portals_ |= environment.portal().has_value();
+        const bool everywhere = !environment.has_map() && !environment.portal();
+        if (everywhere) constant_ += each.radiance;
+        if (everywhere || is_black(environment.total())) continue;
         maps_.push_back(std::uint32_t(environments_.size() - 1));
         light_of_maps.push_back(luminance(environment.total()));
     }
@@ -79,7 +81,7 @@ void Lights::build_tree() {
 
 std::optional<LightSample> Lights::sample(const LitPoint& from, float choice, Vec2 u) const {
     if (only_lamp_) return lamps_.sample(*only_lamp_, from.position, u);
-    return takes_tree(choice) ? from_tree(from, choice, u) : from_beside(choice, u);
+    return takes_tree(choice) ? from_tree(from, choice, u) : from_beside(from.position, choice, u);
 }
 
 std::optional<LightSample> Lights::from_tree(const LitPoint& from, float choice, Vec2 u) const {
@@ -101,25 +103,26 @@ std::optional<LightSample> Lights::from_chosen(const LightChoice& chosen, Vec3 f
     return sample;
 }
 
-std::optional<LightSample> Lights::from_beside(float choice, Vec2 u) const {
+std::optional<LightSample> Lights::from_beside(Vec3 from, float choice, Vec2 u) const {
     if (!(share_of_far_ > 0)) return {};
-    auto sample = from_infinity((choice - share_of_tree_) / share_of_far_, u);
+    auto sample = from_infinity(from, (choice - share_of_tree_) / share_of_far_, u);
     if (sample) sample->pdf *= share_of_far_;
     return sample;
 }
 
 // `choice` counts the directional lights, and all maps as the last of them.
-std::optional<LightSample> Lights::from_infinity(float choice, Vec2 u) const {
+std::optional<LightSample> Lights::from_infinity(Vec3 from, float choice, Vec2 u) const {
     const auto light = std::size_t(std::max(0.0f, choice));
     if (light < far_.size()) return far_.sample(light, u);
-    return maps_.empty() ? std::nullopt : from_map(within(choice, float(far_.size()), 1), u);
+    return maps_.empty() ? std::nullopt : from_map(from, within(choice, float(far_.size()), 1), u);
 }
 
 LightSample Lights::from_only_map(const SkyRadiance& seen) const {
     return {{}, seen.direction, constant_ + seen.radiance, seen.pdf, false, true, environment_group_};
 }
 
-std::optional<LightSample> Lights::from_map(float choice, Vec2 u) const {
+std::optional<LightSample> Lights::from_map(Vec3 from, float choice, Vec2 u) const {
+    if (has_portals_) return from_skies(from, choice, u);
     const std::size_t map_index = maps_.size() > 1 ? pick(map_ends_, choice) : 0;
     const SkyRadiance seen = environments_[maps_[map_index]].sample(u);
     if (maps_.size() == 1) return from_only_map(seen);
@@ -134,13 +137,36 @@ std::optional<LightSample> Lights::from_map(float choice, Vec2 u) const {
     return LightSample{{}, seen.direction, radiance, density, false, true, environment_group_};
 }
 
+// Half of the directions to a map behind a portal go by the map, the others to the portal.
+std::optional<LightSample> Lights::from_skies(Vec3 from, float choice, Vec2 u) const {
+    const std::size_t map_index = maps_.size() > 1 ? pick(map_ends_, choice) : 0;
+    const Environment& sky = environments_[maps_[map_index]];
+    const auto& portal = sky.portal();
+    // not by `choice`, which is none where there is nothing else to choose from
+    const bool half = portal && sky.has_map(), first_half = u.x < 0.5f, to_portal = portal && (!half || first_half);
+    if (half) u.x = within(u.x, first_half ? 0 : 0.5f, 0.5f);
+    const Vec3 direction = to_portal ? normalize(portal->at(u) - from) : sky.sample(u).direction;
+    const Ray ray{from, direction};
+    float density = 0;
+    for (std::size_t i = 0; i < maps_.size(); ++i) density += share_of(map_ends_, i) * density_of_sky(i, ray);
+    if (!(density > 0)) return {};
+    return LightSample{{}, direction, environment(ray), density, false, true, environment_group_};
+}
+
+float Lights::density_of_sky(std::size_t map, const Ray& ray) const {
+    const Environment& sky = environments_[maps_[map]];
+    if (!sky.portal()) return sky.pdf(ray.direction);
+    const float through = sky.portal()->density(ray.origin, ray.direction);
+    return sky.has_map() ? 0.5f * (through + sky.pdf(ray.direction)) : through;
+}
+
 float Lights::place_in_tree(float choice) const {
     return share_of_tree_ == 1 ? choice : within(choice, 0, share_of_tree_);
 }
 
 // As sample() goes.
 bool Lights::takes_only_map(float choice) const {
-    if (maps_.size() != 1 || takes_tree(choice)) return false;
+    if (maps_.size() != 1 || has_portals_ || takes_tree(choice)) return false;
     return (choice - share_of_tree_) / share_of_far_ >= float(far_.size());
 }
 
@@ -188,7 +214,7 @@ void Lights::sample(std::span<const LitPoint> from, std::span<const float> choic
         else if (takes_only_map(choice))
             by_map.add(i, from[i], choice, u[i]);
         else
-            samples.set(i, from_beside(choice, u[i]));
+            samples.set(i, from_beside(from[i].position, choice, u[i]));
     }
     if (by_tree.count > 0) sample_tree(by_tree.all(), samples);
     if (by_map.count > 0) sample_map(by_map.all(), samples);
@@ -241,30 +267,32 @@ float Lights::pdf(const LitPoint& from, Vec3 direction, const SurfacePoint& on) 
     return many() ? density * tree_.chance(from, std::uint32_t(*lamp)) : density;
 }
 
-float Lights::environment_pdf(Vec3 direction) const {
+float Lights::environment_pdf(const Ray& ray) const {
     float density = 0;
-    for (std::size_t i = 0; i < maps_.size(); ++i)
-        density += share_of(map_ends_, i) * environments_[maps_[i]].pdf(direction);
+    for (std::size_t i = 0; i < maps_.size(); ++i) density += share_of(map_ends_, i) * density_of_sky(i, ray);
     return density * share_of_far_;
 }
 
-Rgb Lights::environment(Vec3 direction) const {
+Rgb Lights::environment(const Ray& ray) const {
     Rgb sum = constant_;
-    for (const auto map : maps_) sum += environments_[map].radiance(direction);
+    for (const auto map : maps_)
+        if (environments_[map].shows(ray)) sum += environments_[map].radiance(ray.direction);
     return sum;
 }
 
-void Lights::look_at_sky(std::span<const Vec3> directions, std::span<SkyRadiance> seen) const {
-    if (maps_.size() == 1) {
-        environments_[maps_[0]].look(directions, seen);
-        for (std::size_t i = 0; i < directions.size(); ++i) {
+void Lights::look_at_sky(std::span<const Ray> rays, std::span<SkyRadiance> seen) const {
+    if (maps_.size() == 1 && !has_portals_) {
+        std::array<Vec3, lanes> directions;
+        for (std::size_t i = 0; i < rays.size(); ++i) directions[i] = rays[i].direction;
+        environments_[maps_[0]].look(std::span(directions).first(rays.size()), seen);
+        for (std::size_t i = 0; i < rays.size(); ++i) {
             seen[i].radiance = constant_ + seen[i].radiance;
             seen[i].pdf = share_of(map_ends_, 0) * seen[i].pdf * share_of_far_;
         }
         return;
     }
-    for (std::size_t i = 0; i < directions.size(); ++i)
-        seen[i] = {directions[i], environment(directions[i]), environment_pdf(directions[i])};
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        seen[i] = {rays[i].direction, environment(rays[i]), environment_pdf(rays[i])};
 }
 
 std::optional<SeenSun> Lights::sun(Vec3 direction) const {
@@ -279,7 +307,10 @@ std::vector<Rgb> Lights::powers() const {
     for (std::size_t i = 0; i < lamps_.size(); ++i) all.push_back(lamps_.power(i));
     for (const auto& light : near_) all.push_back(near_light(light, [](const auto& l) { return power_of(l); }));
     for (std::size_t i = 0; i < far_.size(); ++i) all.push_back(far_.total(i) * disk);
-    for (const auto& environment : environments_) all.push_back(environment.total() * disk);
+    for (const auto& environment : environments_) {
+        const auto& portal = environment.portal();
+        all.push_back(environment.total() * (portal ? length(cross(portal->side, portal->other)) : disk));
+    }
     return all;
 }
 
@@ -317,7 +348,19 @@ std::optional<Emission> Lights::emit(float choice, Vec2 position_sample, Vec2 di
 
 Emission Lights::from_sky(const Environment& environment, Vec2 position_sample, Vec2 direction_sample) const {
     const auto [towards, radiance, density] = environment.sample(direction_sample);
-    return through_ball(-towards, density > 0 ? radiance / density : Rgb{}, position_sample);
+    const Rgb irradiance = density > 0 ? radiance / density : Rgb{};
+    const auto& portal = environment.portal();
+    return portal ? through_portal(*portal, -towards, irradiance, position_sample)
+                  : through_ball(-towards, irradiance, position_sample);
+}
+
+// What it meets before it comes through the portal is dark.
+Emission Lights::through_portal(const Portal& portal, Vec3 direction, Rgb irradiance, Vec2 position_sample) const {
+    const Vec3 out = cross(portal.side, portal.other);
+    const Vec3 at = portal.at(position_sample);
+    const float area = std::max(0.0f, -dot(direction, out));  // across the direction
+    const float way = length(at - around_.center) + around_.radius;
+    return {at - direction * way, direction, irradiance * area, 0, way};
 }
 
 // From a disk across the direction, before the ball.
@@ -325,7 +368,7 @@ Emission Lights::through_ball(Vec3 direction, Rgb irradiance, Vec2 position_samp
     const Frame frame = Frame::around(direction);
     const Vec2 at = disk(position_sample);
     return {around_.center + (frame.x * at.x + frame.y * at.y - direction) * around_.radius, direction,
-            irradiance * (pi * around_.radius * around_.radius), 0};
+            irradiance * (pi * around_.radius * around_.radius)};
 }
 
 std::size_t Lights::memory() const {

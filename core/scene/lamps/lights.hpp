@@ -24,7 +24,8 @@ namespace lightnet {
 
 /// Lamps, bare lights, suns and environments. Lamps and bare lights that are somewhere are chosen by a tree;
 /// directional ones and the maps of the sky (all of them as one) stand beside that tree with equal chances. A constant
-/// environment is never chosen: directions from the BSDF are the better ones for it everywhere. Any thread may ask.
+/// environment is never chosen: directions from the BSDF are the better ones for it everywhere, unless it is seen
+/// through a portal, which is sampled as a map is, by its area. Any thread may ask.
 class Lights {
 public:
     /// A ball around all shapes.
@@ -61,16 +62,18 @@ public:
     const FlatLamp* only_flat_lamp() const { return only_flat_lamp_ ? &*only_flat_lamp_ : nullptr; }
     /// Density with which sample() finds the emitting point `on`, which lies in `direction` from `from`. 0: not a lamp.
     float pdf(const LitPoint& from, Vec3 direction, const SurfacePoint& on) const;
-    /// The same of the environment.
-    float environment_pdf(Vec3 direction) const;
+    /// The same of the environment along a ray.
+    float environment_pdf(const Ray& ray) const;
+    /// Does sample() choose the environment at all?
+    bool samples_environment() const { return !maps_.empty(); }
 
     /// Radiance that a point of a surface emits into `direction`.
     Rgb emission(const SurfacePoint& point, Vec3 direction) const { return lamps_.radiance(point, direction); }
     bool shines(std::uint32_t shape) const { return lamps_.shines(shape); }
-    /// Radiance of all environments.
-    Rgb environment(Vec3 direction) const;
-    /// Both of up to `lanes` directions: radiance, and density with which sample() finds it.
-    void look_at_sky(std::span<const Vec3> directions, std::span<SkyRadiance> seen) const;
+    /// Radiance of all environments along a ray that meets nothing.
+    Rgb environment(const Ray& ray) const;
+    /// Both of up to `lanes` rays: radiance, and density with which sample() finds their directions.
+    void look_at_sky(std::span<const Ray> rays, std::span<SkyRadiance> seen) const;
     bool has_environment() const { return has_environment_; }
     /// The sun in that direction, and density with which sample() finds it. None: there is none, or of one direction
     /// only, which no ray meets.
@@ -94,9 +97,11 @@ private:
     std::vector<Rgb> powers() const;
     std::optional<LightSample> from_tree(const LitPoint& from, float choice, Vec2 u) const;
     std::optional<LightSample> from_chosen(const LightChoice& chosen, Vec3 from, Vec2 u) const;
-    std::optional<LightSample> from_beside(float choice, Vec2 u) const;
-    std::optional<LightSample> from_infinity(float choice, Vec2 u) const;
-    std::optional<LightSample> from_map(float choice, Vec2 u) const;
+    std::optional<LightSample> from_beside(Vec3 from, float choice, Vec2 u) const;
+    std::optional<LightSample> from_infinity(Vec3 from, float choice, Vec2 u) const;
+    std::optional<LightSample> from_map(Vec3 from, float choice, Vec2 u) const;
+    std::optional<LightSample> from_skies(Vec3 from, float choice, Vec2 u) const;
+    float density_of_sky(std::size_t map, const Ray& ray) const;
     bool takes_tree(float choice) const { return share_of_tree_ == 1 || choice < share_of_tree_; }
     float place_in_tree(float choice) const;
     bool takes_only_map(float choice) const;
@@ -107,6 +112,7 @@ private:
     void sample_map(const PointsAsked& some, LightSamples& samples) const;
     LightSample from_only_map(const SkyRadiance& seen) const;
     Emission from_sky(const Environment& environment, Vec2 position_sample, Vec2 direction_sample) const;
+    Emission through_portal(const Portal& portal, Vec3 direction, Rgb irradiance, Vec2 position_sample) const;
     Emission through_ball(Vec3 direction, Rgb irradiance, Vec2 position_sample) const;
 
     std::uint32_t group(const LampLabel& label) const { return groups_ > 1 ? label.group : 0; }
@@ -118,10 +124,11 @@ private:
     std::vector<BareLight> near_;  // points and spots
     Suns far_;
     std::vector<Environment> environments_;
-    std::vector<std::uint32_t> maps_;  // into environments_: those that are sampled
+    std::vector<std::uint32_t> maps_;  // into environments_: those that are sampled, as they have a map or a portal
     std::vector<float> map_ends_;      // share of the light of maps up to and with each
     LightTree tree_;                   // over lamps, then over what is near
-    Rgb constant_;                     // sum of environments without a map
+    Rgb constant_;                     // sum of environments without a map or a portal
+    bool has_portals_ = false;
     bool has_environment_ = false;
     std::size_t choices_ = 0;                     // lights that sample() chooses from
     std::optional<std::size_t> only_lamp_;        // there is nothing else to choose from

@@ -63,6 +63,7 @@ struct SkyRadiance {
 struct SeenSun {
     SkyRadiance light;
     std::uint32_t group = 0;  // as for samples
+    float free = 0;  // metres along the ray before which nothing may be in its way: else the light is not there
 };
 
 /// Light that leaves a lamp.
@@ -70,6 +71,7 @@ struct Emission {
     Vec3 origin, direction;   // of the ray, off the lamp's surface; direction: unit
     Rgb flux;                 // W, over the density of all choices: its mean over samples is the power of all lights
     std::uint32_t group = 0;  // as for samples
+    float free = 0;  // metres along the ray before which nothing may be in its way: else the light is not there
 };
 
 }  // namespace lightnet

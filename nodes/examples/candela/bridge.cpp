@@ -42,10 +42,10 @@ public:
         const Vec3 direction = normalize(ours(to) - ours(from));
         return scene_.occluded(ray_between(lookup_.origin(ours(from), direction), ours(to), direction));
     }
-    candela::Colour sky(const candela::Vec& towards) override {
+    candela::Colour sky(const candela::Vec& from, const candela::Vec& towards) override {
         const Vec3 direction = ours(towards);
         const auto sun = scene_.sun(direction);
-        const Rgb around = scene_.environment(direction);
+        const Rgb around = scene_.environment({ours(from), direction});
         return theirs(sun ? around + sun->light.radiance : around);
     }
 

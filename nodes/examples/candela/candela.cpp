@@ -94,7 +94,7 @@ Eye::Eye(Tracer& tracer, Glow& glow, int most_mirrors) : tracer_(tracer), glow_(
 
 Colour Eye::see(const Vec& from, const Vec& towards) {
     Spot spot;
-    if (!tracer_.nearest(from, towards, spot)) return tracer_.sky(towards);
+    if (!tracer_.nearest(from, towards, spot)) return tracer_.sky(from, towards);
     Colour seen = spot.shine;
     if (!black(spot.paint)) seen += glow_.glow(spot, towards * -1);
     if (!black(spot.gloss) && mirrors_ < most_mirrors_) {

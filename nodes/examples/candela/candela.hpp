@@ -30,7 +30,7 @@ public:
     /// Is anything in between?
     virtual bool blocked(const Vec& from, const Vec& to) = 0;
     /// Light from where nothing is.
-    virtual Colour sky(const Vec& towards) = 0;
+    virtual Colour sky(const Vec& from, const Vec& towards) = 0;
 };
 
 /// A point of a lamp, as it lights a spot.
