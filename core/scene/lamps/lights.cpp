@@ -138,6 +138,7 @@ std::optional<LightSample> Lights::from_map(Vec3 from, float choice, Vec2 u) con
 }
 
 // Half of the directions to a map behind a portal go by the map, the others to the portal.
+// DECISIONS: portals-are-all-there-is
 std::optional<LightSample> Lights::from_skies(Vec3 from, float choice, Vec2 u) const {
     const std::size_t map_index = maps_.size() > 1 ? pick(map_ends_, choice) : 0;
     const Environment& sky = environments_[maps_[map_index]];
@@ -149,8 +150,9 @@ std::optional<LightSample> Lights::from_skies(Vec3 from, float choice, Vec2 u) c
     const Ray ray{from, direction};
     float density = 0;
     for (std::size_t i = 0; i < maps_.size(); ++i) density += share_of(map_ends_, i) * density_of_sky(i, ray);
-    if (!(density > 0)) return {};
-    return LightSample{{}, direction, environment(ray), density, false, true, environment_group_};
+    const Rgb radiance = environment(ray);
+    if (!(density > 0) || is_black(radiance)) return {};
+    return LightSample{{}, direction, radiance, density, false, true, environment_group_};
 }
 
 float Lights::density_of_sky(std::size_t map, const Ray& ray) const {

@@ -74,6 +74,7 @@ void visit_members(Is<MixTexture> auto& texture, const auto& visit) {
 }
 
 /// Another texture, laid over surfaces by where they are in the world, whatever their texture coordinates.
+/// DECISIONS: places-instead-of-coordinates
 struct ProjectedTexture {
     /// How places of the texture's own space become coordinates: x and y themselves; the angles from the z axis over π
     /// and around it over 2π; the angle around the z axis from -x over 2π, and z.
