@@ -1,6 +1,7 @@
 // Windows through which light from infinity comes, and nowhere else.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -63,6 +64,18 @@ TEST(Portal, ShowsItsOwnSkyOnly) {
     EXPECT_EQ(seen({0, 3, 0}, {0, 4, 0}), (Rgb{0, 0, 0}));
 }
 
+// The mean over the half sphere above, by its cosine, of what the scene shows from where `origin(direction)` is.
+double mean_shown(const Scene& scene, int side, const auto& origin) {
+    double mean = 0;
+    for (int i = 0; i < side; ++i)
+        for (int j = 0; j < side; ++j) {
+            const Vec3 d = cosine_hemisphere({(float(i) + 0.5f) / float(side), (float(j) + 0.5f) / float(side)});
+            const Vec3 up{d.x, d.z, d.y};
+            mean += scene.environment(Ray{origin(up), up}).b / (double(side) * side);
+        }
+    return mean;
+}
+
 // The irradiance of a floor, by both ways to find light, against what the portals show.
 TEST(Portal, LightsAFloorAsMuchAsItShows) {
     for (const bool even : {false, true}) {
@@ -71,13 +84,7 @@ TEST(Portal, LightsAFloorAsMuchAsItShows) {
         data.environments = {map_of_sky(skylight(-1)), map_of_sky(skylight(0.5f))};
         if (even) data.environments.push_back(even_sky({0.5f, 0.5f, 0.5f}, skylight(-0.2f)));
         const Scene scene(data);
-        double expected = 0;
-        constexpr int n = 1000;
-        for (int i = 0; i < n; ++i)
-            for (int j = 0; j < n; ++j) {
-                const Vec3 d = cosine_hemisphere({(float(i) + 0.5f) / n, (float(j) + 0.5f) / n});
-                expected += scene.environment(Ray{{0, 0, 0}, {d.x, d.z, d.y}}).b / (double{n} * n);
-            }
+        const double expected = mean_shown(scene, 1000, [](Vec3) { return Vec3{0, 0, 0}; });
         ASSERT_GT(expected, 0.1);
         const SurfacePoint point = scene.surface(Query{.primitive = 0, .u = 0, .v = 0.5f});
         const Bsdf bsdf = scene.bsdf(point);
@@ -100,13 +107,12 @@ TEST(Portal, LightsAFloorWhereItsSkyIsAllThereIs) {
     data.environments = {map_of_sky(skylight(-1))};
     const Scene scene(data);
     ASSERT_FALSE(scene.has_many_lamps());
-    double expected = 0, sum = 0;
     constexpr int n = 300;
+    const double expected = mean_shown(scene, n, [](Vec3) { return Vec3{0, 0, 0}; });
+    double sum = 0;
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < n; ++j) {
             const Vec2 u{(float(i) + 0.5f) / n, (float(j) + 0.5f) / n};
-            const Vec3 d = cosine_hemisphere(u);
-            expected += scene.environment(Ray{{0, 0, 0}, {d.x, d.z, d.y}}).b / (double{n} * n);
             if (const auto found = scene.sample_light(LitPoint({0, 0, 0}), 0, u))
                 sum += found->radiance.b * std::max(0.0f, found->direction.y) / found->pdf / (double{n} * n);
         }
@@ -175,14 +181,7 @@ TEST(Portal, LetsInWhatItShowsOfAMap) {
     add(data, quad({-5, 0, -5}, {0, 0, 10}, {10, 0, 0}), diffuse(data, 1));
     data.environments = {map_of_sky({{0, 2, 0}, {0, 0, 0.5f}, {4, 0, 0}})};
     const Scene scene(data);
-    double expected = 0;
-    constexpr int side = 500;
-    for (int i = 0; i < side; ++i)
-        for (int j = 0; j < side; ++j) {
-            const Vec3 d = cosine_hemisphere({(float(i) + 0.5f) / side, (float(j) + 0.5f) / side});
-            const Vec3 up{d.x, d.z, d.y};
-            expected += scene.environment(Ray{Vec3{2, 2, 0.25f} - up, up}).b / (double{side} * side);
-        }
+    const double expected = mean_shown(scene, 500, [](Vec3 up) { return Vec3{2, 2, 0.25f} - up; });
     double sum = 0;
     constexpr std::uint32_t n = 1 << 17;
     for (std::uint32_t i = 0; i < n; ++i) {
