@@ -94,7 +94,8 @@ Registry kinds() {
           .role = Role::image,
           .help = "asks, and takes the time",
           .inputs = {1, 1},
-          .params = {{.name = "scene", .type = ParamType::scene, .help = "what hosts read, and nobody asks"}},
+          .params = {{.name = "scene", .type = ParamType::scene, .help = "what hosts read, and nobody asks"},
+                     {.name = "film", .type = ParamType::film, .help = "which jobs have to have"}},
           .make_renderer = [](const NodeContext& here) { return std::make_unique<Watch>(here); }}});
 }
 
@@ -107,7 +108,11 @@ Job scalar_job(const Picture& picture) {
     job.graph.file = "scalar.lua";
     job.graph.nodes = {{"answerer", "Echo", {}, {}, {}},
                        {"patient", "Patient", {Value{NodeRef{"answerer"}}}, {}, {}},
-                       {"asker", "Watch", {Value{NodeRef{"patient"}}}, {{"scene", Value{NodeRef{"scene"}}}}, {}},
+                       {"asker",
+                        "Watch",
+                        {Value{NodeRef{"patient"}}},
+                        {{"scene", Value{NodeRef{"scene"}}}, {"film", Value{Table{{Value{1.0}, Value{1.0}}, {}}}}},
+                        {}},
                        {"scene", "Scene", {Value{job.scene}}, {}, {}}};
     return job;
 }

@@ -92,9 +92,10 @@ void Host::serve(const std::atomic<bool>& stop) {
         }
         const auto readable = s.wait();
         for (const auto line : readable.lines) s.forward_replies(line);
-        s.door.let_in();
-        if (readable.door)
+        if (readable.door) {
+            s.door.let_in();
             while (auto frames = s.door.receive(Clock::now())) s.arrived(std::move(*frames));
+        }
         s.look_at_arriving();
         s.look_at_ending();
         if (readable.gateway) s.forward_asks();

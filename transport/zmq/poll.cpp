@@ -1,29 +1,56 @@
 #include "transport/zmq/poll.hpp"
 
-#include <zmq.h>
+#include <algorithm>
 #include <cerrno>
 
 namespace lightnet {
 
-Poll::Poll() = default;
-Poll::~Poll() = default;
-
-void Poll::add(const Socket& socket) { items_.push_back({socket.library(), 0, ZMQ_POLLIN, 0}); }
-void Poll::add(int descriptor) { items_.push_back({nullptr, descriptor, ZMQ_POLLIN, 0}); }
-std::size_t Poll::size() const { return items_.size(); }
-
-void Poll::wait(std::chrono::milliseconds most) {
-    if (zmq_poll(items_.data(), static_cast<int>(items_.size()), static_cast<long>(most.count())) < 0 &&
-        zmq_errno() != EINTR)
-        throw SocketError();
+void Poll::add(const Socket& socket) {
+    items_.push_back({&socket, false});
+    descriptors_.push_back({socket.descriptor(), POLLIN, 0});
 }
 
-bool Poll::readable(std::size_t item) const { return (items_[item].revents & ZMQ_POLLIN) != 0; }
+void Poll::add(int descriptor) {
+    items_.push_back({nullptr, false});
+    descriptors_.push_back({descriptor, POLLIN, 0});
+}
+
+// zmq_poll() looks into every socket twice, by a call of the system each. Here only those are looked into of which it
+// is not known that there is nothing in them, and those whose descriptor tells. DECISIONS: quiet-sockets
+void Poll::wait(std::chrono::milliseconds most) {
+    using Clock = std::chrono::steady_clock;
+    bool found = false;
+    for (auto& [socket, readable] : items_) {
+        readable = socket && !socket->quiet() && socket->readable();
+        found |= readable;
+    }
+    const auto end = Clock::now() + most;
+    for (bool first = true;; first = false) {
+        const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
+        if (!first && left.count() <= 0) return;
+        if (look_at_descriptors(found || left.count() < 0 ? std::chrono::milliseconds(0) : left) || found) return;
+    }
+}
+
+// False: nothing is readable, and no signal came: the library had something to do for itself, or time is up.
+bool Poll::look_at_descriptors(std::chrono::milliseconds most) {
+    const int told = poll(descriptors_.data(), descriptors_.size(), static_cast<int>(most.count()));
+    if (told < 0 && errno == EINTR) return true;
+    if (told < 0) throw SocketError(errno);
+    bool found = false;
+    for (std::size_t i = 0; i < items_.size(); ++i) {
+        auto& [socket, readable] = items_[i];
+        if (readable || descriptors_[i].revents == 0) continue;
+        readable = !socket || socket->readable();
+        found |= readable;
+    }
+    return found;
+}
 
 bool Poll::any_readable(std::size_t first, std::size_t last) const {
-    for (std::size_t item = first; item < last; ++item)
-        if (readable(item)) return true;
-    return false;
+    return std::any_of(items_.begin() + static_cast<std::ptrdiff_t>(first),
+                       items_.begin() + static_cast<std::ptrdiff_t>(last),
+                       [](const Item& item) { return item.readable; });
 }
 
 }  // namespace lightnet

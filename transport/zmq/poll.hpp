@@ -1,13 +1,13 @@
 // Waiting at several sockets at once.
 #pragma once
 
+#include <poll.h>
+
 #include <chrono>
 #include <cstddef>
 #include <vector>
 
 #include "transport/zmq/socket.hpp"
-
-struct zmq_pollitem_t;
 
 namespace lightnet {
 
@@ -16,23 +16,25 @@ namespace lightnet {
 /// look only where something is readable.
 class Poll {
 public:
-    Poll();
-    ~Poll();
-    Poll(const Poll&) = delete;
-    Poll& operator=(const Poll&) = delete;
-
     void add(const Socket& socket);
     void add(int descriptor);
-    std::size_t size() const;
+    std::size_t size() const { return items_.size(); }
     /// Returns when something is readable, or after `most`, or when the process was sent a signal. Throws SocketError
     /// when something is wrong with what it waits for.
     void wait(std::chrono::milliseconds most);
-    bool readable(std::size_t item) const;
+    bool readable(std::size_t item) const { return items_[item].readable; }
     /// Any of [first, last).
     bool any_readable(std::size_t first, std::size_t last) const;
 
 private:
-    std::vector<zmq_pollitem_t> items_;
+    struct Item {
+        const Socket* socket;  // null: a descriptor
+        bool readable;
+    };
+    bool look_at_descriptors(std::chrono::milliseconds most);
+
+    std::vector<Item> items_;
+    std::vector<pollfd> descriptors_;
 };
 
 }  // namespace lightnet

@@ -66,10 +66,11 @@ Socket::~Socket() {
 }
 
 Socket::Socket(Socket&& other) noexcept
-    : socket_(std::exchange(other.socket_, nullptr)), events_(std::move(other.events_)) {}
+    : socket_(std::exchange(other.socket_, nullptr)), quiet_(other.quiet_), events_(std::move(other.events_)) {}
 
 Socket& Socket::operator=(Socket&& other) noexcept {
     std::swap(socket_, other.socket_);
+    std::swap(quiet_, other.quiet_);
     std::swap(events_, other.events_);
     return *this;
 }
@@ -99,14 +100,19 @@ std::optional<SocketEvent> Socket::next_event() {
 }
 
 void Socket::bind(const std::string& endpoint) {
+    quiet_ = false;
     if (zmq_bind(socket_, endpoint.c_str()) != 0) throw SocketError();
 }
 
 void Socket::connect(const std::string& endpoint) {
+    quiet_ = false;
     if (zmq_connect(socket_, endpoint.c_str()) != 0) throw SocketError();
 }
 
-void Socket::unbind(const std::string& endpoint) noexcept { zmq_unbind(socket_, endpoint.c_str()); }
+void Socket::unbind(const std::string& endpoint) noexcept {
+    quiet_ = false;
+    zmq_unbind(socket_, endpoint.c_str());
+}
 
 std::string Socket::endpoint() const {
     std::array<char, 1024> text{};
@@ -115,11 +121,24 @@ std::string Socket::endpoint() const {
     return text.data();
 }
 
-bool Socket::can_send() const {
+// The library works off its descriptor here: from now on that tells nothing of what has come before.
+int Socket::happenings() const {
     int events = 0;
     std::size_t size = sizeof events;
     if (zmq_getsockopt(socket_, ZMQ_EVENTS, &events, &size) != 0) throw SocketError();
-    return (events & ZMQ_POLLOUT) != 0;
+    quiet_ = (events & ZMQ_POLLIN) == 0;
+    return events;
+}
+
+bool Socket::readable() const { return (happenings() & ZMQ_POLLIN) != 0; }
+
+bool Socket::can_send() const { return (happenings() & ZMQ_POLLOUT) != 0; }
+
+int Socket::descriptor() const {
+    int descriptor = 0;
+    std::size_t size = sizeof descriptor;
+    if (zmq_getsockopt(socket_, ZMQ_FD, &descriptor, &size) != 0) throw SocketError();
+    return descriptor;
 }
 
 void Socket::set(int option, int value) {
@@ -147,6 +166,7 @@ void Socket::answer_with(const KeyPair& own) {
 
 SendResult Socket::try_send(Frames& frames) {
     happens_before_receiving();
+    quiet_ = false;
     for (std::size_t i = 0; i < frames.size(); ++i) {
         const int more = i + 1 < frames.size() ? ZMQ_SNDMORE : 0;
         if (zmq_msg_send(frames[i].library(), socket_, more | ZMQ_DONTWAIT) >= 0) continue;
@@ -161,10 +181,12 @@ SendResult Socket::try_send(Frames& frames) {
 
 std::optional<Frames> Socket::receive() {
     Frames frames;
+    quiet_ = false;
     do {
         MessageFrame frame;
         if (zmq_msg_recv(frame.library(), socket_, ZMQ_DONTWAIT) < 0) {
             const int error = zmq_errno();
+            quiet_ = error == EAGAIN;
             if (error == EAGAIN || error == EINTR || error == ETERM) return std::nullopt;
             throw SocketError(error);
         }

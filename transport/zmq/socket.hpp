@@ -73,6 +73,13 @@ public:
     SendResult try_send(Frames& frames);
     /// One whole message, if there is one.
     std::optional<Frames> receive();
+    /// Is there one?
+    bool readable() const;
+    /// There was none when it was last looked at, and nothing was done with it since: descriptor() is readable when
+    /// there may be one again.
+    bool quiet() const { return quiet_; }
+    /// To wait at. Only a quiet socket tells by it.
+    int descriptor() const;
     /// A peer is there, and has room for more.
     bool can_send() const;
     /// Options of the library, by its numbers.
@@ -91,8 +98,12 @@ public:
     void* library() const { return socket_; }
 
 private:
+    int happenings() const;
     void set_bytes(int option, const std::array<unsigned char, PublicKey::size>& bytes);
     void* socket_;
+    // Whatever is done with it, sending as well, the library may take note of what has come, and then its descriptor
+    // tells nothing of that any more.
+    mutable bool quiet_ = false;
     std::unique_ptr<Socket> events_;
 };
 

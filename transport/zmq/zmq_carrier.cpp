@@ -26,8 +26,8 @@ std::string inproc_endpoint(std::uint64_t run, std::uint32_t place) {
 }
 
 struct ZmqCarrier::Sockets {
-    // Looking into an empty socket costs a call of the system. So each is looked into until it is dry, and then not
-    // again before all are, or before wait() has found something in it.
+    // Looking into an empty socket costs a call of the system, and so does looking at all of them at once. So each is
+    // looked into until it is dry, and at all of them when all are.
     struct Source {
         Socket socket;
         bool dry = false;
@@ -62,6 +62,14 @@ struct ZmqCarrier::Sockets {
         if (answering) sources.push_back(&*answering);
         for (auto& [endpoint, source] : asking) sources.push_back(&source);
         return sources;
+    }
+
+    void look(std::chrono::milliseconds most) {
+        const auto sources = all();
+        Poll poll;
+        for (const auto* source : sources) poll.add(source->socket);
+        poll.wait(most);
+        for (std::size_t i = 0; i < sources.size(); ++i) sources[i]->dry = !poll.readable(i);
     }
 
     Socket& to(const std::string& endpoint) {
@@ -209,6 +217,8 @@ void ZmqCarrier::reply(Message message) {
 
 std::optional<Message> ZmqCarrier::receive() {
     auto& s = *sockets_;
+    const auto sources = s.all();
+    if (std::ranges::all_of(sources, &Sockets::Source::dry)) s.look(std::chrono::milliseconds(0));
     const auto take = [](Sockets::Source& source, const auto& read) -> std::optional<Message> {
         while (!source.dry) {
             auto frames = source.socket.receive();
@@ -228,19 +238,14 @@ std::optional<Message> ZmqCarrier::receive() {
         const auto read = [&](Frames frames) { return s.from_answerer(source->first, std::move(frames)); };
         if (auto message = take(source->second, read)) return message;
     }
-    for (auto* source : s.all()) source->dry = false;
     if (!s.pending.empty()) s.look_after_pending();
     return std::nullopt;
 }
 
 // DECISIONS: who-waits-sleeps
 void ZmqCarrier::wait(std::chrono::nanoseconds most) {
-    const auto sources = sockets_->all();
-    Poll poll;
-    for (const auto* source : sources) poll.add(source->socket);
     const auto ms = std::chrono::ceil<std::chrono::milliseconds>(most);
-    poll.wait(std::max(ms, std::chrono::milliseconds(1)));
-    for (std::size_t i = 0; i < sources.size(); ++i) sources[i]->dry = !poll.readable(i);
+    sockets_->look(std::max(ms, std::chrono::milliseconds(1)));
 }
 
 void ZmqCarrier::give_up(std::uint32_t channel) {
