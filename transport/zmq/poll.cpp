@@ -1,9 +1,14 @@
 #include "transport/zmq/poll.hpp"
 
+#include <poll.h>
+
 #include <algorithm>
 #include <cerrno>
 
 namespace lightnet {
+
+Poll::Poll() = default;
+Poll::~Poll() = default;
 
 void Poll::add(const Socket& socket) {
     items_.push_back({&socket, false});
@@ -16,7 +21,8 @@ void Poll::add(int descriptor) {
 }
 
 // zmq_poll() looks into every socket twice, by a call of the system each. Here only those are looked into of which it
-// is not known that there is nothing in them, and those whose descriptor tells. DECISIONS: quiet-sockets
+// is not known that there is nothing in them, and those whose descriptor tells.
+// DECISIONS: quiet-sockets
 void Poll::wait(std::chrono::milliseconds most) {
     using Clock = std::chrono::steady_clock;
     bool found = false;

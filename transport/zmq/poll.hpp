@@ -1,13 +1,13 @@
 // Waiting at several sockets at once.
 #pragma once
 
-#include <poll.h>
-
 #include <chrono>
 #include <cstddef>
 #include <vector>
 
 #include "transport/zmq/socket.hpp"
+
+struct pollfd;
 
 namespace lightnet {
 
@@ -16,6 +16,11 @@ namespace lightnet {
 /// look only where something is readable.
 class Poll {
 public:
+    Poll();
+    ~Poll();
+    Poll(const Poll&) = delete;
+    Poll& operator=(const Poll&) = delete;
+
     void add(const Socket& socket);
     void add(int descriptor);
     std::size_t size() const { return items_.size(); }
