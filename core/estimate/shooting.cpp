@@ -10,7 +10,8 @@ namespace {
 
 constexpr std::size_t paths_per_shard = 16384;  // some 20 ms
 constexpr std::size_t trials_per_shard = 4096;  // and their results travel, useful or not
-constexpr double smallest_part = 0.02;          // of the scene, by its light, of which an error is told
+constexpr double smallest_part = 0.01;          // of the scene, by its light, of which an error is told
+constexpr std::uint64_t first_pilot = 1 << 17, most_of_pilot = 1 << 22;
 
 // Light paths for what is learnt beforehand.
 std::uint64_t an_eighth(const Shooting& shooting) {
@@ -94,7 +95,7 @@ std::vector<Param> shooting_params(double photons, const std::string& help_of_ph
                       {.name = "error",
                        .type = ParamType::number,
                        .help = "where it decides how many: how far the light of a part of the scene that gets a "
-                               "fiftieth of it may be off",
+                               "hundredth of it may be off",
                        .initial = Value{0.01},
                        .least = 0.001,
                        .most = 1});
@@ -171,29 +172,49 @@ Mapped<Photon> shoot(Services& services, const Scene& scene, const Shooting& sho
     return photons;
 }
 
-PhotonSpread take_spread(Services& services, const Scene& scene, Shooting& shooting, const Aim& aim, std::size_t gather,
-                         float radius) {
-    const std::uint64_t paths = an_eighth(shooting);
+namespace {
+
+/// Fewer photons of the same kind, from which the size of the map's discs is told.
+struct Pilot {
+    std::uint64_t paths;
+    Mapped<Photon> photons;
+    std::shared_ptr<const PhotonTree> tree;
+};
+
+Pilot take_pilot(Services& services, const Scene& scene, const Shooting& shooting, const Aim& aim,
+                 std::uint64_t paths) {
     const PhotonShooter shooter(scene, shooting.paths, child(shooting.key, key_of("pilot")));
-    const auto photons = services.map<Photon>(
+    auto photons = services.map<Photon>(
         std::size_t((paths + trials_per_shard - 1) / trials_per_shard),
         [&](std::size_t shard, std::vector<Photon>& out) {
             const std::uint64_t first = shard * trials_per_shard;
             shooter.shoot(first, std::min<std::uint64_t>(trials_per_shard, paths - first), 1 / double(paths), aim, out);
         });
-    const auto pilot =
-        services.once<PhotonTree>([&](Builders& builders) { return PhotonTree(photons.all(), builders); });
+    auto tree = services.once<PhotonTree>([&](Builders& builders) { return PhotonTree(photons.all(), builders); });
+    return {paths, std::move(photons), std::move(tree)};
+}
+
+}  // namespace
+
+// DECISIONS: pilots-grow
+PhotonSpread take_spread(Services& services, const Scene& scene, Shooting& shooting, const Aim& aim, std::size_t gather,
+                         float radius) {
+    const auto wanted = [&] { return std::clamp<std::uint64_t>(shooting.emitted / 8, 8192, most_of_pilot); };
+    Pilot pilot = take_pilot(services, scene, shooting, aim, shooting.emitted ? wanted() : first_pilot);
     if (shooting.emitted == 0) {
-        const PhotonSpread as_it_is(scene, pilot, gather, 1, radius);
-        const auto parts = services.map<PhotonSpread::Missed>(photons.shards(), [&](std::size_t shard, auto& out) {
-            out.push_back(as_it_is.missed(photons.shard(shard), child(shooting.key, key_of("missed"), shard)));
+        const PhotonSpread as_it_is(scene, pilot.tree, gather, 1, radius);
+        const auto parts = services.map<PhotonSpread::Missed>(pilot.photons.shards(), [&](std::size_t shard,
+                                                                                          auto& out) {
+            out.push_back(as_it_is.missed(pilot.photons.shard(shard), child(shooting.key, key_of("missed"), shard)));
         });
         PhotonSpread::Missed sum;
         for (const auto& part : parts) sum.missed += part.missed, sum.all += part.all;
-        shooting.emitted = enough_paths(shooting, paths, photons.size(), sum.all > 0 ? sum.missed / sum.all : 0);
+        shooting.emitted =
+            enough_paths(shooting, pilot.paths, pilot.photons.size(), sum.all > 0 ? sum.missed / sum.all : 0);
         services.say(std::to_string(shooting.emitted) + " light paths, as the error wants");
     }
-    return {scene, pilot, gather, double(shooting.emitted) / double(paths), radius};
+    if (wanted() > 2 * pilot.paths) pilot = take_pilot(services, scene, shooting, aim, wanted());
+    return {scene, pilot.tree, gather, double(shooting.emitted) / double(pilot.paths), radius};
 }
 
 std::vector<Mapped<Photon>> shoot_near(Services& services, const Scene& scene, const Shooting& shooting, const Aim& aim,

@@ -61,7 +61,7 @@ std::size_t shards_each(const Shooting& shooting);
 /// How photons are spread that the node has had sent, in discs of `gather` photons, no larger than `radius` (m): from
 /// some first ones, on all places. Where nobody says how many light paths are emitted, this decides it.
 ///
-/// As many that a part of the scene that gets a fiftieth of them has them with the wanted error, of noise (1 / √n); and
+/// As many that a part of the scene that gets a hundredth of them has them with the wanted error, of noise (1 / √n); and
 /// that discs lie off their surfaces by no more than its root. That part of their light is given back, so that what is
 /// left is of second order.
 PhotonSpread take_spread(Services& services, const Scene& scene, Shooting& shooting, const Aim& aim, std::size_t gather,

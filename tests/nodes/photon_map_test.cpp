@@ -52,6 +52,19 @@ TEST(PhotonMap, SeesAPlaneAsBrightAsAWideSunMakesIt) {
     EXPECT_NEAR(mean_of(network.picture(1)), exact, 0.02 * exact);
 }
 
+// What is small, and far from all else: of a few photons hardly any lie there, and these tell of discs that reach far
+// beyond it. Many have small ones, so they must not bring light for large ones.
+TEST(PhotonMap, SeesASmallPlateAsBrightAsTheSunMakesItHoweverManyPhotonsThereAre) {
+    SceneData data = lit_floor();
+    add(data, quad({-0.05f, 3, -0.05f}, {0, 0, 0.1f}, {0.1f, 0, 0}), diffuse(data, 0.5f));
+    data.camera = camera({0, 4, 0.001f}, {0, 3, 0}, 5);
+    SmallNetwork network(std::move(data), 32, 32);
+    network.add("map", "PhotonMap", {},
+                {{"paths", word("all")}, {"photons", number(1600000)}, {"aim", Value{false}}, {"gather", number(50)}});
+    const double exact = 0.5 * 2 / 3.14159265358979;
+    EXPECT_NEAR(mean_of(network.picture(1)), exact, 0.1 * exact);
+}
+
 // Narrower than the discs in which photons are counted, and as far from one another.
 SceneData lit_slats() {
     SceneData data;
