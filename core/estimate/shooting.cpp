@@ -11,12 +11,11 @@ namespace {
 constexpr std::size_t paths_per_shard = 16384;  // some 20 ms
 constexpr std::size_t trials_per_shard = 4096;  // and their results travel, useful or not
 constexpr double smallest_part = 0.01;          // of the scene, by its light, of which an error is told
-constexpr std::uint64_t first_pilot = 1 << 17, most_of_pilot = 1 << 22;
 
-// Light paths for what is learnt beforehand.
-std::uint64_t an_eighth(const Shooting& shooting) {
-    constexpr std::uint64_t least = 8192, most = 65536;
-    return shooting.emitted ? std::clamp(shooting.emitted >> 3, least, most) : most;
+// Light paths for what is learnt beforehand; `unknown`: as long as nobody has decided how many there will be.
+std::uint64_t an_eighth(const Shooting& shooting, std::uint64_t unknown, std::uint64_t most) {
+    constexpr std::uint64_t least = 8192;
+    return shooting.emitted ? std::clamp(shooting.emitted >> 3, least, most) : unknown;
 }
 
 std::uint64_t enough_paths(const Shooting& shooting, std::uint64_t pilot_paths, std::size_t pilot_kept, double missed) {
@@ -131,9 +130,10 @@ std::shared_ptr<const Aim> take_aim(Services& services, const Scene& scene, cons
     auto aim = services.once<Aim>([] { return Aim(); });
     if (!shooting.aimed) return aim;
     // An eighth of the photons, and a fourth: more would take longer than they save.
+    constexpr std::uint64_t most = 65536;
     for (const std::uint64_t round : {0, 1}) {
         const PhotonShooter shooter(scene, shooting.paths, child(shooting.key, key_of("trials"), round));
-        const std::uint64_t wanted = an_eighth(shooting) << round;
+        const std::uint64_t wanted = an_eighth(shooting, most, most) << round;
         const auto trials = services.map<Trial>(
             (wanted + trials_per_shard - 1) / trials_per_shard, [&](std::size_t shard, std::vector<Trial>& out) {
                 shooter.attempt(shard * trials_per_shard, trials_per_shard, *aim, out);
@@ -199,8 +199,8 @@ Pilot take_pilot(Services& services, const Scene& scene, const Shooting& shootin
 // DECISIONS: pilots-grow
 PhotonSpread take_spread(Services& services, const Scene& scene, Shooting& shooting, const Aim& aim, std::size_t gather,
                          float radius) {
-    const auto wanted = [&] { return std::clamp<std::uint64_t>(shooting.emitted / 8, 8192, most_of_pilot); };
-    Pilot pilot = take_pilot(services, scene, shooting, aim, shooting.emitted ? wanted() : first_pilot);
+    const auto wanted = [&] { return an_eighth(shooting, 1 << 17, 1 << 22); };
+    Pilot pilot = take_pilot(services, scene, shooting, aim, wanted());
     if (shooting.emitted == 0) {
         const PhotonSpread as_it_is(scene, pilot.tree, gather, 1, radius);
         const auto parts = services.map<PhotonSpread::Missed>(pilot.photons.shards(), [&](std::size_t shard,
@@ -213,7 +213,8 @@ PhotonSpread take_spread(Services& services, const Scene& scene, Shooting& shoot
             enough_paths(shooting, pilot.paths, pilot.photons.size(), sum.all > 0 ? sum.missed / sum.all : 0);
         services.say(std::to_string(shooting.emitted) + " light paths, as the error wants");
     }
-    if (wanted() > 2 * pilot.paths) pilot = take_pilot(services, scene, shooting, aim, wanted());
+    if (wanted() > 2 * pilot.paths)  // else the first one does
+        pilot = take_pilot(services, scene, shooting, aim, wanted());
     return {scene, pilot.tree, gather, double(shooting.emitted) / double(pilot.paths), radius};
 }
 

@@ -31,11 +31,11 @@ void Poll::wait(std::chrono::milliseconds most) {
         found |= readable;
     }
     const auto end = Clock::now() + most;
-    for (bool first = true;; first = false) {
-        const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
-        if (!first && left.count() <= 0) return;
-        if (look_at_descriptors(found || left.count() < 0 ? std::chrono::milliseconds(0) : left) || found) return;
-    }
+    auto left = found ? std::chrono::milliseconds(0) : most;
+    do {
+        if (look_at_descriptors(left) || found) return;
+        left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
+    } while (left.count() > 0);
 }
 
 // False: nothing is readable, and no signal came: the library had something to do for itself, or time is up.

@@ -64,6 +64,11 @@ struct ZmqCarrier::Sockets {
         return sources;
     }
 
+    bool all_dry() const {
+        return (!answering || answering->dry) &&
+               std::ranges::all_of(asking, [](const auto& source) { return source.second.dry; });
+    }
+
     void look(std::chrono::milliseconds most) {
         const auto sources = all();
         Poll poll;
@@ -217,8 +222,7 @@ void ZmqCarrier::reply(Message message) {
 
 std::optional<Message> ZmqCarrier::receive() {
     auto& s = *sockets_;
-    const auto sources = s.all();
-    if (std::ranges::all_of(sources, &Sockets::Source::dry)) s.look(std::chrono::milliseconds(0));
+    if (s.all_dry()) s.look(std::chrono::milliseconds(0));
     const auto take = [](Sockets::Source& source, const auto& read) -> std::optional<Message> {
         while (!source.dry) {
             auto frames = source.socket.receive();
