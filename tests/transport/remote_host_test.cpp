@@ -208,5 +208,36 @@ TEST_F(RemoteHostTest, LetsAHostLeaveWhenItHasAnsweredAll) {
     EXPECT_EQ(link->take_ended()->tiles, 3u);
 }
 
+TEST_F(RemoteHostTest, KeepsAHostOutThatWasDrained) {
+    become_ready();
+    ASSERT_TRUE(link->drain());
+    EXPECT_THAT(line->sent, ::testing::Contains(Type::leaving));
+    line->say(packet::pack(Type::leaving, 1, {}));
+    pass({});
+    EXPECT_EQ(link->state(), State::leaving);
+    line->say(packet::pack(Type::ended, 1, {}));
+    pass({});
+    EXPECT_EQ(link->state(), State::refused);
+}
+
+TEST_F(RemoteHostTest, KeepsAHostOutThatIsLostWhileItLeaves) {
+    become_ready();
+    ASSERT_TRUE(link->drain());
+    for (int i = 0; i < 4; ++i) pass(milliseconds(400));
+    EXPECT_EQ(link->state(), State::refused) << link->reason();
+}
+
+TEST_F(RemoteHostTest, KeepsAHostOutThatIsDrainedBeforeItIsReady) {
+    pass({});
+    line->say(packet::pack(Type::welcome, 1, Fields{}.set("places", 2).set("process", 5)));
+    pass({});
+    ASSERT_TRUE(link->drain());
+    EXPECT_EQ(link->state(), State::refused);
+    line->say(packet::pack(Type::need, 1, {}));
+    line->say(packet::pack(Type::ready, 1, {}));
+    pass({});
+    EXPECT_EQ(link->state(), State::refused);
+}
+
 }  // namespace
 }  // namespace lightnet::remote_host_test

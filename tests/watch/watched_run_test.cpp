@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstdlib>
 #include <filesystem>
@@ -105,21 +106,31 @@ TEST(WatchedRun, EndsWhenSomebodyWithTheTokenWantsIt) {
     EXPECT_EQ(run.process->wait(), 130) << run.process->output();
 }
 
+bool sees_all_hosts_ready(Visitor& visitor) {
+    while (const auto text = visitor.next_with(R"("phase":"render")")) {
+        const auto hosts = nlohmann::json::parse(*text)["state"]["hosts"];
+        if (std::all_of(hosts.begin(), hosts.end(), [](const auto& host) { return host["there"] == true; }))
+            return true;
+    }
+    return false;
+}
+
 TEST(WatchedRun, GoesOnWithoutAHostThatIsTakenOut) {
     const Folder folder;
     const test::Daemon one(folder), two(folder);
     const auto hosts = folder.write("lab.lua", "place '" + one.endpoint + "' {}\nplace '" + two.endpoint + "' {}\n");
     std::vector<std::string> words{"--samples", "64", "--size", "160x160"};
-    const auto alone = test::launch_for(2s, graph_file("cornell.lua"), words).picture;
+    const auto alone = test::launch_for(3s, graph_file("cornell.lua"), words).picture;
     words.insert(words.end(), {"--hosts", hosts});
     const WatchedRun run(folder, words);
     Visitor visitor(run.port);
     ASSERT_TRUE(visitor.watch(run.name()));
-    ASSERT_TRUE(visitor.next_with(R"("phase":"render")"));
+    ASSERT_TRUE(sees_all_hosts_ready(visitor)) << run.process->output();
     visitor.say(R"({"do":"drain","host":")" + one.endpoint + R"(","token":")" + run.token + "\"}");
-    EXPECT_TRUE(visitor.next_with("is taken out: somebody who watched the run wanted it so"));
+    EXPECT_TRUE(visitor.next_with("is taken out: somebody who watched the run wanted it so"))
+        << run.process->output();
     visitor.say(R"({"do":"drain","host":")" + two.endpoint + R"(","token":")" + run.token + "\"}");
-    EXPECT_TRUE(visitor.next_with("can't be taken out"));
+    EXPECT_TRUE(visitor.next_with("can't be taken out")) << run.process->output();
     const auto code = run.process->wait();
     EXPECT_EQ(code, 0) << run.process->output();
     EXPECT_EQ(test::bytes_of(run.picture), alone);

@@ -54,7 +54,7 @@ std::vector<HostState> Cluster::hosts() const { return links_->hosts(); }
 
 bool Cluster::drain(const std::string& name) {
     auto* link = links_->find(name);
-    return link && link->state() == State::ready && links_->offers(true).size() > 1 && link->drain();
+    return link && links_->others_are_ready(name) && link->drain();
 }
 
 void Cluster::watch() { links_->watched = true; }

@@ -94,7 +94,7 @@ public:
     /// From now on, hosts are asked, too, what their places are at: it then stands in hosts().
     void watch();
     /// A host finishes what it has and then leaves the run for good; its daemon stays for others. False: it does not,
-    /// as it is not there, can't, or would leave nobody.
+    /// as it is unknown, can't, or would leave nobody who is ready.
     bool drain(const std::string& name);
     /// What nodes say that they do while they prepare, on whichever hosts.
     Doings doing() const;

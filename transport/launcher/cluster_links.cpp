@@ -109,9 +109,12 @@ bool Cluster::Links::take_out(const std::string& name, const std::string& why) {
     auto* link = find(name);
     if (!link) return false;
     if (link->state() == State::refused) return true;
+    return others_are_ready(name) && link->take_out(why);
+}
+
+bool Cluster::Links::others_are_ready(const std::string& name) const {
     const auto ready = offers(true);
-    if (std::all_of(ready.begin(), ready.end(), [&](const auto& one) { return one.endpoint == name; })) return false;
-    return link->take_out(why);
+    return std::any_of(ready.begin(), ready.end(), [&](const auto& one) { return one.endpoint != name; });
 }
 
 // A host that accuses the only other one may be the liar itself.

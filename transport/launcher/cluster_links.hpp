@@ -68,6 +68,7 @@ struct Cluster::Links {
 
     // The last one stays: its failures are the run's.
     bool take_out(const std::string& name, const std::string& why);
+    bool others_are_ready(const std::string& name) const;
 
     // `accuser`: the host that says so; "": places of this process, or the launcher itself, which are believed.
     void doubt(Failure found, const std::string& accuser);

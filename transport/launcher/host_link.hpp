@@ -118,7 +118,8 @@ public:
     virtual bool bring(const Hash& name, const Bytes& bytes) = 0;
     /// It gets no more of this run. False: it must stay.
     virtual bool take_out(const std::string& why) = 0;
-    /// It answers what it has, gets no more of this run, and stays away. False: it can't.
+    /// It answers what it has, gets no more of this run, and stays away, whatever happens to it meanwhile; one that takes
+    /// no part yet never will. False: it can't, or is out already.
     virtual bool drain() = 0;
     /// It is gone, or what was under way to it; it is called again.
     virtual void lose(Time now, const std::string& why) = 0;

@@ -19,6 +19,7 @@ constexpr int abandoned_for_sure = 3;  // handshakes: a line may be cut in the m
 constexpr auto renewal_interval = std::chrono::seconds(1);
 constexpr auto lease = std::chrono::milliseconds(1500);
 constexpr auto longest_piece = std::chrono::seconds(15);  // for a piece of a file to be taken
+constexpr auto wanted_so = "somebody who watched the run wanted it so";
 constexpr std::size_t piece_size = 256 << 10;
 constexpr std::size_t pieces_under_way = 16;
 
@@ -138,11 +139,14 @@ bool RemoteHost::take_out(const std::string& why) {
 }
 
 bool RemoteHost::drain() {
-    drained_ = state_ == State::ready && send(Type::leaving, {});
+    if (state_ == State::refused) return false;
+    if (!takes_part()) return take_out(wanted_so);
+    drained_ = send(Type::leaving, {});
     return drained_;
 }
 
 void RemoteHost::lose(Time now, const std::string& why) {
+    if (drained_) return void(take_out(wanted_so));
     state_ = State::calling;
     reason_ = why;
     next_call_ = now;
@@ -264,7 +268,7 @@ void RemoteHost::control(Type type, const Fields& fields, Time now) {
         case Type::ended: {
             take_end(fields);
             if (state_ == State::leaving && drained_)
-                take_out("somebody who watched the run wanted it so");
+                take_out(wanted_so);
             else if (state_ == State::leaving) {
                 send_end();
                 lose(now, "it was told to stop");
