@@ -191,7 +191,7 @@ void Rendering::hand_out_pass(Conductor& conductor, TilesByPass& passes, const C
     conductor.begin_pass(passes.pass());
     if (!prepare(conductor, crowd)) return;
     conductor.begin_master();
-    const auto tiles = tiles_per_place(conductor.in_force());
+    const auto tiles = tiles_per_place(conductor.proposed());
     job.credit = {tiles, tiles * MasterRenderer::most_together};
     job.check_answers = what_.request.tuning.check_answers;
     job.verify = what_.request.tuning.verify;

@@ -127,8 +127,7 @@ TEST(WatchedRun, GoesOnWithoutAHostThatIsTakenOut) {
     ASSERT_TRUE(visitor.watch(run.name()));
     ASSERT_TRUE(sees_all_hosts_ready(visitor)) << run.process->output();
     visitor.say(R"({"do":"drain","host":")" + one.endpoint + R"(","token":")" + run.token + "\"}");
-    EXPECT_TRUE(visitor.next_with("is taken out: somebody who watched the run wanted it so"))
-        << run.process->output();
+    EXPECT_TRUE(visitor.next_with("is taken out: somebody who watched the run wanted it so")) << run.process->output();
     visitor.say(R"({"do":"drain","host":")" + two.endpoint + R"(","token":")" + run.token + "\"}");
     EXPECT_TRUE(visitor.next_with("can't be taken out")) << run.process->output();
     const auto code = run.process->wait();

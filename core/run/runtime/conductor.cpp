@@ -87,37 +87,6 @@ bool Conductor::is_done(const NodeCopy& copy) const {
     return found != followers_.end() && found->second.state == Follower::State::done;
 }
 
-Plan Conductor::restricted() {
-    std::set<PlaceAt> behind;
-    for (std::size_t position = 0; position < done_; ++position)
-        for (const auto& copy : copies(position))
-            if (!known_prepared_.contains(copy.place) && !is_done(copy)) behind.insert(copy.place);
-    if (rehearsal_)  // who came in its middle would not note what it is asked
-        for (const auto& copy : copies(done_))
-            if (!rehearsal_->copies().contains(copy)) behind.insert(copy.place);
-    for (const auto& place : proposal_.places)
-        if (!behind.contains(place)) known_prepared_.insert(place);
-    Plan plan = proposal_;
-    for (auto& places : plan.places_of)
-        std::erase_if(places, [&](auto place) { return behind.contains(plan.places[place]); });
-    for (std::size_t position = 0; position < done_; ++position)
-        for (const auto node : nodes_at(position))
-            std::erase_if(plan.places_of[node], [&](auto place) { return !is_done({plan.places[place], node}); });
-    return plan;
-}
-
-void Conductor::enforce() {
-    auto plan = restricted();
-    if (plan == in_force_) return;
-    in_force_ = std::move(plan);
-    carrier_.adopt(in_force_);
-    Message message;
-    message.type = Message::Type::plan;
-    message.run = options_.run;
-    message.plan = std::make_shared<const Plan>(in_force_);
-    arrived_.push_back(std::move(message));
-}
-
 // ---- leading --------------------------------------------------------------------------------------------------------
 
 // Up to where: what is prepared, for those who come late, and the whole stage of what is not.
@@ -135,10 +104,8 @@ void Conductor::advance() {
             for (const auto& copy : copies(position)) lead(copy, position);
         more = end_calls();  // that waited for nothing but somebody to join
         if (done_ < order_.size()) {
-            const auto all = copies(done_);
-            const bool done =
-                !all.empty() && std::all_of(all.begin(), all.end(), [&](const auto& copy) { return is_done(copy); });
-            if (done) ++done_;
+            const bool done = can_be_asked(done_);
+            if (done) ++done_, went_on_ = steady_seconds();
             more = more || done;
         }
     }

@@ -27,9 +27,10 @@ namespace lightnet {
 
 /// Stands between the run's carrier and the master renderer. Nodes prepare stage by stage, inputs first, see
 /// stages_of(), each on all places that hold it: shards go to whoever is free, results are put together here, in order,
-/// and brought to all. The sectors of a sharded node prepare together, each in its own copies, which get their parts of
-/// the results alone. A place that comes later is given the results, and is made known to the others when it has caught
-/// up. Belongs to the launcher's thread.
+/// and brought to all. A stage ends when somebody can answer for each of its nodes: places that are slower join him.
+/// The sectors of a sharded node prepare together, each in its own copies, which get their parts of the results alone.
+/// A place that comes later is given the results, and is made known to the others when it has caught up. Belongs to the
+/// launcher's thread.
 ///
 /// What is proposed and what is in force: the carrier proposes a plan whenever hosts come or go. In force is the part
 /// of it that can be asked: a place that is still behind is left out, and so is a node that was moved to a place and
@@ -51,16 +52,17 @@ public:
 
     /// What the carrier offers from now on.
     void propose(const Plan& plan);
-    /// Leads on for about `most`. True when every node is prepared on every place of the proposal. Throws Error when a
-    /// node failed.
+    /// Leads on for about `most`. True when every node is prepared on some place: those that are behind are asked when
+    /// they have caught up. Throws Error when a node failed.
     bool prepare(std::chrono::nanoseconds most);
     /// What is prepared from now on is for this pass of the picture: nodes that learn anew for each do so, and those
     /// that are prepared already stay. Work of the pass before must be done, and its master gone.
     void begin_pass(std::uint32_t pass);
     /// Another master is to follow the one before, when all is prepared: late replies to that are none to this.
     void begin_master() { epoch_.begin_next(); }
-    /// What can be asked now.
+    /// What can be asked now, and what will be.
     const Plan& in_force() const { return in_force_; }
+    const Plan& proposed() const { return proposal_; }
     /// How far preparing is. Of nodes that prepare at the same time, the first one.
     PrepareProgress progress() const;
     /// What was prepared: node → content hash of all its results.
@@ -108,7 +110,9 @@ private:
     bool end_calls();
     bool will_join(const NodeCopy& copy, std::uint32_t number, ServiceCall& call) const;
     void collect();
-    void begin_rehearsal(std::uint32_t call);
+    std::set<NodeCopy> waiting_to_rehearse();
+    bool is_time_to_rehearse(const std::set<NodeCopy>& waiting);
+    void begin_rehearsal(const std::set<NodeCopy>& taking_part);
     void end_rehearsal();
     bool send(const Sent& sent, const Bytes& data = nullptr);
     void take(Message message);
@@ -119,9 +123,14 @@ private:
     void shards_done(const Sent& sent, const Bytes& data);
     void noted(const Sent& sent, const Bytes& data);
     void lose(const std::set<PlaceAt>& gone);
+    std::set<NodeCopy> may_be_asked_already(std::size_t position) const;
+    bool can_be_asked(std::size_t position) const;
+    std::set<PlaceAt> behind() const;
+    std::set<NodeCopy> asked_at(std::size_t position, const std::set<PlaceAt>& late) const;
+    Plan restricted();
+    bool may_wait(const Plan& plan) const;
     void enforce();
     void attend();
-    Plan restricted();
 
     Options options_;
     Carrier& carrier_;
@@ -132,15 +141,18 @@ private:
     std::uint32_t pass_ = 0;
     std::optional<LockKeeper> locks_;  // none: nobody in the graph locks
     Plan proposal_, in_force_;
+    double enforced_ = 0;  // when
     std::deque<Message> arrived_;
     std::map<NodeCopy, Follower> followers_;
     std::map<std::uint64_t, Sent> sent_;
     using StepKey = std::tuple<std::size_t, Step::Kind, std::uint32_t, std::uint32_t>;  // position, kind, call, shard
     std::map<StepKey, std::set<std::string>> failed_at_;                                // hosts
     std::uint64_t next_ = 1;
-    std::size_t done_ = 0;                           // positions of order_ that are prepared everywhere
-    std::set<PlaceAt> known_prepared_;               // have caught up once
+    std::size_t done_ = 0;                           // positions of order_ that can be asked
+    std::set<PlaceAt> known_prepared_;               // had all that can be asked, once
     std::unique_ptr<ConductedRehearsal> rehearsal_;  // that goes on
+    std::optional<double> first_waits_;              // since when somebody waits for the next one
+    double went_on_ = steady_seconds();  // when something was there that nodes have to have in order to go on
     std::set<std::string> said_;
     Epoch epoch_;  // of the master whose replies count
 };

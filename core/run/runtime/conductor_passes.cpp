@@ -18,6 +18,7 @@ void Conductor::begin_pass(std::uint32_t pass) {
     std::erase_if(followers_, [this](const auto& follower) { return renewed_[follower.first.node]; });
     for (std::size_t position = first; position < order_.size(); ++position)
         if (is_renewed(position)) calls_.forget(order_[position]);
+    known_prepared_.clear();
     end_rehearsal();  // late replies to the master before are no answers to the next
     done_ = std::min(done_, first);
     if (!proposal_.places.empty()) advance();

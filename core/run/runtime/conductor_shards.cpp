@@ -71,6 +71,7 @@ bool Conductor::end_calls() {
             if (!all_there) continue;
             call->complete_from_shards();
             calls_.keep(order_[position], number);
+            went_on_ = steady_seconds();
             ended = true;
         }
     return ended;
