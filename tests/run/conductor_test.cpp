@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
 #include <optional>
 #include <string>
 
@@ -221,121 +220,6 @@ TEST_F(ConductorTrouble, OfAShardThatKillsWhoeverDoesItEndsTheRun) {
     }
     EXPECT_EQ(ended,
               "caustics: shard 4 of what it prepares is set aside: hosts died of it, with nothing else to do: a, a, a");
-}
-
-TEST_F(ConductorTrouble, WithASlowHostHoldsUpNobody) {
-    const std::size_t caustics = 1;
-    auto at_a = places.take(), at_b = places.take();
-    places.answer(std::move(at_a), StepReport{StepReport::Kind::done, 0, 0});
-    EXPECT_TRUE(conductor->prepare(std::chrono::milliseconds(2))) << "a can be asked";
-    const auto& nodes = conductor->in_force().places_of;
-    EXPECT_EQ(nodes[caustics], std::vector<std::uint32_t>{0});
-    EXPECT_EQ(nodes[2], std::vector<std::uint32_t>{0}) << "b has something else to do";
-    places.answer(std::move(at_b), StepReport{StepReport::Kind::done, 0, 0});
-    EXPECT_TRUE(conductor->prepare(std::chrono::milliseconds(2)));
-    while (conductor->receive()) {
-    }
-    EXPECT_EQ(conductor->in_force(), conductor->proposed());
-}
-
-// Else a thousand places would be told a thousand plans each, while they begin to be asked.
-TEST_F(ConductorTrouble, WithACrowdThatCatchesUpIsToldNoPlanForEachOfThem) {
-    constexpr std::uint32_t crowd = 300;
-    Plan plan = conductor->proposed();
-    plan.places.clear();
-    for (std::uint32_t place = 0; place < crowd; ++place) plan.places.push_back({"c", place});
-    std::vector<std::uint32_t> everywhere(crowd);
-    std::iota(everywhere.begin(), everywhere.end(), 0u);
-    plan.places_of.assign(graph.nodes.size(), everywhere);
-    places.asked.clear();
-    conductor->propose(plan);
-    std::size_t plans = 0, done = 0;
-    for (; !places.asked.empty(); ++done) {
-        places.answer(places.take(), StepReport{StepReport::Kind::done, 0, 0});
-        while (const auto message = conductor->receive()) plans += message->type == Message::Type::plan;
-    }
-    EXPECT_EQ(done, crowd);
-    EXPECT_LT(plans, crowd / 4);
-    conductor->wait({});
-    EXPECT_EQ(conductor->in_force(), plan);
-}
-
-// What has one place alone is asked there, however slow that is.
-TEST_F(ConductorTrouble, WithASlowHostKeepsWhatOnlyThatHas) {
-    Plan plan = conductor->proposed();
-    plan.places_of[2] = {1};
-    conductor->propose(plan);
-    places.answer(places.take(), StepReport{StepReport::Kind::done, 0, 0});
-    EXPECT_TRUE(conductor->prepare(std::chrono::milliseconds(2)));
-    EXPECT_EQ(conductor->in_force().places_of[1], std::vector<std::uint32_t>{0});
-    EXPECT_EQ(conductor->in_force().places_of[2], std::vector<std::uint32_t>{1});
-}
-
-// A rehearsal waits for a while for who is slower, and then goes on without him.
-TEST(Conductor, RehearsesWithoutASlowHost) {
-    const Registry kinds = test::with_learner();
-    const Graph graph = learning(kinds);
-    ByHand places;
-    Conductor::Options options;
-    options.run = 1;
-    options.graph = &graph;
-    options.registry = &kinds;
-    Conductor conductor(options, places);
-    conductor.propose({{{"a", 0}, {"b", 0}}, std::vector<std::vector<std::uint32_t>>(graph.nodes.size(), {0, 1})});
-    auto at_a = places.take(), at_b = places.take();
-    const StepReport rehearses{StepReport::Kind::rehearse, 0, 4};
-    places.answer(std::move(at_a), rehearses);
-    EXPECT_FALSE(conductor.prepare(std::chrono::milliseconds(20)));
-    EXPECT_TRUE(places.asked.empty()) << "b may come";
-    EXPECT_FALSE(conductor.prepare(std::chrono::milliseconds(800)));
-    while (!places.asked.empty()) {
-        auto tiles = places.take();
-        ASSERT_TRUE(tiles.of_tiles());
-        EXPECT_EQ(tiles.place.host, "a");
-        places.answer_tiles(std::move(tiles));
-        EXPECT_FALSE(conductor.prepare(std::chrono::milliseconds(2)));
-        if (places.asked.front().of_kind(Step::Kind::collect)) break;
-    }
-    auto collect = places.take();
-    ASSERT_TRUE(collect.of_kind(Step::Kind::collect));
-    EXPECT_TRUE(places.asked.empty()) << "b has noted nothing";
-    places.answer(std::move(collect), at(9));
-    places.answer(std::move(at_b), rehearses);
-    EXPECT_FALSE(conductor.prepare(std::chrono::milliseconds(2)));
-    for (const char* host : {"a", "b"}) {
-        const auto go_on = places.take();
-        ASSERT_TRUE(go_on.of_kind(Step::Kind::go_on));
-        EXPECT_EQ(go_on.place.host, host);
-        const Mapped<Query> noted(go_on.message.data);
-        ASSERT_EQ(noted.size(), 1u);
-        EXPECT_EQ(noted.begin()->primitive, 9u);
-    }
-}
-
-// Somebody may not have heard yet that the rehearsal is over, and would ask b, who would answer as in a rehearsal.
-TEST(Conductor, WaitsForWhoTookPartInARehearsal) {
-    const Registry kinds = test::with_learner();
-    const Graph graph = learning(kinds);
-    ByHand places;
-    Conductor::Options options;
-    options.run = 1;
-    options.graph = &graph;
-    options.registry = &kinds;
-    Conductor conductor(options, places);
-    const auto lead = [&](int milliseconds) { return conductor.prepare(std::chrono::milliseconds(milliseconds)); };
-    conductor.propose({{{"a", 0}, {"b", 0}}, std::vector<std::vector<std::uint32_t>>(graph.nodes.size(), {0, 1})});
-    for (int i = 0; i < 2; ++i) places.answer(places.take(), StepReport{StepReport::Kind::rehearse, 0, 4});
-    EXPECT_FALSE(lead(2));
-    while (places.asked.empty() || places.asked.front().of_tiles())
-        places.asked.empty() ? void(lead(1)) : places.answer_tiles(places.take());
-    for (int i = 0; i < 2; ++i) places.answer(places.take(), at(9));
-    EXPECT_FALSE(lead(2));
-    const auto a_goes_on = places.take(), b_goes_on = places.take();
-    ASSERT_TRUE(b_goes_on.of_kind(Step::Kind::go_on));
-    places.answer(a_goes_on, StepReport{StepReport::Kind::done, 1, 0});
-    EXPECT_FALSE(lead(600));
-    places.answer(b_goes_on, StepReport{StepReport::Kind::done, 1, 0});
-    EXPECT_TRUE(lead(2));
 }
 
 // Those who learn anew are asked again, also one that is still at the pass before, and the others are not.
