@@ -143,12 +143,7 @@ protected:
     void lead() { EXPECT_FALSE(conductor->prepare(std::chrono::milliseconds(2))); }
 
     Registry kinds = test::with_learner();
-    Graph graph = check(
-        {"test.lua",
-         Nodes{node("scene", "Scene", {Value{std::string("none.pbrt")}}), node("caustics", "PhotonMap", {}),
-               node("image", "RayTracer", {Value{NodeRef{"caustics"}}},
-                    {{"scene", Value{NodeRef{"scene"}}}, {"film", Value{Table{{Value{24.0}, Value{16.0}}, {}}}}})}},
-        kinds);
+    Graph graph = mapping(kinds);
     ByHand places;
     std::optional<Conductor> conductor;
 };
@@ -295,8 +290,7 @@ TEST(Conductor, TakesRepliesAfterMoreRehearsalsThanThereAreEpochs) {
         ASSERT_FALSE(places.asked.empty()) << "nobody is asked for the tiles of rehearsal " << rehearsal;
         ASSERT_TRUE(places.asked.front().of_tiles()) << rehearsal;
         if (rehearsal % 64 && rehearsal + 4 < Epoch::count / 2) continue;
-        for (int patience = 0; patience < 1000 && (places.asked.empty() || places.asked.front().of_tiles()); ++patience)
-            places.asked.empty() ? lead() : places.answer_tiles(places.take());
+        places.answer_all_tiles(lead);
         ASSERT_TRUE(!places.asked.empty() && places.take().of_kind(Step::Kind::collect))
             << "the reply to rehearsal " << rehearsal << " was not taken";
     }

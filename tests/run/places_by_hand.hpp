@@ -63,6 +63,13 @@ public:
         arrived.push_back(std::move(message));
     }
     void answer_tiles(Asked to) { arrived.push_back(reply_to(to.message)); }
+    /// Until something else is asked. `lead`: lets the conductor go on; when that has been in vain too often, it gives
+    /// up.
+    template <class Lead>
+    void answer_all_tiles(const Lead& lead) {
+        for (int patience = 0; patience < 1000 && (asked.empty() || asked.front().of_tiles()); ++patience)
+            asked.empty() ? void(lead()) : answer_tiles(take());
+    }
 
     void fail(Asked to, const std::string& why) {
         Message message = reply_to(to.message);
@@ -79,7 +86,8 @@ private:
     Counters counters_;
 };
 
-inline Node node(std::string name, std::string kind, std::vector<Value> entries, std::map<std::string, Value> params = {}) {
+inline Node node(std::string name, std::string kind, std::vector<Value> entries,
+                 std::map<std::string, Value> params = {}) {
     return {std::move(name), std::move(kind), std::move(entries), std::move(params), {"test.lua", 1}};
 }
 
@@ -90,6 +98,15 @@ inline Query at(std::uint32_t primitive) {
 }
 
 // A picture by a node that learns from rehearsals.
+// image ← caustics: a map that has shards to share out.
+inline Graph mapping(const Registry& kinds) {
+    return check(
+        {"test.lua",
+         Nodes{node("scene", "Scene", {Value{std::string("none.pbrt")}}), node("caustics", "PhotonMap", {}),
+               node("image", "RayTracer", {Value{NodeRef{"caustics"}}},
+                    {{"scene", Value{NodeRef{"scene"}}}, {"film", Value{Table{{Value{24.0}, Value{16.0}}, {}}}}})}},
+        kinds);
+}
 inline Graph learning(const Registry& kinds) {
     return check(
         {"test.lua",

@@ -1,11 +1,9 @@
 // Who is slower than others while nodes prepare, with places that the test plays.
 #include <gtest/gtest.h>
 
-#include <functional>
 #include <numeric>
 #include <string>
 
-#include "core/network/graph/check.hpp"
 #include "core/network/light/mapped.hpp"
 #include "core/run/runtime/conductor.hpp"
 #include "tests/run/places_by_hand.hpp"
@@ -15,13 +13,11 @@ namespace {
 
 using conductor_test::at;
 using conductor_test::ByHand;
-using conductor_test::learning;
-using conductor_test::node;
 
 // Two hosts of one place each hold every node.
 class TwoHosts : public ::testing::Test {
 protected:
-    explicit TwoHosts(const std::function<Graph(const Registry&)>& made) : graph(made(kinds)) {
+    explicit TwoHosts(Graph (*made)(const Registry&)) : graph(made(kinds)) {
         conductor.propose({{{"a", 0}, {"b", 0}}, std::vector<std::vector<std::uint32_t>>(graph.nodes.size(), {0, 1})});
     }
     Conductor::Options options() const {
@@ -41,22 +37,13 @@ protected:
 // A map, and an image that asks it.
 class SlowPlaces : public TwoHosts {
 protected:
-    SlowPlaces()
-        : TwoHosts([](const Registry& registry) {
-              const Table film{{Value{24.0}, Value{16.0}}, {}};
-              return check(
-                  {"test.lua",
-                   {node("scene", "Scene", {Value{std::string("none.pbrt")}}), node("caustics", "PhotonMap", {}),
-                    node("image", "RayTracer", {Value{NodeRef{"caustics"}}},
-                         {{"scene", Value{NodeRef{"scene"}}}, {"film", Value{film}}})}},
-                  registry);
-          }) {}
+    SlowPlaces() : TwoHosts(conductor_test::mapping) {}
 };
 
 // A node that rehearses.
 class Rehearsals : public TwoHosts {
 protected:
-    Rehearsals() : TwoHosts([](const Registry& registry) { return learning(registry); }) {}
+    Rehearsals() : TwoHosts(conductor_test::learning) {}
 };
 
 TEST_F(SlowPlaces, HoldUpNobody) {
@@ -115,14 +102,10 @@ TEST_F(Rehearsals, BeginWithoutASlowHost) {
     EXPECT_FALSE(conductor.prepare(std::chrono::milliseconds(20)));
     EXPECT_TRUE(places.asked.empty()) << "b may come";
     EXPECT_FALSE(conductor.prepare(std::chrono::milliseconds(800)));
-    while (!places.asked.empty()) {
-        auto tiles = places.take();
-        ASSERT_TRUE(tiles.of_tiles());
-        EXPECT_EQ(tiles.place.host, "a");
-        places.answer_tiles(std::move(tiles));
-        EXPECT_FALSE(conductor.prepare(std::chrono::milliseconds(2)));
-        if (places.asked.front().of_kind(Step::Kind::collect)) break;
-    }
+    ASSERT_FALSE(places.asked.empty());
+    EXPECT_TRUE(places.asked.front().of_tiles());
+    for (const auto& asked : places.asked) EXPECT_EQ(asked.place.host, "a");
+    places.answer_all_tiles([&] { EXPECT_FALSE(conductor.prepare(std::chrono::milliseconds(2))); });
     auto collect = places.take();
     ASSERT_TRUE(collect.of_kind(Step::Kind::collect));
     EXPECT_TRUE(places.asked.empty()) << "b has noted nothing";
@@ -144,8 +127,7 @@ TEST_F(Rehearsals, AreOverWhenAllWhoTookPartArePrepared) {
     const auto lead = [&](int milliseconds) { return conductor.prepare(std::chrono::milliseconds(milliseconds)); };
     for (int i = 0; i < 2; ++i) places.answer(places.take(), StepReport{StepReport::Kind::rehearse, 0, 4});
     EXPECT_FALSE(lead(2));
-    while (places.asked.empty() || places.asked.front().of_tiles())
-        places.asked.empty() ? void(lead(1)) : places.answer_tiles(places.take());
+    places.answer_all_tiles([&] { EXPECT_FALSE(lead(1)); });
     for (int i = 0; i < 2; ++i) places.answer(places.take(), at(9));
     EXPECT_FALSE(lead(2));
     const auto a_goes_on = places.take(), b_goes_on = places.take();

@@ -27,7 +27,7 @@ namespace lightnet {
 
 /// Stands between the run's carrier and the master renderer. Nodes prepare stage by stage, inputs first, see
 /// stages_of(), each on all places that hold it: shards go to whoever is free, results are put together here, in order,
-/// and brought to all. A stage ends when somebody can answer for each of its nodes: places that are slower join him.
+/// and brought to all. A stage ends when somebody can answer for each of its nodes: slower places join later.
 /// The sectors of a sharded node prepare together, each in its own copies, which get their parts of the results alone.
 /// A place that comes later is given the results, and is made known to the others when it has caught up. Belongs to the
 /// launcher's thread.
@@ -123,12 +123,12 @@ private:
     void shards_done(const Sent& sent, const Bytes& data);
     void noted(const Sent& sent, const Bytes& data);
     void lose(const std::set<PlaceAt>& gone);
-    std::set<NodeCopy> may_be_asked_already(std::size_t position) const;
+    std::set<NodeCopy> copies_in_force(std::size_t position) const;
     bool can_be_asked(std::size_t position) const;
     std::set<PlaceAt> behind() const;
-    std::set<NodeCopy> asked_at(std::size_t position, const std::set<PlaceAt>& late) const;
+    std::set<NodeCopy> copies_to_ask(std::size_t position, const std::set<PlaceAt>& late) const;
     Plan restricted();
-    bool may_wait(const Plan& plan) const;
+    bool may_be_held_back(const Plan& plan) const;
     void enforce();
     void attend();
 

@@ -31,7 +31,7 @@ bool is_hardly_more(const Plan& plan, const Plan& than) {
 
 // Copies that are in force: in a rehearsal, or prepared for the pass before. Somebody may ask them who has not heard
 // yet that it is over.
-std::set<NodeCopy> Conductor::may_be_asked_already(std::size_t position) const {
+std::set<NodeCopy> Conductor::copies_in_force(std::size_t position) const {
     std::set<NodeCopy> all;
     for (const auto node : nodes_at(position)) {
         const auto in_force = places_of(in_force_, node);
@@ -44,7 +44,7 @@ std::set<NodeCopy> Conductor::may_be_asked_already(std::size_t position) const {
 // Nobody waits for the slowest: those who still build are asked when they are done.
 // DECISIONS: not-for-the-slowest
 bool Conductor::can_be_asked(std::size_t position) const {
-    const auto asked = may_be_asked_already(position);
+    const auto asked = copies_in_force(position);
     if (!std::all_of(asked.begin(), asked.end(), [&](const auto& copy) { return is_done(copy); })) return false;
     const auto nodes = nodes_at(position);
     return std::all_of(nodes.begin(), nodes.end(), [&](std::size_t node) {
@@ -68,7 +68,7 @@ std::set<PlaceAt> Conductor::behind() const {
 }
 
 // Who may be asked for what is prepared at this position. In a rehearsal, nodes are asked that prepare later, too.
-std::set<NodeCopy> Conductor::asked_at(std::size_t position, const std::set<PlaceAt>& late) const {
+std::set<NodeCopy> Conductor::copies_to_ask(std::size_t position, const std::set<PlaceAt>& late) const {
     const auto all = copies(position);
     if (position < done_) {
         std::set<NodeCopy> done;
@@ -76,7 +76,7 @@ std::set<NodeCopy> Conductor::asked_at(std::size_t position, const std::set<Plac
                      [&](const auto& copy) { return is_done(copy); });
         return done;
     }
-    auto asked = may_be_asked_already(position);
+    auto asked = copies_in_force(position);
     if (!rehearsal_) return asked;
     if (position == done_) {
         asked.insert(rehearsal_->copies().begin(), rehearsal_->copies().end());
@@ -102,7 +102,7 @@ Plan Conductor::restricted() {
         std::erase_if(plan.places_of[node], [&](auto place) { return !may_be_asked(plan.places[place]); });
     };
     for (std::size_t position = 0; position < order_.size(); ++position) {
-        const auto asked = asked_at(position, late);
+        const auto asked = copies_to_ask(position, late);
         for (const auto node : nodes_at(position))
             keep(node, [&](const PlaceAt& place) { return asked.contains({place, node}); });
     }
@@ -116,13 +116,13 @@ Plan Conductor::restricted() {
 }
 
 // All places are told of each plan, so those of a crowd that come one by one are put in force some at a time.
-bool Conductor::may_wait(const Plan& plan) const {
+bool Conductor::may_be_held_back(const Plan& plan) const {
     return plan != proposal_ && steady_seconds() - enforced_ < at_most_held_back && is_hardly_more(plan, in_force_);
 }
 
 void Conductor::enforce() {
     auto plan = restricted();
-    if (plan == in_force_ || may_wait(plan)) return;
+    if (plan == in_force_ || may_be_held_back(plan)) return;
     enforced_ = steady_seconds();
     in_force_ = std::move(plan);
     carrier_.adopt(in_force_);

@@ -36,7 +36,7 @@ bool Conductor::is_time_to_rehearse(const std::set<NodeCopy>& waiting) {
         return std::any_of(waiting.begin(), waiting.end(), [&](const auto& copy) { return copy.node == node; });
     });
     if (!first_waits_) first_waits_ = now;
-    const auto asked = may_be_asked_already(done_);
+    const auto asked = copies_in_force(done_);
     return all_nodes && std::includes(waiting.begin(), waiting.end(), asked.begin(), asked.end()) &&
            now - *first_waits_ > std::max(least_patience, (*first_waits_ - went_on_) / 2);
 }
