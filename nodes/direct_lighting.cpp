@@ -22,8 +22,9 @@ namespace {
 
 Heuristic heuristic_called(const std::string& name) {
     if (name == "balance") return Heuristic::balance;
+    if (name == "power") return Heuristic::power;
     if (name == "lamps") return Heuristic::lamps;
-    return name == "directions" ? Heuristic::directions : Heuristic::power;
+    return name == "directions" ? Heuristic::directions : Heuristic::automatic;
 }
 
 /// Two strategies find each light, a point on a lamp (next event estimation) and a direction drawn from the BSDF,
@@ -279,10 +280,12 @@ Kind direct_lighting_kind() {
                 {.name = "heuristic",
                  .type = ParamType::text,
                  .help =
-                     "by which multiple importance sampling weights both ways to find a light; or lamps, directions: "
-                     "what points on lamps, or directions from the BSDF, find alone, to see what each is good for",
-                 .initial = Value{"power"},
-                 .choices = {"power", "balance", "lamps", "directions"}},
+                     "by which multiple importance sampling weights both ways to find a light; auto: by power for "
+                     "lamps, "
+                     "by balance for the sky and suns; or lamps, directions: what points on lamps, or directions from "
+                     "the BSDF, find alone, to see what each is good for",
+                 .initial = Value{"auto"},
+                 .choices = {"auto", "power", "balance", "lamps", "directions"}},
             },
         .light = {.lamps = true, .groups = true, .paths = always({"LD"})},
         .make_light = [](const NodeContext& here) { return std::make_unique<DirectLighting>(here); },

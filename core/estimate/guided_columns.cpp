@@ -76,33 +76,34 @@ struct GuidedColumns::Places {
 };
 
 // As GuidedPoint::pdf().
-template <Heuristic by>
 struct GuidedColumns::Shares {
     GuidedColumns& all;
+    Heuristic heuristic;
 
     [[gnu::always_inline]] void work() {
+        const Heuristic by = heuristic;
         for (std::size_t i = 0; i < all.count_; ++i) {
             const float height = all.height_[i], found = all.density_[i] * height * inverse_pi;
             const float guided = height > 0 ? found : 0;
             const float pdf = all.known_[i] != 0 ? guided : all.pdf_[i];
-            const float part = lightnet::share(by, all.lamp_pdf_[i], pdf);
+            const float part = lightnet::share(squares(by, all.from_infinity_[i] != 0), all.lamp_pdf_[i], pdf);
             all.shares_[i] = all.bare_[i] != 0 ? 1 : part;
         }
     }
 };
 
-void GuidedColumns::share(const RaysToLamp& rays, bool by_power) {
+void GuidedColumns::share(const RaysToLamp& rays, Heuristic heuristic) {
     direction_ = rays.direction;
     lamp_pdf_ = rays.lamp_pdf;
     pdf_ = rays.pdf;
     bare_ = rays.bare;
+    from_infinity_ = rays.from_infinity;
     Places places{*this};
     work_in_lanes(places);
     for (std::size_t i = 0; i < count_; ++i)
         density_[i] = cells_[i] && height_[i] > 0 ? cells_[i]->square.density(place_[i]) : 0;
-    Shares<Heuristic::power> by_powers{*this};
-    Shares<Heuristic::balance> balanced{*this};
-    by_power ? work_in_lanes(by_powers) : work_in_lanes(balanced);
+    Shares shares{*this, heuristic};
+    work_in_lanes(shares);
 }
 
 }  // namespace lightnet

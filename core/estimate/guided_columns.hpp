@@ -33,14 +33,13 @@ public:
     float favour(std::size_t i) const { return favour_[i]; }
 
     /// What is left of the light of lamps, sampled whole, when directions by the guide find it as well: share(i).
-    void share(const RaysToLamp& rays, bool by_power);
+    void share(const RaysToLamp& rays, Heuristic heuristic);
     float share(std::size_t i) const { return shares_[i]; }
 
 private:
     struct Sides;
     struct Warping;
     struct Places;
-    template <Heuristic by>
     struct Shares;
 
     // All in one place, so that the compiler sees that no column is another.
@@ -65,7 +64,7 @@ private:
     Columns3 direction_;
     Columns2 place_;
     Column height_, density_, lamp_pdf_, pdf_, shares_;
-    Flags known_, bare_;
+    Flags known_, bare_, from_infinity_;
 };
 
 }  // namespace lightnet

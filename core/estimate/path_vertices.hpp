@@ -147,7 +147,7 @@ public:
         glossy_.each([&](auto& group) { append(group, look_from_glossy(group, numbers, heuristic), all_of_it); });
         if (plain_.size() == 0) return;
         const RaysToLamp& found = look_from_plain(numbers, heuristic);
-        if (guide_) guided_plain_.share(found, heuristic == Heuristic::power);
+        if (guide_) guided_plain_.share(found, heuristic);
         append(plain_, found, [&](std::size_t i, Rgb& light) {
             if (guide_) light *= guided_plain_.share(i);
         });
@@ -286,19 +286,18 @@ private:
         lit_.clear();
         for (std::size_t i = 0; i < glossy.size(); ++i) lit_.push_back(lit_point_of(glossy, i));
         sample_lit(numbers, [&](std::size_t i) { return glossy.who(i); });
-        return glossy.look_at(lamps_, heuristic == Heuristic::power);
+        return glossy.look_at(lamps_, heuristic);
     }
     const RaysToLamp& look_from_plain(const Numbers& numbers, Heuristic heuristic) {
-        const bool by_power = heuristic == Heuristic::power;
         if (only_lamp_) {
             for (std::size_t i = 0; i < plain_.size(); ++i) plain_.set_numbers(i, numbers.places[plain_.who(i)]);
-            return guide_ ? plain_.look_at_whole(*only_lamp_) : plain_.look_at(*only_lamp_, by_power);
+            return guide_ ? plain_.look_at_whole(*only_lamp_) : plain_.look_at(*only_lamp_, heuristic);
         }
         lit_.clear();
         for (std::size_t i = 0; i < plain_.size(); ++i)
             lit_.push_back(lit_point(plain_.position(i), plain_.normal(i), plain_.outgoing(i)));
         sample_lit(numbers, [&](std::size_t i) { return plain_.who(i); });
-        return guide_ ? plain_.look_at_whole(lamps_) : plain_.look_at(lamps_, by_power);
+        return guide_ ? plain_.look_at_whole(lamps_) : plain_.look_at(lamps_, heuristic);
     }
     Gathering gathering(const Visitor& visitor) const {
         const auto& [outgoing, lobes, inside] = views_[visitor.point];

@@ -341,7 +341,7 @@ private:
     static constexpr float hope_counts = 4;
     static constexpr float least_chance = 0.1f;
 
-    static constexpr Heuristic heuristic = Heuristic::power;
+    static constexpr Heuristic heuristic = Heuristic::automatic;
 
     const Scene& scene_;
     const LightGuide* guide_;

@@ -13,9 +13,9 @@ Rgb left_after(const Rgb* absorption, float distance) {
 namespace {
 
 // Weight of a direction from the BSDF, with density `mine`; `other` is that of finding the same by a point on a lamp.
-float direction_share(Heuristic heuristic, float mine, float other) {
+float direction_share(Heuristic heuristic, bool from_infinity, float mine, float other) {
     if (heuristic == Heuristic::lamps) return other == 0 ? 1 : 0;
-    return heuristic == Heuristic::directions ? 1 : share(heuristic, mine, other);
+    return heuristic == Heuristic::directions ? 1 : share(squares(heuristic, from_infinity), mine, other);
 }
 
 }  // namespace
@@ -33,7 +33,8 @@ std::optional<LampRay> ray_to_lamp(const Scene& scene, const Gathering& at, cons
     const auto [value, bsdf_pdf] = at.bsdf.value_and_pdf(at.outgoing, lamp.direction, at.lobes);
     if (is_black(value)) return {};
     const float pdf = at.guidance ? at.guidance->pdf(lamp.direction, bsdf_pdf) : bsdf_pdf;
-    const float weight = lamp.bare || heuristic == Heuristic::lamps ? 1 : share(heuristic, lamp.pdf, pdf);
+    const bool alone = lamp.bare || heuristic == Heuristic::lamps;
+    const float weight = alone ? 1 : share(squares(heuristic, lamp.from_infinity), lamp.pdf, pdf);
     const Ray ray = scene.ray_to(at.point, lamp);
     Rgb light = value * lamp.radiance * (weight / lamp.pdf);
     if (const Rgb* inside = filling(at.bsdf, at.point, at.outgoing, ray.direction, at.inside))
@@ -44,7 +45,7 @@ std::optional<LampRay> ray_to_lamp(const Scene& scene, const Gathering& at, cons
 // What a specular surface sends on can't be found by a sampled light.
 Rgb sky_by_bsdf(const SkyRadiance& sky, const BsdfSample& sample, Heuristic heuristic) {
     const float other = sample.lobe == lobe::specular ? 0 : sky.pdf;
-    return is_black(sky.radiance) ? Rgb{} : sky.radiance * direction_share(heuristic, sample.pdf, other);
+    return is_black(sky.radiance) ? Rgb{} : sky.radiance * direction_share(heuristic, true, sample.pdf, other);
 }
 
 Rgb light_by_bsdf(const Scene& scene, const LitPoint& from, const BsdfSample& sample, const SurfacePoint* end,
@@ -60,7 +61,7 @@ Rgb light_by_bsdf(const Scene& scene, const LitPoint& from, const BsdfSample& sa
     const Rgb emitted = scene.emission(*end, -sample.incoming);
     if (is_black(emitted)) return {};
     const float other = sample.lobe == lobe::specular ? 0 : scene.light_pdf(from, sample.incoming, *end);
-    return emitted * direction_share(heuristic, sample.pdf, other);
+    return emitted * direction_share(heuristic, false, sample.pdf, other);
 }
 
 }  // namespace lightnet

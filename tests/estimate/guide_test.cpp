@@ -205,10 +205,11 @@ TEST(GuidedColumns, KnowWhatOnePointAloneKnowsToTheBit) {
         Samples numbers(5, i);
         rays.direction.set(i, sphere(numbers.next_2d()));
         rays.lamp_pdf[i] = numbers.next(), rays.pdf[i] = numbers.next(), rays.bare[i] = i % 5 == 0;
+        rays.from_infinity[i] = i % 3 == 0;
     }
     std::size_t known = 0;
-    for (const bool by_power : {false, true}) {
-        columns.share(rays, by_power);
+    for (const Heuristic heuristic : {Heuristic::automatic, Heuristic::power, Heuristic::balance}) {
+        columns.share(rays, heuristic);
         for (std::size_t i = 0; i < surfaces.size(); ++i)
             surfaces.set_numbers(i, Samples(4, std::uint32_t(i)).next_2d());
         columns.warp(surfaces);
@@ -217,8 +218,8 @@ TEST(GuidedColumns, KnowWhatOnePointAloneKnowsToTheBit) {
             const auto point = guide.at(surfaces.position(i), side, true);
             ASSERT_EQ(columns.knows(i), bool(point)) << i;
             const float pdf = point ? point.pdf(rays.direction[i], rays.pdf[i]) : rays.pdf[i];
-            const auto heuristic = by_power ? Heuristic::power : Heuristic::balance;
-            EXPECT_EQ(columns.share(i), rays.bare[i] ? 1 : share(heuristic, rays.lamp_pdf[i], pdf)) << i;
+            const bool squared = squares(heuristic, rays.from_infinity[i] != 0);
+            EXPECT_EQ(columns.share(i), rays.bare[i] ? 1 : share(squared, rays.lamp_pdf[i], pdf)) << i;
             const Vec2 numbers = Samples(4, std::uint32_t(i)).next_2d();
             const SquarePoint alone = point ? point.warped(numbers) : SquarePoint{numbers, 1};
             EXPECT_EQ(surfaces.numbers(i), alone.place);

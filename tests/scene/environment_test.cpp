@@ -23,14 +23,14 @@ using namespace test;
 using Layout = EnvironmentData::Layout;
 
 // Noise between 0 and 1, a few black pixels, and a small sun.
-std::shared_ptr<const Image> picture(std::uint32_t width, std::uint32_t height) {
+std::shared_ptr<const Image> picture(std::uint32_t width, std::uint32_t height, float sun) {
     std::vector<Rgb> pixels;
     for (std::uint32_t i = 0; i < width * height; ++i) {
         Samples samples(11, i);
         const float c = i % 5 == 0 ? 0 : samples.next();
         pixels.push_back({c, samples.next(), 0.3f * c});
     }
-    pixels[(height / 3) * width + width / 4] = {300, 280, 250};
+    pixels[(height / 3) * width + width / 4] = Rgb{1, 0.95f, 0.85f} * sun;
     return std::make_shared<const Image>(width, height, pixels);
 }
 
@@ -40,10 +40,10 @@ Matrix turned() {  // 120° around the diagonal, then a mirror: all axes change 
     return m;
 }
 
-EnvironmentData map_of(Layout layout) {
+EnvironmentData map_of(Layout layout, float sun = 300) {
     EnvironmentData data;
     data.radiance = {1, 2, 0.5f};
-    data.image = layout == Layout::equal_area ? picture(24, 24) : picture(48, 24);
+    data.image = layout == Layout::equal_area ? picture(24, 24, sun) : picture(48, 24, sun);
     data.layout = layout;
     data.to_world = turned();
     return data;
@@ -141,12 +141,12 @@ TEST_P(Maps, AreSmooth) {  // across pixels, and across the picture's borders
 }
 
 TEST_P(Maps, HaveADensityThatIntegratesToOne) {
-    const Environment sky(map_of(GetParam()));
+    const Environment sky(map_of(GetParam(), 2));
     EXPECT_NEAR(over_the_sphere(1500, [&](Vec3 d) { return sky.pdf(d); }), 1, 2e-3);
 }
 
 TEST_P(Maps, SampleWhatTheirDensitySays) {
-    const Environment sky(map_of(GetParam()));
+    const Environment sky(map_of(GetParam(), 2));
     constexpr int rows = 12, columns = 24, n = 200000;
     const auto bin = [](Vec3 d) {
         const int row = std::min(rows - 1, int((d.z + 1) / 2 * rows));
@@ -171,14 +171,51 @@ TEST_P(Maps, SampleWhatTheirDensitySays) {
         found[bin(d)] += 1;
     }
     EXPECT_GT(same_density, 0.9999 * n);  // rounding may put a direction across the border of its cell
-    double chi2 = 0;
+    double chi2 = 0, freedom = -1, rest_expected = 0, rest_found = 0;
     for (std::size_t i = 0; i < found.size(); ++i) {
         const double e = expected[i] / all * n;
-        ASSERT_GT(e, 5);
+        if (e < 5) {  // dark parts
+            rest_expected += e;
+            rest_found += found[i];
+            continue;
+        }
         chi2 += (found[i] - e) * (found[i] - e) / e;
+        freedom += 1;
     }
-    const double freedom = rows * columns - 1;  // mean and variance of chi-square are this and twice this
-    EXPECT_LT(chi2, freedom + 4 * std::sqrt(2 * freedom));
+    EXPECT_NEAR(rest_found, rest_expected, 4 * std::sqrt(rest_expected + 1));
+    EXPECT_GT(freedom, rows * columns / 4);
+    EXPECT_LT(chi2, freedom + 4 * std::sqrt(2 * freedom));  // mean and variance of chi-square are this and twice this
+}
+
+// What is darker is not sampled at all, and the rest by how much brighter it is.
+TEST(Environment, SamplesWhatIsBrighterThanItsMean) {
+    constexpr std::uint32_t width = 64, height = 32;
+    std::vector<Rgb> pixels;
+    for (std::uint32_t i = 0; i < width * height; ++i) pixels.push_back(Rgb{1, 1, 1} * (i % width < width / 2 ? 1 : 3));
+    EnvironmentData data;
+    data.image = std::make_shared<const Image>(width, height, pixels);
+    const Environment sky(data);
+    const Vec3 dark = from_latitude_longitude({0.25f, 0.5f}), bright = from_latitude_longitude({0.75f, 0.5f});
+    EXPECT_EQ(sky.pdf(dark), 0);
+    EXPECT_NEAR(sky.pdf(bright) * 2 * pi, 1, 0.03f);  // half of all around; next to the edges it falls off
+    EXPECT_EQ(sky.radiance(dark).r, 1);
+}
+
+// Those who have no other way to find light, as photons, are sent to all of it.
+TEST_P(Maps, AreReachedAsAWhole) {
+    const Environment sky(map_of(GetParam()));
+    constexpr std::uint32_t n = 1 << 16;
+    double light = 0, height = 0;
+    for (std::uint32_t i = 0; i < n; ++i) {
+        const auto [d, radiance, pdf] = sky.sample_all(Samples(9, i).next_2d());
+        ASSERT_GT(pdf, 0);
+        light += radiance.g / pdf / n;
+        height += radiance.g * d.z / pdf / n;
+    }
+    const double expected = over_the_sphere(700, [&](Vec3 d) { return sky.radiance(d).g; });
+    EXPECT_NEAR(light / expected, 1, 0.01);
+    EXPECT_NEAR(height / expected, over_the_sphere(700, [&](Vec3 d) { return sky.radiance(d).g * d.z; }) / expected,
+                0.01);
 }
 
 void expect_equal(const SkyRadiance& one, const SkyRadiance& other) {
@@ -308,7 +345,7 @@ TEST(Environment, BearsATransformThatIsNone) {
     EnvironmentData data = map_of(Layout::equal_area);
     data.to_world.m = {};
     const Environment sky(data);
-    EXPECT_GT(sky.pdf({0, 0, 1}), 0);
+    EXPECT_TRUE(std::isfinite(sky.pdf({0, 0, 1})));
     EXPECT_TRUE(finite(sky.radiance({std::nanf(""), 0, 1})));
 }
 

@@ -184,11 +184,11 @@ TEST_P(ManyLit, RaysAreThoseOfOne) {
     add(data, GetParam().lamp, diffuse(data, 0)).emission = AreaEmission{{3, 2, 1}, GetParam().two_sided};
     const Scene scene(data);
     ASSERT_TRUE(scene.only_flat_lamp());
-    for (const Heuristic heuristic : {Heuristic::balance, Heuristic::power}) {
+    for (const Heuristic heuristic : {Heuristic::balance, Heuristic::power, Heuristic::automatic}) {
         std::size_t lit = 0;
         const std::size_t count = each_plain(scene, [&](Plain& plain) {
             for (std::size_t i = 0; i < plain.points.size(); ++i) plain.together.set_numbers(i, plain.numbers[i]);
-            const auto& rays = plain.together.look_at(*scene.only_flat_lamp(), heuristic == Heuristic::power);
+            const auto& rays = plain.together.look_at(*scene.only_flat_lamp(), heuristic);
             for (std::size_t i = 0; i < plain.points.size(); ++i) {
                 const Gathering at{plain.points[i], plain.bsdfs[i], plain.outgoing[i], lobe::all};
                 const auto one = ray_to_lamp(scene, at, {0, plain.numbers[i]}, heuristic);
@@ -250,7 +250,7 @@ TEST(Many, StopsTellEachWalkWhatOneIsTold) {
             EXPECT_EQ(seen, std::vector<int>(walks.size(), 1));
             ShadowRays rays;
             vertices.sample_lamps(
-                {choices, numbers}, Heuristic::power, rays, [](auto) { return 2.0f; }, [](auto i) { return i; });
+                {choices, numbers}, Heuristic::automatic, rays, [](auto) { return 2.0f; }, [](auto i) { return i; });
             std::vector<int> lit(walks.size(), -1);
             for (std::size_t k = 0; k < rays.sums.size(); ++k) lit[rays.sums[k]] = int(k);
             std::vector<int> goes(walks.size());
@@ -276,7 +276,7 @@ TEST(Many, StopsTellEachWalkWhatOneIsTold) {
             });
             for (std::uint32_t i = 0; i < walks.size(); ++i)
                 alone(i, [&](const Gathering& one) {
-                    const auto ray = ray_to_lamp(scene, one, {choices[i], numbers[i]}, Heuristic::power);
+                    const auto ray = ray_to_lamp(scene, one, {choices[i], numbers[i]}, Heuristic::automatic);
                     ASSERT_EQ(lit[i] >= 0, ray.has_value());
                     if (ray) {
                         EXPECT_EQ(parts(rays.rays[std::size_t(lit[i])]), parts(ray->ray));

@@ -79,7 +79,7 @@ Rgb Environment::pixel(std::int64_t x, std::int64_t y) const {
 }
 
 // The mean of a bilinear function over the pixel's square: (1 6 1)/8 of the neighbours along each axis. It is 0 only
-// where the function is, so that no light is out of reach.
+// where the function is, so that no light is out of reach of sample_all().
 // DECISIONS: sky-by-pixels
 void Environment::weigh() {
     const std::size_t w = width_, h = height_;
@@ -104,19 +104,27 @@ void Environment::weigh() {
     };
     columns_.resize(w * h);
     std::vector<double> row(w), rows(h);
+    const double mean = 64 * luminance(total_) / (4 * std::numbers::pi);
+    double all = 0, bright = 0;
     for (std::size_t y = 0; y < h; ++y) {
         const auto weight = [&](std::int64_t x, std::int64_t j) { return at(x - 1, j) + 6 * at(x, j) + at(x + 1, j); };
         const auto inner = [&](std::size_t i) { return light[i - 1] + 6 * light[i] + light[i + 1]; };
+        double in_row = 0;
         for (std::size_t x = 0; x < w; ++x) {
             const std::size_t i = y * w + x;
             const auto sx = std::int64_t(x), sy = std::int64_t(y);
             const bool inside = x > 0 && y > 0 && x + 1 < w && y + 1 < h;
             row[x] = inside ? inner(i - w) + 6 * inner(i) + inner(i + w)
                             : weight(sx, sy - 1) + 6 * weight(sx, sy) + weight(sx, sy + 1);
+            in_row += row[x];
+            row[x] = std::max(0.0, row[x] - mean);
         }
-        rows[y] = running_shares(std::span<const double>(row), std::span(columns_).subspan(y * w, w)) *
-                  row_solid_angle(std::uint32_t(y));
+        const double angle = row_solid_angle(std::uint32_t(y));
+        rows[y] = running_shares(std::span<const double>(row), std::span(columns_).subspan(y * w, w)) * angle;
+        all += in_row * angle;
+        bright += rows[y];
     }
+    bright_share_ = all > 0 ? float(bright / all) : 0;
     running_shares(rows, rows_);
     mark_all();
 }
@@ -240,6 +248,17 @@ SkyRadiance Environment::sample(Vec2 u) const {
     find_row(u.y, cell);
     find_column(u.x, cell);
     return seen_in(cell);
+}
+
+// What sample() leaves out is even, or nearly so, and taken as if it were.
+SkyRadiance Environment::sample_all(Vec2 u) const {
+    if (!image_) return sample(u);
+    const bool bright = u.x < bright_share_;
+    const float start = bright ? 0 : bright_share_, share = bright ? bright_share_ : 1 - bright_share_;
+    u.x = std::clamp((u.x - start) / share, 0.0f, 0x1.fffffep-1f);
+    SkyRadiance seen = bright ? sample(u) : look(sphere(u));
+    seen.pdf = bright_share_ * seen.pdf + (1 - bright_share_) * inverse_pi / 4;
+    return seen;
 }
 
 void Environment::sample(std::span<const Vec2> u, std::span<SkyRadiance> seen) const {

@@ -19,7 +19,10 @@
 namespace lightnet {
 
 /// One environment. Immutable; any thread may ask. A map is looked up bilinearly, and sampled cell by cell (a cell is a
-/// pixel) in proportion to the luminance that it holds on average, uniformly by solid angle within the cell.
+/// pixel), uniformly by solid angle within the cell: in proportion to the luminance by which the cell is brighter than
+/// the map on average. What is darker is left to directions from the BSDF, which find it as well: sampling both alike
+/// would waste one. Karlík et al. 2019, "MIS Compensation".
+// DECISIONS: bright-sky
 class Environment {
 public:
     explicit Environment(const EnvironmentData& data);
@@ -39,13 +42,15 @@ public:
     SkyRadiance look(Vec3 direction) const;
     /// The same of up to `lanes` directions, which wait for memory as those of sample() do.
     void look(std::span<const Vec3> directions, std::span<SkyRadiance> seen) const;
-    /// Towards light, by importance: by the CDF of the rows, then by that of its row's columns.
+    /// Towards bright parts, by the CDF of the rows, then by that of its row's columns.
     SkyRadiance sample(Vec2 u) const;
     /// The same for up to `lanes` numbers. The memory that they need is fetched at once, and they don't wait for it one
     /// after the other.
     /// DECISIONS: memory-of-a-sky-ahead
     /// DECISIONS: skies-not-learnt
     void sample(std::span<const Vec2> u, std::span<SkyRadiance> seen) const;
+    /// Towards all that shines, for those who have no other way to find it. `pdf` is that of this way.
+    SkyRadiance sample_all(Vec2 u) const;
 
     /// Irradiance of its mean over all directions, were it all to arrive head-on: ∫ radiance dω, W·m⁻².
     Rgb total() const { return total_; }
@@ -89,6 +94,7 @@ private:
     std::vector<float> drops_;    // by edge of a row of longitudes, from the upper pole: 1 - cos of the angle
     bool all_usable_ = true;      // each number of the picture
     Rgb total_;
+    float bright_share_ = 0;  // of all light: what sample() goes by
 };
 
 }  // namespace lightnet

@@ -349,7 +349,7 @@ std::optional<Emission> Lights::emit(float choice, Vec2 position_sample, Vec2 di
 }
 
 Emission Lights::from_sky(const Environment& environment, Vec2 position_sample, Vec2 direction_sample) const {
-    const auto [towards, radiance, density] = environment.sample(direction_sample);
+    const auto [towards, radiance, density] = environment.sample_all(direction_sample);
     const Rgb irradiance = density > 0 ? radiance / density : Rgb{};
     const auto& portal = environment.portal();
     return portal ? through_portal(*portal, -towards, irradiance, position_sample)

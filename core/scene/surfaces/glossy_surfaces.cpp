@@ -75,31 +75,33 @@ struct GlossySurfaces<Columns>::Arriving {
 
 // As ray_to_lamp().
 template <class Columns>
-template <Heuristic by>
 struct GlossySurfaces<Columns>::Looking {
     GlossySurfaces& at;
+    Heuristic heuristic;
 
     [[gnu::always_inline]] void work() {
         const LightSamples& lamps = at.lamps_;
+        const Heuristic by = heuristic;
         for (std::size_t i = 0; i < at.count_; ++i) {
             const BsdfValue found = at.columns_.value(i, at.seen_[i], at.lit_[i]);
             const bool dark = at.leaks_[i] != 0;
             const Rgb value{dark ? 0 : found.value.r, dark ? 0 : found.value.g, dark ? 0 : found.value.b};
             const float pdf = dark ? 0 : found.pdf;
-            const float part = lamps.bare[i] != 0 ? 1 : share(by, lamps.pdf[i], pdf);
+            const bool squared = squares(by, lamps.from_infinity[i] != 0);
+            const float part = lamps.bare[i] != 0 ? 1 : share(squared, lamps.pdf[i], pdf);
             at.set_ray_to_lamp(i, value, part);
         }
     }
 };
 
 template <class Columns>
-const RaysToLamp& GlossySurfaces<Columns>::look_at(const LightSamples& lamps, bool by_power) {
+const RaysToLamp& GlossySurfaces<Columns>::look_at(const LightSamples& lamps, Heuristic heuristic) {
     lamps_ = lamps;
     Arriving arriving{*this};
     work_in_lanes(arriving);
     for (std::size_t i = 0; i < size(); ++i) columns_.arrive(i, lit_.z[i]);
-    const auto work = [](auto looking) { work_in_lanes(looking); };
-    by_power ? work(Looking<Heuristic::power>{*this}) : work(Looking<Heuristic::balance>{*this});
+    Looking looking{*this, heuristic};
+    work_in_lanes(looking);
     return rays_;
 }
 

@@ -43,12 +43,11 @@ public:
     const Steps& steps() const { return steps_; }
 
     /// What ray_to_lamp() gives for each, of lamps that were sampled for it.
-    const RaysToLamp& look_at(const LightSamples& lamps, bool by_power);
+    const RaysToLamp& look_at(const LightSamples& lamps, Heuristic heuristic);
 
 private:
     struct Facing;
     struct Arriving;
-    template <Heuristic by>
     struct Looking;
     struct Proposing;
     struct Finishing;

@@ -4,17 +4,25 @@
 namespace lightnet {
 
 /// How two sampling techniques share the light that both find: multiple importance sampling. Veach 1997, section 9.2.
-/// Or not at all: all of it is found by points on lamps, or by directions from the BSDF, but for what the other alone
-/// can find. That is for comparison, as either is noisy where the other is good.
-enum class Heuristic { balance, power, lamps, directions };
+/// `automatic`: by power for lamps, by balance for what comes from infinity. Or not at all: all of it is found by
+/// points on lamps, or by directions from the BSDF, but for what the other alone can find. That is for comparison, as
+/// either is noisy where the other is good.
+// DECISIONS: balance-for-the-sky
+enum class Heuristic { automatic, balance, power, lamps, directions };
 
 /// Do both techniques find the same light?
-constexpr bool shares(Heuristic heuristic) { return heuristic == Heuristic::balance || heuristic == Heuristic::power; }
+constexpr bool shares(Heuristic heuristic) {
+    return heuristic != Heuristic::lamps && heuristic != Heuristic::directions;
+}
+/// Where they share: by the squares of their densities, the power heuristic, or by the densities?
+constexpr bool squares(Heuristic heuristic, bool from_infinity) {
+    return (heuristic == Heuristic::power) | ((heuristic == Heuristic::automatic) & !from_infinity);
+}
 
 /// Weight of the technique with density `mine`, when `other` is the density of the other one, and both share.
-inline float share(Heuristic heuristic, float mine, float other) {
+inline float share(bool squared, float mine, float other) {
     const float ratio = other / mine;
-    const float part = 1 / (1 + (heuristic == Heuristic::power ? ratio * ratio : ratio));
+    const float part = 1 / (1 + (squared ? ratio * ratio : ratio));
     return other == 0 ? 1 : part;
 }
 

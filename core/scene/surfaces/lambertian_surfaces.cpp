@@ -45,14 +45,16 @@ const LambertianSurfaces::Steps& LambertianSurfaces::sample() {
     return steps_;
 }
 
-template <LambertianSurfaces::Sharing sharing, bool parallelogram>
+// `whole`: nothing is shared.
+template <bool whole, bool parallelogram>
 struct LambertianSurfaces::Looking {
     LambertianSurfaces& at;
     FlatLamp lamp;  // a copy, as the lamps below are: nothing that is written is any of it
+    Heuristic heuristic;
 
     // As ray_to_lamp().
     [[gnu::always_inline]] void work() {
-        constexpr Heuristic by = sharing == Sharing::by_power ? Heuristic::power : Heuristic::balance;
+        const bool squared = squares(heuristic, false);
         const Facet facet = lamp.facet;
         const Rgb radiance = lamp.radiance;
         const float area = lamp.area;
@@ -64,7 +66,7 @@ struct LambertianSurfaces::Looking {
             const float pdf =
                 diffuse_pdf(at.shading_[i], normal, at.one_sided_[i] != 0, at.outgoing_[i], way.direction);
             const Rgb value = Rgb{at.albedo_.x[i], at.albedo_.y[i], at.albedo_.z[i]} * pdf;
-            const float part = sharing == Sharing::whole ? 1 : share(by, way.pdf, pdf);
+            const float part = whole ? 1 : share(squared, way.pdf, pdf);
             const Rgb arriving = value * radiance * (part / way.pdf);
             const Ray ray =
                 ray_between(off_surface(position, normal, at.offset_[i], way.direction), on_lamp, way.direction);
@@ -72,10 +74,10 @@ struct LambertianSurfaces::Looking {
             at.rays_.direction.set(i, ray.direction);
             at.rays_.far[i] = ray.far;
             at.rays_.light.set(i, {arriving.r, arriving.g, arriving.b});
-            if constexpr (sharing == Sharing::whole) {
+            if constexpr (whole) {
                 at.rays_.lamp_pdf[i] = way.pdf;
                 at.rays_.pdf[i] = pdf;
-                at.rays_.bare[i] = 0;
+                at.rays_.bare[i] = at.rays_.from_infinity[i] = 0;
             }
             at.rays_.group[i] = lamp.group;
             at.rays_.found[i] = way.found & ((value.r != 0) | (value.g != 0) | (value.b != 0));
@@ -83,54 +85,58 @@ struct LambertianSurfaces::Looking {
     }
 };
 
-template <LambertianSurfaces::Sharing sharing>
+template <bool whole>
 struct LambertianSurfaces::LookingAtMany {
     LambertianSurfaces& at;
+    Heuristic heuristic;
 
     // As ray_to_lamp().
     [[gnu::always_inline]] void work() {
         const LightSamples& lamps = at.lamps_;
-        constexpr Heuristic by = sharing == Sharing::by_power ? Heuristic::power : Heuristic::balance;
+        const Heuristic by = heuristic;
         for (std::size_t i = 0; i < at.count_; ++i) {
             const float pdf =
                 diffuse_pdf(at.shading_[i], at.normal_[i], at.one_sided_[i] != 0, at.outgoing_[i], lamps.direction[i]);
             const Rgb value = Rgb{at.albedo_.x[i], at.albedo_.y[i], at.albedo_.z[i]} * pdf;
-            const bool whole = (sharing == Sharing::whole) | (lamps.bare[i] != 0);
-            const float part = whole ? 1 : share(by, lamps.pdf[i], pdf);
+            const bool alone = whole | (lamps.bare[i] != 0), squared = squares(by, lamps.from_infinity[i] != 0);
+            const float part = alone ? 1 : share(squared, lamps.pdf[i], pdf);
             at.set_ray_to_lamp(i, value, part);
-            if constexpr (sharing == Sharing::whole) {
+            if constexpr (whole) {
                 at.rays_.lamp_pdf[i] = lamps.pdf[i];
                 at.rays_.pdf[i] = pdf;
                 at.rays_.bare[i] = lamps.bare[i];
+                at.rays_.from_infinity[i] = lamps.from_infinity[i];
             }
         }
     }
 };
 
-template <LambertianSurfaces::Sharing sharing>
-const RaysToLamp& LambertianSurfaces::look(const FlatLamp& lamp) {
+template <bool whole>
+const RaysToLamp& LambertianSurfaces::look(const FlatLamp& lamp, Heuristic heuristic) {
     const auto work = [](auto looking) { work_in_lanes(looking); };
-    lamp.whole ? work(Looking<sharing, true>{*this, lamp}) : work(Looking<sharing, false>{*this, lamp});
+    lamp.whole ? work(Looking<whole, true>{*this, lamp, heuristic})
+               : work(Looking<whole, false>{*this, lamp, heuristic});
     return rays_;
 }
 
-const RaysToLamp& LambertianSurfaces::look_at(const FlatLamp& lamp, bool by_power) {
-    return by_power ? look<Sharing::by_power>(lamp) : look<Sharing::balanced>(lamp);
+const RaysToLamp& LambertianSurfaces::look_at(const FlatLamp& lamp, Heuristic heuristic) {
+    return look<false>(lamp, heuristic);
 }
 
-const RaysToLamp& LambertianSurfaces::look_at_whole(const FlatLamp& lamp) { return look<Sharing::whole>(lamp); }
+const RaysToLamp& LambertianSurfaces::look_at_whole(const FlatLamp& lamp) {
+    return look<true>(lamp, Heuristic::automatic);
+}
 
-const RaysToLamp& LambertianSurfaces::look_at(const LightSamples& lamps, bool by_power) {
+const RaysToLamp& LambertianSurfaces::look_at(const LightSamples& lamps, Heuristic heuristic) {
     lamps_ = lamps;
-    LookingAtMany<Sharing::by_power> powered{*this};
-    LookingAtMany<Sharing::balanced> balanced{*this};
-    by_power ? work_in_lanes(powered) : work_in_lanes(balanced);
+    LookingAtMany<false> looking{*this, heuristic};
+    work_in_lanes(looking);
     return rays_;
 }
 
 const RaysToLamp& LambertianSurfaces::look_at_whole(const LightSamples& lamps) {
     lamps_ = lamps;
-    LookingAtMany<Sharing::whole> looking{*this};
+    LookingAtMany<true> looking{*this, Heuristic::automatic};
     work_in_lanes(looking);
     return rays_;
 }

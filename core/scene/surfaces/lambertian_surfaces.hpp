@@ -35,23 +35,21 @@ public:
     const Steps& steps() const { return steps_; }
 
     /// What ray_to_lamp() gives for each, of the only lamp.
-    const RaysToLamp& look_at(const FlatLamp& lamp, bool by_power);
-    /// How that is weighted against finding the lamp by a direction.
-    enum class Sharing { by_power, balanced, whole };
+    const RaysToLamp& look_at(const FlatLamp& lamp, Heuristic heuristic);
     /// The same without the weight that both techniques share by: the light is whole.
     const RaysToLamp& look_at_whole(const FlatLamp& lamp);
     /// The same of lamps that were sampled for each.
-    const RaysToLamp& look_at(const LightSamples& lamps, bool by_power);
+    const RaysToLamp& look_at(const LightSamples& lamps, Heuristic heuristic);
     const RaysToLamp& look_at_whole(const LightSamples& lamps);
 
 private:
     struct Sampling;
-    template <Sharing sharing, bool parallelogram>
+    template <bool whole, bool parallelogram>
     struct Looking;
-    template <Sharing sharing>
+    template <bool whole>
     struct LookingAtMany;
-    template <Sharing sharing>
-    const RaysToLamp& look(const FlatLamp& lamp);
+    template <bool whole>
+    const RaysToLamp& look(const FlatLamp& lamp, Heuristic heuristic);
 
     Columns3 albedo_;
     Steps steps_;

@@ -19,8 +19,8 @@ struct RaysToLamp {
     Columns3 origin, direction, light;
     Column far;
     Flags found, group;
-    Column lamp_pdf, pdf;  // where the light is whole: of the lamp, and of the surface
-    Flags bare;            // the same: no ray can meet the lamp
+    Column lamp_pdf, pdf;       // where the light is whole: of the lamp, and of the surface
+    Flags bare, from_infinity;  // the same: as in LightSamples
 };
 
 /// Points as a structure of arrays: each coordinate has a column of its own, for vectors of the processor (SIMD). They
