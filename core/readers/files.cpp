@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "core/readers/workshop.hpp"
+#include "core/base/workshop.hpp"
 
 namespace lightnet {
 namespace {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/workshop.hpp"
 #include "core/readers/pbrt/camera.hpp"
 #include "core/readers/pbrt/colour_space.hpp"
 #include "core/readers/pbrt/lights.hpp"
@@ -17,7 +18,6 @@
 #include "core/readers/pbrt/sources.hpp"
 #include "core/readers/pbrt/syntax.hpp"
 #include "core/readers/pbrt/textures.hpp"
-#include "core/readers/workshop.hpp"
 #include "core/scene/data/scene_data.hpp"
 
 namespace lightnet::pbrt {

@@ -9,9 +9,9 @@
 #include <tuple>
 #include <vector>
 
+#include "core/base/workshop.hpp"
 #include "core/readers/image_file.hpp"
 #include "core/readers/pbrt/sources.hpp"
-#include "core/readers/workshop.hpp"
 #include "core/scene/data/scene_data.hpp"
 
 namespace lightnet::pbrt {

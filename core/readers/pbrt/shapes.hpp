@@ -9,9 +9,9 @@
 #include <variant>
 
 #include "core/base/math/transform.hpp"
+#include "core/base/workshop.hpp"
 #include "core/readers/pbrt/parameters.hpp"
 #include "core/readers/pbrt/sources.hpp"
-#include "core/readers/workshop.hpp"
 #include "core/scene/data/scene_data.hpp"
 
 namespace lightnet::pbrt {

@@ -1,5 +1,7 @@
 #include "core/scene/lamps/light_tree_builder.hpp"
 
+#include "core/base/workshop.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +12,7 @@ namespace {
 
 constexpr std::uint32_t children = LightTree::width;
 constexpr std::size_t buckets = 12;
+constexpr std::uint32_t many_at_once = 1 << 14;  // so many are sorted by one thread
 constexpr std::uint32_t many = 256;  // so many are split along their longest side: there it's space that counts
 
 Vec3 least(Vec3 a, Vec3 b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
@@ -191,52 +194,90 @@ std::uint32_t LightTreeBuilder::cut(Part whole, std::array<Part, children>& part
     return count;
 }
 
-/// Depth first, without recursion: a tree may be as deep as there are lights.
-std::vector<LightTree::Node> LightTreeBuilder::build() {
-    if (items_.empty()) return {};
-    struct Task {
-        Part part;
-        std::uint32_t place;  // in the parent: its node × children, plus which child
-    };
-    std::vector<Task> tasks{{{0, std::uint32_t(items_.size())}, 0}};
+/// Depth first, without recursion: a tree may be as deep as there are lights. Children of up to `apart` lights are
+/// left out.
+LightTreeBuilder::Branch LightTreeBuilder::grow(Part whole, std::uint32_t apart, std::vector<Below>& left) {
+    Branch branch;
+    auto& nodes = branch.nodes;
+    if (apart == 0) nodes.reserve(std::size_t(whole.size()) * 2 / 7 + 8);  // as many as there are, as a rule
+    std::vector<Below> tasks{{whole, 0}};
     while (!tasks.empty()) {
         const auto [part, place] = tasks.back();
         tasks.pop_back();
-        const auto here = std::uint32_t(nodes_.size());
-        LightTree::Node& node = nodes_.emplace_back();
+        const auto here = std::uint32_t(nodes.size());
+        LightTree::Node& node = nodes.emplace_back();
         node.parent = place;
-        if (here > 0) nodes_[place / children].child[place % children] = here;
+        if (here > 0) nodes[place / children].child[place % children] = here;
         std::array<Part, children> parts{};
         const std::uint32_t count = cut(part, parts);
         for (std::uint32_t i = 0; i < count; ++i) {
             node.intensity[i] = 1;  // there is one: see close()
-            if (parts[i].size() > 1) {
-                tasks.push_back({parts[i], here * children + i});
-                continue;
-            }
+            const std::uint32_t size = parts[i].size();
+            if (size > 1) (size > apart ? tasks : left).push_back({parts[i], here * children + i});
+            if (size > 1) continue;
             node.leaves |= std::uint8_t(1u << i);
             node.child[i] = items_[parts[i].first].light;
         }
     }
-    bounds_.resize(nodes_.size());
-    for (std::size_t n = nodes_.size(); n > 0; --n) close(n - 1);  // children stand behind their parents
-    nodes_.shrink_to_fit();
-    return std::move(nodes_);
+    branch.bounds.resize(nodes.size());
+    return branch;
+}
+
+/// Puts a branch behind the nodes that are there, below one of them.
+void LightTreeBuilder::append(const Branch& branch, std::uint32_t place, Branch& to) {
+    const auto first = std::uint32_t(to.nodes.size());
+    to.nodes[place / children].child[place % children] = first;
+    for (LightTree::Node node : branch.nodes) {
+        node.parent = to.nodes.size() == first ? place : node.parent + first * children;
+        for (std::uint32_t i = 0; i < children; ++i)
+            if (!(node.leaves >> i & 1)) node.child[i] += first;
+        to.nodes.push_back(node);
+    }
+    to.bounds.insert(to.bounds.end(), branch.bounds.begin(), branch.bounds.end());
+}
+
+std::vector<LightTree::Node> LightTreeBuilder::build() {
+    if (items_.empty()) return {};
+    const auto count = std::uint32_t(items_.size());
+    std::vector<Below> left;
+    Branch tree = grow({0, count}, count > many_at_once ? many_at_once : 0, left);
+    const std::size_t top = tree.nodes.size();
+    std::vector<Branch> branches(left.size());
+    const auto grow_one = [&](std::size_t i, std::size_t) {
+        std::vector<Below> none;
+        branches[i] = grow(left[i].part, 0, none);
+        close(branches[i]);
+    };
+    in_pieces(left.size(), grow_one, 1);
+    std::size_t size = top;
+    for (const Branch& branch : branches) size += branch.nodes.size();
+    tree.nodes.reserve(size);
+    tree.bounds.reserve(size);
+    for (std::size_t i = 0; i < left.size(); ++i) {
+        append(branches[i], left[i].place, tree);
+        branches[i] = {};  // its memory is of use to the next
+    }
+    for (std::size_t n = top; n > 0; --n) close(tree, n - 1);
+    return std::move(tree.nodes);
+}
+
+void LightTreeBuilder::close(Branch& branch) const {
+    for (std::size_t n = branch.nodes.size(); n > 0; --n) close(branch, n - 1);  // children stand behind their parents
 }
 
 /// Writes what is known of a node's children, whose own children are closed.
-void LightTreeBuilder::close(std::size_t n) {
-    LightTree::Node& node = nodes_[n];
+void LightTreeBuilder::close(Branch& branch, std::size_t n) const {
+    LightTree::Node& node = branch.nodes[n];
     std::array<LightBounds, children> all;
     std::uint32_t count = 0;
     for (; count < children && node.intensity[count] > 0; ++count) {
         const std::uint32_t child = node.child[count];
-        all[count] = (node.leaves >> count & 1) ? lights_[child] : bounds_[child];
+        all[count] = (node.leaves >> count & 1) ? lights_[child] : branch.bounds[child];
     }
-    bounds_[n] = around(std::span(all).first(count));
-    node.low = bounds_[n].low;
+    const LightBounds& whole = branch.bounds[n] = around(std::span(all).first(count));
+    node.low = whole.low;
     // A little more than needed, so that the last step is beyond the box.
-    node.step = (bounds_[n].high - node.low) * (1.00001f / 65535);
+    node.step = (whole.high - node.low) * (1.00001f / 65535);
     for (std::uint32_t i = 0; i < count; ++i) {
         const auto& [low, high, axis, cos_spread, cos_reach, intensity, two_sided] = all[i];
         node.lows.x[i] = steps_down(low.x, node.low.x, node.step.x);

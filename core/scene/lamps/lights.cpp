@@ -2,6 +2,7 @@
 
 #include "core/base/math/frame.hpp"
 #include "core/base/math/sampling.hpp"
+#include "core/base/workshop.hpp"
 #include "core/scene/lamps/bare_lights.hpp"
 #include "core/scene/lamps/lamp_points.hpp"
 #include "core/scene/lamps/shares.hpp"
@@ -61,8 +62,10 @@ Lights::Lights(const SceneData& data, const Shading& shading, const Ball& around
 }
 
 void Lights::build_tree() {
-    std::vector<LightBounds> bounds;
-    for (std::size_t i = 0; i < lamps_.size(); ++i) bounds.push_back(lamps_.bounds(i));
+    std::vector<LightBounds> bounds(lamps_.size());
+    in_pieces(lamps_.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) bounds[i] = lamps_.bounds(i);
+    });
     for (const auto& light : near_) bounds.push_back(near_light(light, [](const auto& l) { return bounds_of(l); }));
     const auto in_tree =
         std::size_t(std::count_if(bounds.begin(), bounds.end(), [](const auto& b) { return b.intensity > 0; }));

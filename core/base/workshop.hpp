@@ -1,6 +1,7 @@
-// A thread pool: a reader goes on through its file while images and meshes are decoded.
+// A thread pool, for what is independent: a reader goes on through its file while images and meshes are decoded.
 #pragma once
 
+#include <algorithm>
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
@@ -40,5 +41,14 @@ private:
     unsigned most_threads_;
     std::vector<std::jthread> threads_;  // started when there is work; first to go
 };
+
+/// Calls work(first, last) for pieces of 0 … `count` on all cores, as far as there is more than one piece.
+template <class Work>
+void in_pieces(std::size_t count, const Work& work, std::size_t piece = 1 << 14) {
+    Workshop workshop;
+    for (std::size_t first = 0; first < count; first += piece)
+        workshop.add([&work, first, last = std::min(count, first + piece)] { work(first, last); });
+    workshop.finish();
+}
 
 }  // namespace lightnet

@@ -1,4 +1,4 @@
-#include "core/readers/workshop.hpp"
+#include "core/base/workshop.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,5 +1,5 @@
 // Work on the side.
-#include "core/readers/workshop.hpp"
+#include "core/base/workshop.hpp"
 
 #include <gtest/gtest.h>
 
