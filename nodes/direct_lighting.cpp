@@ -11,6 +11,7 @@
 
 #include "core/base/math/many_samples.hpp"
 #include "core/estimate/first_rays.hpp"
+#include "core/estimate/lamps_met.hpp"
 #include "core/estimate/path_vertices.hpp"
 #include "core/network/graph/kind.hpp"
 #include "core/network/light/light_op.hpp"
@@ -88,6 +89,7 @@ private:
         std::span<FirstRays::One> by_direction;  // of each
         std::vector<std::uint32_t> looking;      // those whose direction may find light
         std::vector<std::uint32_t> leaving;      // of these: they meet nothing
+        LampsMet lamps_met;                      // of these
     };
     /// Numbers of a sample, beside those of its direction.
     enum Dimension : std::uint32_t { choice_of_lamp, place_on_lamp };
@@ -169,20 +171,21 @@ private:
             if (!one.hit)
                 some.leaving.push_back(i);
             else if (scene_.shines(*one.hit))
-                meet_lamp(some, i, one.step, *one.hit);
+                some.lamps_met.add(scene_, i, one.step.from, one.step.sample, scene_.surface(*one.hit));
         }
+        meet_lamps(some);
         if (scene_.has_suns()) meet_suns(some);
         for (std::size_t i = 0; scene_.has_environment() && i < some.leaving.size(); i += lanes)
             leave(some, std::span(some.leaving).subspan(i, std::min(lanes, some.leaving.size() - i)));
         some.leaving.clear();
         some.looking.clear();
     }
-    void meet_lamp(Samplers& some, std::size_t sample, const PathVertices::Step& step, const Hit& hit) const {
-        const SurfacePoint end = scene_.surface(hit);
-        const Rgb arriving = light_by_bsdf(scene_, step.from, step.sample, &end, heuristic_);
-        if (is_black(arriving)) return;
-        some.found[sample * groups_ + scene_.group_of(end)] +=
-            step.sample.weight * left_after(step.inside, hit.distance) * arriving;
+    void meet_lamps(Samplers& some) const {
+        some.lamps_met.find(scene_, heuristic_, [&](std::uint32_t i, Rgb arriving, std::uint32_t group) {
+            const FirstRays::One& one = some.by_direction[i];
+            some.found[i * groups_ + group] +=
+                one.step.sample.weight * left_after(one.step.inside, one.hit->distance) * arriving;
+        });
     }
     void meet_suns(Samplers& some) const {
         for (const std::uint32_t i : some.leaving) {

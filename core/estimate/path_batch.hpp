@@ -11,6 +11,7 @@
 #include "core/base/math/columns.hpp"
 #include "core/base/math/many_samples.hpp"
 #include "core/estimate/first_rays.hpp"
+#include "core/estimate/lamps_met.hpp"
 #include "core/estimate/path_lessons.hpp"
 #include "core/estimate/path_vertices.hpp"
 #include "core/estimate/shadow_rays.hpp"
@@ -62,6 +63,7 @@ struct PathBatch {
     std::array<std::uint32_t, lanes> leaving;
     std::array<Ray, lanes> skywards;
     std::array<SkyRadiance, lanes> sky;
+    LampsMet lamps_met;
     Lessons* lessons = nullptr;  // null: nobody learns
 };
 

@@ -204,9 +204,7 @@ private:
         }
         if (all_ || depth > 1) leave(batch, leaving, depth);
         batch.vertices.find_points();
-        if (all_ || depth > 1)
-            batch.vertices.each_that_may_shine(
-                [&](std::uint32_t i, const SurfacePoint& point) { meet_lamp(batch.paths[i], point, batch); });
+        if (all_ || depth > 1) meet_lamps(batch);
         if (!max_depth_ || depth <= max_depth_) go_round(batch, depth);
     }
 
@@ -241,10 +239,15 @@ private:
         }
     }
 
-    /// What a path finds that may have come to a lamp.
-    void meet_lamp(const Path& path, const SurfacePoint& point, Batch& batch) const {
-        const Rgb light = light_by_bsdf(scene_, path.from, step_of(path), &point, heuristic);
-        if (!is_black(light)) batch.sums[path.sum + scene_.group_of(point)] += path.weight * light;
+    /// What paths find that have come to lamps.
+    void meet_lamps(Batch& batch) const {
+        const auto& paths = batch.paths;
+        batch.vertices.each_that_may_shine([&](std::uint32_t i, const SurfacePoint& point) {
+            batch.lamps_met.add(scene_, i, paths[i].from, step_of(paths[i]), point);
+        });
+        batch.lamps_met.find(scene_, heuristic, [&](std::uint32_t i, Rgb light, std::uint32_t group) {
+            batch.sums[paths[i].sum + group] += paths[i].weight * light;
+        });
     }
 
     /// What paths find at surfaces by looking for light, rather than by batch on.

@@ -48,6 +48,10 @@ Rgb sky_by_bsdf(const SkyRadiance& sky, const BsdfSample& sample, Heuristic heur
     return is_black(sky.radiance) ? Rgb{} : sky.radiance * direction_share(heuristic, true, sample.pdf, other);
 }
 
+Rgb lamp_by_bsdf(Rgb emitted, float pdf, float other, Heuristic heuristic) {
+    return emitted * direction_share(heuristic, false, pdf, other);
+}
+
 Rgb light_by_bsdf(const Scene& scene, const LitPoint& from, const BsdfSample& sample, const SurfacePoint* end,
                   Heuristic heuristic) {
     if (!end) {
@@ -61,7 +65,7 @@ Rgb light_by_bsdf(const Scene& scene, const LitPoint& from, const BsdfSample& sa
     const Rgb emitted = scene.emission(*end, -sample.incoming);
     if (is_black(emitted)) return {};
     const float other = sample.lobe == lobe::specular ? 0 : scene.light_pdf(from, sample.incoming, *end);
-    return emitted * direction_share(heuristic, false, sample.pdf, other);
+    return lamp_by_bsdf(emitted, sample.pdf, other, heuristic);
 }
 
 }  // namespace lightnet

@@ -86,6 +86,8 @@ inline bool finds_lamps(const Scene& scene, const Gathering& at) {
 /// weight of having found it by the BSDF, at the lit_point() `from`. Without the sample's own weight.
 Rgb light_by_bsdf(const Scene& scene, const LitPoint& from, const BsdfSample& sample, const SurfacePoint* end,
                   Heuristic heuristic);
+/// The same of a lamp that emits so much towards the point, where sampling lights finds it with density `other`.
+Rgb lamp_by_bsdf(Rgb emitted, float pdf, float other, Heuristic heuristic);
 /// The same of a ray that met nothing, where `sky` is what lies there: of the environment, or of suns.
 Rgb sky_by_bsdf(const SkyRadiance& sky, const BsdfSample& sample, Heuristic heuristic);
 

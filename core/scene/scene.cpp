@@ -193,6 +193,10 @@ const FlatLamp* Scene::only_flat_lamp() const { return lights_->only_flat_lamp()
 float Scene::light_pdf(const LitPoint& from, Vec3 direction, const SurfacePoint& on) const {
     return lights_->pdf(from, direction, on);
 }
+std::optional<LampMet> Scene::lamp_met(const LitPoint& from, Vec3 direction, const SurfacePoint& on) const {
+    return lights_->met(from, direction, on);
+}
+void Scene::light_pdfs(std::span<const LampMet> met, std::span<float> pdfs) const { lights_->pdfs(met, pdfs); }
 
 float Scene::environment_pdf(const Ray& ray) const { return lights_->environment_pdf(ray); }
 bool Scene::samples_environment() const { return lights_->samples_environment(); }

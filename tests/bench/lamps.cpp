@@ -4,7 +4,9 @@
 // three orders of magnitude. Points on the floor ask for light. The variance is that of the irradiance at a point
 // without anything in between, relative to its square, by one sample; it is compared with that of lamps chosen by their
 // power alone, worked out here from the triangles. Processor time of samples is measured in turns. One sample is
-// choosing a lamp and a point on it, for a column of points at once, and asking whether anything is in the way.
+// choosing a lamp and a point on it, for a column of points at once, and asking whether anything is in the way. Paths
+// are whole ones from points on the floor, by path tracing, all surfaces grey; all triangles are there in both scenes,
+// and in one of them ten shine.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,6 +20,8 @@
 #include "core/base/math/frame.hpp"
 #include "core/base/math/samples.hpp"
 #include "core/base/math/sampling.hpp"
+#include "core/base/query.hpp"
+#include "core/estimate/path_walk.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/surfaces/triangle.hpp"
 #include "tests/bench/figure.hpp"
@@ -56,13 +60,28 @@ Lamps lamps(std::uint32_t count) {
     return all;
 }
 
-SceneData over_a_floor(const Lamps& lamps) {
+SceneData over_a_floor(const Lamps& lamps, float albedo_of_lamps = 0) {
     SceneData data;
     test::add(data, test::quad({0, 0, 0}, {0, 0, side}, {side, 0, 0}), test::diffuse(data, 0.5f));
-    const auto black = test::diffuse(data, 0);
+    const auto material = test::diffuse(data, albedo_of_lamps);
     for (std::size_t k = 0; k < lamps.meshes.size(); ++k)
         if (const float l = lamps.radiances[k]; !lamps.meshes[k].triangles.empty())
-            test::add(data, lamps.meshes[k], black).emission = AreaEmission{{l, l, l}};
+            test::add(data, lamps.meshes[k], material).emission = AreaEmission{{l, l, l}};
+    return data;
+}
+
+/// The same triangles, of which but a few shine.
+SceneData of_which_few_shine(const Lamps& lamps, std::size_t few) {
+    SceneData data = over_a_floor(lamps, 0.5f);
+    const std::size_t shapes = data.shapes.size();
+    for (std::size_t s = 1; s < shapes; ++s) {
+        Mesh dark = std::get<Mesh>(data.shapes[s].geometry);
+        auto& shining = std::get<Mesh>(data.shapes[s].geometry).triangles;
+        const std::size_t own = few * s / (shapes - 1) - few * (s - 1) / (shapes - 1);
+        dark.triangles.erase(dark.triangles.begin(), dark.triangles.begin() + std::ptrdiff_t(own));
+        shining.resize(own);
+        test::add(data, std::move(dark), data.shapes[s].material);
+    }
     return data;
 }
 
@@ -188,7 +207,43 @@ Cost cost(const Scene& scene) {
     return {(chosen - begun) * per_sample, (done - begun) * per_sample};
 }
 
+/// Processor time of a path, ns.
+double cost_of_paths(const Scene& scene) {
+    constexpr std::uint32_t samples = 64;
+    const PathWalk paths(scene, {.samples = samples, .all = true});
+    std::vector<Query> questions;
+    for (std::uint32_t i = 0; i < asked; ++i) {
+        const Vec2 at = triangle(Samples(12, i).next_2d());
+        questions.push_back({.stream = key_of("paths") + i,
+                             .geometry = 0,
+                             .primitive = i % 2,
+                             .u = at.x,
+                             .v = at.y,
+                             .outgoing = {0, 1, 0}});
+    }
+    std::vector<Rgb> answers(questions.size());
+    FirstRays first;
+    const double begun = thread_seconds();
+    paths.light(questions, 1, first, answers);
+    return (thread_seconds() - begun) * 1e9 / (double(asked) * samples);
+}
+
+void measure_paths() {
+    const Lamps lamps_there = lamps(100'000);
+    const Scene all(over_a_floor(lamps_there, 0.5f)), few(of_which_few_shine(lamps_there, 10));
+    std::vector<double> among_all, among_few, ratios;
+    for (int round = 0; round < 9; ++round) {
+        among_all.push_back(cost_of_paths(all));
+        among_few.push_back(cost_of_paths(few));
+        ratios.push_back(among_all.back() / among_few.back());
+    }
+    show("a path below 100000 lamps, ns", among_all);
+    show("below ten of them, ns", among_few);
+    quantity("lamps.paths", ratios, "times that of ten", 2, false);
+}
+
 void measure_all() {
+    measure_paths();
     constexpr std::array<std::uint32_t, 4> counts{10, 1000, 100'000, 1'000'000};
     std::vector<std::unique_ptr<Scene>> scenes;
     for (const auto count : counts) {

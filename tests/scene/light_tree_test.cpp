@@ -72,6 +72,11 @@ TEST_P(LightTrees, ChooseForManyPointsAsForEach) {
         auto alone = places;
         std::vector<LightChoice> chosen(points);
         tree.choose(from, places, chosen);
+        std::vector<LampMet> met;
+        for (std::size_t i = 0; i < points; ++i) met.push_back({from[i], chosen[i].light, 1});
+        std::vector<float> chances(points);
+        tree.chances(met, chances);
+        for (std::size_t i = 0; i < points; ++i) EXPECT_EQ(chances[i], tree.chance(from[i], chosen[i].light));
         for (std::size_t i = 0; i < points; ++i) {
             const auto one = tree.choose(from[i], alone[i]);
             ASSERT_EQ(one.has_value(), chosen[i].chance > 0);

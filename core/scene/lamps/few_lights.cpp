@@ -40,11 +40,12 @@ template <class All, class Get>
             get(all.two_sided)};
 }
 
-// Eight points from `first` on; the last one stands for those that are not there.
-[[gnu::always_inline]] inline EightPoints points_from(std::span<const LitPoint> from, std::size_t first) {
+// Eight points: point(k).
+template <class Point>
+[[gnu::always_inline]] inline EightPoints points_by(Point&& point_of) {
     EightPoints eight;
     for (std::uint32_t k = 0; k < at_once; ++k) {
-        const LitPoint& point = from[std::min(first + k, from.size() - 1)];
+        const LitPoint& point = point_of(k);
         eight.at.x[k] = point.position.x;
         eight.at.y[k] = point.position.y;
         eight.at.z[k] = point.position.z;
@@ -96,7 +97,9 @@ struct FewLights::Choosing {
         for (std::size_t first = 0; first < from.size(); first += at_once) work_on_eight(first);
     }
     [[gnu::always_inline]] void work_on_eight(std::size_t first) {
-        const EightPoints points = points_from(from, first);
+        // The last one stands for those that are not there.
+        const EightPoints points =
+            points_by([&](std::size_t k) -> const LitPoint& { return from[std::min(first + k, from.size() - 1)]; });
         std::array<EightNumbers, most> own;
         std::array<EightNumbers, most + 1> before;  // sums of all before each light
         Eight sum = all_of(0.0f), place;
@@ -131,33 +134,36 @@ void FewLights::choose(std::span<const LitPoint> from, std::span<float> places, 
     work_in_lanes(choosing);
 }
 
-/// How likely one light is: eight lights at a time.
+/// How likely some lights are: light by light, eight points at a time.
 struct FewLights::Looking {
     const Lights& lights;
     std::uint32_t count;
-    const LitPoint& from;
-    std::uint32_t place;
-    float chance = 0;
+    std::span<const std::uint32_t> place_of;
+    std::span<const LampMet> met;
+    std::span<float> chances;
 
     [[gnu::always_inline]] void work() {
-        alignas(32) Each own;
-        const EightPoints points = points_from({&from, 1}, 0);
-        for (std::uint32_t first = 0; first < count; first += at_once) {
-            const auto get = [&](const auto& row) { return eight_from<decltype(all_of(row[0]))>(row, first); };
-            const Eight eight = importance(lights_by(lights, get), points);
-            std::memcpy(&own[first], &eight, sizeof(eight));
+        for (std::size_t first = 0; first < met.size(); first += at_once) work_on_eight(first);
+    }
+    [[gnu::always_inline]] void work_on_eight(std::size_t first) {
+        const auto one_of = [&](std::size_t k) -> const LampMet& { return met[std::min(first + k, met.size() - 1)]; };
+        const EightPoints points = points_by([&](std::size_t k) -> const LitPoint& { return one_of(k).from; });
+        Mask place;
+        for (std::uint32_t k = 0; k < at_once; ++k) place[k] = std::int32_t(place_of[one_of(k).lamp]);
+        Eight sum = all_of(0.0f), own = all_of(0.0f);
+        for (std::uint32_t j = 0; j < count; ++j) {
+            const Eight one = importance(lights_by(lights, [&](const auto& row) { return all_of(row[j]); }), points);
+            sum += one;
+            own = select(place == all_of(std::int32_t(j)), one, own);
         }
-        float sum = 0;
-        for (std::uint32_t j = 0; j < count; ++j) sum += own[j];
-        chance = sum > 0 ? own[place] / sum : 0;
+        const EightNumbers found = laid_out(select(sum > 0, own / sum, all_of(0.0f)));
+        std::copy_n(found.begin(), std::min<std::size_t>(at_once, met.size() - first), chances.begin() + first);
     }
 };
 
-float FewLights::chance(const LitPoint& from, std::uint32_t light) const {
-    if (place_of_[light] == most) return 0;
-    Looking looking{lights_, count_, from, place_of_[light]};
+void FewLights::chances(std::span<const LampMet> met, std::span<float> chances) const {
+    Looking looking{lights_, count_, place_of_, met, chances};
     work_in_lanes(looking);
-    return looking.chance;
 }
 
 }  // namespace lightnet

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/scene/lamps/lamp_met.hpp"
 #include "core/scene/lamps/light_bounds.hpp"
 #include "core/scene/lamps/lit_point.hpp"
 
@@ -25,8 +26,8 @@ public:
     bool empty() const { return count_ == 0; }
     /// `places` become the places within the choices.
     void choose(std::span<const LitPoint> from, std::span<float> places, std::span<LightChoice> chosen) const;
-    /// The chance with which choose() finds a light.
-    float chance(const LitPoint& from, std::uint32_t light) const;
+    /// The chances with which choose() finds lights.
+    void chances(std::span<const LampMet> met, std::span<float> chances) const;
 
 private:
     using Each = std::array<float, most>;

@@ -89,6 +89,12 @@ struct Sums {
     float all() const { return before[width]; }
 };
 
+// Fetches it from memory.
+[[gnu::always_inline]] inline void expect(const Node& node) {
+    const auto* begin = reinterpret_cast<const std::byte*>(&node);
+    for (std::size_t line = 0; line < sizeof(Node); line += line_of_cache) __builtin_prefetch(begin + line);
+}
+
 // Which child a place within all is in: never one of no importance. Without a branch, as it can't be foretold.
 [[gnu::always_inline]] inline std::uint32_t child_at(float place, const Importances& all, const Sums& sums) {
     std::uint32_t child = 0;
@@ -142,8 +148,7 @@ struct LightTree::Choosing {
         u = std::clamp((place - sums.before[i]) / all[i], 0.0f, 0x1.fffffep-1f);
         choice = {node.child[i], choice.chance * (all[i] / sums.all())};
         const bool more = !(node.leaves >> i & 1);
-        const auto* next = reinterpret_cast<const std::byte*>(&nodes[more ? choice.light : 0]);
-        for (std::size_t line = 0; line < sizeof(Node); line += line_of_cache) __builtin_prefetch(next + line);
+        expect(nodes[more ? choice.light : 0]);
         return more;
     }
 };
@@ -164,31 +169,61 @@ std::optional<LightChoice> LightTree::choose(const LitPoint& from, float& u) con
     return choice.chance > 0 ? std::optional(choice) : std::nullopt;
 }
 
-/// How likely one light is.
+/// How likely some lights are.
 struct LightTree::Looking {
     std::span<const Node> nodes;
-    const LitPoint& from;
-    std::uint32_t place;
-    float chance = 1;
+    std::span<const std::uint32_t> place_of;
+    std::span<const LampMet> met;
+    std::span<float> chances;
 
+    // Upwards, level by level, for the reasons that choosing has.
     [[gnu::always_inline]] void work() {
-        for (;;) {
-            const Node& node = nodes[place / width];
-            const Importances all = importances(node, from);
-            const float own = all[place % width];
-            chance = own > 0 ? chance * (own / Sums(all).all()) : 0;
-            if (!(own > 0) || place < width) return;  // a child of the first node
-            place = node.parent;
+        for (std::size_t first = 0; first < met.size(); first += lanes) {
+            std::array<std::size_t, lanes> open;
+            std::array<std::uint32_t, lanes> place;
+            std::size_t count = 0;
+            for (std::size_t i = first; i < std::min(first + lanes, met.size()); ++i) {
+                place[i - first] = place_of[met[i].lamp];
+                chances[i] = place[i - first] == none ? 0 : 1;
+                if (place[i - first] == none) continue;
+                expect(nodes[place[i - first] / width]);
+                open[count++] = i;
+            }
+            while (count > 0) {
+                std::size_t kept = 0;
+                for (std::size_t k = 0; k < count; ++k) {
+                    const std::size_t i = open[k];
+                    open[kept] = i;
+                    kept += goes_up(met[i].from, place[i - first], chances[i]);
+                }
+                count = kept;
+            }
         }
+    }
+    /// From a child to its node's own place: is there one?
+    [[gnu::always_inline]] bool goes_up(const LitPoint& from, std::uint32_t& place, float& chance) const {
+        const Node& node = nodes[place / width];
+        const Importances all = importances(node, from);
+        const float own = all[place % width];
+        chance = own > 0 ? chance * (own / Sums(all).all()) : 0;
+        if (!(own > 0) || place < width) return false;  // a child of the first node
+        place = node.parent;
+        expect(nodes[place / width]);
+        return true;
     }
 };
 
 float LightTree::chance(const LitPoint& from, std::uint32_t light) const {
-    if (!few_.empty()) return few_.chance(from, light);
-    if (place_of_[light] == none) return 0;
-    Looking looking{nodes_, from, place_of_[light]};
+    const LampMet one{from, light, 1};
+    float chance = 0;
+    chances({&one, 1}, {&chance, 1});
+    return chance;
+}
+
+void LightTree::chances(std::span<const LampMet> met, std::span<float> chances) const {
+    if (!few_.empty()) return few_.chances(met, chances);
+    Looking looking{nodes_, place_of_, met, chances};
     work_in_lanes(looking);
-    return looking.chance;
 }
 
 LightTree::LightTree(const std::vector<LightBounds>& lights) {

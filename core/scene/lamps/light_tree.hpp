@@ -10,6 +10,7 @@
 
 #include "core/base/math/vec.hpp"
 #include "core/scene/lamps/few_lights.hpp"
+#include "core/scene/lamps/lamp_met.hpp"
 #include "core/scene/lamps/light_bounds.hpp"
 #include "core/scene/lamps/lit_point.hpp"
 
@@ -30,6 +31,8 @@ public:
     void choose(std::span<const LitPoint> from, std::span<float> places, std::span<LightChoice> chosen) const;
     /// The chance with which choose() finds a light.
     float chance(const LitPoint& from, std::uint32_t light) const;
+    /// The same of many.
+    void chances(std::span<const LampMet> met, std::span<float> chances) const;
 
     /// Are there more lights than the nearest cache is likely to hold?
     bool large() const { return nodes_.size() > 64; }

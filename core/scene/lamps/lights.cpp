@@ -266,10 +266,22 @@ void Lights::sample_map(const PointsAsked& some, LightSamples& samples) const {
 }
 
 float Lights::pdf(const LitPoint& from, Vec3 direction, const SurfacePoint& on) const {
+    const auto found = met(from, direction, on);
+    float density = 0;
+    if (found) pdfs({&*found, 1}, {&density, 1});
+    return density;
+}
+
+std::optional<LampMet> Lights::met(const LitPoint& from, Vec3 direction, const SurfacePoint& on) const {
     const auto lamp = lamps_.lamp_at(on);
-    if (!lamp) return 0;
-    const float density = share_of_tree_ * lamps_.pdf(*lamp, from.position, direction, on);
-    return many() ? density * tree_.chance(from, std::uint32_t(*lamp)) : density;
+    if (!lamp) return {};
+    return LampMet{from, std::uint32_t(*lamp), share_of_tree_ * lamps_.pdf(*lamp, from.position, direction, on)};
+}
+
+void Lights::pdfs(std::span<const LampMet> met, std::span<float> pdfs) const {
+    std::ranges::fill(pdfs, 1.0f);
+    if (many()) tree_.chances(met, pdfs);
+    for (std::size_t i = 0; i < met.size(); ++i) pdfs[i] *= met[i].density;
 }
 
 float Lights::environment_pdf(const Ray& ray) const {

@@ -12,6 +12,7 @@
 #include "core/scene/data/scene_data.hpp"
 #include "core/scene/lamps/area_lamps.hpp"
 #include "core/scene/lamps/environment.hpp"
+#include "core/scene/lamps/lamp_met.hpp"
 #include "core/scene/lamps/light_tree.hpp"
 #include "core/scene/lamps/lit_point.hpp"
 #include "core/scene/lamps/suns.hpp"
@@ -62,6 +63,9 @@ public:
     const FlatLamp* only_flat_lamp() const { return only_flat_lamp_ ? &*only_flat_lamp_ : nullptr; }
     /// Density with which sample() finds the emitting point `on`, which lies in `direction` from `from`. 0: not a lamp.
     float pdf(const LitPoint& from, Vec3 direction, const SurfacePoint& on) const;
+    /// The same in two steps: which lamp it is, and then how likely those are.
+    std::optional<LampMet> met(const LitPoint& from, Vec3 direction, const SurfacePoint& on) const;
+    void pdfs(std::span<const LampMet> met, std::span<float> pdfs) const;
     /// The same of the environment along a ray.
     float environment_pdf(const Ray& ray) const;
     /// Does sample() choose the environment at all?
