@@ -42,9 +42,10 @@ private:
     std::vector<std::jthread> threads_;  // started when there is work; first to go
 };
 
-/// Calls work(first, last) for pieces of 0 … `count` on all cores, as far as there is more than one piece.
+/// Calls work(first, last) for pieces of 0 … `count`, on all cores if there is more than one. It must not throw.
 template <class Work>
 void in_pieces(std::size_t count, const Work& work, std::size_t piece = 1 << 14) {
+    if (count <= piece) return work(0, count);
     Workshop workshop;
     for (std::size_t first = 0; first < count; first += piece)
         workshop.add([&work, first, last = std::min(count, first + piece)] { work(first, last); });

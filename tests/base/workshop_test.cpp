@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <numeric>
+#include <vector>
 
 namespace lightnet::workshop_test {
 namespace {
@@ -19,6 +20,18 @@ TEST(Workshop, DoesAllPiecesOnce) {
         workshop.add([&done] { done[0] = 7; });  // and goes on afterwards
         workshop.finish();
         EXPECT_EQ(done[0], 7);
+    }
+}
+
+TEST(Pieces, AreAllThereOnce) {
+    for (const std::size_t count : {0u, 1u, 9u, 10u, 11u, 1000u}) {
+        std::vector<int> done(count);
+        const auto work = [&](std::size_t first, std::size_t last) {
+            EXPECT_LE(last - first, 10u);
+            for (std::size_t i = first; i < last; ++i) ++done[i];
+        };
+        in_pieces(count, work, 10);
+        EXPECT_EQ(done, std::vector<int>(count, 1));
     }
 }
 

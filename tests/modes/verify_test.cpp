@@ -72,17 +72,20 @@ protected:
 
 TEST_F(Verify, OfHonestHostsChangesNoByteAndTakesNobodyOut) {
     const Daemon one(folder), two(folder), three(folder);
-    const auto honest = alone(cornell, small);
+    // Of a tenth of few tiles there may be none: they are handed out together where they are quick.
+    const std::pair<const char*, Words> parts[]{{"100%", small}, {"0.1", larger}};
+    const std::string honest[]{alone(cornell, small), alone(cornell, larger)};
     for (const auto& hosts :
          {whole(one.endpoint) + whole(two.endpoint),
           holds(one.endpoint, "image = 1, lighting = 1") + holds(two.endpoint, "direct = 1, bounce = 1") +
               holds(three.endpoint, "direct = 1, bounce = 1"),
           holds(one.endpoint, "image = 1, direct = 1, lighting = 1") + whole(two.endpoint) +
               holds(three.endpoint, "bounce = 1, image = 1")})
-        for (const auto* part : {"100%", "0.1"}) {
-            const auto end = on(cornell, small, hosts, {"--verify", part});
+        for (std::size_t i = 0; i < std::size(parts); ++i) {
+            const auto& [part, picture] = parts[i];
+            const auto end = on(cornell, picture, hosts, {"--verify", part});
             EXPECT_EQ(end.code, 0) << end.said;
-            EXPECT_TRUE(end.picture == honest) << hosts << end.said;
+            EXPECT_TRUE(end.picture == honest[i]) << hosts << end.said;
             EXPECT_GT(counter(end.report, "verified"), 0) << hosts;
             EXPECT_THAT(end.said, Not(HasSubstr("falsely")));
         }

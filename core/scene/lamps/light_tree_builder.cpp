@@ -243,12 +243,14 @@ std::vector<LightTree::Node> LightTreeBuilder::build() {
     Branch tree = grow({0, count}, count > many_at_once ? many_at_once : 0, left);
     const std::size_t top = tree.nodes.size();
     std::vector<Branch> branches(left.size());
-    const auto grow_one = [&](std::size_t i, std::size_t) {
+    const auto grow_some = [&](std::size_t first, std::size_t last) {
         std::vector<Below> none;
-        branches[i] = grow(left[i].part, 0, none);
-        close(branches[i]);
+        for (std::size_t i = first; i < last; ++i) {
+            branches[i] = grow(left[i].part, 0, none);
+            close(branches[i]);
+        }
     };
-    in_pieces(left.size(), grow_one, 1);
+    in_pieces(left.size(), grow_some, 1);
     std::size_t size = top;
     for (const Branch& branch : branches) size += branch.nodes.size();
     tree.nodes.reserve(size);
@@ -258,6 +260,7 @@ std::vector<LightTree::Node> LightTreeBuilder::build() {
         branches[i] = {};  // its memory is of use to the next
     }
     for (std::size_t n = top; n > 0; --n) close(tree, n - 1);
+    tree.nodes.shrink_to_fit();
     return std::move(tree.nodes);
 }
 
