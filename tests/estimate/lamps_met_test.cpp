@@ -15,7 +15,7 @@ namespace {
 
 using namespace test;
 
-// Of several groups; the fifth is dark, and all are within a ball that is no lamp.
+// The sixth is dark, and all are within a ball that is no lamp.
 SceneData among(std::uint32_t lamps) {
     SceneData data;
     const auto black = diffuse(data, 0);

@@ -89,10 +89,10 @@ struct Sums {
     float all() const { return before[width]; }
 };
 
-// Fetches it from memory.
-[[gnu::always_inline]] inline void expect(const Node& node) {
-    const auto* begin = reinterpret_cast<const std::byte*>(&node);
-    for (std::size_t line = 0; line < sizeof(Node); line += line_of_cache) __builtin_prefetch(begin + line);
+// Where a node lies in memory. Who wants it fetched does so himself: compilers leave out calls of a function that does
+// nothing else.
+[[gnu::always_inline]] inline const std::byte* bytes_of(const Node& node) {
+    return reinterpret_cast<const std::byte*>(&node);
 }
 
 // Which child a place within all is in: never one of no importance. Without a branch, as it can't be foretold.
@@ -104,6 +104,22 @@ struct Sums {
     return child;
 }
 
+// Takes `count` of `open` from level to level, goes_on(each), until none does. Not one after the other: one step of a
+// point waits for the one before it, but not for other points; and nodes that some go to are fetched meanwhile.
+template <class GoesOn>
+[[gnu::always_inline]] inline void level_by_level(std::array<std::size_t, lanes>& open, std::size_t count,
+                                                  GoesOn&& goes_on) {
+    while (count > 0) {
+        std::size_t kept = 0;
+        for (std::size_t k = 0; k < count; ++k) {
+            const std::size_t i = open[k];
+            open[kept] = i;
+            kept += goes_on(i);
+        }
+        count = kept;
+    }
+}
+
 }  // namespace
 
 /// Lights for many points.
@@ -113,8 +129,6 @@ struct LightTree::Choosing {
     std::span<float> places;
     std::span<LightChoice> chosen;
 
-    // Level by level, not point by point: one step of a point waits for the one before it, but not for other points;
-    // and the nodes to which some go down are fetched while others choose theirs.
     [[gnu::always_inline]] void work() {
         for (std::size_t first = 0; first < from.size(); first += lanes) {
             std::array<std::size_t, lanes> open;
@@ -123,15 +137,10 @@ struct LightTree::Choosing {
                 chosen[i] = {0, 1};
                 open[count++] = i;
             }
-            while (count > 0) {
-                std::size_t kept = 0;
-                for (std::size_t k = 0; k < count; ++k) {
-                    const std::size_t i = open[k];
-                    open[kept] = i;
-                    kept += goes_down(from[i], places[i], chosen[i]);
-                }
-                count = kept;
-            }
+            level_by_level(
+                open, count, [&](std::size_t i) __attribute__((always_inline)) {
+                    return goes_down(from[i], places[i], chosen[i]);
+                });
         }
     }
     /// From a node to one of its children: is that a node again?
@@ -148,7 +157,8 @@ struct LightTree::Choosing {
         u = std::clamp((place - sums.before[i]) / all[i], 0.0f, 0x1.fffffep-1f);
         choice = {node.child[i], choice.chance * (all[i] / sums.all())};
         const bool more = !(node.leaves >> i & 1);
-        expect(nodes[more ? choice.light : 0]);
+        const std::byte* next = bytes_of(nodes[more ? choice.light : 0]);
+        for (std::size_t line = 0; line < sizeof(Node); line += line_of_cache) __builtin_prefetch(next + line);
         return more;
     }
 };
@@ -176,7 +186,6 @@ struct LightTree::Looking {
     std::span<const LampMet> met;
     std::span<float> chances;
 
-    // Upwards, level by level, for the reasons that choosing has.
     [[gnu::always_inline]] void work() {
         for (std::size_t first = 0; first < met.size(); first += lanes) {
             std::array<std::size_t, lanes> open;
@@ -186,18 +195,14 @@ struct LightTree::Looking {
                 place[i - first] = place_of[met[i].lamp];
                 chances[i] = place[i - first] == none ? 0 : 1;
                 if (place[i - first] == none) continue;
-                expect(nodes[place[i - first] / width]);
+                const std::byte* own = bytes_of(nodes[place[i - first] / width]);
+                for (std::size_t line = 0; line < sizeof(Node); line += line_of_cache) __builtin_prefetch(own + line);
                 open[count++] = i;
             }
-            while (count > 0) {
-                std::size_t kept = 0;
-                for (std::size_t k = 0; k < count; ++k) {
-                    const std::size_t i = open[k];
-                    open[kept] = i;
-                    kept += goes_up(met[i].from, place[i - first], chances[i]);
-                }
-                count = kept;
-            }
+            level_by_level(
+                open, count, [&](std::size_t i) __attribute__((always_inline)) {
+                    return goes_up(met[i].from, place[i - first], chances[i]);
+                });
         }
     }
     /// From a child to its node's own place: is there one?
@@ -208,7 +213,8 @@ struct LightTree::Looking {
         chance = own > 0 ? chance * (own / Sums(all).all()) : 0;
         if (!(own > 0) || place < width) return false;  // a child of the first node
         place = node.parent;
-        expect(nodes[place / width]);
+        const std::byte* next = bytes_of(nodes[place / width]);
+        for (std::size_t line = 0; line < sizeof(Node); line += line_of_cache) __builtin_prefetch(next + line);
         return true;
     }
 };
