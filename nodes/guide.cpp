@@ -31,7 +31,7 @@ public:
     explicit Guide(const NodeContext& here)
         : rehearsal_(here.rehearsal()),
           key_(here.key()),
-          walk_(here.scene(), {}),
+          walk_(here.scene(), {.all = true}),
           paths_(static_cast<std::size_t>(here.integer("paths"))),
           always_(here.text("when") == "always"),
           kept_(here.kept()),
@@ -161,7 +161,7 @@ private:
     static constexpr std::size_t paths_per_shard = 1024;  // some ms
     static constexpr std::size_t records_per_shard = 65536;
     // How many times less variance × work there must be after each round: a guide that has learnt little helps little.
-    static constexpr std::array<double, rounds> least_gain{0, 0.8, 0.9, 1.05};
+    static constexpr std::array<double, rounds> least_gain{0, 0.8, 0.95, 1.2};
 
     Rehearsal& rehearsal_;
     Key key_;

@@ -1,6 +1,7 @@
 // Surfaces with gloss that many light paths have come to at once, sorted by their models.
 #pragma once
 
+#include "core/estimate/guided_columns.hpp"
 #include "core/scene/surfaces/glossy_surfaces.hpp"
 
 namespace lightnet {
@@ -42,11 +43,11 @@ private:
         with(Kind::principled, self.principled_);
     }
 
-    CoatedSurfaces<GgxLaw> coated_;
-    CoatedSurfaces<BeckmannLaw> coated_beckmann_;
-    MetalSurfaces<GgxLaw> metal_;
-    MetalSurfaces<BeckmannLaw> metal_beckmann_;
-    PrincipledSurfaces principled_;
+    Guided<CoatedSurfaces<GgxLaw>> coated_;
+    Guided<CoatedSurfaces<BeckmannLaw>> coated_beckmann_;
+    Guided<MetalSurfaces<GgxLaw>> metal_;
+    Guided<MetalSurfaces<BeckmannLaw>> metal_beckmann_;
+    Guided<PrincipledSurfaces> principled_;
 };
 
 }  // namespace lightnet

@@ -16,7 +16,7 @@ struct GuidedColumns::Sides {
     }
 };
 
-void GuidedColumns::find(const LightGuide& guide, const LambertianSurfaces& surfaces) {
+void GuidedColumns::find_cells(const LightGuide& guide, const MeshPoints& surfaces) {
     count_ = surfaces.size();
     for (std::size_t i = 0; i < count_; ++i) {
         position_.set(i, surfaces.position(i));
@@ -38,14 +38,14 @@ struct GuidedColumns::Warping {
         for (std::size_t i = 0; i < all.count_; ++i) {
             const Vec2 u = all.numbers_[i];
             const SquarePoint at = GuideSquare::warped(u, all.column_of_[i], all.cell_of_[i]);
-            const bool known = all.known_[i] != 0;
-            all.warped_.set(i, {known ? at.place.x : u.x, known ? at.place.y : u.y});
-            all.favour_[i] = known ? at.density : 1;
+            const bool leads = all.leads_[i] != 0;
+            all.warped_.set(i, {leads ? at.place.x : u.x, leads ? at.place.y : u.y});
+            all.favour_[i] = leads ? at.density : 1;
         }
     }
 };
 
-void GuidedColumns::warp(LambertianSurfaces& surfaces) {
+void GuidedColumns::warp_numbers(MeshPoints& surfaces) {
     static const GuideSquare even;
     for (std::size_t i = 0; i < count_; ++i) {
         const GuideSquare& square = cells_[i] ? cells_[i]->square : even;
@@ -76,6 +76,36 @@ struct GuidedColumns::Places {
 };
 
 // As GuidedPoint::pdf().
+struct GuidedColumns::Densities {
+    GuidedColumns& all;
+
+    [[gnu::always_inline]] void work() {
+        for (std::size_t i = 0; i < all.count_; ++i) {
+            const float pdf = all.pdf_[i], height = all.height_[i];
+            const float led = guided_pdf(pdf, all.chance_[i], height, all.density_[i]);
+            const bool leads = (all.known_[i] != 0) & (all.chance_[i] > 0) & (pdf > 0) & (height > 0);
+            all.guided_pdf_[i] = leads ? led : pdf;
+        }
+    }
+};
+
+/// Of the directions whose density is pdf_ by surfaces alone.
+void GuidedColumns::find_densities() {
+    Places places{*this};
+    work_in_lanes(places);
+    for (std::size_t i = 0; i < count_; ++i)
+        density_[i] = cells_[i] && height_[i] > 0 ? cells_[i]->square.density(place_[i]) : 0;
+    Densities densities{*this};
+    work_in_lanes(densities);
+}
+
+void GuidedColumns::favour(const Columns3& directions, const Column& pdf, const Flags& found) {
+    direction_ = directions;
+    pdf_ = pdf;
+    find_densities();
+    for (std::size_t i = 0; i < count_; ++i) favour_[i] = found[i] ? guided_pdf_[i] / pdf_[i] : 1;
+}
+
 struct GuidedColumns::Shares {
     GuidedColumns& all;
     Heuristic heuristic;
@@ -83,10 +113,8 @@ struct GuidedColumns::Shares {
     [[gnu::always_inline]] void work() {
         const Heuristic by = heuristic;
         for (std::size_t i = 0; i < all.count_; ++i) {
-            const float height = all.height_[i], found = all.density_[i] * height * inverse_pi;
-            const float guided = height > 0 ? found : 0;
-            const float pdf = all.known_[i] != 0 ? guided : all.pdf_[i];
-            const float part = lightnet::share(squares(by, all.from_infinity_[i] != 0), all.lamp_pdf_[i], pdf);
+            const bool squared = squares(by, all.from_infinity_[i] != 0);
+            const float part = lightnet::share(squared, all.lamp_pdf_[i], all.guided_pdf_[i]);
             all.shares_[i] = all.bare_[i] != 0 ? 1 : part;
         }
     }
@@ -98,10 +126,7 @@ void GuidedColumns::share(const RaysToLamp& rays, Heuristic heuristic) {
     pdf_ = rays.pdf;
     bare_ = rays.bare;
     from_infinity_ = rays.from_infinity;
-    Places places{*this};
-    work_in_lanes(places);
-    for (std::size_t i = 0; i < count_; ++i)
-        density_[i] = cells_[i] && height_[i] > 0 ? cells_[i]->square.density(place_[i]) : 0;
+    find_densities();
     Shares shares{*this, heuristic};
     work_in_lanes(shares);
 }

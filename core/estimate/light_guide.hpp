@@ -87,19 +87,28 @@ struct GuideSide {
     }
 };
 
-/// One point as a guide knows it. Directions follow the guide where the surface scatters evenly, and else the BSDF
-/// alone.
-/// DECISIONS: guides-are-squares
+/// Density of a direction, per steradian, if of all those that are drawn that share follows a guide, and would else go
+/// by the cosine. `bsdf`: by the BSDF alone; `height`: of the direction above the surface; `density`: of its place.
+[[gnu::always_inline]] inline float guided_pdf(float bsdf, float share, float height, float density) {
+    return bsdf + share * (height * inverse_pi) * (density - 1);
+}
+
+/// One point as a guide knows it. Directions follow the guide where the BSDF alone would go by the cosine: all those of
+/// a diffuse surface, and of one with gloss those of its diffuse lobe.
+/// DECISIONS: guided-by-the-cosine
 class GuidedPoint final : public Guidance {
 public:
     GuidedPoint() = default;
-    GuidedPoint(const GuideCell* cell, const GuideSide& side, bool even)
-        : cell_(cell), frame_(Frame::around(side.up)), turned_(side.turned), leads_(even) {}
+    /// `choices`: of the surface's BSDF.
+    GuidedPoint(const GuideCell* cell, const GuideSide& side, CosineChoices choices)
+        : cell_(cell), frame_(Frame::around(side.up)), turned_(side.turned), choices_(choices) {}
 
     explicit operator bool() const { return cell_; }
     float radiance() const { return cell_->radiance; }
     /// Do directions follow it?
-    bool leads() const { return leads_; }
+    bool leads() const { return choices_.chance() > 0; }
+    /// Those that are drawn by this choice?
+    bool leads(float choice) const { return choices_.contain(choice); }
     SquarePoint warped(Vec2 u) const { return cell_->square.warp(u); }
     float density(Vec2 place) const { return cell_->square.density(place); }
     /// How high a direction stands on the guide's side.
@@ -114,16 +123,16 @@ public:
         return normalize(frame_.to_world(local));
     }
     float pdf(Vec3 direction, float bsdf) const override {
-        if (!leads_) return bsdf;
         const float z = height(direction);
-        return z > 0 ? density(place(direction)) * z * inverse_pi : 0;
+        if (!leads() || !(bsdf > 0) || !(z > 0)) return bsdf;
+        return guided_pdf(bsdf, choices_.chance(), z, density(place(direction)));
     }
 
 private:
     const GuideCell* cell_ = nullptr;
     Frame frame_;
     bool turned_ = false;
-    bool leads_ = false;
+    CosineChoices choices_;
 };
 
 /// Müller, Gross & Novák 2017, "Practical Path Guiding for Efficient Light-Transport Simulation": a tree over surfaces,
@@ -163,10 +172,10 @@ public:
     /// The same of `count` positions, with turn_of() their sides.
     void find(const Columns3& positions, const Flags& sides, std::size_t count,
               std::array<const GuideCell*, lanes>& cells) const;
-    /// The point as it knows it; `even`: the surface scatters evenly. False: it knows nothing.
-    GuidedPoint at(Vec3 position, const GuideSide& side, bool even) const {
+    /// The point as it knows it. False: it knows nothing.
+    GuidedPoint at(Vec3 position, const GuideSide& side, CosineChoices choices) const {
         const GuideCell* cell = find(position, side);
-        return cell ? GuidedPoint(cell, side, even) : GuidedPoint();
+        return cell ? GuidedPoint(cell, side, choices) : GuidedPoint();
     }
     std::size_t size() const { return cells_.size(); }
 

@@ -9,18 +9,15 @@ template <bool guided, class Choice, class On>
 void PathVertices::go_on_from_visitor(const Visitor& visitor, std::span<const Vec2> directions, Choice&& choice,
                                       On&& on) {
     const Gathering at = gathering(visitor);
-    if (guided && guide_ && guided_[visitor.point].leads()) {
-        const auto step = guided_step(at, guided_[visitor.point], directions[visitor.path]);
-        if (!step) return;
-        if (learns_) note_step(side_of(at), *step);
-        return on(visitor.path, *step);
-    }
     const float chosen = at.bsdf.chooses() ? choice(visitor.path) : 0;
-    const auto sample = at.bsdf.sample(at.outgoing, chosen, directions[visitor.path], at.lobes);
+    const Vec2 u = directions[visitor.path];
+    const GuidedPoint known = guided && guide_ ? guided_[visitor.point] : GuidedPoint();
+    const bool leads = guided && known && known.leads(chosen);
+    const auto sample = leads ? led(at, known, u) : at.bsdf.sample(at.outgoing, chosen, u, at.lobes);
     if (!sample) return;
     Step step = step_to(at, *sample);
-    if (guided && guide_ && guided_[visitor.point] && sample->lobe != lobe::specular)
-        step.known = guided_[visitor.point].radiance();
+    if (guided && known && sample->lobe != lobe::specular)
+        follow(known.radiance(), known.pdf(sample->incoming, sample->pdf) / sample->pdf, step);
     if (guided && learns_) note_step(side_of(at), step);
     on(visitor.path, step);
 }
@@ -29,21 +26,22 @@ template <bool guided, class On>
 [[gnu::always_inline]] inline void PathVertices::go_on_from_plain(std::size_t i, On&& on) {
     const auto& steps = plain_.steps();
     if (steps.pdf[i] == 0) return;
-    BsdfSample step{steps.incoming[i], plain_.albedo(i), steps.pdf[i], lobe::diffuse};
-    float favour = 1, known = -1;
-    if constexpr (guided) {
-        if (guide_) favour = guided_plain_.favour(i), known = guided_plain_.radiance(i);
-        step.weight *= 1 / favour, step.pdf *= favour;
-        if (learns_) note_plain_step(i, favour);
-    }
     const Vec3 at = plain_.position(i);
     const LitPoint from = only_lamp_ ? LitPoint(at)  // nothing to choose
                                      : lit_point(at, plain_.normal(i), plain_.outgoing(i));
-    on(plain_.who(i), Step{step, plain_.ray_from(i, step.incoming), from, nullptr, known, favour});
+    Step step{{steps.incoming[i], plain_.albedo(i), steps.pdf[i], lobe::diffuse},
+              plain_.ray_from(i, steps.incoming[i]),
+              from,
+              nullptr};
+    if constexpr (guided) {
+        if (guide_) follow(plain_.guided.radiance(i), plain_.guided.favour(i), step);
+        if (learns_) note_plain_step(i, step.favour);
+    }
+    on(plain_.who(i), step);
 }
 
 template <bool guided, class Glossy, class On>
-void PathVertices::go_on_from_glossy(const Glossy& glossy, std::size_t i, const GuidedPoint& known, On&& on) {
+void PathVertices::go_on_from_glossy(const Glossy& glossy, std::size_t i, On&& on) {
     const auto& steps = glossy.steps();
     if (!steps.found[i]) return;
     const Vec3 weight = steps.weight[i];
@@ -53,44 +51,29 @@ void PathVertices::go_on_from_glossy(const Glossy& glossy, std::size_t i, const 
         lit_point_of(glossy, i),
         nullptr};
     if constexpr (guided) {
-        if (guide_ && known && step.sample.lobe != lobe::specular) step.known = known.radiance();
+        if (guide_ && steps.rough[i]) follow(glossy.guided.radiance(i), glossy.guided.favour(i), step);
         if (learns_) note_step(side_of(glossy, i), step);
     }
     on(glossy.who(i), step);
 }
 
 inline void PathVertices::find_guided() {
-    guided_plain_.find(*guide_, plain_);
+    each_group([&](auto& group) { group.guided.find(*guide_, group); });
     guided_.resize(points_.size());
     for (std::size_t i = 0; i < points_.size(); ++i) {
         const SurfacePoint& point = points_[i];
-        const GuideSide side = GuideSide::of(point.normal, point.shading.z, views_[i].outgoing);
+        const GuideSide side = GuideSide::of(point.normal, bsdfs_[i].shading().z, views_[i].outgoing);
         const bool rough = bsdfs_[i].lobes() & views_[i].lobes & lobe::rough;
-        const bool even = bsdfs_[i].diffuse_albedo();
-        guided_[i] = rough ? guide_->at(point.position, side, even) : GuidedPoint();
-    }
-    for (std::size_t s = 0; s < stop_count_; ++s) {
-        const std::size_t i = stops_[s].index;
-        glossy_.of(stops_[s].kind, [&](const auto& group) {
-            guided_glossy_[s] = guide_->at(group.position(i), side_of(group, i), false);
-        });
+        const CosineChoices choices = bsdfs_[i].cosine_choices(views_[i].outgoing, views_[i].lobes);
+        guided_[i] = rough ? guide_->at(point.position, side, choices) : GuidedPoint();
     }
 }
 
-inline std::optional<PathVertices::Step> PathVertices::guided_step(const Gathering& at, const GuidedPoint& guided,
-                                                                   Vec2 u) {
-    BsdfSample sample;
-    sample.incoming = guided.direction(guided.warped(u).place);
-    sample.lobe = lobe::glossy;
-    const auto [value, pdf] = at.bsdf.value_and_pdf(at.outgoing, sample.incoming, at.lobes);
-    if (is_black(value)) return {};
-    sample.pdf = guided.pdf(sample.incoming, pdf);
-    if (!(sample.pdf > 0)) return {};
-    sample.weight = value / sample.pdf;
-    Step step = step_to(at, sample);
-    step.known = guided.radiance();
-    step.favour = pdf > 0 ? sample.pdf / pdf : 1;
-    return step;
+inline std::optional<BsdfSample> PathVertices::led(const Gathering& at, const GuidedPoint& known, Vec2 u) {
+    const Vec3 incoming = known.direction(known.warped(u).place);
+    const auto [value, pdf] = at.bsdf.value_and_pdf(at.outgoing, incoming, at.lobes);
+    if (!(pdf > 0)) return {};
+    return BsdfSample{incoming, value / pdf, pdf, lobe::diffuse};
 }
 
 inline void PathVertices::note_step(const GuideSide& side, const Step& step) {

@@ -29,7 +29,6 @@ public:
     void clear() {
         plain_.clear(), glossy_.clear();
         points_.clear(), views_.clear(), bsdfs_.clear(), visitors_.clear(), guided_.clear();
-        guided_plain_.clear();
         stop_count_ = 0;
     }
     bool full() const { return stop_count_ == lanes; }
@@ -97,7 +96,7 @@ public:
         for (std::size_t i = 0; i < plain_.size(); ++i) {
             const SurfacePoint point = plain_.point(i);
             const Bsdf bsdf = plain_.bsdf(i);
-            const GuidedPoint guided = guided_plain_.point(i);
+            const GuidedPoint guided = plain_.guided.point(i, plain_.cosine_choices(i));
             with(plain_.who(i),
                  Gathering{point, bsdf, plain_.outgoing(i), lobe::all, nullptr, guided ? &guided : nullptr});
         }
@@ -105,7 +104,9 @@ public:
             for (std::size_t i = 0; i < group.size(); ++i) {
                 const SurfacePoint point = group.point(i);
                 const Bsdf bsdf = group.bsdf(i);
-                with(group.who(i), Gathering{point, bsdf, group.outgoing(i), group.lobes(i)});
+                const GuidedPoint guided = group.guided.point(i, group.cosine_choices(i));
+                with(group.who(i),
+                     Gathering{point, bsdf, group.outgoing(i), group.lobes(i), nullptr, guided ? &guided : nullptr});
             }
         });
     }
@@ -128,7 +129,10 @@ public:
                 add(path, ray_to_lamp(scene_, at, LampNumbers{choice, numbers.places[path]}, heuristic));
             });
         for (std::size_t next = 0; next < visitors_.size();) next = look_from_some(next, numbers, heuristic, add);
-        const auto append = [&](const auto& group, const RaysToLamp& found, auto&& part) {
+        each_group([&](auto& group) {
+            if (group.size() == 0) return;
+            const RaysToLamp& found = look_from(group, numbers, heuristic);
+            if (guide_) group.guided.share(found, heuristic);
             // Also what finds nothing is written, and then written over: what a point finds can't be foretold.
             std::size_t end = to.rays.size();
             to.resize(end + group.size());
@@ -137,19 +141,11 @@ public:
                 const Vec3 light = found.light[i];
                 to.rays[end] = {found.origin[i], found.direction[i], found.far[i]};
                 to.light[end] = weight(path) * Rgb{light.x, light.y, light.z};
-                part(i, to.light[end]);
+                if (guide_) to.light[end] *= group.guided.share(i);
                 to.sums[end] = sum(path) + found.group[i];
                 end += found.found[i];
             }
             to.resize(end);
-        };
-        const auto all_of_it = [](std::size_t, Rgb&) {};
-        glossy_.each([&](auto& group) { append(group, look_from_glossy(group, numbers, heuristic), all_of_it); });
-        if (plain_.size() == 0) return;
-        const RaysToLamp& found = look_from_plain(numbers, heuristic);
-        if (guide_) guided_plain_.share(found, heuristic);
-        append(plain_, found, [&](std::size_t i, Rgb& light) {
-            if (guide_) light *= guided_plain_.share(i);
         });
     }
 
@@ -172,13 +168,15 @@ public:
     template <bool guided = false, class Choice, class On>
     void scatter(std::span<const Vec2> directions, Choice&& choice, On&& on) {
         for (std::size_t i = 0; i < plain_.size(); ++i) plain_.set_numbers(i, directions[plain_.who(i)]);
-        if (guided && guide_) guided_plain_.warp(plain_);
+        if (guided && guide_) plain_.guided.warp(plain_);
         glossy_.each([&](auto& group) {
             for (std::size_t i = 0; i < group.size(); ++i) {
                 group.set_numbers(i, directions[group.who(i)]);
                 if (group.chooses) group.set_choice(i, choice(group.who(i)));
             }
+            if (guided && guide_) group.guided.warp(group);
             group.sample();
+            if (guided && guide_) group.guided.favour(group.steps().incoming, group.steps().pdf, group.steps().rough);
         });
         if (plain_.size() > 0) plain_.sample();
         if (plain_.size() == stop_count_) {  // as in most scenes
@@ -193,13 +191,13 @@ public:
             else if (kind == Kind::lambertian)
                 go_on_from_plain<guided>(i, on);
             else
-                glossy_.of(kind,
-                           [&](const auto& group) { go_on_from_glossy<guided>(group, i, guided_glossy_[s], on); });
+                glossy_.of(kind, [&](const auto& group) { go_on_from_glossy<guided>(group, i, on); });
         }
     }
 
 private:
     using Kind = ColumnShape::Kind;
+    using Plain = Guided<LambertianSurfaces>;
     /// Where a path has come to: which of those of its kind.
     struct Stop {
         Kind kind;
@@ -215,6 +213,10 @@ private:
     };
     template <class With>
     void each_group(With&& with) const {
+        with(plain_), glossy_.each(with);
+    }
+    template <class With>
+    void each_group(With&& with) {
         with(plain_), glossy_.each(with);
     }
     /// In which columns it goes; none: it is worked out alone.
@@ -246,11 +248,11 @@ private:
     template <bool guided, class On>
     void go_on_from_plain(std::size_t i, On&& on);
     template <bool guided, class Glossy, class On>
-    void go_on_from_glossy(const Glossy& glossy, std::size_t i, const GuidedPoint& known, On&& on);
-    template <class Glossy>
-    static LitPoint lit_point_of(const Glossy& glossy, std::size_t i) {
-        const Vec3 at = glossy.position(i);
-        return glossy.has_gloss(i) ? LitPoint(at) : lit_point(at, glossy.normal(i), glossy.outgoing(i));
+    void go_on_from_glossy(const Glossy& glossy, std::size_t i, On&& on);
+    template <class Group>
+    static LitPoint lit_point_of(const Group& group, std::size_t i) {
+        const Vec3 at = group.position(i);
+        return group.has_gloss(i) ? LitPoint(at) : lit_point(at, group.normal(i), group.outgoing(i));
     }
     /// Lamps for points that were put into lit_, with the numbers of paths who(i).
     template <class Who>
@@ -281,23 +283,17 @@ private:
         }
         return next;
     }
-    template <class Glossy>
-    const RaysToLamp& look_from_glossy(Glossy& glossy, const Numbers& numbers, Heuristic heuristic) {
+    template <class Group>
+    const RaysToLamp& look_from(Group& group, const Numbers& numbers, Heuristic heuristic) {
+        if constexpr (std::is_same_v<Group, Plain>)
+            if (only_lamp_) {
+                for (std::size_t i = 0; i < plain_.size(); ++i) plain_.set_numbers(i, numbers.places[plain_.who(i)]);
+                return guide_ ? plain_.look_at_whole(*only_lamp_) : plain_.look_at(*only_lamp_, heuristic);
+            }
         lit_.clear();
-        for (std::size_t i = 0; i < glossy.size(); ++i) lit_.push_back(lit_point_of(glossy, i));
-        sample_lit(numbers, [&](std::size_t i) { return glossy.who(i); });
-        return glossy.look_at(lamps_, heuristic);
-    }
-    const RaysToLamp& look_from_plain(const Numbers& numbers, Heuristic heuristic) {
-        if (only_lamp_) {
-            for (std::size_t i = 0; i < plain_.size(); ++i) plain_.set_numbers(i, numbers.places[plain_.who(i)]);
-            return guide_ ? plain_.look_at_whole(*only_lamp_) : plain_.look_at(*only_lamp_, heuristic);
-        }
-        lit_.clear();
-        for (std::size_t i = 0; i < plain_.size(); ++i)
-            lit_.push_back(lit_point(plain_.position(i), plain_.normal(i), plain_.outgoing(i)));
-        sample_lit(numbers, [&](std::size_t i) { return plain_.who(i); });
-        return guide_ ? plain_.look_at_whole(lamps_) : plain_.look_at(lamps_, heuristic);
+        for (std::size_t i = 0; i < group.size(); ++i) lit_.push_back(lit_point_of(group, i));
+        sample_lit(numbers, [&](std::size_t i) { return group.who(i); });
+        return guide_ ? group.look_at_whole(lamps_) : group.look_at(lamps_, heuristic);
     }
     Gathering gathering(const Visitor& visitor) const {
         const auto& [outgoing, lobes, inside] = views_[visitor.point];
@@ -317,15 +313,20 @@ private:
     }
 
     static GuideSide side_of(const Gathering& at) {
-        return GuideSide::of(at.point.normal, at.point.shading.z, at.outgoing);
+        return GuideSide::of(at.point.normal, at.bsdf.shading().z, at.outgoing);
     }
     template <class Group>
     static GuideSide side_of(const Group& group, std::size_t i) {
         return GuideSide::of(group.normal(i), group.shading(i), group.outgoing(i));
     }
     void find_guided();
-    /// From a surface that scatters evenly.
-    static std::optional<Step> guided_step(const Gathering& at, const GuidedPoint& guided, Vec2 u);
+    /// What the surface alone makes of a direction by the guide.
+    static std::optional<BsdfSample> led(const Gathering& at, const GuidedPoint& known, Vec2 u);
+    /// The step as one that a guide knows, whose directions lie that much denser by it.
+    static void follow(float known, float favour, Step& step) {
+        step.known = known, step.favour = favour;
+        step.sample.weight *= 1 / favour, step.sample.pdf *= favour;
+    }
 
     void note_plain_step(std::size_t i, float favour) {
         record_ = GuideStep{plain_.position(i), favour, LightGuide::turn_of(side_of(plain_, i)), plain_.numbers(i)};
@@ -341,7 +342,7 @@ private:
     std::size_t stop_count_ = 0;
     std::array<Stop, lanes> stops_;  // in the order of paths
     Kind last_ = Kind::none;         // where the last one was put
-    LambertianSurfaces plain_;
+    Plain plain_;
     GlossyGroups glossy_;
     // the others, and who has come to which
     std::vector<SurfacePoint> points_;
@@ -355,8 +356,6 @@ private:
     LightSamples lamps_;
     // as the guide knows them
     std::vector<GuidedPoint> guided_;
-    GuidedColumns guided_plain_;
-    std::array<GuidedPoint, lanes> guided_glossy_;  // by stop
     bool learns_ = false;
     std::optional<GuideStep> record_;
 };

@@ -66,8 +66,8 @@ TEST(GuidedPoint, FindsDirectionsWithTheDensityThatItSays) {
     const GuideCell cell = uneven_cell();
     for (const bool turned : {false, true}) {
         const GuideSide side{normalize({0.3f, -0.5f, 0.2f}), turned};
-        for (const bool even : {false, true}) {
-            const GuidedPoint point(&cell, side, even);
+        for (const CosineChoices choices : {CosineChoices{}, {0.4f, 0.7f}, {0, 1}}) {
+            const GuidedPoint point(&cell, side, choices);
             double sum = 0;
             constexpr std::uint32_t directions = 1 << 18;
             for (std::uint32_t i = 0; i < directions; ++i) {
@@ -75,19 +75,21 @@ TEST(GuidedPoint, FindsDirectionsWithTheDensityThatItSays) {
                 const float height = dot(direction, side.up) * (turned ? -1.0f : 1.0f);
                 sum += point.pdf(direction, height > 0 ? height * inverse_pi : 0) * 4 * pi;
             }
-            EXPECT_NEAR(sum / directions, 1, 4e-3) << turned << even;
+            EXPECT_NEAR(sum / directions, 1, 4e-3) << turned << choices.end;
         }
-        const GuidedPoint point(&cell, side, true);
+        const GuidedPoint point(&cell, side, {0, 1});
         for (std::uint32_t i = 0; i < 2000; ++i) {
             const SquarePoint at = point.warped(Samples(3, i).next_2d());
-            const Vec3 direction = point.direction(at.place);
+            Vec3 local = cosine_hemisphere(at.place);
+            if (turned) local.z = -local.z;
+            const Vec3 direction = normalize(Frame::around(side.up).to_world(local));
             ASSERT_GE(point.height(direction), 0);
-            const float pdf = at.density * point.height(direction) * inverse_pi;
+            const float by_itself = point.height(direction) * inverse_pi, pdf = at.density * by_itself;
             const Vec2 inner{at.place.x * 16 - std::floor(at.place.x * 16),
                              at.place.y * 16 - std::floor(at.place.y * 16)};
             const auto off_border = [](float x) { return x > 1e-3f && x < 1 - 1e-3f; };
             if (off_border(inner.x) && off_border(inner.y) && point.height(direction) > 1e-2f) {
-                EXPECT_NEAR(point.pdf(direction, 0) / pdf, 1, 1e-4);
+                EXPECT_NEAR(point.pdf(direction, by_itself) / pdf, 1, 1e-4);
             }
         }
     }
@@ -133,13 +135,13 @@ TEST(LightGuide, KnowsWhereLightComesFromAtEachPlace) {
     const LightGuide guide(some_records(40000), alone);
     EXPECT_GT(guide.size(), 4u);
     const GuideSide up{{0, 0, 1}, false};
-    const auto bright = guide.at({0.2f, 0.5f, 0}, up, true), dim = guide.at({0.8f, 0.5f, 0}, up, true);
+    const auto bright = guide.at({0.2f, 0.5f, 0}, up, {0, 1}), dim = guide.at({0.8f, 0.5f, 0}, up, {0, 1});
     ASSERT_TRUE(bright && dim);
     EXPECT_GT(bright.density({0.1f, 0.5f}), 5 * bright.density({0.7f, 0.5f}));
     EXPECT_NEAR(dim.density({0.1f, 0.5f}), dim.density({0.7f, 0.5f}), 0.5f);
     EXPECT_NEAR(bright.radiance(), 10.0f / 4 + 0.1f * 3 / 4, 0.3f);
     EXPECT_NEAR(dim.radiance(), 0.1f, 1e-3f);
-    EXPECT_FALSE(guide.at({0.2f, 0.5f, 0}, {{0, 0, 1}, true}, true)) << "nobody was on the other side";
+    EXPECT_FALSE(guide.at({0.2f, 0.5f, 0}, {{0, 0, 1}, true}, {})) << "nobody was on the other side";
     EXPECT_EQ(LightGuide().find({}, up), nullptr);
 }
 
@@ -154,7 +156,7 @@ TEST(LightGuide, DoesNotDependOnWhoBuildsItInWhichOrder) {
         Samples numbers(4, i);
         const Vec2 where = numbers.next_2d(), place = numbers.next_2d();
         const Vec3 position{where.x, where.y, 0};
-        EXPECT_EQ(one.at(position, up, true).density(place), other.at(position, up, true).density(place));
+        EXPECT_EQ(one.at(position, up, {}).density(place), other.at(position, up, {}).density(place));
         EXPECT_EQ(one.find(position, up)->radiance, other.find(position, up)->radiance);
     }
 }
@@ -215,7 +217,7 @@ TEST(GuidedColumns, KnowWhatOnePointAloneKnowsToTheBit) {
         columns.warp(surfaces);
         for (std::size_t i = 0; i < surfaces.size(); ++i) {
             const auto side = GuideSide::of(surfaces.normal(i), surfaces.shading(i), surfaces.outgoing(i));
-            const auto point = guide.at(surfaces.position(i), side, true);
+            const auto point = guide.at(surfaces.position(i), side, {0, 1});
             ASSERT_EQ(columns.knows(i), bool(point)) << i;
             const float pdf = point ? point.pdf(rays.direction[i], rays.pdf[i]) : rays.pdf[i];
             const bool squared = squares(heuristic, rays.from_infinity[i] != 0);
@@ -225,7 +227,7 @@ TEST(GuidedColumns, KnowWhatOnePointAloneKnowsToTheBit) {
             EXPECT_EQ(surfaces.numbers(i), alone.place);
             EXPECT_EQ(columns.favour(i), alone.density);
             EXPECT_EQ(columns.radiance(i), point ? point.radiance() : -1);
-            EXPECT_EQ(columns.point(i).pdf(rays.direction[i], 0), point ? point.pdf(rays.direction[i], 0) : 0);
+            EXPECT_EQ(columns.point(i, {0, 1}).pdf(rays.direction[i], rays.pdf[i]), pdf);
             known += bool(point);
         }
     }

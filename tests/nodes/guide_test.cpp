@@ -68,6 +68,20 @@ TEST(Guide, LeavesTheLightOfARoomAsItIs) {
     expect_the_same(room_with_a_screen(true), "indirect");
 }
 
+// Walls are varnished, and a sheet hangs before them that lets light through.
+TEST(Guide, LeavesTheLightOfAGlossyRoomAsItIs) {
+    auto data = room_with_a_screen(true);
+    data.materials[data.shapes[0].material].model =
+        CoatedDiffuseMaterial{colour(data, {0.7f, 0.6f, 0.6f}), 1.5f, {0.2f, 0.2f}};
+    DiffuseMaterial sheet{colour(data, {0.4f, 0.4f, 0.3f})};
+    sheet.transmittance = colour(data, {0.3f, 0.4f, 0.3f});
+    add(data, quad({0.1f, 0.1f, 0.1f}, {0.6f, 0, 0}, {0, 0.5f, 0}), material(data, sheet));
+    PrincipledMaterial plastic;
+    plastic.base_colour = colour(data, {0.2f, 0.7f, 0.4f}), plastic.clearcoat = 0.5f;
+    add(data, quad({0.1f, 0.02f, 0.3f}, {0, 0, 0.5f}, {0.5f, 0, 0}), material(data, plastic));
+    expect_the_same(data, "all");
+}
+
 TEST(Guide, LeavesAFurnaceAsBrightAsTheSeriesSays) {
     const auto [mean, error] = measured(network_of(furnace(0.8f, 1), true, "all"), 32, 8);
     EXPECT_NEAR(mean, 1 / (1 - 0.8), 4 * error + 1e-3);

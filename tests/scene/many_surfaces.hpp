@@ -3,7 +3,12 @@
 
 #include <cmath>
 #include <cstdint>
+#include <memory>
+#include <vector>
 
+#include "core/base/math/samples.hpp"
+#include "core/base/math/sampling.hpp"
+#include "core/scene/scene.hpp"
 #include "tests/support/small_scenes.hpp"
 
 namespace lightnet::test {
@@ -177,6 +182,27 @@ inline SceneData everything() {
     upright.m = {{{0, 0, 1, 2}, {0, 2, 0, 0}, {-1, 0, 0, 1}, {0, 0, 0, 1}}};
     data.instances.push_back({0, upright});
     return data;
+}
+
+inline constexpr std::size_t many = 2000;  // not a multiple of anything
+
+// Of everything(), where rays from anywhere come to.
+inline std::vector<Hit> some_hits(const Scene& scene) {
+    std::vector<Hit> hits;
+    for (std::uint32_t i = 0; hits.size() < many; ++i) {
+        Samples samples(7, i);
+        const Vec3 direction = sphere(samples.next_2d()), origin = direction * (3 * samples.next());
+        if (const auto hit = scene.intersect({origin, sphere(samples.next_2d())})) hits.push_back(*hit);
+    }
+    hits[many / 2] = {Query::no_instance, flake, 0, 0.25f, 0.5f, 1};  // no ray meets the flake
+    return hits;
+}
+
+// A map of dark and bright places.
+inline std::shared_ptr<const Image> squares_of_sky() {
+    std::vector<Rgb> pixels;
+    for (int i = 0; i < 32; ++i) pixels.push_back(i % 3 ? Rgb{0.1f, 0.2f, 0.3f} : Rgb{6, 5, 2});
+    return std::make_shared<const Image>(8, 4, pixels);
 }
 
 }  // namespace lightnet::test

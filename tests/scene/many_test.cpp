@@ -19,23 +19,8 @@ namespace {
 
 using namespace test;
 
-constexpr std::size_t many = 2000;  // not a multiple of anything
-
 auto parts(const Frame& f) { return std::tuple(f.x, f.y, f.z); }
 auto parts(const Ray& r) { return std::tuple(r.origin, r.direction, r.far); }
-
-Vec3 somewhere(Samples& samples) { return sphere(samples.next_2d()) * (3 * samples.next()); }
-
-std::vector<Hit> some_hits(const Scene& scene) {
-    std::vector<Hit> hits;
-    for (std::uint32_t i = 0; hits.size() < many; ++i) {
-        Samples samples(7, i);
-        const Vec3 origin = somewhere(samples);
-        if (const auto hit = scene.intersect({origin, sphere(samples.next_2d())})) hits.push_back(*hit);
-    }
-    hits[many / 2] = {Query::no_instance, flake, 0, 0.25f, 0.5f, 1};  // no ray meets the flake
-    return hits;
-}
 
 // Plain points among many hits, who looks at them, and the same points one by one.
 struct Plain {
@@ -206,15 +191,17 @@ TEST_P(ManyLit, RaysAreThoseOfOne) {
 
 // Walks come to surfaces of all kinds, each to some twice, and are told what each alone would be told.
 TEST(Many, StopsTellEachWalkWhatOneIsTold) {
-    const auto lamps = [](std::size_t count) {
+    const auto lit_by = [](std::size_t count, bool sky) {
         SceneData data = everything();
+        if (sky) data.environments.push_back({{1, 1, 1}, squares_of_sky()});
         for (std::size_t i = 0; i < count; ++i)
             add(data, quad({-1, -1, 4 + float(i)}, {0, 2, 0}, {2, 0, 0}), diffuse(data, 0)).emission =
                 AreaEmission{{3, 2, 1}};
         return data;
     };
-    for (const std::size_t count : {1, 2}) {
-        const Scene scene(lamps(count));
+    for (const auto& [lamps, sky] :
+         {std::pair(1, false), std::pair(2, false), std::pair(0, true), std::pair(2, true)}) {
+        const Scene scene(lit_by(std::size_t(lamps), sky));
         const auto hits = some_hits(scene);
         const Rgb absorption{0.1f, 0.2f, 0.3f};
         struct Walk {

@@ -37,7 +37,9 @@ constexpr bool always_opaque = std::is_same_v<Model, DiffuseBsdf> || std::is_sam
 }  // namespace
 
 Bsdf::Bsdf(Vec3 normal, std::vector<Part> parts)
-    : normal_(normal), parts_(std::make_shared<const std::vector<Part>>(std::move(parts))) {}
+    : shading_(parts.front().bsdf.shading()),
+      normal_(normal),
+      parts_(std::make_shared<const std::vector<Part>>(std::move(parts))) {}
 
 std::uint8_t Bsdf::lobes_of_any() const {
     if (!parts_) return std::visit([](const auto& m) { return m.lobes(); }, model_);
@@ -73,6 +75,21 @@ std::optional<BsdfSample> Bsdf::sample_of_any(Vec3 outgoing, float choice, Vec2 
     result->incoming = normalize(frame.to_world(result->incoming));
     if (above != (dot(result->incoming, normal_) > 0)) return {};
     return result;
+}
+
+CosineChoices Bsdf::cosine_choices(Vec3 outgoing, std::uint8_t lobes) const {
+    if (parts_ || (one_sided_ && dot(outgoing, normal_) <= 0)) return {};
+    const float height = frame_for(outgoing).to_local(outgoing).z;
+    if (height == 0) return {};
+    return std::visit(
+        [&]<class Model>(const Model& model) -> CosineChoices {
+            const float seen = looks_alike<Model> ? std::fabs(height) : height;
+            if constexpr (requires { model.cosine_choices(seen, lobes); })
+                return model.cosine_choices(seen, lobes);
+            else
+                return {};
+        },
+        model_);
 }
 
 std::optional<float> Bsdf::reflection_chance(Vec3 outgoing) const {

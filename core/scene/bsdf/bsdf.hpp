@@ -35,7 +35,7 @@ public:
     struct Part;
 
     Bsdf(const Frame& shading, Vec3 normal, const Model& model) : shading_(shading), normal_(normal), model_(model) {}
-    /// A blend of others, whose shares sum up to 1 on each side.
+    /// A blend of others, one at least, whose shares sum up to 1 on each side.
     Bsdf(Vec3 normal, std::vector<Part> parts);
 
     /// Black from behind.
@@ -67,12 +67,15 @@ public:
         const DiffuseBsdf* lambertian = diffuse();
         return lambertian ? diffuse_sample(*lambertian, outgoing, u, lobes) : sample_of_any(outgoing, choice, u, lobes);
     }
+    /// For which choices sample() goes by the cosine; none where there is no such lobe, or where it is one of a blend.
+    CosineChoices cosine_choices(Vec3 outgoing, std::uint8_t lobes) const;
     /// The colour of a diffuse reflector that fills nothing, alike on both sides or black from behind; null: another.
     const Rgb* diffuse_albedo() const { return diffuse() && !absorption_ ? &diffuse()->albedo : nullptr; }
     /// Does nothing count but light on the viewer's side? False of what may let light through.
     bool opaque() const { return diffuse() || any_is_opaque(); }
     /// Is it black from behind?
     bool one_sided() const { return one_sided_; }
+    /// Its frame; of a blend, that of the first part.
     const Frame& shading() const { return shading_; }
 
     /// What a ray into `direction` passes through absorbs, per metre: of light over a length, exp(-it × length)

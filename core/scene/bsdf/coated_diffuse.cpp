@@ -19,6 +19,11 @@ Rgb CoatedDiffuseBsdf::base_reflectance() const {
     return {series(albedo.r), series(albedo.g), series(albedo.b)};
 }
 
+CosineChoices CoatedDiffuseBsdf::cosine_choices(float outgoing, std::uint8_t lobes) const {
+    if (!(lobes & this->lobes())) return {};
+    return {coat_chance(coat->reflectance(facets, outgoing), lobes), 1};
+}
+
 BsdfValue CoatedDiffuseBsdf::evaluate(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const {
     if (incoming.z <= 0 || !(lobes & lobe::rough & this->lobes())) return {};
     const float reflectance = coat->reflectance(facets, outgoing.z);

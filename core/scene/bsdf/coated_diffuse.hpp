@@ -30,6 +30,7 @@ struct CoatedDiffuseBsdf {
     float coat_chance(float reflectance, std::uint8_t lobes) const;
     /// What all ways off the base come to, by colour: without what the coat lets in and out.
     Rgb base_reflectance() const;
+    CosineChoices cosine_choices(float outgoing, std::uint8_t lobes) const;
     BsdfValue evaluate(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const;
     std::optional<BsdfSample> sample(Vec3 outgoing, float choice, Vec2 u, std::uint8_t lobes) const;
 };

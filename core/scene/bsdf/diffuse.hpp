@@ -14,6 +14,7 @@ struct DiffuseBsdf {
 
     std::uint8_t lobes() const { return lobe::diffuse; }
 
+    CosineChoices cosine_choices(float, std::uint8_t lobes) const { return {0, lobes & lobe::diffuse ? 1.0f : 0.0f}; }
     BsdfValue evaluate(Vec3, Vec3 incoming, std::uint8_t lobes) const {
         if (!(lobes & lobe::diffuse) || incoming.z <= 0) return {};
         const float pdf = incoming.z * inverse_pi;

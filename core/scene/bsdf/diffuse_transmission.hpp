@@ -18,6 +18,9 @@ struct DiffuseTransmissionBsdf {
         return r > 0 ? r / (r + t) : 0;
     }
 
+    CosineChoices cosine_choices(float, std::uint8_t lobes) const {
+        return {0, lobes & lobe::diffuse ? reflection_chance() : 0};
+    }
     BsdfValue evaluate(Vec3, Vec3 incoming, std::uint8_t lobes) const {
         if (!(lobes & lobe::diffuse) || incoming.z == 0) return {};
         const bool above = incoming.z > 0;

@@ -88,6 +88,7 @@ struct CoatedColumns {
         return {{base ? by_base.x : by_coat.x, base ? by_base.y : by_coat.y, base ? by_base.z : by_coat.z},
                 base ? lobe::diffuse : coat_lobe};
     }
+    CosineChoices cosine_choices(std::size_t i) const { return {chance_[i], 1}; }
     /// Of a smooth coat that was chosen.
     Rgb specular_weight(std::size_t i) const {
         return Rgb{tint_.x[i], tint_.y[i], tint_.z[i]} * (reflected_[i] / chance_[i]);
@@ -128,6 +129,7 @@ struct MetalColumns {
     [[gnu::always_inline]] Proposal propose(std::size_t i, Vec3 outgoing, float, Vec2 u) const {
         return {facets_.reflected(i, outgoing, u), lobe::glossy};
     }
+    CosineChoices cosine_choices(std::size_t) const { return {}; }
     Rgb specular_weight(std::size_t) const { return {}; }
 
 private:
@@ -196,6 +198,7 @@ struct PrincipledColumns {
         return {{coat ? gloss.x : below.x, coat ? gloss.y : below.y, coat ? gloss.z : below.z},
                 coat ? gloss_lobe : below_lobe};
     }
+    CosineChoices cosine_choices(std::size_t i) const { return {by_coat_[i], by_coat_[i] + by_base_[i]}; }
     /// Of a mirror that was chosen.
     Rgb specular_weight(std::size_t i) const {
         const float above = principled_coat(coat_[i], height_[i]) / by_coat_[i];

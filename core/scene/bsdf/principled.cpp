@@ -232,6 +232,13 @@ std::optional<BsdfSample> PrincipledBsdf::upright_sample(Vec3 o, float choice, V
     return result;
 }
 
+CosineChoices PrincipledBsdf::cosine_choices(float outgoing, std::uint8_t lobes) const {
+    if (!(lobes & this->lobes())) return {};
+    const Chances by = chances(turned({0, 0, outgoing}) ? -outgoing : outgoing, lobes);
+    const float begin = by.coat + by.sheen;
+    return {begin, begin + by.diffuse};
+}
+
 std::optional<BsdfSample> PrincipledBsdf::sample(Vec3 outgoing, float choice, Vec2 u, std::uint8_t lobes) const {
     if (!(lobes & this->lobes()) || outgoing.z == 0) return {};
     const bool turn = turned(outgoing);

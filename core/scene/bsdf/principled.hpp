@@ -31,6 +31,7 @@ struct PrincipledBsdf {
     bool smooth() const { return is_specular(facets.alpha_u, facets.alpha_v); }
     bool smooth_coat() const { return is_specular(coat_alpha, coat_alpha); }
     std::uint8_t lobes() const;
+    CosineChoices cosine_choices(float outgoing, std::uint8_t lobes) const;
     BsdfValue evaluate(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const;
     std::optional<BsdfSample> sample(Vec3 outgoing, float choice, Vec2 u, std::uint8_t lobes) const;
 

@@ -14,6 +14,7 @@ struct RoughDiffuseBsdf {
     float roughness = 0;  // 0 … 1
 
     std::uint8_t lobes() const { return lobe::diffuse; }
+    CosineChoices cosine_choices(float, std::uint8_t lobes) const { return {0, lobes & lobe::diffuse ? 1.0f : 0.0f}; }
     BsdfValue evaluate(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const;
     std::optional<BsdfSample> sample(Vec3 outgoing, float choice, Vec2 u, std::uint8_t lobes) const;
 };

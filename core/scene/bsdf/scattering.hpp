@@ -26,6 +26,14 @@ struct BsdfValue {
     float pdf = 0;  // per steradian
 };
 
+/// The numbers in [begin, end) are those for which sample() goes by the cosine, on the viewer's side.
+struct CosineChoices {
+    float begin = 0, end = 0;
+
+    float chance() const { return end - begin; }
+    bool contain(float choice) const { return choice >= begin && choice < end; }
+};
+
 /// A GGX roughness below this is taken for a perfect mirror. One threshold for renderer, light operators and checks.
 inline constexpr float specular_alpha = 1e-3f;
 
@@ -33,6 +41,7 @@ inline bool is_specular(float alpha_u, float alpha_v) { return alpha_u < specula
 
 // Each model is a value that has lobes(), evaluate() and sample() as Bsdf has, in local coordinates: the shading normal
 // is +z. For models whose `two_sided` is true, outgoing.z > 0 always, and both sides of the surface look alike. Models
-// whose `chooses` is false have one lobe, and sample() does not look at its `choice`.
+// whose `chooses` is false have one lobe, and sample() does not look at its `choice`. Those with a diffuse lobe may say
+// by cosine_choices(height of outgoing, lobes) for which choices they sample it.
 
 }  // namespace lightnet

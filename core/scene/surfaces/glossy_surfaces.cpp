@@ -73,8 +73,9 @@ struct GlossySurfaces<Columns>::Arriving {
     }
 };
 
-// As ray_to_lamp().
+// As ray_to_lamp(). `whole`: nothing is shared.
 template <class Columns>
+template <bool whole>
 struct GlossySurfaces<Columns>::Looking {
     GlossySurfaces& at;
     Heuristic heuristic;
@@ -87,22 +88,39 @@ struct GlossySurfaces<Columns>::Looking {
             const bool dark = at.leaks_[i] != 0;
             const Rgb value{dark ? 0 : found.value.r, dark ? 0 : found.value.g, dark ? 0 : found.value.b};
             const float pdf = dark ? 0 : found.pdf;
-            const bool squared = squares(by, lamps.from_infinity[i] != 0);
-            const float part = lamps.bare[i] != 0 ? 1 : share(squared, lamps.pdf[i], pdf);
+            const bool alone = whole | (lamps.bare[i] != 0), squared = squares(by, lamps.from_infinity[i] != 0);
+            const float part = alone ? 1 : share(squared, lamps.pdf[i], pdf);
             at.set_ray_to_lamp(i, value, part);
+            if constexpr (whole) {
+                at.rays_.lamp_pdf[i] = lamps.pdf[i];
+                at.rays_.pdf[i] = pdf;
+                at.rays_.bare[i] = lamps.bare[i];
+                at.rays_.from_infinity[i] = lamps.from_infinity[i];
+            }
         }
     }
 };
 
 template <class Columns>
-const RaysToLamp& GlossySurfaces<Columns>::look_at(const LightSamples& lamps, Heuristic heuristic) {
+template <bool whole>
+const RaysToLamp& GlossySurfaces<Columns>::look(const LightSamples& lamps, Heuristic heuristic) {
     lamps_ = lamps;
     Arriving arriving{*this};
     work_in_lanes(arriving);
     for (std::size_t i = 0; i < size(); ++i) columns_.arrive(i, lit_.z[i]);
-    Looking looking{*this, heuristic};
+    Looking<whole> looking{*this, heuristic};
     work_in_lanes(looking);
     return rays_;
+}
+
+template <class Columns>
+const RaysToLamp& GlossySurfaces<Columns>::look_at(const LightSamples& lamps, Heuristic heuristic) {
+    return look<false>(lamps, heuristic);
+}
+
+template <class Columns>
+const RaysToLamp& GlossySurfaces<Columns>::look_at_whole(const LightSamples& lamps) {
+    return look<true>(lamps, Heuristic::automatic);
 }
 
 template <class Columns>
@@ -153,6 +171,7 @@ const typename GlossySurfaces<Columns>::Steps& GlossySurfaces<Columns>::sample()
         const bool specular = proposed_[i] == lobe::specular;
         const bool absorbed = !specular && !(lit_.z[i] > 0 && steps_.pdf[i] > 0);
         steps_.found[i] = !absorbed && !leaks_[i] && !dark_[i];
+        steps_.rough[i] = steps_.found[i] & std::uint32_t{!specular};
         steps_.lobe[i] = proposed_[i];
         if (specular) steps_.pdf[i] = 0;
     }

@@ -32,11 +32,17 @@ public:
     /// Does sample() look at choices?
     static constexpr bool chooses = Columns::Model::chooses;
     void set_choice(std::size_t i, float choice) { choices_[i] = choice; }
+    /// As Bsdf has it.
+    CosineChoices cosine_choices(std::size_t i) const {
+        return dark_[i] ? CosineChoices{} : columns_.cosine_choices(i);
+    }
+    /// Does sample() go by the cosine, by its choice?
+    bool goes_by_cosine(std::size_t i) const { return cosine_choices(i).contain(choices_[i]); }
     /// What Bsdf::sample() gives for each, by set_numbers() and set_choice().
     struct Steps {
         Columns3 incoming, weight;
         Column pdf;
-        Flags found, lobe;
+        Flags found, rough, lobe;  // rough: found, and not by a mirror
     };
     const Steps& sample();
     /// What was drawn last.
@@ -44,11 +50,16 @@ public:
 
     /// What ray_to_lamp() gives for each, of lamps that were sampled for it.
     const RaysToLamp& look_at(const LightSamples& lamps, Heuristic heuristic);
+    /// The same without the weight that both techniques share by: the light is whole.
+    const RaysToLamp& look_at_whole(const LightSamples& lamps);
 
 private:
     struct Facing;
     struct Arriving;
+    template <bool whole>
     struct Looking;
+    template <bool whole>
+    const RaysToLamp& look(const LightSamples& lamps, Heuristic heuristic);
     struct Proposing;
     struct Finishing;
 

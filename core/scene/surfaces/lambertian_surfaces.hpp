@@ -22,8 +22,13 @@ public:
     /// Works out where the points are, and how they are turned: before anything of the following is asked.
     void find_points();
 
+    static bool has_gloss(std::size_t) { return false; }
     Rgb albedo(std::size_t i) const { return {albedo_.x[i], albedo_.y[i], albedo_.z[i]}; }
     Bsdf bsdf(std::size_t i) const;
+
+    /// As Bsdf has it: all of them.
+    static CosineChoices cosine_choices(std::size_t) { return {0, 1}; }
+    static bool goes_by_cosine(std::size_t) { return true; }
 
     /// What Bsdf::sample() gives for each.
     struct Steps {
