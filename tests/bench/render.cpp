@@ -53,7 +53,7 @@ struct Row {
 const std::vector<Row>& rows() {
     static const std::string grey = "cornell_grey.mits_path_2048.exr", indirect = "indirect.mits_path_2048.exr",
                              caustic = "caustic.mits_bdpt_1280.exr", terrain = "terrain.combined.exr";
-    static const Constants layers{{"samples", "64"}};
+    static const Constants many_samples{{"samples", "64"}};
     // What is just good enough with each of the seeds.
     static const Constants quick_cache{{"rays", "128"}, {"samples", "8"}, {"wanted_error", "0.0625"}};
     static const Constants dark_room_cache{{"rays", "1536"}, {"samples", "8"}, {"wanted_error", "0.0625"}};
@@ -61,11 +61,12 @@ const std::vector<Row>& rows() {
         {"photons", "150000"}, {"rays", "192"}, {"samples", "12"}, {"wanted_error", "0.0625"}};
     static const Constants quick_passes{{"samples", "64"}, {"photons", "120000"}};
     static const std::vector<Row> table{
-        {"cornell_grey", "path.lua", "cornell_grey.pbrt", grey, layers, false, 0, 3.5},
-        {"indirect", "path.lua", "indirect.pbrt", indirect, layers, false, 6e-4, 40},
-        {"terrain", "path.lua", "terrain.pbrt", terrain, layers, false, 0, 5},
+        {"cornell_grey", "path.lua", "cornell_grey.pbrt", grey, many_samples, false, 0, 3.5},
+        {"indirect", "path.lua", "indirect.pbrt", indirect, many_samples, false, 6e-4, 40},
+        {"terrain", "path.lua", "terrain.pbrt", terrain, many_samples, false, 0, 5},
         {"cornell_grey_one_node", "path_all.lua", "cornell_grey.pbrt", grey, {}, false, 0, 3.5},
         {"indirect_one_node", "path_all.lua", "indirect.pbrt", indirect, {}, false, 6e-4, 40},
+        {"indirect_guided", "guided.lua", "indirect.pbrt", indirect, many_samples, false, 6e-4, 11},
         {"terrain_one_node", "path_all.lua", "terrain.pbrt", terrain, {}, false, 0, 5},
         {"indirect_cache", "irradiance_cache.lua", "indirect.pbrt", indirect, dark_room_cache, true, 6e-4, 0.8},
         {"cornell_grey_cache", "irradiance_cache.lua", "cornell_grey.pbrt", grey, quick_cache, true, 0, 0.7},
