@@ -66,6 +66,8 @@ public:
     /// To whom a number belongs: of the columns, and of the cells of one.
     Part column_at(float u) const { return part_at(columns_, u); }
     Part cell_at(std::int32_t column, float u) const { return part_at(rows_[std::size_t(column)], u); }
+    /// What cell_at() reads, to be fetched ahead.
+    const void* cells_of(std::int32_t column) const { return &rows_[std::size_t(column)]; }
     [[gnu::always_inline]] static SquarePoint warped(Vec2 u, Part column, Part cell) {
         return {{along(u.x, column), along(u.y, cell)}, float(column.width) * float(cell.width) * density_scale};
     }

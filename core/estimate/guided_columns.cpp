@@ -27,7 +27,10 @@ void GuidedColumns::find_cells(const LightGuide& guide, const MeshPoints& surfac
     Sides sides{*this};
     work_in_lanes(sides);
     guide.find(position_, turn_, count_, cells_);
-    for (std::size_t i = 0; i < count_; ++i) known_[i] = cells_[i] != nullptr;
+    for (std::size_t i = 0; i < count_; ++i) {
+        known_[i] = cells_[i] != nullptr;
+        if (cells_[i]) __builtin_prefetch(cells_[i]);
+    }
 }
 
 // As GuidedPoint::warped().
@@ -53,7 +56,11 @@ void GuidedColumns::warp_numbers(MeshPoints& surfaces) {
         const GuideSquare::Part column = square.column_at(u.x);
         numbers_.set(i, u);
         column_of_.set(i, column);
-        cell_of_.set(i, square.cell_at(column.index, u.y));
+        __builtin_prefetch(square.cells_of(column.index));
+    }
+    for (std::size_t i = 0; i < count_; ++i) {
+        const GuideSquare& square = cells_[i] ? cells_[i]->square : even;
+        cell_of_.set(i, square.cell_at(column_of_[i].index, numbers_[i].y));
     }
     Warping warping{*this};
     work_in_lanes(warping);
