@@ -7,9 +7,9 @@
 namespace lightnet {
 namespace {
 
-/// The mean radiance that arrives at a surface, by its cosine, as a guide has learnt it: luminance. What lamps
-/// send there counts as far as directions find it, not looking for lamps. Of both sides, that on the side of the normal
-/// if the guide knows it. Black where it knows nothing, and everywhere if paths are not guided as that would not pay.
+/// The mean radiance that arrives at a surface, by its cosine, as a guide has learnt it: luminance. Light of
+/// lamps and skies counts by the share that MIS leaves to directions. Of both sides, that on the side of the normal if
+/// the guide knows it. Black where it knows nothing, and everywhere if paths are not guided as that would not pay.
 class GuideRadiance final : public PictureOf<LightGuide> {
 public:
     using PictureOf::PictureOf;

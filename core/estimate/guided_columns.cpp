@@ -106,7 +106,7 @@ void GuidedColumns::find_densities() {
     work_in_lanes(densities);
 }
 
-void GuidedColumns::favour(const Columns3& directions, const Column& pdf, const Flags& found) {
+void GuidedColumns::find_favours(const Columns3& directions, const Column& pdf, const Flags& found) {
     direction_ = directions;
     pdf_ = pdf;
     find_densities();

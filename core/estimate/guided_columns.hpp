@@ -39,11 +39,11 @@ public:
         for (std::size_t i = 0; i < count_; ++i) leads_[i] = known_[i] & std::uint32_t{surfaces.goes_by_cosine(i)};
         warp_numbers(surfaces);
     }
-    /// How much denser than by the surface alone: directions of those that have no other lobe, after warp().
+    /// After warp(), for surfaces that have several lobes: favour() of their directions, by surfaces alone of density
+    /// `pdf`. `found`: there is one, and it isn't that of a mirror.
+    void find_favours(const Columns3& directions, const Column& pdf, const Flags& found);
+    /// How much denser a direction is sampled than by the surface alone.
     float favour(std::size_t i) const { return favour_[i]; }
-    /// The same of directions of surfaces with several lobes, which they were sent into with that density by
-    /// themselves: favour(i). `found`: there is one, and it isn't that of a mirror.
-    void favour(const Columns3& directions, const Column& pdf, const Flags& found);
 
     /// What is left of the light of lamps, sampled whole, when directions by the guide find it as well: share(i).
     void share(const RaysToLamp& rays, Heuristic heuristic);

@@ -176,7 +176,8 @@ public:
             }
             if (guided && guide_) group.guided.warp(group);
             group.sample();
-            if (guided && guide_) group.guided.favour(group.steps().incoming, group.steps().pdf, group.steps().rough);
+            if (guided && guide_)
+                group.guided.find_favours(group.steps().incoming, group.steps().pdf, group.steps().rough);
         });
         if (plain_.size() > 0) plain_.sample();
         if (plain_.size() == stop_count_) {  // as in most scenes

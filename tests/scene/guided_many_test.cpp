@@ -1,4 +1,5 @@
-// What a guide makes of many points at once is what it makes of each of them alone.
+// What a guide makes of many points at once is what it makes of each of them alone: to the same directions, and with
+// the same weights but for rounding.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -61,7 +62,7 @@ void expect_near(Rgb it, Rgb one) {
         EXPECT_NEAR(it.*channel, one.*channel, 1e-4f * one.*channel + 1e-6f);
 }
 
-// Of all materials. Walks that follow the guide go into other directions than by themselves, and no more often.
+// Of all materials.
 TEST(GuidedMany, StopsTellEachWalkWhatOneIsTold) {
     SceneData data = everything();
     add(data, quad({-1, -1, 4}, {0, 2, 0}, {2, 0, 0}), diffuse(data, 0)).emission = AreaEmission{{3, 2, 1}};

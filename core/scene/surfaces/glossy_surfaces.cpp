@@ -91,12 +91,7 @@ struct GlossySurfaces<Columns>::Looking {
             const bool alone = whole | (lamps.bare[i] != 0), squared = squares(by, lamps.from_infinity[i] != 0);
             const float part = alone ? 1 : share(squared, lamps.pdf[i], pdf);
             at.set_ray_to_lamp(i, value, part);
-            if constexpr (whole) {
-                at.rays_.lamp_pdf[i] = lamps.pdf[i];
-                at.rays_.pdf[i] = pdf;
-                at.rays_.bare[i] = lamps.bare[i];
-                at.rays_.from_infinity[i] = lamps.from_infinity[i];
-            }
+            if constexpr (whole) at.set_densities(i, pdf);
         }
     }
 };

@@ -64,6 +64,14 @@ protected:
     /// it, and this `part` of it is the lamp's to find.
     [[gnu::always_inline]] void set_ray_to_lamp(std::size_t i, Rgb value, float part);
 
+    /// Where the light is whole: what its share follows from. `pdf`: of the surface.
+    [[gnu::always_inline]] void set_densities(std::size_t i, float pdf) {
+        rays_.lamp_pdf[i] = lamps_.pdf[i];
+        rays_.pdf[i] = pdf;
+        rays_.bare[i] = lamps_.bare[i];
+        rays_.from_infinity[i] = lamps_.from_infinity[i];
+    }
+
     // All in one place, so that the compiler sees that no column is another.
 
     std::size_t count_ = 0, shining_count_ = 0, various_count_ = 0, apart_count_ = 0;
