@@ -1,6 +1,7 @@
 # What lightnet stands on. Each library has one home; only that folder's .cpp files include it.
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
+pkg_check_modules(jemalloc REQUIRED IMPORTED_TARGET jemalloc)   # memory in large pages (programs)
 find_package(embree 4 QUIET)                               # rays against triangles and spheres (core/scene)
 if(NOT embree_FOUND)
   find_package(embree 3 REQUIRED)

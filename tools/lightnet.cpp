@@ -1,7 +1,6 @@
 // The launcher: the one place where all rooms meet.
 #include <iostream>
 
-#include "core/base/this_machine.hpp"
 #include "lua/custom.hpp"
 #include "nodes/examples/candela/candela_kinds.hpp"
 #include "nodes/standard_nodes.hpp"
@@ -11,7 +10,6 @@
 #include "transport/places/descriptors.hpp"
 
 int main(int count, char** words) try {
-    lightnet::keep_freed_memory();
     lightnet::raise_descriptor_limit();
     lightnet::Registry registry{lightnet::standard_nodes()};
     registry.add(lightnet::candela_kinds());  // an example: code that was written for something else

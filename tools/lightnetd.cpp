@@ -101,7 +101,6 @@ int serve(lightnet::DaemonOptions options) {
 }  // namespace
 
 int main(int count, char** words) try {
-    lightnet::keep_freed_memory();
     auto settings = lightnet::settings_of_daemon();
     const auto text = lightnet::daemon_texts().front();
     std::vector<std::string> typed{words + 1, words + count};

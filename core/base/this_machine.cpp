@@ -1,6 +1,5 @@
 #include "core/base/this_machine.hpp"
 
-#include <malloc.h>
 #include <unistd.h>
 
 #include <array>
@@ -23,13 +22,6 @@ std::string process_name() { return machine_name() + " " + std::to_string(getpid
 std::uint64_t steady_nanoseconds() {
     const std::chrono::nanoseconds now = std::chrono::steady_clock::now().time_since_epoch();
     return static_cast<std::uint64_t>(now.count());
-}
-
-void keep_freed_memory() {
-#ifdef __GLIBC__
-    ::mallopt(M_MMAP_THRESHOLD, 4 << 20);
-    ::mallopt(M_TRIM_THRESHOLD, 64 << 20);
-#endif
 }
 
 }  // namespace lightnet

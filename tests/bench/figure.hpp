@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "core/base/this_machine.hpp"
 
 namespace lightnet::bench {
 
@@ -102,7 +101,6 @@ inline void not_run(const std::string& name, const std::string& why) {
 
 /// What main() does and returns: what goes wrong is said, with the benchmark's name.
 inline int run(const char* name, const std::function<void()>& work) {
-    keep_freed_memory();  // as programs do
     try {
         work();
         return 0;

@@ -14,6 +14,7 @@ constexpr std::uint32_t children = LightTree::width;
 constexpr std::size_t buckets = 12;
 constexpr std::uint32_t many_at_once = 1 << 14;  // so many are sorted by one thread
 constexpr std::uint32_t many = 256;  // so many are split along their longest side: there it's space that counts
+constexpr std::uint32_t looked_at = 1 << 12;  // of more, so many tell where to split
 
 Vec3 least(Vec3 a, Vec3 b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
 Vec3 most(Vec3 a, Vec3 b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
@@ -27,21 +28,33 @@ Vec3 upwards(Vec3 axis) {
     return greatest < 0 ? -axis : axis;
 }
 
-// Some lights: a box, and sums. As plain rows of numbers, which compilers turn into vectors.
-struct Heap {
-    std::array<float, 8> bounds;  // low, and high with its sign turned; two of no use
-    std::array<float, 4> sums;    // axis × intensity, intensity
+using Four = float __attribute__((vector_size(16)));
 
-    Heap() {
-        bounds.fill(std::numeric_limits<float>::infinity());
-        sums.fill(0);
+Four four(Vec3 v, float last = 0) { return Four{v.x, v.y, v.z, last}; }
+Vec3 three(Four v) { return {v[0], v[1], v[2]}; }
+constexpr Four infinite{std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity(),
+                        std::numeric_limits<float>::infinity(), 0};
+
+/// A box, corner by corner.
+struct FourBox {
+    Four low = infinite, high = -infinite;
+    void add(Four from, Four to) {
+        low = from < low ? from : low;
+        high = to > high ? to : high;
     }
+    Vec3 extent() const { return three(high - low); }
+};
+
+// Some lights: a box, and sums.
+struct Heap {
+    FourBox box;
+    Four sums{};  // axis × intensity, intensity
+
     void add(const Heap& other) {
-        for (std::size_t k = 0; k < 8; ++k) bounds[k] = other.bounds[k] < bounds[k] ? other.bounds[k] : bounds[k];
-        for (std::size_t k = 0; k < 4; ++k) sums[k] += other.sums[k];
+        box.add(other.box.low, other.box.high);
+        sums += other.sums;
     }
     float intensity() const { return sums[3]; }
-    Vec3 extent() const { return {-bounds[4] - bounds[0], -bounds[5] - bounds[1], -bounds[6] - bounds[2]}; }
 };
 
 // Section 4.3: what lights cost that are in one node. The solid angle into which they shine, weighted by a cosine at
@@ -49,10 +62,9 @@ struct Heap {
 // outermost. Over π it is 1 for one direction, 4 for all, and within a tenth of a parabola by the cap's cosine in
 // between.
 float cost_of(const Heap& lights) {
-    const Vec3 sum{lights.sums[0], lights.sums[1], lights.sums[2]};
-    const float cosine = std::clamp(2 * length(sum) / lights.intensity() - 1, -1.0f, 1.0f);
+    const float cosine = std::clamp(2 * length(three(lights.sums)) / lights.intensity() - 1, -1.0f, 1.0f);
     const float angle = 3.571f - (1.5f + 1.071f * cosine) * cosine;
-    const Vec3 d = lights.extent();
+    const Vec3 d = lights.box.extent();
     const float area = 2 * (d.x * d.y + d.y * d.z + d.z * d.x) + length_squared(d) * 1e-3f;  // lines have none
     return lights.intensity() * angle * area;
 }
@@ -104,16 +116,17 @@ LightBounds around(std::span<const LightBounds> all) {
 
 }  // namespace
 
-LightTreeBuilder::LightTreeBuilder(const std::vector<LightBounds>& lights) : lights_(lights) {
+LightTreeBuilder::LightTreeBuilder(const std::vector<LightBounds>& lights) {
     items_.reserve(lights.size());
-    for (std::uint32_t i = 0; i < lights.size(); ++i) {
-        const LightBounds& light = lights[i];
-        if (!(light.intensity > 0)) continue;
-        const Vec3 direction = light.two_sided ? upwards(light.axis) : light.axis;
-        items_.push_back({(light.low + light.high) * 0.5f, length(light.high - light.low) / 2,
-                          direction * (light.intensity * (1 + light.cos_spread) / 2), light.intensity, i});
-    }
+    for (std::uint32_t i = 0; i < lights.size(); ++i)
+        if (lights[i].intensity > 0) items_.push_back({lights[i], i});
+    in_pieces(items_.size(), [&](std::size_t first, std::size_t last) {
+        for (Item& item : std::span(items_).subspan(first, last - first))
+            if (item.bounds.two_sided) item.bounds.axis = upwards(item.bounds.axis);
+    });
 }
+
+std::uint32_t LightTreeBuilder::Part::stride() const { return std::max(1u, size() / looked_at); }
 
 struct LightTreeBuilder::Split {
     std::size_t axis = 0, bucket = 0;
@@ -127,14 +140,10 @@ struct LightTreeBuilder::Split {
 // What both halves of each split along an axis cost: eq. 2.
 void LightTreeBuilder::try_axis(Part part, Split split, Vec3 extent, Split& best, float& least_cost) const {
     std::array<Heap, buckets> heaps, above;
-    for (std::uint32_t i = part.first; i < part.last; ++i) {
-        const Item& item = items_[i];
-        const Vec3 p = item.center;
-        const float r = item.radius;
-        Heap one;
-        one.bounds = {p.x - r, p.y - r, p.z - r, 0, -p.x - r, -p.y - r, -p.z - r, 0};
-        one.sums = {item.axis.x, item.axis.y, item.axis.z, item.intensity};
-        heaps[split.bucket_of(p)].add(one);
+    for (std::uint32_t i = part.first; i < part.last; i += part.stride()) {
+        const auto& [low, high, axis, cos_spread, cos_reach, intensity, two_sided] = items_[i].bounds;
+        const Vec3 mean = axis * (intensity * (1 + cos_spread) / 2);
+        heaps[split.bucket_of(items_[i].center())].add({{four(low), four(high)}, four(mean, intensity)});
     }
     const float stretch = std::max({extent.x, extent.y, extent.z}) / extent[split.axis];  // splits long sides first
     Heap below, rest;
@@ -155,12 +164,12 @@ void LightTreeBuilder::try_axis(Part part, Split split, Vec3 extent, Split& best
 
 /// Puts the lights of both halves side by side; returns where the second begins.
 std::uint32_t LightTreeBuilder::halve(Part part) {
-    Vec3 low = items_[part.first].center, high = low;
-    for (std::uint32_t i = part.first; i < part.last; ++i) {
-        low = least(low, items_[i].center);
-        high = most(high, items_[i].center);
+    FourBox centers;
+    for (std::uint32_t i = part.first; i < part.last; i += part.stride()) {
+        const Four center = four(items_[i].center());
+        centers.add(center, center);
     }
-    const Vec3 extent = high - low;
+    const Vec3 low = three(centers.low), extent = centers.extent();
     const float longest = std::max({extent.x, extent.y, extent.z});
     Split best;
     float least_cost = std::numeric_limits<float>::infinity();
@@ -170,7 +179,7 @@ std::uint32_t LightTreeBuilder::halve(Part part) {
     if (std::isinf(least_cost)) return part.first + part.size() / 2;  // all in one place
     const auto begin = items_.begin();
     const auto end = std::partition(begin + part.first, begin + part.last,
-                                    [&](const Item& item) { return best.bucket_of(item.center) <= best.bucket; });
+                                    [&](const Item& item) { return best.bucket_of(item.center()) <= best.bucket; });
     return std::uint32_t(end - begin);
 }
 
@@ -197,87 +206,76 @@ std::uint32_t LightTreeBuilder::cut(Part whole, std::array<Part, children>& part
 /// Depth first, without recursion: a tree may be as deep as there are lights. Children of up to `apart` lights are
 /// left out.
 LightTreeBuilder::Branch LightTreeBuilder::grow(Part whole, std::uint32_t apart, std::vector<Below>& left) {
-    Branch branch;
-    auto& nodes = branch.nodes;
-    if (apart == 0) nodes.reserve(std::size_t(whole.size()) * 2 / 7 + 8);  // as many as there are, as a rule
+    Branch forks;
     std::vector<Below> tasks{{whole, 0}};
     while (!tasks.empty()) {
         const auto [part, place] = tasks.back();
         tasks.pop_back();
-        const auto here = std::uint32_t(nodes.size());
-        LightTree::Node& node = nodes.emplace_back();
-        node.parent = place;
-        if (here > 0) nodes[place / children].child[place % children] = here;
-        std::array<Part, children> parts{};
-        const std::uint32_t count = cut(part, parts);
-        for (std::uint32_t i = 0; i < count; ++i) {
-            node.intensity[i] = 1;  // there is one: see close()
-            const std::uint32_t size = parts[i].size();
-            if (size > 1) (size > apart ? tasks : left).push_back({parts[i], here * children + i});
-            if (size > 1) continue;
-            node.leaves |= std::uint8_t(1u << i);
-            node.child[i] = items_[parts[i].first].light;
-        }
+        const auto here = std::uint32_t(forks.size());
+        Fork& fork = forks.emplace_back();
+        fork.parent = place;
+        if (here > 0) forks[place / children].child[place % children] = here;
+        fork.count = cut(part, fork.parts);
+        for (std::uint32_t i = 0; i < fork.count; ++i)
+            if (const auto size = fork.parts[i].size(); size > 1)
+                (size > apart ? tasks : left).push_back({fork.parts[i], here * children + i});
     }
-    branch.bounds.resize(nodes.size());
-    return branch;
-}
-
-/// Puts a branch behind the nodes that are there, below one of them.
-void LightTreeBuilder::append(const Branch& branch, std::uint32_t place, Branch& to) {
-    const auto first = std::uint32_t(to.nodes.size());
-    to.nodes[place / children].child[place % children] = first;
-    for (LightTree::Node node : branch.nodes) {
-        node.parent = to.nodes.size() == first ? place : node.parent + first * children;
-        for (std::uint32_t i = 0; i < children; ++i)
-            if (!(node.leaves >> i & 1)) node.child[i] += first;
-        to.nodes.push_back(node);
-    }
-    to.bounds.insert(to.bounds.end(), branch.bounds.begin(), branch.bounds.end());
+    return forks;
 }
 
 std::vector<LightTree::Node> LightTreeBuilder::build() {
     if (items_.empty()) return {};
     const auto count = std::uint32_t(items_.size());
     std::vector<Below> left;
-    Branch tree = grow({0, count}, count > many_at_once ? many_at_once : 0, left);
-    const std::size_t top = tree.nodes.size();
+    Branch top = grow({0, count}, count > many_at_once ? many_at_once : 0, left);
     std::vector<Branch> branches(left.size());
-    const auto grow_some = [&](std::size_t first, std::size_t last) {
-        std::vector<Below> none;
-        for (std::size_t i = first; i < last; ++i) {
-            branches[i] = grow(left[i].part, 0, none);
-            close(branches[i]);
-        }
+    const auto each = [&](const auto& work) {
+        const auto some = [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) work(i);
+        };
+        in_pieces(left.size(), some, 1);
     };
-    in_pieces(left.size(), grow_some, 1);
-    std::size_t size = top;
-    for (const Branch& branch : branches) size += branch.nodes.size();
-    tree.nodes.reserve(size);
-    tree.bounds.reserve(size);
+    each([&](std::size_t i) {
+        std::vector<Below> none;
+        branches[i] = grow(left[i].part, 0, none);
+    });
+    auto size = std::uint32_t(top.size());
+    std::vector<std::uint32_t> starts;
     for (std::size_t i = 0; i < left.size(); ++i) {
-        append(branches[i], left[i].place, tree);
-        branches[i] = {};  // its memory is of use to the next
+        top[left[i].place / children].child[left[i].place % children] = size;
+        starts.push_back(size);
+        size += std::uint32_t(branches[i].size());
     }
-    for (std::size_t n = top; n > 0; --n) close(tree, n - 1);
-    tree.nodes.shrink_to_fit();
-    return std::move(tree.nodes);
+    nodes_.resize(size);
+    around_.resize(size);
+    each([&](std::size_t i) { write(branches[i], starts[i], left[i].place); });
+    write(top, 0, 0);
+    return std::move(nodes_);
 }
 
-void LightTreeBuilder::close(Branch& branch) const {
-    for (std::size_t n = branch.nodes.size(); n > 0; --n) close(branch, n - 1);  // children stand behind their parents
+/// Its nodes, from `start` on; its first is a child at `place`.
+void LightTreeBuilder::write(const Branch& branch, std::uint32_t start, std::uint32_t place) {
+    for (std::size_t n = branch.size(); n-- > 0;) {  // children stand behind their parents
+        LightTree::Node& node = nodes_[start + n];
+        const Fork& fork = branch[n];
+        node.parent = n == 0 ? place : fork.parent + start * children;
+        for (std::uint32_t i = 0; i < fork.count; ++i) {
+            const bool leaf = fork.parts[i].size() == 1;
+            node.child[i] = leaf ? items_[fork.parts[i].first].light : fork.child[i] + start;
+            if (leaf) node.leaves |= std::uint8_t(1u << i);
+        }
+        close(fork, start + n);
+    }
 }
 
 /// Writes what is known of a node's children, whose own children are closed.
-void LightTreeBuilder::close(Branch& branch, std::size_t n) const {
-    LightTree::Node& node = branch.nodes[n];
+void LightTreeBuilder::close(const Fork& fork, std::size_t n) {
+    LightTree::Node& node = nodes_[n];
     std::array<LightBounds, children> all;
-    std::uint32_t count = 0;
-    for (; count < children && node.intensity[count] > 0; ++count) {
-        const std::uint32_t child = node.child[count];
-        all[count] = (node.leaves >> count & 1) ? lights_[child] : branch.bounds[child];
-    }
-    const LightBounds& whole = branch.bounds[n] = around(std::span(all).first(count));
+    const std::uint32_t count = fork.count;
+    for (std::uint32_t i = 0; i < count; ++i)
+        all[i] = (node.leaves >> i & 1) ? items_[fork.parts[i].first].bounds : around_[node.child[i]];
+    const LightBounds& whole = around_[n] = around(std::span(all).first(count));
     node.low = whole.low;
     // A little more than needed, so that the last step is beyond the box.
     node.step = (whole.high - node.low) * (1.00001f / 65535);

@@ -56,8 +56,10 @@ Lights::Lights(const SceneData& data, const Shading& shading, const Ball& around
     running_shares(light_of_maps, map_ends_);
     build_tree();
 
-    std::vector<double> by_power;
-    for (const Rgb power : powers()) by_power.push_back(luminance(power));
+    std::vector<double> by_power(count());
+    in_pieces(by_power.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) by_power[i] = luminance(power(i));
+    });
     running_shares(by_power, power_ends_);
 }
 
@@ -318,22 +320,22 @@ std::optional<SeenSun> Lights::sun(Vec3 direction) const {
     return seen;
 }
 
-std::vector<Rgb> Lights::powers() const {
+// In the order in which emit() chooses them.
+Rgb Lights::power(std::size_t light) const {
+    if (light < lamps_.size()) return lamps_.power(light);
+    light -= lamps_.size();
+    if (light < near_.size()) return near_light(near_[light], [](const auto& l) { return power_of(l); });
+    light -= near_.size();
     const float disk = pi * around_.radius * around_.radius;
-    std::vector<Rgb> all;
-    for (std::size_t i = 0; i < lamps_.size(); ++i) all.push_back(lamps_.power(i));
-    for (const auto& light : near_) all.push_back(near_light(light, [](const auto& l) { return power_of(l); }));
-    for (std::size_t i = 0; i < far_.size(); ++i) all.push_back(far_.total(i) * disk);
-    for (const auto& environment : environments_) {
-        const auto& portal = environment.portal();
-        all.push_back(environment.total() * (portal ? length(cross(portal->side, portal->other)) : disk));
-    }
-    return all;
+    if (light < far_.size()) return far_.total(light) * disk;
+    const auto& sky = environments_[light - far_.size()];
+    const auto& portal = sky.portal();
+    return sky.total() * (portal ? length(cross(portal->side, portal->other)) : disk);
 }
 
 Rgb Lights::power() const {
     Rgb sum;
-    for (const Rgb one : powers()) sum += one;
+    for (std::size_t i = 0; i < power_ends_.size(); ++i) sum += power(i);
     return sum;
 }
 

@@ -98,7 +98,7 @@ public:
 
 private:
     void build_tree();
-    std::vector<Rgb> powers() const;
+    Rgb power(std::size_t light) const;
     std::optional<LightSample> from_tree(const LitPoint& from, float choice, Vec2 u) const;
     std::optional<LightSample> from_chosen(const LightChoice& chosen, Vec3 from, Vec2 u) const;
     std::optional<LightSample> from_beside(Vec3 from, float choice, Vec2 u) const;
