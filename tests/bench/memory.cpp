@@ -26,7 +26,7 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-constexpr auto warm_up = 10s, measured = 60s;  // the first checkpoint is written after 5 s
+constexpr auto warm_up = 60s, measured = 60s;  // until each part of memory has been used once
 constexpr double mib = 1 << 20;
 constexpr double bundles_of_credit = 8;  // that an asker has under way to one place, unless it is told otherwise
 
