@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-
 namespace lightnet::bench {
 
 /// The middle one; of an even number, the upper of the two.

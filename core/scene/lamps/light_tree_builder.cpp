@@ -28,6 +28,7 @@ Vec3 upwards(Vec3 axis) {
     return greatest < 0 ? -axis : axis;
 }
 
+// Compilers compare the numbers of a Box one by one.
 using Four = float __attribute__((vector_size(16)));
 
 Four four(Vec3 v, float last = 0) { return Four{v.x, v.y, v.z, last}; }
@@ -35,7 +36,7 @@ Vec3 three(Four v) { return {v[0], v[1], v[2]}; }
 constexpr Four infinite{std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity(),
                         std::numeric_limits<float>::infinity(), 0};
 
-/// A box, corner by corner.
+/// Around boxes, or points.
 struct FourBox {
     Four low = infinite, high = -infinite;
     void add(Four from, Four to) {
@@ -118,12 +119,11 @@ LightBounds around(std::span<const LightBounds> all) {
 
 LightTreeBuilder::LightTreeBuilder(const std::vector<LightBounds>& lights) {
     items_.reserve(lights.size());
-    for (std::uint32_t i = 0; i < lights.size(); ++i)
-        if (lights[i].intensity > 0) items_.push_back({lights[i], i});
-    in_pieces(items_.size(), [&](std::size_t first, std::size_t last) {
-        for (Item& item : std::span(items_).subspan(first, last - first))
-            if (item.bounds.two_sided) item.bounds.axis = upwards(item.bounds.axis);
-    });
+    for (std::uint32_t i = 0; i < lights.size(); ++i) {
+        if (!(lights[i].intensity > 0)) continue;
+        LightBounds& bounds = items_.emplace_back(Item{lights[i], i}).bounds;
+        if (bounds.two_sided) bounds.axis = upwards(bounds.axis);
+    }
 }
 
 std::uint32_t LightTreeBuilder::Part::stride() const { return std::max(1u, size() / looked_at); }

@@ -20,6 +20,7 @@ public:
     std::vector<LightTree::Node> build();
 
 private:
+    /// A light, whole: what lies side by side in the tree is then read side by side.
     struct Item {
         LightBounds bounds;
         std::uint32_t light = 0;
@@ -28,7 +29,7 @@ private:
     struct Part {
         std::uint32_t first, last;
         std::uint32_t size() const { return last - first; }
-        std::uint32_t stride() const;
+        std::uint32_t stride() const;  // between lights that tell where to split
     };
     struct Split;
     /// Lights that are a node's child.

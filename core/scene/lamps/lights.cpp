@@ -335,7 +335,7 @@ Rgb Lights::power(std::size_t light) const {
 
 Rgb Lights::power() const {
     Rgb sum;
-    for (std::size_t i = 0; i < power_ends_.size(); ++i) sum += power(i);
+    for (std::size_t i = 0; i < count(); ++i) sum += power(i);
     return sum;
 }
 
