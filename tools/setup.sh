@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs what lightnet is built from, where Debian's packages are and we may; elsewhere names them.
+# Installs what lightnet is built from, where Debian's packages are and we may; elsewhere names them. With --tests, what
+# only tests use as well.
 # The one place that lists the packages; they have the same names in Debian 12 (Embree 3) and 13 (Embree 4).
 set -euo pipefail
 
@@ -15,10 +16,19 @@ packages=(
     libgtest-dev libgmock-dev libbenchmark-dev          # tests and benchmarks
 )
 
+# What tests hold our files, pictures and hosts against; a test whose program is missing skips itself, and ./test fails.
+packages_of_tests=(
+    graphviz python3-jsonschema prometheus              # drawings, reports, metrics as their own programs read them
+    python3-openimageio                                 # pictures, as another library reads them
+    iproute2                                            # network namespaces: hosts of their own
+    slurm-client slurmctld slurmd munge                 # a queue
+)
+
 if [ "${1-}" = --list ]; then
     printf '%s\n' "${packages[@]}"
     exit 0
 fi
+[ "${1-}" != --tests ] || packages+=("${packages_of_tests[@]}")
 
 if ! command -v dpkg-query >/dev/null; then
     echo "lightnet is built from these packages of Debian 12 or 13; please see that their likes are here:" >&2

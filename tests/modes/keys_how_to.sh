@@ -17,7 +17,7 @@ clean_up() {
 }
 trap clean_up EXIT
 for name in "$desk" "$render"; do ip netns add "$name" 2>/dev/null || cant "this system makes no network namespaces"; done
-ip link add eth0 netns "$desk" type veth peer name eth0 netns "$render" 2>/dev/null || cant "this system joins none"
+ip link add eth0 netns "$desk" type veth peer name eth0 netns "$render" 2>/dev/null || cant "this system joins no network namespaces"
 number=1
 for name in "$desk" "$render"; do
     ip -n "$name" addr add "10.99.0.$number/24" dev eth0

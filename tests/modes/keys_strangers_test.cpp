@@ -119,7 +119,7 @@ TEST_F(Keys, KeepOtherUsersOfTheMachineOut) {
     run->signal(SIGINT);
     EXPECT_EQ(run->wait(), 130) << run->output();
     EXPECT_THAT(run->output(), Not(HasSubstr("is lost")));
-    if (got.starts_with("can't be")) GTEST_SKIP() << "this root " << got;
+    if (got.starts_with("can't be")) GTEST_SKIP() << "only root can become somebody else, and this root " << got;
     EXPECT_EQ(status, 0) << got;
 }
 

@@ -1,4 +1,5 @@
-// Pictures against references that were made by other renderers, with their tolerances. Where there are none: skipped.
+// Pictures against references that were made by other renderers, with their tolerances: those that ship with the
+// project, and others where a folder with them is known (references.hpp).
 //
 // The bound: a picture of n samples differs from the truth by bias and noise. The mean over the whole picture has
 // hardly any noise; of the mean difference of 16×16 blocks the test allows the reference's tolerance plus the noise
@@ -10,12 +11,12 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 
 #include "core/film/compare.hpp"
 #include "core/film/exr.hpp"
 #include "tests/modes/daemons.hpp"
+#include "tests/support/references.hpp"
 
 namespace lightnet::test {
 namespace {
@@ -35,10 +36,6 @@ std::ostream& operator<<(std::ostream& out, const Reference& reference) { return
 class References : public ::testing::TestWithParam<Reference> {
 protected:
     void SetUp() override {
-        const char* shared = std::getenv("LIGHTNET_SHARED");
-        if (!shared || !fs::exists(fs::path(shared) / "reference" / GetParam().picture))
-            GTEST_SKIP() << "the reference pictures are not here";
-        home = fs::path(shared);
         // The reference's main file beside the scene's other files.
         const auto put_all_of = [&](const fs::path& from) {
             for (const auto& entry : fs::directory_iterator(from)) {
@@ -46,8 +43,8 @@ protected:
                 fs::create_symlink(entry.path(), folder / entry.path().filename(), there_already);
             }
         };
-        put_all_of((home / "reference" / GetParam().main_file).parent_path());
-        if (!GetParam().scene.empty()) put_all_of(home / "scenes" / GetParam().scene);
+        put_all_of(reference_file(GetParam().main_file).value().parent_path());
+        if (!GetParam().scene.empty()) put_all_of(shared_file("scenes/" + GetParam().scene).value());
     }
 
     Picture render(int seed) {
@@ -63,7 +60,6 @@ protected:
         return read_exr(folder / "picture.exr");
     }
 
-    fs::path home;
     Folder folder;
 };
 
@@ -82,7 +78,7 @@ TEST_P(References, AgreeWithinTheirTolerances) {
     const double noise = compare(a, b).block_difference / 2;  // of the mean of both
     const double mean_noise = noise_of_mean(a, b);
     for (std::size_t i = 0; i < a.beauty.size(); ++i) a.beauty[i] = (a.beauty[i] + b.beauty[i]) * 0.5f;
-    const auto difference = compare(read_exr(home / "reference" / r.picture), a);
+    const auto difference = compare(read_exr(reference_file(r.picture).value()), a);
     const Rgb ratio = difference.mean_ratio;
     for (const float channel : {ratio.r, ratio.g, ratio.b}) EXPECT_NEAR(channel, 1, r.mean);
     EXPECT_LT(difference.block_difference, r.blocks + 1.5 * noise) << "noise of the run: " << noise;
@@ -115,20 +111,22 @@ Reference real(std::string name, const std::string& folder, int height, int samp
     return {name, path + ".exr", path + ".pbrt", folder + "-pbrt", 320, height, samples, mean, blocks};
 }
 
+std::vector<Reference> here(std::vector<Reference> all) {
+    return that_are_here(std::move(all), [](const Reference& one) { return reference_file(one.picture); });
+}
+
 // Strict ones, as Mitsuba's files say them.
 INSTANTIATE_TEST_SUITE_P(Mitsuba, References,
-                         ::testing::Values(from_mitsuba(strict("cornell_grey", "mits_path_2048", 64)),
-                                           from_mitsuba(strict("cornell_rgb", "mits_path_1024", 64)),
-                                           from_mitsuba(strict("furnace08", "analytic", 32))),
+                         ::testing::ValuesIn(here({from_mitsuba(strict("cornell_grey", "mits_path_2048", 64)),
+                                                   from_mitsuba(strict("cornell_rgb", "mits_path_1024", 64)),
+                                                   from_mitsuba(strict("furnace08", "analytic", 32))})),
                          name_of);
 
-#ifdef LIGHTNET_LARGE
+#if defined(LIGHTNET_LARGE) && defined(LIGHTNET_SHARED_FOLDER)
 // Tungsten's picture of this file has direct light only, and the laws of facets and masking that Mitsuba has: strip by
 // strip, the metal plates must be as bright.
 TEST(VeachMis, HasThePlatesOfAnotherRenderersPicture) {
-    const char* shared = std::getenv("LIGHTNET_SHARED");
-    const fs::path scene = fs::path(shared ? shared : "") / "scenes/veach-mis-mitsuba";
-    if (!shared || !fs::exists(scene / "TungstenRender.exr")) GTEST_SKIP() << "the scene is not here";
+    const fs::path scene = LIGHTNET_SHARED_FOLDER "/scenes/veach-mis-mitsuba";
     const Folder folder;
     folder.write("graph.lua", "scene = Scene { '" + (scene / "scene.xml").string() +
                                   "' }\nlight = DirectLighting {}\nimage = RayTracer { light, scene = scene, "
@@ -148,38 +146,37 @@ TEST(VeachMis, HasThePlatesOfAnotherRenderersPicture) {
 #endif
 
 #ifndef LIGHTNET_LARGE
-INSTANTIATE_TEST_SUITE_P(Strict, References,
-                         ::testing::Values(strict("cornell_grey", "mits_path_2048", 64),
-                                           strict("cornell_rgb", "mits_path_1024", 64),
-                                           strict("furnace05", "analytic", 32), strict("furnace08", "analytic", 32)),
-                         name_of);
+INSTANTIATE_TEST_SUITE_P(
+    Strict, References,
+    ::testing::ValuesIn(here({strict("cornell_grey", "mits_path_2048", 64), strict("cornell_rgb", "mits_path_1024", 64),
+                              strict("furnace05", "analytic", 32), strict("furnace08", "analytic", 32)})),
+    name_of);
 
 INSTANTIATE_TEST_SUITE_P(Real, References,
-                         ::testing::Values(real("veach-mis", "veach-mis", 240, 64, 0.016, 0.027),
-                                           real("cornell-box", "cornell-box", 320, 64, 0.005, 0.008),
-                                           real("bmw-m6", "bmw-m6", 228, 64, 0.028, 0.045)),
+                         ::testing::ValuesIn(here({real("veach-mis", "veach-mis", 240, 64, 0.016, 0.027),
+                                                   real("cornell-box", "cornell-box", 320, 64, 0.005, 0.008),
+                                                   real("bmw-m6", "bmw-m6", 228, 64, 0.028, 0.045)})),
                          name_of);
 #else
-INSTANTIATE_TEST_SUITE_P(Strict, References,
-                         ::testing::Values(strict("cornell_grey", "mits_path_2048", 128),
-                                           strict("cornell_rgb", "mits_path_1024", 128),
-                                           strict("caustic", "mits_bdpt_1280", 256, 0.01, 0.015),
-                                           strict("indirect", "mits_path_2048", 256, 0.003, 0.015),
-                                           strict("furnace05", "analytic", 32), strict("furnace08", "analytic", 32),
-                                           strict("terrain", "combined", 64)),
-                         name_of);
+INSTANTIATE_TEST_SUITE_P(
+    Strict, References,
+    ::testing::ValuesIn(here(
+        {strict("cornell_grey", "mits_path_2048", 128), strict("cornell_rgb", "mits_path_1024", 128),
+         strict("caustic", "mits_bdpt_1280", 256, 0.01, 0.015), strict("indirect", "mits_path_2048", 256, 0.003, 0.015),
+         strict("furnace05", "analytic", 32), strict("furnace08", "analytic", 32), strict("terrain", "combined", 64)})),
+    name_of);
 
 INSTANTIATE_TEST_SUITE_P(Real, References,
-                         ::testing::Values(real("bmw-m6", "bmw-m6", 228, 64, 0.028, 0.045),
-                                           real("cornell-box-silver", "cornell-box", 320, 64, 0.005, 0.009),
-                                           real("cornell-box-specular", "cornell-box", 320, 128, 0.005, 0.015),
-                                           real("cornell-box", "cornell-box", 320, 64, 0.005, 0.008),
-                                           real("smallpt", "cornell-box", 320, 128, 0.005, 0.009),
-                                           real("living-room", "living-room", 180, 256, 0.015, 0.072),
-                                           real("staircase2", "staircase2", 320, 64, 0.015, 0.035),
-                                           real("veach-ajar", "veach-ajar", 180, 256, 0.008, 0.035),
-                                           real("veach-mis-colorized", "veach-mis", 240, 64, 0.023, 0.029),
-                                           real("veach-mis", "veach-mis", 240, 64, 0.016, 0.027)),
+                         ::testing::ValuesIn(here({real("bmw-m6", "bmw-m6", 228, 64, 0.028, 0.045),
+                                                   real("cornell-box-silver", "cornell-box", 320, 64, 0.005, 0.009),
+                                                   real("cornell-box-specular", "cornell-box", 320, 128, 0.005, 0.015),
+                                                   real("cornell-box", "cornell-box", 320, 64, 0.005, 0.008),
+                                                   real("smallpt", "cornell-box", 320, 128, 0.005, 0.009),
+                                                   real("living-room", "living-room", 180, 256, 0.015, 0.072),
+                                                   real("staircase2", "staircase2", 320, 64, 0.015, 0.035),
+                                                   real("veach-ajar", "veach-ajar", 180, 256, 0.008, 0.035),
+                                                   real("veach-mis-colorized", "veach-mis", 240, 64, 0.023, 0.029),
+                                                   real("veach-mis", "veach-mis", 240, 64, 0.016, 0.027)})),
                          name_of);
 #endif
 

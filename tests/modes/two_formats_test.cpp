@@ -1,5 +1,5 @@
 // The same scene in two formats gives the same picture, but for noise: what runs with other seeds show between
-// themselves. Where there are no such scenes: skipped.
+// themselves. Some of these scenes ship with the project (references.hpp).
 //
 // Real scenes that exist in both formats often have other materials in each; those are shown in clay, which leaves
 // their shapes, lights and cameras.
@@ -9,12 +9,12 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 
 #include "core/film/compare.hpp"
 #include "core/film/exr.hpp"
 #include "tests/modes/daemons.hpp"
+#include "tests/support/references.hpp"
 
 namespace lightnet::test {
 namespace {
@@ -22,19 +22,21 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Pair {
-    std::string name, pbrt, mitsuba;  // under the shared folder
+    std::string name, pbrt, mitsuba;  // references, or under the shared folder
     int size, samples;
     bool clay = false;
 };
 
 std::ostream& operator<<(std::ostream& out, const Pair& pair) { return out << pair.name; }
 
+std::optional<fs::path> file_of(const std::string& name) {
+    const auto reference = reference_file(name);
+    return reference ? reference : shared_file(name);
+}
+
 class TwoFormats : public ::testing::TestWithParam<Pair> {
 protected:
     void SetUp() override {
-        const char* shared = std::getenv("LIGHTNET_SHARED");
-        if (!shared || !fs::exists(fs::path(shared) / GetParam().mitsuba)) GTEST_SKIP() << "the scenes are not here";
-        home = fs::path(shared);
         const std::string clay = GetParam().clay ? ", material = 'clay'" : "";
         folder.write("graph.lua", "file = ''\nscene = Scene { file" + clay +
                                       " }\nlighting = PathTracing { samples = 1, paths = 'all' }\n"
@@ -45,15 +47,14 @@ protected:
     Picture render(const std::string& scene, int seed) {
         const std::string size = std::to_string(GetParam().size);
         const auto run = launch(folder / "graph.lua", folder,
-                                {"-D", "file=" + (home / scene).string(), "--size", size + "x" + size, "--samples",
-                                 std::to_string(GetParam().samples), "--seed", std::to_string(seed), "--threads", "2",
-                                 "--progress", "none"},
+                                {"-D", "file=" + file_of(scene).value().string(), "--size", size + "x" + size,
+                                 "--samples", std::to_string(GetParam().samples), "--seed", std::to_string(seed),
+                                 "--threads", "2", "--progress", "none"},
                                 slowdown * std::chrono::minutes(10));
         EXPECT_EQ(run.code, 0) << run.said;
         return read_exr(folder / "picture.exr");
     }
 
-    fs::path home;
     Folder folder;
 };
 
@@ -79,16 +80,16 @@ TEST_P(TwoFormats, GiveTheSamePicture) {
                 double{ratio.r}, double{ratio.g}, double{ratio.b}, difference.block_difference, noise);
 }
 
-Pair strict(const std::string& name) {
-    return {name, "reference/" + name + ".pbrt", "reference/" + name + ".path.xml", 128, 64};
-}
+Pair strict(const std::string& name) { return {name, name + ".pbrt", name + ".path.xml", 128, 64}; }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, TwoFormats,
-                         ::testing::Values(strict("cornell_grey"), strict("cornell_rgb"), strict("indirect"),
-                                           strict("furnace08"),
-                                           Pair{"staircase2", "scenes/staircase2-pbrt/staircase2.pbrt",
-                                                "scenes/staircase2-mitsuba/scene.xml", 192, 48, true}),
-                         [](const auto& pair) { return pair.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, TwoFormats,
+    ::testing::ValuesIn(that_are_here(std::vector<Pair>{strict("cornell_grey"), strict("cornell_rgb"),
+                                                        strict("indirect"), strict("furnace08"),
+                                                        Pair{"staircase2", "scenes/staircase2-pbrt/staircase2.pbrt",
+                                                             "scenes/staircase2-mitsuba/scene.xml", 192, 48, true}},
+                                      [](const Pair& pair) { return file_of(pair.mitsuba); })),
+    [](const auto& pair) { return pair.param.name; });
 
 }  // namespace
 }  // namespace lightnet::test

@@ -1,12 +1,10 @@
-// Every algorithm that covers the paths of a scene gives the picture that another renderer gives. Where there are no
-// references: skipped.
+// Every algorithm that covers the paths of a scene gives the picture that another renderer gives.
 //
-// Methods with bias state it: their mean may be off by 1 %, blocks of 16 × 16 pixels by what is written beside them.
-// What noise adds is taken from two runs with different seeds.
+// Pictures are a half as wide and high as the references, whose pixels are put together; with LIGHTNET_LARGE they are
+// as large (ctest -L slow). Methods with bias state it: their mean may be off by 1 %, blocks of 16 × 16 pixels by what
+// is written beside them. What noise adds is taken from two runs with different seeds.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <filesystem>
 #include <functional>
 #include <ostream>
 #include <string>
@@ -15,15 +13,19 @@
 #include "core/film/exr.hpp"
 #include "core/readers/files.hpp"
 #include "core/readers/read_scene.hpp"
+#include "tests/support/references.hpp"
 #include "tests/support/small_network.hpp"
 
 namespace lightnet::agreement_test {
 namespace {
 
-namespace fs = std::filesystem;
 using namespace test;
 
-constexpr std::uint32_t side = 256;
+#ifdef LIGHTNET_LARGE
+constexpr std::uint32_t reduction = 1;
+#else
+constexpr std::uint32_t reduction = 2;
+#endif
 
 Value number(double value) { return Value{value}; }
 Value word(const char* text) { return Value{std::string(text)}; }
@@ -74,21 +76,31 @@ struct Case {
 
 std::ostream& operator<<(std::ostream& out, const Case& agreement) { return out << agreement.name; }
 
+/// Squares of pixels become one, their mean: what a box filter over it shows.
+Picture reduced(const Picture& whole) {
+    Picture small;
+    small.width = whole.width / reduction, small.height = whole.height / reduction;
+    small.beauty.resize(std::size_t{small.width} * small.height);
+    for (std::uint32_t y = 0; y < small.height * reduction; ++y)
+        for (std::uint32_t x = 0; x < small.width * reduction; ++x)
+            small.beauty[y / reduction * small.width + x / reduction] +=
+                whole.beauty[y * whole.width + x] * (1.0f / (reduction * reduction));
+    return small;
+}
+
 class Agreement : public testing::TestWithParam<Case> {};
 
 TEST_P(Agreement, WithTheReference) {
     const Case& expected = GetParam();
-    const char* shared = std::getenv("LIGHTNET_SHARED");
-    const fs::path folder = fs::path(shared ? shared : "") / "reference";
-    if (!shared || !fs::exists(folder / expected.reference)) GTEST_SKIP() << "the reference pictures are not here";
+    const Picture reference = reduced(read_exr(reference_file(expected.reference).value()));
     const auto render = [&](std::uint64_t seed) {
         DiskFiles disk;
-        SceneData data = read_scene(disk, (folder / expected.scene).string());
+        SceneData data = read_scene(disk, reference_file(expected.scene).value().string());
         const float scale = data.film.scale;
-        SmallNetwork network(std::move(data), side, side);
+        SmallNetwork network(std::move(data), reference.width, reference.height);
         expected.method(network);
         Picture picture;
-        picture.width = picture.height = side;
+        picture.width = reference.width, picture.height = reference.height;
         picture.beauty = network.picture(expected.samples, seed);
         for (Rgb& pixel : picture.beauty) pixel = pixel * scale;
         return picture;
@@ -98,7 +110,7 @@ TEST_P(Agreement, WithTheReference) {
     const double noise = compare(picture, other).block_difference / 2;  // of the mean of both
     for (std::size_t i = 0; i < picture.beauty.size(); ++i)
         picture.beauty[i] = (picture.beauty[i] + other.beauty[i]) * 0.5f;
-    const Difference found = compare(read_exr(folder / expected.reference), picture);
+    const Difference found = compare(reference, picture);
     EXPECT_NEAR(found.mean_ratio.g, 1, expected.mean);
     EXPECT_LT(found.block_difference, expected.blocks + 1.5 * noise) << "noise of the run: " << noise;
     RecordProperty("mean_ratio", std::to_string(found.mean_ratio.g));

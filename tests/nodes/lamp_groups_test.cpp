@@ -99,11 +99,22 @@ class LampGroups : public testing::TestWithParam<NamedMethod> {
 protected:
     Method method() const { return GetParam().add; }
 };
+class LampGroupsToTheBit : public LampGroups {};
+class LampGroupsThatAreLookedFor : public LampGroups {};
+
+const std::vector<NamedMethod> looking_for_lamps{
+    {"direct", direct}, {"adaptive", adaptive}, {"paths", paths}, {"photons", photons}, {"progressive", progressive}};
+std::vector<NamedMethod> joined(std::vector<NamedMethod> methods, std::vector<NamedMethod> more) {
+    methods.insert(methods.end(), more.begin(), more.end());
+    return methods;
+}
 INSTANTIATE_TEST_SUITE_P(EveryMethod, LampGroups,
-                         testing::Values(NamedMethod{"direct", direct}, NamedMethod{"adaptive", adaptive},
-                                         NamedMethod{"paths", paths}, NamedMethod{"photons", photons},
-                                         NamedMethod{"progressive", progressive}, NamedMethod{"gathered", gathered},
-                                         NamedMethod{"cached", cached}));
+                         testing::ValuesIn(joined(looking_for_lamps, {{"gathered", gathered}, {"cached", cached}})));
+// The cache limits the gradient of each group by itself.
+INSTANTIATE_TEST_SUITE_P(EveryMethodButTheCache, LampGroupsToTheBit,
+                         testing::ValuesIn(joined(looking_for_lamps, {{"gathered", gathered}})));
+INSTANTIATE_TEST_SUITE_P(EveryMethodThatLooksForLamps, LampGroupsThatAreLookedFor,
+                         testing::ValuesIn(looking_for_lamps));
 
 TEST_P(LampGroups, HaveNothingOfTheLightOfOthers) {
     const auto layers = network_of(method(), by_colour, {{"groups", yes}}).pictures(16);
@@ -124,8 +135,7 @@ TEST_P(LampGroups, HaveNothingOfTheLightOfOthers) {
 }
 
 // Lamps of one colour each: a channel's sum has one part that isn't nought, so nothing is rounded otherwise.
-TEST_P(LampGroups, HaveTogetherWhatIsThereWithoutThemToTheBit) {
-    if (method() == cached) GTEST_SKIP() << "it limits the gradient of each group by itself";
+TEST_P(LampGroupsToTheBit, HaveTogetherWhatIsThereWithoutThem) {
     const auto apart = network_of(method(), by_colour, {{"groups", yes}}).pictures(16);
     const auto plain = network_of(method(), by_colour, {}).pictures(16).at("light");
     for (std::size_t i = 0; i < plain.size(); ++i) {
@@ -141,8 +151,7 @@ TEST_P(LampGroups, OfWhichOneHasAllLampsAreWhatIsThereWithoutThem) {
     EXPECT_EQ(apart.at("light.everything"), plain.at("light"));
 }
 
-TEST_P(LampGroups, ThatOneLooksForAloneAreASceneWithoutTheOthers) {
-    if (method() == gathered || method() == cached) GTEST_SKIP() << "these look for no lamps themselves";
+TEST_P(LampGroupsThatAreLookedFor, AloneAreASceneWithoutTheOthers) {
     const Params red{{"lamps", Value{std::string("red")}}};
     const auto restricted = network_of(method(), by_colour, red).pictures(16).at("light");
     SmallNetwork alone(three_lamps(true, false, false), width, height);

@@ -1,4 +1,5 @@
-// Scenes that others made, when they are at hand: LIGHTNET_SHARED names the folder that has them in scenes/.
+// The scene that ships with the project; and scenes that others made, where a folder with them is known
+// (references.hpp).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,11 +20,6 @@ std::size_t triangles_of(const SceneData& scene) {
     for (const auto& shape : scene.shapes)
         if (const auto* mesh = std::get_if<Mesh>(&shape.geometry)) count += mesh->triangles.size();
     return count;
-}
-
-std::string shared_scenes() {
-    const char* folder = std::getenv("LIGHTNET_SHARED");
-    return folder ? std::string(folder) + "/scenes/" : std::string();
 }
 
 TEST(CornellBox, ShipsWithTheProject) {
@@ -55,10 +51,12 @@ TEST(Beside, IsInTheFolderOfTheOther) {
     EXPECT_EQ(beside("a/b.pbrt", "/x/./d.ply"), "/x/d.ply");
 }
 
+#ifdef LIGHTNET_SHARED_FOLDER
+const std::string shared_scenes = LIGHTNET_SHARED_FOLDER "/scenes/";
+
 TEST(RealScenes, VeachAjarIsReadCompletely) {
-    if (shared_scenes().empty()) GTEST_SKIP() << "LIGHTNET_SHARED is not set";
     DiskFiles files;
-    const auto scene = read_scene(files, shared_scenes() + "veach-ajar-pbrt/veach-ajar.pbrt");
+    const auto scene = read_scene(files, shared_scenes + "veach-ajar-pbrt/veach-ajar.pbrt");
     EXPECT_EQ(triangles_of(scene), 382'690u);
     EXPECT_THAT(scene.shapes, SizeIs(22));
     EXPECT_THAT(scene.warnings, IsEmpty());
@@ -69,16 +67,16 @@ TEST(RealScenes, VeachAjarIsReadCompletely) {
 }
 
 TEST(RealScenes, CornellBoxesAndVeachMisAreReadWithoutWarnings) {
-    if (shared_scenes().empty()) GTEST_SKIP() << "LIGHTNET_SHARED is not set";
     for (const char* name : {"cornell-box-pbrt/cornell-box.pbrt", "cornell-box-pbrt/cornell-box-silver.pbrt",
                              "cornell-box-pbrt/cornell-box-specular.pbrt", "cornell-box-pbrt/smallpt.pbrt",
                              "veach-mis-pbrt/veach-mis.pbrt", "veach-mis-pbrt/veach-mis-colorized.pbrt"}) {
         DiskFiles files;
-        const auto scene = read_scene(files, shared_scenes() + name);
+        const auto scene = read_scene(files, shared_scenes + name);
         EXPECT_THAT(scene.warnings, IsEmpty()) << name;
         EXPECT_GE(scene.shapes.size(), 8u) << name;
     }
 }
+#endif
 
 }  // namespace
 }  // namespace lightnet::test::real_scenes_reader_test

@@ -1,5 +1,5 @@
-// The same scene in two formats is the same scene; and scenes of all formats that others made are read. Where there are
-// none (LIGHTNET_SHARED names their folder): skipped.
+// The same scene in two formats is the same scene; and scenes of all formats that others made are read, where a folder
+// with them is known (references.hpp).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/scene/surfaces/placed_quadric.hpp"
+#include "tests/support/references.hpp"
 #include "tests/support/scene_text.hpp"
 
 namespace lightnet::test::same_in_two_formats_test {
@@ -73,11 +74,6 @@ void expect_same(const SceneData& a, const SceneData& b) {
     EXPECT_EQ(a.film.height, b.film.height);
 }
 
-std::string shared() {
-    const char* folder = std::getenv("LIGHTNET_SHARED");
-    return folder ? folder : "";
-}
-
 SceneData from_disk(const std::string& path) {
     DiskFiles files;
     return read_scene(files, path);
@@ -101,25 +97,25 @@ TEST(TwoFormats, DescribeTheSameSquare) {
 }
 
 TEST(TwoFormats, DescribeTheSameReferences) {
-    if (shared().empty()) GTEST_SKIP() << "LIGHTNET_SHARED is not set";
-    for (const char* name : {"cornell_grey", "cornell_rgb", "caustic", "indirect", "furnace05", "furnace08"}) {
+    for (const std::string name : {"cornell_grey", "caustic", "indirect", "furnace05", "furnace08"}) {
         SCOPED_TRACE(name);
-        const std::string path = shared() + "/reference/" + name;
-        expect_same(from_disk(path + ".path.xml"), from_disk(path + ".path.pbrt"));
+        expect_same(from_disk(reference_file(name + ".path.xml").value()),
+                    from_disk(reference_file(name + ".path.pbrt").value()));
     }
 }
 
+#ifdef LIGHTNET_SHARED_FOLDER
+const std::string shared = LIGHTNET_SHARED_FOLDER;
+
 TEST(TwoFormats, DescribeTheSameStaircase) {
-    if (shared().empty()) GTEST_SKIP() << "LIGHTNET_SHARED is not set";
-    const std::string scenes = shared() + "/scenes/";
+    const std::string scenes = shared + "/scenes/";
     expect_same(from_disk(scenes + "staircase2-mitsuba/scene.xml"),
                 from_disk(scenes + "staircase2-pbrt/staircase2.pbrt"));
 }
 
 TEST(RealScenes, OfAllFormatsAreRead) {
-    if (shared().empty()) GTEST_SKIP() << "LIGHTNET_SHARED is not set";
     std::size_t count = 0;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(shared() + "/scenes")) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(shared + "/scenes")) {
         const auto path = entry.path();
         const auto ending = path.extension();
         const bool scene = path.filename() == "scene.xml" || ending == ".gltf" ||
@@ -133,6 +129,7 @@ TEST(RealScenes, OfAllFormatsAreRead) {
     }
     EXPECT_GE(count, 11u);
 }
+#endif
 
 }  // namespace
 }  // namespace lightnet::test::same_in_two_formats_test

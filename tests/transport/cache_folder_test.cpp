@@ -124,28 +124,32 @@ TEST(BlobCache, WaitsForNoPipe) {
     EXPECT_FALSE(cache.has(hash));
 }
 
-/// A variable of the environment is another one for a while.
+/// A variable of the environment is another one, or none, for a while.
 class Environment {
 public:
-    explicit Environment(std::string name) : name_(std::move(name)) {
+    explicit Environment(std::string name, const char* meanwhile = nullptr) : name_(std::move(name)) {
         if (const char* value = std::getenv(name_.c_str())) before_ = value;
-        ::unsetenv(name_.c_str());
+        set(meanwhile);
     }
-    ~Environment() {
-        if (before_) ::setenv(name_.c_str(), before_->c_str(), 1);
-    }
+    ~Environment() { set(before_ ? before_->c_str() : nullptr); }
     Environment(const Environment&) = delete;
     Environment& operator=(const Environment&) = delete;
 
 private:
+    void set(const char* value) const {
+        if (value)
+            ::setenv(name_.c_str(), value, 1);
+        else
+            ::unsetenv(name_.c_str());
+    }
     std::string name_;
     std::optional<std::string> before_;
 };
 
 TEST(CacheFolder, ThatStandsInForHomeMustBelongToThisUserAlone) {
-    const Environment home("HOME"), cache("XDG_CACHE_HOME");
-    const auto folder = "/tmp/lightnet-cache-" + std::to_string(::getuid());
-    if (fs::exists(fs::symlink_status(folder))) GTEST_SKIP() << "this user has one";
+    const test::Folder temporary;
+    const Environment home("HOME"), cache("XDG_CACHE_HOME"), instead_of_tmp("TMPDIR", temporary.path().c_str());
+    const auto folder = temporary / ("lightnet-cache-" + std::to_string(::getuid()));
     const auto refused = [] {
         try {
             default_cache_folder();

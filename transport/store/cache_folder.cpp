@@ -108,7 +108,7 @@ std::string default_cache_folder() {
     if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache) return std::string(cache) + "/lightnet";
     if (const char* home = std::getenv("HOME"); home && *home) return std::string(home) + "/.cache/lightnet";
     // Anybody may have made it, and could then choose what pictures are made of.
-    const auto folder = "/tmp/lightnet-cache-" + std::to_string(::getuid());
+    const auto folder = (fs::temp_directory_path() / ("lightnet-cache-" + std::to_string(::getuid()))).string();
     ::mkdir(folder.c_str(), 0700);
     if (!belongs_to_this_user_alone(folder))
         throw Error(folder,
