@@ -147,15 +147,12 @@ TEST_F(DispatcherTest, HasThoseAnswerWhoHeldANodeThatHasMovedAway) {
     EXPECT_EQ(carrier.asked.size(), 2u);
 }
 
-TEST_F(DispatcherTest, AsksAnotherPlaceWhatOneKeepsSilentAbout) {
+TEST_F(DispatcherTest, WaitsForItsOwnPlacesHoweverLongTheyTake) {
     tell(plan());
     ask(1, 2);
-    const auto first = carrier.asked.at(0).first;
-    now = 100;
-    dispatcher.step();
-    ASSERT_EQ(carrier.asked.size(), 2u);
-    EXPECT_NE(carrier.asked[1].first, first);
-    answer(), answer();
+    for (now = 0; now < 10000; now += 1) dispatcher.step();
+    EXPECT_EQ(carrier.asked.size(), 1u);
+    answer();
     EXPECT_EQ(carrier.replies.size(), 1u);
 }
 

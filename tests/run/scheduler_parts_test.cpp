@@ -91,6 +91,21 @@ TEST(ServiceTimes, AssumeTheMeanOfWhatIsNotMeasured) {
     EXPECT_EQ(times.of(0), 0);
 }
 
+TEST(ServiceTimes, KnowHowMuchMoreThanTheMeanAPieceTook) {
+    ServiceTimes times;
+    EXPECT_EQ(times.spread(), 1);
+    for (int i = 0; i < 10; ++i) times.measure(0, 1, 1, 0);
+    EXPECT_NEAR(times.spread(), 1, 1e-9);
+    times.measure(0, 5, 1, 0);
+    EXPECT_NEAR(times.spread(), 5, 1e-9);
+    times.measure(1, 100, 1, 0);
+    EXPECT_LT(times.spread(), 5) << "of another replica nothing is known";
+    for (int i = 0; i < 100; ++i) times.measure(0, 1, 1, 0);
+    EXPECT_NEAR(times.spread(), 1, 0.1);
+    times.measure(0, 1e6, 1, 0);
+    EXPECT_LE(times.spread(), 16) << "one piece tells no more about the others";
+}
+
 TEST(ServiceTimes, KeepWhatReplicasSayOfTheirWorkApartFromWhatIsWaitedFor) {
     ServiceTimes times;
     EXPECT_EQ(times.said(), 0);

@@ -65,6 +65,7 @@ Fields Host::Service::answer_to_ping(const Fields& ping, bool ours) {
         .set("taken", door.tally().taken)
         .set("told", door.tally().told)
         .set("progress", run && run->places() ? run->places()->progress() : 0)
+        .set("pulse", ours && run->places() ? run->places()->pulse() : 0)
         .set("doing", ours && run->places() ? to_text(run->places()->doing()) : "");
     if (!ours || !run->serving() || !ping.number("watch")) return pong;
     run->places()->watch();

@@ -139,6 +139,11 @@ void Cluster::wait(std::chrono::nanoseconds most) {
     if (links_->arrived.empty()) links_->wait(most);
 }
 
+std::uint64_t Cluster::pulse(const std::string& host) const {
+    const auto* link = links_->find(host);
+    return link ? link->pulse() : 0;
+}
+
 bool Cluster::take_out(const std::string& host, const std::string& why) {
     const bool out = links_->take_out(host, why);
     links_->tell_changes();

@@ -121,6 +121,7 @@ public:
     bool bring(const PlaceAt& to, const Hash& name, const Bytes& bytes) override;
     /// Every host asks by this plan from now on.
     void adopt(const Plan& plan) override;
+    std::uint64_t pulse(const std::string& host) const override;
     const Counters& counters() const override;
 
 private:

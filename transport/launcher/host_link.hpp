@@ -79,6 +79,8 @@ public:
     const Machine& machine() const { return machine_; }
     /// Bundles and tiles that it has answered.
     virtual std::uint64_t progress() const = 0;
+    /// Grows while its places work, see Gauge::pulse; as of its last heartbeat.
+    virtual std::uint64_t pulse() const = 0;
     /// Lines to it that took the place of others, which were old.
     virtual std::uint64_t renewed_lines() const { return 0; }
     /// What its nodes say that they do while they prepare.
@@ -118,8 +120,8 @@ public:
     virtual bool bring(const Hash& name, const Bytes& bytes) = 0;
     /// It gets no more of this run. False: it must stay.
     virtual bool take_out(const std::string& why) = 0;
-    /// It answers what it has, gets no more of this run, and stays away, whatever happens to it meanwhile; one that takes
-    /// no part yet never will. False: it can't, or is out already.
+    /// It answers what it has, gets no more of this run, and stays away, whatever happens to it meanwhile; one that
+    /// takes no part yet never will. False: it can't, or is out already.
     virtual bool drain() = 0;
     /// It is gone, or what was under way to it; it is called again.
     virtual void lose(Time now, const std::string& why) = 0;

@@ -24,6 +24,7 @@ public:
     std::string title() const override { return "this process"; }
     std::string ready_words() const override { return "places of this process are ready"; }
     std::uint64_t progress() const override { return threads_.progress(); }
+    std::uint64_t pulse() const override { return threads_.pulse(); }
     Doings doing() const override { return threads_.doing(); }
     void watch_places() override;
     HostFigures figures() const override { return threads_.figures(); }

@@ -254,6 +254,7 @@ void RemoteHost::control(Type type, const Fields& fields, Time now) {
             else if (fields.number("run") == offer_.run && lacks_something(fields))
                 lose(now, "a message to or from it was lost");
             progress_ = fields.number("progress");
+            pulse_ = fields.number("pulse");
             doing_ = doings_from(fields.text("doing"));
             if (auto figures = figures_from(fields.text("figures"))) figures_ = std::move(*figures);
             return;

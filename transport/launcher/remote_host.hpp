@@ -39,9 +39,10 @@ public:
     RemoteHost(const RunOffer& offer, Counters& counters, std::string name, std::unique_ptr<HostConnection> connection);
 
     std::uint64_t progress() const override { return progress_; }  // as of its last heartbeat
-    Doings doing() const override { return doing_; }               // the same
+    std::uint64_t pulse() const override { return pulse_; }
+    Doings doing() const override { return doing_; }  // the same
     void watch_places() override { watched_ = true; }
-    HostFigures figures() const override { return figures_; }      // the same
+    HostFigures figures() const override { return figures_; }  // the same
     std::uint64_t renewed_lines() const override { return renewed_lines_; }
     void watch(Poll& poll) override { connection_->watch(poll); }
     void tick(Time now, const ExpectedPlan& plan) override;
@@ -87,7 +88,7 @@ private:
     HostFigures figures_;
     bool watched_ = false, ask_figures_ = false;
     bool drained_ = false;  // see drain()
-    std::uint64_t progress_ = 0;
+    std::uint64_t progress_ = 0, pulse_ = 0;
     std::optional<Time> next_renewal_{};  // of the connection, which is broken
     std::optional<Time> line_ends_{};     // of the line, which is not
     std::uint64_t renewed_lines_ = 0;

@@ -96,8 +96,7 @@ void PlaceThreads::Threads::serve_place(std::uint32_t index, Life& life) {
     };
     const auto carrier = transport.carrier_of(index, at_fault);
     auto tracing = trace(*carrier);
-    Place place(*network, {host, index}, plan, run, rules, tracing ? tracing->carrier : *carrier,
-                gauges[index]);
+    Place place(*network, {host, index}, plan, run, rules, tracing ? tracing->carrier : *carrier, gauges[index]);
     if (tracing) place.trace(tracing->tracer);
     change(life, State::serving);
     place.serve(stop, life.progress);
@@ -225,6 +224,12 @@ std::uint32_t PlaceThreads::count() const { return threads_->count; }
 std::uint64_t PlaceThreads::progress() const {
     std::uint64_t sum = 0;
     for (const auto& life : threads_->lives) sum += life.progress.load(std::memory_order_relaxed);
+    return sum;
+}
+
+std::uint64_t PlaceThreads::pulse() const {
+    std::uint64_t sum = 0;
+    for (const auto& gauge : threads_->gauges) sum += gauge.pulse.get();
     return sum;
 }
 

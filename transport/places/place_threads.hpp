@@ -46,6 +46,8 @@ public:
     std::uint32_t count() const;
     /// Bundles and tiles answered so far, by all.
     std::uint64_t progress() const;
+    /// See Gauge::pulse; of all places together.
+    std::uint64_t pulse() const;
     /// From now on, looks at what they are at.
     void watch();
     /// What was seen since then.

@@ -54,7 +54,7 @@ enum class Type : std::uint8_t {
     ready,       //                             all places are assembled
     broken,      //                             text: the run can't be served here
     ping,        // heartbeat; sent: messages so far, see is_counted(); watch: figures are wanted
-    pong,        //                          process, run, progress, sent (as in the ping), taken, told, line, figures
+    pong,        //                          process, run, progress, pulse, sent (as in pings), taken, told, line, figures
     plan,        // who answers for which node from now on
     end,         // of the run
     ended,       //                             counters

@@ -35,6 +35,8 @@ public:
     virtual bool take_out(const std::string& /*host*/, const std::string& /*why*/) { return false; }
     /// Somebody has answered falsely: all that he has said in this run is in doubt.
     virtual void doubt(const Failure& /*lie*/) {}
+    /// A number that grows while places of `host` work, as far as is known; 0: it is not.
+    virtual std::uint64_t pulse(const std::string& /*host*/) const { return 0; }
     /// Forgets about a place that is gone.
     virtual void forget(const PlaceAt& place) = 0;
     /// Where the carrier counts bytes and refusals.

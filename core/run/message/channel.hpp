@@ -46,6 +46,10 @@ public:
     virtual Credit credit() const { return {}; }
     /// How many places stand behind it, and answer at the same time.
     virtual std::uint32_t places() const { return 1; }
+    /// Does it stay within the asker's process? Then nothing can be lost on it, and all answerers share one machine.
+    virtual bool within_process() const { return false; }
+    /// A number that grows while the answerer works, as far as is known.
+    virtual std::uint64_t pulse() const { return 0; }
     /// Is it the asker itself, to be asked only when others can't be, or are late?
     virtual bool reserve() const { return false; }
     /// How busy the answerer was when it last replied.

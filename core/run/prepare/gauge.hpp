@@ -57,6 +57,7 @@ public:
     /// For Fibers::show().
     std::atomic<std::uint16_t>& shown() { return doing_; }
 
+    Count pulse;  // grows while the place works, and stands still while it waits or hangs
     std::vector<Node> nodes;
     std::vector<Edge> edges;  // by asking_edges()
     Edge* along = nullptr;    // the place's own: along which it begins to ask just now; null: nobody counts it

@@ -76,7 +76,7 @@ bool ShardDealer::join(const NodeCopy& copy, std::uint64_t process, Time now) {
     auto host = std::find(hosts_.begin(), hosts_.end(), copy.place.host);
     if (host == hosts_.end()) host = hosts_.insert(host, copy.place.host);
     tell(Scheduler::Joined{replica, static_cast<Scheduler::Host>(host - hosts_.begin()), replica + 1, credit_of_each,
-                           process},
+                           process, 1, false, copy.place.host.empty()},
          now);
     return true;
 }
@@ -135,6 +135,18 @@ Shards ShardDealer::take_next(std::size_t copies) {
 
 void ShardDealer::put_back(const Shards& shards) {
     for (auto shard = shards.first + shards.count; shard-- > shards.first;) to_do_.push_front(shard);
+}
+
+void ShardDealer::feel_pulses(const std::function<std::uint64_t(const std::string&)>& pulse, Time now) {
+    if (now < next_pulse_) return;
+    next_pulse_ = now + seconds_between_pulses;
+    std::set<std::string> alive;
+    for (const auto& host : hosts_) {
+        const auto felt = pulse(host);
+        if (std::exchange(pulses_[host], felt) != felt) alive.insert(host);
+    }
+    for (const auto& [copy, replica] : joined_)
+        if (alive.contains(copy.place.host)) tell(Scheduler::Alive{replica}, now);
 }
 
 void ShardDealer::refused(CopyId id, Time now) {

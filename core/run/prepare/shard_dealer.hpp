@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -65,6 +66,8 @@ public:
 
     /// What is due. `copies`: how many share the shards, or soon will.
     std::vector<Deal> deal(std::size_t copies, Time now);
+    /// Looks, several times a second, who works at what he has. `pulse`: of a host, see Carrier.
+    void feel_pulses(const std::function<std::uint64_t(const std::string&)>& pulse, Time now);
     /// It could not be sent.
     void refused(CopyId id, Time now);
 
@@ -101,6 +104,8 @@ private:
     std::vector<NodeCopy> copies_;  // by replica, lost ones too
     std::set<NodeCopy> draining_;
     std::vector<std::string> hosts_;  // by number
+    std::map<std::string, std::uint64_t> pulses_;
+    Time next_pulse_ = 0;
     std::unordered_map<Scheduler::WorkId, Shards> works_;
     std::deque<std::uint32_t> to_do_;   // in nobody's hands
     std::vector<std::uint32_t> alone_;  // and these, one by one

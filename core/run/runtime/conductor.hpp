@@ -79,6 +79,7 @@ public:
     void give_up(std::uint32_t channel) override;
     bool take_out(const std::string& host, const std::string& why) override { return carrier_.take_out(host, why); }
     void doubt(const Failure& lie) override { carrier_.doubt(lie); }
+    std::uint64_t pulse(const std::string& host) const override { return carrier_.pulse(host); }
     void forget(const PlaceAt& place) override { carrier_.forget(place); }
     const Counters& counters() const override { return carrier_.counters(); }
 

@@ -17,11 +17,14 @@ std::string describe(const ShardDealer::Convicted& convicted) {
 }  // namespace
 
 void Conductor::deal(std::size_t position) {
-    for (const auto& [number, call] : calls_.dealt_out(order_[position]))
+    const auto pulse = [this](const std::string& host) { return carrier_.pulse(host); };
+    for (const auto& [number, call] : calls_.dealt_out(order_[position])) {
+        call->dealer().feel_pulses(pulse, steady_seconds());
         for (const auto& [id, to, shards] : call->dealer().deal(copies(position).size(), steady_seconds())) {
             const Step step{Step::Kind::shards, number, shards.first, shards.count};
             if (!send({to, position, step, id})) call->dealer().refused(id, steady_seconds());
         }
+    }
 }
 
 // With those of the proposal.

@@ -10,6 +10,8 @@ namespace {
 
 constexpr double worth_the_way = 0.25;   // seconds of work: beside them, some hundred µs of sending are little
 constexpr double soon_enough = 1;        // seconds until a group of blocks is there
+constexpr double too_long = 1;           // seconds of one block of a tile: then it goes in pieces ...
+constexpr double short_enough = 0.5;     // ... of about so many
 constexpr std::size_t most_bytes = 4e6;  // of an answer of several tiles
 constexpr std::size_t shares = 4;        // for each place, see guided_share()
 
@@ -72,6 +74,15 @@ void MasterRenderer::pass_next_tile() {
         pieces_.pop_back();
 }
 
+// A tile that would take too long, into pieces; else only itself. What blocks of tiles cost is known of those lately.
+std::vector<Tile> MasterRenderer::cut(const Tile& tile) {
+    const double seconds = replicas_.scheduler().service();
+    if (seconds <= 0 || pixels_ <= 0 || tile.rehearses() || cut_tiles_.is_piece(tile)) return {tile};
+    const double each = seconds / pixels_;
+    if (each * static_cast<double>(tile.pixels()) <= too_long) return {tile};
+    return cut_tiles_.cut(tile, static_cast<std::size_t>(short_enough / each));
+}
+
 // What goes together: one tile, or several quick ones. A group of blocks for which there is no time goes block by
 // block.
 std::vector<Tile> MasterRenderer::take_next() {
@@ -94,10 +105,26 @@ std::vector<Tile> MasterRenderer::take_next() {
             bytes = 0;
             continue;
         }
+        if (const auto pieces = cut(tile); pieces.size() > 1) {
+            if (job_.handed_out) job_.handed_out({tile});
+            pieces_.insert(pieces_.end(), pieces.rbegin(), pieces.rend());
+            counters_.tiles -= pieces.size() - 1;  // places count each piece, and what is counted adds up to tiles
+            left_ += work_in(pieces) - tile.blocks();
+            unanswered_ += work_in(pieces) - tile.blocks();
+            bytes = 0;
+            continue;
+        }
         tiles.push_back(tile);
         blocks += tile.blocks();
     }
     return tiles;
+}
+
+// Those who watch know whole tiles.
+void MasterRenderer::show(std::vector<Tile> tiles) const {
+    if (!job_.handed_out) return;
+    std::erase_if(tiles, [this](const Tile& tile) { return cut_tiles_.is_piece(tile); });
+    if (!tiles.empty()) job_.handed_out(tiles);
 }
 
 void MasterRenderer::hand_out() {
@@ -105,7 +132,7 @@ void MasterRenderer::hand_out() {
     while (left_ > 0 && replicas_.has_credit()) {
         auto tiles = std::make_shared<const std::vector<Tile>>(take_next());
         left_ -= work_in(*tiles);
-        if (job_.handed_out) job_.handed_out(*tiles);
+        show(*tiles);
         replicas_.foresee(left_);
         replicas_.send({std::move(tiles), this, 0, job_.width});
     }
@@ -154,13 +181,27 @@ void MasterRenderer::drain() {
 }
 
 void MasterRenderer::answered(const Bundle<Tile>& bundle, std::vector<Rgb> pixels) {
+    note_size(*bundle.questions);
     std::span<const Rgb> rest = pixels;
     for (const Tile& tile : *bundle.questions) {
         const std::size_t own = answers_to(tile, job_.width);
         unanswered_ -= tile.blocks();
-        done_(tile, rest.first(own));
+        hand_on(tile, rest.first(own));
         rest = rest.subspan(own);
     }
+}
+
+// Of those whose time is known.
+void MasterRenderer::note_size(const std::vector<Tile>& tiles) {
+    double pixels = 0;
+    for (const Tile& tile : tiles) pixels += static_cast<double>(tile.pixels() * tile.blocks());
+    pixels /= static_cast<double>(work_in(tiles));
+    pixels_ = pixels_ > 0 ? 0.8 * pixels_ + 0.2 * pixels : pixels;
+}
+
+void MasterRenderer::hand_on(const Tile& tile, std::span<const Rgb> pixels) {
+    if (!cut_tiles_.is_piece(tile)) return done_(tile, pixels);
+    if (const auto whole = cut_tiles_.put(tile, pixels)) done_(whole->tile, whole->pixels);
 }
 
 void MasterRenderer::failed(const Bundle<Tile>&, const Failure& failure) {

@@ -7,12 +7,14 @@
 #include <vector>
 
 #include "core/run/message/carrier.hpp"
+#include "core/run/runtime/cut_tiles.hpp"
 #include "core/run/schedule/multiplexer.hpp"
 #include "core/run/schedule/remote_channels.hpp"
 
 namespace lightnet {
 
-/// Has every tile rendered, by whichever place will finish it first, and hands the pixels on, once for each tile.
+/// Has every tile rendered, by whichever place will finish it first, and hands the pixels on, once for each tile. What
+/// would take long goes in pieces: then little is lost with a host, and nobody waits long for the last.
 /// Renders nothing itself. Lives on the launcher's thread.
 class MasterRenderer final : private BundleOwner<Tile> {
 public:
@@ -70,7 +72,11 @@ private:
     Together together() const;
     const Tile& next_tile() const;
     void pass_next_tile();
+    std::vector<Tile> cut(const Tile& tile);
     std::vector<Tile> take_next();
+    void note_size(const std::vector<Tile>& tiles);
+    void hand_on(const Tile& tile, std::span<const Rgb> pixels);
+    void show(std::vector<Tile> tiles) const;
     void hand_out();
     void take_in();
 
@@ -82,8 +88,10 @@ private:
     RemoteChannels<Tile>::Edge edge_;
     Multiplexer<Tile> replicas_;
     bool planned_ = false, draining_ = false, alone_each_ = false;
-    std::size_t next_ = 0;           // tile to hand out
-    std::vector<Tile> pieces_;       // to be handed out before it, the last one first
+    std::size_t next_ = 0;      // tile to hand out
+    std::vector<Tile> pieces_;  // to be handed out before it, the last one first
+    CutTiles cut_tiles_;
+    double pixels_ = 0;              // of a tile or piece that was answered lately
     std::vector<Tile> alone_;        // and before those, one by one
     std::size_t left_, unanswered_;  // blocks of samples: not handed out, not there
     std::vector<std::string> set_aside_;

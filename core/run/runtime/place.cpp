@@ -283,6 +283,7 @@ void Place::queue(Message message) {
 
 // Other threads may call it for us.
 void Place::look() const {
+    gauge_.pulse.add(1);
     if (stop_ && stop_->load(std::memory_order_relaxed)) throw Cancelled{};
 }
 
@@ -299,6 +300,7 @@ void Place::pause() {
     if (!fiber) return;
     const auto now = Clock::now();
     if (now - last_look_ < std::chrono::microseconds(200)) return;
+    gauge_.pulse.add(1);
     take_in();
     look();
     if (stopping_) throw Cancelled{};

@@ -61,6 +61,7 @@ void Place::answer(std::vector<Message>& asks) {
     const Load load = load_of(node, each_ns);
     for (auto& reply : replies) {
         reply.load = load;
+        gauge_.pulse.add(1);
         progress_->fetch_add(1, std::memory_order_relaxed);  // before: the run may end with this reply
         carrier_.reply(std::move(reply));
     }

@@ -66,6 +66,7 @@ public:
     void adopt(const Plan& plan) override { carrier_.adopt(plan); }
     bool take_out(const std::string& host, const std::string& why) override { return carrier_.take_out(host, why); }
     void doubt(const Failure& lie) override { carrier_.doubt(lie); }
+    std::uint64_t pulse(const std::string& host) const override { return carrier_.pulse(host); }
     void forget(const PlaceAt& place) override { carrier_.forget(place); }
     const Counters& counters() const override { return carrier_.counters(); }
 

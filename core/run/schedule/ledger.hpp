@@ -26,6 +26,7 @@ public:
         std::size_t questions = 0, bytes = 0;
         Time sent = 0, expected = 0;  // Lowest::none: nothing is known
         Time late = 0, overdue = 0;
+        double patience = 0;  // seconds without a sign of life
     };
     /// Of one replica.
     struct Account {

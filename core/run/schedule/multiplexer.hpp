@@ -117,6 +117,7 @@ private:
         bool draining = false;
         std::string host;
         std::uint32_t places = 1;
+        std::uint64_t pulse = 0;
     };
     // A bundle that was cut up.
     struct Whole {
@@ -153,6 +154,7 @@ private:
     };
     Performed perform(const std::vector<Scheduler::Action>& actions);
     void add_replica(Channel<Question>* channel);
+    void feel_pulses();
     void replied(const Bundle<Question>& bundle, std::vector<Rgb> answers);
     bool fits(const Bundle<Question>& bundle, const std::vector<Rgb>& answers) const;
     void deliver(Entry entry, std::vector<Rgb> answers);
@@ -183,6 +185,7 @@ private:
     std::unordered_map<Scheduler::WorkId, Entry> entries_;
     std::unordered_map<Scheduler::CopyId, Hash> expected_;  // of copies whose work is done, when checking
     Scheduler::WorkId next_work_ = 1;
+    double next_pulse_ = 0;  // seconds of the clock
 };
 
 }  // namespace lightnet

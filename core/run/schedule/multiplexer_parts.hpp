@@ -51,9 +51,23 @@ void Multiplexer<Question>::add_replica(Channel<Question>* channel) {
     const auto host_name = channel->host();
     const auto [host, is_new] = hosts_.emplace(host_name, static_cast<Scheduler::Host>(host_names_.size()));
     if (is_new) host_names_.push_back(host_name);
-    slots_[replica] = {channel, false, host_name, channel->places()};
+    slots_[replica] = {channel, false, host_name, channel->places(), channel->pulse()};
     tell(Scheduler::Joined{replica, host->second, channel->name() ? channel->name() : replica + 1, channel->credit(),
-                           channel->process(), channel->places(), channel->reserve()});
+                           channel->process(), channel->places(), channel->reserve(), channel->within_process()});
+}
+
+// Replicas that work at what they have are waited for, however long it takes.
+template <class Question>
+void Multiplexer<Question>::feel_pulses() {
+    const double now = rules_.clock();
+    if (now < next_pulse_) return;
+    next_pulse_ = now + seconds_between_pulses;
+    for (Scheduler::Replica replica = 0; replica < slots_.size(); ++replica) {
+        auto& slot = slots_[replica];
+        if (!slot.channel) continue;
+        const auto pulse = slot.channel->pulse();
+        if (std::exchange(slot.pulse, pulse) != pulse) tell(Scheduler::Alive{replica});
+    }
 }
 
 // ---- the way there ----
@@ -131,6 +145,7 @@ std::vector<std::vector<std::uint32_t>> Multiplexer<Question>::by_home(const std
 template <class Question>
 bool Multiplexer<Question>::tick() {
     bool sent = false;
+    feel_pulses();
     for (bool again = false;; again = true) {
         std::vector<Scheduler::Action> actions;
         scheduler_.on(Scheduler::Tick{again}, rules_.clock(), actions);

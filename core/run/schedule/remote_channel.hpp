@@ -21,12 +21,13 @@ public:
     /// From whom to whom.
     struct Address {
         std::uint64_t run = 0;
-        std::uint32_t channel = 0;  // number among the channels of this place
-        std::uint32_t node = 0;     // who is asked
-        PlaceAt place;              // where; any_place: wherever its host chooses
-        std::uint64_t process = 0;  // see Channel
-        std::uint64_t asker = 0;    // name_of() the place that asks; 0: the launcher
-        bool reserve = false;       // see Channel
+        std::uint32_t channel = 0;    // number among the channels of this place
+        std::uint32_t node = 0;       // who is asked
+        PlaceAt place;                // where; any_place: wherever its host chooses
+        std::uint64_t process = 0;    // see Channel
+        std::uint64_t asker = 0;      // name_of() the place that asks; 0: the launcher
+        bool reserve = false;         // see Channel
+        bool within_process = false;  // see Channel
     };
     RemoteChannel(Carrier& carrier, Address address, Credit credit, Counters& counters)
         : carrier_(carrier), address_(std::move(address)), to_(address_.place), credit_(credit), counters_(counters) {}
@@ -62,6 +63,8 @@ public:
     std::string host() const override { return address_.place.host; }
     std::uint64_t process() const override { return address_.process; }
     bool reserve() const override { return address_.reserve; }
+    bool within_process() const override { return address_.within_process; }
+    std::uint64_t pulse() const override { return carrier_.pulse(address_.place.host); }
     std::uint64_t name() const override { return name_of(address_.place); }
 
     /// A reply or a failure that names this channel.

@@ -94,7 +94,7 @@ private:
         channels_.push_back(std::make_unique<RemoteChannel<Question>>(
             carrier_,
             typename RemoteChannel<Question>::Address{run_, number, edge.node, at, process, asker_.name,
-                                                      at == edge.reserve},
+                                                      at == edge.reserve, at.host == asker_.host},
             edge.credit, counters_));
         return number;
     }

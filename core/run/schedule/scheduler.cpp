@@ -25,7 +25,8 @@ void Scheduler::happens(const Added& event, Time) {
 }
 
 void Scheduler::happens(const Dropped&, Time) {
-    for (const auto& queue : {std::exchange(waiting_, {}), suspects_.drop(), std::exchange(retries_, {})})
+    for (const auto& queue :
+         {std::exchange(waiting_, {}), std::exchange(overdue_, {}), suspects_.drop(), std::exchange(retries_, {})})
         for (const auto work : queue)
             if (waiting_item(work)) finish(work);
     foreseen_ = 0;
@@ -48,6 +49,8 @@ void Scheduler::wait_again(Item& item) {
         suspects_.wait(item.work.work);
     else if (item.failures > 0 || !item.work.not_at.empty())
         retries_.push_back(item.work.work);
+    else if (!item.written_off.empty())
+        overdue_.push_back(item.work.work);
     else
         waiting_.push_front(item.work.work);
 }
@@ -75,16 +78,20 @@ void Scheduler::happens(const Joined& event, Time) {
     replica.credit = event.credit;
     replica.places = event.places;
     replica.reserve = event.reserve;
+    replica.within_process = event.within_process;
     if (event.reserve) reserve_ = event.replica;
     replica.patience = rules_.patience;
     times_.forget(event.replica);
     hosts_[event.host].insert(event.replica);
     ++present_;
     places_ += event.places;
+    elsewhere_ += !event.within_process;
     for (const auto work : suspects_.came_back(event.host, event.process))
         if (waiting_item(work)) waiting_.push_front(work);
     at_home(event.replica);
     refresh(event.replica);
+    if (elsewhere_ == 1 && !event.within_process)  // who may do twice what is within the process
+        for (Replica other = 0; other < replicas_.size(); ++other) refresh_due(other);
 }
 
 // Regions belong to it from now on: where they count. What the asker keeps in reserve is nobody's home.
@@ -141,6 +148,7 @@ void Scheduler::go(Replica replica, bool died, bool alone) {
     if (state.reserve) reserve_.reset();
     --present_;
     places_ -= state.places;
+    elsewhere_ -= !state.within_process;
     auto& of_host = hosts_.at(loss.host);
     of_host.erase(replica);
     if (of_host.empty()) {
@@ -188,7 +196,7 @@ void Scheduler::happens(const Replied& event, Time now) {
     const bool is_first = !times_.any();
     const auto& account = ledger_.of(closed->replica);
     replica.others = event.fill > account.questions ? event.fill - account.questions : 0;
-    replica.last_reply = now;
+    replica.last_reply = replica.last_sign = now;
     replica.silent = false;
     replica.patience = rules_.patience;
     Item* item = item_of(*closed);
@@ -226,7 +234,7 @@ void Scheduler::happens(const Failed& event, Time now) {
     Item* item = item_of(*closed);
     if (item) std::erase(closed->copy ? item->copies : item->written_off, event.copy);
     auto& replica = replicas_[closed->replica];
-    replica.last_reply = now;
+    replica.last_reply = replica.last_sign = now;
     replica.silent = false;
     refresh(closed->replica);
     if (!item) return actions_->push_back(Drop{event.copy});
@@ -234,6 +242,8 @@ void Scheduler::happens(const Failed& event, Time now) {
     ++item->failures;
     fail(*item);
 }
+
+void Scheduler::happens(const Alive& event, Time now) { replicas_.at(event.replica).last_sign = now; }
 
 void Scheduler::happens(const Refused& event, Time) {
     const auto closed = ledger_.close(event.copy);
@@ -259,6 +269,7 @@ void Scheduler::happens(const Tick& event, Time now) {
     write_off_overdue(now);
     test_suspects(now);
     retry(now);
+    ask_idle(now);
     hand_out(now);
     double_tail(now);
 }
@@ -270,14 +281,16 @@ void Scheduler::send(Item& item, Replica replica, Time now) {
     const bool known = times_.any();
     const double seconds = completion_time(replica, item.work.questions);
     const double expected = known ? seconds : rules_.guess;
-    const double patience = known ? rules_.late_factor * seconds : rules_.patience_at_first;
+    const double most = known ? rules_.late_factor * times_.spread() * seconds : rules_.patience_at_first;
+    const double patience = state.within_process ? Lowest::none : std::max(state.patience, most);
     const CopyId id = ledger_.open(replica, {.work = item.work.work,
                                              .questions = item.work.questions,
                                              .bytes = item.work.bytes,
                                              .sent = now,
                                              .expected = known ? now + expected : Lowest::none,
                                              .late = now + late_after(expected),
-                                             .overdue = now + std::max(state.patience, patience)});
+                                             .overdue = now + patience,
+                                             .patience = patience});
     if (++state.in_turn >= state.places) state.turn = ++turn_, state.in_turn = 0;
     item.copies.push_back(id);
     refresh(replica);

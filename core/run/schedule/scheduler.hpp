@@ -24,16 +24,20 @@
 
 namespace lightnet {
 
+/// How often those who ask look whether replicas work at what they have.
+inline constexpr double seconds_between_pulses = 0.25;
+
 /// A pure state machine: it is told what happens and when, and says what is to be done. It has no clock, socket, thread
 /// or random number, so the same events always give the same actions. Every decision takes O(log replicas).
 ///
 /// Work is a bundle of questions, some tiles, or some shards of preparing: all three follow these rules. It is handed
-/// out in copies: one, as a rule. A second copy goes to another replica when the first is overdue (its place may hang,
-/// or the network has lost it), or when work runs out and a replica is idle (speculative execution, see Stragglers).
-/// The first answer counts. Work that fails at one host is asked of another, once. Copies on a host that dies make
-/// their work suspect: it is asked again alone, with nothing else on its host, and set aside after its third death
-/// alone, see Suspects. With affinity, a region of scene or picture has a home, by consistent hashing, see HashRing.
-/// A replica is a place, or a host with several, which work at the same time.
+/// out in copies: one, as a rule. A second copy goes to another replica, if that is idle, when the first is overdue
+/// (its place may hang, or the network has lost it), or when work runs out (speculative execution, see Stragglers).
+/// Neither happens between replicas within the asker's process, where nothing is lost. The first answer counts. Work
+/// that fails at one host is asked of another, once. Copies on a host that dies make their work suspect: it is asked
+/// again alone, with nothing else on its host, and set aside after its third death alone, see Suspects. With affinity,
+/// a region of scene or picture has a home, by consistent hashing, see HashRing. A replica is a place, or a host with
+/// several, which work at the same time.
 class Scheduler {
 public:
     using Time = ScheduleIds::Time;
@@ -50,7 +54,7 @@ public:
         double tail_part = 0.05;        // ... and such a part of all questions
         double late = 2;                // times as long as expected: then an idle replica does it once more
         double worth = 0.01;            // seconds: what saves less is not worth it
-        double patience = 2;            // seconds that any work may take ...
+        double patience = 2;            // seconds without a sign of life that any work may take ...
         double late_factor = 8;         // ... or so many times as long as expected, before it counts as overdue
         double guess = 1;               // seconds that work is expected to take as long as nothing is known ...
         double patience_at_first = 30;  // ... and how long it may
@@ -73,9 +77,10 @@ public:
         Host host;
         std::uint64_t name;  // of the place or host: the same whenever it comes back
         Credit credit;
-        std::uint64_t process = 0;  // of the host: one that is back had not died. 0: not known
-        std::uint32_t places = 1;   // behind it, which work at the same time
-        bool reserve = false;       // the asker itself: asked only when others can't be, or are late
+        std::uint64_t process = 0;    // of the host: one that is back had not died. 0: not known
+        std::uint32_t places = 1;     // behind it, which work at the same time
+        bool reserve = false;         // the asker itself: asked only when others can't be, or are late
+        bool within_process = false;  // of the asker: nothing can be lost on the way
     };
     struct Resized {  // it has other places behind it, or more or fewer
         Replica replica;
@@ -99,6 +104,9 @@ public:
     struct Failed {  // by an error at its host, or a wrong answer
         CopyId copy;
     };
+    struct Alive {  // it works at what it has
+        Replica replica;
+    };
     struct Refused {  // it could not be sent after all
         CopyId copy;
     };
@@ -109,8 +117,8 @@ public:
     struct Tick {  // time to decide. `again`: at once after the last one, as something was refused
         bool again = false;
     };
-    using Event = std::variant<Added, Foreseen, Joined, Resized, Draining, Gone, Replied, Failed, Refused, Dropped,
-                               Forgotten, Tick>;
+    using Event = std::variant<Added, Foreseen, Joined, Resized, Draining, Gone, Replied, Failed, Alive, Refused,
+                               Dropped, Forgotten, Tick>;
 
     // ---- what is to be done ----
     struct Send {
@@ -162,7 +170,7 @@ public:
     bool has_room() const { return waiting_.empty() && open_.any(); }
     /// Is anything waiting to be sent, or again?
     bool has_waiting() const {
-        return !waiting_.empty() || !suspects_.empty() || !retries_.empty() || !refused_.empty();
+        return !waiting_.empty() || !overdue_.empty() || !suspects_.empty() || !retries_.empty() || !refused_.empty();
     }
     /// Something was refused, and is to be tried again soon.
     bool refused() const { return !refused_.empty(); }
@@ -218,7 +226,7 @@ private:
     struct ReplicaState {
         bool present = false, draining = false, refused = false;
         bool silent = false;  // something is overdue, and no reply has come since it was sent
-        bool reserve = false;
+        bool reserve = false, within_process = false;
         Host host = 0;
         std::uint64_t name = 0, process = 0;
         Credit credit;
@@ -226,6 +234,7 @@ private:
         std::size_t others = 0;  // questions that others have waiting there
         double patience = 0;
         Time last_reply = 0;
+        Time last_sign = 0;  // of life
         std::uint64_t turn = 0;
         std::uint32_t in_turn = 0;  // sent since its last turn
         bool counted_idle = false;
@@ -239,6 +248,7 @@ private:
     void happens(const Gone& event, Time now);
     void happens(const Replied& event, Time now);
     void happens(const Failed& event, Time now);
+    void happens(const Alive& event, Time now);
     void happens(const Refused& event, Time now);
     void happens(const Dropped& event, Time now);
     void happens(const Forgotten& event, Time now);
@@ -255,9 +265,15 @@ private:
     std::size_t under_way(Host host) const;
     bool is_busy(Host host) const;
     void expect_again(Time now);
-    double late_after(double expected) const { return std::max(rules_.late * expected, expected + rules_.worth); }
+    double late_after(double expected) const {
+        return std::max(std::max(rules_.late, times_.spread()) * expected, expected + rules_.worth);
+    }
     void measure(Replica replica, const Ledger::Copy& copy, const Replied& reply, Time now);
     void write_off_overdue(Time now);
+    bool put_off(Replica replica, Time now);
+    void ask_idle(Time now);
+    std::optional<Replica> idle_for(const Item& item);
+    std::optional<Replica> idle_elsewhere() const;
     void hand_out(Time now);
     Item* first_suspect();
     void test_suspects(Time now);
@@ -293,6 +309,7 @@ private:
     std::vector<Action>* actions_ = nullptr;
     std::unordered_map<WorkId, Item> items_;
     std::deque<WorkId> waiting_, retries_;
+    std::deque<WorkId> overdue_;          // for who is idle
     std::vector<ReplicaState> replicas_;  // by number
     std::map<Host, std::set<Replica>> hosts_;
     std::vector<Replica> refused_;
@@ -307,6 +324,7 @@ private:
     Lowest all_;      // replicas with known speed, open or not, by completion of usual work
     std::optional<Replica> reserve_;
     std::size_t present_ = 0, places_ = 0, idle_count_ = 0;
+    std::size_t elsewhere_ = 0;  // replicas that are not within the process
     std::size_t questions_waiting_ = 0, foreseen_ = 0;
     std::size_t questions_wanted_ = 0;  // of work that is not done
     std::size_t questions_added_ = 0, questions_doubled_ = 0;

@@ -101,6 +101,7 @@ void Scheduler::refresh_due(Replica replica) {
     for (const auto& copy : ledger_.of(replica).copies) {
         due.overdue = std::min(due.overdue, copy.overdue);
         if (!rules_.double_tail || !may_be_doubled(copy)) continue;
+        if (replicas_[replica].within_process && elsewhere_ == 0) continue;
         due.late = std::min(due.late, copy.late);
         if (copy.expected < Lowest::none) due.last = std::max(due.last, copy.expected);
     }
@@ -179,6 +180,7 @@ bool Scheduler::may_be_afforded(std::size_t questions) const {
 // expected last, if `idle` would win more time than it spends.
 const Ledger::Copy* Scheduler::worth_doubling(Replica idle, Time now) const {
     const auto find = [&](Replica replica, const auto& is_meant) -> const Ledger::Copy* {
+        if (replicas_[replica].within_process && replicas_[idle].within_process) return nullptr;
         for (const auto& copy : ledger_.of(replica).copies)
             if (may_be_doubled(copy) && is_meant(copy) &&
                 !items_.at(copy.work).failed_at.contains(replicas_[idle].host))
@@ -202,11 +204,25 @@ std::optional<Scheduler::Replica> Scheduler::idle_one() const {
     return reserve_ && open(*reserve_) && has_idle_place(*reserve_) ? reserve_ : std::nullopt;
 }
 
+// Within the asker's process nobody wins by doing what another does: both have the same machine.
+std::optional<Scheduler::Replica> Scheduler::idle_elsewhere() const {
+    std::optional<Replica> idle;
+    for (Replica replica = 0; replica < replicas_.size(); ++replica)
+        if (!replicas_[replica].within_process && idle_.key(replica) < Lowest::none &&
+            (!idle || idle_.key(replica) < idle_.key(*idle)))
+            idle = replica;
+    return idle;
+}
+
 // When work runs out, idle replicas do once more what will otherwise come last.
 void Scheduler::double_tail(Time now) {
     while (is_tail()) {
-        const auto idle = idle_one();
+        auto idle = idle_one();
         const auto* copy = idle ? worth_doubling(*idle, now) : nullptr;
+        if (!copy && idle && replicas_[*idle].within_process) {
+            idle = idle_elsewhere();
+            copy = idle ? worth_doubling(*idle, now) : nullptr;
+        }
         if (!copy || !may_be_afforded(copy->questions)) return;
         ++counts_.doubled;
         questions_doubled_ += copy->questions;

@@ -6,12 +6,13 @@
 
 namespace lightnet {
 
-// An overdue copy gives its credit back, and its work is asked again: its place may hang, or the network may have lost
-// it. If the answer comes after all, and first, it counts.
+// An overdue copy gives its credit back, and its work is asked again of who is idle: its place may hang, or the network
+// may have lost it. If the answer comes after all, and first, it counts.
 // DECISIONS: overdue-is-written-off
 void Scheduler::write_off_overdue(Time now) {
     while (stragglers_.next_overdue() <= now) {
         const auto replica = stragglers_.overdue_at();
+        if (put_off(replica, now)) continue;
         auto& state = replicas_[replica];
         const auto copy = ledger_.write_off_first(replica);
         if (state.last_reply <= copy.sent) {
@@ -27,6 +28,49 @@ void Scheduler::write_off_overdue(Time now) {
         item.written_off.push_back(copy.id);
         ask_again(item);
     }
+}
+
+// Who has shown meanwhile that it works is waited for from then on. False: nobody has.
+bool Scheduler::put_off(Replica replica, Time now) {
+    bool later = false;
+    ledger_.expect(replica, [&](Ledger::Copy& copy) {
+        const Time overdue = std::max(copy.sent, replicas_[replica].last_sign) + copy.patience;
+        later |= copy.overdue <= now && overdue > now;
+        copy.overdue = std::max(copy.overdue, overdue);
+    });
+    if (later) refresh_due(replica);
+    return later;
+}
+
+// Overdue work may well be under way: whoever is busy has better things to do.
+void Scheduler::ask_idle(Time now) {
+    for (auto left = overdue_.size(); left > 0; --left) {
+        const auto work = overdue_.front();
+        overdue_.pop_front();
+        auto* const item = waiting_item(work);
+        if (!item) continue;
+        if (suspects_.is_suspect(work)) {
+            suspects_.wait(work);
+        } else if (item->written_off.empty()) {  // who had it is gone
+            waiting_.push_front(work);
+        } else if (const auto idle = idle_for(*item)) {
+            send(*item, *idle, now);
+        } else {
+            overdue_.push_back(work);
+        }
+    }
+}
+
+// One that has not got this work already, unless nobody else is there.
+std::optional<Scheduler::Replica> Scheduler::idle_for(const Item& item) {
+    std::set<Replica> holders;
+    for (const auto copy : item.written_off) holders.insert(*ledger_.replica_of(copy));
+    if (holders.size() == present_) holders.clear();
+    for (const auto holder : holders) idle_.set(holder, Lowest::none);
+    auto idle = idle_one();
+    if (idle && holders.contains(*idle)) idle.reset();  // the reserve
+    for (const auto holder : holders) refresh(holder);
+    return idle;
 }
 
 // ---- failures ----

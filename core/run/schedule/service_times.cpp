@@ -6,6 +6,9 @@ namespace lightnet {
 namespace {
 
 constexpr double fading = 0.8;  // how much of the past a measurement keeps with each new one
+// Of the spread: what costs much, as a mesh below a sky, comes now and then.
+constexpr double slow_fading = 0.97;
+constexpr double most_spread = 16;
 
 }  // namespace
 
@@ -21,6 +24,9 @@ void ServiceTimes::forget(Replica replica) {
 
 void ServiceTimes::measure(Replica replica, double seconds, std::size_t questions, double reported) {
     auto& measured = at(replica);
+    spread_ = std::max(1.0, slow_fading * spread_);
+    if (const double mean = of(replica); mean > 0 && questions > 0)
+        spread_ = std::max(spread_, std::min(most_spread, seconds / static_cast<double>(questions) / mean));
     measured.seconds = fading * measured.seconds + seconds;
     measured.questions = fading * measured.questions + static_cast<double>(questions);
     if (reported <= 0) return;

@@ -25,6 +25,8 @@ public:
     /// How many places of it are a part of the rate of all; 0: none.
     void take_part(Replica replica, std::uint32_t places);
 
+    /// How much more than its replica's mean a piece took lately, at the most: 1 where all take the same.
+    double spread() const { return spread_; }
     /// Seconds per question; 0: not known.
     double of(Replica replica) const;
     /// The same, or the mean of the others where it is not known.
@@ -49,6 +51,7 @@ private:
 
     std::vector<Measured> measured_;  // by replica
     double said_ = 0;
+    double spread_ = 1;
     double rate_ = 0;
     std::size_t known_ = 0;  // places that have a part in rate_
 };
