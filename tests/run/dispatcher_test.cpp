@@ -57,7 +57,8 @@ protected:
         message.plan = std::make_shared<const Plan>(std::move(plan));
         hear(std::move(message));
     }
-    void ask(std::uint64_t number, std::size_t questions, const PlaceAt& asker = {"other", 0}) {
+    void ask(std::uint64_t number, std::size_t questions, const PlaceAt& asker = {"other", 0},
+             const std::string& route = "way back") {
         auto queries = std::make_shared<std::vector<Query>>(questions);
         for (std::size_t i = 0; i < questions; ++i) (*queries)[i].sample = static_cast<std::uint32_t>(i);
         Message message;
@@ -67,7 +68,7 @@ protected:
         message.node = light;
         message.asker = name_of(asker);
         message.questions = std::move(queries);
-        message.route.hops = {"way back"};
+        message.route.hops = {route};
         hear(std::move(message));
     }
     void hear(Message message) {
@@ -154,6 +155,18 @@ TEST_F(DispatcherTest, WaitsForItsOwnPlacesHoweverLongTheyTake) {
     EXPECT_EQ(carrier.asked.size(), 1u);
     answer();
     EXPECT_EQ(carrier.replies.size(), 1u);
+}
+
+TEST_F(DispatcherTest, AnswersOnceWhatIsSentAgainAndByTheLastWay) {
+    tell(plan());
+    ask(1, 2);
+    ask(1, 2, {"other", 0}, "new way");
+    EXPECT_EQ(carrier.asked.size(), 1u);
+    answer();
+    ASSERT_EQ(carrier.replies.size(), 1u);
+    EXPECT_EQ(carrier.replies[0].route.hops, std::vector<std::string>{"new way"});
+    ask(1, 2);
+    EXPECT_EQ(carrier.asked.size(), 1u) << "the answer was lost";
 }
 
 TEST_F(DispatcherTest, PassesOnWhyAPlaceFailedAndWhereItHappened) {

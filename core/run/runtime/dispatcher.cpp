@@ -33,8 +33,8 @@ void Dispatcher::Desk<Question>::connect() {
 
 template <class Question>
 void Dispatcher::Desk<Question>::take(Message ask) {
+    if (std::get<Questions<Question>>(ask.questions)->empty() || !in_hand_.take(ask)) return;
     const Bundle<Question> bundle{std::get<Questions<Question>>(std::move(ask.questions)), this, next_++, ask.width};
-    if (bundle.questions->empty()) return;
     ask.questions = {};
     asks_.emplace(bundle.number, std::move(ask));
     places_.send(bundle);
@@ -48,6 +48,7 @@ void Dispatcher::Desk<Question>::cancel(const std::set<std::uint64_t>& askers) {
             continue;
         }
         places_.forget({nullptr, this, ask->first, 1});
+        in_hand_.let_go(AsksInHand::name_of(ask->second));
         ++all_.counters_.cancelled;
         ask = asks_.erase(ask);
     }
@@ -58,6 +59,7 @@ void Dispatcher::Desk<Question>::reply(const Bundle<Question>& bundle, const std
     auto ask = asks_.extract(bundle.number);
     if (ask.empty()) return;
     Message reply = reply_to(ask.mapped());
+    reply.route = in_hand_.let_go(AsksInHand::name_of(ask.mapped()));
     say(reply);
     reply.load = places_.load();
     all_.carrier_.reply(std::move(reply));

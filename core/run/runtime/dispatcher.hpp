@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "core/run/message/asks_in_hand.hpp"
 #include "core/run/message/carrier.hpp"
 #include "core/run/message/tuning.hpp"
 #include "core/run/schedule/multiplexer.hpp"
@@ -59,6 +60,7 @@ private:
         RemoteChannels<Question>& channels_;
         typename RemoteChannels<Question>::Edge edge_;
         Multiplexer<Question> places_;
+        AsksInHand in_hand_;
         std::map<std::uint64_t, Message> asks_;  // by number of the bundle, without their questions
         std::uint64_t next_ = 1;
     };

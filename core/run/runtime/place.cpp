@@ -160,8 +160,11 @@ void Place::cancel_asks_of_lost(const Plan& before) {
     const auto lost = lost_names(before, plan_);
     if (lost.empty()) return;
     for (auto& inbox : inboxes_) {
-        counters_.cancelled +=
-            std::erase_if(inbox.waiting, [&](const Message& ask) { return lost.contains(ask.asker); });
+        counters_.cancelled += std::erase_if(inbox.waiting, [&](const Message& ask) {
+            if (!lost.contains(ask.asker)) return false;
+            in_hand_.let_go(AsksInHand::name_of(ask));
+            return true;
+        });
         inbox.questions = inbox.answering;
         for (const auto& ask : inbox.waiting) inbox.questions += work_in(ask);
     }
@@ -275,6 +278,7 @@ void Place::take(Message message) {
 }
 
 void Place::queue(Message message) {
+    if (!in_hand_.take(message)) return;
     auto& inbox = inboxes_[message.node];
     inbox.questions += work_in(message);
     gauge_.nodes[message.node].waiting.set(inbox.questions);

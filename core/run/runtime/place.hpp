@@ -15,6 +15,7 @@
 
 #include "core/run/fiber/fiber.hpp"
 #include "core/run/fiber/rounds.hpp"
+#include "core/run/message/asks_in_hand.hpp"
 #include "core/run/message/carrier.hpp"
 #include "core/run/message/tuning.hpp"
 #include "core/run/prepare/assembly.hpp"
@@ -144,6 +145,7 @@ private:
     std::size_t spare_in_use_ = 0;
     Clock::time_point last_look_{};
 
+    AsksInHand in_hand_;
     std::vector<Inbox> inboxes_;                                                         // by node
     std::vector<std::size_t> by_rank_;                                                   // nodes, lowest rank first
     std::map<std::pair<std::size_t, std::size_t>, std::unique_ptr<PlannedPort>> ports_;  // by node and width

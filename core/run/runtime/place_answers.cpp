@@ -40,7 +40,8 @@ void Place::answer(std::vector<Message>& asks) {
     inbox.answering += questions;
     const auto* fiber = fibers_.current();
     std::vector<Message> replies;
-    for (auto& ask : asks) replies.push_back(reply_to(ask));
+    std::vector<AsksInHand::Name> names;
+    for (auto& ask : asks) replies.push_back(reply_to(ask)), names.push_back(AsksInHand::name_of(ask));
     if (asks.size() == 1 || !answer_together(asks, replies))
         for (std::size_t i = 0; i < asks.size(); ++i) answer_alone(asks[i], replies[i]);
 
@@ -59,8 +60,10 @@ void Place::answer(std::vector<Message>& asks) {
     const auto node = asks.front().node;
     asks.clear();  // before the replies: an asker may use the memory of its questions again
     const Load load = load_of(node, each_ns);
-    for (auto& reply : replies) {
+    for (std::size_t i = 0; i < replies.size(); ++i) {
+        auto& reply = replies[i];
         reply.load = load;
+        reply.route = in_hand_.let_go(names[i]);
         gauge_.pulse.add(1);
         progress_->fetch_add(1, std::memory_order_relaxed);  // before: the run may end with this reply
         carrier_.reply(std::move(reply));

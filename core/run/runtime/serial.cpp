@@ -98,14 +98,14 @@ SerialRun::SerialRun(const Network& network, std::function<void()> pause, Assemb
       gauge_(network.graph.nodes.size(), asking_edges(network.graph, network.layers, network.registry).size()),
       meter_(gauge_, asking_edges(network.graph, network.layers, network.registry),
              [] { return std::chrono::steady_clock::now().time_since_epoch(); }),
-      assembly_(network,
-                [this](std::size_t node, std::size_t width) {
-                    const auto called = assembly_.callee(node);
-                    return ports_
-                        .emplace_back(std::make_unique<DirectPort>(called, width, counters_.local_questions, pause_))
-                        .get();
-                },
-                {.locks = &locks_}, meter_.tap(std::move(tap))) {
+      assembly_(
+          network,
+          [this](std::size_t node, std::size_t width) {
+              const auto called = assembly_.callee(node);
+              return ports_.emplace_back(std::make_unique<DirectPort>(called, width, counters_.local_questions, pause_))
+                  .get();
+          },
+          {.locks = &locks_}, meter_.tap(std::move(tap))) {
     assembly_.show(gauge_);
     assembly_.renderer(image_);
 }
