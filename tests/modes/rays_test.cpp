@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <map>
 #include <string>
 #include <thread>
@@ -14,6 +15,17 @@ namespace lightnet::test {
 namespace {
 
 using Words = std::vector<std::string>;
+
+// At full length it is an hour's rendering.
+#ifdef LIGHTNET_LARGE
+constexpr bool is_soak = true;
+const std::string size = "384x384", samples = "512";
+constexpr auto patience = std::chrono::minutes(20);
+#else
+constexpr bool is_soak = false;
+const std::string size = "96x96", samples = "64";
+constexpr auto patience = slowdown * std::chrono::seconds(60);
+#endif
 
 struct Where {
     std::string name;
@@ -33,10 +45,11 @@ class SameRays : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(SameRays, AreTracedWhereverTheRunIs) {
     const Folder folder;
-    const Words some{"--size", "96x96", "--samples", "64", "--tile", "16", "--forget", "--progress", "none"};
+    Words some{"--size", size, "--samples", samples, "--forget", "--progress", "none"};
+    if (!is_soak) some.insert(some.end(), {"--tile", "16"});
     const auto rays = [&](Words more) {
         more.insert(more.end(), some.begin(), some.end());
-        const auto run = launch(graph_file(GetParam()), folder, more);
+        const auto run = launch(graph_file(GetParam()), folder, more, patience);
         EXPECT_EQ(run.code, 0) << run.said;
         return std::pair{counter(run.report, "rays"), run.picture};
     };
