@@ -1,5 +1,8 @@
 // The launcher: the one place where all rooms meet.
+#include <exception>
 #include <iostream>
+#include <string>
+#include <vector>
 
 #include "lua/custom.hpp"
 #include "nodes/examples/candela/candela_kinds.hpp"
@@ -7,9 +10,12 @@
 #include "tools/exit_code.hpp"
 #include "tools/launcher.hpp"
 #include "tools/plugins.hpp"
+#include "tools/standard_output.hpp"
 #include "transport/places/descriptors.hpp"
 
-int main(int count, char** words) try {
+namespace {
+
+int perform(const std::vector<std::string>& words) try {
     lightnet::raise_descriptor_limit();
     lightnet::Registry registry{lightnet::standard_nodes()};
     registry.add(lightnet::candela_kinds());  // an example: code that was written for something else
@@ -22,8 +28,19 @@ int main(int count, char** words) try {
         lightnet::pass_on_plugins(files);
     };
     launcher.settings = lightnet::settings_of_launcher();
-    return launcher({words + 1, words + count});
+    return launcher(words);
 } catch (const lightnet::UserError& error) {  // in what the user has settled
     std::cerr << error.what() << '\n';
     return lightnet::exit_code::usage;
+} catch (const std::exception& error) {
+    std::cerr << "lightnet: " << error.what() << '\n';
+    return lightnet::exit_code::failed;
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+    lightnet::keep_standard_descriptors();
+    lightnet::StandardOutput output;
+    return output.end(perform({words + 1, words + count}), "lightnet");
 }

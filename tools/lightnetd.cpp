@@ -26,6 +26,7 @@
 #include "tools/settings.hpp"
 #include "tools/signals.hpp"
 #include "tools/single_instance.hpp"
+#include "tools/standard_output.hpp"
 #include "transport/daemon/host.hpp"
 #include "transport/keys/key_file.hpp"
 #include "transport/places/descriptors.hpp"
@@ -62,7 +63,16 @@ int print_key(const lightnet::DaemonOptions& options) {
     return lightnet::exit_code::done;
 }
 
-int serve(lightnet::DaemonOptions options) {
+// Who starts it may wait for these lines in vain; it serves all the same.
+void say_where_nobody_reads(lightnet::StandardOutput& output,
+                            const std::function<void(const lightnet::LogEntry&)>& log) {
+    const auto trouble = output.trouble();
+    if (trouble.empty()) return;
+    log({lightnet::LogLevel::warning, "where it listens can't be written to standard output: " + trouble});
+    output.forgive();
+}
+
+int serve(lightnet::DaemonOptions options, lightnet::StandardOutput& output) {
     if (options.print_key) return print_key(options);
     options.host.key = lightnet::take_key_from_environment();
     if (!options.host.key && (!options.host.allow.empty() || options.host.launcher_key))
@@ -89,6 +99,7 @@ int serve(lightnet::DaemonOptions options) {
         metrics.emplace(options.metrics, [&host] { return lightnet::metrics_of(host.figures()); });
         std::cout << "metrics at " << metrics->url() << std::endl;
     }
+    say_where_nobody_reads(output, log);
     host.serve(stop.any);
     metrics.reset();
     if (host.hangs()) {
@@ -98,12 +109,9 @@ int serve(lightnet::DaemonOptions options) {
     return lightnet::exit_code::done;
 }
 
-}  // namespace
-
-int main(int count, char** words) try {
+int perform(std::vector<std::string> typed, lightnet::StandardOutput& output) try {
     auto settings = lightnet::settings_of_daemon();
     const auto text = lightnet::daemon_texts().front();
-    std::vector<std::string> typed{words + 1, words + count};
     if (std::find(typed.begin(), typed.end(), "--print-config") != typed.end()) {
         std::cout << lightnet::settings_table(settings.settled(text, typed));
         return lightnet::exit_code::done;
@@ -118,11 +126,19 @@ int main(int count, char** words) try {
         std::cerr << finished->err;
         return finished->code;
     }
-    return serve(std::get<lightnet::DaemonOptions>(parsed));
+    return serve(std::get<lightnet::DaemonOptions>(parsed), output);
 } catch (const lightnet::UserError& error) {
     std::cerr << error.what() << '\n';
     return lightnet::exit_code::usage;
 } catch (const std::exception& error) {
     std::cerr << "lightnetd: " << error.what() << '\n';
     return lightnet::exit_code::failed;
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+    lightnet::keep_standard_descriptors();
+    lightnet::StandardOutput output;
+    return output.end(perform({words + 1, words + count}, output), "lightnetd");
 }
