@@ -85,7 +85,7 @@ int finish_run(RunBook& book, const RunRequest& request, double exposure, const 
     delivery.write = [&](const std::string& picture) { book.write_picture(picture); };
     delivery.patience = request.wait;
     delivery.hurried = [&] { return hurried.load(); };
-    delivery.say = [&](const std::string& text) { book.warn(text); };
+    delivery.say = [&](const std::string& text) { book.alert(text); };
     delivery.elsewhere = folders_of_last_resort();
     const auto picture = deliver(delivery, request.output);
     const bool in_place = picture == request.output;

@@ -42,6 +42,7 @@ void check_output(const std::string& output) {
     check(output, exr_beginning);
     check(png_beside(output), png_beginning);
     check(report_beside(output), report_beginning);
+    check(failed_report_beside(output), report_beginning);
     check(checkpoint_beside(output), checkpoint_beginning);
     if (!problems.empty()) throw UserError(problems);
 }

@@ -52,7 +52,7 @@ Rendering::Rendering(Assignment what, RunBook& book, const Signals& signals)
 
 void Rendering::perform(LoadedScene scene, const DiskFiles& files) {
     if (what_.request.tuning.verify > 0 && what_.request.mode != Mode::network)
-        book_.warn("--verify asks other hosts, and this run has none");
+        book_.alert("--verify asks other hosts, and this run has none");
     switch (what_.request.mode) {
         case Mode::serial:
             return serially(std::move(scene));
@@ -260,12 +260,12 @@ void Rendering::begin_anew(Crew& crew, const Failure& lie) {
         throw Error("answers of hosts differ, and nobody can tell which is right",
                     lie.why + "; with three hosts, or with --threads 1, whose answers are believed, it can be told");
     if (lie.host.empty()) {
-        book_.say(lie.why +
-                  ": the run begins anew, with the whole network at each host, so that it shows who is wrong");
+        book_.alert(lie.why +
+                    ": the run begins anew, with the whole network at each host, so that it shows who is wrong");
         whole_ = true;
     } else {
-        book_.warn(lie.host + " is taken out, as it answers falsely: " + lie.why +
-                   "; all that it has told is done again");
+        book_.alert(lie.host + " is taken out, as it answers falsely: " + lie.why +
+                    "; all that it has told is done again");
         liars_.insert(lie.host);
     }
     what_.tiles = tiles_of(what_.format, what_.request.tuning.tile);
@@ -282,8 +282,8 @@ void Rendering::warn_of_unverified(const Plan& plan) {
         std::set<std::string> hosts;
         for (const auto place : plan.places_of[node]) hosts.insert(plan.places[place].host);
         if (hosts.size() == 1 && !hosts.begin()->empty())
-            book_.warn(fmt::format("node '{}' is at {} alone, so nobody can verify what it answers there",
-                                   what_.job.graph.nodes[node].name, *hosts.begin()));
+            book_.alert(fmt::format("node '{}' is at {} alone, so nobody can verify what it answers there",
+                                    what_.job.graph.nodes[node].name, *hosts.begin()));
     }
 }
 

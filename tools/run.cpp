@@ -82,7 +82,11 @@ LoadedScene Run::load(DiskFiles& files) {
     SceneData read = request_.read ? std::move(request_.read->scene)
                                    : read_scene(files, request_.scene, scene_constants(request_.graph, registry_));
     LoadedScene scene = override_scene(request_.graph, registry_, files, std::move(read));
-    for (const auto& warning : scene.data.warnings) book_.warn(to_string(warning));
+    for (const auto& warning : scene.data.warnings)
+        if (is_of_files_outside(warning) && request_.mode == Mode::network)
+            book_.alert(to_string(warning));
+        else
+            book_.warn(to_string(warning));
     job_ = make_job(request_, registry_, format_, files);
     return scene;
 }
@@ -187,7 +191,7 @@ void Run::report_failure() {
         if (book_.save_checkpoint()) book_.say("what is there is kept: --resume goes on from here");
         book_.write_report(request_.output, "failed");
     } catch (const std::exception& error) {
-        book_.say(error.what());
+        book_.alert(std::string("there is no report of it: ") + error.what());
     }
 }
 

@@ -58,7 +58,10 @@ void RunBook::say(const LogEntry& entry) {
                           {"host", machine_name()}};
     const auto run = report_.settings.find("run");
     if (run != report_.settings.end()) marks.emplace_back("run", run->second);
-    progress_.say(entry.text, marks);
+    if (entry.level == LogLevel::error)
+        progress_.insist(entry.text, marks);
+    else
+        progress_.say(entry.text, marks);
     if (watcher_) watcher_->say(entry.text);
 }
 
@@ -71,6 +74,14 @@ void RunBook::show_outcome(const std::string& outcome) {
 void RunBook::warn(const std::string& text) {
     report_.warnings.push_back(text);
     say({LogLevel::warning, "warning: " + text});
+}
+
+// DECISIONS: errors-are-heard
+void RunBook::alert(const std::string& text) {
+    auto& said = report_.warnings;
+    if (std::find(said.begin(), said.end(), text) != said.end()) return;  // a full disk is tried again and again
+    said.push_back(text);
+    say({LogLevel::error, "lightnet: " + text});
 }
 
 void RunBook::preparing(const PrepareProgress& progress) {
@@ -115,7 +126,7 @@ std::vector<Tile> RunBook::take(const Tile& tile, std::span<const Rgb> pixels) {
     progress_.update(differ ? static_cast<std::uint64_t>(film_.done() * double(all_blocks_)) : blocks_, Clock::now());
     if (preview_ && preview_->pace.due(Clock::now()) && !film_.complete()) write_preview();
     if (checkpoint_)
-        if (const auto why = checkpoint_->save_if_due(blocks_); !why.empty()) warn("no checkpoint: " + why);
+        if (const auto why = checkpoint_->save_if_due(blocks_); !why.empty()) alert("no checkpoint: " + why);
     return wanted ? film_.more(tile) : std::vector<Tile>{};
 }
 
@@ -126,7 +137,7 @@ bool RunBook::end_step() {
     try {
         if (curve_) curve_->note(film_.mean_samples(), since(begun_), film_.picture(scale_));
     } catch (const Error& error) {
-        warn(std::string("no curve of errors: ") + error.what());
+        alert(std::string("no curve of errors: ") + error.what());
     }
     return limit_ == 0 || since(begun_) + last <= limit_ || !film_.is_even();
 }
@@ -139,15 +150,17 @@ void RunBook::end_early() {
                     checkpoint_ ? "; --resume goes on from here" : ""));
 }
 
-void RunBook::preview_now(const std::string& exr) {
+std::string RunBook::preview_now(const std::string& exr) {
     const auto usual = std::exchange(preview_, Preview{exr, Pace(std::chrono::seconds(0), Clock::now())});
-    write_preview();
+    auto why_not = write_preview();
     preview_ = usual;
+    return why_not;
 }
 
 // A preview that can't be written is no reason to lose the picture.
-void RunBook::write_preview() {
+std::string RunBook::write_preview() {
     const auto begun = Clock::now();
+    std::string why_not;
     try {
         write_files(preview_->exr);
         previewed_ = true;
@@ -158,11 +171,12 @@ void RunBook::write_preview() {
         lightnet::write_report(report_beside(preview_->exr), report);
         if (!std::exchange(preview_->said, true)) say(preview_->exr + " shows the picture so far");
     } catch (const Error& error) {
-        warn(std::string("no preview: ") + error.what());
+        alert(why_not = std::string("no preview: ") + error.what());
     }
     // Writing takes at most a tenth of the time, however large the picture.
     const auto now = Clock::now();
     preview_->pace.put_off(now, 9 * (now - begun));
+    return why_not;
 }
 
 Picture RunBook::picture_now() const {
@@ -178,9 +192,10 @@ void RunBook::write_files(const std::string& exr) {
     expect_ours(png, png_beginning);
     const auto picture = picture_now();
     if (picture.overflowed && !std::exchange(said_overflow_, true))
-        warn(fmt::format("{} pixels are brighter than the numbers of a picture can be, and count as black",
-                         picture.overflowed));
+        alert(fmt::format("{} pixels are brighter than the numbers of a picture can be, and count as black",
+                          picture.overflowed));
     write_exr(exr, picture);
+    written_.insert(exr);
     brightness_ = brightness_of(picture);
     const PngView view = png_view(view_, brightness_, exposed_);
     write_png(png, picture, view);
@@ -208,7 +223,7 @@ void RunBook::found(std::uint64_t blocks) {
 
 void RunBook::begin_anew() {
     if (checkpoint_) checkpoint_->begin_anew();
-    if (previewed_) warn("the preview that is there may hold false light");
+    if (previewed_) alert("the preview that is there may hold false light");
     film_ = Film(film_.format());
     film_.expose(scale_);
     blocks_ = 0;
@@ -230,7 +245,7 @@ void RunBook::end_checkpoint(bool stays) {
         else
             checkpoint_->remove();
     } catch (const std::exception& error) {
-        warn(std::string("samples can't be added to the picture later: ") + error.what());
+        alert(std::string("samples can't be added to the picture later: ") + error.what());
     }
     checkpoint_.reset();
 }
@@ -249,16 +264,17 @@ void RunBook::name_bad_light(const Graph& graph) {
         const bool passed_on = std::any_of(inputs.begin(), inputs.end(),
                                            [&](std::size_t input) { return counts.contains(graph.nodes[input].name); });
         if (count != counts.end() && !passed_on)
-            warn(fmt::format("{} '{}' gave {} answers that are not finite", graph.nodes[node].kind,
-                             graph.nodes[node].name, count->second));
+            alert(fmt::format("{} '{}' gave {} answers that are not finite", graph.nodes[node].kind,
+                              graph.nodes[node].name, count->second));
     }
     for (const auto& [node, count] : counters_.off_surface)
-        warn(fmt::format("'{}' asked {} times about points that no surface is near; they count as black", node, count));
+        alert(
+            fmt::format("'{}' asked {} times about points that no surface is near; they count as black", node, count));
     const auto lost = film_.lost();
     for (std::size_t layer = 0; layer < lost.size(); ++layer)
         if (lost[layer])
-            warn(fmt::format("{} colours of layer '{}' were not finite and count as black", lost[layer],
-                             film_.format().name_of(layer)));
+            alert(fmt::format("{} colours of layer '{}' were not finite and count as black", lost[layer],
+                              film_.format().name_of(layer)));
 }
 
 void RunBook::use(const Plan& plan, const Graph& graph) {
@@ -312,7 +328,17 @@ void RunBook::write_report(const std::string& exr, const std::string& outcome) {
     report_.counters = counters_.named();
     add_figures(report_, counters_.places);
     report_.counters["repeated_tiles"] = repeated_;
-    lightnet::write_report(report_beside(exr), report_);
+    lightnet::write_report(report_file(exr, outcome), report_);
+}
+
+// The report beside a picture tells how that came about: a run that has written none leaves one that is there its own.
+// DECISIONS: report-of-what-is-there
+std::filesystem::path RunBook::report_file(const std::string& exr, const std::string& outcome) const {
+    const auto of_failure = failed_report_beside(exr);
+    std::error_code ignored;
+    if (!written_.contains(exr) && outcome != "done" && std::filesystem::exists(exr, ignored)) return of_failure;
+    if (why_not_replaced(of_failure, report_beginning).empty()) std::filesystem::remove(of_failure, ignored);
+    return report_beside(exr);
 }
 
 // A trace that can't be written is no reason to lose the report.
@@ -322,7 +348,7 @@ void RunBook::write_trace() {
         write_file(trace_, to_trace_json(counters_.traces, graph_nodes_));
         report_.outputs.push_back(trace_);
     } catch (const Error& error) {
-        warn(std::string("no trace: ") + error.what());
+        alert(std::string("no trace: ") + error.what());
     }
 }
 

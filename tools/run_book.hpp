@@ -3,8 +3,10 @@
 
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -65,7 +67,11 @@ public:
     std::vector<WatchCommand> wishes() { return watcher_->commands(); }
     /// How far preparing is.
     void preparing(const PrepareProgress& progress);
+    /// What is worth knowing, and costs nothing that was asked for.
     void warn(const std::string& text);
+    /// What was asked for is lost, or in doubt, or in danger, though the run goes on: an error, and said as one however
+    /// little else is.
+    void alert(const std::string& text);
     /// What the files of the picture say of it beside its pixels.
     void describe(PictureWords words) { words_ = std::move(words); }
     /// How the PNG shows the picture; `exposed`: by an exposure that somebody has chosen.
@@ -78,8 +84,8 @@ public:
     void preview(const std::string& exr, double seconds);
     /// With the report, writes there what all places were busy with.
     void trace_to(const std::string& file) { trace_ = file; }
-    /// Writes what is there now.
-    void preview_now(const std::string& exr);
+    /// Writes what is there now. "": it is written; else why not.
+    std::string preview_now(const std::string& exr);
     /// A preview was written, and no picture since.
     bool previewed() const { return previewed_; }
     /// Pixels of a tile. Returns the tiles that are wanted now, beside those that are wanted anyhow.
@@ -137,7 +143,7 @@ public:
     bool is_written(const std::string& exr) const;
     /// The last words of a run that is done. `asked`: hosts that were to take part; `exposure`: stops.
     void conclude(const Hosts& asked, double exposure);
-    /// Writes the report beside `exr`.
+    /// Writes the report beside `exr`: x.run.json; or x.run.failed.json, where that is the picture of an earlier run.
     void write_report(const std::string& exr, const std::string& outcome);
 
 private:
@@ -148,8 +154,9 @@ private:
     };
     Picture picture_now() const;
     void write_files(const std::string& exr);
-    void write_preview();
+    std::string write_preview();
     void write_trace();
+    std::filesystem::path report_file(const std::string& exr, const std::string& outcome) const;
     void end_phase(Pace::Clock::time_point now);
     void end_doing(Pace::Clock::time_point now);
 
@@ -161,9 +168,10 @@ private:
     double limit_ = 0;
     std::optional<ErrorCurve> curve_;
     Pace::Clock::time_point begun_ = Pace::Clock::now(), step_begun_ = begun_;
-    double shown_stops_ = 0;     // by which the PNG that was written last is brighter than its picture
-    Brightness brightness_;      // of what was written last
-    std::string last_prepared_;  // node that was named
+    double shown_stops_ = 0;         // by which the PNG that was written last is brighter than its picture
+    Brightness brightness_;          // of what was written last
+    std::set<std::string> written_;  // pictures
+    std::string last_prepared_;      // node that was named
     std::optional<Pace::Clock::time_point> doing_since_;  // what stands last in the report's `preparing`
     bool said_overflow_ = false;
     Watcher* watcher_ = nullptr;

@@ -182,7 +182,10 @@ void Progress::line_of_json(std::string_view event, Time now) {
 }
 
 void Progress::say(std::string_view message, const Marks& marks) {
-    if (mode_ == ProgressMode::none) return;
+    if (mode_ != ProgressMode::none) insist(message, marks);
+}
+
+void Progress::insist(std::string_view message, const Marks& marks) {
     clear_bar();
     if (mode_ == ProgressMode::json) {
         nlohmann::ordered_json line{{"event", "message"}, {"text", message}};

@@ -85,6 +85,10 @@ std::filesystem::path report_beside(const std::filesystem::path& picture) {
     return std::filesystem::path(picture).replace_extension(".run.json");
 }
 
+std::filesystem::path failed_report_beside(const std::filesystem::path& picture) {
+    return std::filesystem::path(picture).replace_extension(".run.failed.json");
+}
+
 void write_report(const std::filesystem::path& path, const RunReport& report) { write_file(path, to_json(report)); }
 
 }  // namespace lightnet

@@ -96,6 +96,8 @@ inline constexpr std::string_view report_beginning = "{\n  \"format\": \"lightne
 
 /// x.exr → x.run.json
 std::filesystem::path report_beside(const std::filesystem::path& picture);
+/// x.exr → x.run.failed.json: of a run that left the picture of an earlier one as it was.
+std::filesystem::path failed_report_beside(const std::filesystem::path& picture);
 
 /// The text of such a file. Key order is fixed.
 std::string to_json(const RunReport& report);

@@ -15,6 +15,8 @@
 namespace lightnet {
 namespace {
 
+const std::string reads_outside = "reads files outside of its folder";
+
 /// Files of one scene, and the first that lies elsewhere.
 class Watched final : public Files {
 public:
@@ -132,9 +134,10 @@ SceneData read_scene(Files& files, const std::string& path, const SceneConstants
     check(scene, path);
     if (!watched.outside().empty())
         scene.warnings.push_back(
-            {{path, 0},
-             "reads files outside of its folder, such as '" + watched.outside() + "': hosts are sent them as well"});
+            {{path, 0}, reads_outside + ", such as '" + watched.outside() + "': hosts are sent them as well"});
     return scene;
 }
+
+bool is_of_files_outside(const Problem& warning) { return warning.what.starts_with(reads_outside); }
 
 }  // namespace lightnet

@@ -19,6 +19,9 @@ SceneData read_scene(Files& files, const std::string& path, const SceneConstants
 SceneData read_scene(Files& files, const std::string& path, const SceneConstants& constants,
                      std::span<const SceneFormat> formats);
 
+/// Is a scene's warning the one that hosts are sent files from outside of its folder?
+bool is_of_files_outside(const Problem& warning);
+
 /// All that there are.
 std::span<const SceneFormat> scene_formats();
 /// Those of a plugin, beside them, for the rest of the process. Throws Error, and adds none, where one has no ending,

@@ -125,6 +125,21 @@ TEST(Progress, SaysNoPercentagesOfARunOfASecond) {
     EXPECT_EQ(out.str(), "");
 }
 
+TEST(Progress, InsistsOnErrorsInEveryMode) {
+    for (const auto mode : {ProgressMode::none, ProgressMode::plain, ProgressMode::bar}) {
+        std::ostringstream out;
+        Progress progress(4, {mode, true, false}, out, start);
+        progress.insist("the disk is full");
+        EXPECT_EQ(out.str(), "the disk is full\n");
+    }
+    std::ostringstream out;
+    Progress progress(4, {ProgressMode::json, false, false}, out, start);
+    progress.insist("the disk is full", {{"level", "error"}});
+    const auto line = nlohmann::json::parse(lines_of(out.str()).at(1));
+    EXPECT_EQ(line["text"], "the disk is full");
+    EXPECT_EQ(line["level"], "error");
+}
+
 TEST(Progress, SaysNothingAtAllInModeNone) {
     std::ostringstream out;
     Progress progress(4, {ProgressMode::none, true, true}, out, start);

@@ -35,6 +35,26 @@ TEST(Launch, TellsAllThatIsWrongWithASceneAtOnce) {
     EXPECT_NE(process.output().find("bad.pbrt:3: can't read 'none.ply'"), std::string::npos) << process.output();
 }
 
+TEST(Launch, SaysInEveryModeThatHostsAreSentFilesFromElsewhere) {
+    const Folder folder;
+    folder.write("secret.pbrt", "# mine\n");
+    const auto scene = folder.write("scene/s.pbrt",
+                                    "Camera \"perspective\"\nWorldBegin\nLightSource \"infinite\"\nShape \"sphere\"\n"
+                                    "Include \"../secret.pbrt\"\n");
+    const auto said = [&](const std::vector<std::string>& where) {
+        std::vector<std::string> words{
+            program("lightnet"), "render", scene,        "-o",  folder / "x.exr", "--size", "8x8",
+            "--samples",         "1",      "--progress", "none"};
+        words.insert(words.end(), where.begin(), where.end());
+        Process run(words);
+        EXPECT_EQ(run.wait(), 0) << run.output();
+        return run.output();
+    };
+    EXPECT_NE(said({"--local-workers", "1", "--cache", folder / "cache"}).find("secret.pbrt': hosts are sent them"),
+              std::string::npos);
+    EXPECT_EQ(said({"--threads", "1"}), "") << "nobody is sent anything";
+}
+
 TEST(Launch, WritesPictureTinyPictureAndReport) {
     const Folder folder;
     const auto run = launch(graph_file("cornell.lua"), folder, {"--size", "16x16", "--samples", "1"});

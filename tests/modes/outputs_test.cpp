@@ -115,6 +115,25 @@ TEST_F(Gone, LosesNoPictureButPutsItElsewhere) {
     EXPECT_TRUE(fs::exists(there / "picture.png"));
 }
 
+TEST_F(Outputs, AreNeverElsewhereWithoutAWord) {
+    fs::create_directory(folder / "tmp");
+    for (const std::string mode : {"none", "plain", "bar"}) {
+        fs::create_directory(folder / "out");
+        const auto words = launch_words(
+            graph_file("cornell.lua"), folder / "out" / "picture.exr",
+            {"--size", "48x48", "--samples", std::to_string(128 / slowdown), "--wait", "1", "--progress", mode});
+        Words with_tmp{"/usr/bin/env", "TMPDIR=" + (folder / "tmp").string()};
+        with_tmp.insert(with_tmp.end(), words.begin(), words.end());
+        Process run(with_tmp);
+        while (!fs::exists(folder / "out" / ".picture.exr.lock") && run.wait(std::chrono::milliseconds(10)) < 0)
+            continue;
+        fs::remove_all(folder / "out");
+        EXPECT_EQ(run.wait(), 1) << mode;
+        EXPECT_THAT(run.output(), HasSubstr("lightnet: the picture can't be written: ")) << mode;
+        EXPECT_THAT(run.output(), HasSubstr("it is in " + (folder / "tmp" / "lightnet-").string())) << mode;
+    }
+}
+
 TEST_F(Gone, WritesThePictureWhereItBelongsWhenTheFolderComesBack) {
     ASSERT_TRUE(run->wait_for("trying again for 2 s")) << run->output();
     fs::create_directory(folder / "out");
