@@ -14,12 +14,13 @@ void Rendering::show(const Crowd& crowd) {
 }
 
 void Rendering::obey(const WatchCommand& wish, const Crowd& crowd) {
-    if (wish.what == WatchCommand::What::write) return book_.preview_now(what_.request.output);
+    if (wish.what == WatchCommand::What::write) return wish.answer(book_.preview_now(what_.request.output));
     if (wish.what != WatchCommand::What::drain) return;
     const bool drains = crowd.drain && crowd.drain(wish.host);
     const auto host = in_quotes(wish.host);
-    book_.say(drains ? host + " is to leave the run"
-                     : host + " can't be taken out: it is not there, or all that is there");
+    const auto why_not = drains ? "" : host + " can't be taken out: it is not there, or all that is there";
+    book_.say(drains ? host + " is to leave the run" : why_not);
+    wish.answer(why_not);
 }
 
 HostState Rendering::this_process(std::uint32_t places, HostFigures figures) {

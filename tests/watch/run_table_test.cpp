@@ -12,7 +12,9 @@
 namespace lightnet::run_table_test {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr const char* hello = R"({"hello":{"graph":"/g/box.lua","nodes":[
     {"name":"scene","kind":"Scene","role":"scene"},{"name":"direct","kind":"DirectLighting","role":"light"},
@@ -33,6 +35,15 @@ std::vector<std::string> lines_of(const std::string& text) {
     for (std::size_t at = 0, end = 0; (end = text.find('\n', at)) != std::string::npos; at = end + 1)
         lines.push_back(text.substr(at, end - at));
     return lines;
+}
+
+TEST(LiveTable, CallsNobodyBusyWhoHasLeft) {
+    LiveTable live;
+    live.hear(hello);
+    auto said = state(10, 0.1, 4000);
+    said.replace(said.find("\"there\":true"), 12, "\"there\":false");
+    live.hear(said);
+    EXPECT_THAT(to_text(live.table(), 120, 40), AllOf(HasSubstr("(gone)"), Not(HasSubstr("50 %"))));
 }
 
 TEST(LiveTable, CountsRatesAndTheTimeThatIsLeft) {

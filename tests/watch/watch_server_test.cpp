@@ -129,6 +129,20 @@ TEST_F(WatchServerTest, DoesWhatIsAskedForByWhoHasTheTokenAlone) {
     EXPECT_THAT(commands, ElementsAre(WatchCommand{WatchCommand::What::drain, "onyx"}));
 }
 
+TEST_F(WatchServerTest, TellsWhatBecameOfAWish) {
+    Visitor visitor(server.port());
+    ASSERT_TRUE(visitor.watch(own()));
+    visitor.say(R"({"do":"drain","host":"onyx","token":"right"})");
+    EXPECT_TRUE(visitor.next_with("allowed"));
+    {
+        const std::lock_guard lock(mutex);
+        ASSERT_EQ(commands.size(), 1u);
+        commands[0].answer("nobody is called so");
+    }
+    EXPECT_THAT(visitor.next_with("obeyed").value_or(""),
+                AllOf(HasSubstr(R"("obeyed":"drain")"), HasSubstr(R"("why_not":"nobody is called so")")));
+}
+
 TEST_F(WatchServerTest, DropsWhoSaysWhatHasNoSense) {
     for (const std::string said : {"", "{", "[]", R"({"do":7})", R"({"do":"dance","token":"right"})"}) {
         Visitor visitor(server.port());

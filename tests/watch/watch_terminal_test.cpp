@@ -23,6 +23,7 @@ using test::program;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
+using testing::StartsWith;
 
 // A program on a terminal of 100 × 30 letters, and what that shows.
 class Terminal {
@@ -141,6 +142,25 @@ TEST(WatchInATerminal, IsDrawnAnewUntilTheRunEnds) {
     EXPECT_EQ(run.wait(), 130) << run.output();
     EXPECT_EQ(terminal.wait(), 0) << terminal.screen();
     EXPECT_THAT(terminal.screen(), HasSubstr("cornell.lua  cancelled")) << "what it was at last stays";
+}
+
+TEST(WatchInATerminal, WaitsForWhatBecomesOfAWish) {
+    const Folder folder;
+    Process run(long_run(folder / "x.exr", {"--local-workers", "2", "--cache", folder / "cache"}));
+    const auto url = address_in(run);
+    const auto ask = [&](const std::vector<std::string>& wish) {
+        std::vector<std::string> words{program("lightnet"), "watch", url};
+        words.insert(words.end(), wish.begin(), wish.end());
+        Process watch(words);
+        const int code = watch.wait();
+        return std::to_string(code) + " " + watch.output();
+    };
+    EXPECT_THAT(ask({"--drain", "foo"}),
+                AllOf(StartsWith("2 "), HasSubstr("'foo' can't be taken out: it is not there")));
+    EXPECT_EQ(ask({"--write"}), "0 ");
+    EXPECT_TRUE(std::filesystem::exists(folder / "x.exr"));
+    EXPECT_EQ(ask({"--end"}), "0 ");
+    EXPECT_EQ(run.wait(), 130) << run.output();
 }
 
 TEST(WatchInATerminal, SaysWhenTheLauncherIsGone) {

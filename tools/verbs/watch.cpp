@@ -26,7 +26,8 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto redraw_interval = 500ms;
-constexpr auto first_state = 10s;  // until a launcher has said how the run stands
+constexpr auto first_state = 10s;    // until a launcher has said how the run stands
+constexpr auto obeyed_within = 60s;  // a wish: it may be at something else
 
 struct WatchOptions {
     std::string what;  // a report's file, or where a run can be watched
@@ -46,7 +47,9 @@ void describe_watch(CLI::App& verb, WatchOptions& options) {
         ->excludes(write);
     verb.footer(
         "On a terminal it is drawn anew until the run ends; elsewhere it is printed once.\n"
-        "Exit codes: 0 it was shown, 1 the launcher is gone, 2 there is no such report or address.\n\n"
+        "Exit codes: 0 it was shown, or done; 1 the launcher is gone, or couldn't do it; 2 there is no such report, "
+        "address\n"
+        "or host.\n\n"
         "Examples:\n"
         "  lightnet watch 'http://127.0.0.1:40123/#3c1f'\n"
         "  lightnet watch cornell.run.json");
@@ -100,15 +103,32 @@ std::optional<std::string> wish_of(const WatchOptions& options) {
     return std::nullopt;
 }
 
+// Hears what the launcher says until `told`; false: it takes too long, or the launcher is gone.
+template <class Told>
+bool hear_until(Told told, LiveTable& table, LiveLine& line, std::chrono::steady_clock::duration patience) {
+    const auto end = std::chrono::steady_clock::now() + patience;
+    while (!told() && std::chrono::steady_clock::now() < end) {
+        if (const auto text = line.next(redraw_interval))
+            table.hear(*text);
+        else if (line.is_over())
+            break;
+    }
+    return told();
+}
+
 int ask_for(const std::string& wish, const WatchOptions& options, LiveLine& line, const std::string& token) {
     line.say(nlohmann::json{{"do", wish}, {"host", options.drain}, {"token", token}}.dump());
     LiveTable table;
-    const auto end = std::chrono::steady_clock::now() + first_state;
-    while (!table.allowed() && !line.is_over() && std::chrono::steady_clock::now() < end)
-        if (const auto text = line.next(redraw_interval)) table.hear(*text);
-    if (!table.allowed()) throw Error("the launcher does not answer");
+    if (!hear_until([&] { return table.allowed().has_value(); }, table, line, first_state))
+        throw Error("the launcher does not answer");
     if (!*table.allowed())
         throw UserError({options.what, 0}, "has not the token of this run: what stands behind the # in its address");
+    if (!hear_until([&] { return table.why_not().has_value(); }, table, line, obeyed_within))
+        throw Error(line.is_over() ? "the launcher is gone, and has not said whether it was done"
+                                   : "the launcher has not said so far whether it was done; it may still be");
+    const auto& why_not = *table.why_not();
+    if (!why_not.empty() && wish == "drain") throw UserError({options.what, 0}, why_not);
+    if (!why_not.empty()) throw Error(why_not);
     return exit_code::done;
 }
 

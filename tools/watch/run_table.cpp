@@ -54,7 +54,7 @@ RunTable::HostRow host_row(const Json& host) {
             host.at("there").flag(),
             host.at("places").whole<std::uint64_t>(),
             host.at("answered").whole<std::uint64_t>(),
-            shares_of(looks_at(host))};
+            host.at("there").flag() ? shares_of(looks_at(host)) : std::array<double, 4>{}};
 }
 
 // In the order of watch_json.cpp: looks, waiting, bundles, questions, bytes, nanoseconds, answered.
@@ -85,6 +85,7 @@ void LiveTable::hear(const std::string& text) {
         for (const auto& line : said.at("log").list()) lines_.push_back(line.text());
     if (lines_.size() > most_table_lines) lines_.erase(lines_.begin(), lines_.end() - most_table_lines);
     if (said.has("allowed")) allowed_ = said.at("allowed").flag();
+    if (said.has("obeyed")) why_not_ = said.at("why_not").text();
     changed_ = true;
 }
 

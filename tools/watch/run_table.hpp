@@ -59,6 +59,8 @@ public:
     bool changed();
     /// What became of the last wish: it was allowed; none: nothing was said.
     std::optional<bool> allowed() const { return allowed_; }
+    /// And that it was obeyed: "", or why not; none: not yet.
+    const std::optional<std::string>& why_not() const { return why_not_; }
 
 private:
     const Json* before() const;
@@ -67,6 +69,7 @@ private:
     std::deque<Json> states_;
     std::vector<std::string> lines_;
     std::optional<bool> allowed_;
+    std::optional<std::string> why_not_;
     bool changed_ = false;
 };
 

@@ -76,12 +76,19 @@ public:
             site_.options.command({what == "end"     ? What::end
                                    : what == "write" ? What::write
                                                      : What::drain,
-                                   word("host")});
+                                   word("host"), told_later(what)});
         texts_.push_back(nlohmann::json{{"done", what}, {"allowed", allowed}}.dump());
         return true;
     }
 
 private:
+    std::function<void(const std::string&)> told_later(const std::string& what) const {
+        return [box = letterbox_, what](const std::string& why_not) {
+            const std::lock_guard lock(box->letters_mutex);
+            box->letters.push_back(nlohmann::json{{"obeyed", what}, {"why_not", why_not}}.dump(
+                -1, ' ', false, nlohmann::json::error_handler_t::replace));
+        };
+    }
     void look_at_letters() {
         const std::lock_guard lock(letterbox_->letters_mutex);
         std::swap(texts_, letterbox_->letters);

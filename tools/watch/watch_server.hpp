@@ -17,8 +17,12 @@ namespace lightnet {
 struct WatchCommand {
     enum class What { end, write, drain };
     What what = What::end;
-    std::string host;  // to be drained
-    friend bool operator==(const WatchCommand&, const WatchCommand&) = default;
+    std::string host = {};  // to be drained
+    /// Tells what became of it: "", or why it wasn't done. May be called by any thread.
+    std::function<void(const std::string& why_not)> answer = [](const std::string&) {};
+    friend bool operator==(const WatchCommand& one, const WatchCommand& other) {
+        return one.what == other.what && one.host == other.host;
+    }
 };
 
 /// HTTP and WebSocket, on a thread of its own. The run writes on the board and never waits; whoever is too slow to take
@@ -29,8 +33,9 @@ struct WatchCommand {
 ///   GET /words   the same as /live, without pixels
 ///   GET /live    becomes a WebSocket, on which come: once {"hello": …}; then texts {"state": …} and {"log": […]}, and
 ///                pixels as binary frames (WatchBoard). The page may say {"do": "end" | "write" | "drain" | "check",
-///                "host": …, "token": …}, and is answered {"done": …, "allowed": …}; {"do": "explain", "x": …,
-///                "y": …, "samples": …, "token": …} is answered by {"explained": {…}} besides (LiveExplainer).
+///                "host": …, "token": …}, and is told at once {"done": …, "allowed": …}, and when it was obeyed, or
+///                couldn't be, {"obeyed": …, "why_not": ""}; {"do": "explain", "x": …, "y": …, "samples": …,
+///                "token": …} is answered by {"explained": {…}} besides (LiveExplainer).
 ///
 /// Whoever can connect may look; only who has the token may do something. What is called by another name than its own
 /// (421), or by a page of another origin (403), is refused.
@@ -44,7 +49,7 @@ public:
         std::function<void(WatchCommand)> command;  // called by the server's thread
         /// How a pixel came about; the reply is a text for the page, and may come from any thread. None: nobody tells.
         std::function<void(const PixelWish&, std::function<void(std::string)> reply)> explain = {};
-        std::uint64_t slow_seconds = 5;             // for one message to be taken
+        std::uint64_t slow_seconds = 5;  // for one message to be taken
         std::size_t most_watchers = 64;
         std::size_t send_buffer = 0;  // of the system, bytes; 0: as it likes
     };

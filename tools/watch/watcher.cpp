@@ -49,9 +49,13 @@ Watcher::Watcher(Options options, const WatchedRun& run)
     if (too_large_ && (options_.address || viewer_)) say("the picture is too large to be shown while it grows");
     if (!options_.address) return;
     const auto take = [this](WatchCommand command) {
-        if (command.what == WatchCommand::What::end) return options_.end();
+        if (command.what == WatchCommand::What::end) {
+            options_.end();
+            return command.answer("");
+        }
         const std::lock_guard lock(commands_mutex_);
-        if (commands_.size() < 100) commands_.push_back(std::move(command));
+        if (commands_.size() >= 100) return command.answer("too much is asked of the run at once");
+        commands_.push_back(std::move(command));
     };
     std::function<void(const PixelWish&, std::function<void(std::string)>)> explain;
     if (auto* const explainer = options_.explainer)
@@ -73,7 +77,7 @@ void Watcher::say(const std::string& text) {
 }
 
 void Watcher::part_from(const Hosts& hosts) {
-    if (wanted()) state_.hosts = hosts();
+    if (wanted()) look_at_hosts(hosts(), Clock::now());
 }
 
 void Watcher::preparing(const PrepareProgress& progress) {
@@ -123,7 +127,7 @@ void Watcher::look(const Film& film, const Hosts& hosts) {
     if (!state_pace_.due(now)) return;
     const double begun = thread_time();
     state_.done = film.done();
-    state_.hosts = hosts();
+    look_at_hosts(hosts(), now);
     tell();
     if (options_.report && memory_pace_.due(now)) remember();
     state_pace_.put_off(now, std::chrono::duration<double>((thread_time() - begun) / most_state_share));
@@ -155,12 +159,9 @@ void Watcher::remember() {
     memory_pace_.put_off(Clock::now());
 }
 
-double Watcher::at_work() const {
-    double sum = 0;
-    for (const auto& host : state_.hosts)
-        for (const auto& [busy, asking, waiting, idle] : host.figures.places)
-            if (const auto all = busy + asking + waiting + idle) sum += double(busy + asking) / double(all);
-    return sum;
+void Watcher::look_at_hosts(std::vector<HostState> hosts, Clock::time_point now) {
+    state_.hosts = std::move(hosts);
+    work_.look(state_.hosts, std::chrono::duration<double>(now - begun_).count());
 }
 
 std::vector<WatchCommand> Watcher::commands() {
@@ -170,6 +171,7 @@ std::vector<WatchCommand> Watcher::commands() {
 
 void Watcher::finish(const Film& film, const std::string& outcome) {
     if (!wanted()) return;
+    for (const auto& command : commands()) command.answer("the run is over");
     state_.outcome = outcome;
     state_.done = film.done();
     state_.in_flight.clear();

@@ -16,6 +16,7 @@
 #include "tools/explain/live_explainer.hpp"
 #include "tools/pace.hpp"
 #include "tools/preview/tev_preview.hpp"
+#include "tools/watch/places_at_work.hpp"
 #include "tools/watch/watch_board.hpp"
 #include "tools/watch/watch_json.hpp"
 #include "tools/watch/watch_server.hpp"
@@ -70,7 +71,7 @@ public:
     void finish(const Film& film, const std::string& outcome);
 
     /// How many places were at work, on average over the time that they were looked at.
-    double at_work() const;
+    double at_work() const { return work_.average(); }
     /// What a report is made from.
     const std::string& hello() const { return hello_; }
     const std::string& last_state() const { return last_state_; }
@@ -81,12 +82,14 @@ private:
     void take_areas_of(const Film& film);
     void show_pixels(const Film& film, std::chrono::duration<double> most);
     bool tell();
+    void look_at_hosts(std::vector<HostState> hosts, Clock::time_point now);
     void remember();
 
     Options options_;
     const Graph& graph_;
     std::string output_, hello_, last_state_;
     WatchedState state_;
+    PlacesAtWork work_;
     const Clock::time_point begun_ = Clock::now();
     WatchBoard board_;
     bool too_large_ = false, began_to_show_ = false;
