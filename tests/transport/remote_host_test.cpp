@@ -4,6 +4,7 @@
 #include <deque>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "transport/launcher/remote_host.hpp"
@@ -16,6 +17,9 @@ using packet::Fields;
 using packet::Type;
 using State = RemoteHost::State;
 using std::chrono::milliseconds;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// What the launcher sends lies in `sent`; what `say` is given arrives.
 class FakeConnection final : public HostConnection {
@@ -34,6 +38,8 @@ public:
     }
     void renew() override { ++renewed; }
     void watch(Poll&) const override {}
+    std::optional<Handshake> look_at_handshake() override { return std::exchange(handshake, std::nullopt); }
+    std::optional<LineKeys> keys() const override { return line_keys; }
 
     void say(packet::Packet packet) { append(arriving.emplace_back(), std::move(packet)); }
 
@@ -42,6 +48,8 @@ public:
     std::deque<Frames> arriving;
     int renewed = 0;
     bool refuses = false;
+    std::optional<Handshake> handshake;
+    std::optional<LineKeys> line_keys;
 };
 
 class RemoteHostTest : public ::testing::Test {
@@ -79,6 +87,12 @@ protected:
                                    .set("taken", taken)
                                    .set("told", told_to_us)));
         pass({});
+    }
+    void fail_handshakes(Handshake how) {
+        for (int i = 0; i < 3; ++i) {
+            line->handshake = how;
+            pass(milliseconds(10));
+        }
     }
     bool ask() {
         Message message;
@@ -136,6 +150,35 @@ TEST_F(RemoteHostTest, LosesAHostThatDoesNotAnswerAndCallsItAnew) {
     line->sent.clear();
     pass(milliseconds(200));
     EXPECT_THAT(line->sent, ::testing::Contains(Type::hello));
+}
+
+TEST_F(RemoteHostTest, SpeaksOfKeysWhenTheTwoEndsDiffer) {
+    fail_handshakes(Handshake::mismatched);
+    EXPECT_TRUE(link->unknown());
+    EXPECT_THAT(link->reason(), HasSubstr("it asks for keys"));
+}
+
+TEST_F(RemoteHostTest, TakesAHostThatHangsUpForOneThatMayHaveAKeyOnlyWhereItExpectsOne) {
+    fail_handshakes(Handshake::abandoned);
+    EXPECT_FALSE(link->unknown());
+    EXPECT_THAT(link->reason(), HasSubstr("breaks off before a word is said; if it has a key"));
+    line->line_keys = LineKeys{KeyPair::random(), KeyPair::random().open};
+    fail_handshakes(Handshake::abandoned);
+    EXPECT_TRUE(link->unknown());
+    EXPECT_THAT(link->reason(), HasSubstr("another key than expected"));
+}
+
+// Its cable was pulled.
+TEST_F(RemoteHostTest, SpeaksOfNoKeysWhereAHostHasTakenPart) {
+    for (const bool keyed : {false, true}) {
+        if (keyed) line->line_keys = LineKeys{KeyPair::random(), KeyPair::random().open};
+        become_ready();
+        pass(milliseconds(1600));
+        ASSERT_EQ(link->state(), State::calling);
+        fail_handshakes(Handshake::abandoned);
+        EXPECT_FALSE(link->unknown());
+        EXPECT_THAT(link->reason(), AllOf(HasSubstr("its line may be cut"), Not(HasSubstr("key"))));
+    }
 }
 
 TEST_F(RemoteHostTest, KeepsAHostThatHasAllMessages) {

@@ -80,13 +80,16 @@ void HostDoor::look_at_handshake() {
     const auto seen = launcher_ ? last_handshake(*launcher_) : std::nullopt;
     if (!seen) return;
     abandoned_ = *seen == Handshake::abandoned ? abandoned_ + 1 : 0;
-    if (*seen == Handshake::made) told_trouble_ = false;
+    if (*seen == Handshake::made) told_trouble_ = false, known_ = true;
     const bool for_sure = *seen == Handshake::mismatched || abandoned_ >= abandoned_for_sure;
     std::string trouble;
     if (*seen == Handshake::refused && options_.launcher)
         trouble = "does not know the key of this host (fingerprint " + options_.launcher->own.open.fingerprint() +
                   "); to be let in, its user appends to the list of --allow: " + options_.launcher->own.open.text() +
                   " " + options_.name;
+    else if (for_sure && *seen == Handshake::abandoned && (known_ || !options_.launcher))
+        trouble = "ends each connection before a word is said: its line may be cut" +
+                  std::string(known_ ? "" : ", or it has a key, which --launcher-key would say");
     else if (for_sure && options_.launcher)
         trouble = "has another key than --launcher-key says (fingerprint " + options_.launcher->theirs.fingerprint() +
                   "), or none";

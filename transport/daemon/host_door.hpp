@@ -69,9 +69,9 @@ private:
     Options options_;
     std::optional<Doorkeeper> keeper_;
     std::optional<Socket> port_, launcher_;
-    int abandoned_ = 0;  // handshakes with that launcher, in a row
-    bool told_trouble_ = false;
-    std::string challenge_;  // of the launcher that was dialled
+    int abandoned_ = 0;                          // handshakes with that launcher, in a row
+    bool told_trouble_ = false, known_ = false;  // it has made one, some time
+    std::string challenge_;                      // of the launcher that was dialled
     bool turned_down_ = false;
     Time heard_{}, dialled_{}, next_join_{};
     std::chrono::milliseconds silence_;  // after which it dials anew

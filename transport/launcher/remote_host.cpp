@@ -37,11 +37,16 @@ bool RemoteHost::send(Type type, const Fields& fields) {
     return sent;
 }
 
-std::string RemoteHost::why_unknown(Handshake seen) const {
+// Only a handshake that went so far that the two ends differ tells of keys: one that was begun and came to no end may
+// have met another program, or a cable that was pulled.
+std::string RemoteHost::why_no_handshake(Handshake seen) const {
     const auto keys = connection_->keys();
-    if (!keys)
-        return "it asks for keys, or closes each connection: the hosts file says which key it has, as in place \"" +
-               name_ + "\" { key = \"…\" } (lightnetd --print-key shows it there)";
+    const auto way = "the hosts file says which key it has, as in place \"" + name_ +
+                     "\" { key = \"…\" } (lightnetd --print-key shows it there)";
+    const std::string breaks_off = "each connection to it breaks off before a word is said";
+    if (seen == Handshake::abandoned && welcomed_) return breaks_off + ": its line may be cut";
+    if (seen == Handshake::abandoned && !keys) return breaks_off + "; if it has a key, " + way;
+    if (!keys) return "it asks for keys: " + way;
     if (seen == Handshake::refused)
         return "it does not know our key (fingerprint " + keys->own.open.fingerprint() +
                "); to be let in, append this line to its list (lightnetd --allow): " + keys->own.open.text() + " NAME";
@@ -56,8 +61,9 @@ void RemoteHost::look_at_handshake(Time now) {
     if (*seen == Handshake::made) unknown_ = false;
     if (*seen == Handshake::made || state_ != State::calling) return;
     if (*seen == Handshake::abandoned && abandoned_ < abandoned_for_sure) return;
-    unknown_ = true;
-    reason_ = why_unknown(*seen);
+    // One that is closed on us by whom we expect by his key is what a wrong key looks like.
+    unknown_ = *seen != Handshake::abandoned || (connection_->keys() && !welcomed_);
+    reason_ = why_no_handshake(*seen);
     if (*seen != Handshake::abandoned) next_renewal_ = now + renewal_interval;  // ZeroMQ tries no more by itself
 }
 
@@ -308,7 +314,7 @@ void RemoteHost::welcome(const Fields& fields) {
         reason_ = "it computes differently (its rays or its mathematical library give other last bits)";
         return;
     }
-    unknown_ = false;
+    unknown_ = false, welcomed_ = true;
     reason_.clear();
     places_ = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(fields.number("places"), 1, 1024));
     process_ = fields.number("process");

@@ -75,7 +75,7 @@ private:
     void look_at_handshake(Time now);
     void look_at_line(Time now, const ExpectedPlan& plan);
     packet::Fields job_with(const std::string& plan) const;
-    std::string why_unknown(Handshake seen) const;
+    std::string why_no_handshake(Handshake seen) const;
     bool lacks_something(const packet::Fields& pong);
     void damaged(Time now, std::span<const std::byte> header);
 
@@ -113,7 +113,8 @@ private:
     };
     std::map<Hash, Brought> brought_;
     std::size_t pieces_out_ = 0;
-    int abandoned_ = 0;  // handshakes, in a row
+    int abandoned_ = 0;      // handshakes, in a row
+    bool welcomed_ = false;  // by the host, some time: its keys, or that it has none, were right
 };
 
 }  // namespace lightnet
