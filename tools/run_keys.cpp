@@ -71,6 +71,7 @@ RunKeys run_keys(const RunningOptions& running, const Hosts& hosts) {
     AllowList joining;
     take_keys(hosts, joining, keys);
     if (running.slurm && !running.insecure) {
+        keep_secrets_out_of_dumps();
         keys.slurm = KeyPair::random();
         joining.add(keys.slurm->open, "slurm-*");
     }

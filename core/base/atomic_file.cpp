@@ -20,17 +20,16 @@ namespace {
     throw Error(path.string(), fmt::format("{}: {}", what, std::generic_category().message(reason)));
 }
 
-/// A temporary file that is gone at the end of its scope unless it was renamed.
+/// A temporary file that is gone at the end of its scope unless it became its target.
 class TemporaryFile {
 public:
-    explicit TemporaryFile(const std::filesystem::path& target) : target_(target) {
-        std::random_device random;  // a name, and nothing else
-        do {
-            name_ = fmt::format("{}.{:08x}", target.string(), random());
-            // With the rights of any other new file: the system knows the mask, which no thread may look at.
-            file_ = ::open(name_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
-        } while (file_ < 0 && errno == EEXIST);
-        if (file_ < 0) fail(target_, "can't be written");
+    // With `rights`, as far as the system's mask lets them: that no thread may look at.
+    TemporaryFile(const std::filesystem::path& target, mode_t rights) : target_(target) {
+        if (open_nameless(rights)) return;
+        with_a_name([&] {
+            file_ = ::open(name_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, rights);
+            return file_ >= 0;
+        });
     }
     TemporaryFile(const TemporaryFile&) = delete;
     TemporaryFile& operator=(const TemporaryFile&) = delete;
@@ -49,15 +48,56 @@ public:
     }
 
     void become_target() {
-        if (::fsync(file_) != 0) fail(target_, "could not be synced to the disk");
-        if (::close(std::exchange(file_, -1)) != 0) fail(target_, "could not be written");
+        finish();
         if (::rename(name_.c_str(), target_.c_str()) != 0) fail(target_, "could not be renamed to its name");
         name_.clear();
     }
 
+    // False: something is there.
+    bool become_new_target() {
+        finish();
+        if (::link(name_.c_str(), target_.c_str()) == 0) return true;
+        if (errno != EEXIST) fail(target_, "could not be given its name");
+        return false;
+    }
+
 private:
+    // In the folder of the target, on file systems that know such files.
+    bool open_nameless(mode_t rights) {
+        const auto folder = target_.parent_path();
+        file_ = ::open(folder.empty() ? "." : folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, rights);
+        if (file_ < 0) return false;
+        way_to_file_ = fmt::format("/proc/self/fd/{}", file_);
+        if (::access(way_to_file_.c_str(), F_OK) == 0) return true;
+        ::close(std::exchange(file_, -1));
+        way_to_file_.clear();
+        return false;
+    }
+
+    template <class Make>
+    void with_a_name(Make make) {
+        std::random_device random;  // a name, and nothing else
+        do {
+            name_ = fmt::format("{}.{:08x}", target_.string(), random());
+            if (make()) return;
+        } while (errno == EEXIST);
+        name_.clear();
+        fail(target_, "can't be written");
+    }
+
+    // All is on the disk, under a name of its own.
+    void finish() {
+        if (::fsync(file_) != 0) fail(target_, "could not be synced to the disk");
+        if (!way_to_file_.empty())
+            with_a_name([&] {
+                return ::linkat(AT_FDCWD, way_to_file_.c_str(), AT_FDCWD, name_.c_str(), AT_SYMLINK_FOLLOW) == 0;
+            });
+        if (::close(std::exchange(file_, -1)) != 0) fail(target_, "could not be written");
+    }
+
     std::filesystem::path target_;
-    std::string name_;
+    std::string name_;         // "": none yet
+    std::string way_to_file_;  // that it can be given one by; "": it was born with one
     int file_ = -1;
 };
 
@@ -75,10 +115,18 @@ void sync_folder(const std::filesystem::path& folder) {
 void write_file(const std::filesystem::path& path, std::string_view bytes) { write_file(path, std::span(&bytes, 1)); }
 
 void write_file(const std::filesystem::path& path, std::span<const std::string_view> pieces) {
-    TemporaryFile file(path);
+    TemporaryFile file(path, 0666);
     for (const auto piece : pieces) file.write(piece);
     file.become_target();
     sync_folder(path.parent_path());
+}
+
+bool write_new_secret(const std::filesystem::path& path, std::string_view bytes) {
+    TemporaryFile file(path, 0600);
+    file.write(bytes);
+    const bool made = file.become_new_target();
+    sync_folder(path.parent_path());
+    return made;
 }
 
 }  // namespace lightnet

@@ -8,9 +8,13 @@
 namespace lightnet {
 
 /// Writes `bytes` to a temporary file beside `path`, syncs it, and renames it to `path`. When anything goes wrong the
-/// old file stays as it was, the temporary one is removed, and Error says why.
+/// old file stays as it was, the temporary one is removed, and Error says why. Where the file system can do it, the
+/// temporary file has no name before it is whole: one whose writer is killed leaves nothing.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 /// The same for what lies in pieces.
 void write_file(const std::filesystem::path& path, std::span<const std::string_view> pieces);
+/// The same for what nobody but this user may read (mode 0600), where nothing is yet. False: something is there by now,
+/// and stays.
+bool write_new_secret(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace lightnet

@@ -2,7 +2,11 @@
 #include "transport/keys/key.hpp"
 
 #include <gmock/gmock.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -80,6 +84,33 @@ TEST(KeyFile, IsMadeOnceAndForItsUserAlone) {
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder / "config/lightnet"), {}), 1)
         << "nothing is left beside it";
 }
+
+TEST(KeyFile, IsMadeBesideWhatAnotherStartHasLeft) {
+    const test::Folder folder;
+    for (const int process : {1, static_cast<int>(::getpid())})
+        folder.write("key." + std::to_string(process), "half of one");
+    EXPECT_FALSE(load_or_make_key(folder / "key").open.text().empty());
+    std::size_t files = 0;
+    for (const auto& file : std::filesystem::directory_iterator(folder.path())) files += file.is_regular_file();
+    EXPECT_EQ(files, 3u) << "and it leaves nothing itself";
+}
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // which look into their process by another one
+TEST(KeyFile, IsInNoCoreDumpOfWhoHasReadIt) {
+    const test::Folder folder;
+    const auto child = ::fork();
+    if (child == 0) {
+        ::prctl(PR_SET_DUMPABLE, 1, 0, 0, 0);
+        load_or_make_key(folder / "key");
+        rlimit core{1, 1};
+        ::getrlimit(RLIMIT_CORE, &core);
+        ::_exit(::prctl(PR_GET_DUMPABLE) == 0 && core.rlim_cur == 0 && core.rlim_max == 0 ? 0 : 1);
+    }
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_EQ(status, 0);
+}
+#endif
 
 TEST(KeyFile, ThatOthersCanReadOrThatHoldsNoneIsRefused) {
     const test::Folder folder;
@@ -160,6 +191,18 @@ TEST_F(AllowFileTest, ThatOthersCanWriteLetsNobodyIn) {
     std::filesystem::permissions(file, static_cast<std::filesystem::perms>(0622));
     EXPECT_THAT(error_of([&] { AllowFile{file}; }), HasSubstr("others can change this list"));
     EXPECT_THAT(error_of([&] { AllowFile{folder.file("none")}; }), HasSubstr("can't be read"));
+}
+
+TEST_F(AllowFileTest, ThatOthersCanWriteFromNowOnLetsNobodyInAtOnce) {
+    AllowFile allowed(file);
+    EXPECT_FALSE(changes(allowed));
+    std::filesystem::permissions(file, static_cast<std::filesystem::perms>(0666));
+    EXPECT_TRUE(allowed.refresh(now += milliseconds(250), [this](const std::string& text) { said += text; }));
+    EXPECT_TRUE(allowed.list().empty());
+    EXPECT_THAT(said, HasSubstr("others can change this list of keys"));
+    std::filesystem::permissions(file, static_cast<std::filesystem::perms>(0600));
+    EXPECT_TRUE(changes(allowed)) << "it was mended";
+    EXPECT_TRUE(allowed.list().has(one));
 }
 
 TEST_F(AllowFileTest, MayBeOneKey) {

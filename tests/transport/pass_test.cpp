@@ -2,8 +2,12 @@
 #include "transport/wire/pass.hpp"
 
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 
@@ -24,6 +28,34 @@ TEST(Pass, IsMadeOnceAndForItsUserAlone) {
     EXPECT_EQ(std::filesystem::status(file).permissions(),
               std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
     EXPECT_NE(Pass::of(folder.file("another")).proof("c", claim), first.proof("c", claim));
+}
+
+TEST(Pass, IsMadeBesideWhatAnotherStartHasLeft) {
+    const test::Folder folder;
+    for (const int process : {1, static_cast<int>(::getpid())}) folder.write("pass." + std::to_string(process), "half");
+    EXPECT_NO_THROW(Pass::of(folder.file("pass")));
+    EXPECT_FALSE(std::filesystem::is_empty(folder.file("pass")));
+}
+
+// As where the disk is full: the system writes no file of more than a few bytes.
+TEST(Pass, LeavesNothingOfItselfWhereItCannotBeWritten) {
+    const test::Folder folder;
+    const auto child = ::fork();
+    if (child == 0) {
+        ::signal(SIGXFSZ, SIG_IGN);
+        const rlimit few{8, 8};
+        ::setrlimit(RLIMIT_FSIZE, &few);
+        try {
+            Pass::of(folder.file("pass"));
+        } catch (const Error& error) {
+            ::_exit(std::string(error.what()).find("no pass can be made") == std::string::npos);
+        }
+        ::_exit(2);
+    }
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_EQ(status, 0);
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 TEST(Pass, ThatOthersCanReadIsRefused) {

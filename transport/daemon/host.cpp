@@ -6,6 +6,7 @@
 
 #include "core/base/error.hpp"
 #include "transport/daemon/host_service.hpp"
+#include "transport/keys/key_file.hpp"
 #include "transport/store/cache_folder.hpp"
 #include "transport/wire/relay_address.hpp"
 
@@ -49,10 +50,12 @@ HostDoor::Options Host::Service::door_options() const {
                 if (!std::exchange(*told, true))
                     log({LogLevel::warning, "turns away somebody who has no key, or takes this host for another"});
             }};
-    if (options.launcher_key)
+    if (options.launcher_key) {
         made.launcher = LineKeys{*options.key, *options.launcher_key};
-    else if (!options.join.empty())
+    } else if (!options.join.empty()) {
+        keep_secrets_out_of_dumps();
         made.pass = Pass::of(options.pass.empty() ? Pass::usual_file() : options.pass);
+    }
     return made;
 }
 

@@ -49,13 +49,15 @@ public:
     /// Of the file; "the command line" where there is none.
     std::string name() const;
     /// Reads the file again when it has changed, and has stayed so for a moment: editors write in pieces. True: the
-    /// list is another one. What can't be read lets nobody in, and `say` is told why.
+    /// list is another one. What can't be read, or what others can change, lets nobody in, and `say` is told why.
     bool refresh(std::chrono::steady_clock::time_point now, const std::function<void(const std::string&)>& say);
 
 private:
     struct Stamp {  // all zero: it is not there
         long long seconds = 0, nanoseconds = 0, size = 0;
+        long long changed_seconds = 0, changed_nanoseconds = 0;  // of whose it is, and who may write, as well
         unsigned long long inode = 0;
+        bool safe = true;  // nobody but its owner can change it
         friend bool operator==(const Stamp&, const Stamp&) = default;
     };
     Stamp stamp() const;

@@ -1,6 +1,8 @@
 #include "transport/keys/key_file.hpp"
 
 #include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -9,12 +11,19 @@
 #include <cstring>
 #include <filesystem>
 
+#include "core/base/atomic_file.hpp"
 #include "core/base/error.hpp"
 
 namespace lightnet {
 namespace {
 
 constexpr std::size_t most_bytes = 4096;
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)  // they look into their process by another one
+constexpr bool may_be_looked_into = true;
+#else
+constexpr bool may_be_looked_into = false;
+#endif
 
 struct KeyDescriptor {
     int number;
@@ -33,6 +42,7 @@ bool is_private(const struct stat& state) {
 }
 
 KeyPair read_key(const std::string& file, int descriptor) {
+    keep_secrets_out_of_dumps();
     struct stat state {};
     if (descriptor < 0 || fstat(descriptor, &state) != 0) throw Error(file, "the key can't be read: " + why());
     if (!is_private(state))
@@ -52,26 +62,21 @@ int open_to_read(const std::string& file) { return open(file.c_str(), O_RDONLY |
 bool make(const std::string& file, const KeyPair& pair) {
     const auto folder = std::filesystem::path(file).parent_path();
     if (!folder.empty()) std::filesystem::create_directories(folder);
-    const std::string partial = file + "." + std::to_string(getpid());
-    {
-        const KeyDescriptor out{open(partial.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600)};
-        const auto text = pair.secret_text() + "\n";
-        const bool written =
-            out.number >= 0 && write(out.number, text.data(), text.size()) == static_cast<ssize_t>(text.size());
-        if (!written || fsync(out.number) != 0) {
-            const auto reason = why();
-            if (out.number >= 0) unlink(partial.c_str());
-            throw Error(file, "no key can be made there: " + reason);
-        }
+    try {
+        return write_new_secret(file, pair.secret_text() + "\n");
+    } catch (const Error& error) {
+        throw Error(std::string("no key can be made: ") + error.what());
     }
-    const bool linked = link(partial.c_str(), file.c_str()) == 0;
-    const int error = errno;
-    unlink(partial.c_str());
-    if (!linked && error != EEXIST) throw Error(file, std::string("no key can be made there: ") + std::strerror(error));
-    return linked;
 }
 
 }  // namespace
+
+// DECISIONS: secrets-in-no-dump
+void keep_secrets_out_of_dumps() {
+    const rlimit none{0, 0};
+    ::setrlimit(RLIMIT_CORE, &none);
+    if (!may_be_looked_into) ::prctl(PR_SET_DUMPABLE, 0, 0, 0, 0);
+}
 
 std::string usual_key_file() {
     if (const char* named = std::getenv("LIGHTNET_KEY"); named && *named) return named;
@@ -85,6 +90,7 @@ std::string usual_key_file() {
 std::optional<KeyPair> take_key_from_environment() {
     const char* text = std::getenv(secret_key_variable);
     if (!text) return std::nullopt;
+    keep_secrets_out_of_dumps();
     const auto pair = KeyPair::from_secret(text);
     unsetenv(secret_key_variable);
     if (!pair) throw Error(secret_key_variable, "holds no key");

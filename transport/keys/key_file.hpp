@@ -8,6 +8,10 @@
 
 namespace lightnet {
 
+/// What this process holds from now on is in no core dump, and no other process of its user can look into it: for
+/// whoever has a key. The functions here that give one have done so.
+void keep_secrets_out_of_dumps();
+
 /// Where it lies when the user says nothing: $LIGHTNET_KEY, else below ~/.config/lightnet. Throws Error when there is
 /// no such folder.
 std::string usual_key_file();

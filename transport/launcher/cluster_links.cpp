@@ -2,6 +2,7 @@
 
 #include "core/base/error.hpp"
 #include "core/run/runtime/fingerprint.hpp"
+#include "transport/keys/key_file.hpp"
 #include "transport/launcher/own_host.hpp"
 #include "transport/places/descriptors.hpp"
 #include "transport/zmq/poll.hpp"
@@ -18,6 +19,11 @@ RunOffer offer_of(const Cluster::Options& options) {
     return offer;
 }
 
+Pass pass_for_joiners(const Cluster::Options& options) {
+    keep_secrets_out_of_dumps();
+    return Pass::of(options.pass.empty() ? Pass::usual_file() : options.pass);
+}
+
 }  // namespace
 
 Cluster::Links::Links(Options given) : options(std::move(given)), offer(offer_of(options)) {
@@ -28,7 +34,7 @@ Cluster::Links::Links(Options given) : options(std::move(given)), offer(offer_of
     if (!options.listen.empty() && options.join_keys)
         joiners.emplace(*context, options.listen, Joiners::Door{options.key.value(), *options.join_keys, options.say});
     else if (!options.listen.empty())
-        joiners.emplace(*context, options.listen, Pass::of(options.pass.empty() ? Pass::usual_file() : options.pass));
+        joiners.emplace(*context, options.listen, pass_for_joiners(options));
     for (const auto& endpoint : options.endpoints) {
         const auto key = options.host_keys.find(endpoint);
         call(endpoint, key == options.host_keys.end() ? HostKey() : key->second);

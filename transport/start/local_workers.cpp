@@ -52,6 +52,7 @@ int LocalWorkers::start(const std::string& listen, int* out) const {
 LocalWorkers::LocalWorkers(std::string program, std::uint32_t count, std::uint32_t places, std::optional<Keys> keys,
                            Troubles troubles)
     : program_(std::move(program)), places_(places), keys_(std::move(keys)), troubles_(std::move(troubles)) {
+    if (keys_) keep_secrets_out_of_dumps();
     std::vector<int> outs;
     try {
         for (std::uint32_t i = 0; i < count; ++i) {  // all start together

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "core/base/atomic_file.hpp"
 #include "core/base/error.hpp"
 #include "core/base/hash.hpp"
 
@@ -45,18 +46,13 @@ struct Descriptor {
 
 // Whoever is first makes it; it appears under its name when it is whole.
 void make(const std::string& file) {
-    std::filesystem::create_directories(std::filesystem::path(file).parent_path());
-    const std::string partial = file + "." + std::to_string(getpid());
-    {
-        const Descriptor out{open(partial.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600)};
-        const auto secret = random_digits(secret_digits) + "\n";
-        if (out.number < 0 || write(out.number, secret.data(), secret.size()) != static_cast<ssize_t>(secret.size()))
-            throw Error(file, std::string("no pass can be made there: ") + std::strerror(errno));
+    const auto folder = std::filesystem::path(file).parent_path();
+    if (!folder.empty()) std::filesystem::create_directories(folder);
+    try {
+        write_new_secret(file, random_digits(secret_digits) + "\n");
+    } catch (const Error& error) {
+        throw Error(std::string("no pass can be made: ") + error.what());
     }
-    const bool linked = link(partial.c_str(), file.c_str()) == 0 || errno == EEXIST;
-    const int why = errno;
-    unlink(partial.c_str());
-    if (!linked) throw Error(file, std::string("no pass can be made there: ") + std::strerror(why));
 }
 
 }  // namespace
