@@ -10,10 +10,12 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <span>
 
 #include "core/base/error.hpp"
 #include "tests/support/folder.hpp"
 #include "transport/store/blob_cache.hpp"
+#include "transport/store/result_cache.hpp"
 
 namespace lightnet::cache_folder_test {
 namespace {
@@ -74,14 +76,51 @@ TEST(CacheFolder, MayBeAnEmptyOneWhoseRightsStay) {
     EXPECT_EQ(rights_of(folder), 0770u);
 }
 
-TEST(CacheFolder, MayBeOneOfOursFromBeforeThereWereMarks) {
+TEST(CacheFolder, IsNoneThatHoldsFilesOfOthersWithNamesLikeOurs) {
     const test::Folder home;
-    home.write("lightnet/" + blob_name, "a blob");
-    home.write("lightnet/recipes/" + blob_name, "a recipe");
-    EXPECT_EQ(refusal_of(home / "lightnet"), "");
-    home.write("lightnet-2/" + blob_name, "a blob");
-    home.write("lightnet-2/notes", "mine");
-    EXPECT_THAT(refusal_of(home / "lightnet-2"), HasSubstr("it holds 'notes'"));
+    const std::string text = "a photograph", name = to_hex(content_hash(text));
+    home.write("lightnet-assets/" + name, text);
+    EXPECT_THAT(refusal_of(home / "lightnet-assets"), HasSubstr("it holds '" + name + "'"));
+    home.write("lightnet/recipes/" + name, text);
+    EXPECT_THAT(refusal_of(home / "lightnet"), HasSubstr("it holds 'recipes'"));
+    EXPECT_TRUE(fs::exists(home / "lightnet-assets" / name));
+}
+
+TEST(CacheFolder, IsNotMarkedByALink) {
+    const test::Folder home;
+    EXPECT_EQ(refusal_of(home / "cache"), "");
+    home.write("photos/1.jpg", "mine");
+    fs::create_symlink(home / "cache" / "CACHEDIR.TAG", home / "photos" / "CACHEDIR.TAG");
+    EXPECT_THAT(refusal_of(home / "photos"), HasSubstr("is no cache of lightnet's"));
+}
+
+TEST(BlobCache, FollowsNoLinks) {
+    const test::Folder home;
+    const auto folder = home / "cache";
+    const BlobCache cache(folder, 0);
+    const std::string text = "a photograph";
+    const Hash hash = content_hash(text);
+    home.write("store/" + to_hex(hash), text);
+    fs::create_symlink(home / "store", folder / "recipes");
+    fs::create_symlink(home / "store" / to_hex(hash), folder / to_hex(hash));
+    EXPECT_FALSE(cache.has(hash)) << "it may be a link to what nobody should be sent";
+    cache.trim();
+    EXPECT_TRUE(fs::exists(home / "store" / to_hex(hash)));
+    EXPECT_THROW(DiskResultCache(folder.string(), 0), Error) << "and says what is in the way";
+    EXPECT_TRUE(fs::exists(home / "store" / to_hex(hash)));
+}
+
+TEST(BlobCache, LeavesFilesOfOthersAmongItsOwn) {
+    const test::Folder home;
+    const auto folder = home / "cache";
+    const DiskResultCache results(folder, 0);
+    const auto foreign = folder / std::string(64, 'c'), recipe = folder / "recipes" / std::string(64, 'f');
+    for (const auto& file : {foreign, recipe}) std::ofstream(file) << "named by another hash than ours";
+    const BlobCache cache(folder, 0);
+    cache.store(content_hash(std::string_view("a mesh")), std::as_bytes(std::span("a mesh", 6)));
+    cache.trim();
+    EXPECT_FALSE(cache.has(content_hash(std::string_view("a mesh"))));
+    for (const auto& file : {foreign, recipe}) EXPECT_TRUE(fs::exists(file)) << file;
 }
 
 TEST(BlobCache, LeavesFilesOfOthersAlone) {
@@ -94,13 +133,14 @@ TEST(BlobCache, LeavesFilesOfOthersAlone) {
     for (const auto& name : foreign) std::ofstream(folder / name) << "mine";
     fs::create_directory(folder / std::string(64, 'd'));
     fs::create_symlink(folder / "thesis.tex", folder / std::string(64, 'e'));
-    std::ofstream(folder / blob_name) << "a blob";
+    const auto blob = to_hex(content_hash(std::string_view("a blob")));
+    std::ofstream(folder / blob) << "a blob";
     const BlobCache again(folder, 0);
     again.trim();
     for (const auto& name : foreign) EXPECT_TRUE(fs::exists(folder / name)) << name;
     EXPECT_TRUE(fs::exists(folder / std::string(64, 'd')));
     EXPECT_TRUE(fs::is_symlink(folder / std::string(64, 'e')));
-    EXPECT_FALSE(fs::exists(folder / blob_name));
+    EXPECT_FALSE(fs::exists(folder / blob));
     EXPECT_EQ(rights_of(folder), 0750u);
 }
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/regular_file.hpp"
 #include "transport/store/cache_folder.hpp"
 #include "transport/store/recipes.hpp"
 
@@ -23,19 +24,23 @@ constexpr auto given_up = std::chrono::hours(24);  // what was not written to fo
 
 // Null: there is no such file, or something else, such as a pipe that would never end.
 Bytes read_file(const std::string& path) {
-    std::error_code ignored;
-    if (!fs::is_regular_file(path, ignored)) return nullptr;
-    std::ifstream in(path, std::ios::binary | std::ios::ate);
-    if (!in) return nullptr;
-    auto bytes = std::make_shared<std::vector<std::byte>>(static_cast<std::size_t>(in.tellg()));
-    in.seekg(0);
-    in.read(reinterpret_cast<char*>(bytes->data()), static_cast<std::streamsize>(bytes->size()));
-    return in ? bytes : nullptr;
+    RegularFile file(path);
+    if (!file.readable()) return nullptr;
+    auto bytes = std::make_shared<std::vector<std::byte>>(static_cast<std::size_t>(file.size()));
+    return file.read(*bytes) == bytes->size() ? bytes : nullptr;
 }
 
-void remove(const CacheFile& file) {
+// What bears the name of a blob is one when it holds what its name says; others name their files in this way, too.
+bool is_blob(const CacheFile& file) {
+    const auto name = hash_from_hex(file.path.filename().string());
+    return name && hash_of_regular_file(file.path) == name;
+}
+
+// False: it is none of ours, and stays.
+bool remove(const CacheFile& file, const fs::path& recipes) {
     std::error_code ignored;
-    fs::remove(file.path, ignored);
+    const bool ours = file.partial || (file.path.parent_path() == recipes ? is_recipe(file.path) : is_blob(file));
+    return ours && fs::remove(file.path, ignored);
 }
 
 }  // namespace
@@ -121,12 +126,16 @@ void BlobCache::trim() const {
     for (auto& file : files_of_ours(recipes)) files.push_back(std::move(file));
     const auto now = fs::file_time_type::clock::now();
     for (const auto& file : files)
-        if (file.partial && now - file.used > given_up) remove(file);
+        if (file.partial && now - file.used > given_up) remove(file, recipes);
     std::erase_if(files, [](const auto& file) { return file.partial; });
     std::uint64_t sum = 0;
     for (const auto& file : files) sum += file.size;
     std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) { return a.used < b.used; });
-    for (auto file = files.begin(); file != files.end() && sum > most_bytes_; sum -= file++->size) remove(*file);
+    for (const auto& file : files)
+        if (sum <= most_bytes_)
+            break;
+        else if (remove(file, recipes))
+            sum -= file.size;
     trim_recipes(recipes, [this](const Hash& blob) {
         std::error_code ignored;
         return fs::exists(path_of(blob), ignored);

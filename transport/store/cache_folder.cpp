@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
-#include <fstream>
 #include <optional>
 #include <system_error>
 
 #include "core/base/atomic_file.hpp"
 #include "core/base/error.hpp"
+#include "core/base/regular_file.hpp"
 
 namespace lightnet {
 namespace {
@@ -25,6 +25,7 @@ constexpr std::string_view mark =
     "Signature: 8a477f597d28d172789f06886806bc55\n"
     "# This folder is a cache of lightnet: it removes files here when they are too many.\n"
     "# See https://bford.info/cachedir/\n";
+constexpr std::size_t longest_mark = 4096;
 
 bool all_digits(std::string_view text, std::string_view digits) {
     return !text.empty() && text.find_first_not_of(digits) == text.npos;
@@ -50,23 +51,12 @@ bool is_part(std::string_view ending) {
 }
 
 bool is_marked(const fs::path& folder) {
-    std::error_code ignored;
-    const auto file = folder / mark_name;
-    if (!fs::is_regular_file(file, ignored)) return false;
-    std::ifstream in(file, std::ios::binary);
-    std::string text(mark.size(), '\0');
-    in.read(text.data(), static_cast<std::streamsize>(text.size()));
-    return in && text == mark;
+    const auto text = text_of_regular_file(folder / mark_name, longest_mark);
+    return text && text->starts_with(mark);
 }
 
-// A cache that was made before there were marks has no mark, but our name, and nothing in it but what is ours.
-bool is_ours_by_name(const fs::path& folder, std::string_view name) {
-    if (!folder.filename().string().starts_with("lightnet")) return false;
-    const auto ending = after_hash(name);
-    return name == "recipes" || (ending && (ending->empty() || is_part(*ending)));
-}
-
-// Something in the folder that a cache has nothing to do with; none: it may become one.
+// Something in a folder without a mark, which is nobody's cache then, whatever its files are called: others name theirs
+// by hashes, too. None: it may become one.
 std::optional<std::string> foreign_name(const fs::path& folder) {
     std::error_code error;
     auto file = fs::directory_iterator(folder, error);
@@ -75,7 +65,7 @@ std::optional<std::string> foreign_name(const fs::path& folder) {
         const auto name = file->path().filename().string();
         const bool becomes_mark =
             name.starts_with(mark_name) && is_part(std::string_view(name).substr(mark_name.size()));
-        if (!becomes_mark && !is_ours_by_name(folder, name)) return name;
+        if (!becomes_mark) return name;
     }
     return std::nullopt;
 }
@@ -120,6 +110,7 @@ std::string default_cache_folder() {
 std::vector<CacheFile> files_of_ours(const fs::path& folder) {
     std::vector<CacheFile> files;
     std::error_code error;
+    if (!fs::is_directory(fs::symlink_status(folder, error))) return files;
     for (auto file = fs::directory_iterator(folder, error); !error && file != fs::directory_iterator();
          file.increment(error)) {
         const auto name = file->path().filename().string();

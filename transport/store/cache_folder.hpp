@@ -24,7 +24,8 @@ struct CacheFile {
     bool partial = false;  // on its way in, or left behind on it
 };
 
-/// Regular files in `folder` that bear names that we give: 64 hexadecimal digits, and parts of such.
+/// Regular files in `folder` that bear names that we give: 64 hexadecimal digits, and parts of such. None where it is a
+/// link to another folder.
 std::vector<CacheFile> files_of_ours(const std::filesystem::path& folder);
 
 }  // namespace lightnet

@@ -1,10 +1,10 @@
 #include "transport/store/recipes.hpp"
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
+#include <string_view>
 
 #include "core/base/atomic_file.hpp"
+#include "core/base/regular_file.hpp"
 #include "transport/store/cache_folder.hpp"
 
 namespace lightnet {
@@ -12,9 +12,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::string_view beginning = "lightnet recipe ";
+constexpr std::size_t longest_recipe = 4096;
+
 // DECISIONS: recipes-say-what-of
 std::string text_of(const Hash& recipe, const Hash& blob) {
-    const std::string text = "lightnet recipe 1\nrecipe " + to_hex(recipe) + "\nblob " + to_hex(blob) + "\n";
+    const std::string text = std::string(beginning) + "1\nrecipe " + to_hex(recipe) + "\nblob " + to_hex(blob) + "\n";
     return text + "sum " + to_hex(content_hash(text)) + "\n";
 }
 
@@ -22,16 +25,17 @@ std::string text_of(const Hash& recipe, const Hash& blob) {
 
 std::string recipes_in(const std::string& cache) { return cache + "/recipes"; }
 
+bool is_recipe(const fs::path& file) {
+    const auto text = text_of_regular_file(file, longest_recipe);
+    return text && text->starts_with(beginning);
+}
+
 std::optional<Hash> read_recipe(const std::string& folder, const Hash& recipe) {
-    const auto path = folder + "/" + to_hex(recipe);
-    std::error_code ignored;
-    if (!fs::is_regular_file(path, ignored)) return std::nullopt;  // a pipe would make us wait for ever
-    std::ifstream in(path, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(in), {}};
-    const auto at = text.find("\nblob ");
-    if (at == text.npos) return std::nullopt;
-    const auto blob = hash_from_hex(text.substr(at + 6, 2 * sizeof(Hash::bytes)));
-    return blob && text == text_of(recipe, *blob) ? blob : std::nullopt;
+    const auto text = text_of_regular_file(folder + "/" + to_hex(recipe), longest_recipe);
+    const auto at = text ? text->find("\nblob ") : std::string::npos;
+    if (at == std::string::npos) return std::nullopt;
+    const auto blob = hash_from_hex(text->substr(at + 6, 2 * sizeof(Hash::bytes)));
+    return blob && *text == text_of(recipe, *blob) ? blob : std::nullopt;
 }
 
 void write_recipe(const std::string& folder, const Hash& recipe, const Hash& blob) {
@@ -43,7 +47,7 @@ void trim_recipes(const std::string& folder, const std::function<bool(const Hash
         const auto recipe = hash_from_hex(file.path.filename().string());
         const auto blob = recipe ? read_recipe(folder, *recipe) : std::nullopt;
         std::error_code ignored;
-        if (!file.partial && !(blob && is_there(*blob))) fs::remove(file.path, ignored);
+        if (!file.partial && !(blob && is_there(*blob)) && is_recipe(file.path)) fs::remove(file.path, ignored);
     }
 }
 

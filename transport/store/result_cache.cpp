@@ -14,6 +14,8 @@ DiskResultCache::DiskResultCache(const std::string& folder, std::uint64_t most_b
     std::error_code error;
     fs::create_directories(recipes_, error);
     if (error) throw Error(recipes_, "no folder for the cache can be made: " + error.message());
+    if (!fs::is_directory(fs::symlink_status(recipes_, error)))
+        throw Error(recipes_, "is a link to another folder, and files of a cache are removed when they are too many");
     blobs_.trim();
 }
 
