@@ -25,14 +25,25 @@ MetricsServer::MetricsServer(const std::string& text, std::function<std::string(
     options.host = address.host;
     options.port = address.port;
     options.most_connections = most_scrapers;
-    options.answer = [figures = std::move(figures)](const HttpRequest& request) -> HttpAnswer {
+    options.answer = [this, figures = std::move(figures)](const HttpRequest& request) -> HttpAnswer {
+        if (request.host.empty()) return refusal(400, "a request names the host that it is for");
+        if (!is_called(request.host)) return refusal(421, "nobody is called so here");
+        if (!is_own_origin(request.origin, request.host)) return refusal(403, "pages of others get nothing here");
         if (request.path != "/metrics") return refusal(404, "there is nothing but /metrics");
         return {200, figures(), "text/plain; version=0.0.4; charset=utf-8"};
     };
+    address_ = address;
     server_ = std::make_unique<HttpServer>(std::move(options));
+    port_ = server_->port();
     url_ = "http://" + in_url(address.host) + ":" + std::to_string(server_->port()) + "/metrics";
 }
 
 MetricsServer::~MetricsServer() = default;
+
+// A page of others, whose name leads to this machine by now, would read what is meant for this machine alone. What
+// others reach they may call as they like.
+bool MetricsServer::is_called(std::string_view host) const {
+    return !address_.stays_here() || is_own_host(host, {address_.host, port_}, "");
+}
 
 }  // namespace lightnet

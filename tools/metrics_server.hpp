@@ -1,16 +1,22 @@
 // Lets Prometheus ask how a daemon does.
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
+
+#include "tools/watch/watch_rules.hpp"
 
 namespace lightnet {
 
 class HttpServer;
 
 /// Answers GET /metrics on an address of its own, in a thread of its own (HttpServer), which serves some dozen
-/// connections at once and closes those that are slow. Everything else gets a 4xx.
+/// connections at once and closes those that are slow. Everything else gets a 4xx, and so does who calls an address of
+/// this machine alone by a name that isn't its own.
 class MetricsServer {
 public:
     /// `address`: "127.0.0.1:9100"; port 0: the system chooses. `text` is called by the server's thread. Throws Error
@@ -24,7 +30,11 @@ public:
     const std::string& url() const { return url_; }
 
 private:
+    bool is_called(std::string_view host) const;
+
     std::string url_;
+    WatchAddress address_;
+    std::atomic<std::uint16_t> port_{0};  // at which it listens
     std::unique_ptr<HttpServer> server_;
 };
 

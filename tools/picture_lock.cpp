@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
+#include <string_view>
 
 #include "core/base/error.hpp"
 #include "core/base/printable.hpp"
@@ -16,7 +17,9 @@
 namespace lightnet {
 namespace {
 
-std::string this_process() { return "process " + std::to_string(::getpid()) + " on " + machine_name(); }
+constexpr std::string_view beginning = "process ";
+
+std::string this_process() { return std::string(beginning) + std::to_string(::getpid()) + " on " + machine_name(); }
 
 // As the one who has the lock wrote it.
 std::string who_has(const std::string& path) {
@@ -26,9 +29,37 @@ std::string who_has(const std::string& path) {
     return who.empty() ? "" : " (" + printable(who.substr(0, 100)) + ")";
 }
 
+// What stands where the lock belongs, and is none: without it two runs would write one picture.
+[[noreturn]] void complain_of(const std::string& path, const std::string& what) {
+    throw UserError({path, 0}, what +
+                                   ", and no lock of lightnet's: it is in the way of the lock on the picture (move it, "
+                                   "or choose another name with -o)");
+}
+
+void expect_lock(const std::string& path, int file) {
+    struct stat about {};
+    if (::fstat(file, &about) != 0 || !S_ISREG(about.st_mode)) complain_of(path, "is a folder, a pipe or a device");
+    std::string text(beginning.size(), '\0');
+    const auto size = ::pread(file, text.data(), text.size(), 0);
+    if (size > 0 && !beginning.starts_with(text.substr(0, static_cast<std::size_t>(size))))
+        complain_of(path, "is a file of others");
+}
+
+// None, with errno: there can be none.
 int open_lock(const std::string& path) {
-    const int file = ::open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC | O_NOFOLLOW, 0666);
-    return file >= 0 ? file : ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);  // left behind by another user
+    constexpr int ways = O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;
+    int file = ::open(path.c_str(), O_CREAT | O_RDWR | ways, 0666);
+    if (file < 0) file = ::open(path.c_str(), O_RDONLY | ways);  // left behind by another user
+    if (file < 0 && errno == ELOOP) complain_of(path, "is a link to something else");
+    if (file < 0 && errno == ENXIO) complain_of(path, "is a socket or a device");
+    if (file < 0) return file;
+    try {
+        expect_lock(path, file);
+    } catch (...) {
+        ::close(file);
+        throw;
+    }
+    return file;
 }
 
 }  // namespace

@@ -43,8 +43,9 @@ protected:
         answer.resize(size);
         return answer;
     }
+    std::string own() const { return "127.0.0.1:" + std::to_string(port); }
     std::string metrics() const {
-        const auto answer = ask("GET /metrics HTTP/1.1\r\nHost: here\r\n\r\n");
+        const auto answer = ask("GET /metrics HTTP/1.1\r\nHost: " + own() + "\r\n\r\n");
         EXPECT_THAT(answer, StartsWith("HTTP/1.1 200"));
         const auto body = answer.find("\r\n\r\n");
         return body == std::string::npos ? "" : answer.substr(body + 4);
@@ -103,12 +104,25 @@ TEST_F(Metrics, AreAsPrometheusWantsThem) {
 }
 
 TEST_F(Metrics, RefuseWhatIsNoQuestionForThem) {
-    EXPECT_THAT(ask("GET / HTTP/1.1\r\nHost: here\r\n\r\n"), StartsWith("HTTP/1.1 404"));
-    EXPECT_THAT(ask("POST /metrics HTTP/1.1\r\nHost: here\r\nContent-Length: 0\r\n\r\n"), StartsWith("HTTP/1.1 405"));
+    EXPECT_THAT(ask("GET / HTTP/1.1\r\nHost: " + own() + "\r\n\r\n"), StartsWith("HTTP/1.1 404"));
+    EXPECT_THAT(ask("POST /metrics HTTP/1.1\r\nHost: " + own() + "\r\nContent-Length: 0\r\n\r\n"),
+                StartsWith("HTTP/1.1 405"));
     EXPECT_THAT(ask("what do you do?\r\n\r\n"), StartsWith("HTTP/1.1 400"));
     EXPECT_THAT(ask("GET /" + std::string(9000, 'x') + " HTTP/1.1\r\n\r\n"), StartsWith("HTTP/1.1 431"));
-    EXPECT_THAT(ask("HEAD /metrics HTTP/1.1\r\nHost: here\r\n\r\n"), StartsWith("HTTP/1.1 200"));
+    EXPECT_THAT(ask("HEAD /metrics HTTP/1.1\r\nHost: " + own() + "\r\n\r\n"), StartsWith("HTTP/1.1 200"));
     EXPECT_EQ(value_of(metrics(), "serving"), 0) << "it is still there";
+}
+
+// As of a page whose name leads here by now.
+TEST_F(Metrics, AreToldOnlyToWhoCallsThisMachineByItsName) {
+    const auto status = [&](const std::string& headers) {
+        return ask("GET /metrics HTTP/1.1\r\n" + headers + "\r\n").substr(9, 3);
+    };
+    EXPECT_EQ(status("Host: localhost:" + std::to_string(port) + "\r\n"), "200");
+    EXPECT_EQ(status(""), "400");
+    EXPECT_EQ(status("Host: evil.example:" + std::to_string(port) + "\r\n"), "421");
+    EXPECT_EQ(status("Host: " + own() + "\r\nHost: evil.example\r\n"), "400");
+    EXPECT_EQ(status("Host: " + own() + "\r\nOrigin: http://evil.example\r\n"), "403");
 }
 
 TEST(MetricsOptions, GoBeyondThisMachineOnlyWhenThatIsSaid) {

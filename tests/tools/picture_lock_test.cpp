@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -50,12 +51,30 @@ TEST(PictureLock, GoesWithItsProcess) {
     EXPECT_NO_THROW(PictureLock(folder / "x.exr"));
 }
 
-TEST(PictureLock, NeverFollowsALink) {
+// Else two runs would write one picture, and neither would know.
+TEST(PictureLock, IsNotToBeHadWhereSomethingElseStands) {
     const test::Folder folder;
+    const auto refused = [&](const std::string& picture) -> std::string {
+        try {
+            const PictureLock lock(folder / picture);
+            return "nobody noticed";
+        } catch (const UserError& error) {
+            return error.what();
+        }
+    };
     folder.write("notes", "mine");
-    std::filesystem::create_symlink(folder / "notes", folder / ".x.exr.lock");
-    { const PictureLock lock(folder / "x.exr"); }
+    folder.write(".file.exr.lock", "mine");
+    std::filesystem::create_directory(folder / ".folder.exr.lock");
+    std::filesystem::create_symlink(folder / "notes", folder / ".link.exr.lock");
+    ASSERT_EQ(::mkfifo((folder / ".pipe.exr.lock").c_str(), 0600), 0);
+    for (const std::string what : {"file", "folder", "link", "pipe"}) {
+        EXPECT_THAT(refused(what + ".exr"), HasSubstr("in the way of the lock on the picture")) << what;
+        EXPECT_TRUE(std::filesystem::exists(std::filesystem::symlink_status(folder / ("." + what + ".exr.lock"))));
+    }
     EXPECT_EQ(std::filesystem::file_size(folder / "notes"), 4u);
+    EXPECT_EQ(std::filesystem::file_size(folder / ".file.exr.lock"), 4u);
+    folder.write(".empty.exr.lock", "");
+    EXPECT_EQ(refused("empty.exr"), "nobody noticed") << "as one whose process was killed at once";
 }
 
 }  // namespace

@@ -147,6 +147,9 @@ private:
         const auto method = request.method();
         if (method != http::verb::get && method != http::verb::head)
             return send(refusal(405, "only GET is understood"));
+        // RFC 9112, section 3.2: whoever believes the one and whoever believes the other would answer differently
+        if (request.count(http::field::host) > 1 || request.count(http::field::origin) > 1)
+            return send(refusal(400, "a request names one host that it is for, and one page that it is from"));
         const auto target = view(request.target());
         auto answer = site_.options.answer({target.substr(0, target.find('?')), view(request[http::field::host]),
                                             view(request[http::field::origin]), websocket::is_upgrade(request)});
