@@ -15,10 +15,13 @@ namespace {
 
 constexpr double white_share = 0.99;  // of the pixels of what is no light
 
+// Of "direct", and of "direct.key", which is what it gave of one group of lamps.
+std::string maker_of(const std::string& layer) { return layer.substr(0, layer.find('.')); }
+
 // All but what the renderer sees itself.
 std::vector<Rgb> all_light(const Picture& picture) {
     auto layers = picture.layers;
-    std::erase_if(layers, [](const PictureLayer& layer) { return layer.name == "emission"; });
+    std::erase_if(layers, [](const PictureLayer& layer) { return maker_of(layer.name) == "emission"; });
     return sum_of(layers);
 }
 
@@ -46,6 +49,10 @@ std::map<std::string, std::string> write_node_pictures(const Graph& graph, const
     for (const std::size_t input : graph.inputs_of(renderer)) pixels[graph.nodes[input].name] = all_light(picture);
     for (const auto* layers : {&picture.layers, &picture.shown})
         for (const auto& layer : *layers) pixels[layer.name] = layer.pixels;
+    std::map<std::string, std::vector<PictureLayer>> groups;
+    for (const auto& layer : picture.layers)
+        if (layer.name != maker_of(layer.name)) groups[maker_of(layer.name)].push_back(layer);
+    for (const auto& [name, layers] : groups) pixels[name] = sum_of(layers);
     pixels[graph.nodes[renderer].name] = picture.beauty;
 
     std::map<std::string, std::string> files;

@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <sstream>
 #include <thread>
 
 #include "core/film/exr.hpp"
+#include "core/film/png.hpp"
 #include "core/network/graph/graph_film.hpp"
 #include "tests/support/fake_registry.hpp"
 #include "tests/support/folder.hpp"
@@ -73,6 +76,49 @@ TEST(Launcher, DrawsAGraphWithAPictureOfEachNode) {
     EXPECT_FALSE(std::filesystem::exists(file("first"))) << "it is no node of this graph";
     EXPECT_EQ(lightnet({"dot", lightnet.graph, "--pictures", "none.exr"}), 1);
     EXPECT_THAT(lightnet.err, HasSubstr("none.exr"));
+}
+
+TEST(Launcher, DrawsOfANodeThatKeepsGroupsOfLampsTheSum) {
+    Bench lightnet;
+    const auto graph = lightnet.write(
+        "two.lua",
+        "direct = Ambient {}\nbounce = Ambient {}\nlight = Combine { direct, bounce }\nscene = Scene { 'box.pbrt' }\n"
+        "image = RayTracer { light, scene = scene, film = { 2, 2, file = 'x.exr' } }");
+    Picture picture;
+    picture.width = picture.height = 2;
+    const auto grey = [](float value) { return std::vector<Rgb>(4, {value, value, value}); };
+    picture.layers = {
+        {"emission.key", grey(8)}, {"direct.key", grey(0.25f)}, {"direct.sky", grey(0.5f)}, {"bounce", grey(0.125f)}};
+    picture.beauty = sum_of(picture.layers);
+    const auto exr = lightnet.write("x.exr", "");
+    write_exr(exr, picture);
+    EXPECT_EQ(lightnet({"dot", graph, "--pictures", exr}), 0) << lightnet.err;
+    const auto bytes = [&](const std::string& node) {
+        std::ifstream file(exr.substr(0, exr.size() - 3) + node + ".png", std::ios::binary);
+        return std::string(std::istreambuf_iterator<char>(file), {});
+    };
+    Picture sum;
+    sum.width = sum.height = 2;
+    sum.beauty = grey(0.75f);
+    const auto expected = lightnet.write("expected.png", "");
+    write_png(expected, sum);
+    std::ifstream file(expected, std::ios::binary);
+    EXPECT_TRUE(bytes("direct") == std::string(std::istreambuf_iterator<char>(file), {}));
+    EXPECT_FALSE(bytes("bounce").empty());
+    EXPECT_FALSE(bytes("bounce") == bytes("direct"));
+}
+
+TEST(Launcher, MixesAPictureAnewBesideIt) {
+    Bench lightnet;
+    Picture picture;
+    picture.width = picture.height = 2;
+    picture.layers = {{"emission", std::vector<Rgb>(4)}, {"direct", std::vector<Rgb>(4, {1, 1, 1})}};
+    picture.beauty = sum_of(picture.layers);
+    const auto exr = lightnet.write("x.exr", "");
+    write_exr(exr, picture);
+    EXPECT_EQ(lightnet({"remix", exr, "direct=0.5"}), 0) << lightnet.err;
+    EXPECT_EQ(read_exr(exr.substr(0, exr.size() - 3) + "remix.exr").beauty[0], (Rgb{0.5f, 0.5f, 0.5f}));
+    EXPECT_EQ(read_exr(exr).beauty[0], (Rgb{1, 1, 1}));
 }
 
 TEST(Launcher, HasWrappedClassesCheckedWhenAsked) {

@@ -1,6 +1,8 @@
 // lightnet remix: mixes the layers of a picture anew, without rendering.
 #include <CLI/CLI.hpp>
 
+#include <filesystem>
+
 #include "core/film/gains.hpp"
 #include "tools/command_line.hpp"
 #include "tools/exit_code.hpp"
@@ -25,15 +27,16 @@ void describe_remix(CLI::App& verb, RemixOptions& options) {
         ->expected(0, -1)
         ->allow_extra_args();
     add_view(verb, options.view);
-    add_output(verb, options.output, "file of the new picture");
-    verb.get_option("--output")->required();
-    add_examples(verb, {"lightnet remix cornell.exr direct=0.5 bounce=1.2,1.1,1 -o warm.exr"});
+    add_output(verb, options.output, "file of the new picture (default: x.remix.exr, beside x.exr)");
+    add_examples(verb, {"lightnet remix cornell.exr direct=0.5 bounce=1.2,1.1,1",
+                        "lightnet remix cornell.exr direct=0.5 -o dim.exr"});
 }
 
 int remix(const RemixOptions& options, const Launcher& launcher) {
     Picture picture = read_layers(options.picture);
     mix_or_complain(picture, options.gains, options.picture);
-    write_remix(picture, options.output, options.view, launcher.err);
+    const auto usual = std::filesystem::path(options.picture).replace_extension(".remix.exr").string();
+    write_remix(picture, options.output.empty() ? usual : options.output, options.view, launcher.err);
     return exit_code::done;
 }
 
