@@ -21,6 +21,7 @@
 #include <new>
 
 #include "core/base/error.hpp"
+#include "core/base/spare_threads.hpp"
 #include "core/network/graph/value.hpp"
 
 namespace lightnet::lua {
@@ -108,6 +109,19 @@ void write_all(int file, const void* data, std::size_t size) {
     }
 }
 
+constexpr int no_descriptors = 4;  // how a child ends that may not even have its pipes
+
+[[noreturn]] void few_descriptors() {
+    throw Error("can't be evaluated",
+                "this process may open too few file descriptors; a higher limit (ulimit -n) would help");
+}
+
+void make_pipe(std::array<int, 2>& ends) {
+    if (::pipe2(ends.data(), O_CLOEXEC) == 0) return;
+    if (errno == EMFILE) few_descriptors();
+    throw Error("can't be evaluated", std::string("no pipe: ") + std::strerror(errno));
+}
+
 /// The child's ends of its pipes.
 struct Ends {
     int answer, said;
@@ -118,8 +132,9 @@ struct Ends {
     if (::getppid() != parent) ::_exit(1);  // it died before we could ask
     ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
     default_signals();
-    constexpr int pipe = 3, out_of_the_way = 10;  // who started us may have closed what is usually below that
+    constexpr int pipe = 3, out_of_the_way = 4;  // who started us may have closed what is usually below that
     const int answer = ::fcntl(out.answer, F_DUPFD, out_of_the_way), said = ::fcntl(out.said, F_DUPFD, out_of_the_way);
+    if (answer < 0 || said < 0) ::_exit(no_descriptors);
     ::dup2(said, STDERR_FILENO);
     ::dup2(answer, pipe);
     ::close_range(pipe + 1, ~0U, 0);
@@ -201,6 +216,7 @@ bool receive(int file, Said& said, const Budget& budget, std::string& text) {
     }
     if (WIFEXITED(status) && WEXITSTATUS(status) == 2)
         throw Error("gives more than " + std::to_string(budget.output >> 20) + " MiB");
+    if (WIFEXITED(status) && WEXITSTATUS(status) == no_descriptors) few_descriptors();
     if (WIFEXITED(status) && WEXITSTATUS(status) == 3)
         throw Error("needs more than " + std::to_string(budget.memory >> 20) + " MiB of memory");
     throw Error("its evaluation ended without an answer");
@@ -210,13 +226,15 @@ bool receive(int file, Said& said, const Budget& budget, std::string& text) {
 
 std::string in_child(const Budget& budget, const std::function<std::string()>& work) {
     std::array<int, 2> answer{}, said{};
-    if (::pipe2(answer.data(), O_CLOEXEC) != 0) throw Error("pipe", std::strerror(errno));
+    make_pipe(answer);
     Descriptor in(answer[0]), out(answer[1]);
-    if (::pipe2(said.data(), O_CLOEXEC) != 0) throw Error("pipe", std::strerror(errno));
+    make_pipe(said);
     Descriptor said_in(said[0]), said_out(said[1]);
     const pid_t parent = ::getpid();
     const pid_t id = ::fork();
-    if (id < 0) throw Error("fork", std::strerror(errno));
+    if (id < 0)
+        throw Error("can't be evaluated",
+                    std::string("no process can be started: ") + std::strerror(errno) + "; " + more_threads_help);
     if (id == 0) be_child(parent, {out.number(), said_out.number()}, budget, work);
     Process child(id);
     out.close();
@@ -226,7 +244,9 @@ std::string in_child(const Budget& budget, const std::function<std::string()>& w
     const bool in_time = receive(in.number(), words, budget, text);
     const int status = child.end();
     words.pass_on_rest();
-    if (!in_time) throw Error("takes more than " + number_text(budget.wall_seconds) + " s");
+    if (!in_time)
+        throw Error("takes more than " + number_text(budget.wall_seconds) + " s, in which it did not get its " +
+                    number_text(budget.cpu_seconds) + " s of processor time: the machine may be busy");
     Length length = 0;
     if (text.size() < sizeof length) no_answer(status, budget);
     std::memcpy(&length, text.data(), sizeof length);

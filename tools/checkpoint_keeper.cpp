@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/spare_threads.hpp"
 
 namespace lightnet {
 
@@ -51,7 +52,7 @@ std::string CheckpointKeeper::save_if_due(std::uint64_t blocks) {
     }
     saved_ = blocks;
     film_.state(last_.film);
-    saving_ = std::async(std::launch::async, [this] {
+    saving_ = in_background([this] {
         const auto begun = Clock::now();
         write_checkpoint(file_, last_);
         return std::chrono::duration<double>(Clock::now() - begun).count();

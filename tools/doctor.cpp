@@ -10,10 +10,11 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
-#include <thread>
 
+#include "core/base/allowance.hpp"
 #include "core/base/build_info.hpp"
 #include "core/base/error.hpp"
+#include "core/base/joined.hpp"
 #include "core/base/this_machine.hpp"
 #include "core/run/runtime/fingerprint.hpp"
 #include "transport/launcher/probe_hosts.hpp"
@@ -29,23 +30,18 @@ using Grade = Finding::Grade;
 
 constexpr double bytes_per_gib = 1 << 30;
 
-// A number of a control group's file; none: "max", or no such file.
-std::optional<double> group_limit(const char* file) {
-    std::ifstream in(std::string("/sys/fs/cgroup/") + file);
-    double number = 0;
-    return in >> number ? std::optional(number) : std::nullopt;
-}
-
+// As many as runs and daemons take by themselves, and who says that they are no more.
 Finding look_at_cores() {
-    const auto cores = std::max(1u, std::thread::hardware_concurrency());
-    std::ifstream in("/sys/fs/cgroup/cpu.max");
-    double quota = 0, period = 0;
-    if (in >> quota >> period && period > 0 && quota / period < cores - 0.5)
-        return {Grade::doubtful, "cores",
-                fmt::format("{}, of which the control group gives {:.1f}", cores, quota / period),
-                fmt::format("ask for as many threads as there are: --threads {}",
-                            std::max(1, static_cast<int>(std::floor(quota / period))))};
-    return {Grade::good, "cores", std::to_string(cores), ""};
+    const auto allowance = core_allowance();
+    const auto cores = allowance.cores();
+    std::vector<std::string> why;
+    if (allowance.bound < allowance.machine) why.push_back(fmt::format("this process is bound to {}", allowance.bound));
+    if (allowance.quota && *allowance.quota < allowance.machine)
+        why.push_back(fmt::format("the control group gives {:.1f}", *allowance.quota));
+    if (allowance.asked && *allowance.asked < allowance.machine)
+        why.push_back(fmt::format("OMP_NUM_THREADS or OMP_THREAD_LIMIT says {}", *allowance.asked));
+    if (why.empty()) return {Grade::good, "cores", std::to_string(cores), ""};
+    return {Grade::good, "cores", fmt::format("{} of {}: {}", cores, allowance.machine, joined(why, ", ")), ""};
 }
 
 Finding look_at_memory() {
@@ -56,8 +52,8 @@ Finding look_at_memory() {
         if (name == "MemAvailable:" && in >> left) break;
     left *= 1024;
     std::string what = fmt::format("{:.1f} GiB, {:.1f} free", all / bytes_per_gib, left / bytes_per_gib);
-    if (const auto limit = group_limit("memory.max"); limit && *limit < all)
-        what += fmt::format(", the control group gives {:.1f}", *limit / bytes_per_gib);
+    if (const auto limit = memory_of_group(); limit && static_cast<double>(*limit) < all)
+        what += fmt::format(", the control group gives {:.1f}", static_cast<double>(*limit) / bytes_per_gib);
     if (left > 0 && left < bytes_per_gib)
         return {Grade::doubtful, "memory", what,
                 "a scene of a million triangles takes about half a GiB: end something else"};
@@ -83,8 +79,8 @@ Finding look_at_limit(__rlimit_resource which, const char* about, std::uint64_t 
 }
 
 Finding look_at_threads() {
-    if (const auto most = group_limit("pids.max"); most && *most < 600)
-        return {Grade::doubtful, "threads", fmt::format("at most {:.0f} of the control group", *most),
+    if (const auto most = threads_of_group(); most && *most < 600)
+        return {Grade::doubtful, "threads", fmt::format("at most {} of the control group", *most),
                 "give it 600 (TasksMax of a unit)"};
     return look_at_limit(RLIMIT_NPROC, "threads", 600, "raise it: ulimit -u 600");
 }

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <fstream>
 #include <ostream>
-#include <thread>
 #include <utility>
 
+#include "core/base/allowance.hpp"
 #include "core/network/graph/check.hpp"
 #include "core/network/graph/check_hosts.hpp"
 #include "core/network/graph/graph_film.hpp"
@@ -66,8 +66,7 @@ void check_names(const Hosts& hosts, std::vector<Problem>& problems) {
 // places now.
 void give_places_here(Hosts& hosts) {
     for (auto& entry : hosts.hosts)
-        if (entry.is_here() && entry.places == 0)
-            entry.places = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+        if (entry.is_here() && entry.places == 0) entry.places = static_cast<int>(usable_cores());
 }
 
 /// A graph as it was found, and what the hosts file says.

@@ -1,12 +1,15 @@
 #include "core/base/workshop.hpp"
 
 #include <algorithm>
+#include <system_error>
 #include <utility>
+
+#include "core/base/allowance.hpp"
 
 namespace lightnet {
 namespace {
 
-unsigned usual_threads() { return std::clamp(std::thread::hardware_concurrency(), 1u, 8u); }
+unsigned usual_threads() { return std::min(usable_cores(), 8u); }
 
 }  // namespace
 
@@ -24,8 +27,15 @@ void Workshop::add(std::function<void()> task) {
         return task();
     }
     tasks_.push_back(std::move(task));
-    if (threads_.size() < most_threads_) threads_.emplace_back([this](const std::stop_token& stop) { work(stop); });
+    if (threads_.size() < most_threads_) start_thread();
     came_.notify_one();
+}
+
+// The system may have none left: then those that are there do it all, finish() at the latest.
+void Workshop::start_thread() try {
+    threads_.emplace_back([this](const std::stop_token& stop) { work(stop); });
+} catch (const std::system_error&) {
+    most_threads_ = static_cast<unsigned>(threads_.size());
 }
 
 void Workshop::finish() {

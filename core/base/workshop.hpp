@@ -12,11 +12,12 @@
 
 namespace lightnet {
 
-/// Does tasks in any order, on threads of its own, which end with it. What depends on the order belongs
-/// behind finish(). Called from one thread; tasks must not throw, and share nothing but what never changes.
+/// Does tasks in any order, on threads of its own, as far as the system gives them, which end with it. What depends on
+/// the order belongs behind finish(). Called from one thread; tasks must not throw, and share nothing but what never
+/// changes.
 class Workshop {
 public:
-    /// 0 threads: as many as the machine has cores, but a few at most. The caller's own counts as one.
+    /// 0 threads: as many as it may use cores, but a few at most. The caller's own counts as one.
     explicit Workshop(unsigned threads = 0);
     ~Workshop();
     Workshop(const Workshop&) = delete;
@@ -31,6 +32,7 @@ private:
     static constexpr std::size_t most_waiting = 64;
 
     void work(const std::stop_token& stop);
+    void start_thread();
     bool do_one(std::unique_lock<std::mutex>& lock);
 
     std::mutex tasks_mutex_;

@@ -11,9 +11,10 @@
 #include <exception>
 #include <stdexcept>
 #include <string>
-#include <thread>
 
+#include "core/base/allowance.hpp"
 #include "core/base/error.hpp"
+#include "core/base/spare_threads.hpp"
 #include "core/readers/image_decoders.hpp"
 
 namespace lightnet::decoders {
@@ -47,9 +48,10 @@ int decoding_threads() {
     return 0;
 #else
     static const int count = [] {
-        const int cores = static_cast<int>(std::thread::hardware_concurrency());
-        Imf::setGlobalThreadCount(cores);
-        return cores;
+        const unsigned wanted = usable_cores();
+        const int threads = try_threads(wanted) < wanted ? 0 : static_cast<int>(wanted);
+        Imf::setGlobalThreadCount(threads);
+        return threads;
     }();
     return count;
 #endif

@@ -10,6 +10,7 @@
 #include <system_error>
 #include <thread>
 
+#include "core/base/allowance.hpp"
 #include "lua/load_graph.hpp"
 #include "nodes/standard_nodes.hpp"
 #include "tests/bench/daemon.hpp"
@@ -28,7 +29,7 @@ constexpr int rounds = 3;
 // Of the machine's processors; the rest is for the launcher and the system.
 constexpr double part_for_hosts = 0.875;
 
-double capacity() { return part_for_hosts * std::max(1u, std::thread::hardware_concurrency()); }
+double capacity() { return part_for_hosts * usable_cores(); }
 
 /// A daemon that computes as quickly as so many of the seven processors.
 struct SlowDaemon {

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <system_error>
 #include <utility>
 
 #include "core/base/error.hpp"
@@ -78,8 +79,13 @@ void LiveExplainer::explain(const PixelWish& wish, Reply reply) {
         lock.unlock();
         return reply(explained(wish, {{"error", why}}));
     }
+    try {
+        if (!thread_.joinable()) thread_ = std::thread([this] { work(); });
+    } catch (const std::system_error&) {
+        lock.unlock();
+        return reply(explained(wish, {{"error", "the system gives no thread to explain with"}}));
+    }
     waiting_.emplace_back(wish, std::move(reply));
-    if (!thread_.joinable()) thread_ = std::thread([this] { work(); });
     asked_.notify_all();
 }
 

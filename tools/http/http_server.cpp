@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "core/base/error.hpp"
+#include "core/base/spare_threads.hpp"
 
 namespace lightnet {
 namespace {
@@ -256,6 +257,7 @@ void HttpServer::Parts::run() {
 }
 
 HttpServer::HttpServer(Options options) : parts_(std::make_unique<Parts>(std::move(options))) {
+    want_threads(1, parts_->options.who);
     parts_->listen();
     parts_->accept();
     parts_->look();

@@ -8,10 +8,10 @@
 #include <fstream>
 #include <iterator>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
+#include "core/base/allowance.hpp"
 #include "core/base/atomic_file.hpp"
 #include "core/base/error.hpp"
 #include "core/base/hash.hpp"
@@ -137,7 +137,7 @@ public:
 
     std::uint32_t most() const {
         if (!loaded_.hosts.hosts.empty()) return static_cast<std::uint32_t>(loaded_.hosts.hosts.size());
-        return options_.running.local_workers.value_or(std::max(1u, std::thread::hardware_concurrency()));
+        return options_.running.local_workers.value_or(usable_cores());
     }
 
     HostsRun run(std::uint32_t hosts) {

@@ -214,7 +214,10 @@ void PlaceThreads::watch() {
     if (threads_->looker) return;
     std::vector<const Gauge*> gauges;
     for (const auto& gauge : threads_->gauges) gauges.push_back(&gauge);
-    threads_->looker = std::make_unique<Looker>(std::move(gauges));
+    try {
+        threads_->looker = std::make_unique<Looker>(std::move(gauges));
+    } catch (const std::system_error&) {  // no thread is to be had: the run goes on, and nobody sees what they are at
+    }
 }
 
 HostFigures PlaceThreads::figures() const { return threads_->looker ? threads_->looker->figures() : HostFigures{}; }
@@ -230,6 +233,17 @@ std::uint64_t PlaceThreads::progress() const {
 std::uint64_t PlaceThreads::pulse() const {
     std::uint64_t sum = 0;
     for (const auto& gauge : threads_->gauges) sum += gauge.pulse.get();
+    return sum;
+}
+
+PlaceThreads::SoFar PlaceThreads::so_far() const {
+    SoFar sum;
+    for (const auto& gauge : threads_->gauges) {
+        sum.rays += gauge.rays.get();
+        sum.lived_ns += gauge.lived_ns.get();
+        sum.waited_ns += gauge.waited_ns.get();
+        sum.idle_ns += gauge.idle_ns.get();
+    }
     return sum;
 }
 

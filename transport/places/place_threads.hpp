@@ -48,6 +48,11 @@ public:
     std::uint64_t progress() const;
     /// See Gauge::pulse; of all places together.
     std::uint64_t pulse() const;
+    /// What they have done so far, all together, as each last told: a few moments ago.
+    struct SoFar {
+        std::uint64_t rays = 0, lived_ns = 0, waited_ns = 0, idle_ns = 0;
+    };
+    SoFar so_far() const;
     /// From now on, looks at what they are at.
     void watch();
     /// What was seen since then.

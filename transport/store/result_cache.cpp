@@ -1,6 +1,7 @@
 #include "transport/store/result_cache.hpp"
 
 #include <filesystem>
+#include <system_error>
 
 #include "core/base/error.hpp"
 #include "transport/store/recipes.hpp"
@@ -33,14 +34,19 @@ Result DiskResultCache::find(const Hash& recipe) const {
 }
 
 void DiskResultCache::keep(const Hash& recipe, const Result& result) {
-    keeping_.emplace_back([this, recipe, result] {
+    const auto work = [this, recipe, result] {
         try {
             blobs_.store(result.name, *result.bytes);
             write_recipe(recipes_, recipe, result.name);
         } catch (const std::exception&) {
             // Not kept: the next run computes it again.
         }
-    });
+    };
+    try {
+        keeping_.emplace_back(work);
+    } catch (const std::system_error&) {  // no thread is to be had
+        work();
+    }
 }
 
 }  // namespace lightnet

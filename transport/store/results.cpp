@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "core/base/error.hpp"
+#include "core/base/spare_threads.hpp"
 
 namespace lightnet {
 
@@ -23,15 +24,15 @@ void Results::keep(const Hash& name, Bytes bytes) {
     std::erase_if(writing_, [](auto& one) {
         return one.second.wait_for(std::chrono::seconds(0)) == std::future_status::ready && one.second.get();
     });
-    auto written = std::async(std::launch::async, [this, name, bytes = bytes.get()] {
+    const auto write = [this, name, bytes = bytes.get()] {
         try {
             cache_.store(name, *bytes);
             return true;
         } catch (const Error&) {
             return false;
         }
-    });
-    writing_.emplace_back(std::move(bytes), std::move(written));
+    };
+    writing_.emplace_back(std::move(bytes), in_background(write));
 }
 
 bool Results::in_memory(const Hash& name) const {

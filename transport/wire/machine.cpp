@@ -2,8 +2,8 @@
 
 #include <fstream>
 #include <random>
-#include <thread>
 
+#include "core/base/allowance.hpp"
 #include "core/base/build_info.hpp"
 #include "core/base/this_machine.hpp"
 #include "core/run/runtime/fingerprint.hpp"
@@ -27,8 +27,8 @@ Machine this_machine() {
     machine.cpu = model_of_cpu();
     machine.isa = usual_isa();
     machine.version = build_id();
-    machine.cores = std::max(1u, std::thread::hardware_concurrency());
-    machine.memory = machine_memory();
+    machine.cores = usable_cores();
+    machine.memory = usable_memory();
     return machine;
 }
 

@@ -10,12 +10,12 @@ namespace lightnet {
 
 /// A value.
 struct Machine {
-    std::string name;     // of the host
-    std::string cpu;      // model
-    std::string isa;      // the widest that Embree would choose here
-    std::string version;  // of lightnetd
-    std::uint64_t cores = 0;
-    std::uint64_t memory = 0;  // bytes
+    std::string name;          // of the host
+    std::string cpu;           // model
+    std::string isa;           // the widest that Embree would choose here
+    std::string version;       // of lightnetd
+    std::uint64_t cores = 0;   // that it may use
+    std::uint64_t memory = 0;  // likewise; bytes
     friend bool operator==(const Machine&, const Machine&) = default;
 };
 

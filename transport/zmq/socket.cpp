@@ -8,6 +8,7 @@
 #include <cstring>
 #include <utility>
 
+#include "core/base/spare_threads.hpp"
 #include "transport/places/descriptors.hpp"
 
 namespace lightnet {
@@ -15,7 +16,8 @@ namespace {
 
 // ZeroMQ's own threads and what they wait at.
 constexpr std::size_t descriptors_of_context = 16;
-constexpr int most_sockets = 65535;  // that it can have
+constexpr std::size_t threads_of_context = 1;  // that closes sockets
+constexpr int most_sockets = 65535;            // that it can have
 
 constexpr int heartbeat_ms = 500, heartbeat_timeout_ms = 1500, time_to_live_ms = 5000;
 
@@ -39,12 +41,17 @@ SocketError::SocketError(int number) : std::runtime_error(zmq_strerror(number)),
 SocketError::SocketError() : SocketError(zmq_errno()) {}
 bool SocketError::out_of_descriptors() const { return number_ == EMFILE || number_ == ENFILE; }
 
+// DECISIONS: threads-are-tried
+// The library starts its threads with the first socket, and ends the process when it gets none: they are asked for
+// beforehand, and started at once, so that nobody else of this process takes them meanwhile.
 SocketContext::SocketContext(int io_threads) {
     want_descriptors(descriptors_of_context, "a process with sockets");
+    want_threads(static_cast<std::size_t>(io_threads) + threads_of_context, "a process with sockets");
     context_ = zmq_ctx_new();
     if (!context_) throw SocketError();
     zmq_ctx_set(context_, ZMQ_IO_THREADS, io_threads);
     zmq_ctx_set(context_, ZMQ_MAX_SOCKETS, most_sockets);
+    if (void* const first = zmq_socket(context_, ZMQ_PAIR)) zmq_close(first);
 }
 
 SocketContext::~SocketContext() {

@@ -34,7 +34,7 @@ private:
 class SocketContext {
 public:
     /// With room for as many sockets as the system has descriptors for. Throws Error when there are too few left for
-    /// any work. `io_threads` 0: for sockets within the process only.
+    /// any work, or too few threads. `io_threads` 0: for sockets within the process only.
     explicit SocketContext(int io_threads = 1);
     /// Waits until all its sockets are closed.
     ~SocketContext();

@@ -60,7 +60,9 @@ public:
     Count pulse;  // grows while the place works, and stands still while it waits or hangs
     std::vector<Node> nodes;
     std::vector<Edge> edges;  // by asking_edges()
-    Edge* along = nullptr;    // the place's own: along which it begins to ask just now; null: nobody counts it
+    /// As in Counters and PlaceRecord, so far.
+    Count rays, lived_ns, waited_ns, idle_ns;
+    Edge* along = nullptr;  // the place's own: along which it begins to ask just now; null: nobody counts it
 
 private:
     std::atomic<std::uint16_t> doing_{idle};

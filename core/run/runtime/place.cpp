@@ -177,6 +177,7 @@ void Place::serve(const std::atomic<bool>& stop, std::atomic<std::uint64_t>& pro
     gauge_.turn_to(Gauge::asking);
     while (!stopping_ && !stop.load(std::memory_order_relaxed)) {
         take_in();
+        tell_so_far(begun);
         flush(false);
         if (!step()) {
             if (!flush(true) && !stopping_) wait();
@@ -190,6 +191,14 @@ void Place::serve(const std::atomic<bool>& stop, std::atomic<std::uint64_t>& pro
     record_.lived_ns = nanoseconds_since(begun);
     fibers_.cancel_all();
     gauge_.turn_to(Gauge::idle);
+}
+
+// For those who watch: a place tells its counters when it has stopped, which may be hours from now.
+void Place::tell_so_far(Clock::time_point begun) {
+    gauge_.rays.set(Scene::rays_of_this_thread() - rays_before_);
+    gauge_.lived_ns.set(nanoseconds_since(begun));
+    gauge_.waited_ns.set(record_.waited_ns);
+    gauge_.idle_ns.set(record_.idle_ns);
 }
 
 void Place::wait() {

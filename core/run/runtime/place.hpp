@@ -120,6 +120,7 @@ private:
     bool flush(bool idle);
     std::chrono::nanoseconds patience() const;
     void wait();
+    void tell_so_far(Clock::time_point begun);
     PlaceRecord record() const;
     Load load_of(std::size_t node, double service_ns) const;
     std::string my_name() const;

@@ -1,6 +1,8 @@
 #include "core/scene/geometry/geometry.hpp"
 
+#include "core/base/allowance.hpp"
 #include "core/base/error.hpp"
+#include "core/base/spare_threads.hpp"
 #include "core/scene/data/contents.hpp"
 #include "core/scene/geometry/form.hpp"
 #include "core/scene/geometry/quads.hpp"
@@ -99,16 +101,22 @@ bool has_isa(const std::string& isa) {
            (isa == "avx" && __builtin_cpu_supports("avx")) || (isa == "avx2" && __builtin_cpu_supports("avx2"));
 }
 
+// Embree ends the process when it gets no thread. One of them is the caller's.
+unsigned building_threads([[maybe_unused]] unsigned asked) {
+#if defined(__SANITIZE_THREAD__)  // it can't see how Embree's threads wait for each other
+    return 1;
+#else
+    const unsigned wanted = asked ? asked : usable_cores();
+    return wanted > 1 && try_threads(wanted) < wanted ? 1 : wanted;
+#endif
+}
+
 // A tree does not depend on how many threads build it: Embree puts what they hand over into a fixed order. A test of
 // exactly this stands in the project.
 RTCDevice device_for(const Geometry::Options& options) {
     const std::string& isa = options.isa;
     if (!has_isa(isa)) throw Error("scene", "this processor, or Embree, has no instruction set '" + isa + "'");
-#if defined(__SANITIZE_THREAD__)  // it can't see how Embree's threads wait for each other
-    const unsigned threads = 1;
-#else
-    const unsigned threads = options.threads;
-#endif
+    const unsigned threads = building_threads(options.threads);
     // DECISIONS: trees-by-all-cores
     const std::string config = "start_threads=0,threads=" + std::to_string(threads) + ",isa=" + isa;
     if (RTCDevice device = rtcNewDevice(config.c_str())) return device;
