@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/in_quotes.hpp"
+#include "core/base/printable.hpp"
 #include "core/base/suggestion.hpp"
 #include "core/network/graph/json.hpp"
 
@@ -103,7 +104,7 @@ Value GraphScript::value_at(lua_State* L, int index, int depth) {
         case LUA_TNUMBER:
             return {static_cast<double>(lua_tonumber(L, index))};
         case LUA_TSTRING:
-            return {text_at(L, index)};
+            return {bytes_at(L, index)};
         case LUA_TTABLE:
             return {table_at(L, lua_absindex(L, index), depth + 1)};
         default:
@@ -146,12 +147,18 @@ Table GraphScript::table_at(lua_State* L, int index, int depth) {
     return table;
 }
 
-std::string GraphScript::text_at(lua_State* L, int index) {
+// It may be the name of a file, which is in whatever letters its disk has.
+std::string GraphScript::bytes_at(lua_State* L, int index) {
     std::size_t size = 0;
     const char* const text = lua_tolstring(L, index, &size);
     count(size);
-    if (!is_utf8({text, size})) throw UserError({}, "is not a text in UTF-8");
     return {text, size};
+}
+
+std::string GraphScript::text_at(lua_State* L, int index) {
+    auto text = bytes_at(L, index);
+    if (!is_utf8(text)) throw UserError({}, "is not a text in UTF-8");
+    return text;
 }
 
 void GraphScript::count(std::size_t bytes) {

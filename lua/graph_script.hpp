@@ -34,6 +34,7 @@ private:
     Value value_at(lua_State* L, int index, int depth);
     Value function_at(lua_State* L, int index);
     Table table_at(lua_State* L, int index, int depth);
+    std::string bytes_at(lua_State* L, int index);
     std::string text_at(lua_State* L, int index);
     void count(std::size_t bytes);
     void note(Made& made, const std::string& complaint);

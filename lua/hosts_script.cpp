@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/in_quotes.hpp"
+#include "core/base/printable.hpp"
 #include "core/network/graph/json.hpp"
 #include "lua/guarded.hpp"
 

@@ -1,5 +1,7 @@
 #include "core/base/own_files.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <fstream>
 #include <system_error>
 
@@ -8,6 +10,13 @@
 namespace lightnet {
 
 namespace fs = std::filesystem;
+
+bool has_ending(const fs::path& path, std::string_view ending) {
+    const auto theirs = path.extension().string();
+    return std::equal(theirs.begin(), theirs.end(), ending.begin(), ending.end(), [](char a, char b) {
+        return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+    });
+}
 
 fs::path png_beside(const fs::path& picture) { return fs::path(picture).replace_extension(".png"); }
 

@@ -11,6 +11,9 @@ namespace lightnet {
 inline constexpr std::string_view exr_beginning{"\x76\x2f\x31\x01", 4};
 inline constexpr std::string_view png_beginning{"\x89PNG\r\n\x1a\n", 8};
 
+/// Whether a file is named like one of a kind: "x.EXR" has the ending ".exr".
+bool has_ending(const std::filesystem::path& path, std::string_view ending);
+
 /// x.exr → x.png
 std::filesystem::path png_beside(const std::filesystem::path& picture);
 

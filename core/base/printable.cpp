@@ -8,6 +8,13 @@ namespace {
 
 unsigned byte(char c) { return static_cast<unsigned char>(c); }
 
+// Neither longer than it need be, nor half of a pair of UTF-16, nor beyond the last letter.
+bool may_follow(unsigned first, unsigned second) {
+    const unsigned least = first == 0xE0 ? 0xA0 : first == 0xF0 ? 0x90 : 0x80;
+    const unsigned most = first == 0xED ? 0x9F : first == 0xF4 ? 0x8F : 0xBF;
+    return least <= second && second <= most;
+}
+
 // How many bytes the character at the front has; 0: it is none.
 std::size_t length_of_character(std::string_view text) {
     const unsigned first = byte(text[0]);
@@ -15,7 +22,7 @@ std::size_t length_of_character(std::string_view text) {
     if (first > 0xF4 || length > text.size()) return 0;
     const auto more = text.substr(std::min<std::size_t>(1, length), length - (length > 0));
     const bool whole = std::all_of(more.begin(), more.end(), [](char c) { return (byte(c) & 0xC0) == 0x80; });
-    return whole ? length : 0;
+    return whole && (length < 2 || may_follow(first, byte(text[1]))) ? length : 0;
 }
 
 // ASCII's, and those of ISO 6429 that some terminals obey in UTF-8 as well.
@@ -41,5 +48,16 @@ std::string printable(std::string_view text, bool lines) {
     }
     return result;
 }
+
+bool is_utf8(std::string_view text) {
+    while (!text.empty()) {
+        const auto length = length_of_character(text);
+        if (length == 0) return false;
+        text.remove_prefix(length);
+    }
+    return true;
+}
+
+std::string in_utf8(const std::string& text) { return is_utf8(text) ? text : printable(text, true); }
 
 }  // namespace lightnet

@@ -12,6 +12,8 @@
 namespace lightnet {
 namespace {
 
+constexpr std::size_t taken_meanwhile = 1;  // by the allocator, say
+
 // A thread that was joined may count for a moment longer, until the system has buried it.
 void wait_for_burial(std::size_t threads_before) {
     constexpr auto patience = std::chrono::milliseconds(200);  // others of this process may have started some
@@ -40,6 +42,7 @@ std::size_t try_threads(std::size_t count) {
 }
 
 void want_threads(std::size_t count, const std::string& purpose) {
+    count += taken_meanwhile;
     const auto made = try_threads(count);
     if (made >= count) return;
     throw Error(purpose, "needs " + std::to_string(count) + (count == 1 ? " thread" : " threads") +

@@ -3,11 +3,23 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/atomic_file.hpp"
+#include "core/base/printable.hpp"
 
 namespace lightnet {
+namespace {
+
+using OrderedJson = nlohmann::ordered_json;
+
+// Names of files may be in any encoding, and JSON is UTF-8.
+void spell_out(OrderedJson& json) {
+    if (json.is_string()) json = in_utf8(json.get_ref<const std::string&>());
+    if (json.is_structured())
+        for (auto& part : json) spell_out(part);
+}
+
+}  // namespace
 
 std::string to_json(const RunReport& report) {
-    using OrderedJson = nlohmann::ordered_json;
     OrderedJson places = OrderedJson::array(), phases = OrderedJson::array();
     for (const auto& place : report.places)
         places.push_back({{"host", place.host},
@@ -49,7 +61,8 @@ std::string to_json(const RunReport& report) {
                          {"version", host.version},
                          {"cores", host.cores},
                          {"memory", host.memory},
-                         {"places", host.places}});
+                         {"places", host.places},
+                         {"peak_memory", host.peak_memory}});
     for (const auto& [name, seconds] : report.phases) phases.push_back({{"name", name}, {"seconds", seconds}});
 
     OrderedJson preparing = OrderedJson::array();
@@ -65,6 +78,7 @@ std::string to_json(const RunReport& report) {
         json["graph"]["network"] = OrderedJson::parse(report.network);
     }
     json["mode"] = report.mode;
+    json["peak_memory"] = report.peak_memory;
     json["outputs"] = report.outputs;
     json["places"] = places;
     json["nodes"] = nodes;
@@ -77,7 +91,7 @@ std::string to_json(const RunReport& report) {
     json["settings"] = report.settings;
     json["versions"] = report.versions;
     json["warnings"] = report.warnings;
-    // File names may be in any encoding; a report is worth more than one strange letter.
+    spell_out(json);
     return json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 

@@ -56,6 +56,7 @@ struct HostReport {
     std::string machine, cpu, isa, version;
     std::uint64_t cores = 0, memory = 0;  // bytes
     std::uint32_t places = 0;
+    std::uint64_t peak_memory = 0;  // of its process, in this run; bytes
 };
 
 /// A part of the life of a run: "load", "prepare", "render", …
@@ -77,6 +78,7 @@ struct RunReport {
     std::string graph, graph_hash;     // file as the user named it; hash of its canonical text
     std::string network, folder;       // the graph as it was run, canonical JSON; where its file names are taken from
     std::string mode;                  // "serial", "threads", "network"
+    std::uint64_t peak_memory = 0;     // of the launcher's process, bytes
     std::vector<std::string> outputs;  // files written
     std::vector<PlaceReport> places;
     std::vector<NodeReport> nodes;

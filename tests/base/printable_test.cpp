@@ -29,6 +29,15 @@ TEST(Printable, WritesOutWhatIsNoText) {
     EXPECT_EQ(printable(std::string_view("a\0b", 3)), "a\\x00b");
 }
 
+TEST(Printable, LeavesUtf8AsItIs) {
+    EXPECT_TRUE(is_utf8("gr\xc3\xbcn \xe2\x82\xac \xf0\x9f\x92\xa1"));
+    for (const char* text : {"\xff", "sc\xe4ne", "\xc0\x80", "\xe0\x80\x80", "\xed\xa0\x80", "\xf0\x80\x80\x80",
+                             "\xf4\x90\x80\x80", "\xf5\x80\x80\x80", "\xe2\x82"})
+        EXPECT_FALSE(is_utf8(text)) << printable(text);
+    EXPECT_EQ(in_utf8("gr\xc3\xbcn\t"), "gr\xc3\xbcn\t");
+    EXPECT_EQ(in_utf8("sc\xe4ne"), "sc\\xe4ne");
+}
+
 TEST(Printable, IsWhatErrorsSayOfFiles) {
     EXPECT_STREQ(Error("a\x1b[2J.exr", "is no picture").what(), "a\\x1b[2J.exr: is no picture");
     EXPECT_STREQ(UserError({"a\nb.lua", 3}, "no node '\x1b[31m'\nand more").what(),

@@ -57,7 +57,7 @@ TEST(SpareThreads, AreWantedInWords) {
             return false;
         } catch (const Error& error) {
             const std::string what = error.what();
-            return what.starts_with("a crowd: needs 100 threads more, and the system gives ") &&
+            return what.starts_with("a crowd: needs 101 threads more, and the system gives ") &&
                    what.find("ulimit -u") != std::string::npos;
         }
     }));

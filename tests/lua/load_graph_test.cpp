@@ -104,7 +104,7 @@ TEST(LoadGraph, WantsValuesThatCanStandInAGraph) {
     EXPECT_THAT(error_in("sky = Ambient { rays = function() end }"),
                 HasSubstr("graph.lua:1: Ambient 'sky': parameter 'rays' is a function"));
     EXPECT_THAT(error_in("sky = Ambient { print }"), HasSubstr("Ambient 'sky': entry 1 is a function"));
-    EXPECT_THAT(error_in("sky = Ambient { name = '\\xff' }"), HasSubstr("parameter 'name' is not a text in UTF-8"));
+    EXPECT_THAT(error_in("sky = Ambient { ['\\xff'] = 1 }"), HasSubstr("is not a text in UTF-8"));
     EXPECT_THAT(error_in("sky = Ambient { [true] = 1 }"), HasSubstr("a parameter goes by a name"));
     EXPECT_THAT(error_in("local t = {} t.t = t\nsky = Ambient { x = t }"),
                 HasSubstr("has tables in tables without end"));

@@ -8,6 +8,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/json.hpp"
+#include "core/base/printable.hpp"
 #include "core/network/graph/check.hpp"
 #include "core/network/graph/json.hpp"
 #include "core/network/graph/layout.hpp"
@@ -20,7 +21,7 @@ constexpr JsonLimits report_limits{.depth = JsonLimits{}.depth + 4};  // around 
 // A run may have been started in another folder than this one.
 std::string as_seen_from_here(const std::string& file, const std::string& folder) {
     std::error_code ignored;
-    if (folder.empty() || std::filesystem::path(folder) == std::filesystem::current_path(ignored)) return file;
+    if (folder.empty() || folder == in_utf8(std::filesystem::current_path(ignored).string())) return file;
     return (std::filesystem::path(folder) / file).string();
 }
 

@@ -17,7 +17,7 @@ constexpr JsonLimits plan_limits{.values = 2'000'000};  // each node times the p
 
 SourceLine where_of(const Json& json) {
     const auto& place = json.list(2);
-    return {place[0].text(), place[1].whole<int>()};
+    return {text_from_json(place[0]), place[1].whole<int>()};
 }
 
 // JSON has no name for what isn't finite.
@@ -46,6 +46,7 @@ Value value_of(const Json& json) {
     if (std::holds_alternative<bool>(json.data)) return {json.flag()};
     if (std::holds_alternative<std::string>(json.data)) return {json.text()};
     if (!json.is_object()) return {json.number()};
+    if (json.has("bytes")) return {text_from_json(json)};
     const bool node = json.has("node"), number = json.has("number");
     json.object(node || number ? 1 : 2);
     if (node) return {NodeRef{json.at("node").text()}};
@@ -90,12 +91,29 @@ ChoiceEntry choice_of(const Json& json) {
     return {json.at("node").text(), json.at("name").text(), where_of(json.at("where"))};
 }
 
+int digit_of(char c) {
+    if ('0' <= c && c <= '9') return c - '0';
+    if ('a' <= c && c <= 'f') return c - 'a' + 10;
+    malformed("bytes are written by digits of base 16");
+}
+
 }  // namespace
+
+std::string text_from_json(const Json& json) {
+    if (!json.is_object()) return json.text();
+    json.object(1);
+    const auto& digits = json.at("bytes").text();
+    if (digits.size() % 2) malformed("half of a byte");
+    std::string bytes;
+    for (std::size_t i = 0; i < digits.size(); i += 2)
+        bytes += static_cast<char>(digit_of(digits[i]) * 16 + digit_of(digits[i + 1]));
+    return bytes;
+}
 
 Graph graph_from_json(const Json& json) {
     const bool has_shards = json.has("shards");
     json.object(has_shards ? 3 : 2);
-    Graph graph{json.at("file").text(), {}};
+    Graph graph{text_from_json(json.at("file")), {}};
     for (const auto& node : json.at("nodes").list()) {
         if (graph.nodes.size() >= most_nodes) malformed("a graph has at most " + std::to_string(most_nodes) + " nodes");
         graph.nodes.push_back(node_of(node));
@@ -111,7 +129,7 @@ Graph graph_from_json(std::string_view text) { return graph_from_json(parse_json
 Hosts hosts_from_json(std::string_view text) {
     const Json json = parse_json(text);
     json.object(4);
-    Hosts hosts{json.at("file").text(), {}};
+    Hosts hosts{text_from_json(json.at("file")), {}};
     for (const auto& host : json.at("hosts").list()) hosts.hosts.push_back(host_of(host));
     for (const auto& entry : json.at("strategies").list()) hosts.strategies.push_back(choice_of(entry));
     for (const auto& entry : json.at("layouts").list()) hosts.layouts.push_back(choice_of(entry));
@@ -145,7 +163,7 @@ std::vector<Problem> problems_from_json(std::string_view text) {
     std::vector<Problem> problems;
     for (const auto& entry : json.list()) {
         const auto& problem = entry.list(2);
-        problems.push_back({where_of(problem[0]), problem[1].text()});
+        problems.push_back({where_of(problem[0]), text_from_json(problem[1])});
     }
     return problems;
 }

@@ -3,7 +3,10 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <string_view>
+#include <utility>
 
+#include "core/base/printable.hpp"
 #include "core/network/graph/graph.hpp"
 #include "core/network/graph/hosts.hpp"
 #include "core/network/graph/layout.hpp"
@@ -19,11 +22,23 @@ std::string dump(const Tree& json) {
     try {
         return json.dump();
     } catch (const Tree::exception&) {
-        throw Error("a text in it is not UTF-8");
+        throw Error("a name in it is not UTF-8");
     }
 }
 
-Tree json_of(const SourceLine& where) { return Tree::array({where.file, where.line}); }
+// Texts may be names of files, which are bytes.
+Tree json_of(const std::string& text) {
+    if (is_utf8(text)) return text;
+    constexpr std::string_view digits = "0123456789abcdef";
+    std::string bytes;
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        (bytes += digits[byte >> 4]) += digits[byte & 15];
+    }
+    return {{"bytes", std::move(bytes)}};
+}
+
+Tree json_of(const SourceLine& where) { return Tree::array({json_of(where.file), where.line}); }
 
 // JSON has no name for what isn't finite.
 Tree json_of(double number) {
@@ -48,7 +63,7 @@ Tree json_of(const std::map<std::string, Value>& named) {
 struct ToJson {
     Tree operator()(bool flag) const { return flag; }
     Tree operator()(double number) const { return json_of(number); }
-    Tree operator()(const std::string& text) const { return text; }
+    Tree operator()(const std::string& text) const { return json_of(text); }
     Tree operator()(const NodeRef& ref) const { return {{"node", ref.name}}; }
     Tree operator()(const Table& table) const {
         return {{"list", json_of(table.list)}, {"named", json_of(table.named)}};
@@ -77,7 +92,7 @@ Tree json_of(const std::vector<ChoiceEntry>& choices) {
 std::string to_json(const Graph& graph) {
     Tree nodes = Tree::array();
     for (std::size_t i = 0; i < written_nodes(graph); ++i) nodes.push_back(json_of(graph.nodes[i]));
-    Tree json{{"file", graph.file}, {"nodes", std::move(nodes)}};
+    Tree json{{"file", json_of(graph.file)}, {"nodes", std::move(nodes)}};
     if (!graph.sectors.empty()) json["shards"] = shards_in(graph);
     return dump(json);
 }
@@ -90,7 +105,7 @@ std::string to_json(const Hosts& hosts) {
                         {"replicas", host.replicas},
                         {"places", host.places},
                         {"where", json_of(host.where)}});
-    return dump({{"file", hosts.file},
+    return dump({{"file", json_of(hosts.file)},
                  {"hosts", std::move(list)},
                  {"strategies", json_of(hosts.strategies)},
                  {"layouts", json_of(hosts.layouts)}});
@@ -110,17 +125,10 @@ std::string to_json(const Plan& plan) {
 
 std::string to_json(const std::vector<Problem>& problems) {
     Tree list = Tree::array();
-    for (const auto& problem : problems) list.push_back(Tree::array({json_of(problem.where), problem.what}));
-    return list.dump(-1, ' ', false, Tree::error_handler_t::replace);
+    for (const auto& problem : problems) list.push_back(Tree::array({json_of(problem.where), json_of(problem.what)}));
+    return dump(list);
 }
 
-bool is_utf8(std::string_view text) {
-    try {
-        static_cast<void>(Tree(text).dump());
-        return true;
-    } catch (const Tree::exception&) {
-        return false;
-    }
-}
+std::string text_to_json(const std::string& text) { return dump(json_of(text)); }
 
 }  // namespace lightnet

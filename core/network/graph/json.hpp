@@ -14,12 +14,14 @@ namespace lightnet {
 /// A graph that is part of a larger text: see graph_from_json() of a text.
 Graph graph_from_json(const Json& json);
 
-/// Canonical text of a list of problems. Bytes that aren't UTF-8 are replaced.
+/// Canonical text of a list of problems.
 std::string to_json(const std::vector<Problem>& problems);
 /// Reads it back. Throws Error on anything else.
 std::vector<Problem> problems_from_json(std::string_view text);
 
-/// Whether `text` is UTF-8, and so can stand in a graph.
-bool is_utf8(std::string_view text);
+/// A text as JSON; bytes that are no UTF-8, as in names of old files, as {"bytes": digits}.
+std::string text_to_json(const std::string& text);
+/// Reads it back. Throws Error on anything else.
+std::string text_from_json(const Json& json);
 
 }  // namespace lightnet

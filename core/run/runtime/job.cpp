@@ -27,6 +27,8 @@ Integer count_of(const Json& object, const char* key) {
     }
 }
 
+nlohmann::json json_of_path(const std::string& path) { return nlohmann::json::parse(text_to_json(path)); }
+
 nlohmann::json json_of(const Tuning& tuning) {
     nlohmann::json json;
     for (const auto& knob : knobs)
@@ -56,7 +58,7 @@ Tuning tuning_of(const Json& json) {
 JobFile file_of(const Json& json) {
     const auto hash = hash_from_hex(json.at("hash").text());
     if (!hash) not_a_job("a file of it has no proper hash");
-    return {json.at("path").text(), *hash, count_of<std::uint64_t>(json, "size")};
+    return {text_from_json(json.at("path")), *hash, count_of<std::uint64_t>(json, "size")};
 }
 
 std::shared_ptr<const Network> network_around(const Job& job, const Registry& registry,
@@ -74,9 +76,9 @@ std::shared_ptr<const Network> network_around(const Job& job, const Registry& re
 std::string to_json(const Job& job) {
     nlohmann::json files = nlohmann::json::array();
     for (const auto& file : job.files)
-        files.push_back({{"path", file.path}, {"hash", to_hex(file.hash)}, {"size", file.size}});
+        files.push_back({{"path", json_of_path(file.path)}, {"hash", to_hex(file.hash)}, {"size", file.size}});
     const auto rest = nlohmann::json{
-        {"scene", job.scene},
+        {"scene", json_of_path(job.scene)},
         {"files", std::move(files)},
         {"seed", job.seed},
         {"isa", job.isa},
@@ -92,7 +94,7 @@ Job job_from_json(std::string_view text) {
     const Json json = parse_json(text, job_limits);
     Job job;
     job.graph = graph_from_json(json.at("graph"));
-    job.scene = json.at("scene").text();
+    job.scene = text_from_json(json.at("scene"));
     for (const auto& file : json.at("files").list()) job.files.push_back(file_of(file));
     job.seed = count_of<std::uint64_t>(json, "seed");
     job.isa = json.at("isa").text();

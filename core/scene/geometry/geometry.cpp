@@ -107,7 +107,9 @@ unsigned building_threads([[maybe_unused]] unsigned asked) {
     return 1;
 #else
     const unsigned wanted = asked ? asked : usable_cores();
-    return wanted > 1 && try_threads(wanted) < wanted ? 1 : wanted;
+    if (try_threads(wanted + 1) > wanted) return wanted;
+    want_threads(1, "what finds surfaces");  // which it starts in any case, at the latest when it goes
+    return 1;
 #endif
 }
 
