@@ -86,6 +86,14 @@ std::string missing(const CLI::App& app, const std::string& said) {
     return "there is no '" + full_name(verb) + " " + left.front() + "'" + did_you_mean(left.front(), known);
 }
 
+// As with most programs, so that scripts can append to a command line that somebody else has begun.
+void let_the_last_win(CLI::App& app) {
+    for (auto* const option : app.get_options([](const CLI::Option* one) { return !one->get_positional(); }))
+        if (option->get_multi_option_policy() == CLI::MultiOptionPolicy::Throw && option->get_items_expected_max() == 1)
+            option->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    for (auto* const verb : app.get_subcommands([](const CLI::App*) { return true; })) let_the_last_win(*verb);
+}
+
 }  // namespace
 
 Finished usage_error(const CLI::App& app, const std::string& what) {
@@ -94,6 +102,7 @@ Finished usage_error(const CLI::App& app, const std::string& what) {
 }
 
 std::optional<Finished> take_apart(CLI::App& app, const std::vector<std::string>& arguments) {
+    let_the_last_win(app);
     std::vector<std::string> backwards(arguments.rbegin(), arguments.rend());  // as the library wants them
     try {
         app.parse(backwards);

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "core/base/error.hpp"
+#include "core/base/own_files.hpp"
 #include "core/film/compare_layers.hpp"
 #include "core/film/exr.hpp"
 #include "core/film/png.hpp"
@@ -26,7 +27,7 @@ using Json = nlohmann::ordered_json;
 }  // namespace
 
 Picture picture_in(const std::string& path) {
-    if (std::filesystem::path(path).extension() == ".exr") return read_exr(path);
+    if (has_ending(path, ".exr")) return read_exr(path);
     DiskFiles files;
     const Bytes bytes = files.read(path);
     try {
@@ -44,15 +45,14 @@ namespace {
 
 // Nothing is written where it can't be understood; said before anything is read.
 void check_request(const CompareRequest& request) {
-    const auto check = [&](const char* option, const std::string& file, const char* endings) {
+    const auto check = [&](const char* option, const std::string& file, const char* endings, bool fits) {
         if (file.empty()) return;
         if (request.pictures.size() > 1) throw UserError({option, 0}, "takes one picture beside the reference");
-        const std::string ending = std::filesystem::path(file).extension();
-        if (ending.empty() || std::string_view(endings).find(ending) == std::string_view::npos)
-            throw UserError({option, 0}, "'" + file + "' must end in " + endings);
+        if (!fits) throw UserError({option, 0}, "'" + file + "' must end in " + endings);
     };
-    check("--difference", request.difference, ".exr or .png");
-    check("--flip-map", request.flip_map, ".png");
+    const auto &difference = request.difference, &flip_map = request.flip_map;
+    check("--difference", difference, ".exr or .png", has_ending(difference, ".exr") || has_ending(difference, ".png"));
+    check("--flip-map", flip_map, ".png", has_ending(flip_map, ".png"));
 }
 
 double bias_of(const Difference& difference) {
@@ -155,7 +155,7 @@ private:
         if (!request_.flip_map.empty()) write_png(request_.flip_map, magma_of(picture.width, found.flip_map));
         if (request_.difference.empty()) return;
         Picture difference = difference_of(reference, picture);
-        if (request_.difference.ends_with(".exr")) return write_exr(request_.difference, difference);
+        if (has_ending(request_.difference, ".exr")) return write_exr(request_.difference, difference);
         difference = without_signs(std::move(difference));
         for (Rgb& colour : difference.beauty) colour *= static_cast<float>(std::exp2(request_.view.exposure));
         write_png(request_.difference, difference);

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <thread>
 
+#include "core/base/allowance.hpp"
 #include "core/base/error.hpp"
 #include "core/base/in_quotes.hpp"
 #include "core/base/suggestion.hpp"
@@ -48,37 +48,55 @@ Crew::Crew(const RunRequest& request, Cluster::Options cluster, std::function<do
     cluster.key = request.keys.own;
     cluster.host_keys = request.keys.hosts;
     cluster.join_keys = request.keys.join;
-    if (request.local_workers) {
-        const auto cores = std::max(1u, std::thread::hardware_concurrency() / request.local_workers);
-        const auto places = request.local_places ? request.local_places : cores;
-        const LocalWorkers::Keys keys{.launcher = request.keys.own.open};
-        local_.emplace(daemon_program(), request.local_workers, places, keys, request.troubles);
-        for (const auto& endpoint : local_->endpoints()) {
-            cluster.endpoints.push_back(endpoint);
-            cluster.host_keys[endpoint] = keys.workers.open;
-        }
-    }
+    for (const auto& host : request.keys.ssh) cluster.expected.push_back(host.name);
+    if (request.local_workers) start_local_workers(cluster);
     cluster.listen = request.listen;
     cluster.pass = request.pass;
     cluster.threads = request.threads;
     options_ = std::move(cluster);
     cluster_ = std::make_unique<Cluster>(options_);
     if (!request.listen.empty()) say_("hosts may join at " + seen_from_elsewhere(cluster_->join_endpoint()));
-    if (request.slurm.daemons) {
-        SlurmWorkers::Request array{daemon_program(),
-                                    seen_from_elsewhere(cluster_->join_endpoint()),
-                                    request.slurm.daemons,
-                                    request.slurm.partition,
-                                    request.slurm.arguments,
-                                    {},
-                                    request.pass.empty() ? "" : std::filesystem::absolute(request.pass).string()};
-        if (const auto& key = request.keys.slurm) {
-            slurm_key_.emplace("slurm-" + key->open.fingerprint() + ".key", *key);
-            array.keys = {slurm_key_->path(), request.keys.own.open};
-        }
-        slurm_.emplace(array);
-        say_("Slurm has taken job " + slurm_->job() + " of " + std::to_string(request.slurm.daemons) + " daemons");
+    if (request.slurm.daemons) start_slurm();
+    if (!request.keys.ssh.empty()) start_ssh();
+}
+
+void Crew::start_local_workers(Cluster::Options& cluster) {
+    const auto cores = std::max(1u, usable_cores() / request_.local_workers);
+    const auto places = request_.local_places ? request_.local_places : cores;
+    const LocalWorkers::Keys keys{.launcher = request_.keys.own.open};
+    auto cache = request_.tuning.cache == "none" ? "" : request_.tuning.cache;
+    if (cache.empty()) cache = cache_or_spare(spare_cache_, "local workers keep", say_);
+    local_.emplace(daemon_program(), request_.local_workers, places, keys, request_.troubles, std::move(cache));
+    for (const auto& endpoint : local_->endpoints()) {
+        cluster.endpoints.push_back(endpoint);
+        cluster.host_keys[endpoint] = keys.workers.open;
     }
+    if (const auto missing = local_->missing())
+        say_(std::to_string(missing) + " of " + std::to_string(request_.local_workers) +
+             " local workers did not start; the run goes on without");
+}
+
+void Crew::start_slurm() {
+    SlurmWorkers::Request array{daemon_program(),
+                                seen_from_elsewhere(cluster_->join_endpoint()),
+                                request_.slurm.daemons,
+                                request_.slurm.partition,
+                                request_.slurm.arguments,
+                                {},
+                                request_.pass.empty() ? "" : std::filesystem::absolute(request_.pass).string()};
+    if (const auto& key = request_.keys.slurm) {
+        slurm_key_.emplace("slurm-" + key->open.fingerprint() + ".key", *key);
+        array.keys = {slurm_key_->path(), request_.keys.own.open};
+    }
+    slurm_.emplace(array);
+    say_("Slurm has taken job " + slurm_->job() + " of " + std::to_string(request_.slurm.daemons) + " daemons");
+}
+
+void Crew::start_ssh() {
+    const auto endpoint = cluster_->join_endpoint();
+    const auto daemon = request_.ssh.daemon.empty() ? daemon_program() : request_.ssh.daemon;
+    ssh_.emplace(SshWorkers::Request{request_.keys.ssh, request_.ssh.command, daemon, seen_from_elsewhere(endpoint),
+                                     seen_from_elsewhere(endpoint) != endpoint, request_.keys.own.open});
 }
 
 // Who has joined dials the same port again.
@@ -110,10 +128,12 @@ std::vector<std::string> Crew::missing() const {
 }
 
 void Crew::look_after() {
-    if (!local_) return;
-    local_->look_after(std::chrono::steady_clock::now(),
-                       {[this](const std::string& endpoint) { cluster_->lost(endpoint); },
-                        [this](const std::string& endpoint) { return cluster_->ready(endpoint); }, say_, done_});
+    const auto now = std::chrono::steady_clock::now();
+    const auto of_use = [this](const std::string& host) { return cluster_->ready(host); };
+    if (local_)
+        local_->look_after(now,
+                           {[this](const std::string& endpoint) { cluster_->lost(endpoint); }, of_use, say_, done_});
+    if (ssh_) ssh_->look_after(now, {of_use, say_});
 }
 
 }  // namespace lightnet

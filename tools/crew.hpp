@@ -10,14 +10,17 @@
 #include <vector>
 
 #include "tools/run.hpp"
+#include "tools/spare_cache.hpp"
 #include "transport/keys/key_file.hpp"
 #include "transport/launcher/cluster.hpp"
 #include "transport/start/local_workers.hpp"
 #include "transport/start/slurm_workers.hpp"
+#include "transport/start/ssh_workers.hpp"
 
 namespace lightnet {
 
-/// Hosts that are called, local workers, daemons of Slurm and places of this process, in any mix. One thread's.
+/// Hosts that are called, local workers, daemons of Slurm and of ssh, and places of this process, in any mix. One
+/// thread's.
 class Crew {
 public:
     /// `cluster` is what does not depend on where hosts come from. Starts what is to be started.
@@ -32,18 +35,23 @@ public:
     void gather(const std::atomic<bool>& cancelled);
     /// Hosts that the user named and that take no part: why, and what others have to do for them.
     std::vector<std::string> missing() const;
-    /// To be called several times a second: starts local workers anew.
+    /// To be called several times a second: starts local workers, and those of ssh, anew.
     void look_after();
 
 private:
+    void start_local_workers(Cluster::Options& cluster);
+    void start_slurm();
+    void start_ssh();
     const RunRequest& request_;
     std::function<void(const std::string&)> say_;
     std::function<double()> done_;
+    std::optional<SpareCache> spare_cache_;  // outlives the workers
     std::optional<LocalWorkers> local_;
     Cluster::Options options_;
     std::unique_ptr<Cluster> cluster_;
     std::optional<SecretFile> slurm_key_;  // outlives the job
     std::optional<SlurmWorkers> slurm_;
+    std::optional<SshWorkers> ssh_;
 };
 
 }  // namespace lightnet

@@ -42,6 +42,7 @@ public:
             });
         app_.add_flag("--quiet", options_.quiet, "say nothing but where it listens");
         app_.add_option("--parent", options_.parent, "end when this process ends")->group("");
+        app_.add_flag("--led", options_.led, "read the key from the standard input, and end with that")->group("");
         app_.set_version_flag("--version", "lightnetd " + build_id());
         add_examples(app_, {"lightnetd --listen tcp://127.0.0.1:7777 --places 4",
                             "lightnetd --join tcp://127.0.0.1:7000 --name onyx1",
@@ -51,7 +52,7 @@ public:
     std::variant<DaemonOptions, Finished> parse(const std::vector<std::string>& arguments) {
         if (auto finished = take_apart(app_, arguments)) return *finished;
         if (!host().join.empty() && app_.count("--listen") == 0) host().listen.clear();
-        host().drain = std::chrono::seconds(drain_);
+        host().drain = std::chrono::seconds(options_.led ? 0 : drain_);  // whoever led it is gone
         if (patience_) host().patience = std::chrono::seconds(patience_);
         for (const auto& [option, endpoint] :
              {std::pair{std::string("--listen "), host().listen}, std::pair{std::string("--join "), host().join}})
@@ -59,7 +60,8 @@ public:
                 return usage_error(app_, beyond_this_machine(option + endpoint, way_with_keys(option)));
         if (const auto& metrics = options_.metrics;
             !insecure_ && !metrics.empty() && !stays_on_this_machine("tcp://" + metrics))
-            return usage_error(app_, beyond_this_machine("--metrics " + metrics, "put a server with TLS in front of 127.0.0.1"));
+            return usage_error(
+                app_, beyond_this_machine("--metrics " + metrics, "put a server with TLS in front of 127.0.0.1"));
         return options_;
     }
 

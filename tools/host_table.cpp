@@ -6,6 +6,8 @@
 #include <array>
 #include <set>
 
+#include "tools/doctor.hpp"
+
 namespace lightnet {
 namespace {
 
@@ -15,7 +17,10 @@ std::string place_of(const HostAnswer& host) {
     return host.name.empty() ? host.asked + " (the launcher)" : host.name;
 }
 
-std::string state_of(const HostAnswer& host) { return host.who.empty() ? host.state : "is busy: " + host.state; }
+std::string state_of(const HostAnswer& host, const std::string& build) {
+    return (host.who.empty() ? host.state : "is busy: " + host.state) +
+           (is_other_build(host, build) ? ", ANOTHER BUILD" : "");
+}
 
 std::string places_of(const HostAnswer& host) {
     if (!host.places) return {};
@@ -32,7 +37,9 @@ std::string machine_of(const HostAnswer& host) {
 
 using Row = std::array<std::string, 4>;
 
-Row row_of(const HostAnswer& host) { return {place_of(host), state_of(host), places_of(host), machine_of(host)}; }
+Row row_of(const HostAnswer& host, const std::string& build) {
+    return {place_of(host), state_of(host, build), places_of(host), machine_of(host)};
+}
 
 std::string line_of(const Row& row, const std::array<std::size_t, 4>& widths) {
     std::string line;
@@ -40,9 +47,11 @@ std::string line_of(const Row& row, const std::array<std::size_t, 4>& widths) {
     return line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
 }
 
-// What a host that serves a run is at.
-std::string work_of(const HostAnswer& host, const std::string& margin) {
+// What a host that serves a run is at, and why it could serve none.
+std::string more_of(const HostAnswer& host, const std::string& build, const std::string& margin) {
     std::string text;
+    if (is_other_build(host, build))
+        text += margin + "would be refused: " + difference_of_builds(host.machine.version, build) + "\n";
     if (!host.who.empty()) text += margin + "run of " + host.who + "\n";
     if (!host.nodes.empty()) text += margin + "holds " + host.nodes + "\n";
     if (host.progress || host.bundles || host.broken_packets)
@@ -65,16 +74,20 @@ bool is_there(const HostAnswer& host) {
     return !host.state.starts_with("does not answer") && !host.state.starts_with("is lost");
 }
 
-std::string host_table(std::vector<HostAnswer> hosts) {
+bool is_other_build(const HostAnswer& host, const std::string& build) {
+    return !host.machine.version.empty() && host.machine.version != build;
+}
+
+std::string host_table(std::vector<HostAnswer> hosts, const std::string& build) {
     leave_out_what_is_told_twice(hosts);
     std::array<std::size_t, 4> widths{};
     for (const auto& host : hosts) {
-        const Row row = row_of(host);
+        const Row row = row_of(host, build);
         for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
     }
     std::string text;
     for (const auto& host : hosts)
-        text += line_of(row_of(host), widths) + work_of(host, std::string(widths[0] + 4, ' '));
+        text += line_of(row_of(host, build), widths) + more_of(host, build, std::string(widths[0] + 4, ' '));
     return text;
 }
 

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <optional>
 #include <ostream>
+#include <system_error>
 
 #include "core/base/build_info.hpp"
 #include "core/base/joined.hpp"
+#include "core/base/spare_threads.hpp"
 #include "core/base/suggestion.hpp"
 #include "core/readers/read_scene.hpp"
 #include "tools/command_line.hpp"
@@ -25,7 +27,8 @@ public:
         app_.require_subcommand(1);
         app_.footer(
             "exit codes: 0 done, 1 the run failed (or pictures are too far apart), 2 usage, graph or scene error,\n"
-            "3 no worker reachable, 4 none whose key is known and that knows ours, 130 interrupted\n\nExamples:\n  "
+            "3 no worker reachable, 4 none whose key is known and that knows ours, 5 hosts of another build, 130 "
+            "interrupted\n\nExamples:\n  "
             "lightnet run graphs/cornell.lua\n"
             "  lightnet help run");
         for (const auto& verb : verbs) {
@@ -135,6 +138,11 @@ int Launcher::operator()(const std::vector<std::string>& arguments) const {
     } catch (const UserError& error) {
         err << error.what() << '\n';
         return exit_code::usage;
+    } catch (const std::system_error& error) {
+        const bool threads = error.code() == std::errc::resource_unavailable_try_again;
+        err << "lightnet: "
+            << (threads ? std::string("the system gives no more threads; ") + more_threads_help : error.what()) << '\n';
+        return exit_code::failed;
     } catch (const std::exception& error) {
         err << "lightnet: " << error.what() << '\n';
         return exit_code::failed;

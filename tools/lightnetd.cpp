@@ -9,6 +9,7 @@
 #include <functional>
 #include <iostream>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -17,15 +18,17 @@
 #include "lua/custom.hpp"
 #include "nodes/examples/candela/candela_kinds.hpp"
 #include "nodes/standard_nodes.hpp"
+#include "tools/daemon_log.hpp"
 #include "tools/daemon_options.hpp"
 #include "tools/exit_code.hpp"
-#include "tools/log_line.hpp"
+#include "tools/led_by_input.hpp"
 #include "tools/metrics.hpp"
 #include "tools/metrics_server.hpp"
 #include "tools/plugins.hpp"
 #include "tools/settings.hpp"
 #include "tools/signals.hpp"
 #include "tools/single_instance.hpp"
+#include "tools/spare_cache.hpp"
 #include "tools/standard_output.hpp"
 #include "transport/daemon/host.hpp"
 #include "transport/keys/key_file.hpp"
@@ -37,19 +40,6 @@ namespace {
 void live_no_longer_than(int parent) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) _exit(0);
-}
-
-// A line at once, also when another process writes to the same file.
-std::function<void(const lightnet::LogEntry&)> writer_of_log(const lightnet::DaemonOptions& options) {
-    const bool json = options.log_json;
-    const auto host = options.host.name.empty() ? lightnet::machine_name() : options.host.name;
-    return [json, host](const lightnet::LogEntry& entry) {
-        const auto now = std::chrono::system_clock::now();
-        std::cerr << (json ? lightnet::log_json("lightnetd", host, entry, now)
-                           : lightnet::log_line("lightnetd", entry.text, now)) +
-                         "\n"
-                  << std::flush;
-    };
 }
 
 lightnet::KeyPair own_key(const lightnet::DaemonOptions& options) {
@@ -64,40 +54,58 @@ int print_key(const lightnet::DaemonOptions& options) {
 }
 
 // Who starts it may wait for these lines in vain; it serves all the same.
-void say_where_nobody_reads(lightnet::StandardOutput& output,
-                            const std::function<void(const lightnet::LogEntry&)>& log) {
+void say_where_nobody_reads(lightnet::StandardOutput& output, const lightnet::DaemonLog& log) {
     const auto trouble = output.trouble();
     if (trouble.empty()) return;
     log({lightnet::LogLevel::warning, "where it listens can't be written to standard output: " + trouble});
     output.forgive();
 }
 
-int serve(lightnet::DaemonOptions options, lightnet::StandardOutput& output) {
+// What this machine's plugins are worth is told as all else.
+void load_all_plugins(const lightnet::DaemonOptions& options, lightnet::Registry& registry,
+                      const lightnet::DaemonLog& log) {
+    std::ostringstream complaints;
+    lightnet::load_installed_plugins(registry, complaints);
+    std::istringstream lines(complaints.str());
+    for (std::string line; std::getline(lines, line);) log({lightnet::LogLevel::warning, line});
+    lightnet::load_plugins(options.plugins, registry);
+}
+
+int serve(lightnet::DaemonOptions options, const lightnet::DaemonLog& log, lightnet::StandardOutput& output) {
     if (options.print_key) return print_key(options);
-    options.host.key = lightnet::take_key_from_environment();
+    options.host.key = options.led ? lightnet::key_from_input() : lightnet::take_key_from_environment();
+    if (options.led && !options.host.key) return lightnet::exit_code::done;  // whoever holds it has let go
     if (!options.host.key && (!options.host.allow.empty() || options.host.launcher_key))
         options.host.key = own_key(options);
     if (options.parent) live_no_longer_than(options.parent);
-    const auto log = writer_of_log(options);
+    if (options.parent || options.led) options.metrics.clear();  // of the one daemon that the environment may be for
     if (!options.quiet && !options.parent) options.host.log = log;
     const auto& stop = lightnet::watch_signals();
+    std::optional<lightnet::LedByInput> led;
+    if (options.led) led.emplace();
     lightnet::raise_descriptor_limit();
     std::optional<lightnet::SingleInstance> only;
     if (!options.single.empty()) only.emplace(options.single, stop.any);
     lightnet::Registry registry{lightnet::standard_nodes()};
     registry.add(lightnet::candela_kinds());  // an example: code that was written for something else
     registry.add({lightnet::custom_kind()});
-    lightnet::load_installed_plugins(registry, std::cerr);
-    lightnet::load_plugins(options.plugins, registry);
+    load_all_plugins(options, registry, log);
+    std::optional<lightnet::SpareCache> spare;
+    if (options.host.cache.empty())
+        options.host.cache = lightnet::cache_or_spare(spare, "this daemon keeps", [&](const std::string& text) {
+            log({lightnet::LogLevel::warning, text});
+        });
     lightnet::Host host(options.host, registry);
     if (options.host.listen.empty())
-        std::cout << "joining " << options.host.join << std::endl;
+        log.announce("joining " + options.host.join);
     else
-        std::cout << "listening on " << host.endpoint() << std::endl;
+        log.announce("listening on " + host.endpoint());
     std::optional<lightnet::MetricsServer> metrics;
     if (!options.metrics.empty()) {
-        metrics.emplace(options.metrics, [&host] { return lightnet::metrics_of(host.figures()); });
-        std::cout << "metrics at " << metrics->url() << std::endl;
+        metrics.emplace(
+            options.metrics, [&host] { return lightnet::metrics_of(host.figures()); },
+            [&host] { return lightnet::why_unfit(host.figures(), std::chrono::steady_clock::now()); });
+        log.announce("metrics at " + metrics->url());
     }
     say_where_nobody_reads(output, log);
     host.serve(stop.any);
@@ -109,7 +117,16 @@ int serve(lightnet::DaemonOptions options, lightnet::StandardOutput& output) {
     return lightnet::exit_code::done;
 }
 
-int perform(std::vector<std::string> typed, lightnet::StandardOutput& output) try {
+// The words may be wrong, and that, too, is to be told in this format.
+bool wants_json(const std::vector<std::string>& words) {
+    const std::string option = "--log-format";
+    for (auto word = words.begin(); word != words.end(); ++word)
+        if (*word == option + "=json" || (*word == option && word + 1 != words.end() && *(word + 1) == "json"))
+            return true;
+    return false;
+}
+
+int perform(std::vector<std::string> typed, lightnet::DaemonLog& log, lightnet::StandardOutput& output) {
     auto settings = lightnet::settings_of_daemon();
     const auto text = lightnet::daemon_texts().front();
     if (std::find(typed.begin(), typed.end(), "--print-config") != typed.end()) {
@@ -117,22 +134,35 @@ int perform(std::vector<std::string> typed, lightnet::StandardOutput& output) tr
         return lightnet::exit_code::done;
     }
     // One that a launcher starts does what that says.
-    if (std::find(typed.begin(), typed.end(), "--parent") != typed.end()) settings.lines.clear();
+    const bool has_parent = std::find(typed.begin(), typed.end(), "--parent") != typed.end();
+    if (has_parent) settings.lines.clear();
     const auto more = settings.missing(text, typed);
     typed.insert(typed.begin(), more.begin(), more.end());
+    if (has_parent) typed.insert(typed.end(), {"--log-format", "text"});  // which it waits for
+    log = lightnet::DaemonLog(wants_json(typed) && !has_parent, lightnet::machine_name());
     const auto parsed = lightnet::parse_daemon_options(typed);
     if (const auto* finished = std::get_if<lightnet::Finished>(&parsed)) {
         std::cout << finished->out;
-        std::cerr << finished->err;
+        if (const auto end = finished->err.find_last_not_of('\n'); end != std::string::npos)
+            log.give_up(finished->err.substr(0, end + 1));
         return finished->code;
     }
-    return serve(std::get<lightnet::DaemonOptions>(parsed), output);
-} catch (const lightnet::UserError& error) {
-    std::cerr << error.what() << '\n';
-    return lightnet::exit_code::usage;
-} catch (const std::exception& error) {
-    std::cerr << "lightnetd: " << error.what() << '\n';
-    return lightnet::exit_code::failed;
+    const auto& options = std::get<lightnet::DaemonOptions>(parsed);
+    if (!options.host.name.empty()) log = lightnet::DaemonLog(options.log_json, options.host.name);
+    return serve(options, log, output);
+}
+
+int perform_in_words(const std::vector<std::string>& typed, lightnet::StandardOutput& output) {
+    lightnet::DaemonLog log(wants_json(typed), lightnet::machine_name());
+    try {
+        return perform(typed, log, output);
+    } catch (const lightnet::UserError& error) {
+        log.give_up(error.what());
+        return lightnet::exit_code::usage;
+    } catch (const std::exception& error) {
+        log.give_up(std::string("lightnetd: ") + error.what());
+        return lightnet::exit_code::failed;
+    }
 }
 
 }  // namespace
@@ -140,5 +170,5 @@ int perform(std::vector<std::string> typed, lightnet::StandardOutput& output) tr
 int main(int count, char** words) {
     lightnet::keep_standard_descriptors();
     lightnet::StandardOutput output;
-    return output.end(perform({words + 1, words + count}, output), "lightnetd");
+    return output.end(perform_in_words({words + 1, words + count}, output), "lightnetd");
 }

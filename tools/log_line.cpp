@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/hash.hpp"
+#include "core/base/printable.hpp"
 
 namespace lightnet {
 
@@ -45,7 +46,7 @@ std::string log_json(const std::string& program, const std::string& host, const 
                                 {"program", program},
                                 {"host", host}};
     if (entry.run) line["run"] = public_name_of_run(*entry.run);
-    line["text"] = entry.text;
+    line["text"] = in_utf8(entry.text);
     return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 

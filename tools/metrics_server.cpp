@@ -18,19 +18,23 @@ WatchAddress metrics_address(const std::string& text) {
 
 }  // namespace
 
-MetricsServer::MetricsServer(const std::string& text, std::function<std::string()> figures) {
+MetricsServer::MetricsServer(const std::string& text, std::function<std::string()> metrics,
+                             std::function<std::string()> unfit) {
     const auto address = metrics_address(text);
     HttpServer::Options options;
     options.who = "--metrics";
     options.host = address.host;
     options.port = address.port;
     options.most_connections = most_scrapers;
-    options.answer = [this, figures = std::move(figures)](const HttpRequest& request) -> HttpAnswer {
+    options.answer = [this, metrics = std::move(metrics),
+                      unfit = std::move(unfit)](const HttpRequest& request) -> HttpAnswer {
         if (request.host.empty()) return refusal(400, "a request names the host that it is for");
         if (!is_called(request.host)) return refusal(421, "nobody is called so here");
         if (!is_own_origin(request.origin, request.host)) return refusal(403, "pages of others get nothing here");
-        if (request.path != "/metrics") return refusal(404, "there is nothing but /metrics");
-        return {200, figures(), "text/plain; version=0.0.4; charset=utf-8"};
+        if (request.path == "/metrics") return {200, metrics(), "text/plain; version=0.0.4; charset=utf-8"};
+        if (request.path != "/healthz") return refusal(404, "there is nothing but /metrics and /healthz");
+        const auto why = unfit();
+        return {why.empty() ? 200 : 503, (why.empty() ? "ok" : why) + "\n"};
     };
     address_ = address;
     server_ = std::make_unique<HttpServer>(std::move(options));

@@ -52,6 +52,12 @@ std::optional<PictureCrop> crop_of(std::string_view text) {
     return PictureCrop{edges[0], edges[1], edges[2], edges[3]};
 }
 
+// What ssh would take for an option of its own, or for nothing.
+std::string mistake_in_ssh_host(const std::string& text) {
+    const bool strange = text.empty() || text.front() == '-' || text.find_first_of(" \t\n") != std::string::npos;
+    return strange ? "a machine is like onyx1 or anna@onyx1, not '" + text + "'" : "";
+}
+
 // Where the places come from; all of these go together.
 void add_helpers(CLI::App& verb, RunningOptions& running) {
     takes_numbers(verb.add_option("--local-workers", running.local_workers, "daemons to start on this machine"), "N", 1,
@@ -75,6 +81,21 @@ void add_helpers(CLI::App& verb, RunningOptions& running) {
                                   "seconds to wait for a host to come, or for a disk to take the picture"),
                   "SECONDS", 0, 864000)
         ->capture_default_str();
+    auto* const ssh = verb.add_option("--ssh", running.ssh,
+                                      "start a daemon on each of these machines by ssh, for this run (may be repeated)")
+                          ->type_name("[USER@]HOST,…")
+                          ->expected(1)
+                          ->allow_extra_args(false)
+                          ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+                          ->delimiter(',')
+                          ->check([](const std::string& text) { return mistake_in_ssh_host(text); });
+    verb.add_option("--ssh-command", running.ssh_command, "the ssh to use, with its options, as one text")
+        ->capture_default_str()
+        ->needs(ssh);
+    verb.add_option("--ssh-daemon", running.ssh_daemon,
+                    "lightnetd on those machines (default: where it lies here, or else in the PATH there)")
+        ->type_name("PATH")
+        ->needs(ssh);
     auto* const slurm = takes_numbers(
         verb.add_option("--slurm", running.slurm, "daemons to start as a job array of Slurm"), "N", 1, 10000);
     verb.add_option("--partition", running.partition, "the partition of Slurm to use")->type_name("P")->needs(slurm);
@@ -279,10 +300,11 @@ void add_running(CLI::App& verb, RunningOptions& running) {
             return progress_mode(text) ? "" : "must be auto, bar, plain, json or none, not '" + text + "'";
         });
     add_preview(verb, running);
-    takes_amounts(verb.add_option("--time-limit", running.time_limit,
-                                  "end after so many seconds, with as many samples (16, 32, …) in all pixels as there is "
-                                  "time for; --resume goes on"),
-                  "SECONDS", Least::above_zero);
+    takes_amounts(
+        verb.add_option("--time-limit", running.time_limit,
+                        "end after so many seconds, with as many samples (16, 32, …) in all pixels as there is "
+                        "time for; --resume goes on"),
+        "SECONDS", Least::above_zero);
     auto* const reference =
         verb.add_option("--reference", running.reference, "say how far the picture is from this one: EXR, HDR, PNG …")
             ->type_name("REFERENCE");
@@ -310,7 +332,8 @@ void add_running(CLI::App& verb, RunningOptions& running) {
 }
 
 std::optional<std::string> settle(RunningOptions& running) {
-    const bool safe = running.insecure || !running.allow.empty() || running.slurm;  // which has keys by itself
+    const bool safe = running.insecure || !running.allow.empty() || running.slurm ||
+                      !running.ssh.empty();  // which have keys by themselves
     if (!running.listen.empty() && !safe && !stays_on_this_machine(running.listen))
         return beyond_this_machine("--listen " + running.listen,
                                    "say --allow FILE with the keys of hosts that may join");
@@ -321,7 +344,7 @@ std::optional<std::string> settle(RunningOptions& running) {
         return beyond_this_machine("--preview tev:" + running.viewer->host,
                                    "let ssh carry it: ssh -R 14158:127.0.0.1:14158 from the viewer's machine");
     if (auto mistake = mistake_in(running.troubles, running.local_workers.value_or(0))) return mistake;
-    if (running.slurm && running.listen.empty()) running.listen = "tcp://0.0.0.0:*";
+    if ((running.slurm || !running.ssh.empty()) && running.listen.empty()) running.listen = "tcp://0.0.0.0:*";
     return std::nullopt;
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/film/gains.hpp"
 #include "core/film/progress.hpp"
@@ -62,17 +63,20 @@ struct RunningOptions {
     int wait = 30;                               // seconds for a host to come when a node has no place any more
     std::optional<std::uint32_t> slurm;          // daemons to start as a job array
     std::string partition, slurm_arguments;
+    std::vector<std::string> ssh;  // machines on which to start daemons, as ssh calls them
+    std::string ssh_command = "ssh -T -o BatchMode=yes -o ConnectTimeout=10";
+    std::string ssh_daemon;  // lightnetd there; "": as here, or else in the PATH there
     std::uint64_t seed = 0;
     ProgressMode progress = ProgressMode::automatic;
-    std::string trace;    // file for what places were busy with; "": none
-    std::optional<WatchAddress> watch;  // none: nobody can watch
-    std::string report;                 // file; "": none
-    double preview = 0;                 // seconds between two pictures of what is there; 0: none
-    std::optional<WatchAddress> viewer;  // tev, to be shown the picture while it grows
-    bool resume = false;                // from a checkpoint
-    bool forget = false;                // it, when the picture is finished
-    double time_limit = 0;              // seconds; 0: none
-    std::string reference, curve;       // files; "": none
+    std::string trace;                          // file for what places were busy with; "": none
+    std::optional<WatchAddress> watch;          // none: nobody can watch
+    std::string report;                         // file; "": none
+    double preview = 0;                         // seconds between two pictures of what is there; 0: none
+    std::optional<WatchAddress> viewer;         // tev, to be shown the picture while it grows
+    bool resume = false;                        // from a checkpoint
+    bool forget = false;                        // it, when the picture is finished
+    double time_limit = 0;                      // seconds; 0: none
+    std::string reference, curve;               // files; "": none
     PictureView view = PictureView::automatic;  // of the PNG
     Tuning tuning;
 };

@@ -31,7 +31,7 @@ bool really_lies_within(const std::string& folder, const std::string& path) {
 
 void check_output(const std::string& output) {
     const auto folder = folder_of(output);
-    if (fs::path(output).extension() != ".exr")
+    if (!has_ending(output, ".exr"))
         throw UserError({output, 0}, "pictures are written as .exr (with a .png beside it)");
     if (!fs::is_directory(folder)) throw UserError({output, 0}, "there is no folder " + folder);
     if (::access(folder.c_str(), W_OK) != 0) throw UserError({output, 0}, "the folder can't be written to");

@@ -337,6 +337,7 @@ void Rendering::on(Crew& crew) {
     for (const auto& host : cluster.hosts()) book_.use(host);
     const auto counted = cluster.finish(stopped() ? 300ms : 1000ms);
     if (!stopped()) trust();  // a word of the last moment
+    for (const auto& host : cluster.hosts()) book_.note_memory(host);
     book_.count(counted);
 }
 

@@ -16,8 +16,8 @@
 #include "core/readers/files.hpp"
 #include "core/run/message/tuning.hpp"
 #include "core/scene/data/scene_data.hpp"
-#include "tools/watch/watch_rules.hpp"
 #include "tools/run_keys.hpp"
+#include "tools/watch/watch_rules.hpp"
 #include "transport/start/troubles.hpp"
 
 namespace lightnet {
@@ -38,6 +38,12 @@ struct SlurmRequest {
     std::vector<std::string> arguments;  // more words for sbatch
 };
 
+/// Daemons to be started by ssh.
+struct SshRequest {
+    std::vector<std::string> command;  // and its options
+    std::string daemon;                // lightnetd there; "": as here, or else in the PATH there
+};
+
 /// A run, ready to go.
 struct RunRequest {
     Graph graph;  // checked; --samples and --size are in it, and the sectors of sharded nodes
@@ -51,6 +57,7 @@ struct RunRequest {
     RunKeys keys;                     // mode network: by which hosts and this process know each other
     std::string pass;                 // file with what hosts must know to join; "": the usual one
     SlurmRequest slurm;               // mode network
+    SshRequest ssh;                   // likewise; on which machines: see keys.ssh
     std::chrono::seconds wait{30};    // for a host when a node has no place any more
     bool resume = false;              // from the checkpoint beside the output, if there is one
     bool forget = false;              // leave no checkpoint beside a finished picture
@@ -59,14 +66,14 @@ struct RunRequest {
     std::shared_ptr<ReadScene> read;  // it, read already; the run takes it away. None: still to be read
     std::string output;               // "x.exr", as seen from here
     std::uint64_t seed = 0;
-    std::string trace;   // file for what places were busy with; "": none
-    std::optional<WatchAddress> watch;  // serve a page that shows the run
-    std::string report;                 // file of a page that shows what the run did; "": none
+    std::string trace;                          // file for what places were busy with; "": none
+    std::optional<WatchAddress> watch;          // serve a page that shows the run
+    std::string report;                         // file of a page that shows what the run did; "": none
     PictureView view = PictureView::automatic;  // of the PNG
-    double time_limit = 0;              // seconds since the run began; 0: none
-    std::string reference, curve;       // a picture to be compared with, and a file for the errors; "": none
-    double preview = 0;                 // seconds between two pictures of what is there; 0: none
-    std::optional<WatchAddress> viewer;  // tev, to be shown the picture while it grows
+    double time_limit = 0;                      // seconds since the run began; 0: none
+    std::string reference, curve;               // a picture to be compared with, and a file for the errors; "": none
+    double preview = 0;                         // seconds between two pictures of what is there; 0: none
+    std::optional<WatchAddress> viewer;         // tev, to be shown the picture while it grows
     ProgressMode progress = ProgressMode::automatic;
 };
 

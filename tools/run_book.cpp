@@ -11,6 +11,7 @@
 #include "core/base/atomic_file.hpp"
 #include "core/base/error.hpp"
 #include "core/base/own_files.hpp"
+#include "core/base/own_process.hpp"
 #include "core/base/this_machine.hpp"
 #include "core/film/exr.hpp"
 #include "core/film/png.hpp"
@@ -253,7 +254,12 @@ void RunBook::end_checkpoint(bool stays) {
 void RunBook::use(const HostState& host) {
     const auto& machine = host.machine;
     report_.hosts.push_back({shown_host(host.name), host.state, machine.name, machine.cpu, machine.isa, machine.version,
-                             machine.cores, machine.memory, host.places});
+                             machine.cores, machine.memory, host.places, host.peak_memory});
+}
+
+void RunBook::note_memory(const HostState& host) {
+    for (auto& known : report_.hosts)
+        if (known.host == shown_host(host.name)) known.peak_memory = std::max(known.peak_memory, host.peak_memory);
 }
 
 void RunBook::name_bad_light(const Graph& graph) {
@@ -324,6 +330,7 @@ void RunBook::write_report(const std::string& exr, const std::string& outcome) {
     end_phase(now);
     progress_.finish(now);
     report_.outcome = outcome;
+    report_.peak_memory = peak_memory();
     write_trace();
     report_.counters = counters_.named();
     add_figures(report_, counters_.places);

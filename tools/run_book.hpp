@@ -110,6 +110,8 @@ public:
     void name_bad_light(const Graph& graph);
     /// Who took part.
     void use(const HostState& host);
+    /// Of a host that is in use: when it has ended the run, it has said how much memory that took.
+    void note_memory(const HostState& host);
 
     /// From now on the film is saved beside `exr` from time to time, in the background. `recipe` is what the picture
     /// depends on.

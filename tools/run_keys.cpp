@@ -1,5 +1,6 @@
 #include "tools/run_keys.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -57,6 +58,16 @@ auto as_users_mistake(Load load) {
     }
 }
 
+// "anna@onyx1" is called onyx1 in the run; a second one there, onyx1-2.
+std::string name_for(const std::string& address, const std::vector<SshWorkers::Host>& others) {
+    const auto machine = address.substr(address.find('@') + 1);
+    auto name = machine;
+    const auto is_taken = [&](const SshWorkers::Host& other) { return other.name == name; };
+    for (int number = 2; std::any_of(others.begin(), others.end(), is_taken); ++number)
+        name = machine + "-" + std::to_string(number);
+    return name;
+}
+
 }  // namespace
 
 KeyPair own_key(const std::string& file) {
@@ -74,6 +85,10 @@ RunKeys run_keys(const RunningOptions& running, const Hosts& hosts) {
         keep_secrets_out_of_dumps();
         keys.slurm = KeyPair::random();
         joining.add(keys.slurm->open, "slurm-*");
+    }
+    for (const auto& address : running.ssh) {
+        keys.ssh.push_back({address, name_for(address, keys.ssh), KeyPair::random()});
+        joining.add(keys.ssh.back().key.open, keys.ssh.back().name);
     }
     const bool joined_by_key = !running.listen.empty() && (!running.allow.empty() || !joining.empty());
     if (joined_by_key) keys.join = JoinKeys{{}, joining};

@@ -4,10 +4,12 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/network/graph/hosts.hpp"
 #include "transport/keys/key.hpp"
 #include "transport/launcher/cluster.hpp"
+#include "transport/start/ssh_workers.hpp"
 
 namespace lightnet {
 
@@ -19,6 +21,7 @@ struct RunKeys {
     std::map<std::string, PublicKey> hosts{};  // that are called, by endpoint; the others have none
     std::optional<JoinKeys> join{};            // none: hosts join by the pass
     std::optional<KeyPair> slurm{};            // of the daemons that Slurm starts
+    std::vector<SshWorkers::Host> ssh{};       // that are started by ssh
 };
 
 /// Throws UserError that names all keys that are none and all hosts that are too far away to be without.

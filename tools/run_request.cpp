@@ -5,10 +5,10 @@
 #include <iterator>
 #include <sstream>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
+#include "core/base/allowance.hpp"
 #include "core/network/graph/check_hosts.hpp"
 #include "core/network/graph/graph_film.hpp"
 #include "core/network/graph/layout.hpp"
@@ -48,9 +48,7 @@ bool has_other_hosts(const RunningOptions& running, const Hosts& hosts) {
 
 // Places of this process: as many as its entries of the hosts file have, or as the command line says.
 std::uint32_t own_places(const RunningOptions& running, const RunRequest& request, const Registry& registry) {
-    if (!first_here(request.hosts))
-        return running.threads.value_or(
-            request.mode == Mode::network ? 0 : std::max(1u, std::thread::hardware_concurrency()));
+    if (!first_here(request.hosts)) return running.threads.value_or(request.mode == Mode::network ? 0 : usable_cores());
     return places_of_host(plan(request.graph, registry, request.hosts, {{"", 1}}), "");
 }
 
@@ -81,6 +79,7 @@ RunRequest request_of(const RunningOptions& running, const Launcher& launcher, L
     request.local_workers = running.local_workers.value_or(0);
     request.troubles = running.troubles;
     request.slurm = {running.slurm.value_or(0), running.partition, words_of(running.slurm_arguments)};
+    request.ssh = {words_of(running.ssh_command), running.ssh_daemon};
     request.wait = std::chrono::seconds(running.wait);
     request.resume = running.resume;
     request.forget = running.forget;

@@ -155,7 +155,14 @@ std::vector<std::pair<std::string, std::string>> facts_of(const RunReport& repor
                        fmt::format("about {:.1f} s, had it nothing to wait for", at_work * working));
     for (const auto& layer : report.layers)
         facts.emplace_back("light of " + layer.name, fmt::format("{:.1f} %", 100 * layer.share));
-    for (const auto& host : report.hosts) facts.emplace_back(host.host, host.state + ", " + host.machine);
+    constexpr double mebibyte = 1 << 20;
+    const auto peak = [](std::uint64_t bytes) {
+        return fmt::format("at most {:.0f} MiB of memory", static_cast<double>(bytes) / mebibyte);
+    };
+    if (report.peak_memory) facts.emplace_back("the launcher had", peak(report.peak_memory));
+    for (const auto& host : report.hosts)
+        facts.emplace_back(host.host,
+                           host.state + ", " + host.machine + (host.peak_memory ? ", " + peak(host.peak_memory) : ""));
     for (const auto& [name, count] : report.counters)
         if (count) facts.emplace_back(name, std::to_string(count));
     for (const auto* texts : {&report.settings, &report.versions})

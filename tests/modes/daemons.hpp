@@ -29,7 +29,8 @@ public:
         EXPECT_TRUE(process->wait_for("\n")) << process->output();
         const auto at = process->output().find(before);
         if (at == std::string::npos) return;
-        endpoint = process->output().substr(at + before.size(), process->output().find('\n', at) - at - before.size());
+        endpoint = process->output().substr(at + before.size(),
+                                            process->output().find_first_of("\"\n", at) - at - before.size());
     }
     std::unique_ptr<Process> process;
     std::string endpoint;

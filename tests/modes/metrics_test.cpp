@@ -6,10 +6,13 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <thread>
 
 #include "tests/modes/daemons.hpp"
+#include "tools/metrics.hpp"
 
 namespace lightnet::test {
 namespace {
@@ -91,6 +94,53 @@ TEST_F(Metrics, CountWhatADaemonDoes) {
     const double rays = value_of(after, "rays_total");
     render();
     EXPECT_EQ(value_of(metrics_with("rays_total", rays + 1), "rays_total"), 2 * rays) << "they only grow";
+}
+
+TEST_F(Metrics, MoveWhileARunRuns) {
+    const auto hosts = folder.write("hosts.lua", "place '" + daemon.endpoint + "' {}\n");
+    Process run(launch_words(graph_file("cornell.lua"), folder / "long.exr",
+                             {"--size", "64x64", "--samples", "1000000", "--tile", "16", "--hosts", hosts}));
+    const auto first = metrics_with("rays_total", 1);
+    EXPECT_EQ(value_of(first, "serving"), 1);
+    const auto second = metrics_with("rays_total", value_of(first, "rays_total") + 1);
+    EXPECT_EQ(value_of(second, "serving"), 1) << "it is still the same run";
+    EXPECT_GT(value_of(second, "rays_total"), value_of(first, "rays_total"));
+    EXPECT_GT(value_of(second, "busy_seconds_total"), 0);
+    const double rays = value_of(second, "rays_total");
+    run.signal(SIGTERM);
+    run.wait();
+    EXPECT_GE(value_of(metrics_with("rays_total", rays), "rays_total"), rays) << "they only grow";
+}
+
+TEST_F(Metrics, TellWhatTheProcessTakes) {
+    const auto text = metrics();
+    for (const char* name : {"process_resident_memory_bytes", "process_virtual_memory_bytes", "process_open_fds",
+                             "process_max_fds", "process_start_time_seconds", "process_cpu_seconds_total"}) {
+        const auto at = text.find(std::string("\n") + name + " ");
+        ASSERT_NE(at, std::string::npos) << name;
+        EXPECT_GT(std::atof(text.c_str() + at + std::strlen(name) + 2), 0) << name;
+    }
+}
+
+TEST_F(Metrics, SayWhetherItCanTakeWork) {
+    metrics_with("places", 2);  // it serves
+    const auto well = ask("GET /healthz HTTP/1.0\r\nHost: here\r\n\r\n");
+    EXPECT_THAT(well, StartsWith("HTTP/1.1 200"));
+    EXPECT_THAT(well, HasSubstr("\r\n\r\nok\n"));
+}
+
+TEST(Fitness, IsThatOfItsThreadAndOfNobodyElse) {
+    using namespace std::chrono_literals;
+    const auto now = std::chrono::steady_clock::now();
+    DaemonFigures figures;
+    EXPECT_EQ(why_unfit(figures, now), "it does not serve yet");
+    figures.when = now;
+    EXPECT_EQ(why_unfit(figures, now + 1s), "");
+    figures.serves = true;
+    EXPECT_EQ(why_unfit(figures, now + 1s), "") << "a run is no illness";
+    EXPECT_EQ(why_unfit(figures, now + 60s), "the thread that serves is stuck");
+    figures.leaves = true;
+    EXPECT_EQ(why_unfit(figures, now), "it was told to stop");
 }
 
 TEST_F(Metrics, AreAsPrometheusWantsThem) {

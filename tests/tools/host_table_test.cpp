@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tools/host_json.hpp"
+
 namespace lightnet::host_table_test {
 namespace {
 
@@ -28,6 +30,19 @@ TEST(HostTable, NamesEachDaemonByItsEndpoint) {
     const auto table = host_table({daemon_at("tcp://a:7777", "is free"), daemon_at("tcp://a:7778", "is free")});
     EXPECT_THAT(table, HasSubstr("tcp://a:7777  is free  4 places  vm: 8 cores"));
     EXPECT_THAT(table, HasSubstr("\ntcp://a:7778  is free  4 places  vm: 8 cores")) << "on one machine, but not one";
+}
+
+TEST(HostTable, MarksAnotherBuild) {
+    auto old = daemon_at("tcp://b:7777", "is free");
+    old.machine.version = "0.1.0 (GNU 12.2.0, x86-64-v2, Release, Embree 3.13.5, flags aa, sources cc)";
+    const std::string ours = "0.2.0 (GNU 12.2.0, x86-64-v2, Release, Embree 3.13.5, flags aa, sources bb)";
+    EXPECT_TRUE(is_other_build(old, ours));
+    EXPECT_FALSE(is_other_build(old, old.machine.version));
+    EXPECT_FALSE(is_other_build(daemon_at("tcp://a:1", "does not answer"), ours)) << "who says nothing is no other";
+    const auto table = host_table({old}, ours);
+    EXPECT_THAT(table, HasSubstr("tcp://b:7777  is free, ANOTHER BUILD"));
+    EXPECT_THAT(table, HasSubstr("would be refused: version 0.1.0, here 0.2.0; sources cc, here bb\n"));
+    EXPECT_THAT(host_json({old}, {"onyx"}, ours), HasSubstr("\"same_build\": false"));
 }
 
 TEST(HostTable, CallsABusyDaemonBusyAndSaysWithWhoseRun) {

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <iterator>
 #include <sstream>
-#include <thread>
 
+#include "core/base/allowance.hpp"
 #include "core/film/exr.hpp"
 #include "core/film/png.hpp"
 #include "core/network/graph/graph_film.hpp"
@@ -143,7 +143,7 @@ TEST(Launcher, RunsASoundGraph) {
 
 TEST(Launcher, UsesAllCoresUnlessToldOtherwise) {
     Bench lightnet;
-    const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
+    const unsigned cores = usable_cores();
     lightnet({"run", lightnet.graph});
     EXPECT_EQ(lightnet.runs.at(0).mode, cores > 1 ? Mode::threads : Mode::serial);
     EXPECT_EQ(lightnet.runs.at(0).threads, cores);
@@ -163,6 +163,33 @@ TEST(Launcher, UsesAllCoresUnlessToldOtherwise) {
     lightnet({"run", lightnet.graph, "--local-workers", "1", "--threads", "1"});
     EXPECT_EQ(lightnet.runs.back().mode, Mode::network);
     EXPECT_EQ(lightnet.runs.back().threads, 1u) << "a place beside those of the daemon";
+}
+
+TEST(Launcher, ObeysTheLastOfTwoThatContradict) {
+    Bench lightnet;
+    lightnet({"run", lightnet.graph, "--samples", "16", "--seed", "1", "--samples", "1", "--seed=2"});
+    ASSERT_EQ(lightnet.runs.size(), 1u) << lightnet.err;
+    EXPECT_EQ(lightnet.runs[0].graph.nodes[2].params.at("samples"), Value{1.0});
+    EXPECT_EQ(lightnet.runs[0].seed, 2u);
+    lightnet({"run", lightnet.graph, "-D", "rays=5", "-D", "rays=6", "--gain", "lighting=2"});
+    EXPECT_EQ(lightnet.runs.at(1).graph.nodes[0].params.at("rays"), Value{6.0})
+        << "those that may be repeated still may";
+}
+
+TEST(Launcher, TakesTheNamesOfMachinesForSsh) {
+    Bench lightnet;
+    lightnet({"run", lightnet.graph, "--ssh", "anna@left,right", "--ssh", "right"});
+    ASSERT_EQ(lightnet.runs.size(), 1u) << lightnet.err;
+    const auto& keys = lightnet.runs[0].keys;
+    ASSERT_EQ(keys.ssh.size(), 3u);
+    EXPECT_EQ(keys.ssh[0].address, "anna@left");
+    EXPECT_EQ(keys.ssh[0].name, "left");
+    EXPECT_EQ(keys.ssh[2].name, "right-2");
+    ASSERT_TRUE(keys.join);
+    for (const auto& host : keys.ssh) EXPECT_EQ(keys.join->more.name_of(host.key.open), host.name);
+    EXPECT_EQ(lightnet.runs[0].listen, "tcp://0.0.0.0:*") << "with keys it may be reached";
+    EXPECT_EQ(lightnet({"run", lightnet.graph, "--ssh", "-oProxyCommand=x"}), 2);
+    EXPECT_EQ(lightnet({"run", lightnet.graph, "--ssh-command", "ssh"}), 2) << "there is nobody to call";
 }
 
 TEST(Launcher, OverridesWhatTheGraphSays) {
@@ -200,7 +227,7 @@ TEST(Launcher, KnowsThePlacesOfThisProcess) {
     const auto one = run_on("place 'here' { places = 1 }");
     EXPECT_EQ(one.mode, Mode::threads) << "as the file says, even where it makes no difference";
     EXPECT_EQ(one.threads, 1u);
-    const auto cores = std::max(1u, std::thread::hardware_concurrency());
+    const auto cores = usable_cores();
     EXPECT_EQ(run_on("place 'here' {}").threads, cores);
     EXPECT_EQ(run_on("place 'here' {}\nplace 'here' { lighting = 1 }").threads, cores + 1);
     const auto mixed = run_on("place 'here' { image = 1 }\nplace 'tcp://127.0.0.1:7777' {}");

@@ -35,6 +35,8 @@ TEST(OutputFile, TakesThePlaceOfPicturesAndOfNothing) {
     folder.write("x.run.json", to_json(RunReport{}));
     folder.write("x.exr.checkpoint", "lightnet checkpoint 3\n");
     EXPECT_THAT(refusal_of(folder / "x.exr"), IsEmpty());
+    EXPECT_THAT(refusal_of(folder / "X.EXR"), IsEmpty());
+    EXPECT_THAT(refusal_of(folder / "x.exr2"), HasSubstr("pictures are written as .exr"));
     folder.write("empty.exr", "");
     EXPECT_THAT(refusal_of(folder / "empty.exr"), IsEmpty()) << "as mktemp makes them";
 }

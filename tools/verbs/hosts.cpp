@@ -5,40 +5,53 @@
 #include <chrono>
 #include <ostream>
 
+#include "core/base/build_info.hpp"
 #include "tools/asked_hosts.hpp"
 #include "tools/command_line.hpp"
 #include "tools/exit_code.hpp"
+#include "tools/host_json.hpp"
 #include "tools/host_table.hpp"
 #include "tools/launcher.hpp"
 
 namespace lightnet {
 namespace {
 
-void describe_hosts(CLI::App& app, AskedHostsOptions& options) {
-    app.add_option("WHOM", options.whom, "hosts files, endpoints of daemons, or that of a launcher (--listen)")
+struct HostsOptions {
+    AskedHostsOptions asked;
+    bool json = false;
+};
+
+void describe_hosts(CLI::App& app, HostsOptions& options) {
+    app.add_option("WHOM", options.asked.whom, "hosts files, endpoints of daemons, or that of a launcher (--listen)")
         ->required();
-    add_asking_keys(app, options);
+    add_asking_keys(app, options.asked);
+    app.add_flag("--json", options.json, "as JSON, for programs");
     add_examples(app, {"lightnet hosts tcp://127.0.0.1:7777"});
 }
 
-int print_hosts(const AskedHostsOptions& options, const Launcher& launcher) {
-    const auto asked = asked_hosts(options);
+void complain(const Launcher& launcher, std::ptrdiff_t count, std::size_t all, const char* about) {
+    launcher.err << "lightnet: " << count << " of " << all << (count == 1 ? " is " : " are ") << about << '\n';
+}
+
+int print_hosts(const HostsOptions& options, const Launcher& launcher) {
+    const auto asked = asked_hosts(options.asked);
     const auto answers = ask_state(asked.called, std::chrono::seconds(2));
-    launcher.out << host_table(answers);
+    launcher.out << (options.json ? host_json(answers, asked.joining, build_id()) : host_table(answers));
     for (const auto& name : asked.joining)
         launcher.err << "lightnet: '" << name << "' joins by itself: ask its launcher (the endpoint behind --listen)\n";
     const auto absent = std::count_if(answers.begin(), answers.end(), [](const auto& host) { return !is_there(host); });
-    if (absent == 0) return exit_code::done;
-    launcher.err << "lightnet: " << absent << " of " << answers.size() << (absent == 1 ? " is" : " are")
-                 << " not there\n";
-    return exit_code::no_worker;
+    const auto others = std::count_if(answers.begin(), answers.end(),
+                                      [](const auto& host) { return is_other_build(host, build_id()); });
+    if (absent) complain(launcher, absent, answers.size(), "not there");
+    if (others) complain(launcher, others, answers.size(), "of another build, and would be refused");
+    return absent ? exit_code::no_worker : others ? exit_code::other_build : exit_code::done;
 }
 
 }  // namespace
 
 Verb hosts_verb() {
-    return verb<AskedHostsOptions>("hosts", "show the state and load of daemons, and their machines", describe_hosts,
-                                   print_hosts);
+    return verb<HostsOptions>("hosts", "show the state and load of daemons, and their machines", describe_hosts,
+                              print_hosts);
 }
 
 }  // namespace lightnet

@@ -25,7 +25,8 @@ struct DaemonFigures {
     std::uint64_t runs = 0;      // that it began to serve
     std::uint64_t answered = 0;  // bundles and tiles, up to now
     std::uint64_t broken_packets = 0;
-    Counters ended;  // of runs that have ended; without traces
+    Counters ended;  // of runs that have ended; without traces. Rays, and seconds of places, up to now
+    std::chrono::steady_clock::time_point when{};  // they were so; long ago: the thread of serve() hangs
 };
 
 /// Listens on one port, or dials out to a launcher and lets nobody in. The thread of serve() owns its sockets: it
@@ -60,7 +61,7 @@ public:
     /// Serves until `stop` is set; then takes no more work, answers what it has, and returns, after `drain` at the
     /// latest.
     void serve(const std::atomic<bool>& stop);
-    /// As they were a quarter of a second ago at most. May be called by any thread.
+    /// As they were half a second ago at most, while it serves. May be called by any thread.
     DaemonFigures figures() const;
     /// Some of its own work hangs, in a file system that does not answer for instance. Destroying the host would wait
     /// for it; a program that is to end had better do so at once.

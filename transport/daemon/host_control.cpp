@@ -6,6 +6,7 @@
 #include "core/base/build_info.hpp"
 #include "core/base/error.hpp"
 #include "core/base/joined.hpp"
+#include "core/base/own_process.hpp"
 #include "core/base/this_machine.hpp"
 #include "core/network/graph/plugin_use.hpp"
 #include "core/run/runtime/fingerprint.hpp"
@@ -66,6 +67,7 @@ Fields Host::Service::answer_to_ping(const Fields& ping, bool ours) {
         .set("told", door.tally().told)
         .set("progress", run && run->places() ? run->places()->progress() : 0)
         .set("pulse", ours && run->places() ? run->places()->pulse() : 0)
+        .set("peak_memory", peak_memory())
         .set("doing", ours && run->places() ? to_text(run->places()->doing()) : "");
     if (!ours || !run->serving() || !ping.number("watch")) return pong;
     run->places()->watch();
@@ -161,6 +163,7 @@ void Host::Service::start(const Arriving& job, Arrival read) {
         options.line_life);
     who = job.who;
     given = answered = 0;
+    forget_peak_memory();
     ++figures.runs;
     options.log("serves a run" + (who.empty() ? "" : " of " + who));
     go_on(job.route, read.plan);
@@ -223,7 +226,7 @@ void Host::Service::tell_state(const Sender& sender) {
     fields.set("plugins", joined(std::vector(registry.plugins().begin(), registry.plugins().end()), ", "));
     fields.set("clock", static_cast<std::uint64_t>(
                             std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count()));
-    fields.set("broken_packets", broken_packets);
+    fields.set("broken_packets", broken_packets).set("resident_memory", process_figures().resident);
     if (run && rights.is_owner(sender.key)) {
         fields.set("nodes", run->nodes()).set("bundles", given);
         fields.set("progress", run->places() ? run->places()->progress() : 0);
@@ -242,6 +245,7 @@ void Host::Service::take_blob(const std::string& route, std::uint64_t id, const 
 void Host::Service::stop_run(const std::string& route) {
     const auto id = run->id();
     rights.serve({});
+    const auto done = so_far();
     if (run->places()) figures.answered += run->places()->progress();
     peers.reset();
     gateway.reset();
@@ -254,11 +258,11 @@ void Host::Service::stop_run(const std::string& route) {
         return counters;
     };
     try {
-        ending = Ending{id, route, background.start(stop)};
+        ending = Ending{id, route, done, background.start(stop)};
     } catch (const std::system_error&) {  // no thread is to be had
         std::promise<Counters> counters;
         counters.set_value(stop());
-        ending = Ending{id, route, counters.get_future()};
+        ending = Ending{id, route, done, counters.get_future()};
     }
     look_at_ending();
 }
@@ -275,6 +279,12 @@ void Host::Service::add_ended(const Counters& counters) {
     }
 }
 
+// What isn't among the counters of runs that have ended.
+PlaceThreads::SoFar Host::Service::so_far() const {
+    if (run && run->places()) return run->places()->so_far();
+    return ending ? ending->so_far : PlaceThreads::SoFar{};
+}
+
 void Host::Service::show_figures(Time now) {
     if (now - told_figures < std::chrono::milliseconds(250)) return;
     told_figures = now;
@@ -283,6 +293,12 @@ void Host::Service::show_figures(Time now) {
     next.serves = run != nullptr, next.leaves = leaving.has_value();
     next.answered += run && run->places() ? run->places()->progress() : 0;
     next.broken_packets = broken_packets + figures.ended.broken_packets;
+    next.when = now;
+    const auto more = so_far();
+    next.ended.rays += more.rays;
+    if (next.ended.places.empty()) next.ended.places.emplace_back();
+    auto& places = next.ended.places.front();
+    places.lived_ns += more.lived_ns, places.waited_ns += more.waited_ns, places.idle_ns += more.idle_ns;
     const std::lock_guard lock(shown_mutex);
     shown = std::move(next);
 }
@@ -297,7 +313,7 @@ void Host::Service::look_at_ending() {
     if (over.route.empty()) return;
     Fields fields;
     for (const auto& [name, count] : counters.named()) fields.set(name, count);
-    fields.set("places", to_text(counters.places));
+    fields.set("places", to_text(counters.places)).set("peak_memory", peak_memory());
     if (!counters.traces.empty()) fields.set("traces", to_bytes(counters.traces));
     door.send(over.route, Type::ended, over.id, fields);
 }

@@ -59,7 +59,8 @@ struct Host::Service {
     // A run that has ended, and whose threads may take a while to.
     struct Ending {
         std::uint64_t id = 0;
-        std::string route;  // who wants its counters; empty: nobody
+        std::string route;           // who wants its counters; empty: nobody
+        PlaceThreads::SoFar so_far;  // until they are there
         std::future<Counters> counters;
     };
     std::optional<Ending> ending;
@@ -123,6 +124,7 @@ struct Host::Service {
     void forward_to_launcher(Frames& frames);
     void show_figures(Time now);
     void add_ended(const Counters& counters);
+    PlaceThreads::SoFar so_far() const;
     void leave(Time now, bool for_good);
     bool gone(Time now);
 };

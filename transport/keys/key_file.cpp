@@ -46,7 +46,9 @@ KeyPair read_key(const std::string& file, int descriptor) {
     struct stat state {};
     if (descriptor < 0 || fstat(descriptor, &state) != 0) throw Error(file, "the key can't be read: " + why());
     if (!is_private(state))
-        throw Error(file, "others can read or change this key; it must be a file of yours with mode 0600");
+        throw Error(file,
+                    "others can read or change this key; it must be a file of yours with mode 0600, or one "
+                    "of root's that only your group may read (0440, as a Secret with fsGroup)");
     std::string text(most_bytes, '\0');
     const auto size = read(descriptor, text.data(), text.size());
     text.resize(size > 0 ? static_cast<std::size_t>(size) : 0);

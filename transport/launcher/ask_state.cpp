@@ -29,6 +29,7 @@ struct Asked {
         answer.machine = machine_from(fields);
         answer.places = fields.number("places"), answer.progress = fields.number("progress");
         answer.bundles = fields.number("bundles"), answer.broken_packets = fields.number("broken_packets");
+        answer.resident_memory = fields.number("resident_memory");
         return answer;
     }
 

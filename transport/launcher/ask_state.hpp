@@ -21,9 +21,10 @@ struct HostAnswer {
     std::string nodes;  // that it holds
     Machine machine;
     std::uint64_t places = 0;
-    std::uint64_t progress = 0;        // bundles and tiles answered in this run
-    std::uint64_t bundles = 0;         // that came from other hosts in this run
-    std::uint64_t broken_packets = 0;  // dropped
+    std::uint64_t progress = 0;         // bundles and tiles answered in this run
+    std::uint64_t bundles = 0;          // that came from other hosts in this run
+    std::uint64_t broken_packets = 0;   // dropped
+    std::uint64_t resident_memory = 0;  // of its process, now; bytes. 0: it doesn't say
 };
 
 /// Somebody to ask, and by which keys; none: without.

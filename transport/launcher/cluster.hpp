@@ -30,7 +30,8 @@ struct HostState {
     std::uint32_t places = 0;
     std::uint64_t progress = 0;  // bundles and tiles answered, as of its last heartbeat
     Machine machine;
-    HostFigures figures{};  // see Cluster::watch()
+    HostFigures figures{};          // see Cluster::watch()
+    std::uint64_t peak_memory = 0;  // of its process, in this run; bytes
 };
 
 /// Whose hosts may join a run.

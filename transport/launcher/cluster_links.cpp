@@ -216,7 +216,7 @@ std::vector<HostState> Cluster::Links::hosts() const {
     std::vector<HostState> hosts;
     for (const auto& link : links)
         hosts.push_back({link->name(), link->words(), link->takes_part(), link->places(), link->progress(),
-                         link->machine(), link->figures()});
+                         link->machine(), link->figures(), link->peak_memory()});
     return hosts;
 }
 

@@ -77,6 +77,8 @@ public:
     }
     /// Where it runs, as far as it is known.
     const Machine& machine() const { return machine_; }
+    /// The most memory that its process has had in this run, bytes, as far as it is known.
+    virtual std::uint64_t peak_memory() const { return peak_memory_; }
     /// Bundles and tiles that it has answered.
     virtual std::uint64_t progress() const = 0;
     /// Grows while its places work, see Gauge::pulse; as of its last heartbeat.
@@ -138,6 +140,7 @@ protected:
     std::uint32_t places_ = 0;
     std::uint64_t process_ = 0;
     Machine machine_;
+    std::uint64_t peak_memory_ = 0;
     std::vector<Failure> failures_;
     std::optional<Counters> ended_;
 };

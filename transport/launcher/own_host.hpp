@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "core/base/own_process.hpp"
 #include "core/run/prepare/assembly.hpp"
 #include "core/run/runtime/place.hpp"
 #include "transport/launcher/host_link.hpp"
@@ -23,6 +24,7 @@ public:
 
     std::string title() const override { return "this process"; }
     std::string ready_words() const override { return "places of this process are ready"; }
+    std::uint64_t peak_memory() const override { return lightnet::peak_memory(); }
     std::uint64_t progress() const override { return threads_.progress(); }
     std::uint64_t pulse() const override { return threads_.pulse(); }
     Doings doing() const override { return threads_.doing(); }

@@ -261,6 +261,7 @@ void RemoteHost::control(Type type, const Fields& fields, Time now) {
                 lose(now, "a message to or from it was lost");
             progress_ = fields.number("progress");
             pulse_ = fields.number("pulse");
+            peak_memory_ = std::max(peak_memory_, fields.number("peak_memory"));
             doing_ = doings_from(fields.text("doing"));
             if (auto figures = figures_from(fields.text("figures"))) figures_ = std::move(*figures);
             return;
@@ -295,6 +296,7 @@ void RemoteHost::compare_clocks(std::uint64_t asked_at, std::uint64_t its_clock)
 
 // What places did is for the report: one that can't be read is no reason to fail.
 void RemoteHost::take_end(const Fields& fields) {
+    peak_memory_ = std::max(peak_memory_, fields.number("peak_memory"));
     ended_ = Counters::from(fields.numbers);
     if (fields.text("places").empty()) return;
     try {

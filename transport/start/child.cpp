@@ -30,12 +30,17 @@ int file_of(const std::string& text) {
     return file;
 }
 
-pid_t start(std::vector<std::string>& words, std::vector<std::string> more, int in, bool errors_too, int* out) {
-    int ends[2];
-    if (pipe2(ends, O_CLOEXEC) != 0) throw Error(std::string("no pipe to a program: ") + std::strerror(errno));
+std::vector<char*> argv_of(std::vector<std::string>& words) {
     std::vector<char*> argv;
     for (auto& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
+    return argv;
+}
+
+pid_t start(std::vector<std::string>& words, std::vector<std::string> more, int in, bool errors_too, int* out) {
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0) throw Error(std::string("no pipe to a program: ") + std::strerror(errno));
+    const auto argv = argv_of(words);
     std::vector<char*> environment;
     for (auto& word : more) environment.push_back(word.data());
     for (char** word = environ; *word; ++word) environment.push_back(*word);
@@ -58,6 +63,29 @@ pid_t start(std::vector<std::string>& words, std::vector<std::string> more, int 
 }
 
 }  // namespace
+
+int spawn_led(std::vector<std::string> words, int* in) {
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0) throw Error(std::string("no pipe to a program: ") + std::strerror(errno));
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+    pid_t process = 0;
+    const int error = posix_spawnp(&process, words[0].c_str(), &actions, &attributes, argv_of(words).data(), environ);
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&actions);
+    close(ends[0]);
+    if (error) {
+        close(ends[1]);
+        throw Error(words[0], std::string("can't be started: ") + std::strerror(error));
+    }
+    *in = ends[1];
+    return process;
+}
 
 int spawn(std::vector<std::string> words, int* out, std::vector<std::string> more) {
     return start(words, std::move(more), -1, false, out);

@@ -11,6 +11,11 @@ namespace lightnet {
 /// its process. `more`: of its environment, beside ours: "NAME=value". Throws Error.
 int spawn(std::vector<std::string> words, int* out, std::vector<std::string> more = {});
 
+/// Starts a program in a process group of its own, so that Ctrl-C is not for it, whose standard input is what is
+/// written to `*in`, and which is to end when that is closed; what it says on its standard output is thrown away.
+/// Throws Error.
+int spawn_led(std::vector<std::string> words, int* in);
+
 /// What a program said, to both outputs, and how it ended.
 struct ProgramOutput {
     int code = -1;  // 128 + signal if one ended it

@@ -2,9 +2,12 @@
 
 #include <sys/wait.h>
 #include <unistd.h>
+#include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <thread>
+#include <utility>
 
 #include <poll.h>
 
@@ -17,25 +20,36 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int most_useless_deaths = 5;
-constexpr auto first_delay = std::chrono::milliseconds(50);  // before a worker is started anew; doubles
+constexpr const char* any_port = "tcp://127.0.0.1:*";
 
-// The first line of a daemon: "listening on ENDPOINT".
-std::string read_endpoint(int in) {
+constexpr auto start_patience = std::chrono::seconds(20);
+
+// The first line of a daemon: "listening on ENDPOINT". None: it has ended, or is silent.
+std::optional<std::string> read_endpoint(int in) {
     std::string line;
-    const auto end = Clock::now() + std::chrono::seconds(20);
+    const auto end = Clock::now() + start_patience;
     while (line.find('\n') == std::string::npos && Clock::now() < end) {
         pollfd item{in, POLLIN, 0};
         if (poll(&item, 1, 200) <= 0) continue;
         char buffer[256];
         const auto n = read(in, buffer, sizeof buffer);
+        if (n < 0 && errno == EINTR) continue;
         if (n <= 0) break;
         line.append(buffer, static_cast<std::size_t>(n));
     }
     const std::string before = "listening on ";
-    const auto at = line.find(before);
-    if (at == std::string::npos) throw Error("a local worker did not start");
-    return line.substr(at + before.size(), line.find('\n', at) - at - before.size());
+    const auto at = line.find(before), ends = line.find('\n', std::min(at, line.size()));
+    if (at == std::string::npos || ends == std::string::npos) return std::nullopt;
+    return line.substr(at + before.size(), ends - at - before.size());
+}
+
+// The wait status of a process that is over, or is to be.
+int end_of(int process) {
+    int status = 0;
+    kill(process, SIGKILL);  // changes nothing about how it has ended, if it has
+    while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+    }
+    return status;
 }
 
 }  // namespace
@@ -43,6 +57,7 @@ std::string read_endpoint(int in) {
 int LocalWorkers::start(const std::string& listen, int* out) const {
     std::vector<std::string> words{
         program_, "--listen", listen, "--places", std::to_string(places_), "--parent", std::to_string(getpid())};
+    if (!cache_.empty()) words.insert(words.end(), {"--cache", cache_});
     if (!keys_) return spawn(std::move(words), out);
     words.insert(words.end(), {"--allow", keys_->launcher.text()});
     // Nobody but this user reads the environment of a process.
@@ -50,26 +65,68 @@ int LocalWorkers::start(const std::string& listen, int* out) const {
 }
 
 LocalWorkers::LocalWorkers(std::string program, std::uint32_t count, std::uint32_t places, std::optional<Keys> keys,
-                           Troubles troubles)
-    : program_(std::move(program)), places_(places), keys_(std::move(keys)), troubles_(std::move(troubles)) {
+                           Troubles troubles, std::string cache)
+    : program_(std::move(program)),
+      places_(places),
+      keys_(std::move(keys)),
+      troubles_(std::move(troubles)),
+      cache_(std::move(cache)) {
     if (keys_) keep_secrets_out_of_dumps();
-    std::vector<int> outs;
     try {
-        for (std::uint32_t i = 0; i < count; ++i) {  // all start together
-            int out = -1;
-            workers_.push_back({.listens = {}, .endpoint = {}, .process = start("tcp://127.0.0.1:*", &out)});
-            outs.push_back(out);
-        }
-        for (std::uint32_t i = 0; i < count; ++i) workers_[i].endpoint = workers_[i].listens = read_endpoint(outs[i]);
+        start_all(count);
         begin_troubles();
     } catch (...) {
-        for (const auto out : outs) close(out);
-        for (auto& worker : workers_) worker.slow.reset();
-        for (const auto& worker : workers_) kill(worker.process, SIGKILL);
-        for (const auto& worker : workers_) waitpid(worker.process, nullptr, 0);
+        kill_all();
         throw;
     }
-    for (const auto out : outs) close(out);
+}
+
+// All together, as each takes a while.
+void LocalWorkers::start_all(std::uint32_t count) {
+    std::vector<int> outs;
+    try {
+        for (std::uint32_t i = 0; i < count; ++i) {
+            int out = -1;
+            workers_.push_back({.listens = {}, .endpoint = {}, .process = start(any_port, &out)});
+            outs.push_back(out);
+        }
+    } catch (const Error&) {  // the system gives no more processes
+        if (workers_.empty()) throw;
+        workers_.resize(count);
+    }
+    std::size_t started = 0;
+    for (std::size_t i = 0; i < outs.size(); ++i) started += await_start(workers_[i], outs[i]);
+    if (started == 0) throw Error(count == 1 ? "the local worker did not start" : "no local worker has started");
+    for (auto& worker : workers_)
+        if (worker.listens.empty()) worker.restarts.give_up();
+}
+
+// Whom a signal ends (somebody who wants its memory, perhaps) gets another try; whoever ends by itself has said why,
+// and would say it again. False: it is given up.
+bool LocalWorkers::await_start(Worker& worker, int out) {
+    while (true) {
+        const auto begun = Clock::now();
+        const auto endpoint = read_endpoint(out);
+        close(out);
+        if (endpoint) {
+            worker.endpoint = worker.listens = *endpoint;
+            return true;
+        }
+        const bool silent = Clock::now() - begun >= start_patience;
+        const int status = end_of(std::exchange(worker.process, 0));
+        if (silent || !WIFSIGNALED(status)) return false;
+        worker.restarts.died(begun, false);
+        if (worker.restarts.given_up()) return false;
+        worker.process = start(any_port, &out);
+    }
+}
+
+void LocalWorkers::kill_all() {
+    for (auto& worker : workers_) worker.slow.reset();
+    for (const auto& worker : workers_)
+        if (worker.process) kill(worker.process, SIGKILL);
+    for (const auto& worker : workers_)
+        if (worker.process) end_of(worker.process);
 }
 
 LocalWorkers::~LocalWorkers() {
@@ -87,8 +144,14 @@ LocalWorkers::~LocalWorkers() {
 
 std::vector<std::string> LocalWorkers::endpoints() const {
     std::vector<std::string> endpoints;
-    for (const auto& worker : workers_) endpoints.push_back(worker.endpoint);
+    for (const auto& worker : workers_)
+        if (!worker.endpoint.empty()) endpoints.push_back(worker.endpoint);
     return endpoints;
+}
+
+std::size_t LocalWorkers::missing() const {
+    return static_cast<std::size_t>(
+        std::count_if(workers_.begin(), workers_.end(), [](const Worker& worker) { return worker.endpoint.empty(); }));
 }
 
 void LocalWorkers::look_after(Time now, const Handlers& handlers) {
@@ -96,7 +159,7 @@ void LocalWorkers::look_after(Time now, const Handlers& handlers) {
         if (worker.process) {
             worker.was_of_use |= handlers.of_use(worker.endpoint);
             if (waitpid(worker.process, nullptr, WNOHANG) == worker.process) died(worker, now, handlers);
-        } else if (worker.useless_deaths < most_useless_deaths && now >= worker.next_start) {
+        } else if (worker.restarts.due(now)) {
             int out = -1;
             worker.process = start(worker.listens, &out);
             close(out);  // where it listens is known
@@ -109,6 +172,7 @@ void LocalWorkers::look_after(Time now, const Handlers& handlers) {
 
 void LocalWorkers::begin_troubles() {
     for (auto& worker : workers_) {
+        if (!worker.process) continue;
         if (troubles_.delay.count() > 0) {
             worker.line = std::make_unique<DelayLine>(worker.listens, troubles_.delay);
             worker.endpoint = worker.line->endpoint();
@@ -139,12 +203,11 @@ void LocalWorkers::died(Worker& worker, Time now, const Handlers& handlers) {
     worker.process = 0;
     worker.slow.reset();
     handlers.ended(worker.endpoint);
-    worker.useless_deaths = worker.was_of_use ? 0 : worker.useless_deaths + 1;
-    worker.next_start = now + first_delay * (1 << worker.useless_deaths);
-    if (worker.useless_deaths < most_useless_deaths)
+    worker.restarts.died(now, worker.was_of_use);
+    if (!worker.restarts.given_up())
         handlers.say("local worker " + worker.endpoint + " has died; it is started anew");
     else
-        handlers.say("local worker " + worker.endpoint + " has died " + std::to_string(most_useless_deaths) +
+        handlers.say("local worker " + worker.endpoint + " has died " + std::to_string(Restarts::most_useless_deaths) +
                      " times without being of use, and is given up");
 }
 

@@ -11,14 +11,15 @@
 
 #include "transport/keys/key.hpp"
 #include "transport/start/delay_line.hpp"
+#include "transport/start/restarts.hpp"
 #include "transport/start/slow_motion.hpp"
 #include "transport/start/troubles.hpp"
 
 namespace lightnet {
 
 /// Child processes, each a lightnetd on a port of its own. Those that die are started anew on the same port, later and
-/// later, and given up when they keep dying before they were of use. They end with this object, and with the launcher,
-/// however that ends.
+/// later, and given up when they keep dying before they were of use; so are those that die while they start. They end
+/// with this object, and with the launcher, however that ends.
 class LocalWorkers {
 public:
     using Time = std::chrono::steady_clock::time_point;
@@ -29,16 +30,19 @@ public:
         PublicKey launcher;
     };
     /// Starts `count` daemons of `places` places each, and waits until each says where it listens. Without `keys` they
-    /// ask for none. Throws Error when one does not.
+    /// ask for none. `cache`: the folder for their files; "": the usual one. Throws Error when none does: one that ends
+    /// by itself, or stays silent, is given up.
     LocalWorkers(std::string program, std::uint32_t count, std::uint32_t places,
-                 std::optional<Keys> keys = std::nullopt, Troubles troubles = {});
+                 std::optional<Keys> keys = std::nullopt, Troubles troubles = {}, std::string cache = {});
     /// SIGTERM, then, after a second, SIGKILL.
     ~LocalWorkers();
     LocalWorkers(const LocalWorkers&) = delete;
     LocalWorkers& operator=(const LocalWorkers&) = delete;
 
-    /// Where others reach them.
+    /// Where others reach those that have started.
     std::vector<std::string> endpoints() const;
+    /// How many have not, and are given up.
+    std::size_t missing() const;
 
     /// What look_after() tells and asks.
     struct Handlers {
@@ -52,15 +56,17 @@ public:
 
 private:
     struct Worker {
-        std::string listens;     // where it does
-        std::string endpoint;    // where others reach it
-        int process = 0;         // 0: has ended
-        int useless_deaths = 0;  // in a row
+        std::string listens;   // where it does; "": it has never started
+        std::string endpoint;  // where others reach it
+        int process = 0;       // 0: has ended
         bool was_of_use = false;
-        Time next_start{};
+        Restarts restarts{};
         std::unique_ptr<DelayLine> line = nullptr;
         std::unique_ptr<SlowMotion> slow = nullptr;
     };
+    void start_all(std::uint32_t count);
+    bool await_start(Worker& worker, int out);
+    void kill_all();
     void begin_troubles();
     void slow_down(Worker& worker);
     void lose(double done, const Handlers& handlers);
@@ -71,6 +77,7 @@ private:
     std::uint32_t places_;
     std::optional<Keys> keys_;
     Troubles troubles_;
+    std::string cache_;
     std::vector<Worker> workers_;
 };
 

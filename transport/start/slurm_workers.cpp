@@ -5,6 +5,7 @@
 
 #include "core/base/error.hpp"
 #include "transport/start/child.hpp"
+#include "transport/start/shell_word.hpp"
 #include "transport/wire/loopback.hpp"
 
 namespace lightnet {
@@ -13,13 +14,6 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto most_time = 30s;  // for a controller that is busy
-
-// For a shell, whatever is in it.
-std::string as_shell_word(const std::string& word) {
-    std::string text = "'";
-    for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return text + "'";
-}
 
 // By what the daemon is let in.
 std::string way_in(const SlurmWorkers::Request& request) {
