@@ -13,7 +13,7 @@ folder=$(mktemp -d)
 images() { buildah --root "$folder/images" --runroot "$folder/run" --storage-driver vfs "$@"; }
 trap 'images rm --all >/dev/null 2>&1 || true; rm -rf --one-file-system "$folder"' EXIT
 mkdir "$folder/context"
-cp "$sources/Containerfile" "$folder/context/"
+cp -r "$sources/Containerfile" "$sources/packaging" "$folder/context/"
 if [ -n "${2-}" ]; then cp -r "$2" "$folder/context/out"; else "$sources/tools/package.sh" "$folder/context/out" >/dev/null; fi
 
 minimal_root "$folder/root" "$folder/log"
@@ -30,3 +30,7 @@ inside sh -c 'cp /usr/share/lightnet/graphs/cornell* . &&
     lightnet run cornell.lua --size 32x32 --samples 4 --progress none -o one.exr &&
     lightnet run cornell.lua --size 32x32 --samples 4 --progress none --local-workers 2 -o two.exr &&
     cmp one.exr two.exr'
+# As a daemon it is well, and says so.
+inside bash -c 'lightnetd --metrics 127.0.0.1:9199 --cache /cache & daemon=$!
+    for i in $(seq 100); do lightnet-health 127.0.0.1:9199 2>/dev/null && break; sleep .1; done
+    lightnet-health 127.0.0.1:9199 && kill $daemon && wait $daemon' || { echo "the daemon is not well"; exit 1; }
