@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <map>
+#include <optional>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -94,6 +96,19 @@ bool is_right(const Vocabulary& known, const std::string& name) {
     return true;
 }
 
+/// The number that stands for # in `words`, wherever lines are broken; none: the words are not there.
+std::optional<double> number_in(const std::string& text, const std::string& words) {
+    static const std::regex special(R"([.*+?^${}()|\[\]\\])"), blanks(R"(\s+)");
+    std::string pattern = std::regex_replace(words, special, R"(\$&)");
+    pattern = std::regex_replace(pattern, blanks, R"(\s+)");
+    pattern.replace(pattern.find('#'), 1, R"((\d[\d'.]*))");
+    std::smatch match;
+    if (!std::regex_search(text, match, std::regex(pattern))) return std::nullopt;
+    std::string digits = match[1];
+    std::erase(digits, '\'');
+    return std::stod(digits);
+}
+
 // Names behind `services.` in backticks, with their lines.
 std::map<std::string, std::size_t> listed_services(const SourceFile& document, const std::string& variable) {
     const std::regex listed("`" + variable + R"(\.(\w+))");
@@ -147,6 +162,17 @@ Complaints unknown_names(const SourceFile& document, const std::vector<SourceFil
     return complaints;
 }
 
+std::string disagreement(const Figure& figure, const SourceFile& document, const SourceFile& file) {
+    const auto told = number_in(document.text, figure.words), there = number_in(file.text, figure.code);
+    if (!told) return document.path + " says no longer: " + figure.words;
+    if (!there) return file.path + " says no longer: " + figure.code;
+    if (std::abs(*told - *there * figure.factor) <= 1e-9 * std::abs(*told)) return "";
+    std::ostringstream out;
+    out << document.path << ": " << figure.words << ": it says " << *told << ", " << file.path << " has "
+        << *there * figure.factor;
+    return out.str();
+}
+
 // As clang-format leaves it: members of a class begin in the fifth column.
 Offer offer_of(const SourceFile& header, const std::string& type, const std::string& variable) {
     static const std::regex declaration(R"(^ {4}(?! )(?!static|explicit|template|friend|//).*?[\w>&*] [&*]?(\w+)\(.*)");
@@ -177,9 +203,8 @@ Complaints idle_services(const SourceFile& document, const Offer& offer, const s
         const std::regex call("\\b" + offer.variable + "_?\\." + name + "\\b");
         if (std::ranges::find(offer.functions, name) == offer.functions.end())
             complaints.push_back(at_line(document, line, "there is no `" + offer.variable + "." + name + "()`"));
-        else if (std::ranges::none_of(callers, [&](const SourceFile& file) {
-                     return std::regex_search(code_only(file.text), call);
-                 }))
+        else if (std::ranges::none_of(
+                     callers, [&](const SourceFile& file) { return std::regex_search(code_only(file.text), call); }))
             complaints.push_back(at_line(document, line, "no node uses `" + offer.variable + "." + name + "()`"));
     }
     return complaints;

@@ -22,6 +22,17 @@ Complaints unknown_names(const SourceFile& document, const std::vector<SourceFil
 /// Links of a document to files that are not there: `exists` knows those beside it.
 Complaints dead_links(const SourceFile& document, bool (*exists)(const std::string& path));
 
+/// A figure that a document tells of the code: the words around it, and those in a file of the code, with # for the
+/// number.
+struct Figure {
+    std::string document, words;
+    std::string file, code;
+    double factor = 1;  // what the document tells is so many times what the code has
+};
+
+/// "": they agree. `document` and `file` are those that the figure names; words may be wrapped anyhow.
+std::string disagreement(const Figure& figure, const SourceFile& document, const SourceFile& file);
+
 /// What a class offers: its public functions, and how those who have an object of it call it.
 struct Offer {
     std::string variable;  // "services"

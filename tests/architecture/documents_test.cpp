@@ -48,6 +48,21 @@ TEST(Documents, NameOnlyWhatTheCodeHas) {
         EXPECT_THAT(complaints("fine\n" + wrong), SizeIs(1)) << wrong;
 }
 
+TEST(Documents, TellFiguresThatTheCodeHas) {
+    const SourceFile code{"core/x.hpp", "    int room = 1'024;  // questions\n"};
+    const auto complaint = [&](const std::string& text) {
+        return disagreement({"docs/x.md", "full (# questions)", "core/x.hpp", "int room = #;"}, {"docs/x.md", text},
+                            code);
+    };
+    EXPECT_EQ(complaint("when it is full (1024\n   questions)."), "");
+    EXPECT_EQ(complaint("full (512 questions)"), "docs/x.md: full (# questions): it says 512, core/x.hpp has 1024");
+    EXPECT_EQ(complaint("empty"), "docs/x.md says no longer: full (# questions)");
+    EXPECT_EQ(disagreement({"docs/x.md", "# s", "core/x.hpp", "float room = #;"}, {"docs/x.md", "3 s"}, code),
+              "core/x.hpp says no longer: float room = #;");
+    EXPECT_EQ(disagreement({"docs/x.md", "# ms", "core/x.hpp", "room = #;", 1e-3}, {"docs/x.md", "1.024 ms"}, code),
+              "");
+}
+
 TEST(Documents, LinkToFilesThatAreThere) {
     const auto exists = [](const std::string& path) { return path == "docs/words.md"; };
     EXPECT_THAT(
@@ -103,6 +118,26 @@ TEST(Project, HasDocumentsThatNameWhatIsThere) {
     const auto files = all_files();
     for (const char* document : {"README.md", "docs/engine.md", "docs/words.md"})
         EXPECT_THAT(unknown_names(read(document), files), IsEmpty());
+}
+
+TEST(Project, HasDocumentsWhoseFiguresAreTheCodes) {
+    const std::string engine = "docs/engine.md", tuning = "core/run/message/tuning.hpp";
+    const std::vector<Figure> figures{
+        {engine, "when it is full (# questions", tuning, "std::uint32_t bundle = #;"},
+        {engine, "or # ms of work for the answerer", "core/run/runtime/full_bundle.hpp", "enough_work = #;", 1000},
+        {engine, "has waited long enough (# ms", tuning, "std::uint32_t oldest_us = #;", 1e-3},
+        {engine, "usually takes, up to # times as long", "core/run/runtime/bundle_port.cpp",
+         "rules_.oldest, # * rules_.oldest"},
+        {engine, "(#, 8192 and 8 MiB)", tuning, "std::uint32_t credit = #;"},
+        {engine, "(32, # and 8 MiB)", tuning, "credit_questions = #;"},
+        {engine, "8192 and # MiB)", tuning, "credit_bytes = std::uint64_t{#} << 20;"},
+        {engine, "by `HostLink`: no answer for # s", "transport/launcher/remote_host.cpp",
+         "lease = std::chrono::milliseconds(#)", 1e-3},
+        {engine, "or after # s without any", "transport/zmq/zmq_carrier.cpp",
+         "shortest_patience = std::chrono::milliseconds(#)", 1e-3},
+        {engine, "a block of # samples of all pixels is a pass", "core/film/tile.hpp", "samples_per_block = #"},
+    };
+    for (const Figure& figure : figures) EXPECT_EQ(disagreement(figure, read(figure.document), read(figure.file)), "");
 }
 
 TEST(Project, HasDocumentsWhoseLinksLead) {

@@ -92,6 +92,7 @@ private:
             world.schedule({world.now_ + world.world_.delay, Event::Kind::arrived, &asker, replica, bundle, this});
             return true;
         }
+        Credit credit() const override { return {8, 8192}; }
         Load load() const override { return known; }
         std::string host() const override { return std::to_string(replica); }
     };

@@ -43,7 +43,7 @@ public:
     /// Sends a bundle. False: it could not be sent after all, and nothing has changed.
     virtual bool send(const Bundle<Question>& bundle) = 0;
     /// How much may be under way on it.
-    virtual Credit credit() const { return {}; }
+    virtual Credit credit() const = 0;
     /// How many places stand behind it, and answer at the same time.
     virtual std::uint32_t places() const { return 1; }
     /// Does it stay within the asker's process? Then nothing can be lost on it, and all answerers share one machine.

@@ -11,8 +11,7 @@ namespace lightnet {
 /// dispatcher; a dispatcher holds at most (askers × nodes asked × places × this), and an asker (nodes asked × places ×
 /// this), whatever the network does; ZeroMQ's queues are never the limit.
 struct Credit {
-    std::size_t bundles = 8;
-    std::size_t questions = 8192;
+    std::size_t bundles = 0, questions = 0;    // how many a place is given: Tuning
     std::size_t bytes = std::size_t{8} << 20;  // of questions and of the room for their answers
     friend bool operator==(const Credit&, const Credit&) = default;
 };
