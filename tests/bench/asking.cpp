@@ -19,8 +19,8 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t bundle = asked_together;
 constexpr std::size_t in_flight = 8;
-constexpr std::size_t asks = 8000;  // bundles per measurement
-constexpr int rounds = 9;
+const std::size_t asks = sized<std::size_t>(8000, 200);  // bundles per measurement
+const int rounds = repeated(9);
 
 // ---- the full way ---------------------------------------------------------------------------------------------------
 

@@ -13,7 +13,7 @@
 namespace lightnet::bench {
 namespace {
 
-constexpr int rounds = 3;
+const int rounds = repeated(3);
 
 std::shared_ptr<Slowness> speeds(std::vector<double> slowness) {
     auto speeds = std::make_shared<Slowness>();
@@ -24,7 +24,7 @@ std::shared_ptr<Slowness> speeds(std::vector<double> slowness) {
 // Four renderers; the slowest alone would take 48 s.
 double tiles() {
     constexpr double milliseconds = 20;
-    constexpr std::size_t each = 75;
+    const std::size_t each = sized<std::size_t>(75, 5);
     const double ideal = 4 * each * milliseconds * 1e-3 / (1 + 0.5 + 0.25 + 0.125);
     return seconds_of_places(4, milliseconds, each, speeds({1, 2, 4, 8})) / ideal;
 }
@@ -32,7 +32,8 @@ double tiles() {
 // One renderer asks four replicas of a light operator.
 double light() {
     constexpr double microseconds = 25;
-    constexpr std::size_t tiles = 400, questions = 256;
+    const std::size_t tiles = sized<std::size_t>(400, 20);
+    constexpr std::size_t questions = 256;
     constexpr std::uint64_t run_id = 1;
     const Registry kinds = emulated_kinds(speeds({1, 2, 4, 8}), "EmulatedLight");
     Job job;
@@ -50,7 +51,7 @@ double light() {
 
 double slowed() {
     constexpr double milliseconds = 10;
-    constexpr std::size_t each = 150;
+    const std::size_t each = sized<std::size_t>(150, 10);
     const double without = seconds_of_places(4, milliseconds, each);
     auto slowness = std::make_shared<Slowness>();
     slowness->slowed = 0;

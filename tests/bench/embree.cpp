@@ -9,12 +9,12 @@
 #include "nodes/standard_nodes.hpp"
 #include "tests/bench/bare_embree.hpp"
 #include "tests/bench/figure.hpp"
-#include "tests/bench/references.hpp"
+#include "tests/support/references.hpp"
 
 namespace lightnet::bench {
 namespace {
 
-constexpr std::size_t rounds = 7;
+const std::size_t rounds = sized<std::size_t>(7, 1);
 
 /// Of a scene file; empty: of the one that the graph names.
 void measure(const std::string& name, const std::string& scene, const Registry& registry, int samples) {
@@ -40,10 +40,10 @@ void measure_all(const std::vector<std::string>& arguments) {
     for (const auto& scene : scenes) measure("embree." + scene.stem().string(), scene.string(), registry, samples);
     if (!scenes.empty()) return;
     measure("embree.cornell", "", registry, samples);
-    if (const auto terrain = reference_file("terrain.pbrt"))
+    if (const auto terrain = test::reference_file("terrain.pbrt"))
         measure("embree.terrain", terrain->string(), registry, samples);
     else
-        not_run("embree.terrain", is_not_here("reference/terrain.pbrt"));
+        not_run("embree.terrain", test::is_not_here("reference/terrain.pbrt"));
 }
 
 }  // namespace

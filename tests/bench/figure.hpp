@@ -6,13 +6,29 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdio>
+#include <cstdlib>
 #include <ctime>
 #include <exception>
 #include <functional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace lightnet::bench {
+
+/// Is this `./bench --smoke`? Then every row only has to come to its end, as small and as few times as it can, and no
+/// goal is judged.
+inline bool smoke() {
+    static const bool asked = std::getenv("LIGHTNET_BENCH_SMOKE") != nullptr;
+    return asked;
+}
+/// What is measured, or what is enough to see that it still can be.
+template <class T>
+T sized(T usual, std::type_identity_t<T> in_smoke) {
+    return smoke() ? in_smoke : usual;
+}
+/// Where measurements are repeated so many times.
+inline int repeated(int usual) { return sized(usual, 1); }
 
 /// The middle one; of an even number, the upper of the two.
 inline double median(std::vector<double> values) {
@@ -69,6 +85,11 @@ struct Writing {
 inline void print_figure(const std::string& name, const std::vector<double>& values, const Writing& writing,
                          double goal, bool at_least, bool sound = true) {
     const Spread spread(values);
+    if (smoke()) {
+        std::printf("%s ran\n", name.c_str());
+        std::fflush(stdout);
+        return;
+    }
     const bool met = sound && (at_least ? spread.middle >= goal : spread.middle <= goal);
     const auto number = [&](double value) {
         std::array<char, 64> text;
@@ -92,10 +113,15 @@ inline void quantity(const std::string& name, const std::vector<double>& values,
     print_figure(name, values, {"", ("(" + unit + ") ").c_str()}, goal, at_least);
 }
 
-/// A figure that can't be had here: `./bench` counts these at its end.
+/// A figure that can't be had here, though all is well: `./bench` counts these at its end.
 inline void not_run(const std::string& name, const std::string& why) {
     std::printf("%s not run: %s\n", name.c_str(), why.c_str());
     std::fflush(stdout);
+}
+
+/// A figure that could not be had because something went wrong: an error of `./bench`.
+inline void broken(const std::string& name, const std::string& why) {
+    not_run(name, "it did not come to its end: " + why);
 }
 
 /// What main() does and returns: what goes wrong is said, with the benchmark's name.

@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int lamps = 7;  // each a group, and the rest is the eighth: the sky
-constexpr int rounds = 5;
+const int rounds = repeated(5);
 
 // The room of graphs/studio.pbrt, with seven lamps below its ceiling instead of its own three.
 std::string scene_text() {
@@ -86,9 +86,9 @@ int main(int argc, char** argv) {
     };
     return bench::run("groups", [&] {
         const lightnet::Registry registry{lightnet::standard_nodes()};
-        if (wanted("paths"))
-            bench::measure(registry, "paths", bench::paths, "samples = 16, film = { 160, 120, file = 'x.exr' }");
-        if (wanted("maps"))
-            bench::measure(registry, "maps", bench::maps, "samples = 16, film = { 160, 120, file = 'x.exr' }");
+        const std::string film = bench::sized<std::string>("samples = 16, film = { 160, 120, file = 'x.exr' }",
+                                                           "samples = 1, film = { 16, 12, file = 'x.exr' }");
+        if (wanted("paths")) bench::measure(registry, "paths", bench::paths, film);
+        if (wanted("maps")) bench::measure(registry, "maps", bench::maps, film);
     });
 }

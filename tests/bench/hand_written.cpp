@@ -81,7 +81,7 @@ double extra_time(const Picture& picture, bool swap) {
 
 void measure_serial(const Picture& picture) {
     std::vector<double> extra;
-    for (int round = 0; round < 9; ++round) extra.push_back(extra_time(picture, round % 2 == 0));
+    for (int round = 0; round < repeated(9); ++round) extra.push_back(extra_time(picture, round % 2 == 0));
     figure("overhead.serial", extra, 0.03, false);
 }
 

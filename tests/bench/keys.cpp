@@ -61,7 +61,7 @@ private:
 };
 
 void measure_picture(const Registry& registry, const char* name, const char* graph, const char* samples) {
-    constexpr int rounds = 9;
+    const int rounds = repeated(9);
     Stage stage(registry, graph, {{"samples", samples}});
     const auto launcher = KeyPair::random();
     Farm open(stage, launcher, false), keyed(stage, launcher, true);
@@ -91,8 +91,8 @@ int main(int argc, char** argv) {
         const lightnet::Registry registry{lightnet::standard_nodes()};
         if (only.empty() || only == "carrier") bench::measure_carrier(bench::Picture(registry, 128, 16));
         if (only.empty() || only == "picture") {
-            bench::measure_picture(registry, "keys.picture_path", "path_all.lua", "64");
-            bench::measure_picture(registry, "keys.picture_cache", "irradiance_cache.lua", "256");
+            bench::measure_picture(registry, "keys.picture_path", "path_all.lua", bench::sized("64", "1"));
+            bench::measure_picture(registry, "keys.picture_cache", "irradiance_cache.lua", bench::sized("256", "1"));
         }
     });
 }

@@ -148,7 +148,7 @@ struct Quality {
 
 Quality quality(const Scene& scene, const Lamps& lamps) {
     const ByPower other(lamps);
-    constexpr std::uint32_t by_tree = 1 << 12, by_power = 1 << 14;
+    const std::uint32_t by_tree = sized(1u << 12, 1u << 6), by_power = sized(1u << 14, 1u << 6);
     Quality found;
     double tree_means = 0, power_means = 0;
     const auto places = points(scene);
@@ -178,7 +178,7 @@ struct Cost {
 };
 
 Cost cost(const Scene& scene) {
-    constexpr std::uint32_t rounds = 400;
+    const std::uint32_t rounds = sized(400u, 4u);
     const auto places = points(scene);
     std::vector<Ray> rays;
     std::array<LitPoint, lanes> from;
@@ -203,13 +203,13 @@ Cost cost(const Scene& scene) {
     std::vector<std::uint8_t> hidden(rays.size());
     scene.occluded(rays, hidden);
     const double done = thread_seconds();
-    constexpr double per_sample = 1e9 / (rounds * double(asked));
+    const double per_sample = 1e9 / (rounds * double(asked));
     return {(chosen - begun) * per_sample, (done - begun) * per_sample};
 }
 
 /// Processor time of a path, ns.
 double cost_of_paths(const Scene& scene) {
-    constexpr std::uint32_t samples = 64;
+    const std::uint32_t samples = sized(64u, 4u);
     const PathWalk paths(scene, {.samples = samples, .all = true});
     std::vector<Query> questions;
     for (std::uint32_t i = 0; i < asked; ++i) {
@@ -232,7 +232,7 @@ void measure_paths() {
     const Lamps lamps_there = lamps(100'000);
     const Scene all(over_a_floor(lamps_there, 0.5f)), few(of_which_few_shine(lamps_there, 10));
     std::vector<double> among_all, among_few, ratios;
-    for (int round = 0; round < 9; ++round) {
+    for (int round = 0; round < repeated(9); ++round) {
         among_all.push_back(cost_of_paths(all));
         among_few.push_back(cost_of_paths(few));
         ratios.push_back(among_all.back() / among_few.back());
@@ -256,7 +256,7 @@ void measure_all() {
     }
     std::array<std::vector<double>, counts.size()> choices, samples;
     std::vector<double> choice_ratios, ratios;
-    for (int round = 0; round < 9; ++round) {
+    for (int round = 0; round < repeated(9); ++round) {
         for (std::size_t s = 0; s < scenes.size(); ++s) {
             const auto [choice, sample] = cost(*scenes[s]);
             choices[s].push_back(choice);
@@ -275,7 +275,7 @@ void measure_all() {
     const auto size = scenes.back()->size();
     quantity("lamps.bytes", {double(size.light_bytes) / double(counts.back())}, "bytes", 100, false);
     std::vector<double> building;
-    for (int round = 0; round < 3; ++round)  // the view of all lamps makes them anew, and nothing else
+    for (int round = 0; round < repeated(3); ++round)  // the view of all lamps makes them anew, and nothing else
         building.push_back(seconds_of([&] { const Scene again(*scenes.back(), LampView{}); }));
     quantity("lamps.building", building, "s", 0.5, false);
 }

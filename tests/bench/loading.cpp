@@ -24,13 +24,13 @@
 #include "core/scene/scene.hpp"
 #include "tests/bench/figure.hpp"
 #include "tests/bench/landscape.hpp"
-#include "tests/bench/references.hpp"
 #include "tests/support/folder.hpp"
+#include "tests/support/references.hpp"
 
 namespace lightnet {
 namespace {
 
-constexpr int rounds = 3;
+const int rounds = bench::repeated(3);
 
 template <class T>
 void put(std::string& bytes, const T& value) {
@@ -129,17 +129,17 @@ void compare_landscape(double triangles) {
 }
 
 void compare_all() {
-    compare_landscape(2.0 * usual_side * usual_side);
+    compare_landscape(bench::sized(2.0 * usual_side * usual_side, 20'000.0));
     const std::pair<const char*, const char*> others[]{{"terrain", "reference/terrain.pbrt"},
                                                        {"living-room", "scenes/living-room-pbrt/living-room.pbrt"},
                                                        {"staircase2", "scenes/staircase2-pbrt/staircase2.pbrt"},
                                                        {"veach-ajar", "scenes/veach-ajar-pbrt/veach-ajar.pbrt"},
                                                        {"bmw-m6", "scenes/bmw-m6-pbrt/bmw-m6.pbrt"}};
     for (const auto& [name, path] : others)
-        if (const auto file = bench::shared_file(path))
+        if (const auto file = test::shared_file(path))
             compare(name, file->string());
         else
-            bench::not_run(std::string("loading.") + name, bench::is_not_here(path));
+            bench::not_run(std::string("loading.") + name, test::is_not_here(path));
 }
 
 }  // namespace

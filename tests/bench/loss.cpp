@@ -1,4 +1,5 @@
-// 100 workers killed, 50 stopped, 100 lines cut, bits flipped: runs the tests of exactly this, at full length.
+// 100 workers killed, 50 stopped, 100 lines cut, bits flipped: runs the tests of exactly this, at full length, or
+// briefly (smoke()).
 #include <sys/wait.h>
 
 #include <array>
@@ -6,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "tests/bench/figure.hpp"
 #include "tests/bench/judge.hpp"
 
 namespace {
@@ -26,7 +28,7 @@ std::pair<std::string, int> output_of(const std::string& command) {
 }  // namespace
 
 int main() {
-    const std::string tests = LIGHTNET_STARTS_CUT_LARGE_TEST;
+    const std::string tests = lightnet::bench::sized(LIGHTNET_STARTS_CUT_LARGE_TEST, LIGHTNET_STARTS_CUT_TEST);
     bool ran = true;
     for (const std::string name :
          {"WorkersThatAreKilledAgainAndAgainAreStartedAnew", "HostsThatAreStoppedAgainAndAgainAreLostAndFound",

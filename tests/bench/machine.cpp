@@ -13,13 +13,14 @@
 #include "core/base/math/frame.hpp"
 #include "core/base/math/random.hpp"
 #include "core/base/math/sampling.hpp"
+#include "tests/bench/figure.hpp"
 #include "tests/bench/landscape.hpp"
 
 namespace lightnet::bench {
 namespace {
 
 constexpr std::size_t threads = 2, at_once = 4096;
-constexpr double seconds_each = 0.2;
+const double seconds_each = sized(0.2, 0.01);
 constexpr std::uint32_t side = 1024, packet = 4;  // pixels; rays go in squares of so many
 
 void* buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, const void* data, std::size_t stride,

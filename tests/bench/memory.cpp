@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "core/run/message/tuning.hpp"
 #include "tests/bench/daemon.hpp"
 #include "tests/bench/figure.hpp"
 #include "tests/bench/judge.hpp"
@@ -26,9 +27,10 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-constexpr auto warm_up = 60s, measured = 60s;  // until each part of memory has been used once
+const auto warm_up = lightnet::bench::sized(60s, 2s),
+           measured = warm_up;  // until each part of memory has been used once
 constexpr double mib = 1 << 20;
-constexpr double bundles_of_credit = 8;  // that an asker has under way to one place, unless it is told otherwise
+const double bundles_of_credit = lightnet::Tuning{}.credit;  // that an asker has under way to one place
 
 // Resident memory, bytes; 0: the process is gone.
 double resident(int process) {

@@ -18,7 +18,8 @@ int main(int argc, char** argv) {
     };
     return lightnet::bench::run("overhead", [&] {
         const lightnet::Registry registry{lightnet::standard_nodes()};
-        const bench::Picture small(registry, 128, 16), large(registry, 256, 32);
+        const bench::Picture small(registry, bench::sized(128u, 32u), bench::sized(16u, 1u)),
+            large(registry, bench::sized(256u, 64u), bench::sized(32u, 1u));
         if (wanted("serial")) bench::measure_serial(small);
         if (wanted("threads")) bench::measure_threads(large, registry);
         if (wanted("network")) bench::measure_network(large, registry);

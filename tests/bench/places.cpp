@@ -16,7 +16,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::uint64_t run_id = 1;
-constexpr int rounds = 9;
+const int rounds = repeated(9);
 
 void measure_efficiency(const char* name, const Picture& picture, Carrier& carrier, const Plan& plan) {
     // The carrier is looked after all the time, or the hosts would think that their launcher is gone.

@@ -34,8 +34,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int rounds = 3;
-constexpr std::size_t photons = 10'000'000;
+const int rounds = repeated(3);
+const std::size_t photons = sized<std::size_t>(10'000'000, 200'000);
 
 /// Has so many photons, made with as little work as there can be, and gives no light.
 class Bulk final : public LightOp {
@@ -95,11 +95,15 @@ double seconds_of_command(const test::Folder& folder, const std::vector<std::str
         folder.write("maps.lua", "scene = Scene { '" LIGHTNET_SOURCE_DIR
                                  "/graphs/glass_ball.pbrt' }\n"
                                  "direct = DirectLighting {}\n"
-                                 "caustics = PhotonMap { paths = 'caustic', photons = 1e6 }\n"
-                                 "diffuse = PhotonMap { paths = 'diffuse', photons = 4e6 }\n"
-                                 "lighting = Combine { direct, caustics, diffuse }\n"
-                                 "image = RayTracer { lighting, scene = scene, samples = 4, film = { 128, "
-                                 "128, file = 'maps.exr' } }\n");
+                                 "caustics = PhotonMap { paths = 'caustic', photons = " +
+                                     sized<std::string>("1e6", "1e3") +
+                                     " }\n"
+                                     "diffuse = PhotonMap { paths = 'diffuse', photons = " +
+                                     sized<std::string>("4e6", "4e3") +
+                                     " }\n"
+                                     "lighting = Combine { direct, caustics, diffuse }\n"
+                                     "image = RayTracer { lighting, scene = scene, samples = 4, film = { 128, "
+                                     "128, file = 'maps.exr' } }\n");
     const std::vector<std::string> words{LIGHTNET_STARTS_LIGHTNET,
                                          "run",
                                          graph,
@@ -213,14 +217,15 @@ int main(int argc, char** argv) {
     return bench::run("prepare", [&] {
         const lightnet::Registry registry = bench::with_bulk();
         if (only.empty() || only == "photons")
-            bench::measure_efficiency(
-                "prepare.photons", registry,
-                bench::graph_of("lighting = PhotonMap { paths = \"indirect\", photons = 4e6 }\n", 16));
+            bench::measure_efficiency("prepare.photons", registry,
+                                      bench::graph_of("lighting = PhotonMap { paths = \"indirect\", photons = " +
+                                                          bench::sized<std::string>("4e6", "4e3") + " }\n",
+                                                      16));
         if (only.empty() || only == "rehearsal")
             bench::measure_efficiency("prepare.rehearsal", registry,
                                       bench::graph_of("paths = PathTracing { paths = \"all\" }\n"
                                                       "lighting = IrradianceCache { paths, rays = 2048 }\n",
-                                                      256));
+                                                      bench::sized(256u, 32u)));
         if (only.empty() || only == "command") bench::measure_command();
         if (only.empty() || only == "distribution") {
             bench::measure_distribution("prepare.distribution", registry, bench::gigabit);

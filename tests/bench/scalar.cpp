@@ -53,10 +53,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::size_t patients = 2048;  // at a time
-constexpr double asks = double{patients} * Patient::times;
+const std::size_t patients = sized<std::size_t>(2048, 64);  // at a time
+const double asks = double(patients) * Patient::times;
 constexpr std::uint64_t run_id = 1;
-constexpr int rounds = 9;
+const int rounds = repeated(9);
 enum : std::size_t { answerer, patient, asker };
 
 /// Answers at once.

@@ -1,6 +1,6 @@
 #include "tests/bench/scene_files.hpp"
 
-#include "tests/bench/references.hpp"
+#include "tests/support/references.hpp"
 
 namespace lightnet::bench {
 namespace {
@@ -51,17 +51,17 @@ const std::vector<ReferenceScene>& reference_scenes() {
 }
 
 SceneFiles::SceneFiles(const ReferenceScene& scene) {
-    const auto main = reference_file(scene.main), reference = reference_file(scene.reference);
+    const auto main = test::reference_file(scene.main), reference = test::reference_file(scene.reference);
     if (!main || !reference) {
-        missing_ = is_not_here("reference/" + (main ? scene.reference : scene.main));
+        missing_ = test::is_not_here("reference/" + (main ? scene.reference : scene.main));
         return;
     }
     main_ = *main;
     reference_ = *reference;
     if (scene.rest.empty()) return;
-    const auto rest = shared_file(scene.rest);
+    const auto rest = test::shared_file(scene.rest);
     if (!rest) {
-        missing_ = is_not_here(scene.rest);
+        missing_ = test::is_not_here(scene.rest);
         return;
     }
     together_.emplace();

@@ -34,8 +34,8 @@ namespace lightnet::bench {
 namespace {
 
 constexpr std::uint32_t places = 2;
-constexpr std::uint64_t seeds = 3;
-constexpr std::size_t rounds = 3;
+const std::uint64_t seeds = sized<std::uint64_t>(3, 1);
+const std::size_t rounds = sized<std::size_t>(3, 1);
 constexpr double mib = 1 << 20;
 
 using Constants = std::map<std::string, std::string>;
@@ -97,6 +97,7 @@ void measure_pictures(const ReferenceScene& row, const Way& way, Constants const
                       const lightnet::Picture& reference, const Registry& registry) {
     constants.merge(Constants(way.constants));
     constants.try_emplace("samples", std::to_string(row.samples));
+    if (smoke()) constants["samples"] = "1";
     forget_peak();
     Stage stage(registry, way.graph, constants);
     std::vector<double> errors, trimmed, means, to_target, with_loading, rates, preparing;
@@ -170,7 +171,7 @@ void measure_apart(const ReferenceScene& row) {
         try {
             measure(row, Registry{standard_nodes()});
         } catch (const std::exception& error) {
-            not_run("scenes." + row.name, error.what());
+            broken("scenes." + row.name, error.what());
         } catch (...) {
             status = 1;
         }
@@ -179,7 +180,7 @@ void measure_apart(const ReferenceScene& row) {
     }
     int status = 0;
     if (process < 0 || waitpid(process, &status, 0) != process || status != 0)
-        not_run("scenes." + row.name, "its process did not come to its end");
+        broken("scenes." + row.name, "its process was lost");
 }
 
 void measure_all(const std::vector<std::string>& names) {

@@ -16,14 +16,14 @@ test::World large(std::uint64_t seed, std::size_t tiles) {
     return world;
 }
 
-constexpr int rounds = 3;
+const int rounds = repeated(3);
 
 void check(bool good, const char* what) {
     if (!good) throw std::runtime_error(what);
 }
 
 double seconds_of_a_million() {
-    constexpr std::size_t tiles = 1'000'000;
+    const std::size_t tiles = sized<std::size_t>(1'000'000, 20'000);
     auto world = large(1, tiles);
     world.remember = false;
     const double begun = thread_seconds();
@@ -46,9 +46,9 @@ void measure() {
     print_figure("scheduler.cpu", seconds, {"s", ""}, 60, false);
 
     int same = 0;
-    constexpr int seeds = 5;
+    const int seeds = repeated(5);
     for (int seed = 1; seed <= seeds; ++seed) {
-        const auto once_more = large(static_cast<std::uint64_t>(seed), 50000);
+        const auto once_more = large(static_cast<std::uint64_t>(seed), sized<std::size_t>(50000, 5000));
         same += test::play(once_more).story == test::play(once_more).story;
     }
     figure("scheduler.replay", {same / static_cast<double>(seeds)}, 1, true);

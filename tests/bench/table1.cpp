@@ -1,7 +1,7 @@
-// Table 1 of the paper: what bundling is worth. The unchanged scalar classes of nodes/examples/candela: CandelaGathered,
-// which asks its input about one spot after the other, on one host, and CandelaDirect on another, one millisecond away
-// in each direction. Once every question travels alone and is waited for; once as the network does it by itself. One by
-// one, a twentieth of the picture is rendered, and the time of the whole follows from it.
+// Table 1 of the paper: what bundling is worth. The unchanged scalar classes of nodes/examples/candela:
+// CandelaGathered, which asks its input about one spot after the other, on one host, and CandelaDirect on another, one
+// millisecond away in each direction. Once every question travels alone and is waited for; once as the network does it
+// by itself. One by one, a twentieth of the picture is rendered, and the time of the whole follows from it.
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -28,9 +28,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::uint32_t side = 76;  // pixels; with 2 samples and 16 rays about 128,000 questions
+const std::uint32_t side = sized(76u, 20u);  // pixels; with 2 samples and 16 rays about 128,000 questions
 constexpr double samples = 2, rays = 16;
-constexpr int rounds = 3;
+const int rounds = repeated(3);
 
 // As graphs/traditional.lua, without what would ask CandelaDirect in other ways.
 Graph gathering() {

@@ -25,10 +25,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int rounds = 3;
-constexpr double milliseconds = 100;  // per tile
-constexpr std::size_t tiles = 20;     // of each place
-constexpr double ideal = tiles * milliseconds * 1e-3;
+const int rounds = repeated(3);
+const double milliseconds = sized(100.0, 10.0);       // per tile
+const std::size_t tiles = sized<std::size_t>(20, 2);  // of each place
+const double ideal = tiles * milliseconds * 1e-3;
 
 void measure_emulated(std::uint32_t places) {
     std::vector<double> efficiency;
@@ -66,7 +66,7 @@ void measure_emulated_hosts(const char* program, std::uint32_t hosts, std::uint3
 // From nothing to two daemons that are ready, less the time that reading and building the scene takes here.
 void measure_set_up(const Picture& picture, const Registry& registry) {
     std::vector<double> extra;
-    for (int round = 0; round < 5; ++round) {
+    for (int round = 0; round < repeated(5); ++round) {
         const double loading = seconds_of([&] {
             DiskFiles files;
             build_network(picture.job, registry, LoadedScene{read_scene(files, picture.job.scene)});
@@ -111,7 +111,7 @@ int main(int argc, char** argv) {
             bench::measure_emulated_hosts(argv[0], 32, 4);
         }
         const lightnet::Registry registry{lightnet::standard_nodes()};
-        const bench::Picture picture(registry, 256, 32);
+        const bench::Picture picture(registry, bench::sized(256u, 64u), bench::sized(32u, 1u));
         if (wanted("setup")) bench::measure_set_up(picture, registry);
         if (wanted("threads")) bench::measure_threads(picture, registry, "table2.threads");
         if (wanted("network")) bench::measure_network(picture, registry, "table2.network");

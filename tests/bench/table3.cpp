@@ -32,13 +32,13 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::size_t tiles = 600;
+const std::size_t tiles = sized<std::size_t>(600, 20);
 constexpr double questions = 256;  // per tile
 constexpr std::uint64_t run_id = 1;
 
 // Microseconds per question. The lighting asks each of its inputs, and so does `first`, whom the cache asks.
 constexpr double image = 10, direct = 10, caustics = 30, global = 30, soft = 20;
-constexpr double work = tiles * questions * 1e-6 * (image + 2 * direct + 2 * caustics + global + soft);
+const double work = double(tiles) * questions * 1e-6 * (image + 2 * direct + 2 * caustics + global + soft);
 
 Job job_of(const Picture& picture) {
     Job job;
@@ -79,7 +79,7 @@ void measure_emulated_hosts() {
     cluster.gather(10s, never);
     cluster.adopt(cluster.plan());
     std::vector<double> efficiency;
-    for (int round = 0; round < 3; ++round) {
+    for (int round = 0; round < repeated(3); ++round) {
         const double seconds = seconds_of_emulated(*network, run_id, cluster, cluster.plan(), tiles, 16);
         efficiency.push_back(work / (7 * seconds));
     }

@@ -25,7 +25,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int rounds = 3;
+const int rounds = repeated(3);
 // Of the machine's processors; the rest is for the launcher and the system.
 constexpr double part_for_hosts = 0.875;
 
@@ -108,7 +108,7 @@ void measure_real_hosts() {
     const Registry registry{standard_nodes()};
     const char* samples = std::getenv("LIGHTNET_BENCH_SAMPLES");
     const Graph graph = load_graph(LIGHTNET_SOURCE_DIR "/graphs/paper/figure5.lua",
-                                   LuaOptions{{{"samples", samples ? samples : "64"}}});
+                                   LuaOptions{{{"samples", samples ? samples : sized("64", "1")}}});
     const Hosts hosts = table3_hosts({one.daemon->endpoint(), two.daemon->endpoint(), three.daemon->endpoint()});
     Stage stage(registry, graph);
     std::vector<double> efficiency;

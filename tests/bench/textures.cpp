@@ -21,22 +21,25 @@
 
 #include "core/film/exr.hpp"
 #include "tests/bench/figure.hpp"
-#include "tests/bench/references.hpp"
 #include "tests/support/folder.hpp"
+#include "tests/support/references.hpp"
 #include "transport/start/child.hpp"
 
 namespace lightnet::bench {
 namespace {
 
 constexpr int seeds = 4;
-constexpr int rounds = 3;
+const int rounds = repeated(3);
 constexpr double most_of_noise = 0.1;  // less is not worth a footprint in every question
 
 std::string graph_of(const std::string& scene) {
     return "scene = Scene { '" + scene +
            "' }\nlighting = PathTracing { paths = 'all' }\nalbedo = SurfaceFact { of = 'albedo' }\n"
            "depth = SurfaceFact { of = 'depth' }\nimage = RayTracer { lighting, show = { albedo, depth }, "
-           "scene = scene, samples = 8, film = { 480, 270, file = 'x.exr' } }\n";
+           "scene = scene, " +
+           sized<std::string>("samples = 8, film = { 480, 270, file = 'x.exr' }",
+                              "samples = 1, film = { 32, 18, file = 'x.exr' }") +
+           " }\n";
 }
 
 /// A layer that is shown beside the sum.
@@ -129,10 +132,10 @@ void measure_all() {
                                      {"staircase2", "scenes/staircase2-pbrt/staircase2.pbrt"},
                                      {"veach-ajar", "scenes/veach-ajar-pbrt/veach-ajar.pbrt"},
                                      {"bmw-m6", "scenes/bmw-m6-pbrt/bmw-m6.pbrt"}})
-        if (const auto scene = shared_file(file))
+        if (const auto scene = test::shared_file(file))
             figure(std::string("textures.") + name, parts_of(folder, name, scene->string()), most_of_noise, false);
         else
-            not_run(std::string("textures.") + name, is_not_here(file));
+            not_run(std::string("textures.") + name, test::is_not_here(file));
     // What textures can do at the most: no figure, as nothing is known of how many scenes are like that.
     show("textures of a far floor", parts_of(folder, "far_floor", floor_under_an_even_sky(folder)));
 }

@@ -19,7 +19,7 @@ using namespace std::chrono_literals;
 constexpr std::uint32_t part = 20'000;  // millionths
 
 void measure(const Registry& registry, const char* name, const char* graph, const char* samples) {
-    constexpr int rounds = 9;
+    const int rounds = repeated(9);
     Stage stage(registry, graph, {{"samples", samples}});
     LocalWorkers workers(LIGHTNET_STARTS_LIGHTNETD, 2, 1);
     std::uint64_t run = 0;
@@ -56,6 +56,6 @@ int main() {
     namespace bench = lightnet::bench;
     return bench::run("verify", [] {
         const lightnet::Registry registry{lightnet::standard_nodes()};
-        bench::measure(registry, "verify.picture", "path_all.lua", "256");
+        bench::measure(registry, "verify.picture", "path_all.lua", bench::sized("256", "1"));
     });
 }

@@ -24,7 +24,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int rounds = 9;
+const int rounds = lightnet::bench::repeated(9);
 
 // What it says until it ends; a page is opened where it says that one can be.
 std::string attended(int out, bool open) {
@@ -57,9 +57,9 @@ double cost_of(const lightnet::test::Folder& folder, bool watched, bool open) {
                                    "--threads",
                                    "2",
                                    "--size",
-                                   "192x192",
+                                   lightnet::bench::sized("192x192", "32x32"),
                                    "--samples",
-                                   "128",
+                                   lightnet::bench::sized("128", "4"),
                                    "--forget",
                                    "-o",
                                    folder.file("x.exr")};
