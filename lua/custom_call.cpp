@@ -8,8 +8,10 @@
 #include <limits>
 #include <string_view>
 
+#include "core/base/error.hpp"
 #include "core/base/math/samples.hpp"
 #include "core/base/math/sampling.hpp"
+#include "core/base/unwanted.hpp"
 #include "core/estimate/gather.hpp"
 #include "lua/column.hpp"
 #include "lua/guarded.hpp"
@@ -19,6 +21,9 @@ namespace {
 
 constexpr int steps_at_once = 1000;  // between two looks at the budget
 constexpr std::int64_t steps_of_a_call = 10'000'000, steps_of_a_question = 20'000;
+constexpr std::int64_t bytes_of_a_step = 64, steps_of_an_ask = 8;
+// One instruction copies or compares so much at most: of texts, and of anything else, such as the arguments of a call.
+constexpr std::size_t longest_text = 4096, largest_piece = std::size_t{256} << 10;
 constexpr std::size_t bytes_of_a_call = std::size_t{32} << 20, bytes_of_a_question = 16384;
 
 // What of Lua's own is left: nothing that reaches out, remembers, goes by addresses, or asks the mathematical library.
@@ -86,12 +91,20 @@ CustomCall::~CustomCall() = default;
 CustomCall& CustomCall::of(lua_State* L) { return **static_cast<CustomCall**>(lua_getextraspace(L)); }
 
 void* CustomCall::allocate(void* self, void* block, std::size_t old_size, std::size_t new_size) {
-    auto& left = static_cast<CustomCall*>(self)->left_.memory;
-    if (!block) old_size = 0;
+    auto& call = *static_cast<CustomCall*>(self);
+    auto& left = call.left_.memory;
+    const bool text = !block && old_size == LUA_TSTRING, column = !block && old_size == LUA_TUSERDATA;
+    if (!block) old_size = 0;  // else it tells what is made, not how large it was
     if (new_size == 0) {
         std::free(block);
         left += old_size;
         return nullptr;
+    }
+    if (!column && new_size > old_size) {
+        const std::size_t most = text ? longest_text : largest_piece;
+        if (new_size > most) call.too_large_ = text ? "a text" : "a table, or arguments of a call,";
+        if (new_size > most) return nullptr;
+        call.left_.steps -= static_cast<std::int64_t>(new_size) / bytes_of_a_step;  // the hook looks at it
     }
     if (new_size > old_size && new_size - old_size > left) return nullptr;
     void* const moved = std::realloc(block, new_size);
@@ -102,13 +115,17 @@ void* CustomCall::allocate(void* self, void* block, std::size_t old_size, std::s
 // `level`: how far above what runs now the line stands that is at fault.
 void CustomCall::spend(lua_State* L, std::int64_t steps, int level) {
     left_.steps -= steps;
+    if (is_unwanted()) luaL_error(L, "is no longer wanted");
     if (left_.steps >= 0) return;
     luaL_where(L, level);
-    lua_pushfstring(L, "takes more than %I steps for %I questions",
-                    static_cast<LUAI_UACINT>(CustomBudget::of(questions_.size()).steps),
-                    static_cast<LUAI_UACINT>(questions_.size()));
+    lua_pushstring(L, too_many_steps().c_str());
     lua_concat(L, 2);
     lua_error(L);
+}
+
+std::string CustomCall::too_many_steps() const {
+    return "takes more than " + std::to_string(CustomBudget::of(questions_.size()).steps) + " steps for " +
+           std::to_string(questions_.size()) + " questions";
 }
 
 void CustomCall::count(lua_State* L, lua_Debug*) { of(L).spend(L, steps_at_once, 0); }
@@ -225,6 +242,7 @@ void CustomCall::open(lua_State* L) {
 }
 
 void CustomCall::fail(lua_State* L, int status) {
+    end_if_unwanted();
     if (status != LUA_ERRMEM) {
         const char* const text = lua_tostring(L, -1);
         throw Error(text ? text : program_.file + ": an error that is no text");
@@ -233,9 +251,14 @@ void CustomCall::fail(lua_State* L, int status) {
     int line = 0;
     for (int level = 0; line <= 0 && lua_getstack(L, level, &info); ++level)
         if (lua_getinfo(L, "l", &info)) line = info.currentline;
-    throw Error(program_.file + ":" + std::to_string(line) + ": takes more than " +
-                std::to_string(CustomBudget::of(questions_.size()).memory >> 20) + " MiB for " +
-                std::to_string(questions_.size()) + " questions");
+    const std::string where = program_.file + ":" + std::to_string(line) + ": ";
+    if (too_large_) {
+        const bool text = std::string_view(too_large_) == "a text";
+        throw Error(where + "makes " + too_large_ + " of more than " +
+                    std::to_string((text ? longest_text : largest_piece) >> 10) + " KiB");
+    }
+    throw Error(where + "takes more than " + std::to_string(CustomBudget::of(questions_.size()).memory >> 20) +
+                " MiB for " + std::to_string(questions_.size()) + " questions");
 }
 
 // ask(i): what input i says of the same questions. ask(i, d): the light that comes from there, which some surface has
@@ -253,6 +276,8 @@ void CustomCall::ask(lua_State* L, int arguments) {
     auto* const directions = arguments > 1 ? column_at(L, first + 1) : nullptr;
     if (arguments > 1 && (!directions || directions->width != 3)) complain("ask(i, d) wants directions");
     const std::size_t count = questions_.size(), input = static_cast<std::size_t>(index - 1);
+    left_.steps -= steps_of_an_ask * static_cast<std::int64_t>(count);
+    if (left_.steps < 0) complain(too_many_steps());
     std::vector<Rgb> light(count);
     if (directions) {
         std::vector<GatherRay> rays;

@@ -28,7 +28,7 @@ struct CustomProgram {
     Key key = 0;
 };
 
-/// What a call may take: instructions of Lua, or entries of columns, and bytes.
+/// What a call may take: instructions of Lua, bytes that these make, or entries of columns; and memory.
 struct CustomBudget {
     std::int64_t steps = 0;
     std::size_t memory = 0;
@@ -74,10 +74,12 @@ private:
     void ask(lua_State* L, int arguments);
     const std::vector<Place>& places();
     [[noreturn]] void fail(lua_State* L, int status);
+    std::string too_many_steps() const;
 
     const CustomProgram& program_;
     std::span<const Query> questions_;
     CustomBudget left_;
+    const char* too_large_ = nullptr;  // a piece of memory that there was none for
     std::vector<Place> places_;
     std::unique_ptr<lua_State, Close> state_;
 };

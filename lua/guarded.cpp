@@ -5,6 +5,8 @@
 #include <exception>
 #include <new>
 
+#include "core/base/unwanted.hpp"
+
 namespace lightnet::lua {
 
 int guarded(lua_State* L, const std::function<int()>& function) {
@@ -12,6 +14,8 @@ int guarded(lua_State* L, const std::function<int()>& function) {
         return function();
     } catch (const std::bad_alloc&) {
         return luaL_error(L, "not enough memory");
+    } catch (const Cancelled&) {  // whoever runs Lua looks whether it is wanted
+        return luaL_error(L, "is no longer wanted");
     } catch (const std::exception& error) {
         luaL_where(L, 1);
         lua_pushstring(L, error.what());

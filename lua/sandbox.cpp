@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "core/base/printable.hpp"
 #include "core/network/graph/value.hpp"
 #include "lua/files.hpp"
 #include "lua/function_source.hpp"
@@ -227,7 +228,7 @@ int Sandbox::print(lua_State* L) {
         line.append(text, std::min(size, most_printed));
         lua_pop(L, 1);
     }
-    line += "\n";
+    line = printable(line, true) + "\n";
     const std::size_t room = most_printed - box.printed_;
     line.resize(std::min(line.size(), room));
     box.printed_ += line.size();

@@ -29,6 +29,11 @@ using Json = nlohmann::ordered_json;
 Picture picture_in(const std::string& path) {
     if (has_ending(path, ".exr")) return read_exr(path);
     DiskFiles files;
+    try {
+        expect_image(files.beginning(path, image_beginning));
+    } catch (const Error& error) {
+        throw Error(std::string(error.what()).starts_with(path) ? error.what() : path + ": " + error.what());
+    }
     const Bytes bytes = files.read(path);
     try {
         const Image image = read_image(*bytes);

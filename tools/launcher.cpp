@@ -143,6 +143,10 @@ int Launcher::operator()(const std::vector<std::string>& arguments) const {
         err << "lightnet: "
             << (threads ? std::string("the system gives no more threads; ") + more_threads_help : error.what()) << '\n';
         return exit_code::failed;
+    } catch (const std::bad_alloc&) {
+        err << "lightnet: there is not enough memory for what was asked of '"
+            << (arguments.empty() ? "" : arguments.front()) << "'\n";
+        return exit_code::failed;
     } catch (const std::exception& error) {
         err << "lightnet: " << error.what() << '\n';
         return exit_code::failed;

@@ -159,6 +159,9 @@ int perform_in_words(const std::vector<std::string>& typed, lightnet::StandardOu
     } catch (const lightnet::UserError& error) {
         log.give_up(error.what());
         return lightnet::exit_code::usage;
+    } catch (const std::bad_alloc&) {
+        log.give_up("lightnetd: there is not enough memory to serve");
+        return lightnet::exit_code::failed;
     } catch (const std::exception& error) {
         log.give_up(std::string("lightnetd: ") + error.what());
         return lightnet::exit_code::failed;

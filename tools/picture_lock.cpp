@@ -5,12 +5,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <filesystem>
-#include <fstream>
+#include <span>
 #include <string_view>
 
 #include "core/base/error.hpp"
+#include "core/base/plain_file.hpp"
 #include "core/base/printable.hpp"
 #include "core/base/this_machine.hpp"
 
@@ -23,10 +25,14 @@ std::string this_process() { return std::string(beginning) + std::to_string(::ge
 
 // As the one who has the lock wrote it.
 std::string who_has(const std::string& path) {
-    std::ifstream in(path);
-    std::string who;
-    std::getline(in, who);
-    return who.empty() ? "" : " (" + printable(who.substr(0, 100)) + ")";
+    std::string who(100, '\0');
+    try {
+        who.resize(PlainFile(path, ~std::uint64_t{0}).read(std::as_writable_bytes(std::span(who))));
+    } catch (const Error&) {
+        return "";
+    }
+    who.resize(std::min(who.find('\n'), who.size()));
+    return who.empty() ? "" : " (" + printable(who) + ")";
 }
 
 // What stands where the lock belongs, and is none: without it two runs would write one picture.

@@ -6,13 +6,12 @@
 #include <cctype>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <ostream>
 
 #include "core/base/error.hpp"
 #include "core/base/hash.hpp"
 #include "core/base/joined.hpp"
+#include "core/base/plain_file.hpp"
 #include "core/network/light/plugin.hpp"
 #include "core/readers/read_scene.hpp"
 
@@ -23,12 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint32_t known_layout = 2;
 
-std::string bytes_in(const std::string& file) {
-    std::ifstream in(file, std::ios::binary);
-    std::string bytes{std::istreambuf_iterator<char>(in), {}};
-    if (!in) throw Error("can't be read");
-    return bytes;
-}
+std::string bytes_in(const std::string& file) { return PlainFile(file, std::uint64_t{1} << 30).text(); }
 
 // What keeps objects from going to and fro.
 std::vector<std::string> differences(const PluginBuild& theirs) {

@@ -12,6 +12,7 @@
 #include "core/base/error.hpp"
 #include "core/base/hash.hpp"
 #include "core/base/this_machine.hpp"
+#include "core/base/unwanted.hpp"
 #include "core/network/graph/check.hpp"
 #include "core/run/prepare/looker.hpp"
 #include "core/run/runtime/master_renderer.hpp"
@@ -80,6 +81,7 @@ void Rendering::serially(LoadedScene scene) {
     book_.use(Plan{{PlaceAt{}}, std::vector<std::vector<std::uint32_t>>(what_.job.graph.nodes.size(), {0})},
               what_.job.graph);
     try {
+        const LookingAt looking(&signals_.any);
         TilesByPass passes(what_.job.graph, what_.registry, what_.tiles, book_.steps());
         const auto say = [this](const std::string& text) { book_.say(text); };
         run.prepare(made_from(what_.job), cache(), say, passes.pass());

@@ -276,6 +276,13 @@ void RunBook::name_bad_light(const Graph& graph) {
     for (const auto& [node, count] : counters_.off_surface)
         alert(
             fmt::format("'{}' asked {} times about points that no surface is near; they count as black", node, count));
+    for (const auto& [node, count] : counters_.lost_rays)
+        alert(
+            fmt::format("'{}' sent {} rays that are not finite, have no direction, or begin too far away; they meet "
+                        "nothing",
+                        node, count));
+    for (const auto& [node, count] : counters_.unsound_questions)
+        alert(fmt::format("'{}' was asked {} questions whose numbers are not finite; they count as black", node, count));
     const auto lost = film_.lost();
     for (std::size_t layer = 0; layer < lost.size(); ++layer)
         if (lost[layer])

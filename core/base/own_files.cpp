@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
+#include <span>
+#include <string>
 #include <system_error>
 
 #include "core/base/error.hpp"
+#include "core/base/plain_file.hpp"
 
 namespace lightnet {
 
@@ -27,11 +29,14 @@ std::string why_not_replaced(const fs::path& path, std::string_view beginning) {
     if (fs::is_directory(status)) return "is a folder";
     if (!fs::is_regular_file(status)) return "is no file, but a pipe or a device";
     if (fs::file_size(path, error) == 0 && !error) return "";
-    std::ifstream in(path, std::ios::binary);
     std::string text(beginning.size(), '\0');
-    if (!in) return "is there already, and can't be read: it may be somebody else's";
-    in.read(text.data(), static_cast<std::streamsize>(text.size()));
-    if (in && text == beginning) return "";
+    try {
+        PlainFile in(path, ~std::uint64_t{0});
+        text.resize(in.read(std::as_writable_bytes(std::span(text))));
+    } catch (const Error&) {
+        return "is there already, and can't be read: it may be somebody else's";
+    }
+    if (text == beginning) return "";
     return "is there already, and is nothing that lightnet has written: it is left alone (move it, or choose another "
            "name)";
 }

@@ -1,5 +1,7 @@
 #include "core/base/workshop.hpp"
 
+#include "core/base/unwanted.hpp"
+
 #include <algorithm>
 #include <system_error>
 #include <utility>
@@ -53,6 +55,7 @@ void Workshop::work(const std::stop_token& stop) {
 bool Workshop::do_one(std::unique_lock<std::mutex>& lock) {
     if (tasks_.empty()) return false;
     const auto task = std::move(tasks_.front());
+    const LookingAt nothing(nullptr);  // tasks must not throw
     tasks_.pop_front();
     ++under_way_;
     lock.unlock();

@@ -2,20 +2,21 @@
 
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <span>
-#include <sstream>
 #include <type_traits>
 
 #include "core/base/atomic_file.hpp"
 #include "core/base/error.hpp"
 #include "core/base/hash.hpp"
+#include "core/base/plain_file.hpp"
 #include "core/base/printable.hpp"
 
 namespace lightnet {
 namespace {
+
+constexpr std::uint64_t largest_checkpoint = std::uint64_t{64} << 30;
 
 // magic, size of the text, text (JSON), sums, blocks that wait, hash of all before it. Little-endian, as in memory.
 constexpr std::string_view magic = "lightnet checkpoint 4\n";
@@ -153,11 +154,11 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint& check
 std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& path) {
     std::error_code ignored;
     if (!std::filesystem::exists(path, ignored)) return std::nullopt;
-    std::ifstream in(path, std::ios::binary);
-    std::ostringstream bytes;
-    if (!in || !(bytes << in.rdbuf())) throw Error(path.string(), "can't be read");
+    const std::string bytes = PlainFile(path, largest_checkpoint).text();
     try {
-        return from_bytes(bytes.view());
+        return from_bytes(bytes);
+    } catch (const std::bad_alloc&) {
+        throw Error(path.string(), "there is not enough memory for its film");
     } catch (const std::exception& error) {
         throw Error(path.string(), error.what());
     }

@@ -14,10 +14,14 @@
 #include <cstdint>
 #include <exception>
 #include <limits>
+#include <new>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/base/exr_claims.hpp"
+#include "core/base/plain_file.hpp"
 #include "core/film/exr.hpp"
 #include "core/film/exr_channels.hpp"
 
@@ -28,8 +32,7 @@ using namespace exr;
 
 constexpr std::uint32_t most_ranks = 200;  // two digits count pairs of them
 
-/// So many pixels no compression packs into a byte.
-constexpr std::int64_t most_pixels_per_byte = 4096;
+constexpr std::uint64_t largest_exr = std::uint64_t{16} << 30;
 
 std::int64_t length(int min, int max) { return std::int64_t{max} - min + 1; }
 
@@ -38,12 +41,19 @@ std::size_t pixels_of(const Imath::Box2i& window) {
 }
 
 // Room is taken for what a file claims to have, so it must be able to have it.
-void expect_plausible(const Imath::Box2i& window, const std::filesystem::path& path) {
-    const auto bytes = std::filesystem::file_size(path);
+void expect_plausible(const std::filesystem::path& path) {
+    PlainFile file(path, largest_exr);
+    try {
+        check_exr_claims([&](std::span<std::byte> into) { return file.read(into); }, file.size());
+    } catch (const Error& wrong) {
+        throw Error(path.string(), std::string("is damaged: ") + wrong.what());
+    }
+}
+
+void expect_pixels(const Imath::Box2i& window, const std::filesystem::path& path) {
     const auto width = length(window.min.x, window.max.x), height = length(window.min.y, window.max.y);
-    if (width > std::numeric_limits<int>::max() || height > std::numeric_limits<int>::max() ||
-        static_cast<std::uintmax_t>(width * height / most_pixels_per_byte) > bytes)
-        throw Error(path.string(), fmt::format("is damaged: {} bytes can't be {} x {} pixels", bytes, width, height));
+    if (width > std::numeric_limits<int>::max() || height > std::numeric_limits<int>::max())
+        throw Error(path.string(), fmt::format("is damaged: there are no {} x {} pixels", width, height));
 }
 
 /// Reads channels of an open file to where they are wanted, all at once.
@@ -167,9 +177,10 @@ void read_place(const Imf::Header& header, Picture& picture) {
 }  // namespace
 
 Picture read_exr(const std::filesystem::path& path) try {
+    expect_plausible(path);
     Imf::InputFile file(path.c_str(), 0);
     const auto window = file.header().dataWindow();
-    expect_plausible(window, path);
+    expect_pixels(window, path);
     Picture picture{static_cast<std::uint32_t>(window.max.x - window.min.x + 1),
                     static_cast<std::uint32_t>(window.max.y - window.min.y + 1),
                     read_layer(file, ""),
@@ -189,6 +200,8 @@ Picture read_exr(const std::filesystem::path& path) try {
     return picture;
 } catch (const Error&) {
     throw;
+} catch (const std::bad_alloc&) {
+    throw Error(path.string(), "there is not enough memory for its pixels");
 } catch (const std::exception& wrong) {
     throw Error(path.string(), wrong.what());
 }

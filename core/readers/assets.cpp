@@ -40,6 +40,12 @@ std::shared_ptr<const Image> Assets::picture(const std::string& path, const Enco
                                              const SourceLine& where) {
     if (const auto known = pictures_.find({path, encoding.curve, encoding.gamma}); known != pictures_.end())
         return known->second;
+    try {
+        expect_image(files_.beginning(path, image_beginning));
+    } catch (const Error& problem) {
+        report_.error(where, fmt::format("image '{}': {}", path, problem.what()));
+        return pictures_[{path, encoding.curve, encoding.gamma}] = nullptr;
+    }
     const auto bytes = read(path, where);
     if (!bytes) return pictures_[{path, encoding.curve, encoding.gamma}] = nullptr;
     return picture(path, **bytes, encoding, where);

@@ -1,13 +1,12 @@
 #include "core/readers/files.hpp"
 
-#include <cerrno>
-#include <cstring>
+#include <algorithm>
 #include <filesystem>
-#include <fstream>
+#include <span>
 #include <system_error>
 #include <utility>
 
-#include "core/base/error.hpp"
+#include "core/base/plain_file.hpp"
 #include "core/base/workshop.hpp"
 
 namespace lightnet {
@@ -15,40 +14,36 @@ namespace {
 
 constexpr std::uintmax_t largest_file = std::uintmax_t{8} << 30;
 
-std::vector<std::byte> room_for(std::uintmax_t size, const std::string& path) try {
-    return std::vector<std::byte>(size);
-} catch (const std::bad_alloc&) {
-    throw Error(path, "has " + std::to_string(size >> 20) + " MiB, which is more than there is memory for");
-}
-
-std::vector<std::byte> read_disk(const std::string& path) {
-    std::error_code problem;
-    const auto status = std::filesystem::status(path, problem);
-    if (!std::filesystem::exists(status)) throw Error(path, "no such file");
-    // a pipe or a device could make the reader wait for ever
-    if (!std::filesystem::is_regular_file(status)) throw Error(path, "not a file");
-    const auto size = std::filesystem::file_size(path, problem);
-    if (problem) throw Error(path, problem.message());
-    if (size > largest_file) throw Error(path, "larger than 8 GiB");
-
-    std::ifstream stream(path, std::ios::binary);
-    if (!stream) throw Error(path, std::strerror(errno));
-    auto bytes = room_for(size, path);
-    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-    if (static_cast<std::uintmax_t>(stream.gcount()) != size) throw Error(path, "ends early while being read");
-    return bytes;
+// In pieces, between which somebody may have lost interest.
+Hash hash_of(std::span<const std::byte> bytes, const std::atomic<bool>& ended) {
+    constexpr std::size_t piece = std::size_t{16} << 20;
+    Hasher hasher;
+    for (; !bytes.empty() && !ended; bytes = bytes.subspan(std::min(piece, bytes.size())))
+        hasher.add(bytes.first(std::min(piece, bytes.size())));
+    return hasher.finish();
 }
 
 }  // namespace
 
+std::vector<std::byte> Files::beginning(const std::string& path, std::size_t most) {
+    const auto all = read(path);
+    return {all->begin(), all->begin() + std::ptrdiff_t(std::min(most, all->size()))};
+}
+
 DiskFiles::DiskFiles() : workshop_(std::make_unique<Workshop>(2)) {}
-DiskFiles::~DiskFiles() = default;
+DiskFiles::~DiskFiles() { ended_ = true; }
+
+std::vector<std::byte> DiskFiles::beginning(const std::string& path, std::size_t most) {
+    std::vector<std::byte> bytes(most);
+    bytes.resize(PlainFile(path, largest_file).read(bytes));
+    return bytes;
+}
 
 Bytes DiskFiles::read(const std::string& path) {
     if (const auto known = seen_.find(path); known != seen_.end()) return known->second;
-    auto bytes = std::make_shared<const std::vector<std::byte>>(read_disk(path));
+    auto bytes = std::make_shared<const std::vector<std::byte>>(PlainFile(path, largest_file).bytes());
     seen_.emplace(path, bytes);
-    workshop_->add([bytes, &hash = hashes_[path]] { hash = content_hash(*bytes); });
+    workshop_->add([this, bytes, &hash = hashes_[path]] { hash = hash_of(*bytes, ended_); });
     return bytes;
 }
 

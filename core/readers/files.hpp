@@ -1,9 +1,12 @@
 // Where the bytes of a scene come from: a disk, or blobs that were sent.
 #pragma once
 
+#include <atomic>
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/base/bytes.hpp"
 #include "core/base/hash.hpp"
@@ -19,6 +22,8 @@ public:
     virtual ~Files() = default;
     /// The whole file. Throws Error when there is none or it can't be read.
     virtual Bytes read(const std::string& path) = 0;
+    /// The first bytes of it, `most` at most: so much is looked at before a large file is read for nothing.
+    virtual std::vector<std::byte> beginning(const std::string& path, std::size_t most);
     /// Where a file really lies: as it is named, or, on a disk, where links lead.
     virtual std::string real_path(const std::string& path) const { return path; }
 };
@@ -29,6 +34,7 @@ public:
     DiskFiles();
     ~DiskFiles() override;
     Bytes read(const std::string& path) override;
+    std::vector<std::byte> beginning(const std::string& path, std::size_t most) override;
     std::string real_path(const std::string& path) const override;
     const std::map<std::string, Bytes>& seen() const { return seen_; }
     /// Of all that was read: computed on the side while the reader went on.
@@ -36,6 +42,7 @@ public:
 
 private:
     std::map<std::string, Bytes> seen_;
+    std::atomic<bool> ended_{false};      // nobody wants hashes any more
     std::map<std::string, Hash> hashes_;  // its entries stay where they are
     std::unique_ptr<Workshop> workshop_;  // last: it writes into the others
 };

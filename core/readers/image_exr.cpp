@@ -9,11 +9,13 @@
 
 #include <cstring>
 #include <exception>
+#include <new>
 #include <stdexcept>
 #include <string>
 
 #include "core/base/allowance.hpp"
 #include "core/base/error.hpp"
+#include "core/base/exr_claims.hpp"
 #include "core/base/spare_threads.hpp"
 #include "core/readers/image_decoders.hpp"
 
@@ -58,6 +60,7 @@ int decoding_threads() {
 }
 
 Image decode(Input bytes) {
+    check_exr_claims(bytes);
     Memory memory(bytes);
     Imf::InputFile file(memory, decoding_threads());
     const auto& window = file.header().dataWindow();
@@ -96,6 +99,8 @@ Image read_exr(Input bytes) {
     try {
         return decode(bytes);
     } catch (const Error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& problem) {
         throw Error(std::string("EXR: ") + problem.what());

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <new>
 #include <string_view>
 #include <utility>
 
@@ -52,6 +53,8 @@ Image to_image(decoders::Raster raster, const Encoding& encoding) {
     return {raster.width, raster.height, std::move(coded)};
 }
 
+constexpr const char* no_image = "not an image of a known format (JPEG, PNG, TIFF, TGA, OpenEXR, Radiance HDR)";
+
 bool begins(std::span<const std::byte> bytes, std::string_view start) {
     return bytes.size() >= start.size() && std::memcmp(bytes.data(), start.data(), start.size()) == 0;
 }
@@ -65,7 +68,22 @@ void decoders::check_size(std::int64_t width, std::int64_t height) {
         throw Error(fmt::format("an image of {} x {} pixels is too large (at most 2^26 pixels)", width, height));
 }
 
-Image read_image(std::span<const std::byte> bytes, const Encoding& encoding) {
+void expect_image(std::span<const std::byte> bytes) {
+    for (const std::string_view start :
+         {std::string_view("\xFF\xD8\xFF"), std::string_view("\x89PNG\r\n\x1A\n"), std::string_view("\x76\x2F\x31\x01"),
+          std::string_view("#?"), std::string_view("II*\0", 4), std::string_view("MM\0*", 4),
+          std::string_view("II+\0", 4)})
+        if (begins(bytes, start)) return;
+    if (!decoders::is_tga(bytes)) throw Error(no_image);
+}
+
+void decoders::check_size(std::int64_t width, std::int64_t height, Input file, std::int64_t pixels_per_byte) {
+    check_size(width, height);
+    if (width * height / pixels_per_byte > static_cast<std::int64_t>(file.size()))
+        throw Error(fmt::format("the file ends early: {} bytes can't be {} x {} pixels", file.size(), width, height));
+}
+
+Image read_image(std::span<const std::byte> bytes, const Encoding& encoding) try {
     if (begins(bytes, "\xFF\xD8\xFF")) return to_image(decoders::read_jpeg(bytes), encoding);
     if (begins(bytes, "\x89PNG\r\n\x1A\n")) return to_image(decoders::read_png(bytes), encoding);
     if (begins(bytes, "\x76\x2F\x31\x01")) return decoders::read_exr(bytes);
@@ -76,7 +94,9 @@ Image read_image(std::span<const std::byte> bytes, const Encoding& encoding) {
         return std::get<Image>(std::move(found));
     }
     if (decoders::is_tga(bytes)) return to_image(decoders::read_tga(bytes), encoding);
-    throw Error("not an image of a known format (JPEG, PNG, TIFF, TGA, OpenEXR, Radiance HDR)");
+    throw Error(no_image);
+} catch (const std::bad_alloc&) {
+    throw Error("there is not enough memory for its pixels");
 }
 
 }  // namespace lightnet

@@ -21,4 +21,9 @@ struct Encoding {
 /// no known kind, or has more than 2²⁶ pixels.
 Image read_image(std::span<const std::byte> bytes, const Encoding& encoding = {});
 
+/// Throws Error (without a file name) when a file that begins so is no image of a known kind: said before all of it is
+/// read. So much of its beginning tells:
+inline constexpr std::size_t image_beginning = 64;
+void expect_image(std::span<const std::byte> beginning);
+
 }  // namespace lightnet

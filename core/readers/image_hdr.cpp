@@ -100,8 +100,7 @@ Image read_hdr(Input bytes) {
     // a row takes at least four bytes, run lengths or not
     if (static_cast<std::size_t>(height) > reader.left() / 4) throw Error("HDR: the file is too short for its size");
 
-    std::vector<Rgb> pixels;
-    pixels.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    std::vector<Rgb> pixels;  // grows with what is there
     std::vector<Rgbe> row(static_cast<std::size_t>(width));
     for (std::int64_t y = 0; y < height; ++y) {
         const Rgbe first = reader.pixel();

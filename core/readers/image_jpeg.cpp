@@ -71,7 +71,8 @@ Raster read_jpeg(Input bytes) {
         if (!good) throw Error("JPEG: " + std::string(errors.message.data()));
     };
     must(decode(bytes, raster, errors));
-    check_size(raster.width, raster.height);
+    // a bit or so for each 8 x 8 pixels
+    check_size(raster.width, raster.height, bytes, 1024);
     raster.bytes.resize(std::size_t{raster.width} * raster.height * 3);
     must(decode(bytes, raster, errors));
     return raster;

@@ -76,7 +76,8 @@ Raster read_png(Input bytes) {
         if (!good) throw Error("PNG: " + std::string(source.message.data()));
     };
     must(decode(source, raster, rows));
-    check_size(raster.width, raster.height);
+    // deflate makes at most 1032 bytes of one; a palette of two colours has eight pixels in each
+    check_size(raster.width, raster.height, bytes, 8 * 1032);
     const std::size_t row_size = std::size_t{raster.width} * raster.channels * (raster.wide ? 2 : 1);
     raster.bytes.resize(row_size * raster.height);
     for (std::size_t y = 0; y < raster.height; ++y) rows.push_back(raster.bytes.data() + y * row_size);

@@ -16,6 +16,9 @@
 namespace lightnet::decoders {
 namespace {
 
+// Of fax, which has a bit for each row that is like the one above.
+constexpr std::int64_t pixels_per_byte = 1 << 16;
+
 struct TiffBytes {
     Input bytes;
     std::size_t at = 0;
@@ -175,7 +178,7 @@ Raster turned_into_eight_bits(const OpenTiff& tiff, const Layout& layout) {
 std::variant<Raster, Image> read_tiff(Input bytes) {
     const OpenTiff tiff(bytes);
     const Layout layout = layout_of(tiff);
-    check_size(layout.width, layout.height);
+    check_size(layout.width, layout.height, bytes, pixels_per_byte);
     if (!layout.plain()) return turned_into_eight_bits(tiff, layout);
     auto rows = rows_of(tiff, layout);
     if (layout.floats()) return image_of_floats(layout, rows);

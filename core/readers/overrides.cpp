@@ -16,6 +16,7 @@
 #include "core/base/suggestion.hpp"
 #include "core/readers/daylight/daylight.hpp"
 #include "core/readers/image_file.hpp"
+#include "core/scene/reach.hpp"
 
 namespace lightnet {
 namespace {
@@ -52,6 +53,9 @@ void change_camera(SceneData& scene, const CameraOverride& change, const SourceL
     if (change.fov) camera.fov = *change.fov, camera.orthographic = false;
     if (change.lens) camera.lens_radius = *change.lens;
     if (change.focus) camera.focus_distance = *change.focus;
+    if (!scene.camera_given) return;
+    if (const auto fault = camera_fault(camera, scene.film); !fault.empty())
+        throw UserError(where, "'camera': " + fault);
 }
 
 void choose_camera(SceneData& scene, const std::string& wanted, const SourceLine& where) {
@@ -103,6 +107,7 @@ Matrix stand_up(int pole, Vec3 up) {
 EnvironmentData picture_around(const std::string& path, const SceneData& scene, Files& files, const SourceLine& where) {
     EnvironmentData environment;
     try {
+        expect_image(files.beginning(path, image_beginning));
         environment.image = std::make_shared<const Image>(read_image(*files.read(path)));
     } catch (const Error& problem) {
         throw UserError(where, "'environment': can't read '" + path + "': " + problem.what());

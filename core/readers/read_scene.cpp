@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 #include <vector>
+
+#include "core/base/unwanted.hpp"
 
 #include "core/readers/gltf/gltf.hpp"
 #include "core/readers/mitsuba/mitsuba.hpp"
@@ -10,6 +13,7 @@
 #include "core/readers/pbrt/pbrt.hpp"
 #include "core/readers/ply/ply.hpp"
 #include "core/scene/bsdf/check_materials.hpp"
+#include "core/scene/reach.hpp"
 #include "core/scene/textures/look_up.hpp"
 
 namespace lightnet {
@@ -22,9 +26,13 @@ class Watched final : public Files {
 public:
     Watched(Files& files, const std::string& scene) : files_(files), scene_(scene) {}
     Bytes read(const std::string& path) override {
+        end_if_unwanted();
         auto bytes = files_.read(path);
         if (outside_.empty() && path != scene_ && !stays_beside(files_, scene_, path)) outside_ = path;
         return bytes;
+    }
+    std::vector<std::byte> beginning(const std::string& path, std::size_t most) override {
+        return files_.beginning(path, most);
     }
     std::string real_path(const std::string& path) const override { return files_.real_path(path); }
     /// "": all of them are where the scene is, or below.
@@ -92,6 +100,7 @@ SceneData read(Files& files, const std::string& path, const SceneConstants& cons
 void check(const SceneData& scene, const std::string& path) try {
     check_textures(scene.textures);
     check_materials(scene.materials, scene.textures.size());
+    if (auto problems = out_of_reach(scene, path); !problems.empty()) throw UserError(std::move(problems));
 } catch (const Error& problem) {
     throw UserError({path, 0}, problem.what());
 }

@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/network/light/cancelled.hpp"
+#include "core/base/unwanted.hpp"
 #include "tests/modes/learning.hpp"
 #include "tests/support/folder.hpp"
 
@@ -38,7 +38,8 @@ public:
         };
         if (where_ == "prepare") for_ever();
         if (where_ == "shard") services.map<int>(4, [&](std::size_t, std::vector<int>&) { for_ever(); });
-        if (where_ == "value") services.once<int>([&] {
+        if (where_ == "value")
+            services.once<int>([&] {
                 for_ever();
                 return 0;
             });
@@ -136,8 +137,7 @@ TEST_P(Cancel, EndsPlacesOnHosts) {
     expect_nobody_at_work(since);
 }
 
-INSTANTIATE_TEST_SUITE_P(WhereverANodeWorks, Cancel,
-                         ::testing::Values("prepare", "shard", "value", "pieces", "piece"),
+INSTANTIATE_TEST_SUITE_P(WhereverANodeWorks, Cancel, ::testing::Values("prepare", "shard", "value", "pieces", "piece"),
                          [](const auto& where) { return where.param; });
 
 TEST(Activity, TravelsAsText) {

@@ -1,13 +1,12 @@
 #include "tools/explain/past_run.hpp"
 
 #include <charconv>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <string>
 
 #include "core/base/error.hpp"
 #include "core/base/json.hpp"
+#include "core/base/plain_file.hpp"
 #include "core/base/printable.hpp"
 #include "core/network/graph/check.hpp"
 #include "core/network/graph/json.hpp"
@@ -33,15 +32,18 @@ std::uint64_t seed_in(const Json& report) {
     return seed;
 }
 
+std::string text_of_report(const std::filesystem::path& report) try {
+    return PlainFile(report, report_limits.bytes).text();
+} catch (const Error& error) {
+    throw UserError({report.string(), 0}, std::string("can't be read (") + error.what() +
+                                              "); it tells from which graph the picture was made (--report "
+                                              "FILE.run.json names it)");
+}
+
 }  // namespace
 
 PastRun read_past_run(const std::filesystem::path& report, const Registry& registry) {
-    std::ifstream file(report, std::ios::binary);
-    if (!file)
-        throw UserError(
-            {report.string(), 0},
-            "can't be read; it tells from which graph the picture was made (--report FILE.run.json names it)");
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    const std::string text = text_of_report(report);
     try {
         const Json json = parse_json(text, report_limits);
         const Json& graph = json.at("graph");

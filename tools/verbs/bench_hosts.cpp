@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +15,7 @@
 #include "core/base/hash.hpp"
 #include "core/base/json.hpp"
 #include "core/base/own_files.hpp"
+#include "core/base/plain_file.hpp"
 #include "tools/command_line.hpp"
 #include "tools/delivery.hpp"
 #include "tools/launcher.hpp"
@@ -82,11 +81,7 @@ private:
     fs::path path_;
 };
 
-std::string content_of(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file) throw Error(path, "can't be read");
-    return {std::istreambuf_iterator<char>(file), {}};
-}
+std::string content_of(const std::string& path) { return PlainFile(path, std::uint64_t{1} << 30).text(); }
 
 /// What one run took, seconds.
 struct HostsRun {

@@ -6,13 +6,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "core/base/error.hpp"
+#include "core/base/plain_file.hpp"
 #include "tools/command_line.hpp"
 #include "tools/exit_code.hpp"
 #include "tools/http/live_line.hpp"
@@ -82,18 +81,16 @@ private:
 };
 
 int print_report(const std::string& file, const Launcher& launcher) try {
-    std::ifstream in(file, std::ios::binary);
-    if (!in)
-        throw UserError(
-            {file, 0},
-            "can't be read; a report is like cornell.run.json, an address like http://127.0.0.1:40123/#3c1f");
-    launcher.out << to_text(table_of_report({std::istreambuf_iterator<char>(in), {}}),
-                            terminal_size(launcher.out).columns, 0);
+    constexpr std::uint64_t most_bytes = std::uint64_t{256} << 20;
+    launcher.out << to_text(table_of_report(PlainFile(file, most_bytes).text()), terminal_size(launcher.out).columns,
+                            0);
     return exit_code::done;
 } catch (const UserError&) {
     throw;
 } catch (const Error& error) {
-    throw UserError({file, 0}, error.what());
+    throw UserError({file, 0}, std::string(error.what()) +
+                                   "; a report is like cornell.run.json, an address like "
+                                   "http://127.0.0.1:40123/#3c1f");
 }
 
 std::optional<std::string> wish_of(const WatchOptions& options) {

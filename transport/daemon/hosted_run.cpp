@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "core/base/error.hpp"
+#include "core/base/unwanted.hpp"
 
 namespace lightnet {
 
@@ -123,6 +124,7 @@ bool HostedRun::advance() {
 
 void HostedRun::begin_to_build() {
     building_ = background_.start([this, last = std::move(last_)] {
+        const LookingAt looking(&unwanted_);
         const auto find = [results = results_](const Hash& hash) { return results->find(hash); };
         if (last) return build_network(assignment_.job, registry_, last, find);
         BlobFiles files(cache_, assignment_.job.files);
@@ -146,6 +148,7 @@ void HostedRun::take_plan(const Plan& plan) {
 }
 
 void HostedRun::begin_to_stop() {
+    unwanted_ = true;
     if (places_) places_->begin_to_stop();
 }
 

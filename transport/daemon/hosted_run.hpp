@@ -1,6 +1,7 @@
 // One run, as a host sees it: from the job's arrival to its end.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <future>
 #include <map>
@@ -112,7 +113,8 @@ private:
     std::vector<std::pair<Hash, bool>> found_;
     std::unique_ptr<ZmqPlaceTransport> transport_;
     std::unique_ptr<PlaceThreads> places_;
-    BackgroundWork background_;  // last: what it does looks at the rest
+    std::atomic<bool> unwanted_{false};  // what is built
+    BackgroundWork background_;          // last: what it does looks at the rest
 };
 
 }  // namespace lightnet

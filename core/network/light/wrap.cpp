@@ -8,7 +8,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/math/samples.hpp"
-#include "core/network/light/cancelled.hpp"
+#include "core/base/unwanted.hpp"
 #include "core/network/light/describe_question.hpp"
 #include "core/network/light/light_op.hpp"
 #include "core/network/light/locks.hpp"

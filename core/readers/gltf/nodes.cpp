@@ -10,6 +10,8 @@
 
 #include "core/readers/gltf/meshes.hpp"
 #include "core/readers/mesh_tools.hpp"
+#include "core/scene/reach.hpp"
+#include "core/scene/surfaces/placement.hpp"
 
 namespace lightnet::gltf {
 namespace {
@@ -138,10 +140,8 @@ private:
     void put(const At& node, const Matrix& to_world, std::vector<Matrix>& places) {
         const At many = node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"];
         const auto place = [&](const Matrix& t) {
-            if (invertible(t))
-                places.push_back(t);
-            else
-                node.warn("meshes without a size are left out");
+            if (!invertible(t)) return node.warn("meshes without a size are left out");
+            places.push_back(t);
         };
         if (!many) return place(to_world);
         const auto list = [&](const char* name) { return many[name] ? document_.values(many[name]) : std::nullopt; };
@@ -176,8 +176,10 @@ private:
         if (object.shapes.empty()) return;
         auto& scene = assets_.scene();
         scene.objects.push_back(std::move(object));
-        for (const Matrix& place : places)
+        for (const Matrix& place : places) {
+            if (const std::string fault = lightnet::Placement::fault(place); !fault.empty()) return mesh.error(fault);
             scene.instances.push_back({static_cast<std::uint32_t>(scene.objects.size() - 1), place});
+        }
     }
 
     std::uint32_t shape(Primitive primitive, const std::string& name) {
@@ -261,7 +263,7 @@ private:
         const auto colour = at["color"].numbers<3>({1, 1, 1});
         const Rgb strength = Rgb{float(colour[0]), float(colour[1]), float(colour[2])} * at["intensity"].real(1);
         const Vec3 position = transform_point(to_world, {0, 0, 0}), ahead = axis_of(to_world, {0, 0, -1});
-        if (!finite(position)) return index.error("stands at no finite place");
+        if (!in_reach(position)) return index.error("stands out of reach");
         const std::string type = at["type"].text("");
         auto& lights = assets_.scene().lights;
         const LampLabel label{node.empty() ? at["name"].text("") : node};

@@ -11,6 +11,7 @@
 #include "core/readers/daylight/sun_position.hpp"
 #include "core/readers/mitsuba/colours.hpp"
 #include "core/readers/mitsuba/transforms.hpp"
+#include "core/scene/reach.hpp"
 
 namespace lightnet::mitsuba {
 namespace {
@@ -190,8 +191,14 @@ void add_emitter(const Node& node, const Context& context) {
                                                                   {"sun", sun_and_sky}};
     Properties properties(node, context);
     properties.ignore({"sampling_weight"});
-    if (const auto adder = adders.find(node.type); adder != adders.end())
-        return adder->second(properties, context.assets.scene());
+    if (const auto adder = adders.find(node.type); adder != adders.end()) {
+        auto& scene = context.assets.scene();
+        const std::size_t before = scene.lights.size();
+        adder->second(properties, scene);
+        if (scene.lights.size() > before && !in_reach(scene.lights.back()))
+            context.error(node, "it stands out of reach");
+        return;
+    }
     properties.ignore_all();
     std::vector<std::string> names;
     for (const auto& [name, add] : adders) names.push_back(name);

@@ -125,6 +125,7 @@ void set_sensor(const Node& node, const Context& context) {
     for (const auto& row : camera.to_world.m)
         for (const double value : row)
             if (!std::isfinite(value)) return context.error(node, "the transform of the sensor is not finite");
+    camera.where = node.where;
     scene.camera = camera;
     scene.camera_given = true;
 }

@@ -15,6 +15,7 @@
 #include "core/readers/obj/model.hpp"
 #include "core/readers/ply/mesh.hpp"
 #include "core/scene/surfaces/placed_quadric.hpp"
+#include "core/scene/surfaces/placement.hpp"
 
 namespace lightnet::mitsuba {
 namespace {
@@ -274,15 +275,8 @@ void Shapes::instance(Properties& properties) {
         return context_.error(properties.node(), "an instance needs a reference to one shapegroup");
     const auto object = group(*groups[0]);
     if (!object) return;
-    double largest = 0;
-    for (const auto& row : to_world.m)
-        for (const double value : row) largest = std::max(largest, std::fabs(value));
-    const auto& m = to_world.m;
-    const double volume = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
-                          m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
-                          m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
-    if (!(std::fabs(volume) > 0) || !(largest < 1e30))
-        return context_.error(properties.node(), "the transform of an instance has no inverse");
+    if (const std::string fault = lightnet::Placement::fault(to_world); !fault.empty())
+        return context_.error(properties.node(), fault);
     context_.assets.scene().instances.push_back({*object, to_world});
 }
 

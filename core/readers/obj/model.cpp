@@ -12,6 +12,7 @@
 
 #include "core/readers/mesh_tools.hpp"
 #include "core/readers/obj/lines.hpp"
+#include "core/scene/reach.hpp"
 
 namespace lightnet::obj {
 namespace {
@@ -81,6 +82,7 @@ private:
 
     void vertex() {
         positions_.push_back(triple("a vertex").value_or(Vec3{}));
+        if (!in_reach(positions_.back())) report_.error(lines_.where(), "the vertex lies out of reach");
         std::vector<float> more;
         while (const auto value = lines_.number(report_)) more.push_back(*value);
         // "x y z r g b"; one more number would be w, of curves

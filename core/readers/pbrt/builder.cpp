@@ -290,6 +290,7 @@ void Builder::camera(Statement& s) {
     const Shot shot = make_camera(s.names[0], s.parameters, *to_world);
     s.parameters.warn_unused();
     scene_.camera = shot.camera;
+    scene_.camera.where = s.where;
     scene_.camera_given = true;
     exposure_ = shot.exposure;
     systems_["camera"] = *to_world;

@@ -8,6 +8,8 @@
 #include "core/readers/pbrt/builder.hpp"
 #include "core/readers/pbrt/materials.hpp"
 #include "core/readers/pbrt/transforms.hpp"
+#include "core/scene/reach.hpp"
+#include "core/scene/surfaces/placement.hpp"
 
 namespace lightnet::pbrt {
 
@@ -67,7 +69,9 @@ void Builder::area_light(Statement& s) {
 
 void Builder::light(Statement& s) {
     s.parameters.inherit(state_.defaults["light"]);
+    const std::size_t before = scene_.lights.size();
     add_light(s.names[0], s.parameters, textures_, sources_, state_.to_world, scene_);
+    if (scene_.lights.size() > before && !in_reach(scene_.lights.back())) s.parameters.error("it stands out of reach");
     s.parameters.warn_unused();
 }
 
@@ -125,7 +129,9 @@ void Builder::object_end(Statement& s) {
 void Builder::object_instance(Statement& s) {
     constexpr std::uint64_t size = 16;  // in memory, beside a vertex's
     const auto found = objects_.find(s.names[0]);
-    if (found != objects_.end() && !open_object_ && inverse(state_.to_world)) {
+    const std::string fault =
+        inverse(state_.to_world) ? lightnet::Placement::fault(state_.to_world) : "the transform is singular";
+    if (found != objects_.end() && !open_object_ && fault.empty()) {
         shapes_.budget().take(size);
         if (!shapes_.budget().exceeded()) scene_.instances.push_back({found->second, state_.to_world});
         return;
@@ -135,7 +141,7 @@ void Builder::object_instance(Statement& s) {
     sources_.report.error(s.where, open_object_              ? "ObjectInstance inside of an object"
                                    : found == objects_.end() ? fmt::format("there is no object '{}'{}", s.names[0],
                                                                            did_you_mean(s.names[0], known))
-                                                             : "the transform is singular");
+                                                             : fault);
 }
 
 }  // namespace lightnet::pbrt

@@ -15,7 +15,7 @@ constexpr std::uint64_t most_pixels = std::uint64_t{1} << 28;  // of up to 16 by
 std::shared_ptr<const Image> Pictures::get(const std::string& name, const Encoding& encoding, const SourceLine& where) {
     const Key key{sources_.path(name), encoding.curve, encoding.gamma};
     if (const auto known = known_.find(key); known != known_.end()) return known->second;
-    const auto bytes = sources_.read(name, where);
+    const auto bytes = is_one(name, where) ? sources_.read(name, where) : std::nullopt;
     if (!bytes) {
         known_.emplace(key, nullptr);
         return nullptr;
@@ -25,6 +25,17 @@ std::shared_ptr<const Image> Pictures::get(const std::string& name, const Encodi
     known_.emplace(key, order.image);
     workshop_.add([this, &order, bytes = *bytes, encoding] { decode(order, bytes, encoding); });
     return order.image;
+}
+
+// False: reported.
+bool Pictures::is_one(const std::string& name, const SourceLine& where) const {
+    try {
+        expect_image(sources_.files.beginning(sources_.path(name), image_beginning));
+        return true;
+    } catch (const Error& problem) {
+        sources_.report.error(where, fmt::format("can't read '{}': {}", name, problem.what()));
+        return false;
+    }
 }
 
 void Pictures::decode(Order& order, const Bytes& bytes, const Encoding& encoding) {

@@ -35,6 +35,7 @@ private:
     };
     using Key = std::tuple<std::string, Encoding::Curve, float>;
 
+    bool is_one(const std::string& name, const SourceLine& where) const;
     void decode(Order& order, const Bytes& bytes, const Encoding& encoding);
 
     const Sources& sources_;

@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/network/light/cancelled.hpp"
+#include "core/base/unwanted.hpp"
 
 namespace lightnet {
 

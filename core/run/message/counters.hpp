@@ -41,6 +41,8 @@ struct Counters {
     std::uint64_t broken_packets = 0;  // dropped
     std::map<std::string, std::uint64_t> not_finite;   // answers that were infinite or no numbers, by node
     std::map<std::string, std::uint64_t> off_surface;  // points that no surface is near, by the node that asked; black
+    std::map<std::string, std::uint64_t> lost_rays;  // that can't be traced, by the node that would; they meet nothing
+    std::map<std::string, std::uint64_t> unsound_questions;  // whose numbers are not finite, by the node asked; black
 
     std::vector<PlaceRecord> places;  // what each place did
     std::vector<PlaceTrace> traces;   // where runs are traced
@@ -76,7 +78,7 @@ struct Counters {
     /// Every count and its name, as in x.run.json and on the wire; with the name of a node behind it, and a dot between
     /// them, where each node has its own.
     static const std::array<std::pair<const char*, std::uint64_t Counters::*>, 24> all;
-    static const std::array<std::pair<const char*, std::map<std::string, std::uint64_t> Counters::*>, 2> by_node;
+    static const std::array<std::pair<const char*, std::map<std::string, std::uint64_t> Counters::*>, 4> by_node;
     friend bool operator==(const Counters&, const Counters&) = default;
 };
 
@@ -106,10 +108,12 @@ inline constexpr std::array<std::pair<const char*, std::uint64_t Counters::*>, 2
     {"refused_sends", &Counters::refused_sends},
     {"broken_packets", &Counters::broken_packets},
 }};
-inline constexpr std::array<std::pair<const char*, std::map<std::string, std::uint64_t> Counters::*>, 2>
+inline constexpr std::array<std::pair<const char*, std::map<std::string, std::uint64_t> Counters::*>, 4>
     Counters::by_node{{
         {"not_finite", &Counters::not_finite},
         {"off_surface", &Counters::off_surface},
+        {"lost_rays", &Counters::lost_rays},
+        {"unsound_questions", &Counters::unsound_questions},
     }};
 
 }  // namespace lightnet

@@ -26,6 +26,7 @@
 #include "core/run/prepare/node_by_pass.hpp"
 #include "core/run/prepare/prepared.hpp"
 #include "core/run/prepare/shared_values.hpp"
+#include "core/scene/lost_rays.hpp"
 #include "core/scene/scene.hpp"
 
 namespace lightnet {
@@ -87,7 +88,7 @@ public:
     }
 
     /// From now on, before the first node is made: says which of them is at work. The gauge outlives the assembly.
-    void show(Gauge& gauge) { gauge_ = &gauge; }
+    void show(Gauge& gauge) { lost_rays_.gauge = gauge_ = &gauge; }
 
     const LightOp& light(std::size_t node);
     /// Has the node prepare itself; one that is renewed, for this pass.
@@ -99,6 +100,7 @@ public:
                 network_.width_of(node),
                 network_.kind_of(node).run.whole_calls,
                 &not_finite_[node],
+                &unsound_[node],
                 gauge_,
                 Gauge::at(node)};
     }
@@ -106,9 +108,24 @@ public:
     std::map<std::string, std::uint64_t> not_finite() const { return by_name(not_finite_); }
     /// The same of what they asked about no surface.
     std::map<std::string, std::uint64_t> off_surface() const { return by_name(off_surface_); }
+    /// Of questions whose numbers were not finite, by the node that was asked.
+    std::map<std::string, std::uint64_t> unsound_questions() const { return by_name(unsound_); }
+    /// Of rays that could not be traced, by the node that was at work.
+    std::map<std::string, std::uint64_t> lost_rays() const { return by_name(lost_rays_.of_node); }
+    /// To be told of this thread's while its nodes are at work.
+    LostRays& keeper_of_lost_rays() { return lost_rays_; }
     const Renderer& renderer(std::size_t node);
 
 private:
+    // The gauge knows who that is, whatever fiber runs.
+    struct LostByNode final : LostRays {
+        void lost() override {
+            if (gauge && gauge->doing() >= Gauge::first_node) ++of_node[gauge->doing() - Gauge::first_node];
+        }
+        const Gauge* gauge = nullptr;
+        std::map<std::size_t, std::uint64_t> of_node;
+    };
+
     std::unique_ptr<LightOp> make_light(std::size_t node, const Inputs& inputs, std::uint32_t pass);
     Inputs inputs_of(std::size_t node);
     Port* port_between(std::size_t asker, std::size_t asked, std::size_t width);
@@ -123,7 +140,8 @@ private:
     Gauge* gauge_ = nullptr;
     std::vector<std::unique_ptr<Port>> guarded_;
     std::map<std::size_t, Rehearsal> rehearsals_;
-    std::map<std::size_t, std::uint64_t> not_finite_, off_surface_;
+    std::map<std::size_t, std::uint64_t> not_finite_, off_surface_, unsound_;
+    LostByNode lost_rays_;
     std::map<std::size_t, std::unique_ptr<LightOp>> lights_;
     std::map<std::size_t, std::unique_ptr<Renderer>> renderers_;
 };

@@ -18,6 +18,7 @@ struct Callee {
     std::size_t layers = 1;               // colours per answer when nothing is added up
     bool whole = false;                   // it looks at the sockets by itself: long asks are not cut
     std::uint64_t* not_finite = nullptr;  // counts its answers that are infinite or no numbers
+    std::uint64_t* unsound = nullptr;     // counts questions whose numbers are not finite
     Gauge* gauge = nullptr;               // of the place: says when it is at work
     Gauge::Doing doing = Gauge::asking;   // what it then says
 };
@@ -41,7 +42,8 @@ private:
     std::function<void()> pause_;
 };
 
-/// Asks `node` and adds its layers up, first to last, when one colour is wanted. Throws Error with the node's name when
+/// Asks `node` and adds its layers up, first to last, when one colour is wanted. Questions whose numbers are not finite
+/// may come from anybody: the node is not asked, and the answer is black. Throws Error with the node's name when
 /// it throws, and when it leaves the thread's floating-point mode changed: its own and all later answers would depend
 /// on where it ran.
 void answer(const Callee& node, std::size_t width, std::span<const Query> questions, std::span<Rgb> answers);

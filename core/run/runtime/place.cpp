@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/unwanted.hpp"
 #include "core/network/graph/layout.hpp"
 #include "core/scene/scene.hpp"
 
@@ -173,19 +174,13 @@ void Place::cancel_asks_of_lost(const Plan& before) {
 void Place::serve(const std::atomic<bool>& stop, std::atomic<std::uint64_t>& progress) {
     stop_ = &stop;
     progress_ = &progress;
+    const LookingAt looking(&stop);
+    const TellingOfLostRays telling(assembly_.keeper_of_lost_rays());
     const auto begun = Clock::now();
     gauge_.turn_to(Gauge::asking);
-    while (!stopping_ && !stop.load(std::memory_order_relaxed)) {
-        take_in();
-        tell_so_far(begun);
-        flush(false);
-        if (!step()) {
-            if (!flush(true) && !stopping_) wait();
-            continue;
-        }
-        // Each look at the sockets costs system calls: what has come together is worked off together.
-        while (!fibers_.stint_over() && step()) {
-        }
+    try {
+        while (!stopping_ && !stop.load(std::memory_order_relaxed)) work_once(begun);
+    } catch (const Cancelled&) {  // outside of fibers: while a plan is taken
     }
     stopping_ = true;
     record_.lived_ns = nanoseconds_since(begun);
@@ -199,6 +194,19 @@ void Place::tell_so_far(Clock::time_point begun) {
     gauge_.lived_ns.set(nanoseconds_since(begun));
     gauge_.waited_ns.set(record_.waited_ns);
     gauge_.idle_ns.set(record_.idle_ns);
+}
+
+void Place::work_once(Clock::time_point begun) {
+    take_in();
+    tell_so_far(begun);
+    flush(false);
+    if (!step()) {
+        if (!flush(true) && !stopping_) wait();
+        return;
+    }
+    // Each look at the sockets costs system calls: what has come together is worked off together.
+    while (!fibers_.stint_over() && step()) {
+    }
 }
 
 void Place::wait() {
@@ -343,6 +351,8 @@ Counters Place::counters() const {
     counters += carrier_.counters();
     counters.not_finite = assembly_.not_finite();
     counters.off_surface = assembly_.off_surface();
+    counters.unsound_questions = assembly_.unsound_questions();
+    counters.lost_rays = assembly_.lost_rays();
     counters.prepared_bytes = preparer_.result_bytes();
     counters.rays = Scene::rays_of_this_thread() - rays_before_;
     counters.places.push_back(record());

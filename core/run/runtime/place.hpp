@@ -105,6 +105,7 @@ private:
     void take_in();
     void take(Message message);
     void queue(Message message);
+    void work_once(Clock::time_point begun);
     bool step();
     bool start_next(bool images);
     bool may_start(std::size_t node) const;

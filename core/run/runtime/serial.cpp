@@ -121,6 +121,7 @@ void SerialRun::prepare(const std::string& made_from, ResultCache* cache, std::f
 
 // All of them, or those that are prepared again for this pass.
 void SerialRun::prepare_nodes(bool again) {
+    const TellingOfLostRays telling(assembly_.keeper_of_lost_rays());
     const Recipes recipes(network_.graph, made_from_);
     auto nodes = preparing_nodes(network_.graph, network_.registry);
     if (again) std::erase_if(nodes, [&](auto node) { return !network_.renewed[node]; });
@@ -173,6 +174,7 @@ std::vector<Rgb> SerialRun::render_as_prepared(const Tile& tile) {
     std::vector<Rgb> pixels(tile.pixels() * network_.width_of(image_));
     const auto begun = std::chrono::steady_clock::now();
     const Turned turned(gauge_, Gauge::at(image_));
+    const TellingOfLostRays telling(assembly_.keeper_of_lost_rays());
     assembly_.renderer(image_).render(tile, pixels);
     rendered_ns_ += static_cast<std::uint64_t>((std::chrono::steady_clock::now() - begun).count());
     rendered_ += tile.blocks();
@@ -185,6 +187,8 @@ Counters SerialRun::counters() const {
     Counters counters = counters_;
     counters.not_finite = assembly_.not_finite();
     counters.off_surface = assembly_.off_surface();
+    counters.unsound_questions = assembly_.unsound_questions();
+    counters.lost_rays = assembly_.lost_rays();
     counters.rays = Scene::rays_of_this_thread() - rays_before_;
     PlaceRecord record;
     record.lived_ns = static_cast<std::uint64_t>((std::chrono::steady_clock::now() - begun_).count());

@@ -125,6 +125,7 @@ struct CameraData {
     bool screen_given = false;                  // else derived from the picture's shape
     float lens_radius = 0;                      // metres; 0: a pinhole
     float focus_distance = 1e6f;                // metres along the axis to the plane in which everything is sharp
+    SourceLine where{};                         // it stands in the files, if anywhere
 };
 
 struct FilmData {

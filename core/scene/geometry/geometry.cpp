@@ -3,9 +3,11 @@
 #include "core/base/allowance.hpp"
 #include "core/base/error.hpp"
 #include "core/base/spare_threads.hpp"
+#include "core/base/unwanted.hpp"
 #include "core/scene/data/contents.hpp"
 #include "core/scene/geometry/form.hpp"
 #include "core/scene/geometry/quads.hpp"
+#include "core/scene/lost_rays.hpp"
 #include "core/scene/surfaces/placement.hpp"
 
 #include <embree/rtcore.h>
@@ -16,12 +18,22 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace lightnet {
 namespace {
 
 thread_local std::uint64_t rays_traced = 0;
+thread_local LostRays* told_of_lost = nullptr;
+
+// Before they are traced: whoever traces many looks whether they are still wanted.
+void count(std::size_t rays) {
+    constexpr std::uint64_t between_looks = 1024;
+    const std::uint64_t before = rays_traced;
+    rays_traced += rays;
+    if (before / between_looks != rays_traced / between_looks) end_if_unwanted();
+}
 
 void set(RTCRay& to, const Ray& ray) {
     to = {ray.origin.x,
@@ -61,9 +73,37 @@ constexpr Ray no_ray{{0, 0, 0}, {0, 0, 1}, -std::numeric_limits<float>::infinity
 template <std::size_t lanes>
 using Valid = std::array<int, lanes>;
 
+// DECISIONS: far-is-nowhere
+// Can Embree trace it? It would end the process over a ray that is not finite, or longer than it takes. `farthest`: no
+// coordinate may be larger.
+bool is_traceable(const Ray& ray, float farthest) {
+    const float x = std::fabs(ray.direction.x), y = std::fabs(ray.direction.y), z = std::fabs(ray.direction.z);
+    return (std::fabs(ray.origin.x) <= farthest) & (std::fabs(ray.origin.y) <= farthest) &
+           (std::fabs(ray.origin.z) <= farthest) & (x <= farthest) & (y <= farthest) & (z <= farthest) &
+           ((x > 0) | (y > 0) | (z > 0)) & (ray.far == ray.far);
+}
+
+// Rays that can't be traced meet nothing. One that ends where it begins was not meant to.
+void lose(const Ray& ray) {
+    if (told_of_lost && !(ray.far <= 0)) told_of_lost->lost();
+}
+
+// The same for a packet, of which few have such a ray.
+template <std::size_t lanes, class Packet>
+[[gnu::noinline]] void take_out_lost(Packet& packet, Valid<lanes>& valid, std::span<const Ray> rays, float farthest) {
+    for (std::size_t i = 0; i < rays.size() && i < lanes; ++i) {
+        if (is_traceable(rays[i], farthest)) continue;
+        lose(rays[i]);
+        valid[i] = 0;
+        packet.org_x[i] = packet.org_y[i] = packet.org_z[i] = 0;
+        packet.dir_x[i] = packet.dir_y[i] = 0, packet.dir_z[i] = 1;
+        packet.tfar[i] = no_ray.far;
+    }
+}
+
 // Fills a packet's rays, and says which lanes there are.
 template <std::size_t lanes, class Packet>
-void fill(Packet& packet, Valid<lanes>& valid, std::span<const Ray> rays) {
+void fill(Packet& packet, Valid<lanes>& valid, std::span<const Ray> rays, float farthest) {
     for (std::size_t i = 0; i < lanes; ++i) {
         const Ray& ray = i < rays.size() ? rays[i] : no_ray;
         packet.org_x[i] = ray.origin.x;
@@ -80,17 +120,25 @@ void fill(Packet& packet, Valid<lanes>& valid, std::span<const Ray> rays) {
         packet.mask[i] = ~0u;
         packet.id[i] = packet.flags[i] = 0;
     }
+    int lost = 0;
+    for (std::size_t i = 0; i < lanes; ++i) {
+        const float x = std::fabs(packet.dir_x[i]), y = std::fabs(packet.dir_y[i]), z = std::fabs(packet.dir_z[i]);
+        lost |= !(std::fabs(packet.org_x[i]) <= farthest) | !(std::fabs(packet.org_y[i]) <= farthest) |
+                !(std::fabs(packet.org_z[i]) <= farthest) | !(x <= farthest) | !(y <= farthest) | !(z <= farthest) |
+                !(x + y + z > 0) | (packet.tfar[i] != packet.tfar[i]);
+    }
+    if (lost) take_out_lost<lanes>(packet, valid, rays, farthest);
 }
 
 template <class Wide>
-void look_through(RTCScene scene, std::span<const Ray> rays, std::span<std::uint8_t> hidden) {
+void look_through(RTCScene scene, float farthest, std::span<const Ray> rays, std::span<std::uint8_t> hidden) {
     for (std::size_t first = 0; first < rays.size(); first += Wide::lanes) {
         alignas(64) Valid<Wide::lanes> valid;
         alignas(64) typename Wide::Rays packet;
         const std::size_t count = std::min(Wide::lanes, rays.size() - first);
-        fill<Wide::lanes>(packet, valid, rays.subspan(first, count));
+        fill<Wide::lanes>(packet, valid, rays.subspan(first, count), farthest);
         Wide::occluded(valid.data(), scene, packet);
-        for (std::size_t i = 0; i < count; ++i) hidden[first + i] = packet.tfar[i] < 0;
+        for (std::size_t i = 0; i < count; ++i) hidden[first + i] = valid[i] && packet.tfar[i] < 0;
     }
 }
 
@@ -146,7 +194,11 @@ struct Geometry::Tracer {
     Tracer(const Tracer&) = delete;
     Tracer& operator=(const Tracer&) = delete;
 
-    // Threads that build a tree count at once.
+    // Threads that build a tree ask whether it is still wanted.
+    static bool goes_on(void* stop, double) {
+        return !stop || !static_cast<const std::atomic<bool>*>(stop)->load(std::memory_order_relaxed);
+    }
+    // They count at once.
     static bool count_bytes(void* pointer, ssize_t bytes, bool) {
         static_cast<std::atomic<std::ptrdiff_t>*>(pointer)->fetch_add(bytes, std::memory_order_relaxed);
         return true;
@@ -163,7 +215,9 @@ struct Geometry::Tracer {
         rtcAttachGeometryByID(to, geometry, id);
     }
     void attach(const Instance& instance, unsigned id) {
-        const auto columns = Placement(instance.to_world).columns();  // may throw: before there is what would leak
+        const Placement placement(instance.to_world);  // may throw: before there is what would leak
+        const auto& columns = placement.columns();
+        farthest = std::clamp(float(placement.farthest_outside(1e18)), 0.0f, farthest);
         RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
         rtcSetGeometryInstancedScene(geometry, objects[instance.object]);
         rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns.data());
@@ -174,8 +228,11 @@ struct Geometry::Tracer {
     void commit(RTCScene what) const {
         // No ray may slip between two triangles that share an edge.
         rtcSetSceneFlags(what, RTC_SCENE_FLAG_ROBUST);
+        rtcSetSceneProgressMonitorFunction(what, goes_on, const_cast<std::atomic<bool>*>(LookingAt::now()));
         rtcCommitScene(what);
-        if (const auto code = rtcGetDeviceError(device); code != RTC_ERROR_NONE)
+        const auto code = rtcGetDeviceError(device);
+        end_if_unwanted();
+        if (code != RTC_ERROR_NONE)
             throw Error("scene", "Embree can't build the scene (its error " + std::to_string(int(code)) + ")");
     }
 
@@ -199,6 +256,7 @@ struct Geometry::Tracer {
     std::vector<RTCGeometry> geometries;  // by shape; null: never to be met
     std::vector<RTCScene> objects;        // the same
     bool eight;                           // rays are traced at once; else four
+    float farthest = 1e17f;               // coordinate of rays, which instances may stretch; Embree's own is 1.8e18
 };
 
 template <class Wide>
@@ -207,7 +265,7 @@ void Geometry::Tracer::meet(std::span<const Ray> rays, std::span<std::optional<H
         alignas(64) Valid<Wide::lanes> valid;
         alignas(64) typename Wide::RayHits together;
         const std::size_t count = std::min(Wide::lanes, rays.size() - first);
-        fill<Wide::lanes>(together.ray, valid, rays.subspan(first, count));
+        fill<Wide::lanes>(together.ray, valid, rays.subspan(first, count), farthest);
         for (std::size_t i = 0; i < Wide::lanes; ++i)
             together.hit.geomID[i] = together.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
         Wide::intersect(valid.data(), scene, together);
@@ -257,7 +315,8 @@ Geometry::Geometry(SceneData& data, const Shading& shading, const Options& optio
 Geometry::~Geometry() = default;
 
 std::optional<Hit> Geometry::intersect(const Ray& ray) const {
-    ++rays_traced;
+    count(1);
+    if (!is_traceable(ray, tracer_->farthest)) return lose(ray), std::nullopt;
     RTCRayHit query;
     set(query.ray, ray);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -270,12 +329,13 @@ std::optional<Hit> Geometry::intersect(const Ray& ray) const {
 
 void Geometry::intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const {
     assert(rays.size() == hits.size() && "each ray has its hit");
-    rays_traced += rays.size();
+    count(rays.size());
     tracer_->eight ? tracer_->meet<Eight>(rays, hits) : tracer_->meet<Four>(rays, hits);
 }
 
 bool Geometry::occluded(const Ray& ray) const {
-    ++rays_traced;
+    count(1);
+    if (!is_traceable(ray, tracer_->farthest)) return lose(ray), false;
     RTCRay query;
     set(query, ray);
     rtcOccluded1(tracer_->scene, &query);
@@ -284,12 +344,14 @@ bool Geometry::occluded(const Ray& ray) const {
 
 void Geometry::occluded(std::span<const Ray> rays, std::span<std::uint8_t> hidden) const {
     assert(rays.size() == hidden.size() && "each ray has its answer");
-    rays_traced += rays.size();
-    tracer_->eight ? look_through<Eight>(tracer_->scene, rays, hidden)
-                   : look_through<Four>(tracer_->scene, rays, hidden);
+    count(rays.size());
+    tracer_->eight ? look_through<Eight>(tracer_->scene, tracer_->farthest, rays, hidden)
+                   : look_through<Four>(tracer_->scene, tracer_->farthest, rays, hidden);
 }
 
 std::optional<Hit> Geometry::nearest(const PlacedSurfaces& surfaces, const SurfaceWish& wish) const {
+    const auto sound = [&](float coordinate) { return std::fabs(coordinate) <= tracer_->farthest; };
+    if (!sound(wish.position.x) || !sound(wish.position.y) || !sound(wish.position.z) || !sound(wish.reach)) return {};
     return nearest_surface(tracer_->scene, tracer_->forms, surfaces, wish);
 }
 
@@ -306,5 +368,7 @@ std::size_t Geometry::memory() const {
 }
 
 std::uint64_t Geometry::rays_of_this_thread() { return rays_traced; }
+
+LostRays* tell_of_lost_rays(LostRays* told) { return std::exchange(told_of_lost, told); }
 
 }  // namespace lightnet

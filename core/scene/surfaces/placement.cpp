@@ -14,7 +14,7 @@ Vec3 magnitudes(Vec3 v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)
 
 }  // namespace
 
-Placement::Placement(const Matrix& to_world) {
+Placement::Placement(const Matrix& to_world, Unchecked) {
     double a[3][3];
     for (std::size_t row = 0; row < 3; ++row)
         for (std::size_t column = 0; column < 4; ++column) {
@@ -27,14 +27,42 @@ Placement::Placement(const Matrix& to_world) {
         return a[r][c] * a[s][d] - a[r][d] * a[s][c];
     };
     const double determinant = a[0][0] * minor(0, 0) + a[1][0] * minor(0, 1) + a[2][0] * minor(0, 2);
-    bool usable = determinant != 0;
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 3; ++i)
         inverse_[i] = {float(minor(i, 0) / determinant), float(minor(i, 1) / determinant),
                        float(minor(i, 2) / determinant)};
-        usable &= finite(inverse_[i]);
-    }
+}
+
+Placement::Placement(const Matrix& to_world) : Placement(to_world, Unchecked{}) {
+    if (const std::string why = fault(); !why.empty()) throw Error("scene", why);
+}
+
+std::string Placement::fault(const Matrix& to_world) { return Placement(to_world, Unchecked{}).fault(); }
+
+// Embree inverts it in single precision, so that its determinant must be an ordinary number there.
+std::string Placement::fault() const {
+    const auto& c = columns_;
+    const float determinant =
+        c[0] * (c[4] * c[8] - c[5] * c[7]) + c[1] * (c[5] * c[6] - c[3] * c[8]) + c[2] * (c[3] * c[7] - c[4] * c[6]);
+    constexpr float least = 1e-36f, most = 1e36f;
+    bool usable = std::fabs(determinant) >= least && std::fabs(determinant) <= most;
+    for (const Vec3 row : inverse_) usable &= finite(row);
     for (const float number : columns_) usable &= std::isfinite(number);
-    if (!usable) throw Error("scene", "the transform of an instance can't be inverted");
+    return usable ? "" : "the transform of an instance can't be inverted";
+}
+
+double Placement::largest_stretch() const {
+    double most = 0;
+    for (const Vec3 row : inverse_)
+        most = std::max(most, double{std::fabs(row.x)} + double{std::fabs(row.y)} + double{std::fabs(row.z)});
+    return most;
+}
+
+double Placement::farthest_inside(double coordinate) const {
+    return largest_stretch() * (coordinate + double{largest({columns_[9], columns_[10], columns_[11]})});
+}
+
+double Placement::farthest_outside(double inside) const {
+    return inside / largest_stretch() - double{largest({columns_[9], columns_[10], columns_[11]})};
 }
 
 Vec3 Placement::direction_to_world(Vec3 v) const {

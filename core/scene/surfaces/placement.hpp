@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 
 #include "core/base/math/transform.hpp"
 #include "core/base/math/vec.hpp"
@@ -14,6 +15,8 @@ class Placement {
 public:
     /// Throws Error when the transform can't be inverted.
     explicit Placement(const Matrix& to_world);
+    /// Why it can't be one; "": it can.
+    static std::string fault(const Matrix& to_world);
 
     /// Columns, as Embree wants them: x, y and z axis, then the origin.
     const std::array<float, 12>& columns() const { return columns_; }
@@ -21,8 +24,16 @@ public:
     SurfacePoint place(const SurfacePoint& point) const;
     Vec3 point_to_world(Vec3 p) const;
     Vec3 point_to_object(Vec3 p) const;
+    /// The largest coordinate that a point of the world, none of whose own is larger than this, may have in the object.
+    double farthest_inside(double coordinate) const;
+    /// The largest in the world of which none in the object is larger than that.
+    double farthest_outside(double inside) const;
 
 private:
+    struct Unchecked {};
+    Placement(const Matrix& to_world, Unchecked);
+    std::string fault() const;
+    double largest_stretch() const;
     Vec3 direction_to_world(Vec3 v) const;
 
     std::array<float, 12> columns_;

@@ -1,0 +1,112 @@
+#include "core/base/exr_claims.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <string>
+
+#include "core/base/error.hpp"
+
+namespace lightnet {
+namespace {
+
+constexpr std::size_t most_in_a_name = 255;
+constexpr std::uint32_t several_parts = 0x1000;
+
+// What a byte holds at most, in pixels: of the kinds that pack blocks of 8 x 8 pixels into one number, and of others.
+constexpr std::int64_t pixels_per_byte = 1024, pixels_per_byte_in_blocks = 40'000;
+constexpr unsigned char first_in_blocks = 8;  // DWAA, DWAB
+
+class Header {
+public:
+    Header(const std::function<std::size_t(std::span<std::byte>)>& read, std::uint64_t size)
+        : read_(read), left_(size), size_(size) {}
+
+    void check() {
+        std::array<std::uint32_t, 2> start{};
+        if (!take(std::as_writable_bytes(std::span(start)))) return;
+        const bool many = start[1] & several_parts;
+        while (check_part() && many) {
+        }
+    }
+
+private:
+    bool take(std::span<std::byte> into) {
+        const std::size_t there = read_(into);
+        left_ -= std::min<std::uint64_t>(left_, there);
+        return there == into.size();
+    }
+    // None: the file ends.
+    bool take_name(std::string& name) {
+        name.clear();
+        for (std::byte letter{}; take({&letter, 1}); name += char(letter)) {
+            if (letter == std::byte{0}) return true;
+            if (name.size() >= most_in_a_name) throw Error("EXR: the header is damaged");
+        }
+        return false;
+    }
+    // False: no further part comes.
+    bool check_part() {
+        std::string name, type;
+        std::uint32_t length = 0;
+        bool any = false;
+        window_ = {};
+        has_window_ = false;
+        blocks_ = true;
+        while (take_name(name) && !name.empty()) {
+            any = true;
+            if (!take_name(type) || !take(std::as_writable_bytes(std::span(&length, 1)))) break;
+            if (length > left_) throw Error("EXR: the file ends early");
+            take_value(name, length);
+        }
+        if (has_window_) check_pixels();
+        return any;
+    }
+    void take_value(const std::string& name, std::uint32_t length) {
+        if (name == "dataWindow" && length == sizeof window_) {
+            has_window_ = take(std::as_writable_bytes(std::span(window_)));
+            return;
+        }
+        std::array<std::byte, 4096> piece;
+        for (std::uint32_t done = 0; done < length;) {
+            const auto part = std::span(piece).first(std::min<std::size_t>(piece.size(), length - done));
+            if (!take(part)) return;
+            if (name == "compression") blocks_ = std::to_integer<unsigned char>(part[0]) >= first_in_blocks;
+            done += static_cast<std::uint32_t>(part.size());
+        }
+    }
+    void check_pixels() const {
+        const std::int64_t width = std::int64_t{window_[2]} - window_[0] + 1;
+        const std::int64_t height = std::int64_t{window_[3]} - window_[1] + 1;
+        if (width <= 0 || height <= 0) return;
+        const auto most = blocks_ ? pixels_per_byte_in_blocks : pixels_per_byte;
+        if (double(width) * double(height) > double(most) * double(size_))
+            throw Error("EXR: " + std::to_string(size_) + " bytes can't be " + std::to_string(width) + " x " +
+                        std::to_string(height) + " pixels");
+    }
+
+    const std::function<std::size_t(std::span<std::byte>)>& read_;
+    std::uint64_t left_, size_;
+    std::array<std::int32_t, 4> window_{};
+    bool has_window_ = false, blocks_ = true;
+};
+
+}  // namespace
+
+void check_exr_claims(const std::function<std::size_t(std::span<std::byte>)>& read, std::uint64_t size) {
+    Header(read, size).check();
+}
+
+void check_exr_claims(std::span<const std::byte> file) {
+    std::size_t at = 0;
+    check_exr_claims(
+        [&](std::span<std::byte> into) {
+            const std::size_t there = std::min(into.size(), file.size() - at);
+            std::memcpy(into.data(), file.data() + at, there);
+            at += there;
+            return there;
+        },
+        file.size());
+}
+
+}  // namespace lightnet

@@ -1,0 +1,78 @@
+// Files that would make us wait or read for ever are refused when they are opened; what an OpenEXR claims is looked at.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <cstring>
+
+#include "core/base/error.hpp"
+#include "core/base/exr_claims.hpp"
+#include "core/base/plain_file.hpp"
+#include "tests/support/folder.hpp"
+
+namespace lightnet::plain_file_test {
+namespace {
+
+using testing::HasSubstr;
+
+std::string error_of(const std::string& path, std::uint64_t most = 1000) {
+    try {
+        PlainFile(path, most).text();
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(PlainFile, IsReadWhole) {
+    const test::Folder folder;
+    EXPECT_EQ(PlainFile(folder.write("a", "some text"), 100).text(), "some text");
+    EXPECT_EQ(PlainFile(folder.write("b", ""), 100).bytes().size(), 0u);
+}
+
+TEST(PlainFile, IsNoPipeDeviceOrFolderAndNotTooLarge) {
+    const test::Folder folder;
+    const std::string pipe = folder / "pipe";
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    EXPECT_THAT(error_of(pipe), HasSubstr("pipe: is no file, but a pipe or a device"));
+    EXPECT_THAT(error_of("/dev/zero"), HasSubstr("is no file, but a pipe or a device"));
+    EXPECT_THAT(error_of(folder.path()), HasSubstr("is a folder"));
+    EXPECT_THAT(error_of(folder / "none"), HasSubstr("none: no such file"));
+    EXPECT_THAT(error_of(folder.write("large", std::string(1001, 'x'))), HasSubstr("are taken"));
+}
+
+std::string attribute(const std::string& name, const std::string& type, const std::string& value,
+                      std::uint32_t length) {
+    std::string text = name + '\0' + type + '\0';
+    text.append(reinterpret_cast<const char*>(&length), sizeof length);
+    return text + value;
+}
+
+std::string window(std::int32_t width, std::int32_t height) {
+    const std::int32_t sides[4]{0, 0, width - 1, height - 1};
+    return attribute("dataWindow", "box2i", {reinterpret_cast<const char*>(sides), sizeof sides}, sizeof sides);
+}
+
+void check(const std::string& attributes, std::size_t rest) {
+    const std::string file = std::string("\x76\x2f\x31\x01\x02\0\0\0", 8) + attributes + '\0' + std::string(rest, 'x');
+    check_exr_claims(std::as_bytes(std::span(file)));
+}
+
+TEST(ExrClaims, AreBelievedWhereTheFileCanHaveThem) {
+    EXPECT_NO_THROW(check(window(1024, 1024) + attribute("compression", "compression", "\3", 1), 3000));
+    EXPECT_NO_THROW(check(attribute("owner", "string", "me", 2) + window(1, 1), 100));
+    EXPECT_NO_THROW(check("", 0));
+}
+
+TEST(ExrClaims, ArePixelsThatNoCompressionPacksIntoSoFewBytes) {
+    EXPECT_THROW(check(window(8192, 8192) + attribute("compression", "compression", "\3", 1), 3000), Error);
+    EXPECT_THROW(check(window(2147483647, 2147483647), 3000), Error);
+}
+
+TEST(ExrClaims, AreAttributesLongerThanTheFile) {
+    EXPECT_THROW(check(attribute("odd", "opaque", "x", 1'700'000'000), 200), Error);
+    EXPECT_THROW(check(attribute("odd", "string", "x", 0xffffffff), 200), Error);
+}
+
+}  // namespace
+}  // namespace lightnet::plain_file_test
