@@ -37,6 +37,10 @@ std::string whole(const std::string& endpoint);
 /// A lightnetd that was started in a way of its own. `words` are all of it, or what runs it.
 struct OddDaemon {
     explicit OddDaemon(const Words& words);
+    ~OddDaemon() {
+        if (process) expect_alive(*process);
+    }
+    OddDaemon(OddDaemon&&) = default;
     std::unique_ptr<Process> process;
     std::string endpoint;  // empty: it listens nowhere
 };

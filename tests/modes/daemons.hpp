@@ -16,6 +16,12 @@ namespace lightnet::test {
 inline std::string program(const std::string& name) { return std::string(LIGHTNET_PROGRAMS) + "/" + name; }
 inline std::string graph_file(const std::string& name) { return std::string(LIGHTNET_SOURCE_DIR) + "/graphs/" + name; }
 
+/// Is it still there, unless the test has waited for its end or sent it a signal?
+inline void expect_alive(Process& daemon) {
+    if (daemon.was_expected_to_end() || daemon.lives()) return;
+    EXPECT_EQ(daemon.code(), 0) << "a daemon is gone that nobody has ended\n" << daemon.output();
+}
+
 /// A lightnetd on a port of its own (or on `listen`).
 class Daemon {
 public:
@@ -32,6 +38,11 @@ public:
         endpoint = process->output().substr(at + before.size(),
                                             process->output().find_first_of("\"\n", at) - at - before.size());
     }
+    // Whatever a run does costs the run alone.
+    ~Daemon() {
+        if (process) expect_alive(*process);
+    }
+    Daemon(Daemon&&) = default;
     std::unique_ptr<Process> process;
     std::string endpoint;
 };

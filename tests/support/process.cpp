@@ -8,8 +8,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <sstream>
 
@@ -46,7 +48,7 @@ std::vector<char*> pointers(std::vector<std::string>& words) {
 
 }  // namespace
 
-Process::Process(std::vector<std::string> words) {
+Process::Process(std::vector<std::string> words) : program_(words[0]) {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
     auto variables = environment(reports_.path());
@@ -64,7 +66,10 @@ Process::Process(std::vector<std::string> words) {
 }
 
 Process::~Process() {
-    if (!ended_) {
+    int status = 0;
+    if (!ended_ && ::waitpid(id_, &status, WNOHANG) == id_) {
+        take(status);
+    } else if (!ended_) {
         ::kill(id_, SIGKILL);
         ::waitpid(id_, nullptr, 0);
     }
@@ -73,7 +78,28 @@ Process::~Process() {
         ADD_FAILURE() << "a sanitizer has found something\n" << bytes_of(report.path());
 }
 
-void Process::signal(int number) const { ::kill(id_, number); }
+void Process::signal(int number) const {
+    signalled_ = true;
+    ::kill(id_, number);
+}
+
+void Process::take(int status) {
+    ended_ = true;
+    code_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    constexpr std::array own{SIGABRT, SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGTRAP};
+    if (!WIFSIGNALED(status) || signalled_ || std::find(own.begin(), own.end(), WTERMSIG(status)) == own.end()) return;
+    while (read_some(milliseconds(0))) {
+        pollfd item{out_, POLLIN, 0};
+        if (poll(&item, 1, 0) <= 0) break;
+    }
+    ADD_FAILURE() << program_ << " was ended by its own fault (" << strsignal(WTERMSIG(status)) << ")\n" << output_;
+}
+
+bool Process::lives() {
+    int status = 0;
+    if (!ended_ && ::waitpid(id_, &status, WNOHANG) == id_) take(status);
+    return !ended_;
+}
 
 bool Process::read_some(milliseconds most) {
     pollfd item{out_, POLLIN, 0};
@@ -98,8 +124,7 @@ int Process::wait(milliseconds most) {
         if (!read_some(milliseconds(10))) poll(nullptr, 0, 1);  // closed its outputs; its end is near
         int status = 0;
         if (waitpid(id_, &status, WNOHANG) != id_) continue;
-        ended_ = true;
-        code_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+        take(status);
         fcntl(out_, F_SETFL, O_NONBLOCK);
         while (read_some(milliseconds(0))) {
             pollfd item{out_, POLLIN, 0};
