@@ -22,7 +22,11 @@ namespace fs = std::filesystem;
 
 constexpr std::uint32_t known_layout = 2;
 
-std::string bytes_in(const std::string& file) { return PlainFile(file, std::uint64_t{1} << 30).text(); }
+std::string bytes_in(const std::string& file) try {
+    return PlainFile(file, std::uint64_t{1} << 30).text();
+} catch (const Error& error) {
+    throw Error(std::string("can't be read: ") + error.what());
+}
 
 // What keeps objects from going to and fro.
 std::vector<std::string> differences(const PluginBuild& theirs) {

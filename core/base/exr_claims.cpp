@@ -13,8 +13,9 @@ namespace {
 constexpr std::size_t most_in_a_name = 255;
 constexpr std::uint32_t several_parts = 0x1000;
 
-// What a byte holds at most, in pixels: of the kinds that pack blocks of 8 x 8 pixels into one number, and of others.
-constexpr std::int64_t pixels_per_byte = 1024, pixels_per_byte_in_blocks = 40'000;
+// What a byte holds at most: deflate makes 1032 bytes of it, other kinds fewer; those that pack blocks of 8 x 8 pixels
+// into one number before that, so many pixels.
+constexpr double bytes_per_byte = 1100, pixels_per_byte_in_blocks = 40'000;
 constexpr unsigned char first_in_blocks = 8;  // DWAA, DWAB
 
 class Header {
@@ -53,6 +54,7 @@ private:
         window_ = {};
         has_window_ = false;
         blocks_ = true;
+        pixel_bytes_ = 0;
         while (take_name(name) && !name.empty()) {
             any = true;
             if (!take_name(type) || !take(std::as_writable_bytes(std::span(&length, 1)))) break;
@@ -67,6 +69,7 @@ private:
             has_window_ = take(std::as_writable_bytes(std::span(window_)));
             return;
         }
+        if (name == "channels") length -= take_channels(length);
         std::array<std::byte, 4096> piece;
         for (std::uint32_t done = 0; done < length;) {
             const auto part = std::span(piece).first(std::min<std::size_t>(piece.size(), length - done));
@@ -75,12 +78,30 @@ private:
             done += static_cast<std::uint32_t>(part.size());
         }
     }
+    // One after the other: name, type (1: half), and how far apart its samples are.
+    // Returns how many of the bytes they took.
+    std::uint32_t take_channels(std::uint32_t length) {
+        std::string name;
+        std::array<std::int32_t, 4> facts{};
+        std::uint32_t done = 0;
+        while (done < length && take_name(name)) {
+            done += static_cast<std::uint32_t>(name.size()) + 1;
+            if (name.empty() || done > length || length - done < sizeof facts) break;
+            if (!take(std::as_writable_bytes(std::span(facts)))) break;
+            done += sizeof facts;
+            const double apart = std::max(1.0, double(facts[2]) * double(facts[3]));
+            pixel_bytes_ += (facts[0] == 1 ? 2 : 4) / apart;
+        }
+        return std::min(done, length);
+    }
     void check_pixels() const {
         const std::int64_t width = std::int64_t{window_[2]} - window_[0] + 1;
         const std::int64_t height = std::int64_t{window_[3]} - window_[1] + 1;
         if (width <= 0 || height <= 0) return;
-        const auto most = blocks_ ? pixels_per_byte_in_blocks : pixels_per_byte;
-        if (double(width) * double(height) > double(most) * double(size_))
+        const double pixels = double(width) * double(height), bytes = double(size_);
+        const bool plausible = blocks_ ? pixels <= pixels_per_byte_in_blocks * bytes
+                                       : pixels * std::max(pixel_bytes_, 1.0) <= bytes_per_byte * bytes;
+        if (!plausible)
             throw Error("EXR: " + std::to_string(size_) + " bytes can't be " + std::to_string(width) + " x " +
                         std::to_string(height) + " pixels");
     }
@@ -89,6 +110,7 @@ private:
     std::uint64_t left_, size_;
     std::array<std::int32_t, 4> window_{};
     bool has_window_ = false, blocks_ = true;
+    double pixel_bytes_ = 0;  // of all channels
 };
 
 }  // namespace

@@ -187,7 +187,11 @@ Picture read_exr(const std::filesystem::path& path) try {
                     {}};
     for (auto [attribute, layers] : {std::pair(layers_attribute, &picture.layers), {shown_attribute, &picture.shown}})
         if (const auto* names = file.header().findTypedAttribute<Imf::StringVectorAttribute>(attribute))
-            for (const auto& name : names->value()) layers->push_back({name, read_layer(file, name)});
+            for (const auto& name : names->value()) {
+                if (std::any_of(layers->begin(), layers->end(), [&](const auto& known) { return known.name == name; }))
+                    throw Error(path.string(), "is damaged: it names layer " + name + " twice");
+                layers->push_back({name, read_layer(file, name)});
+            }
     read_gains(file.header(), picture.layers);
     picture.samples = read_channel(file, samples_channel);
     picture.alpha = read_channel(file, alpha_channel);

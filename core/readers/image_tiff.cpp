@@ -16,8 +16,17 @@
 namespace lightnet::decoders {
 namespace {
 
-// Of fax, which has a bit for each row that is like the one above.
-constexpr std::int64_t pixels_per_byte = 1 << 16;
+// Of fax, which has a bit for each row that is like the one above, and of younger kinds; and of those in use.
+constexpr std::int64_t pixels_per_byte = 1 << 16, pixels_per_byte_in_use = 4096;
+
+std::int64_t pixels_per_byte_of(TIFF* tiff) {
+    std::uint16_t kind = COMPRESSION_NONE;
+    TIFFGetFieldDefaulted(tiff, TIFFTAG_COMPRESSION, &kind);
+    for (const int known : {COMPRESSION_NONE, COMPRESSION_LZW, COMPRESSION_JPEG, COMPRESSION_ADOBE_DEFLATE,
+                            COMPRESSION_DEFLATE, COMPRESSION_PACKBITS})
+        if (kind == known) return pixels_per_byte_in_use;
+    return pixels_per_byte;
+}
 
 struct TiffBytes {
     Input bytes;
@@ -59,7 +68,8 @@ int ignore(TIFF*, void*, const char*, const char*, va_list) { return 1; }
 class OpenTiff {
 public:
     explicit OpenTiff(Input bytes) : source_{bytes} {
-        constexpr tmsize_t most_at_once = tmsize_t{1} << 30;
+        const tmsize_t most_at_once =
+            std::min(tmsize_t{1} << 30, (tmsize_t{64} << 20) + 1024 * static_cast<tmsize_t>(bytes.size()));
         const std::unique_ptr<TIFFOpenOptions, void (*)(TIFFOpenOptions*)> options(TIFFOpenOptionsAlloc(),
                                                                                    TIFFOpenOptionsFree);
         TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), most_at_once);
@@ -178,7 +188,7 @@ Raster turned_into_eight_bits(const OpenTiff& tiff, const Layout& layout) {
 std::variant<Raster, Image> read_tiff(Input bytes) {
     const OpenTiff tiff(bytes);
     const Layout layout = layout_of(tiff);
-    check_size(layout.width, layout.height, bytes, pixels_per_byte);
+    check_size(layout.width, layout.height, bytes, pixels_per_byte_of(tiff));
     if (!layout.plain()) return turned_into_eight_bits(tiff, layout);
     auto rows = rows_of(tiff, layout);
     if (layout.floats()) return image_of_floats(layout, rows);

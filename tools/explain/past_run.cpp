@@ -35,9 +35,10 @@ std::uint64_t seed_in(const Json& report) {
 std::string text_of_report(const std::filesystem::path& report) try {
     return PlainFile(report, report_limits.bytes).text();
 } catch (const Error& error) {
-    throw UserError({report.string(), 0}, std::string("can't be read (") + error.what() +
-                                              "); it tells from which graph the picture was made (--report "
-                                              "FILE.run.json names it)");
+    throw UserError({report.string(), 0},
+                    std::string("can't be read; it tells from which graph the picture was made (--report FILE.run.json "
+                                "names it): ") +
+                        error.what());
 }
 
 }  // namespace

@@ -88,8 +88,8 @@ int print_report(const std::string& file, const Launcher& launcher) try {
 } catch (const UserError&) {
     throw;
 } catch (const Error& error) {
-    throw UserError({file, 0}, std::string(error.what()) +
-                                   "; a report is like cornell.run.json, an address like "
+    throw UserError({file, 0}, std::string("can't be read (") + error.what() +
+                                   "); a report is like cornell.run.json, an address like "
                                    "http://127.0.0.1:40123/#3c1f");
 }
 

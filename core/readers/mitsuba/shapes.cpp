@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/suggestion.hpp"
+#include "core/base/unwanted.hpp"
 #include "core/readers/files.hpp"
 #include "core/readers/mesh_tools.hpp"
 #include "core/readers/mitsuba/colours.hpp"
@@ -54,6 +55,7 @@ void Shapes::add(const Node& node) {
 }
 
 std::optional<std::uint32_t> Shapes::shape(const Node& node, bool in_group) {
+    end_if_unwanted();
     Properties properties(node, context_);
     auto geometry = this->geometry(properties);
     auto emission = this->emission(properties);

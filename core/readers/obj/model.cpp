@@ -10,6 +10,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "core/base/unwanted.hpp"
 #include "core/readers/mesh_tools.hpp"
 #include "core/readers/obj/lines.hpp"
 #include "core/scene/reach.hpp"
@@ -40,7 +41,10 @@ public:
         : lines_(bytes, file), cut_(cut), report_(report) {}
 
     Model read() {
-        while (!report_.full() && lines_.next()) statement(lines_.word());
+        while (!report_.full() && lines_.next()) {
+            end_if_unwanted();
+            statement(lines_.word());
+        }
         Model model;
         for (auto& part : parts_)
             if (!part.part.mesh.triangles.empty()) model.parts.push_back(finished(std::move(part)));

@@ -1,4 +1,5 @@
 #include "core/readers/pbrt/builder.hpp"
+#include "core/base/unwanted.hpp"
 
 #include <fmt/format.h>
 
@@ -98,6 +99,7 @@ const std::map<std::string, Builder::Handler>& Builder::handlers() {
 }
 
 void Builder::execute(Statement& statement) {
+    end_if_unwanted();
     const Part part = part_of(statement.directive);
     if (state_.space != ColourSpace::srgb) statement.parameters.set_colour_space(state_.space);
     if (part == Part::before_world && in_world_)

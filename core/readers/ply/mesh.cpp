@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/base/unwanted.hpp"
 #include "core/readers/ply/header.hpp"
 
 namespace lightnet {
@@ -108,6 +109,7 @@ void read_vertices(Input& input, Format format, const Element& element, Mesh& me
     if (uvs) mesh.uvs.reserve(element.count);
     if (colours) mesh.colours.reserve(element.count);
     for (std::uint64_t i = 0; i < element.count; ++i) {
+        end_if_unwanted();
         std::array<float, slots> v{};
         const bool plain = !row.empty() && input.plain_floats(format, row);
         for (std::size_t j = 0; j < element.properties.size(); ++j) {
@@ -184,6 +186,7 @@ void read_lists(Input& input, Format format, const Element& element, Mesh& mesh,
     mesh.triangles.reserve(mesh.triangles.size() + element.count);
     const bool alone = element.properties.size() == 1;
     for (std::uint64_t i = 0; i < element.count;) {
+        end_if_unwanted();
         std::uint64_t count = 1;
         for (const auto& property : element.properties) {
             if (corners(property))
