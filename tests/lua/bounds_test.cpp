@@ -49,6 +49,19 @@ TEST(Child, MayNotTakeMoreMemoryThanItsBudget) {
 }
 #endif
 
+TEST(Child, SaysNothingThatWouldCommandATerminal) {
+    const test::Folder folder;
+    const std::string file = folder / "words.txt";
+    const int usual = ::dup(STDERR_FILENO), ours = ::open(file.c_str(), O_WRONLY | O_CREAT, 0600);
+    ::dup2(ours, STDERR_FILENO);
+    error_in("print('\\27]0;owned\\7', '\\27[2J', 'two\\nlines')");
+    ::dup2(usual, STDERR_FILENO);
+    ::close(usual), ::close(ours);
+    std::ifstream in(file);
+    const std::string said{std::istreambuf_iterator<char>(in), {}};
+    EXPECT_EQ(said, "\\x1b]0;owned\\x07\t\\x1b[2J\ttwo\nlines\n");
+}
+
 TEST(Child, SaysItsWordsThroughUsWhereverTheyGo) {
     const test::Folder folder;
     const std::string file = folder / "words.txt";

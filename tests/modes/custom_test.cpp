@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <csignal>
 
 #include "tests/modes/daemons.hpp"
 #include "tests/support/pixels_in.hpp"
@@ -89,6 +90,72 @@ TEST_F(CustomTest, EndsWhatDoesNotEnd) {
     EXPECT_THAT(why_not("light = function(q)\n local p = q.p\n while true do p = p + 1 end\n end"),
                 HasSubstr("g.lua:4: takes more than"));
     EXPECT_LT(std::chrono::steady_clock::now() - begin, test::slowdown * std::chrono::seconds(20));
+}
+
+// One instruction may make, copy or compare much.
+TEST_F(CustomTest, EndsWhatTakesBytes) {
+    const std::string text = "light = function(q)\n local s = 'xxxxxxxxxxxxxxxx'\n for i = 1, ";
+    EXPECT_THAT(why_not(text + "20 do s = s .. s end\n end"), HasSubstr("g.lua:5: makes a text of more than 4 KiB"));
+    EXPECT_THAT(why_not(text + "7 do s = s .. s end\n for i = 1, 1e9 do local t = s .. 'y' end\n end"),
+                HasSubstr("takes more than"));
+    EXPECT_THAT(why_not("light = function(q)\n local t = {}\n for i = 1, 1e5 do t[i] = i end\n end"),
+                HasSubstr("makes a table, or arguments of a call, of more than 256 KiB"));
+    EXPECT_THAT(why_not("light = function(q, ask)\n while true do local c = ask(1, q.n) end\n end, direct",
+                        "direct = DirectLighting {}\n"),
+                HasSubstr("takes more than"));
+}
+
+TEST_F(CustomTest, EndsWithTheRunThatIsToldToStop) {
+    std::ofstream(folder / "g.lua")
+        << "it = Custom { light = function(q)\n local n = 0\n while true do n = q:open(q.n) "
+           "end\n end }\nscene = Scene { 'box.pbrt' }\nimage = RayTracer { it, scene = "
+           "scene, samples = 1024, film = { 256, 256, file = 'g.exr' } }\n";
+    for (const char* threads : {"1", "2"}) {
+        test::Process run(test::launch_words(folder / "g.lua", folder / "g.exr",
+                                             {"--threads", threads, "--progress", "json", "--forget"}));
+        EXPECT_TRUE(run.wait_for("\"event\":\"phase\"")) << run.output();
+        run.signal(SIGTERM);
+        EXPECT_GE(run.wait(test::slowdown * std::chrono::seconds(20)), 0) << "it goes on with " << threads;
+    }
+}
+
+// Others want it.
+TEST_F(CustomTest, LeavesADaemonWhoseLauncherIsGone) {
+    const test::Daemon daemon(folder);
+    const std::string hosts = folder.write("hosts.lua", "place '" + daemon.endpoint + "' {}\n");
+    std::ofstream(folder / "long.lua") << "it = Custom { light = function(q)\n local n = 0\n for i = 1, 100 do n = n + "
+                                          "q:open(q.n) end\n return n\n end }\nscene = Scene { 'box.pbrt' }\nimage = "
+                                          "RayTracer { it, scene = scene, samples = 4096, film = { 256, 256, file = "
+                                          "'long.exr' } }\n";
+    {
+        test::Process lost(test::launch_words(folder / "long.lua", folder / "long.exr",
+                                              {"--hosts", hosts, "--progress", "json", "--forget", "--tile", "256"}));
+        EXPECT_TRUE(daemon.process->wait_for("serves a run")) << daemon.process->output();
+        EXPECT_TRUE(lost.wait_for("\"event\":\"phase\"")) << lost.output();
+        lost.signal(SIGKILL);
+        lost.wait();
+    }
+    const Launch next = render("it = DirectLighting {}", {"--hosts", hosts, "--wait", "30"});
+    EXPECT_EQ(next.code, 0) << next.said << daemon.process->output();
+}
+
+// Nobody can trace them: they meet nothing, the run goes on and says whose they were, and no host dies of them.
+TEST_F(CustomTest, MayAskAlongDirectionsThatAreNone) {
+    const test::Daemon one(folder), two(folder);
+    const std::string hosts =
+        folder.write("hosts.lua", "place '" + one.endpoint + "' {}\nplace '" + two.endpoint + "' {}\n");
+    for (const char* rays : {"ask(1, q.p * (0/0))", "q:open(q.p * (0/0))", "q:open(q.p * 1e30 * 1e30)",
+                             "ask(1, q.n * 1e19)", "ask(1, q.n * 0)"}) {
+        const std::string nodes = std::string(
+                                      "direct = DirectLighting {}\nit = Custom { direct, light = function(q, "
+                                      "ask)\n return ask(1) * 0 + ") +
+                                  rays + "\n end }";
+        const Launch here = render(nodes), there = render(nodes, {"--hosts", hosts});
+        EXPECT_EQ(here.code, 0) << here.said;
+        EXPECT_THAT(here.said, HasSubstr("'it' sent")) << rays;
+        EXPECT_EQ(there.code, 0) << there.said;
+        EXPECT_TRUE(here.picture == there.picture) << rays;
+    }
 }
 
 TEST_F(CustomTest, HasNothingThatReachesOutOrDiffersBetweenHosts) {
