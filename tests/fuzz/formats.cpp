@@ -16,20 +16,23 @@ std::string text_of(std::span<const std::byte> bytes) {
 const std::string dot = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n" + std::string("\x80\x80\x80\x81", 4);
 const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
 
-void attempt(const std::string& name, const std::string& text, test::MemoryFiles files) {
+using Use = void (*)(SceneData);
+
+void attempt(const std::string& name, const std::string& text, test::MemoryFiles files, Use use) {
     try {
-        (void)test::read_as(name, text, std::move(files));
+        use(test::read_as(name, text, std::move(files)));
     } catch (const UserError&) {
     } catch (const Error&) {
     }
 }
 
+template <Use use>
 void read_mitsuba(std::span<const std::byte> bytes) {
     test::MemoryFiles files{{"a.obj", square},
                             {"p.hdr", dot},
                             {"a.ply", meshes().seeds().front()},
                             {"more.xml", "<scene><include filename='scene.xml'/><shape type='cube'/></scene>"}};
-    attempt("scene.xml", text_of(bytes), std::move(files));
+    attempt("scene.xml", text_of(bytes), std::move(files), use);
 }
 
 std::vector<std::string> mitsuba_seeds() {
@@ -52,10 +55,11 @@ std::vector<std::string> mitsuba_seeds() {
 <emitter type="envmap"><string name="filename" value="p.hdr"/></emitter><emitter type="spot"/><emitter type="sun"/></scene>)"};
 }
 
+template <Use use>
 void read_gltf(std::span<const std::byte> bytes) {
     const std::string text = text_of(bytes);
     attempt(text.starts_with("glTF") ? "scene.glb" : "scene.gltf", text,
-            {{"p.hdr", dot}, {"b.bin", std::string(80, '\1')}});
+            {{"p.hdr", dot}, {"b.bin", std::string(80, '\1')}}, use);
 }
 
 std::vector<std::string> gltf_seeds() {
@@ -76,11 +80,12 @@ std::vector<std::string> gltf_seeds() {
 }
 
 /// The library is what stands behind the first NUL.
+template <Use use>
 void read_obj(std::span<const std::byte> bytes) {
     const std::string text = text_of(bytes);
     const auto border = std::min(text.find('\0'), text.size());
     attempt("scene.obj", text.substr(0, border),
-            {{"m.mtl", text.substr(std::min(border + 1, text.size()))}, {"p.hdr", dot}});
+            {{"m.mtl", text.substr(std::min(border + 1, text.size()))}, {"p.hdr", dot}}, use);
 }
 
 std::vector<std::string> obj_seeds() {
@@ -119,9 +124,12 @@ std::vector<std::string> serialized_seeds() {
 
 }  // namespace
 
-Target mitsuba() { return {"mitsuba", read_mitsuba, mitsuba_seeds}; }
-Target gltf() { return {"gltf", read_gltf, gltf_seeds}; }
-Target obj() { return {"obj", read_obj, obj_seeds}; }
+Target mitsuba() { return {"mitsuba", read_mitsuba<drop>, mitsuba_seeds}; }
+Target rays_mitsuba() { return {"rays_mitsuba", read_mitsuba<render>, mitsuba_seeds, 20}; }
+Target gltf() { return {"gltf", read_gltf<drop>, gltf_seeds}; }
+Target rays_gltf() { return {"rays_gltf", read_gltf<render>, gltf_seeds, 20}; }
+Target obj() { return {"obj", read_obj<drop>, obj_seeds}; }
+Target rays_obj() { return {"rays_obj", read_obj<render>, obj_seeds, 20}; }
 Target serialized() { return {"serialized", read_serialized, serialized_seeds}; }
 
 }  // namespace lightnet::fuzz

@@ -1,8 +1,13 @@
 // The fuzz targets with damaged inputs that are the same on every machine.
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
 #include <random>
 
+#include "tests/fuzz/numbers.hpp"
 #include "tests/fuzz/targets.hpp"
 
 namespace lightnet::fuzz {
@@ -13,7 +18,8 @@ std::span<const std::byte> bytes_of(const std::string& text) { return std::as_by
 // Bytes flipped, cut out, repeated, brought in from another input or set to extremes.
 class Vandal {
 public:
-    explicit Vandal(std::vector<std::string> seeds) : seeds_(std::move(seeds)) {}
+    explicit Vandal(std::vector<std::string> seeds, std::uint64_t first = 1)
+        : seeds_(std::move(seeds)), random_(first) {}
 
     std::string next() {
         std::string text = any_seed();
@@ -27,7 +33,11 @@ private:
 
     void hit(std::string& text) {
         const std::size_t at = below(text.size()), length = 1 + below(16);
-        switch (below(6)) {
+        switch (below(8)) {
+            case 6:
+            case 7:
+                make_extreme(text, at, below(extreme_numbers.size()));
+                break;
             case 0:
                 text[at] = static_cast<char>(text[at] ^ (1 << below(8)));
                 break;
@@ -51,7 +61,7 @@ private:
     }
 
     std::vector<std::string> seeds_;
-    std::mt19937_64 random_{1};
+    std::mt19937_64 random_;
 };
 
 class Reading : public testing::TestWithParam<Target> {};
@@ -62,13 +72,28 @@ TEST_P(Reading, TakesSoundInputs) {
 
 TEST_P(Reading, TakesInputsThatAreCutAnywhere) {
     for (const auto& seed : GetParam().seeds())
-        for (std::size_t size = 0; size < seed.size(); ++size)
+        for (std::size_t size = 0; size < seed.size(); size += GetParam().cost)
             EXPECT_NO_THROW(GetParam().read(bytes_of(seed.substr(0, size)))) << size;
+}
+
+// $LIGHTNET_FUZZ_SECONDS: each target goes on for so long, with inputs that $LIGHTNET_FUZZ_SEED begins.
+TEST_P(Reading, TakesOtherDamagedInputsForAsLongAsItIsTold) {
+    const char *const seconds = std::getenv("LIGHTNET_FUZZ_SECONDS"), *const seed = std::getenv("LIGHTNET_FUZZ_SEED");
+    if (!seconds) GTEST_SKIP() << "LIGHTNET_FUZZ_SECONDS is not set";
+    Vandal vandal(GetParam().seeds(), seed ? std::stoull(seed) : 2);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(std::stoi(seconds));
+    std::size_t rounds = 0;
+    for (; std::chrono::steady_clock::now() < end; ++rounds) {
+        const auto text = vandal.next();
+        std::ofstream("last_fuzz_input", std::ios::binary) << text;  // for who looks at a crash
+        ASSERT_NO_THROW(GetParam().read(bytes_of(text))) << "round " << rounds << ":\n" << text;
+    }
+    std::cout << rounds << " inputs\n";
 }
 
 TEST_P(Reading, TakesDamagedInputs) {
     Vandal vandal(GetParam().seeds());
-    for (int round = 0; round < 5000; ++round) {
+    for (int round = 0; round < int(5000 / GetParam().cost); ++round) {
         const auto text = vandal.next();
         ASSERT_NO_THROW(GetParam().read(bytes_of(text))) << "round " << round << ":\n" << text;
     }

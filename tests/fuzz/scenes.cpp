@@ -6,6 +6,7 @@
 namespace lightnet::fuzz {
 namespace {
 
+template <void (*use)(SceneData)>
 void read(std::span<const std::byte> bytes) {
     test::MemoryFiles files;
     files.add("scene.pbrt", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
@@ -14,7 +15,7 @@ void read(std::span<const std::byte> bytes) {
     files.add("picture.hdr",
               std::string("#?RADIANCE\n\n-Y 1 +X 2\n") + std::string("\x80\x40\x20\x81\x80\x40\x20\x81", 8));
     try {
-        (void)read_scene(files, "scene.pbrt");
+        use(read_scene(files, "scene.pbrt"));
     } catch (const UserError&) {
     } catch (const Error&) {
     }
@@ -88,6 +89,7 @@ Shape "disk"
 
 }  // namespace
 
-Target scenes() { return {"scenes", read, seeds}; }
+Target scenes() { return {"scenes", read<drop>, seeds}; }
+Target rays_pbrt() { return {"rays_pbrt", read<render>, seeds, 20}; }
 
 }  // namespace lightnet::fuzz

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "core/scene/data/scene_data.hpp"
+
 namespace lightnet::fuzz {
 
 /// Reads bytes in one way. Returns when they were read or properly refused; anything else is a bug.
@@ -14,7 +16,14 @@ struct Target {
     void (*read)(std::span<const std::byte>);
     /// Sound inputs, from which damaged ones are made.
     std::vector<std::string> (*seeds)();
+    /// How often it is tried less than one that only reads.
+    std::size_t cost = 1;
 };
+
+/// What is done with a scene that could be read.
+void drop(SceneData scene);
+/// A picture of 2 x 2 pixels, all the way from the camera to the light and back.
+void render(SceneData scene);
 
 /// Packets: the header's 64 bytes, then the body. Each is also read with its magic, size and checksum put right, or
 /// nothing would ever come past them.
@@ -58,9 +67,25 @@ Target gates();
 /// What comes to the server of a watched run: HTTP, and a WebSocket.
 Target watched();
 
+/// The same scenes, read and rendered: what comes between the file and the ray.
+Target rays_pbrt();
+Target rays_mitsuba();
+Target rays_gltf();
+Target rays_obj();
+/// Operators in Lua, with questions about a small scene.
+Target customs();
+/// Files that runs keep of what they have learnt, and recipes of a cache.
+Target kept();
+/// Reports of runs (x.run.json), as `explain` and `watch` read them.
+Target pasts();
+/// What a launcher says to those who watch its run.
+Target words();
+
 inline std::vector<Target> all_targets() {
-    return {packets(), scenes(),    meshes(), texts(),       mitsuba(), gltf(), obj(),   serialized(), pictures(),
-            films(),   manifests(), jobs(),   checkpoints(), graphs(),  keys(), gates(), watched()};
+    return {packets(),    scenes(),   meshes(),  texts(),     mitsuba(),      gltf(),        obj(),
+            serialized(), pictures(), films(),   manifests(), jobs(),         checkpoints(), graphs(),
+            keys(),       gates(),    watched(), rays_pbrt(), rays_mitsuba(), rays_gltf(),   rays_obj(),
+            customs(),    kept(),     pasts(),   words()};
 }
 
 }  // namespace lightnet::fuzz
