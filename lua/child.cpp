@@ -77,7 +77,7 @@ void limit(__rlimit_resource what, rlim_t most) {
 }
 
 void default_signals() {
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPROF, SIGXCPU, SIGPIPE}) ::signal(signal, SIG_DFL);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGPROF, SIGXCPU, SIGPIPE}) ::signal(signal, SIG_DFL);
     sigset_t none;
     sigemptyset(&none);
     ::sigprocmask(SIG_SETMASK, &none, nullptr);

@@ -2,16 +2,25 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <chrono>
 #include <csignal>
 
 namespace lightnet {
 namespace {
 
-Signals signals;  // a handler can reach nothing else
+// A handler can reach nothing else.
+Signals signals;
+std::atomic<bool> only_warned{false};  // by Slurm, which sends another signal later
+
+void note_time() { signals.came = std::chrono::steady_clock::now().time_since_epoch().count(); }
 
 void on_signal(int signal) {
-    const bool again = signals.any.exchange(true);
-    if (again && signal != SIGHUP) _exit(130);
+    const bool warns = signal == SIGUSR1;
+    const bool again = signals.any.exchange(true) && !(!warns && only_warned.exchange(false));
+    if (warns && !again) only_warned = true;
+    if (again && !warns && signal != SIGHUP) _exit(130);
+    if (!again) note_time();
     (signal == SIGINT ? signals.interrupted : signals.terminated) = true;
 }
 
@@ -24,15 +33,21 @@ bool is_ignored(int signal) {
 
 void ask_to_stop() {
     signals.terminated = true;
-    signals.any = true;
+    if (!signals.any.exchange(true)) note_time();
+}
+
+std::chrono::duration<double> time_to_end(const Signals& told) {
+    constexpr std::chrono::seconds patience(9);  // of Docker: ten
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point came{Clock::duration(told.came.load())};
+    return std::max<std::chrono::duration<double>>(came + patience - Clock::now(), std::chrono::seconds(0));
 }
 
 const Signals& watch_signals() {
     struct sigaction action {};
     action.sa_handler = on_signal;
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
-    if (!is_ignored(SIGHUP)) sigaction(SIGHUP, &action, nullptr);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1})
+        if (!is_ignored(signal)) sigaction(signal, &action, nullptr);
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error like a full disk
     return signals;

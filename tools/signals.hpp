@@ -2,20 +2,26 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 
 namespace lightnet {
 
 /// Set by signal handlers, read by loops.
 struct Signals {
-    std::atomic<bool> any{false};          // one of those below came
-    std::atomic<bool> interrupted{false};  // SIGINT: stop now
-    std::atomic<bool> terminated{false};   // SIGTERM, SIGHUP: finish what is under way, then stop
+    std::atomic<bool> any{false};                         // one of those below came
+    std::atomic<bool> interrupted{false};                 // SIGINT: stop now
+    std::atomic<bool> terminated{false};                  // the others: finish what is under way, then stop
+    std::atomic<std::chrono::steady_clock::rep> came{0};  // the first one: when
 };
 
-/// From now on SIGINT, SIGTERM and SIGHUP set flags; a second one ends the process at once, with code 130. A terminal
-/// that is closed may hang up several times, which counts once; under nohup it counts not at all. Broken pipes are no
-/// longer deadly.
+/// From now on SIGINT, SIGTERM, SIGHUP and SIGUSR1 (by which Slurm warns of its time limit) set flags; a second one
+/// ends the process at once, with code 130. A terminal that is closed may hang up several times, which counts once;
+/// warnings do not count. What is ignored when the program starts stays so: SIGHUP under nohup, SIGINT in the
+/// background jobs of a script. Broken pipes are no longer deadly.
 const Signals& watch_signals();
+
+/// Whoever ends programs gives them some ten seconds to end in order, and then none: how much is left of it.
+std::chrono::duration<double> time_to_end(const Signals& signals);
 
 /// As a signal does: the run is to finish what is under way, and to stop. Any thread.
 void ask_to_stop();

@@ -48,6 +48,20 @@ TEST_F(DaemonTest, WelcomesALauncherOfItsOwnBuild) {
     EXPECT_NE(fields.number("fingerprint"), 0u);
 }
 
+TEST_F(DaemonTest, KeepsASignalIgnoredThatWasSoAndEndsInOrderWhenSlurmWarnsIt) {
+    Process one({"sh", "-c", "trap '' INT; exec \"$@\"", "sh", program("lightnetd"), "--listen", "tcp://127.0.0.1:*",
+                 "--places", "1", "--cache", folder / "other"});
+    ASSERT_TRUE(one.wait_for("listening on ") && one.wait_for("\n")) << one.output();
+    const auto from = one.output().find("tcp://");
+    const auto endpoint = one.output().substr(from, one.output().find('\n', from) - from);
+    one.signal(SIGINT);
+    auto words = tiny;
+    words.insert(words.end(), {"--hosts", folder.write("one.lua", "place '" + endpoint + "' {}")});
+    EXPECT_EQ(launch(graph_file("cornell.lua"), folder, words).code, 0);
+    one.signal(SIGUSR1);
+    EXPECT_EQ(one.wait(slowdown * seconds(10)), 0) << one.output();
+}
+
 TEST_F(DaemonTest, RefusesAnotherBuildAndNamesBoth) {
     Stranger launcher(daemon.endpoint);
     launcher.send(hello("9.9.9 (somewhere else)"));
