@@ -46,6 +46,28 @@ TEST_F(HostWaitTest, WaitsForTheAbsentAndTheBusyButNotForLong) {
     EXPECT_EQ(wait_for_hosts.look(standing, begun + 1h), Verdict::wait) << "when it is the only one there is";
 }
 
+TEST_F(HostWaitTest, WaitsForTheBusyNoLongerThanItWasTold) {
+    patience.busy = 30s;
+    HostWait bounded(patience, begun);
+    standing.busy = true;
+    EXPECT_EQ(bounded.look(standing, begun + 29s), Verdict::wait);
+    EXPECT_EQ(bounded.look(standing, begun + 30s), Verdict::nobody_free);
+}
+
+TEST_F(HostWaitTest, WaitsForNobodyWhenTheTimeIsOver) {
+    patience.most = 3s;
+    HostWait bounded(patience, begun);
+    for (bool HostWait::Standing::*const which : {&HostWait::Standing::busy, &HostWait::Standing::pending,
+                                                  &HostWait::Standing::others_may_come, &HostWait::Standing::absent}) {
+        HostWait::Standing one;
+        one.*which = true;
+        EXPECT_EQ(bounded.look(one, begun + 2s), Verdict::wait);
+        EXPECT_EQ(bounded.look(one, begun + 3s), one.busy ? Verdict::nobody_free : Verdict::nobody);
+        one.ready = true;
+        EXPECT_EQ(bounded.look(one, begun + 3s), Verdict::begin);
+    }
+}
+
 TEST_F(HostWaitTest, GivesUpWhenNobodyIsThereAndNobodyMayCome) {
     EXPECT_EQ(wait_for_hosts.look(standing, begun + 1s), Verdict::nobody);
     standing.others_may_come = true;

@@ -31,6 +31,8 @@ void Cluster::gather(Patience patience, const std::atomic<bool>& cancelled, cons
         if (verdict == HostWait::Verdict::nobody && links_->all_unknown())
             throw NobodyKnown("no worker that we know, and that knows us:" + links_->reasons());
         if (verdict == HostWait::Verdict::nobody) throw NoWorker("no worker can be reached:" + links_->reasons());
+        if (verdict == HostWait::Verdict::nobody_free)
+            throw NoWorker("no worker was free in time:" + links_->reasons());
         if (host_wait.should_speak(now)) links_->say_what_is_missing(now - begun);
     }
 }

@@ -72,14 +72,16 @@ public:
 
     /// How long to wait for hosts before the work begins.
     struct Patience {
-        std::chrono::milliseconds absent{5000};   // with hosts that do not answer
-        std::chrono::milliseconds nobody{5000};   // when none is there at all
-        std::chrono::milliseconds slow{5000};     // with one that is still not ready when another is, at least
-        std::chrono::milliseconds build{600000};  // when some are there, but none gets ready
+        std::chrono::milliseconds absent{5000};           // with hosts that do not answer
+        std::chrono::milliseconds nobody{5000};           // when none is there at all
+        std::chrono::milliseconds slow{5000};             // with one that is still not ready when another is, at least
+        std::chrono::milliseconds build{600000};          // when some are there, but none gets ready
+        std::optional<std::chrono::milliseconds> busy{};  // when all serve other runs; none: as long as it takes
+        std::optional<std::chrono::milliseconds> most{};  // whatever they do
     };
     /// Returns when every host is ready, refused, or has been absent or slow for too long; at least one must be ready
     /// by then, and others may still join later. Says from time to time what it waits for. Calls `look_around` several
-    /// times a second. Throws NoWorker when none is ready, Error when the job can't be served.
+    /// times a second. Throws NoWorker when none is ready by then, Error when the job can't be served.
     void gather(Patience patience, const std::atomic<bool>& cancelled, const std::function<void()>& look_around);
     void gather(std::chrono::milliseconds patience, const std::atomic<bool>& cancelled) {
         gather(Patience{patience, patience, patience}, cancelled, [] {});
@@ -130,7 +132,7 @@ private:
     std::unique_ptr<Links> links_;
 };
 
-/// No host can be reached (exit code 3).
+/// No host can be reached, or none is free in time (exit code 3).
 class NoWorker : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;

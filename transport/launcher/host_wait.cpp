@@ -15,11 +15,15 @@ HostWait::Verdict HostWait::look(const Standing& standing, Time now) {
     // Machines differ: whoever is not ready gets as long again as the first one took.
     const bool too_slow =
         first_ready_ && now - *first_ready_ > std::max<Time::duration>(patience_.slow, *first_ready_ - begun_);
+    if (patience_.most && waited >= *patience_.most && !standing.ready)
+        return standing.busy ? Verdict::nobody_free : Verdict::nobody;
+    if (patience_.most && waited >= *patience_.most) return Verdict::begin;
     if (standing.pending && !too_slow && (standing.ready || waited < patience_.build)) return Verdict::wait;
     if (waited < patience_.absent && (standing.absent || standing.busy)) return Verdict::wait;
     if (standing.ready) return Verdict::begin;
     if (standing.pending) return Verdict::nobody;
-    if (standing.busy) return Verdict::wait;  // it will be free at some time
+    // Others will be free at some time.
+    if (standing.busy) return patience_.busy && waited >= *patience_.busy ? Verdict::nobody_free : Verdict::wait;
     return waited >= patience_.nobody || !standing.others_may_come ? Verdict::nobody : Verdict::wait;
 }
 

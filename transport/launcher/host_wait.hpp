@@ -21,7 +21,7 @@ public:
     struct Standing {
         bool ready = false, pending = false, absent = false, busy = false, others_may_come = false;
     };
-    enum class Verdict { wait, begin, nobody };
+    enum class Verdict { wait, begin, nobody, nobody_free };
 
     HostWait(Cluster::Patience patience, Time begun)
         : patience_(patience), begun_(begun), next_words_(begun + first_) {}
