@@ -109,9 +109,11 @@ void Crew::begin_anew(std::uint64_t run, const std::set<std::string>& liars, std
     cluster_ = std::make_unique<Cluster>(options_);
 }
 
-void Crew::gather(const std::atomic<bool>& cancelled) {
+void Crew::gather(const std::atomic<bool>& cancelled, std::optional<std::chrono::milliseconds> most) {
     Cluster::Patience patience{host_patience, host_patience};
     if (!request_.listen.empty()) patience.nobody = std::max<std::chrono::milliseconds>(request_.wait, host_patience);
+    patience.busy = request_.busy_wait;
+    patience.most = most;
     cluster_->gather(patience, cancelled, [this] { look_after(); });
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -31,8 +32,8 @@ public:
     /// All hosts but `liars` take part in another run, `run`, with `network` for places of this process; the one so far
     /// is over. gather() waits for them.
     void begin_anew(std::uint64_t run, const std::set<std::string>& liars, std::shared_ptr<const Network> network);
-    /// Waits for those that are to be there from the beginning.
-    void gather(const std::atomic<bool>& cancelled);
+    /// Waits for those that are to be there from the beginning; no longer than `most`.
+    void gather(const std::atomic<bool>& cancelled, std::optional<std::chrono::milliseconds> most);
     /// Hosts that the user named and that take no part: why, and what others have to do for them.
     std::vector<std::string> missing() const;
     /// To be called several times a second: starts local workers, and those of ssh, anew.

@@ -42,7 +42,7 @@ ErrorCurve::ErrorCurve(const std::string& reference, const std::string& csv, std
 
 void ErrorCurve::note(double samples, double seconds, const Picture& picture) {
     const Difference found = compare(reference_, picture);
-    last_ = found.relative_square;
+    last_ = {name_, samples, found.relative_square, found.mean_square};
     lines_ += fmt::format("{:g},{:.3f},{:.6g},{:.6g}\n", samples, seconds, found.relative_square, found.mean_square);
     if (!csv_.empty()) write_file(csv_, lines_);
 }

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/film/picture.hpp"
+#include "core/film/run_report.hpp"
 
 namespace lightnet {
 
@@ -24,14 +25,13 @@ public:
     /// Writes the file anew, with one line more. Throws Error when the disk refuses.
     void note(double samples, double seconds, const Picture& picture);
     /// Of what was noted last; none: nothing was.
-    std::optional<double> relative_square() const { return last_; }
-    const std::string& reference() const { return name_; }
+    const std::optional<ErrorReport>& last() const { return last_; }
 
 private:
     std::string name_, csv_;
     Picture reference_;
     std::string lines_{curve_beginning};
-    std::optional<double> last_;
+    std::optional<ErrorReport> last_;
 };
 
 }  // namespace lightnet

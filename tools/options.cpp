@@ -77,10 +77,12 @@ void add_helpers(CLI::App& verb, RunningOptions& running) {
         ->type_name("FILE");
     verb.add_flag("--insecure", running.insecure,
                   "reach beyond this machine without keys, unencrypted, on a network that is yours alone");
-    takes_numbers(verb.add_option("--wait", running.wait,
-                                  "seconds to wait for a host to come, or for a disk to take the picture"),
-                  "SECONDS", 0, 864000)
-        ->capture_default_str();
+    takes_numbers(
+        verb.add_option("--wait", running.wait,
+                        "seconds to wait for a host to come, for a busy one to be free (if not given: as long "
+                        "as it takes), or for a disk to take the picture"),
+        "SECONDS", 0, 864000)
+        ->default_str("30");
     auto* const ssh = verb.add_option("--ssh", running.ssh,
                                       "start a daemon on each of these machines by ssh, for this run (may be repeated)")
                           ->type_name("[USER@]HOST,…")
@@ -300,11 +302,10 @@ void add_running(CLI::App& verb, RunningOptions& running) {
             return progress_mode(text) ? "" : "must be auto, bar, plain, json or none, not '" + text + "'";
         });
     add_preview(verb, running);
-    takes_amounts(
-        verb.add_option("--time-limit", running.time_limit,
-                        "end after so many seconds, with as many samples (16, 32, …) in all pixels as there is "
-                        "time for; --resume goes on"),
-        "SECONDS", Least::above_zero);
+    takes_amounts(verb.add_option("--time-limit", running.time_limit,
+                                  "end after so many seconds, with as many samples in all pixels as there is time for; "
+                                  "--resume goes on"),
+                  "SECONDS", Least::above_zero);
     auto* const reference =
         verb.add_option("--reference", running.reference, "say how far the picture is from this one: EXR, HDR, PNG …")
             ->type_name("REFERENCE");

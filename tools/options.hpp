@@ -60,7 +60,7 @@ struct RunningOptions {
     std::string allow;                           // whose hosts may join, see AllowFile; "": who knows the pass
     std::string pass;                            // file with what hosts must know to join; "": the usual one
     bool insecure = false;                       // even beyond this machine
-    int wait = 30;                               // seconds for a host to come when a node has no place any more
+    std::optional<int> wait;                     // seconds for hosts to come or, if given, to be free; none: 30
     std::optional<std::uint32_t> slurm;          // daemons to start as a job array
     std::string partition, slurm_arguments;
     std::vector<std::string> ssh;  // machines on which to start daemons, as ssh calls them

@@ -11,15 +11,17 @@ class Pace {
 public:
     using Clock = std::chrono::steady_clock;
 
-    Pace(std::chrono::duration<double> period, Clock::time_point now)
-        : period_(std::chrono::ceil<Clock::duration>(period)) {
-        put_off(now);
-    }
+    Pace(std::chrono::duration<double> period, Clock::time_point now) : period_(of_a_clock(period)) { put_off(now); }
 
     bool due(Clock::time_point now) const { return now >= next_; }
     /// By a period from now, and by `pause` at least.
     void put_off(Clock::time_point now, std::chrono::duration<double> pause = {}) {
-        next_ = now + std::max(period_, std::chrono::ceil<Clock::duration>(pause));
+        next_ = now + std::max(period_, of_a_clock(pause));
+    }
+    /// As a clock counts it, which goes no further than some hundred years.
+    static Clock::duration of_a_clock(std::chrono::duration<double> time) {
+        constexpr std::chrono::duration<double> longest(1e9);
+        return std::chrono::ceil<Clock::duration>(std::min(time, longest));
     }
 
 private:

@@ -71,7 +71,7 @@ void Rendering::serially(LoadedScene scene) {
     std::optional<Looker> looker;
     const Crowd alone{{}, {}, [&] { return std::vector{this_process(1, looker->figures())}; }, {}};
     SerialRun run(*network, [&] {
-        if (stopped()) throw Cancelled{};
+        if (ended()) throw Cancelled{};
         if (looker) show(alone);
     });
     std::optional<PlaceTracer> tracer;
@@ -82,26 +82,32 @@ void Rendering::serially(LoadedScene scene) {
               what_.job.graph);
     try {
         const LookingAt looking(&signals_.any);
-        TilesByPass passes(what_.job.graph, what_.registry, what_.tiles, book_.steps());
-        const auto say = [this](const std::string& text) { book_.say(text); };
-        run.prepare(made_from(what_.job), cache(), say, passes.pass());
-        what_.kept.write([&](std::size_t node) { return run.last_result(node); }, book_);
-        book_.phase("render");
-        for (bool in_time = true; !passes.empty() && !stopped() && in_time; in_time = book_.end_step()) {
-            auto tiles = passes.begin_next();
-            for (std::size_t next = 0; next < tiles.size() && !stopped(); ++next) {
-                const Tile tile = tiles[next];
-                const auto more = passes.sort(book_.take(tile, run.render(tile)));
-                tiles.insert(tiles.end(), more.begin(), more.end());
-            }
-        }
-        if (!passes.empty() && !stopped()) book_.end_early();
+        render(run);
     } catch (const Cancelled&) {
     }
     if (looker) book_.show_last(alone.hosts);
     auto counters = run.counters();
     if (tracer) counters.traces.push_back(tracer->take("", 0));
     book_.count(counters);
+}
+
+void Rendering::render(SerialRun& run) {
+    auto tiles = book_.next_step();
+    const auto say = [this](const std::string& text) { book_.say(text); };
+    run.prepare(made_from(what_.job), cache(), say, TilesByPass(what_.job.graph, what_.registry, tiles).pass());
+    what_.kept.write([&](std::size_t node) { return run.last_result(node); }, book_);
+    book_.phase("render");
+    for (; !tiles.empty() && !ended(); tiles = book_.next_step()) {
+        TilesByPass passes(what_.job.graph, what_.registry, tiles);
+        while (!passes.empty() && !ended()) {
+            auto pass = passes.begin_next();
+            for (std::size_t next = 0; next < pass.size() && !ended(); ++next) {
+                const Tile tile = pass[next];
+                const auto more = passes.sort(book_.take(tile, run.render(tile)));
+                pass.insert(pass.end(), more.begin(), more.end());
+            }
+        }
+    }
 }
 
 void Rendering::in_threads(LoadedScene scene) {
@@ -145,10 +151,10 @@ ResultCache* Rendering::cache() {
     }
 }
 
-// True when all is prepared, false when the run was stopped.
+// True when all is prepared, false when the run was stopped, or its time is over.
 bool Rendering::prepare(Conductor& conductor, const Crowd& crowd) {
     while (!conductor.prepare(50ms)) {
-        if (stopped()) return false;
+        if (ended()) return false;
         crowd.look_around(conductor.in_force().places_of[image_].size());
         book_.preparing(with(conductor.progress(), crowd.doing()));
         show(crowd);
@@ -168,8 +174,8 @@ void Rendering::hand_out(Carrier& carrier, const Plan& plan, const Crowd& crowd)
     options.verify = what_.request.tuning.verify;
     options.say = [this](const std::string& text) { book_.say(text); };
     Conductor conductor(std::move(options), carrier);
-    TilesByPass passes(what_.job.graph, what_.registry, what_.tiles, book_.steps());
-    conductor.begin_pass(passes.pass());
+    auto tiles = book_.next_step();
+    conductor.begin_pass(TilesByPass(what_.job.graph, what_.registry, tiles).pass());
     conductor.propose(plan);
     if (!prepare(conductor, crowd)) return;
     const auto write_kept = [&] {
@@ -177,9 +183,10 @@ void Rendering::hand_out(Carrier& carrier, const Plan& plan, const Crowd& crowd)
     };
     if (!what_.request.tuning.verify) write_kept();
     book_.phase("render");
-    for (bool in_time = true; !passes.empty() && !stopped() && in_time; in_time = book_.end_step())
-        hand_out_pass(conductor, passes, crowd);
-    if (!passes.empty() && !stopped()) book_.end_early();
+    for (; !tiles.empty() && !ended(); tiles = book_.next_step()) {
+        TilesByPass passes(what_.job.graph, what_.registry, tiles);
+        while (!passes.empty() && !ended()) hand_out_pass(conductor, passes, crowd);
+    }
     if (what_.request.tuning.verify && !stopped()) write_kept();  // nobody was found to have lied
 }
 
@@ -205,7 +212,7 @@ void Rendering::hand_out_pass(Conductor& conductor, TilesByPass& passes, const C
     });
     more = &master;
     master.use(conductor.in_force());
-    while (!stopped() && !master.work(50ms)) {
+    while (!ended() && !master.work(50ms)) {
         crowd.look_around(master.renderers());
         show(crowd);
     }
@@ -270,7 +277,6 @@ void Rendering::begin_anew(Crew& crew, const Failure& lie) {
                     "; all that it has told is done again");
         liars_.insert(lie.host);
     }
-    what_.tiles = tiles_of(what_.format, what_.request.tuning.tile);
     id_ = secret_number();
     book_.name_run(id_);
     book_.phase("prepare");
@@ -307,8 +313,8 @@ void Rendering::on(Crew& crew) {
     const auto trust = [&] {
         if (what_.request.tuning.verify > 0 && cluster.lie()) throw Lie{*cluster.lie()};
     };
-    crew.gather(signals_.any);
-    if (stopped()) {
+    crew.gather(signals_.any, book_.time_left());
+    if (ended()) {
         cluster.finish(300ms);
         return;
     }

@@ -18,6 +18,7 @@
 #include "core/run/prepare/load_scene.hpp"
 #include "core/run/runtime/conductor.hpp"
 #include "core/run/runtime/job.hpp"
+#include "core/run/runtime/serial.hpp"
 #include "core/run/runtime/tiles_by_pass.hpp"
 #include "tools/crew.hpp"
 #include "tools/kept_files.hpp"
@@ -36,10 +37,9 @@ struct Assignment {
     const Job& job;
     const FilmFormat& format;
     const KeptFiles& kept;
-    std::vector<Tile> tiles;
 };
 
-/// One thread's. Tiles go into the book; a signal ends it early.
+/// One thread's. Tiles go into the book; a signal ends it early, and so does the book's limit of time.
 class Rendering {
 public:
     Rendering(Assignment what, RunBook& book, const Signals& signals);
@@ -68,12 +68,14 @@ private:
     void show(const Crowd& crowd);
     void obey(const WatchCommand& wish, const Crowd& crowd);
     static HostState this_process(std::uint32_t places, HostFigures figures);
+    void render(SerialRun& run);
     void hand_out(Carrier& carrier, const Plan& plan, const Crowd& crowd);
     void hand_out_pass(Conductor& conductor, TilesByPass& passes, const Crowd& crowd);
     bool prepare(Conductor& conductor, const Crowd& crowd);
     ResultCache* cache();
     std::uint32_t tiles_per_place(const Plan& plan) const;
     bool stopped() const { return signals_.any; }
+    bool ended() const { return stopped() || book_.time_is_over(); }
 
     Assignment what_;
     RunBook& book_;

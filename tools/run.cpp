@@ -36,9 +36,7 @@ public:
           registry_(registry),
           signals_(watch_signals()),
           format_(film_format(request, registry)),
-          tiles_(tiles_of(format_, request.tuning.tile)),
-          book_(format_, request.progress, work_in(tiles_of(format_.work(), request.tuning.tile, format_.samples)),
-                first_page(request, registry, format_)) {}
+          book_(format_, request.progress, request.tuning.tile, first_page(request, registry, format_)) {}
 
     int perform();
 
@@ -46,9 +44,11 @@ private:
     LoadedScene load(DiskFiles& files);
     int render();
     int cancelled();
+    std::string write_what_is_there(std::optional<std::chrono::duration<double>> most, const std::string& outcome);
+    bool end_in_time();
     void open_to_watchers();
     int perform_watched();
-    void show_outcome(const std::string& outcome);
+    bool show_outcome(const std::string& outcome);
     void take_up_checkpoint(const SceneData& scene);
     void report_failure();
 
@@ -56,7 +56,6 @@ private:
     const Registry& registry_;
     const Signals& signals_;
     FilmFormat format_;
-    std::vector<Tile> tiles_;
     RunBook book_;
     std::optional<LiveExplainer> explainer_;
     std::optional<Watcher> watcher_;
@@ -67,14 +66,7 @@ void Run::take_up_checkpoint(const SceneData& scene) {
     auto recipe = picture_recipe(job_, registry_, format_, request_.tuning.tile);
     book_.describe(words_of(request_.graph, registry_, format_, recipe, scene));
     book_.keep_checkpoint(request_.output, std::move(recipe), std::chrono::seconds(request_.tuning.checkpoint));
-    if (!request_.resume) return;
-    book_.take_up_checkpoint();
-    std::vector<Tile> left = book_.going_on();
-    const auto all = work_in(tiles_);
-    for (const auto& tile : std::exchange(tiles_, {}))
-        for (const auto& lacking : book_.lacking(tile)) tiles_.push_back(lacking);
-    book_.found(all - work_in(tiles_));
-    tiles_.insert(tiles_.end(), left.begin(), left.end());
+    if (request_.resume) book_.take_up_checkpoint();
 }
 
 LoadedScene Run::load(DiskFiles& files) {
@@ -113,20 +105,46 @@ int Run::render() {
     if (book_.complete())
         book_.say(request_.output + " is finished but for its file");
     else
-        Rendering({request_, registry_, job_, format_, to_keep, std::move(tiles_)}, book_, signals_)
-            .perform(std::move(scene), files);
+        Rendering({request_, registry_, job_, format_, to_keep}, book_, signals_).perform(std::move(scene), files);
     if (signals_.any) return cancelled();
+    if (!book_.complete() && !end_in_time()) return exit_code::failed;
     book_.phase("write");
     book_.name_bad_light(job_.graph);
     return finish_run(book_, request_, scene_overrides(request_.graph, registry_).exposure, signals_.any);
 }
 
+// What is there becomes the picture, whatever it is; its checkpoint first, as that is what costs most to lose. In
+// words.
+std::string Run::write_what_is_there(std::optional<std::chrono::duration<double>> most, const std::string& outcome) {
+    const bool kept = book_.save_checkpoint(most);
+    const std::string goes_on = kept ? "; --resume goes on from here" : "";
+    const auto there = book_.end_early();
+    std::string written = there.empty() ? "no picture was written" : there + " in " + request_.output;
+    try {
+        if (!there.empty()) book_.write_picture(request_.output);
+    } catch (const std::exception& error) {
+        written = std::string("no picture was written: ") + error.what();
+    }
+    book_.write_report(request_.output, outcome);
+    return written + goes_on;
+}
+
 int Run::cancelled() {
-    const bool kept = book_.save_checkpoint();
-    book_.write_report(request_.output, "cancelled");
-    std::cerr << (book_.previewed() ? "cancelled; the picture is a preview" : "cancelled; no picture was written")
-              << (kept ? "; --resume goes on from here" : "") << '\n';
+    const auto there = write_what_is_there(time_to_end(signals_), "cancelled");
+    std::cerr << "cancelled: " << there << '\n';
     return exit_code::interrupted;
+}
+
+// False: it came too soon for a picture that is one.
+bool Run::end_in_time() {
+    if (!book_.covered()) {
+        const auto there = write_what_is_there({}, "preview");
+        std::cerr << "lightnet: the time was over before every pixel had a sample: " << there << '\n';
+        return false;
+    }
+    book_.say("the time is over: " + book_.end_early() +
+              (book_.keeps_checkpoint() ? "; --resume goes on from here" : ""));
+    return true;
 }
 
 void Run::open_to_watchers() {
@@ -150,23 +168,32 @@ int Run::perform() {
     open_to_watchers();
     try {
         const int code = perform_watched();
-        show_outcome(code == exit_code::done ? "done" : code == exit_code::interrupted ? "cancelled" : "failed");
-        return code;
+        const bool told = show_outcome(code == exit_code::done          ? "done"
+                                       : code == exit_code::interrupted ? "cancelled"
+                                                                        : "failed");
+        return told || code != exit_code::done ? code : exit_code::failed;
     } catch (...) {
         show_outcome("failed");
         throw;
     }
 }
 
-// A report that can't be written takes nothing from the picture.
-void Run::show_outcome(const std::string& outcome) {
-    if (!watcher_) return;
+// A report that can't be written takes nothing from the picture, but whoever asked for it has to know: false.
+bool Run::show_outcome(const std::string& outcome) {
+    if (!watcher_) return true;
     book_.show_outcome(outcome);
-    if (request_.report.empty()) return;
+    if (request_.report.empty()) return true;
+    const auto complain = [&](const std::string& why) {
+        std::cerr << "lightnet: there is no report: " << why << '\n';
+        return false;
+    };
     try {
         book_.write_report_page(request_.report);
+        return true;
+    } catch (const std::bad_alloc&) {
+        return complain("there is not enough memory for it");
     } catch (const std::exception& error) {
-        std::cerr << "lightnet: there is no report: " << error.what() << '\n';
+        return complain(error.what());
     }
 }
 

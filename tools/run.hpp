@@ -59,6 +59,7 @@ struct RunRequest {
     SlurmRequest slurm;               // mode network
     SshRequest ssh;                   // likewise; on which machines: see keys.ssh
     std::chrono::seconds wait{30};    // for a host when a node has no place any more
+    std::optional<std::chrono::seconds> busy_wait;  // for hosts that serve other runs; none: as long as it takes
     bool resume = false;              // from the checkpoint beside the output, if there is one
     bool forget = false;              // leave no checkpoint beside a finished picture
     Tuning tuning;

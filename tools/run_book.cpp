@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iostream>
 #include <iterator>
@@ -16,6 +17,7 @@
 #include "core/film/exr.hpp"
 #include "core/film/png.hpp"
 #include "core/network/graph/layout.hpp"
+#include "core/run/message/message.hpp"
 #include "tools/log_line.hpp"
 #include "tools/run_figures.hpp"
 #include "tools/run_trace.hpp"
@@ -32,11 +34,11 @@ std::string shown_host(const std::string& host) { return host.empty() ? std::str
 
 }  // namespace
 
-RunBook::RunBook(FilmFormat format, ProgressMode progress, std::uint64_t blocks, RunReport report)
-    : film_(std::move(format)),
+RunBook::RunBook(FilmFormat format, ProgressMode progress, std::uint32_t tile, RunReport report)
+    : steps_(std::move(format), tile),
       report_(std::move(report)),
-      all_blocks_(blocks),
-      progress_(blocks, Progress::style_of_stderr(progress), std::cerr, Clock::now()) {}
+      all_blocks_(work_in(tiles_of(film().format().work(), tile, film().format().samples))),
+      progress_(all_blocks_, Progress::style_of_stderr(progress), std::cerr, Clock::now()) {}
 
 void RunBook::end_phase(Clock::time_point now) {
     end_doing(now);
@@ -69,7 +71,9 @@ void RunBook::say(const LogEntry& entry) {
 void RunBook::name_run(std::uint64_t number) { set("run", public_name_of_run(number)); }
 
 void RunBook::show_outcome(const std::string& outcome) {
-    if (watcher_) watcher_->finish(film_, outcome);
+    if (!watcher_) return;
+    watcher_->progress(steps_.done(), {});
+    watcher_->finish(steps_.picture(), outcome);
 }
 
 void RunBook::warn(const std::string& text) {
@@ -109,7 +113,7 @@ void RunBook::end_doing(Clock::time_point now) {
 
 void RunBook::expose(float scale) {
     scale_ = scale;
-    film_.expose(scale);
+    steps_.film().expose(scale);
 }
 
 void RunBook::preview(const std::string& exr, double seconds) {
@@ -117,38 +121,81 @@ void RunBook::preview(const std::string& exr, double seconds) {
 }
 
 std::vector<Tile> RunBook::take(const Tile& tile, std::span<const Rgb> pixels) {
-    const bool added = film_.add(tile, pixels);
-    const bool wanted = added || !film_.has(tile);
-    if (added) blocks_ += tile.blocks();
+    Film& film = steps_.film();
+    const bool added = film.add(tile, pixels);
+    const bool wanted = added || !film.has(tile);
+    if (added && steps_.lasts(tile)) blocks_ += tile.blocks();
     if (!wanted) ++repeated_;
-    if (watcher_) watcher_->taken(tile), watcher_->look(film_);
-    // Tiles differ in size where cells decide.
-    const bool differ = film_.format().adaptive();
-    progress_.update(differ ? static_cast<std::uint64_t>(film_.done() * double(all_blocks_)) : blocks_, Clock::now());
-    if (preview_ && preview_->pace.due(Clock::now()) && !film_.complete()) write_preview();
+    if (watcher_) watcher_->taken(tile), watcher_->look(film);
+    progress_.update(work_shown(), Clock::now());
+    if (preview_ && preview_->pace.due(Clock::now()) && !steps_.finished()) write_preview();
     if (checkpoint_)
         if (const auto why = checkpoint_->save_if_due(blocks_); !why.empty()) alert("no checkpoint: " + why);
-    return wanted ? film_.more(tile) : std::vector<Tile>{};
+    return wanted ? film.more(tile) : std::vector<Tile>{};
 }
 
-bool RunBook::end_step() {
+// In blocks of tiles, which differ in size where cells decide.
+std::uint64_t RunBook::work_shown() const {
+    return film().format().adaptive() ? static_cast<std::uint64_t>(steps_.done() * double(all_blocks_)) : blocks_;
+}
+
+void RunBook::show(const Watcher::Hosts& hosts) {
+    const bool renders = !report_.phases.empty() && report_.phases.back().name == "render";
+    watcher_->progress(steps_.done(), renders ? progress_.seconds_left(Clock::now()) : std::nullopt);
+    watcher_->look(film(), hosts);
+    for (const auto& line : watcher_->news()) say(line);
+}
+
+void RunBook::limit_time(double seconds) {
+    if (seconds <= 0) return;
+    steps_.limit({std::chrono::duration<double>(seconds), begun_});
+    progress_.end_by(*steps_.limit().end());
+}
+
+std::optional<std::chrono::milliseconds> RunBook::time_left() const {
+    const auto end = steps_.limit().end();
+    if (!end) return std::nullopt;
+    return std::max(std::chrono::ceil<std::chrono::milliseconds>(*end - Clock::now()), std::chrono::milliseconds(0));
+}
+
+void RunBook::compare_with(ErrorCurve curve) {
+    curve_ = std::move(curve);
+    steps_.by_groups();
+}
+
+std::vector<Tile> RunBook::next_step() {
     const auto now = Clock::now();
-    const auto since = [&](Clock::time_point then) { return std::chrono::duration<double>(now - then).count(); };
-    const double last = since(std::exchange(step_begun_, now));
+    auto tiles = steps_.next(now);
+    note_error(now);
+    steps_.begin(Clock::now());
+    return tiles;
+}
+
+// Of the picture that would be written now, unless that has been noted.
+void RunBook::note_error(Clock::time_point now) {
+    const Film& film = steps_.picture();
+    if (!curve_ || film.covered() < 1) return;
+    const double samples = film.mean_samples();
+    if (report_.error && report_.error->samples == samples) return;
     try {
-        if (curve_) curve_->note(film_.mean_samples(), since(begun_), film_.picture(scale_));
+        curve_->note(samples, std::chrono::duration<double>(now - begun_).count(), film.picture(scale_));
     } catch (const Error& error) {
         alert(std::string("no curve of errors: ") + error.what());
     }
-    return limit_ == 0 || since(begun_) + last <= limit_ || !film_.is_even();
+    report_.error = curve_->last();
 }
 
-void RunBook::end_early() {
-    const auto wanted = film_.format().samples;
-    film_.end_here();
-    report_.settings["samples"] = std::to_string(film_.format().samples);
-    say(fmt::format("the time is over: {:g} of {} samples per pixel{}", film_.mean_samples(), wanted,
-                    checkpoint_ ? "; --resume goes on from here" : ""));
+std::string RunBook::end_early() {
+    const auto wanted = report_.settings["samples"];
+    steps_.end();
+    const Film& film = steps_.picture();
+    if (film.mean_samples() == 0) return {};
+    report_.settings["samples"] = std::to_string(film.format().samples);
+    if (film.covered() < 1) return fmt::format("{:.1f} % of the picture", std::floor(1000 * film.covered()) / 10);
+    const bool even = film.complete() && !film.format().adaptive();
+    const double mean = film.mean_samples();
+    return fmt::format("{:.{}g} sample{} per pixel of {}{}", mean, even ? 10 : 4, mean == 1 ? "" : "s", wanted,
+                       even ? "" : ", on average");
 }
 
 std::string RunBook::preview_now(const std::string& exr) {
@@ -167,8 +214,8 @@ std::string RunBook::write_preview() {
         previewed_ = true;
         RunReport report = report_;
         report.outcome = "preview";
-        report.settings["done"] = fmt::format("{:.4f}", film_.done());
-        report.settings["mean_samples"] = fmt::format("{:.2f}", film_.mean_samples());
+        report.settings["done"] = fmt::format("{:.4f}", steps_.done());
+        report.settings["mean_samples"] = fmt::format("{:.2f}", steps_.picture().mean_samples());
         lightnet::write_report(report_beside(preview_->exr), report);
         if (!std::exchange(preview_->said, true)) say(preview_->exr + " shows the picture so far");
     } catch (const Error& error) {
@@ -181,9 +228,9 @@ std::string RunBook::write_preview() {
 }
 
 Picture RunBook::picture_now() const {
-    Picture picture = film_.picture(scale_);
+    Picture picture = steps_.picture().picture(scale_);
     add_words(words_, picture);
-    picture.notes.texts["samples"] = std::to_string(film_.format().samples);
+    picture.notes.texts["samples"] = std::to_string(steps_.picture().format().samples);
     return picture;
 }
 
@@ -208,33 +255,30 @@ void RunBook::write_files(const std::string& exr) {
 
 void RunBook::keep_checkpoint(const std::string& exr, std::map<std::string, std::string> recipe,
                               std::chrono::seconds period) {
-    checkpoint_.emplace(film_, exr, std::move(recipe), period);
+    checkpoint_.emplace(steps_.film(), exr, std::move(recipe), period);
 }
 
 void RunBook::take_up_checkpoint() {
     const auto file = checkpoint_->file().string();
-    say(checkpoint_->take_up() ? "going on from " + file : "there is no " + file + "; beginning at the beginning");
-}
-
-void RunBook::found(std::uint64_t blocks) {
-    blocks_ = blocks;
-    checkpoint_->found(blocks);
-    if (blocks) progress_.found_done(blocks, Clock::now());
+    const bool there = checkpoint_->take_up([this](FilmState state) { steps_.restore(std::move(state)); });
+    say(there ? "going on from " + file : "there is no " + file + "; beginning at the beginning");
+    blocks_ = steps_.found();
+    checkpoint_->found(blocks_);
+    if (blocks_) progress_.found_done(blocks_, Clock::now());
 }
 
 void RunBook::begin_anew() {
     if (checkpoint_) checkpoint_->begin_anew();
     if (previewed_) alert("the preview that is there may hold false light");
-    film_ = Film(film_.format());
-    film_.expose(scale_);
+    steps_.clear();
     blocks_ = 0;
     progress_.update(0, Clock::now());
-    if (watcher_) watcher_->look(film_);
+    if (watcher_) watcher_->look(film());
 }
 
-bool RunBook::save_checkpoint() {
-    if (!checkpoint_ || blocks_ == 0) return false;
-    checkpoint_->save(blocks_);
+bool RunBook::save_checkpoint(std::optional<std::chrono::duration<double>> most) {
+    if (!keeps_checkpoint()) return false;
+    if (!checkpoint_->save(blocks_, most)) say("there is no time for another checkpoint: the last one stays as it is");
     return true;
 }
 
@@ -283,11 +327,11 @@ void RunBook::name_bad_light(const Graph& graph) {
                         node, count));
     for (const auto& [node, count] : counters_.unsound_questions)
         alert(fmt::format("'{}' was asked {} questions whose numbers are not finite; they count as black", node, count));
-    const auto lost = film_.lost();
+    const auto lost = steps_.picture().lost();
     for (std::size_t layer = 0; layer < lost.size(); ++layer)
         if (lost[layer])
             alert(fmt::format("{} colours of layer '{}' were not finite and count as black", lost[layer],
-                              film_.format().name_of(layer)));
+                             film().format().name_of(layer)));
 }
 
 void RunBook::use(const Plan& plan, const Graph& graph) {
@@ -310,7 +354,9 @@ void RunBook::use(const Plan& plan, const Graph& graph) {
 void RunBook::write_picture(const std::string& exr) {
     write_files(exr);
     previewed_ = false;
-    if (film_.format().adaptive()) report_.settings["mean_samples"] = fmt::format("{:.2f}", film_.mean_samples());
+    const Film& film = steps_.picture();
+    if (film.format().adaptive() || !film.complete())
+        report_.settings["mean_samples"] = fmt::format("{:.2f}", film.mean_samples());
 }
 
 bool RunBook::is_written(const std::string& exr) const {
@@ -320,15 +366,15 @@ bool RunBook::is_written(const std::string& exr) const {
 
 void RunBook::write_report_page(const std::string& html) {
     expect_ours(html, report_page_beginning);
-    write_file(html, report_page(*watcher_, film_.picture(scale_), facts_of(report_, watcher_->at_work())));
+    write_file(html, report_page(*watcher_, steps_.picture().picture(scale_), facts_of(report_, watcher_->at_work())));
 }
 
 void RunBook::conclude(const Hosts& asked, double exposure) {
-    auto layers = film_.format().layers;
-    layers.insert(layers.end(), film_.format().shown.begin(), film_.format().shown.end());
-    if (film_.format().alpha) layers.emplace_back("A");
-    if (curve_ && curve_->relative_square())
-        say(fmt::format("relMSE to {}: {:g}", curve_->reference(), *curve_->relative_square()));
+    auto layers = film().format().layers;
+    layers.insert(layers.end(), film().format().shown.begin(), film().format().shown.end());
+    if (film().format().alpha) layers.emplace_back("A");
+    if (const auto& error = report_.error)
+        say(fmt::format("relMSE to {}: {:g}", error->reference, error->relative_square));
     say(summary_of({report_, layers, asked, brightness_, exposure, shown_stops_}));
 }
 

@@ -21,9 +21,9 @@
 #include "core/network/graph/plan.hpp"
 #include "core/run/message/counters.hpp"
 #include "core/run/prepare/prepare_progress.hpp"
-#include "core/run/runtime/tiles_by_pass.hpp"
 #include "tools/checkpoint_keeper.hpp"
 #include "tools/error_curve.hpp"
+#include "tools/film_steps.hpp"
 #include "tools/pace.hpp"
 #include "tools/picture_notes.hpp"
 #include "tools/watch/watcher.hpp"
@@ -34,8 +34,8 @@ namespace lightnet {
 /// One thread's. Tiles come in, files go out.
 class RunBook {
 public:
-    /// `blocks`: of tiles, how many there are if all pixels get all samples.
-    RunBook(FilmFormat format, ProgressMode progress, std::uint64_t blocks, RunReport report);
+    /// `tile`: pixels along a side.
+    RunBook(FilmFormat format, ProgressMode progress, std::uint32_t tile, RunReport report);
     RunBook(const RunBook&) = delete;
     RunBook& operator=(const RunBook&) = delete;
 
@@ -51,10 +51,7 @@ public:
     /// Somebody may watch.
     bool shown() const { return watcher_ != nullptr; }
     /// Shows what is new, to be called several times a second.
-    void show(const Watcher::Hosts& hosts) {
-        watcher_->look(film_, hosts);
-        for (const auto& line : watcher_->news()) say(line);
-    }
+    void show(const Watcher::Hosts& hosts);
     void show_last(const Watcher::Hosts& hosts) {
         if (watcher_) watcher_->part_from(hosts);
     }
@@ -92,16 +89,20 @@ public:
     std::vector<Tile> take(const Tile& tile, std::span<const Rgb> pixels);
     /// Who holds what, from now on.
     void use(const Plan& plan, const Graph& graph);
-    /// Ends before so many seconds since the run began; 0: never.
-    void limit_time(double seconds) { limit_ = seconds; }
+    /// The run is to end so many seconds after it began; 0: when it is done.
+    void limit_time(double seconds);
+    bool time_is_over() const { return steps_.limit().over(Pace::Clock::now()); }
+    /// None: it takes as long as it takes.
+    std::optional<std::chrono::milliseconds> time_left() const;
     /// Says at the end how far the picture is from a reference.
-    void compare_with(ErrorCurve curve) { curve_ = std::move(curve); }
-    /// What is to be rendered in one go.
-    PassSteps steps() const { return limit_ > 0 ? PassSteps::blocks : curve_ ? PassSteps::groups : PassSteps::whole; }
-    /// One of them is done. False: there is no time for another one like it.
-    bool end_step();
-    /// The picture is to have no more samples than there are.
-    void end_early();
+    void compare_with(ErrorCurve curve);
+    /// The tiles to be rendered next, when those before are there. None: there is no more to do, or no time.
+    std::vector<Tile> next_step();
+    /// Nothing more is rendered: what is there is the picture. In words: "37 samples per pixel of 64, on average"; "":
+    /// nothing is there.
+    std::string end_early();
+    /// Every pixel has samples.
+    bool covered() const { return steps_.picture().covered() == 1; }
     /// A line of the report's settings.
     void set(const std::string& name, const std::string& value) { report_.settings[name] = value; }
     void count(const Counters& counters) { counters_ += counters; }
@@ -124,17 +125,14 @@ public:
         return all_blocks_ ? static_cast<double>(blocks_) / static_cast<double>(all_blocks_) : 0;
     }
     /// Nothing is wanted any more.
-    bool complete() const { return film_.complete(); }
-    /// What of this tile is not there yet.
-    std::vector<Tile> lacking(const Tile& tile) const { return film_.lacking(tile); }
-    /// What else is wanted, of cells that need more.
-    std::vector<Tile> going_on() const { return film_.going_on(); }
+    bool complete() const { return steps_.finished(); }
     /// All that is there is in doubt: the film is empty again, and so is the checkpoint beside it.
     void begin_anew();
-    /// So many blocks of tiles were there already.
-    void found(std::uint64_t blocks);
-    /// Saves what is there now; false: nothing was worth it.
-    bool save_checkpoint();
+    /// There is something worth to be kept.
+    bool keeps_checkpoint() const { return checkpoint_ && blocks_ > 0; }
+    /// Saves what is there now; false: nothing was worth it. Where that would take longer than `most`, what was saved
+    /// last stays, which is said.
+    bool save_checkpoint(std::optional<std::chrono::duration<double>> most = {});
     /// Of a picture that is finished: the checkpoint stays, so that a later run may add samples, or is removed. A disk
     /// that refuses it only costs a warning.
     void end_checkpoint(bool stays);
@@ -162,14 +160,17 @@ private:
     void end_phase(Pace::Clock::time_point now);
     void end_doing(Pace::Clock::time_point now);
 
-    Film film_;
+    const Film& film() const { return steps_.film(); }
+    void note_error(Pace::Clock::time_point now);
+    std::uint64_t work_shown() const;
+
+    FilmSteps steps_;
     float scale_ = 1;
     PictureWords words_;
     PictureView view_ = PictureView::plain;
     bool exposed_ = false;
-    double limit_ = 0;
     std::optional<ErrorCurve> curve_;
-    Pace::Clock::time_point begun_ = Pace::Clock::now(), step_begun_ = begun_;
+    Pace::Clock::time_point begun_ = Pace::Clock::now();
     double shown_stops_ = 0;         // by which the PNG that was written last is brighter than its picture
     Brightness brightness_;          // of what was written last
     std::set<std::string> written_;  // pictures

@@ -80,7 +80,7 @@ RunRequest request_of(const RunningOptions& running, const Launcher& launcher, L
     request.troubles = running.troubles;
     request.slurm = {running.slurm.value_or(0), running.partition, words_of(running.slurm_arguments)};
     request.ssh = {words_of(running.ssh_command), running.ssh_daemon};
-    request.wait = std::chrono::seconds(running.wait);
+    if (running.wait) request.wait = *(request.busy_wait = std::chrono::seconds(*running.wait));
     request.resume = running.resume;
     request.forget = running.forget;
     request.view = running.view;

@@ -314,12 +314,21 @@ bool Film::enough(const Tile& cell) const {
     return sum <= double(format_.refinement.error) * format_.refinement.error * 3 * double(cell.pixels());
 }
 
-double Film::done() const { return static_cast<double>(folded_ + spared_) / static_cast<double>(all_); }
+double Film::done() const {
+    std::uint64_t there = folded_ + spared_;
+    if (!format_.adaptive() && !complete()) {
+        there = 0;
+        for (const auto& [area, rectangle] : rectangles_)
+            there += std::uint64_t{std::get<2>(area)} * std::get<3>(area) * blocks_shown(rectangle);
+    }
+    return static_cast<double>(there) / static_cast<double>(all_);
+}
 
 double Film::mean_samples() const {
     double sum = 0;
-    for (const auto blocks : block_of_) sum += std::min(blocks * samples_per_block, format_.samples);
-    return sum / static_cast<double>(block_of_.size());
+    for (const auto& [area, rectangle] : rectangles_)
+        sum += double(std::uint64_t{std::get<2>(area)} * std::get<3>(area)) * samples_shown(rectangle);
+    return sum / static_cast<double>(window_.pixels());
 }
 
 }  // namespace lightnet

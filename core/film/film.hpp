@@ -153,6 +153,7 @@ public:
 
     /// What becomes of radiance in the picture, for errors as they are seen. Before the first tile.
     void expose(float scale) { scale_ = scale; }
+    float scale() const { return scale_; }
     /// The tiles that are wanted now that `tile` has come: those cells of it that aren't done, or its blocks if it
     /// could not be taken as a whole.
     std::vector<Tile> more(const Tile& tile) const;
@@ -170,11 +171,15 @@ public:
     /// when it does not fit.
     void restore(FilmState state);
 
-    /// All pixels have as many samples, and nothing beyond waits; always where cells decide about them.
-    bool is_even() const;
-    /// No more samples are wanted: of an even film, what is there is all. Where cells don't decide, it is from now on
-    /// that of a picture of so many samples, with its bytes.
-    void end_here();
+    /// Samples per pixel where all have as many, and nothing beyond waits; none: they differ, or have none.
+    std::optional<std::uint32_t> even_samples() const;
+    /// The part of the pixels of which a picture would show something, 0 … 1.
+    double covered() const;
+    /// As many as a picture must have at least to take up all that is there.
+    std::uint32_t samples_begun() const;
+    /// The same for a picture of so many samples, which are no fewer than were begun. A short last block is left out
+    /// where there are to be more.
+    Film of_samples(std::uint32_t samples) const;
 
     /// Every block that is wanted of every pixel is there.
     bool complete() const { return folded_ + spared_ == all_; }
@@ -187,7 +192,8 @@ public:
     const FilmFormat& format() const { return format_; }
 
     /// The mean over all samples, times `scale`. Of an incomplete film: what is there, over the samples of the blocks
-    /// that each pixel has.
+    /// that each pixel has without a gap, which is what a picture of so many samples has there; where pixels differ in
+    /// that, the picture says how many each has.
     Picture picture(float scale = 1) const;
     /// The same, exposed as expose() said, of the pixels of a tile that has been added: a colour per pixel (row by row)
     /// and one of FilmFormat::views(), side by side; ids in false_colour(), alpha as grey. For looking at a picture
@@ -197,8 +203,13 @@ public:
     std::vector<Tile> areas() const;
 
 private:
-    void add_beside(Picture& picture, std::span<const Rgb> sums, std::span<const std::size_t> from, float scale) const;
-    std::uint32_t samples_at(std::size_t pixel) const;
+    /// What pixels show: sums of colours, of so many samples.
+    struct Shown {
+        std::span<const Rgb> sums;
+        std::vector<std::uint32_t> samples;
+        std::vector<Rgb> own;  // the sums, where they are not the film's
+    };
+    void add_beside(Picture& picture, const Shown& all, std::span<const std::size_t> from, float scale) const;
 
     struct Rectangle {
         std::uint32_t next_block = 0;  // the first one that is not in the sums
@@ -217,12 +228,14 @@ private:
     Blocks group_of(std::uint32_t block) const;
     Blocks handed_out(std::uint32_t block) const;
     bool is_open(const Blocks& group) const;
-    bool ends_open(const Rectangle& rectangle) const;
     void end_if_open_group_is_there(Rectangle& rectangle, const Tile& tile);
-    std::vector<Rgb> sum_of_open_group(const Rectangle& rectangle) const;
-    std::vector<Rgb> sums_with_open_groups() const;
+    static std::uint32_t blocks_shown(const Rectangle& rectangle);
+    std::uint32_t samples_shown(const Rectangle& rectangle) const;
+    std::vector<Rgb> sum_of_begun_group(const Rectangle& rectangle) const;
+    void add_begun_group(const Rectangle& rectangle, const Tile& area, const Tile& among, std::span<Rgb> sums) const;
+    Shown shown() const;
+    Shown shown_of(const Tile& tile) const;
     Rgb seen_as(std::size_t view, std::span<const Rgb> pixel, float samples) const;
-    void add_open_group(const Tile& area, const Tile& among, std::span<Rgb> sums) const;
     void expect_can_wait(const FilmState::Part& part) const;
     void expect_nothing_elsewhere() const;
     void take_up(FilmState::Part part);

@@ -1,4 +1,4 @@
-// The last group of a film, where a picture of more samples would add to it.
+// The last group of a film, where a picture of more samples would add to it, and groups of which blocks are missing.
 #include <algorithm>
 #include <functional>
 
@@ -13,11 +13,6 @@ bool Film::is_open(const Blocks& group) const {
     return group.first + of_any_picture > format_.samples / samples_per_block;
 }
 
-bool Film::ends_open(const Rectangle& rectangle) const {
-    return rectangle.done && rectangle.next_block < blocks_ && is_open(group_of(rectangle.next_block)) &&
-           rectangle.waiting.contains(rectangle.next_block);
-}
-
 void Film::end_if_open_group_is_there(Rectangle& rectangle, const Tile& tile) {
     if (rectangle.done || rectangle.next_block == blocks_) return;
     const Blocks group = group_of(rectangle.next_block);
@@ -30,10 +25,27 @@ void Film::end_if_open_group_is_there(Rectangle& rectangle, const Tile& tile) {
     folded_ += tile.pixels() * group.count;
 }
 
-// In the order of its blocks, like any other group.
-std::vector<Rgb> Film::sum_of_open_group(const Rectangle& rectangle) const {
+// Those that have come one behind the other, whether their group is whole or not.
+std::uint32_t Film::blocks_shown(const Rectangle& rectangle) {
+    std::uint32_t blocks = rectangle.next_block;
+    for (const auto& [block, sum] : rectangle.waiting) {
+        if (block != blocks) break;
+        blocks += sum.blocks;
+    }
+    return blocks;
+}
+
+std::uint32_t Film::samples_shown(const Rectangle& rectangle) const {
+    return std::min(blocks_shown(rectangle) * samples_per_block, format_.samples);
+}
+
+// Of the blocks that are shown and that are not in the sums of the film, in their order: what a picture that ends with
+// them has for its last group. Empty: there is none.
+std::vector<Rgb> Film::sum_of_begun_group(const Rectangle& rectangle) const {
     std::vector<Rgb> sum;
+    const std::uint32_t end = blocks_shown(rectangle);
     for (const auto& [block, part] : rectangle.waiting) {
+        if (block >= end) break;
         auto pixels = part.pixels;
         std::replace_if(pixels.begin(), pixels.end(), std::not_fn(finite), Rgb{});
         if (sum.empty())
@@ -44,30 +56,48 @@ std::vector<Rgb> Film::sum_of_open_group(const Rectangle& rectangle) const {
     return sum;
 }
 
-std::vector<Rgb> Film::sums_with_open_groups() const {
-    std::vector<Rgb> sums = sums_;
-    const std::size_t layers = format_.colours();
-    for (const auto& [area, rectangle] : rectangles_) {
-        if (!ends_open(rectangle)) continue;
-        const auto& [left, top, width, height] = area;
-        const auto group = sum_of_open_group(rectangle);
-        for (std::uint32_t y = 0; y < height; ++y)
-            addition_(std::span(sums).subspan(index(left, top + y) * layers, width * layers),
-                      std::span(group).subspan(y * width * layers, width * layers));
-    }
-    return sums;
-}
-
-// To the sums of `among`, of which `area` is a part.
-void Film::add_open_group(const Tile& area, const Tile& among, std::span<Rgb> sums) const {
-    const auto known = rectangles_.find({area.x, area.y, area.width, area.height});
-    if (known == rectangles_.end() || !ends_open(known->second)) return;
+// To the sums of `among`, of which the rectangle's area is a part.
+void Film::add_begun_group(const Rectangle& rectangle, const Tile& area, const Tile& among, std::span<Rgb> sums) const {
     const std::size_t row = area.width * format_.colours();
-    const auto group = sum_of_open_group(known->second);
-    for (std::uint32_t y = 0; y < area.height; ++y) {
+    const auto group = sum_of_begun_group(rectangle);
+    for (std::uint32_t y = 0; !group.empty() && y < area.height; ++y) {
         const std::size_t to = std::size_t{area.y - among.y + y} * among.width + area.x - among.x;
         addition_(sums.subspan(to * format_.colours(), row), std::span(group).subspan(y * row, row));
     }
+}
+
+Film::Shown Film::shown() const {
+    const Tile whole{window_.x, window_.y, window_.width, window_.height};
+    Shown all{sums_, std::vector<std::uint32_t>(window_.pixels()), {}};
+    for (const auto& [place, rectangle] : rectangles_) {
+        const auto& [x, y, width, height] = place;
+        for (std::uint32_t row = y; row < y + height; ++row)
+            std::fill_n(all.samples.begin() + std::ptrdiff_t(index(x, row)), width, samples_shown(rectangle));
+        if (blocks_shown(rectangle) == rectangle.next_block) continue;
+        if (all.own.empty()) all.sums = all.own = sums_;
+        add_begun_group(rectangle, {x, y, width, height}, whole, all.own);
+    }
+    return all;
+}
+
+// The same of a tile alone.
+Film::Shown Film::shown_of(const Tile& tile) const {
+    const std::size_t colours = format_.colours();
+    Shown all{{}, std::vector<std::uint32_t>(tile.pixels()), std::vector<Rgb>(tile.pixels() * colours)};
+    for (std::uint32_t y = 0; y < tile.height; ++y)
+        std::copy_n(sums_.begin() + std::ptrdiff_t(index(tile.x, tile.y + y) * colours), tile.width * colours,
+                    all.own.begin() + std::ptrdiff_t(y * tile.width * colours));
+    for (const Tile& area : format_.adaptive() ? cells_of(tile) : std::vector<Tile>{tile}) {
+        const auto known = rectangles_.find({area.x, area.y, area.width, area.height});
+        if (known == rectangles_.end()) continue;
+        for (std::uint32_t y = 0; y < area.height; ++y) {
+            const std::size_t to = std::size_t{area.y - tile.y + y} * tile.width + area.x - tile.x;
+            std::fill_n(all.samples.begin() + std::ptrdiff_t(to), area.width, samples_shown(known->second));
+        }
+        add_begun_group(known->second, area, tile, all.own);
+    }
+    all.sums = all.own;
+    return all;
 }
 
 // `pixel`: sums of all colours.
@@ -82,21 +112,13 @@ Rgb Film::seen_as(std::size_t view, std::span<const Rgb> pixel, float samples) c
 
 std::vector<Rgb> Film::so_far(const Tile& tile) const {
     const std::size_t colours = format_.colours();
-    std::vector<Rgb> pixels(tile.pixels() * colours);
-    for (std::uint32_t y = 0; y < tile.height; ++y)
-        std::copy_n(sums_.begin() + std::ptrdiff_t(index(tile.x, tile.y + y) * colours), tile.width * colours,
-                    pixels.begin() + std::ptrdiff_t(y * tile.width * colours));
-    const auto areas = format_.adaptive() ? cells_of(tile) : std::vector<Tile>{tile};
-    for (const Tile& area : areas) add_open_group(area, tile, pixels);
+    const Shown shown = shown_of(tile);
     const auto views = format_.views();
     std::vector<Rgb> seen;
     seen.reserve(tile.pixels() * views.size());
-    for (std::size_t i = 0; i < tile.pixels(); ++i) {
-        const auto x = std::uint32_t(i % tile.width), y = std::uint32_t(i / tile.width);
-        const auto samples = static_cast<float>(samples_at(index(tile.x + x, tile.y + y)));
+    for (std::size_t i = 0; i < tile.pixels(); ++i)
         for (const std::size_t k : views)
-            seen.push_back(seen_as(k, std::span(pixels).subspan(i * colours, colours), samples));
-    }
+            seen.push_back(seen_as(k, shown.sums.subspan(i * colours, colours), static_cast<float>(shown.samples[i])));
     return seen;
 }
 
@@ -112,9 +134,10 @@ std::vector<Tile> Film::areas() const {
 std::vector<std::uint64_t> Film::lost() const {
     auto lost = lost_;
     for (const auto& [area, rectangle] : rectangles_) {
-        if (!ends_open(rectangle)) continue;
+        const std::uint32_t end = blocks_shown(rectangle);
         for (const auto& [block, part] : rectangle.waiting)
-            for (std::size_t i = 0; i < part.pixels.size(); ++i) lost[i % lost.size()] += !finite(part.pixels[i]);
+            for (std::size_t i = 0; block < end && i < part.pixels.size(); ++i)
+                lost[i % lost.size()] += !finite(part.pixels[i]);
     }
     return lost;
 }

@@ -16,10 +16,6 @@ PictureMatte matte_of(const std::string& name, std::uint32_t ids, std::size_t pi
 
 }  // namespace
 
-std::uint32_t Film::samples_at(std::size_t pixel) const {
-    return std::min(block_of_[pixel] * samples_per_block, format_.samples);
-}
-
 Picture Film::picture(float scale) const {
     const Window wanted = format_.crop.value_or(window_);
     const std::size_t pixels = wanted.pixels(), layers = format_.colours();
@@ -34,19 +30,19 @@ Picture Film::picture(float scale) const {
     std::vector<std::size_t> from(pixels);
     for (std::size_t i = 0; i < pixels; ++i)
         from[i] = index(wanted.x + std::uint32_t(i % wanted.width), wanted.y + std::uint32_t(i / wanted.width));
-    if (format_.adaptive())
-        for (std::size_t i = 0; i < pixels; ++i) picture.samples.push_back(float(samples_at(from[i])));
-    const bool some_open = std::any_of(rectangles_.begin(), rectangles_.end(),
-                                       [this](const auto& rectangle) { return ends_open(rectangle.second); });
-    const auto with_open = some_open ? sums_with_open_groups() : std::vector<Rgb>{};
-    const auto& sums = some_open ? with_open : sums_;
+    const Shown all = shown();
+    const auto at = [&](std::size_t i) { return all.samples[from[i]]; };
+    bool differ = format_.adaptive();
+    for (std::size_t i = 1; i < pixels && !differ; ++i) differ = at(i) != at(0);
+    if (differ)
+        for (std::size_t i = 0; i < pixels; ++i) picture.samples.push_back(float(at(i)));
     for (std::size_t k = 0; k < format_.layers.size(); ++k) {
         auto& layer = picture.layers.emplace_back(PictureLayer{format_.layers[k], std::vector<Rgb>(pixels)});
         for (std::size_t i = 0; i < pixels; ++i)
-            if (const auto samples = samples_at(from[i]))
-                layer.pixels[i] = sums[from[i] * layers + k] / static_cast<float>(samples) * scale;
+            if (const auto samples = at(i))
+                layer.pixels[i] = all.sums[from[i] * layers + k] / static_cast<float>(samples) * scale;
     }
-    add_beside(picture, sums, from, scale);
+    add_beside(picture, all, from, scale);
     // DECISIONS: beauty-is-the-sum
     for (std::size_t k = 0; k < format_.gains.size(); ++k) picture.layers[k].gain = format_.gains[k];
     blacken_overflow(picture);
@@ -54,12 +50,11 @@ Picture Film::picture(float scale) const {
 }
 
 // What is no part of the sum. `from`: where on the film each pixel is.
-void Film::add_beside(Picture& picture, std::span<const Rgb> sums, std::span<const std::size_t> from,
-                      float scale) const {
+void Film::add_beside(Picture& picture, const Shown& all, std::span<const std::size_t> from, float scale) const {
     const std::size_t colours = format_.colours();
     const auto mean = [&](std::size_t i, std::size_t colour) {
-        const auto samples = samples_at(from[i]);
-        return samples ? sums[from[i] * colours + colour] / static_cast<float>(samples) : Rgb{};
+        const auto samples = all.samples[from[i]];
+        return samples ? all.sums[from[i] * colours + colour] / static_cast<float>(samples) : Rgb{};
     };
     for (std::size_t s = 0; s < format_.shown.size(); ++s) {
         const auto& name = format_.shown[s];
@@ -68,7 +63,7 @@ void Film::add_beside(Picture& picture, std::span<const Rgb> sums, std::span<con
             auto& matte = picture.mattes.emplace_back(matte_of(name, ids->second, from.size()));
             for (std::size_t i = 0; i < from.size(); ++i)
                 for (std::uint32_t rank = 0; rank < ids->second; ++rank)
-                    matte.pixels[i * matte.ranks + rank] = {sums[from[i] * colours + first + rank].r,
+                    matte.pixels[i * matte.ranks + rank] = {all.sums[from[i] * colours + first + rank].r,
                                                             mean(i, first + rank).g};
             continue;
         }

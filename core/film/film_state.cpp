@@ -112,26 +112,43 @@ std::optional<std::uint32_t> Film::even_blocks() const {
     return pixels == window_.pixels() && blocks > 0u ? blocks : std::nullopt;
 }
 
-// DECISIONS: ends-where-pixels-are-even
-bool Film::is_even() const { return format_.adaptive() || even_blocks(); }
-
-void Film::end_here() {
-    if (format_.adaptive()) {
-        for (auto& [area, rectangle] : rectangles_)
-            if (!std::exchange(rectangle.done, true))
-                spared_ += std::uint64_t{std::get<2>(area)} * std::get<3>(area) * (blocks_ - rectangle.next_block);
-        return;
-    }
+std::optional<std::uint32_t> Film::even_samples() const {
     const auto blocks = even_blocks();
-    if (!blocks) throw Error("film", "its pixels have different numbers of samples");
+    if (!blocks) return std::nullopt;
+    return std::min(*blocks * samples_per_block, format_.samples);
+}
+
+double Film::covered() const {
+    std::uint64_t pixels = 0;
+    for (const auto& [area, rectangle] : rectangles_)
+        if (samples_shown(rectangle) > 0) pixels += std::uint64_t{std::get<2>(area)} * std::get<3>(area);
+    return static_cast<double>(pixels) / static_cast<double>(window_.pixels());
+}
+
+std::uint32_t Film::samples_begun() const {
+    std::uint32_t blocks = 0;
+    for (const auto& [area, rectangle] : rectangles_) {
+        blocks = std::max(blocks, rectangle.next_block);
+        if (!rectangle.waiting.empty()) {
+            const auto& [block, sum] = *rectangle.waiting.rbegin();
+            blocks = std::max(blocks, block + sum.blocks);
+        }
+    }
+    return std::min(blocks * samples_per_block, format_.samples);
+}
+
+// DECISIONS: ends-where-pixels-are-even
+Film Film::of_samples(std::uint32_t samples) const {
+    if (samples < format_.samples && samples_begun() > samples)
+        throw Error("film", "it has more samples than it is to have");
     FilmFormat format = format_;
-    format.samples = std::min(*blocks * samples_per_block, format_.samples);
+    format.samples = samples;
     FilmState held = state();
-    held.samples = format.samples;
-    Film shorter(std::move(format));
-    shorter.expose(scale_);
-    shorter.restore(std::move(held));
-    *this = std::move(shorter);
+    held.samples = std::min(samples, format_.samples);
+    Film made(std::move(format));
+    made.expose(scale_);
+    made.restore(std::move(held));
+    return made;
 }
 
 std::vector<Tile> Film::lacking(const Tile& tile) const {

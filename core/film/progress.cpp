@@ -76,6 +76,13 @@ double Progress::fraction() const {
 }
 
 std::optional<double> Progress::seconds_left(Time now) const {
+    const auto work = seconds_of_work_left(now);
+    if (!end_) return work;
+    const double limit = std::max(0.0, seconds(*end_ - now));
+    return work ? std::min(*work, limit) : limit;
+}
+
+std::optional<double> Progress::seconds_of_work_left(Time now) const {
     const auto left = [](double so_far, std::uint64_t done, std::uint64_t to_do) {
         return so_far / static_cast<double>(done) * static_cast<double>(to_do);
     };

@@ -46,6 +46,8 @@ public:
     /// Another part of the run begins ("prepare", "render"). One line says how long the one before took, if that was a
     /// second or more.
     void phase(std::string_view name, Time now);
+    /// The run ends by then, whatever is left.
+    void end_by(Time end) { end_ = end; }
     /// Work that was there before the run began (resumed): counts as done, but says nothing about speed.
     void found_done(std::uint64_t work, Time now);
     /// `done` is the whole work done so far.
@@ -63,7 +65,7 @@ public:
     /// The last line. A bar goes when the work is finished, and stays where it is when not.
     void finish(Time now);
 
-    /// Seconds until all is done (or the step, if there is one), at the speed so far; none before its first part is.
+    /// Seconds until all is done (or the step, if there is one), at the speed so far, or the run ends; none: not known.
     std::optional<double> seconds_left(Time now) const;
 
 private:
@@ -79,6 +81,7 @@ private:
     void draw_bar(Time now);
     std::string bar_text(std::size_t columns, Time now) const;
     std::string label() const;
+    std::optional<double> seconds_of_work_left(Time now) const;
     void clear_bar();
     void line_of_json(std::string_view event, Time now);
     double fraction() const;
@@ -88,6 +91,7 @@ private:
     Style style_;
     std::ostream& out_;
     Time begun_, phase_begun_, work_begun_, reported_;
+    std::optional<Time> end_;  // by then
     std::string phase_;
     std::optional<Step> step_;
     int tenths_ = 0;  // plain: the last tenth of the work that was said

@@ -84,6 +84,11 @@ std::string to_json(const RunReport& report) {
     json["nodes"] = nodes;
     json["edges"] = edges;
     if (!report.layers.empty()) json["layers"] = layers;
+    if (const auto& error = report.error)
+        json["error"] = {{"reference", error->reference},
+                         {"samples", error->samples},
+                         {"relmse", error->relative_square},
+                         {"mse", error->square}};
     if (!report.hosts.empty()) json["hosts"] = hosts;
     json["phases"] = phases;
     if (!report.preparing.empty()) json["preparing"] = preparing;

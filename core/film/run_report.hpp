@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -71,6 +72,13 @@ struct PrepareReport {
     double seconds = 0;
 };
 
+/// How far the picture that was written is from a reference.
+struct ErrorReport {
+    std::string reference;  // file
+    double samples = 0;     // per pixel, on average
+    double relative_square = 0, square = 0;
+};
+
 /// What ran where, for how long, and what was counted. All that changes from run to run stands here and never in the
 /// picture. A value.
 struct RunReport {
@@ -84,6 +92,7 @@ struct RunReport {
     std::vector<NodeReport> nodes;
     std::vector<EdgeReport> edges;
     std::vector<LayerReport> layers;
+    std::optional<ErrorReport> error;
     std::vector<HostReport> hosts;
     std::vector<PhaseReport> phases;
     std::vector<PrepareReport> preparing;

@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <deque>
 #include <limits>
+#include <map>
+#include <optional>
 #include <random>
+#include <set>
 
 #include "core/base/error.hpp"
 #include "core/film/film.hpp"
@@ -154,13 +157,16 @@ TEST(MoreSamples, AFilmThatEndsEarlyIsThatOfAsManySamplesAsItHas) {
         for (const Tile& tile : tiles_of(all, 5))
             for (const Tile& block : one_by_one(tile))
                 if (block.block() < blocks) film.add(block, rendered(block));
-        ASSERT_TRUE(film.is_even());
-        film.end_here();
+        ASSERT_EQ(film.even_samples(), blocks * samples_per_block);
+        const auto expected_now = film.picture();
+        film = film.of_samples(blocks * samples_per_block);
         EXPECT_TRUE(film.complete());
         const FilmFormat fewer = format_of(blocks * samples_per_block);
         Film expected(fewer), more(all), at_once(all);
         finish(expected, fewer, 0);
         EXPECT_TRUE(film.picture() == expected.picture()) << blocks;
+        EXPECT_TRUE(expected_now.layers == expected.picture().layers) << "as it was before: " << blocks;
+        EXPECT_TRUE(expected_now.samples.empty());
         more.restore(film.state());
         finish(more, all, blocks);
         finish(at_once, all, 0);
@@ -171,17 +177,64 @@ TEST(MoreSamples, AFilmThatEndsEarlyIsThatOfAsManySamplesAsItHas) {
 TEST(MoreSamples, AFilmEndsEarlyOnlyWhereAllPixelsHaveAsMany) {
     const FilmFormat all = format_of(64);
     Film film(all);
-    EXPECT_FALSE(film.is_even()) << "it has none";
+    EXPECT_EQ(film.even_samples(), std::nullopt) << "it has none";
     const auto tiles = tiles_of(all, 5);
     film.add(tiles[0], rendered(tiles[0]));
-    EXPECT_FALSE(film.is_even());
-    EXPECT_THROW(film.end_here(), Error);
+    EXPECT_EQ(film.even_samples(), std::nullopt);
+    EXPECT_EQ(film.samples_begun(), 16u);
+    EXPECT_THROW(film.of_samples(8), Error);
     for (const Tile& tile : tiles)
         if (tile.block() == 0) film.add(tile, rendered(tile));
-    EXPECT_TRUE(film.is_even());
+    EXPECT_EQ(film.even_samples(), 16u);
     const auto far = std::find_if(tiles.begin(), tiles.end(), [](const Tile& tile) { return tile.block() == 2; });
     film.add(*far, rendered(*far));
-    EXPECT_FALSE(film.is_even()) << "something waits";
+    EXPECT_EQ(film.even_samples(), std::nullopt) << "something waits";
+    EXPECT_EQ(film.samples_begun(), 64u);
+}
+
+// Each pixel of a film that is not complete shows what a picture of as many samples as it has shows there.
+TEST(MoreSamples, AnIncompleteFilmShowsTheBlocksOfEachPixelAndSaysHowMany) {
+    const FilmFormat all = format_of(292);
+    Film film(all);
+    std::uint32_t blocks = 0;
+    std::map<std::uint32_t, Picture> expected;
+    for (Tile tile : tiles_of(all, 2)) {
+        if (tile.block() > 0) break;
+        for (std::uint32_t block = 0; block < blocks; ++block) {
+            tile.first_sample = block * samples_per_block, tile.samples = samples_of(block, all.samples);
+            film.add(tile, rendered(tile));
+        }
+        const auto samples = std::min(blocks * samples_per_block, all.samples);
+        if (samples > 0 && !expected.contains(samples)) {
+            Film whole(format_of(samples));
+            finish(whole, format_of(samples), 0);
+            expected.emplace(samples, whole.picture());
+        }
+        blocks = (blocks + 1) % 20;
+    }
+    const Picture picture = film.picture();
+    ASSERT_EQ(picture.samples.size(), picture.layers[0].pixels.size());
+    std::set<float> seen;
+    for (std::size_t i = 0; i < picture.samples.size(); ++i) {
+        seen.insert(picture.samples[i]);
+        const auto samples = static_cast<std::uint32_t>(picture.samples[i]);
+        const Rgb wanted = samples ? expected.at(samples).layers[0].pixels[i] : Rgb{};
+        ASSERT_EQ(picture.layers[0].pixels[i], wanted) << i << ": " << samples;
+    }
+    EXPECT_GT(seen.size(), 1u);
+    EXPECT_LT(picture.done, 1);
+}
+
+TEST(MoreSamples, AFilmGoesOnFromAShortLastBlockWithoutIt) {
+    for (const std::uint32_t few : {1u, 13u, 33u, 72u, 145u}) {
+        Film film(format_of(few)), expected(format_of(292));
+        finish(film, format_of(few), 0);
+        Film more = film.of_samples(292);
+        EXPECT_EQ(more.samples_begun(), few / samples_per_block * samples_per_block);
+        finish(more, format_of(292), few / samples_per_block);
+        finish(expected, format_of(292), 0);
+        EXPECT_TRUE(more.picture() == expected.picture()) << few;
+    }
 }
 
 }  // namespace

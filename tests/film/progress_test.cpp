@@ -36,6 +36,20 @@ TEST(Progress, IsABarOnATerminalAndLinesElsewhere) {
     EXPECT_EQ(file.str(), "done 50 %, 5 s left\n");
 }
 
+TEST(Progress, CountsDownToTheEndOfTheRunWhereThatComesFirst) {
+    std::ostringstream file;
+    Progress progress(100, {ProgressMode::plain, false, false}, file, start);
+    progress.end_by(start + 20s);
+    EXPECT_EQ(progress.seconds_left(start + 5s), 15.0) << "nothing is known of the work";
+    progress.update(1, start + 10s);
+    EXPECT_EQ(progress.seconds_left(start + 10s), 10.0);
+    progress.update(80, start + 16s);
+    EXPECT_EQ(progress.seconds_left(start + 16s), 4.0);
+    progress.update(96, start + 19s);
+    EXPECT_LT(progress.seconds_left(start + 19s), 1.0);
+    EXPECT_EQ(progress.seconds_left(start + 21s), 0.0) << "late";
+}
+
 TEST(Progress, WritesNoEscapesOffATerminal) {
     std::ostringstream file;
     Progress progress(100, {ProgressMode::automatic, false, false}, file, start);

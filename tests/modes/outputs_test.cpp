@@ -69,6 +69,18 @@ TEST_F(Outputs, OfTwoPicturesInAFolderHaveReportsOfTheirOwn) {
         EXPECT_THAT(bytes_of(folder / (name + ".run.json")), HasSubstr(name + ".exr\""));
 }
 
+TEST_F(Outputs, LackingAReportThatWasAskedForAreAFailure) {
+    fs::create_directory(folder / "pages");
+    Process run(launch_words(graph_file("cornell.lua"), folder / "picture.exr",
+                             {"--size", "64x64", "--samples", std::to_string(256 / slowdown), "--progress", "json",
+                              "--report", folder / "pages" / "report.html"}));
+    ASSERT_TRUE(run.wait_for("\"event\":\"progress\"")) << run.output();
+    fs::remove_all(folder / "pages");
+    EXPECT_EQ(run.wait(), 1) << run.output();
+    EXPECT_THAT(run.output(), HasSubstr("there is no report: "));
+    EXPECT_THAT(bytes_of(folder / "picture.run.json"), HasSubstr("\"outcome\": \"done\"")) << "the picture is good";
+}
+
 TEST_F(Outputs, AreOfOneRunAtATime) {
     const Words long_run{"--size", "64x64", "--samples", "100000", "--progress", "json"};
     Process first(launch_words(graph_file("cornell.lua"), folder / "picture.exr", long_run));

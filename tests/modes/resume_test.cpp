@@ -38,8 +38,10 @@ TEST_F(Resume, GivesTheSameBytesAfterAnInterruptInAnyMode) {
         ASSERT_TRUE(run.wait_for("\"event\":\"progress\"")) << run.output();
         run.signal(SIGINT);
         EXPECT_EQ(run.wait(slowdown * seconds(10)), 130);
-        EXPECT_NE(run.output().find("--resume goes on"), std::string::npos) << run.output();
+        EXPECT_NE(run.output().find("cancelled: "), std::string::npos) << run.output();
+        EXPECT_NE(run.output().find("; --resume goes on from here"), std::string::npos) << run.output();
         ASSERT_TRUE(std::filesystem::exists(kept));
+        EXPECT_EQ(bytes_of(out).substr(0, 4), "v/1\x01") << "what there is, as an EXR";
     }
     const auto resumed = go_on({"--resume", "--local-workers", "1"});
     EXPECT_EQ(resumed.code, 0) << resumed.said;
@@ -109,6 +111,32 @@ TEST_F(Resume, IsOverWhenThePictureIsToBeForgotten) {
     const std::vector<std::string> small{"--size", "16x16", "--samples", "20", "--forget"};
     ASSERT_EQ(launch(graph_file("cornell.lua"), folder, small).code, 0);
     EXPECT_FALSE(std::filesystem::exists(kept));
+}
+
+// Slurm warns by SIGUSR1, and ends by another signal when the time is over: that one is no impatient second.
+TEST_F(Resume, IsPossibleAfterAWarning) {
+    Process run(words({"--threads", "2"}));
+    ASSERT_TRUE(run.wait_for("\"event\":\"progress\"")) << run.output();
+    run.signal(SIGUSR1);
+    run.signal(SIGTERM);
+    EXPECT_EQ(run.wait(slowdown * seconds(10)), 130) << run.output();
+    EXPECT_NE(run.output().find("cancelled: "), std::string::npos) << run.output();
+    EXPECT_TRUE(std::filesystem::exists(kept));
+}
+
+// As in the background jobs of a script.
+TEST_F(Resume, IsNotNeededAfterASignalThatIsIgnored) {
+    for (const auto& [name, number] :
+         {std::pair("INT", SIGINT), std::pair("USR1", SIGUSR1), std::pair("HUP", SIGHUP)}) {
+        auto all = words({"--threads", "2"});
+        all.insert(all.begin(), {"sh", "-c", std::string("trap '' ") + name + "; exec \"$@\"", "sh"});
+        Process run(all);
+        ASSERT_TRUE(run.wait_for("\"event\":\"progress\"")) << run.output();
+        run.signal(number);
+        run.signal(SIGTERM);
+        EXPECT_EQ(run.wait(slowdown * seconds(10)), 130) << run.output();
+        EXPECT_NE(run.output().find("cancelled: "), std::string::npos) << "SIGTERM was the first: " << run.output();
+    }
 }
 
 TEST_F(Resume, IsPossibleAfterTheTerminalWasClosed) {

@@ -55,24 +55,6 @@ TEST(TilesByPass, StayTogetherWhereNoNodeLearnsAnew) {
     EXPECT_TRUE(passes.empty());
 }
 
-TEST(TilesByPass, AreGroupsOrBlocksWhereAllPixelsAreToHaveAsManySamples) {
-    const Graph graph = graph_of("light = PathTracing {}");
-    const auto tiles = tiles_of(8, 8, 4, 100);
-    const auto samples = [&](PassSteps steps) {
-        TilesByPass passes(graph, kinds(), tiles, steps);
-        std::vector<std::uint32_t> steps_taken;
-        while (!passes.empty()) {
-            const auto now = passes.begin_next();
-            EXPECT_EQ(passes.pass(), 0u) << "no node learns";
-            EXPECT_EQ(now.size(), 4u);
-            steps_taken.push_back(now.front().samples);
-        }
-        return steps_taken;
-    };
-    EXPECT_THAT(samples(PassSteps::groups), testing::ElementsAre(16, 16, 32, 32, 4));
-    EXPECT_THAT(samples(PassSteps::blocks), testing::ElementsAre(16, 16, 16, 16, 16, 16, 4));
-}
-
 TEST(RenewedNodes, AreThoseThatLearnAnewAndThoseThatLearnFromThem) {
     const Graph graph = graph_of(
         "maps = ProgressivePhotonMapping {}\npaths = PathTracing {}\nfirst = Combine { maps, paths }\n"

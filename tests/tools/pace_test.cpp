@@ -18,6 +18,13 @@ TEST(Pace, IsDueOnceEveryPeriod) {
     EXPECT_TRUE(pace.due(start + 5s));
 }
 
+TEST(Pace, IsNeverDueWhereItsPeriodIsLongerThanAClockCounts) {
+    Pace pace(std::chrono::duration<double>(1e300), start);
+    EXPECT_FALSE(pace.due(start + 24h));
+    pace.put_off(start + 24h, std::chrono::duration<double>(1e300));
+    EXPECT_FALSE(pace.due(start + 48h));
+}
+
 TEST(Pace, LeavesTimeForOtherThings) {
     Pace pace(2s, start);
     pace.put_off(start, 9s);

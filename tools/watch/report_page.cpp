@@ -88,7 +88,7 @@ void replace_once(std::string& text, std::string_view what, const std::string& b
 
 }  // namespace
 
-std::string report_page(const Watcher& watcher, const Picture& picture, const ReportFacts& facts) {
+std::string report_page(const Watcher& watcher, const Picture& picture, const ReportFacts& facts) try {
     auto history = nlohmann::json::array();
     for (const auto& state : watcher.history()) history.push_back(nlohmann::json::parse(state));
     auto json = nlohmann::json::parse(watcher.hello());
@@ -109,6 +109,8 @@ std::string report_page(const Watcher& watcher, const Picture& picture, const Re
                  "<meta charset=\"utf-8\">\n<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
                  "script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:\">");
     return page;
+} catch (const nlohmann::json::exception&) {  // whose words are for programmers
+    throw Error("report", "what was noted while the run went is damaged");
 }
 
 }  // namespace lightnet

@@ -105,8 +105,8 @@ RunTable LiveTable::table() const {
     table.standing = outcome().empty() ? now.at("phase").text() : outcome();
     table.done = now.at("done").number();
     table.seconds = now.at("t").number();
-    const double seconds = table.seconds - then.at("t").number(), done = *table.done - then.at("done").number();
-    if (table.standing == "render" && done > 0) table.left = (1 - *table.done) * seconds / done;
+    const double seconds = table.seconds - then.at("t").number();
+    if (outcome().empty() && now.has("left")) table.left = now.at("left").number();
     for (const auto& host : now.at("hosts").list()) table.hosts.push_back(host_row(host));
 
     const double looks = all_looks(now) - all_looks(then);

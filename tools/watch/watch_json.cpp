@@ -174,6 +174,7 @@ std::string state_json(const WatchedState& state, const Graph& graph) {
                    {"phase", state.phase},
                    {"done", state.done},
                    {"outcome", state.outcome}};
+    if (state.left) json["left"] = std::round(*state.left * 10) / 10;
     json["hosts"] = hosts_json(state.hosts);
     add_figures(json, state, graph);
     auto& tiles = json["tiles"] = WatchJson::array();

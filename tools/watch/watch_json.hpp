@@ -1,6 +1,7 @@
 // What the page is told, as text. A page and its launcher are of one build, so the words are nobody else's.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,8 @@ struct WatchedRun {
 struct WatchedState {
     double seconds = 0;  // since it began
     std::string phase;
-    double done = 0;  // 0 … 1
+    double done = 0;               // 0 … 1
+    std::optional<double> left{};  // seconds; none: not known
     std::vector<HostState> hosts;
     Doings doing;
     std::vector<Tile> in_flight;

@@ -20,8 +20,6 @@ constexpr auto most_pixel_time = 0.0015s;  // of one look
 constexpr auto state_period = 0.4s;
 constexpr double most_state_share = 0.005;  // of the run's thread
 constexpr std::size_t most_live_bytes = std::size_t{512} << 20;
-constexpr std::size_t most_remembered = 240;  // states, for a report
-constexpr std::size_t most_remembered_bytes = 1'000'000;
 constexpr std::size_t most_reported_lines = 1000;
 
 // Seconds that this thread has computed: on a busy machine, waiting for a processor is nobody's cost.
@@ -42,7 +40,7 @@ Watcher::Watcher(Options options, const WatchedRun& run)
       too_large_(run.format.work().pixels() * run.format.views().size() * sizeof(Rgb) > most_live_bytes),
       pixel_pace_(pixel_period, begun_),
       state_pace_(state_period, begun_),
-      memory_pace_(memory_period_, begun_) {
+      history_(begun_) {
     if (const auto& viewer = options_.viewer)
         viewer_ = std::make_unique<TevPreview>(TevPreview::Options{viewer->host, viewer->port, run.output, run.format},
                                                board_);
@@ -126,10 +124,9 @@ void Watcher::look(const Film& film, const Hosts& hosts) {
     const auto now = Clock::now();
     if (!state_pace_.due(now)) return;
     const double begun = thread_time();
-    state_.done = film.done();
     look_at_hosts(hosts(), now);
     tell();
-    if (options_.report && memory_pace_.due(now)) remember();
+    if (options_.report && history_.due(now)) history_.add(last_state_, now);
     state_pace_.put_off(now, std::chrono::duration<double>((thread_time() - begun) / most_state_share));
 }
 
@@ -146,19 +143,6 @@ bool Watcher::tell() {
     return board_.tell(last_state_);
 }
 
-// However long a run takes, there are about as many: when they are too many, every other one goes.
-void Watcher::remember() {
-    history_.push_back(last_state_);
-    if (history_.size() >= most_remembered || history_.size() * last_state_.size() > most_remembered_bytes) {
-        std::size_t kept = 0;
-        for (std::size_t i = 0; i < history_.size(); i += 2) history_[kept++] = std::move(history_[i]);
-        history_.resize(kept);
-        memory_period_ *= 2;
-        memory_pace_ = Pace(memory_period_, Clock::now());
-    }
-    memory_pace_.put_off(Clock::now());
-}
-
 void Watcher::look_at_hosts(std::vector<HostState> hosts, Clock::time_point now) {
     state_.hosts = std::move(hosts);
     work_.look(state_.hosts, std::chrono::duration<double>(now - begun_).count());
@@ -173,7 +157,6 @@ void Watcher::finish(const Film& film, const std::string& outcome) {
     if (!wanted()) return;
     for (const auto& command : commands()) command.answer("the run is over");
     state_.outcome = outcome;
-    state_.done = film.done();
     state_.in_flight.clear();
     state_.doing.clear();
     bool told = false;

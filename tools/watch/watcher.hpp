@@ -18,6 +18,7 @@
 #include "tools/preview/tev_preview.hpp"
 #include "tools/watch/places_at_work.hpp"
 #include "tools/watch/watch_board.hpp"
+#include "tools/watch/watch_history.hpp"
 #include "tools/watch/watch_json.hpp"
 #include "tools/watch/watch_server.hpp"
 
@@ -54,6 +55,8 @@ public:
     void say(const std::string& text);
     /// What a node does while it prepares.
     void preparing(const PrepareProgress& progress);
+    /// How much is there, 0 … 1, and how many seconds are left; none: not known. Shown by the next look.
+    void progress(double done, std::optional<double> left) { state_.done = done, state_.left = left; }
     void handed_out(const std::vector<Tile>& tiles);
     /// A tile has come, and is in the film.
     void taken(const Tile& tile);
@@ -75,7 +78,7 @@ public:
     /// What a report is made from.
     const std::string& hello() const { return hello_; }
     const std::string& last_state() const { return last_state_; }
-    const std::vector<std::string>& history() const { return history_; }
+    const std::vector<std::string>& history() const { return history_.states(); }
     const std::vector<std::string>& lines() const { return lines_; }
 
 private:
@@ -83,7 +86,6 @@ private:
     void show_pixels(const Film& film, std::chrono::duration<double> most);
     bool tell();
     void look_at_hosts(std::vector<HostState> hosts, Clock::time_point now);
-    void remember();
 
     Options options_;
     const Graph& graph_;
@@ -94,9 +96,9 @@ private:
     WatchBoard board_;
     bool too_large_ = false, began_to_show_ = false;
     std::deque<Tile> changed_;  // areas
-    std::chrono::duration<double> memory_period_{1};
-    Pace pixel_pace_, state_pace_, memory_pace_;
-    std::vector<std::string> history_, lines_;
+    Pace pixel_pace_, state_pace_;
+    WatchHistory history_;
+    std::vector<std::string> lines_;
     std::mutex commands_mutex_;
     std::vector<WatchCommand> commands_;
     std::unique_ptr<TevPreview> viewer_;

@@ -7,8 +7,7 @@
 
 namespace lightnet {
 
-TilesByPass::TilesByPass(const Graph& graph, const Registry& registry, const std::vector<Tile>& tiles, PassSteps steps)
-    : steps_(steps) {
+TilesByPass::TilesByPass(const Graph& graph, const Registry& registry, const std::vector<Tile>& tiles) {
     const auto renewed = renewed_nodes(graph, registry);
     by_pass_ = std::find(renewed.begin(), renewed.end(), true) != renewed.end();
     add(tiles);
@@ -16,10 +15,9 @@ TilesByPass::TilesByPass(const Graph& graph, const Registry& registry, const std
 }
 
 void TilesByPass::add(const std::vector<Tile>& tiles) {
-    const bool whole = !by_pass_ && steps_ != PassSteps::blocks;
     for (const Tile& tile : tiles) {
-        if (whole)
-            left_[steps_ == PassSteps::groups ? tile.block() : 0].push_back(tile);
+        if (!by_pass_)
+            left_[0].push_back(tile);
         else
             for (const Tile& block : one_by_one(tile)) left_[pass_of(block)].push_back(block);
     }

@@ -12,16 +12,11 @@
 
 namespace lightnet {
 
-/// What is rendered in one go where no node learns anew: all of a picture, a group of blocks of each pixel, or a block.
-/// Between two of them all pixels have as many samples.
-enum class PassSteps { whole, groups, blocks };
-
-/// In a graph without nodes that learn anew for each pass, tiles stay as they are, or are sorted by `steps`. Else they
-/// are cut into blocks of samples, of which each is a pass.
+/// In a graph without nodes that learn anew for each pass, tiles stay as they are. Else they are cut into blocks of
+/// samples, of which each is a pass.
 class TilesByPass {
 public:
-    TilesByPass(const Graph& graph, const Registry& registry, const std::vector<Tile>& tiles,
-                PassSteps steps = PassSteps::whole);
+    TilesByPass(const Graph& graph, const Registry& registry, const std::vector<Tile>& tiles);
 
     bool empty() const { return left_.empty(); }
     /// Begins the next pass: its tiles, in the order of handing out. Not when it is empty.
@@ -35,7 +30,6 @@ private:
     void add(const std::vector<Tile>& tiles);
 
     bool by_pass_;
-    PassSteps steps_;
     std::uint32_t pass_ = 0;
     std::map<std::uint32_t, std::vector<Tile>> left_;  // by pass
 };

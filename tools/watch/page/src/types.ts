@@ -44,6 +44,7 @@ export interface State {
     t: number; // seconds
     phase: string;
     done: number;
+    left?: number; // seconds, as the run's own terminal says it
     outcome: string;
     hosts: Host[];
     nodes: number[][]; // looks, waiting, bundles, questions, bytes, nanoseconds, answered
