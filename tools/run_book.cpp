@@ -188,6 +188,7 @@ void RunBook::note_error(Clock::time_point now) {
 std::string RunBook::end_early() {
     const auto wanted = report_.settings["samples"];
     steps_.end();
+    note_error(Clock::now());
     const Film& film = steps_.picture();
     if (film.mean_samples() == 0) return {};
     report_.settings["samples"] = std::to_string(film.format().samples);
