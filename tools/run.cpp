@@ -119,7 +119,7 @@ std::string Run::write_what_is_there(std::optional<std::chrono::duration<double>
     const bool kept = book_.save_checkpoint(most);
     const std::string goes_on = kept ? "; --resume goes on from here" : "";
     const auto there = book_.end_early();
-    std::string written = there.empty() ? "no picture was written" : there + " in " + request_.output;
+    std::string written = there.empty() ? "no picture was written" : there + ", in " + request_.output;
     try {
         if (!there.empty()) book_.write_picture(request_.output);
     } catch (const std::exception& error) {

@@ -49,19 +49,19 @@ struct RunRequest {
     Graph graph;  // checked; --samples and --size are in it, and the sectors of sharded nodes
     Hosts hosts;  // to be called, or that join by name; and places of this process
     Mode mode = Mode::serial;
-    std::uint32_t threads = 0;        // places in this process, as many as `hosts` names if it names any
-    std::uint32_t local_workers = 0;  // mode network: daemons to start
-    std::uint32_t local_places = 0;   // of each; 0: as many as there are cores, dealt out
-    Troubles troubles;                // of them
-    std::string listen;               // mode network: endpoint where hosts may join; "": nowhere
-    RunKeys keys;                     // mode network: by which hosts and this process know each other
-    std::string pass;                 // file with what hosts must know to join; "": the usual one
-    SlurmRequest slurm;               // mode network
-    SshRequest ssh;                   // likewise; on which machines: see keys.ssh
-    std::chrono::seconds wait{30};    // for a host when a node has no place any more
+    std::uint32_t threads = 0;                      // places in this process, as many as `hosts` names if it names any
+    std::uint32_t local_workers = 0;                // mode network: daemons to start
+    std::uint32_t local_places = 0;                 // of each; 0: as many as there are cores, dealt out
+    Troubles troubles;                              // of them
+    std::string listen;                             // mode network: endpoint where hosts may join; "": nowhere
+    RunKeys keys;                                   // mode network: by which hosts and this process know each other
+    std::string pass;                               // file with what hosts must know to join; "": the usual one
+    SlurmRequest slurm;                             // mode network
+    SshRequest ssh;                                 // likewise; on which machines: see keys.ssh
+    std::chrono::seconds wait{30};                  // for a host when a node has no place any more
     std::optional<std::chrono::seconds> busy_wait;  // for hosts that serve other runs; none: as long as it takes
-    bool resume = false;              // from the checkpoint beside the output, if there is one
-    bool forget = false;              // leave no checkpoint beside a finished picture
+    bool resume = false;                            // from the checkpoint beside the output, if there is one
+    bool forget = false;                            // leave no checkpoint beside a finished picture
     Tuning tuning;
     std::string scene;                // file, as seen from here
     std::shared_ptr<ReadScene> read;  // it, read already; the run takes it away. None: still to be read

@@ -332,7 +332,7 @@ void RunBook::name_bad_light(const Graph& graph) {
     for (std::size_t layer = 0; layer < lost.size(); ++layer)
         if (lost[layer])
             alert(fmt::format("{} colours of layer '{}' were not finite and count as black", lost[layer],
-                             film().format().name_of(layer)));
+                              film().format().name_of(layer)));
 }
 
 void RunBook::use(const Plan& plan, const Graph& graph) {
