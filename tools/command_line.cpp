@@ -10,6 +10,7 @@
 #include <sstream>
 #include <utility>
 
+#include "core/base/ip_address.hpp"
 #include "core/base/suggestion.hpp"
 #include "core/network/graph/check_hosts.hpp"
 #include "tools/exit_code.hpp"
@@ -180,8 +181,11 @@ CLI::Option* takes_endpoint(CLI::Option* option, bool listens) {
         const std::string typed = text;
         if (listens && (text.ends_with(":*") || text.ends_with(":0"))) text.replace(text.size() - 1, 1, "1");
         if (listens && text.starts_with("tcp://*:")) text.replace(6, 1, "0.0.0.0");
-        if (address_of(text)) return {};
-        return "must be like tcp://" + std::string(listens ? "127.0.0.1:7777 or tcp://0.0.0.0:*" : "10.0.0.11:7777") +
+        const auto address = address_of(text);
+        if (address && !is_mistaken_number(address->host)) return {};
+        return "must be like tcp://" +
+               std::string(listens ? "127.0.0.1:7777, tcp://[::1]:7777 or tcp://0.0.0.0:*"
+                                   : "10.0.0.11:7777 or tcp://[fd00::11]:7777") +
                ", not '" + typed + "'";
     });
 }

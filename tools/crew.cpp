@@ -9,6 +9,7 @@
 #include "core/base/allowance.hpp"
 #include "core/base/error.hpp"
 #include "core/base/in_quotes.hpp"
+#include "core/base/ip_address.hpp"
 #include "core/base/suggestion.hpp"
 #include "core/base/this_machine.hpp"
 #include "core/network/graph/check_hosts.hpp"
@@ -27,9 +28,9 @@ std::string daemon_program() {
 
 // What others dial: a port on all addresses is known to them by the name of this machine.
 std::string seen_from_elsewhere(const std::string& endpoint) {
-    const std::string all = "tcp://0.0.0.0:";
-    if (!endpoint.starts_with(all)) return endpoint;
-    return "tcp://" + machine_name() + ":" + endpoint.substr(all.size());
+    const auto parts = tcp_endpoint(endpoint);
+    const auto number = parts ? ip_address(parts->host) : std::nullopt;
+    return number && number->is_unspecified() ? TcpEndpoint{machine_name(), parts->port}.text() : endpoint;
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "core/base/build_info.hpp"
 #include "core/network/graph/hosts.hpp"
+#include "tools/watch/watch_rules.hpp"
 #include "transport/wire/loopback.hpp"
 
 namespace lightnet {
@@ -58,8 +59,12 @@ public:
              {std::pair{std::string("--listen "), host().listen}, std::pair{std::string("--join "), host().join}})
             if (!insecure_ && !endpoint.empty() && !stays_on_this_machine(endpoint) && !has_keys(option))
                 return usage_error(app_, beyond_this_machine(option + endpoint, way_with_keys(option)));
-        if (const auto& metrics = options_.metrics;
-            !insecure_ && !metrics.empty() && !stays_on_this_machine("tcp://" + metrics))
+        const auto& metrics = options_.metrics;
+        const auto told_at = watch_address(metrics);
+        if (!told_at)
+            return usage_error(app_,
+                               "--metrics takes an address like 127.0.0.1:9100 or [::1]:9100, not '" + metrics + "'");
+        if (!insecure_ && !told_at->stays_here())
             return usage_error(
                 app_, beyond_this_machine("--metrics " + metrics, "put a server with TLS in front of 127.0.0.1"));
         return options_;

@@ -89,7 +89,7 @@ Finding look_at_ports() {
     try {
         const SocketContext context;
         Socket socket = door_socket(context);
-        socket.bind("tcp://127.0.0.1:*");
+        listen(socket, context, "tcp://127.0.0.1:*");
         return {Grade::good, "ports", "a daemon can listen on loopback", ""};
     } catch (const std::exception& error) {
         return {Grade::bad, "ports", std::string("nothing can listen on loopback: ") + error.what(),
@@ -144,9 +144,11 @@ std::vector<std::pair<std::string, std::string>> parts_of_build(const std::strin
 
 Finding look_at_host(const HostProbe& probe, const std::string& build) {
     const auto& answer = probe.answer;
-    if (answer.state == "does not answer")
+    if (!answer.answers)
         return {Grade::bad, answer.asked, answer.state,
-                "is lightnetd there, does it listen beyond its loopback, does a firewall let the port through?"};
+                !answer.advice.empty()
+                    ? answer.advice
+                    : "is lightnetd there, does it listen beyond its loopback, does a firewall let the port through?"};
     std::string what = fmt::format("{}, {} places, round trip {:.2f} ms", answer.state, answer.places,
                                    std::chrono::duration<double, std::milli>(probe.round_trip).count());
     if (probe.bandwidth > 0) what += fmt::format(", {:.0f} MB/s", probe.bandwidth / 1e6);

@@ -71,7 +71,7 @@ void leave_out_what_is_told_twice(std::vector<HostAnswer>& hosts) {
 }  // namespace
 
 bool is_there(const HostAnswer& host) {
-    return !host.state.starts_with("does not answer") && !host.state.starts_with("is lost");
+    return host.answers && !host.state.starts_with("does not answer") && !host.state.starts_with("is lost");
 }
 
 bool is_other_build(const HostAnswer& host, const std::string& build) {

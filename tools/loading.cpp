@@ -1,8 +1,7 @@
 #include "tools/loading.hpp"
 
-#include <netdb.h>
-
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <ostream>
@@ -15,9 +14,12 @@
 #include "lua/load_graph.hpp"
 #include "tools/output_file.hpp"
 #include "tools/overrides.hpp"
+#include "transport/address/resolver.hpp"
 
 namespace lightnet {
 namespace {
+
+constexpr auto names_patience = std::chrono::seconds(3);  // for all names of a hosts file
 
 // Scenes are read much later, perhaps elsewhere; that a file is there can be said at once.
 void check_scene_files(const Graph& graph, std::vector<Problem>& problems) {
@@ -45,21 +47,6 @@ void check_written_files(const Graph& graph, const Registry& registry, const Pic
     add(problems_of_kept_files(graph, registry));
     if (problems.empty() && wanted.output.empty())
         add(problems_of_picture(graph, output_file(graph, registry, wanted)));
-}
-
-// A name server that doesn't answer proves nothing.
-bool surely_unknown(const std::string& host) {
-    addrinfo* found = nullptr;
-    const int fault = ::getaddrinfo(host.c_str(), nullptr, nullptr, &found);
-    if (fault == 0) ::freeaddrinfo(found);
-    return fault == EAI_NONAME;
-}
-
-void check_names(const Hosts& hosts, std::vector<Problem>& problems) {
-    for (const auto& entry : hosts.hosts)
-        if (const auto address = address_of(entry.endpoint); address && surely_unknown(address->host))
-            problems.push_back(
-                {entry.where, "place '" + entry.endpoint + "': no host is called '" + address->host + "'"});
 }
 
 // How many cores this process may use is known, unlike those of other hosts: so each of its entries has its number of
@@ -92,18 +79,36 @@ Written read_files(const RenderedScene& scene, const std::string& hosts) {
     return with_hosts(std::move(made.graph), std::move(made.problems), hosts);
 }
 
-Loaded make_sound(Written written, const PictureOptions& wanted, const Registry& registry, NamesOfHosts names) {
+Loaded make_sound(Written written, const PictureOptions& wanted, const Registry& registry) {
     auto& [graph, hosts, problems] = written;
     override_picture(graph, registry, wanted);
     Examined found = examine(graph, registry, hosts);
     problems.insert(problems.end(), found.problems.begin(), found.problems.end());
     check_scene_files(graph, problems);
     check_written_files(graph, registry, wanted, problems);
-    if (names == NamesOfHosts::looked_up) check_names(hosts, problems);
     sort_by_line(problems, graph.file);
     if (!problems.empty()) throw UserError(std::move(problems));
     give_places_here(hosts);
     return {std::move(found.graph), std::move(hosts), std::move(found.warnings), std::move(found.notes)};
+}
+
+// All of them together. A name server that doesn't answer proves nothing.
+std::vector<Problem> unknown_names(const Hosts& hosts) {
+    Resolver names;
+    const auto end = std::chrono::steady_clock::now() + names_patience;
+    for (const auto& entry : hosts.hosts)
+        if (const auto address = address_of(entry.endpoint))
+            names.look(address->host, std::chrono::steady_clock::now());
+    std::vector<Problem> unknown;
+    for (const auto& entry : hosts.hosts) {
+        const auto address = address_of(entry.endpoint);
+        if (!address) continue;
+        const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - std::chrono::steady_clock::now());
+        const auto found = names.wait_for(address->host, std::max(left, std::chrono::milliseconds(0)));
+        if (found.state == Whereabout::State::gone)
+            unknown.push_back({entry.where, "place '" + entry.endpoint + "': " + found.why});
+    }
+    return unknown;
 }
 
 void warn(const std::vector<Problem>& warnings, std::ostream& err) {

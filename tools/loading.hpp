@@ -33,13 +33,11 @@ struct Loaded {
     std::vector<Problem> warnings, notes;
 };
 
-/// Are names of hosts looked up?
-enum class NamesOfHosts { looked_up, believed };
-
 /// Applies what the user wants otherwise, and checks all of it. Throws UserError that names all problems of the graph,
 /// of the hosts and of the way to the scene.
-Loaded make_sound(Written written, const PictureOptions& wanted, const Registry& registry,
-                  NamesOfHosts names = NamesOfHosts::looked_up);
+Loaded make_sound(Written written, const PictureOptions& wanted, const Registry& registry);
+/// Hosts that have a name which nobody is called by. It may be known when they are there: no reason not to begin.
+std::vector<Problem> unknown_names(const Hosts& hosts);
 
 void warn(const std::vector<Problem>& warnings, std::ostream& err);
 

@@ -12,7 +12,7 @@ constexpr std::size_t most_scrapers = 32;  // connections at once
 WatchAddress metrics_address(const std::string& text) {
     const auto address = watch_address(text);
     if (!address || text.rfind(':') == std::string::npos)
-        throw Error("an address is like 127.0.0.1:9100, not '" + text + "'");
+        throw Error("an address is like 127.0.0.1:9100 or [::1]:9100, not '" + text + "'");
     return *address;
 }
 

@@ -345,7 +345,7 @@ std::optional<std::string> settle(RunningOptions& running) {
         return beyond_this_machine("--preview tev:" + running.viewer->host,
                                    "let ssh carry it: ssh -R 14158:127.0.0.1:14158 from the viewer's machine");
     if (auto mistake = mistake_in(running.troubles, running.local_workers.value_or(0))) return mistake;
-    if ((running.slurm || !running.ssh.empty()) && running.listen.empty()) running.listen = "tcp://0.0.0.0:*";
+    if ((running.slurm || !running.ssh.empty()) && running.listen.empty()) running.listen = "tcp://*:*";
     return std::nullopt;
 }
 

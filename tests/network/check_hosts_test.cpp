@@ -33,9 +33,19 @@ TEST(CheckHosts, KeepsScenesOutOfIt) {
 
 TEST(CheckHosts, WantsAnEndpoint) {
     for (const char* endpoint : {"onyx1:7777", "tcp://onyx1", "tcp://:7", "tcp://a:0", "tcp://a:70000", "tcp://a:7x",
-                                 "udp://a:7", "tcp://a b:7", "tcp://*:7"})
+                                 "udp://a:7", "tcp://a b:7", "tcp://*:7", "tcp://::1:7", "tcp://[onyx1]:7"})
         EXPECT_THAT(problems_with_hosts("place '" + std::string(endpoint) + "' {}"), HasSubstr("tcp://host:7777"))
             << endpoint;
+}
+
+TEST(CheckHosts, TakesAddressesOfBothFamilies) {
+    for (const char* endpoint : {"tcp://10.0.0.1:7", "tcp://[::1]:7", "tcp://[fe80::1%eth0]:7", "tcp://[fd00::1]:7"})
+        EXPECT_EQ(problems_with_hosts("place '" + std::string(endpoint) + "' {}"), "");
+    EXPECT_EQ(address_of("tcp://[fe80::1%eth0]:7777")->host, "fe80::1%eth0");
+    EXPECT_THAT(problems_with_hosts("place 'tcp://300.0.0.1:7' {}"), HasSubstr("no host is called '300.0.0.1'"));
+    EXPECT_THAT(problems_with_hosts("place 'tcp://[fe80::1]:7' {}"), HasSubstr("as in [fe80::1%eth0]"));
+    EXPECT_THAT(problems_with_hosts("place 'tcp://[::1]:7' {}\nplace 'tcp://[0:0::1]:7' {}"),
+                HasSubstr("hosts.lua:2: place 'tcp://[0:0::1]:7': the host stands here twice"));
 }
 
 TEST(CheckHosts, TakesNamesOfHostsThatJoinByThemselves) {

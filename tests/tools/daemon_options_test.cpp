@@ -55,6 +55,18 @@ TEST(DaemonOptions, AreTaken) {
     EXPECT_EQ(options.host.cache_size, 500u << 20);
 }
 
+TEST(DaemonOptions, TellLoopbackFromTheRestInBothFamilies) {
+    for (const auto* own : {"tcp://[::1]:7777", "tcp://localhost:7777", "tcp://[::ffff:127.0.0.1]:*"})
+        EXPECT_EQ(daemon_options_of({"--listen", own}).host.listen, own);
+    EXPECT_EQ(daemon_options_of({"--join", "tcp://[::1]:7000"}).host.join, "tcp://[::1]:7000");
+    EXPECT_EQ(daemon_options_of({"--metrics", "[::1]:9100"}).metrics, "[::1]:9100");
+    for (const auto* other : {"tcp://[::]:7777", "tcp://*:7777", "tcp://[fe80::1%eth0]:7777", "tcp://[fd00::1]:7777"})
+        EXPECT_THAT(daemon_mistake({"--listen", other}), HasSubstr("goes beyond this machine")) << other;
+    EXPECT_THAT(daemon_mistake({"--metrics", "[::]:9100"}), HasSubstr("goes beyond this machine"));
+    EXPECT_THAT(daemon_mistake({"--metrics", "farm:9100"}), HasSubstr("127.0.0.1:9100 or [::1]:9100"));
+    EXPECT_THAT(daemon_mistake({"--listen", "tcp://::1:7777"}), HasSubstr("tcp://[::1]:7777"));
+}
+
 TEST(DaemonOptions, NameNoHostAsHostsFilesCallTheLaunchersProcess) {
     EXPECT_THAT(daemon_mistake({"--join", "tcp://127.0.0.1:7000", "--name", "here"}),
                 HasSubstr("'here' is what hosts files call the launcher's own process"));

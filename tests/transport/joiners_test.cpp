@@ -125,6 +125,17 @@ TEST_F(JoinersTest, CallBackWhoHasAPort) {
     EXPECT_THAT(connections, IsEmpty());
 }
 
+TEST_F(JoinersTest, CallBackWhoListensInBothFamiliesAndNobodyByAName) {
+    Stranger host(joiners.endpoint()), named(joiners.endpoint());
+    join(host, {"onyx1", 1, "tcp://[::]:7777"});
+    ASSERT_TRUE(wait_for([&] { return !called.empty(); }));
+    EXPECT_THAT(called, ElementsAre("tcp://127.0.0.1:7777")) << "at the address from which it came";
+    join(named, {"onyx2", 2, "tcp://onyx2:7777"});
+    join(host, {"onyx1", 1, "tcp://10.0.0.1:7777"});
+    ASSERT_TRUE(wait_for([&] { return called.size() > 1; }));
+    EXPECT_EQ(called.back(), "tcp://10.0.0.1:7777") << "what a host says is no reason to look names up";
+}
+
 TEST_F(JoinersTest, LetNobodyInWhoDoesNotKnowThePass) {
     Stranger host(joiners.endpoint());
     join(host, {"onyx1", 1, ""}, "another pass, of another user");

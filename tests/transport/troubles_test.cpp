@@ -36,7 +36,7 @@ public:
     int listen_anywhere() const {
         sockaddr_in address = of(0);
         bind(file_, reinterpret_cast<sockaddr*>(&address), sizeof address);
-        listen(file_, 4);
+        ::listen(file_, 4);
         socklen_t size = sizeof address;
         getsockname(file_, reinterpret_cast<sockaddr*>(&address), &size);
         return ntohs(address.sin_port);

@@ -14,6 +14,8 @@ TEST(WatchAddress, IsReadFromHostsAndPorts) {
     EXPECT_EQ(watch_address("10.0.0.1:80"), (WatchAddress{"10.0.0.1", 80}));
     EXPECT_EQ(watch_address("[::1]:80"), (WatchAddress{"::1", 80}));
     EXPECT_EQ(watch_address("::1"), (WatchAddress{"::1", 0}));
+    EXPECT_EQ(watch_address("[fe80::1%eth0]:80"), (WatchAddress{"fe80::1%eth0", 80}));
+    EXPECT_EQ(watch_address("[::ffff:127.0.0.1]:80"), (WatchAddress{"127.0.0.1", 80}));
 }
 
 TEST(WatchAddress, IsNothingElse) {

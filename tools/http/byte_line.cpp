@@ -17,17 +17,24 @@ namespace asio = boost::asio;
 using Tcp = asio::ip::tcp;
 using Fault = boost::system::error_code;
 
+constexpr auto name_patience = std::chrono::seconds(2), fresh_name = std::chrono::seconds(2);
 constexpr auto glance = std::chrono::milliseconds(50);  // between two questions whether patience goes on
 
 }  // namespace
 
-ByteTarget::ByteTarget(const std::string& host, std::uint16_t port) : port_(port) {
-    asio::io_context io;
-    Fault fault;
-    const auto found = Tcp::resolver(io).resolve(host, std::to_string(port), fault);
-    if (fault || found.empty()) throw Error("nobody is called '" + host + "'", fault.message());
-    address_ = found.begin()->endpoint().address().to_string();
+ByteTarget::ByteTarget(std::string host, std::uint16_t port) : host_(std::move(host)), port_(port) {
+    const auto found = names_->wait_for(host_, name_patience);
+    if (found.state == Whereabout::State::gone) throw Error(found.why);
 }
+
+std::vector<std::string> ByteTarget::addresses() const {
+    std::vector<std::string> all;
+    for (const auto& one : names_->look(host_, std::chrono::steady_clock::now(), fresh_name).addresses)
+        all.push_back(one.text());
+    return all;
+}
+
+std::string ByteTarget::trouble() const { return names_->look(host_, std::chrono::steady_clock::now()).why; }
 
 struct ByteLine::Parts {
     asio::io_context io{1};
@@ -52,14 +59,21 @@ ByteLine::ByteLine(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
 ByteLine::~ByteLine() = default;
 
 std::unique_ptr<ByteLine> ByteLine::to(const ByteTarget& target, const Patient& patient) {
-    auto parts = std::make_unique<Parts>();
-    std::optional<Fault> done;
-    parts->socket.async_connect({asio::ip::make_address(target.address()), target.port()},
-                                [&](Fault fault) { done = fault; });
-    if (!parts->finish(done, patient)) return nullptr;
-    Fault ignored;
-    parts->socket.non_blocking(true, ignored);
-    return std::unique_ptr<ByteLine>(new ByteLine(std::move(parts)));
+    const auto addresses = target.addresses();
+    for (const auto& address : addresses) {
+        const auto end = std::chrono::steady_clock::now() + one_of_several;
+        const bool last = address == addresses.back();
+        auto parts = std::make_unique<Parts>();
+        std::optional<Fault> done;
+        parts->socket.async_connect({asio::ip::make_address(address), target.port()},
+                                    [&](Fault fault) { done = fault; });
+        const auto patient_here = [&] { return patient() && (last || std::chrono::steady_clock::now() < end); };
+        if (!parts->finish(done, patient_here)) continue;
+        Fault ignored;
+        parts->socket.non_blocking(true, ignored);
+        return std::unique_ptr<ByteLine>(new ByteLine(std::move(parts)));
+    }
+    return nullptr;
 }
 
 bool ByteLine::send(std::string_view bytes, const Patient& patient) {

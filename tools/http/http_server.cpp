@@ -212,6 +212,7 @@ void HttpServer::Parts::listen() try {
     const Tcp::endpoint at(asio::ip::make_address(options.host), options.port);
     acceptor.open(at.protocol());
     acceptor.set_option(asio::socket_base::reuse_address(true));
+    if (at.address().is_v6()) acceptor.set_option(asio::ip::v6_only(false));  // "::" is for both families
     acceptor.bind(at);
     acceptor.listen();
     port = acceptor.local_endpoint().port();

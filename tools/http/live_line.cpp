@@ -7,6 +7,7 @@
 #include <boost/beast/websocket.hpp>
 
 #include "core/base/error.hpp"
+#include "core/base/ip_address.hpp"
 #include "tools/http/byte_line.hpp"
 
 namespace lightnet {
@@ -37,6 +38,24 @@ struct LiveLine::Parts {
         }
         return done;
     }
+    // To the first address that answers.
+    void connect(const ByteTarget& target, const std::string& where) {
+        const auto addresses = target.addresses();
+        std::string trouble = target.trouble();
+        for (const auto& address : addresses) {
+            std::optional<Fault> done;
+            auto& line = beast::get_lowest_layer(socket);
+            line.async_connect(asio::ip::tcp::endpoint(asio::ip::make_address(address), target.port()),
+                               [&](Fault fault) { done = fault; });
+            const auto fault = finish(done, address == addresses.back() ? line_patience : one_of_several);
+            if (fault && !*fault) return;
+            trouble = fault ? fault->message() : "nobody answers";
+            line.close();
+            io.restart();
+            io.run();  // what refers to `done` is over
+        }
+        throw Error(where, trouble.empty() ? "nobody answers" : trouble);
+    }
     void must(const std::optional<Fault>& done, const std::string& where) {
         const auto fault = finish(done, line_patience);
         if (fault && !*fault) return;
@@ -50,13 +69,9 @@ struct LiveLine::Parts {
 LiveLine::LiveLine(const std::string& host, std::uint16_t port, const std::string& path)
     : parts_(std::make_unique<Parts>()) {
     const ByteTarget target(host, port);
-    const std::string name =
-        (host.find(':') == std::string::npos ? host : "[" + host + "]") + ":" + std::to_string(port);
-    std::optional<Fault> connected, accepted;
-    beast::get_lowest_layer(parts_->socket)
-        .async_connect(asio::ip::tcp::endpoint(asio::ip::make_address(target.address()), port),
-                       [&](Fault fault) { connected = fault; });
-    parts_->must(connected, name);
+    const std::string name = before_port(host) + ":" + std::to_string(port);
+    std::optional<Fault> accepted;
+    parts_->connect(target, name);
     parts_->socket.read_message_max(most_heard);
     parts_->socket.async_handshake(name, path, [&](Fault fault) { accepted = fault; });
     parts_->must(accepted, name + path);

@@ -62,6 +62,11 @@ void TevPreview::finish(const std::string& file) {
 
 std::string TevPreview::address() const { return in_url(options_.host) + ":" + std::to_string(options_.port); }
 
+std::string TevPreview::why_none() const {
+    const auto trouble = target_.trouble();
+    return trouble.empty() ? trouble : " (" + trouble + ")";
+}
+
 void TevPreview::say(const std::string& line) {
     const std::lock_guard lock(mutex_);
     news_.push_back(line);
@@ -86,7 +91,8 @@ void TevPreview::call() {
     const auto given_up = Clock::now() + viewer_patience;
     line_ = ByteLine::to(target_, [&] { return !ends() && Clock::now() < given_up; });
     if (!line_) {
-        if (!std::exchange(missed_, true)) say("no tev at " + address() + " so far; it is called again every second");
+        if (!std::exchange(missed_, true))
+            say("no tev at " + address() + " so far" + why_none() + "; it is called again every second");
         return rest(viewer_interval);
     }
     missed_ = false;

@@ -48,6 +48,7 @@ private:
     bool send(const std::string& bytes);
     std::string packet_of(const char*& bytes) const;
     std::string address() const;
+    std::string why_none() const;
     void say(const std::string& line);
     void rest(std::chrono::milliseconds time);
     bool ends() const { return ending_; }

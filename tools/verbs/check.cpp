@@ -48,6 +48,7 @@ int check_graph(const CheckOptions& options, const Launcher& launcher) {
     warn(loaded.warnings, launcher.err);
     DiskFiles files;
     warn(load_scene(loaded.graph, registry, files, scene_file(loaded.graph, registry)).data.warnings, launcher.err);
+    warn(unknown_names(loaded.hosts), launcher.err);
     for (const auto& note : loaded.notes) launcher.err << "note: " << to_string(note) << '\n';
     print_sound(loaded, registry, launcher.out);
     return exit_code::done;

@@ -37,6 +37,9 @@ int print_hosts(const HostsOptions& options, const Launcher& launcher) {
     const auto asked = asked_hosts(options.asked);
     const auto answers = ask_state(asked.called, std::chrono::seconds(2));
     launcher.out << (options.json ? host_json(answers, asked.joining, build_id()) : host_table(answers));
+    for (const auto& host : answers)
+        if (!host.advice.empty())
+            launcher.err << "lightnet: " << host.asked << " " << host.state << ": " << host.advice << '\n';
     for (const auto& name : asked.joining)
         launcher.err << "lightnet: '" << name << "' joins by itself: ask its launcher (the endpoint behind --listen)\n";
     const auto absent = std::count_if(answers.begin(), answers.end(), [](const auto& host) { return !is_there(host); });
@@ -44,6 +47,9 @@ int print_hosts(const HostsOptions& options, const Launcher& launcher) {
                                       [](const auto& host) { return is_other_build(host, build_id()); });
     if (absent) complain(launcher, absent, answers.size(), "not there");
     if (others) complain(launcher, others, answers.size(), "of another build, and would be refused");
+    const bool all_unknown =
+        std::all_of(answers.begin(), answers.end(), [](const auto& host) { return is_there(host) || host.unknown; });
+    if (absent && all_unknown) return exit_code::unknown_key;
     return absent ? exit_code::no_worker : others ? exit_code::other_build : exit_code::done;
 }
 

@@ -1,23 +1,15 @@
 #include "tools/watch/watch_rules.hpp"
 
-#include <arpa/inet.h>
-
 #include <charconv>
 #include <random>
 
+#include "core/base/ip_address.hpp"
 #include "transport/wire/loopback.hpp"
 
 namespace lightnet {
 namespace {
 
-bool is_ip4(const std::string& text) {
-    in_addr address{};
-    return inet_pton(AF_INET, text.c_str(), &address) == 1;
-}
-bool is_ip6(const std::string& text) {
-    in6_addr address{};
-    return inet_pton(AF_INET6, text.c_str(), &address) == 1;
-}
+bool is_number(const std::string& host) { return ip_address(host).has_value(); }
 
 std::optional<std::uint16_t> port_of(std::string_view text) {
     std::uint16_t port = 0;
@@ -54,14 +46,15 @@ std::optional<WatchAddress> watch_address(std::string_view text) {
         address.port = *port;
         return address;
     }
-    const bool bare_ip6 = is_ip6(std::string(text));
-    const auto [host, port] = bare_ip6 ? HostAndPort{text, std::nullopt} : cut(text);
-    address.host = host == "localhost" ? address.host : without_brackets(host);
-    if (!is_ip4(address.host) && !is_ip6(address.host)) return std::nullopt;
-    if (!port) return address;
-    const auto number = port_of(*port);
+    const bool bare = ip_address(text).has_value() && text.front() != '[';
+    const auto [host, port] = bare ? HostAndPort{text, std::nullopt} : cut(text);
+    const auto number = host == own_machine ? ip_address(address.host) : ip_address(host);
     if (!number) return std::nullopt;
-    address.port = *number;
+    address.host = number->text();
+    if (!port) return address;
+    const auto number_of_port = port_of(*port);
+    if (!number_of_port) return std::nullopt;
+    address.port = *number_of_port;
     return address;
 }
 
@@ -92,7 +85,7 @@ std::optional<WatchUrl> watch_url(std::string_view text) {
     return WatchUrl{*at, mark == text.npos ? std::string() : std::string(text.substr(mark + 1))};
 }
 
-std::string in_url(const std::string& host) { return is_ip6(host) ? "[" + host + "]" : host; }
+std::string in_url(const std::string& host) { return before_port(host); }
 
 bool is_own_host(std::string_view host_header, const WatchAddress& bound, std::string_view machine) {
     const auto [name, port] = cut(host_header);
@@ -100,7 +93,7 @@ bool is_own_host(std::string_view host_header, const WatchAddress& bound, std::s
     const auto host = without_brackets(name);
     if (host == bound.host) return true;
     if (bound.stays_here()) return host == "localhost" || host == "127.0.0.1" || host == "::1";
-    return is_ip4(host) || is_ip6(host) || host == "localhost" || host == machine;  // an address can't be made to point
+    return is_number(host) || host == "localhost" || host == machine;  // an address can't be made to point
 }
 
 bool is_own_origin(std::string_view origin, std::string_view host_header) {

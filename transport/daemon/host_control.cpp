@@ -41,6 +41,7 @@ void Host::Service::control(const Sender& sender, const packet::Header& header, 
             return;
         case Type::members:
             if (ours) rights.use_members(AllowList::parse_what_can_be(fields.text("members")));
+            if (ours) peers->hear(fields.text("numbers"));
             return;
         case Type::status:
             return tell_state(sender);
@@ -110,6 +111,7 @@ void Host::Service::begin(const Sender& sender, std::uint64_t id, const Fields& 
     auto members = AllowList::parse_what_can_be(fields.text("members"));
     if (run && run->id() == id) {
         rights.use_members(std::move(members));
+        peers->hear(fields.text("numbers"));
         return go_on(route, plan_from_json(fields.text("plan")));
     }
     if (arriving && arriving->id == id && arriving->key == sender.key) {
@@ -125,8 +127,14 @@ void Host::Service::begin(const Sender& sender, std::uint64_t id, const Fields& 
         if (!fits(arrival.plan, arrival.job.graph)) throw Error("the plan does not fit the graph");
         return arrival;
     });
-    arriving =
-        Arriving{id, route, sender.key, fields.text("you"), fields.text("who"), std::move(members), std::move(read)};
+    arriving = Arriving{id,
+                        route,
+                        sender.key,
+                        fields.text("you"),
+                        fields.text("who"),
+                        std::move(members),
+                        fields.text("numbers"),
+                        std::move(read)};
 }
 
 void Host::Service::look_at_arriving() {
@@ -161,6 +169,7 @@ void Host::Service::start(const Arriving& job, Arrival read) {
                                   [this](Frames& frames) { forward_to_launcher(frames); },
                                   [this](const std::string& host) { return keys_to(host); }},
         options.line_life);
+    peers->hear(job.numbers);
     who = job.who;
     given = answered = 0;
     forget_peak_memory();

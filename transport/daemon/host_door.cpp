@@ -31,13 +31,9 @@ HostDoor::HostDoor(const SocketContext& context, Options options)
     if (!options_.listen.empty()) {
         keeper_.emplace(context_, options_.keys);
         port_.emplace(door_socket(context_));
-        try {
-            keeper_->guard(*port_);
-            port_->bind(options_.listen);
-            keeper_->try_out(*port_);
-        } catch (const SocketError& error) {
-            throw Error(options_.listen, std::string("can't listen there: ") + error.what());
-        }
+        keeper_->guard(*port_);
+        listen(*port_, context_, options_.listen);
+        keeper_->try_out(*port_);
     }
     if (!options_.join.empty()) dial(std::chrono::steady_clock::now());
 }
@@ -50,9 +46,7 @@ void HostDoor::dial(Time now) {
     heard_ = dialled_ = now;
     next_join_ = {};
     try {
-        launcher_.emplace(unconnected_asking_socket(context_, options_.join, options_.launcher));
-        note_handshakes(context_, *launcher_);
-        launcher_->connect(options_.join);
+        launcher_.emplace(context_, options_.join, options_.launcher, Caller::Handshakes::noted);
     } catch (const SocketError& error) {
         if (error.out_of_descriptors()) return;  // later, then
         throw Error(options_.join, std::string("can't be dialled: ") + error.what());
@@ -77,7 +71,7 @@ void HostDoor::take_challenge(const Frames& frames) {
 
 // Once: it goes on dialling, as a launcher may learn its key, or another may come.
 void HostDoor::look_at_handshake() {
-    const auto seen = launcher_ ? last_handshake(*launcher_) : std::nullopt;
+    const auto seen = launcher_ ? launcher_->look_at_handshake() : std::nullopt;
     if (!seen) return;
     abandoned_ = *seen == Handshake::abandoned ? abandoned_ + 1 : 0;
     if (*seen == Handshake::made) told_trouble_ = false, known_ = true;
@@ -144,6 +138,7 @@ void HostDoor::send(const std::string& route, Type type, std::uint64_t run, cons
 
 void HostDoor::keep_in_touch(Time now) {
     if (options_.join.empty()) return;
+    if (launcher_) launcher_->tick(now);
     look_at_handshake();
     // DECISIONS: lines-are-renewed
     if (options_.launcher && now - dialled_ > options_.line_life) dial(now);
@@ -174,9 +169,8 @@ void HostDoor::let_in() {
 
 void HostDoor::watch(Poll& poll) const {
     if (keeper_) keeper_->watch(poll);
-    for (const auto* socket : {&port_, &launcher_})
-        if (*socket) poll.add(**socket);
-    if (launcher_ && launcher_->events()) poll.add(*launcher_->events());
+    if (port_) poll.add(*port_);
+    if (launcher_) launcher_->watch(poll);
 }
 
 }  // namespace lightnet

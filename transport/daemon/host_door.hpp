@@ -10,6 +10,7 @@
 #include "core/base/log_entry.hpp"
 #include "transport/wire/packet.hpp"
 #include "transport/wire/pass.hpp"
+#include "transport/zmq/caller.hpp"
 #include "transport/zmq/doorkeeper.hpp"
 #include "transport/zmq/handshake.hpp"
 #include "transport/zmq/socket.hpp"
@@ -68,7 +69,8 @@ private:
     const SocketContext& context_;
     Options options_;
     std::optional<Doorkeeper> keeper_;
-    std::optional<Socket> port_, launcher_;
+    std::optional<Socket> port_;
+    std::optional<Caller> launcher_;
     int abandoned_ = 0;                          // handshakes with that launcher, in a row
     bool told_trouble_ = false, known_ = false;  // it has made one, some time
     std::string challenge_;                      // of the launcher that was dialled

@@ -49,6 +49,7 @@ struct Host::Service {
         std::string route, key;
         std::string you, who;  // as the launcher calls this host, and itself
         AllowList members;     // of the run
+        std::string numbers;   // where its hosts are that have names
         std::future<Arrival> read;
     };
     std::optional<Arriving> arriving;

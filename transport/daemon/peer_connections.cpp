@@ -1,8 +1,10 @@
 #include "transport/daemon/peer_connections.hpp"
 
 #include <algorithm>
+#include <sstream>
 #include <utility>
 
+#include "core/base/ip_address.hpp"
 #include "transport/wire/relay_address.hpp"
 
 namespace lightnet {
@@ -25,21 +27,35 @@ PeerConnections::Peer& PeerConnections::peer(const std::string& host) {
         if (calls_directly(me_, host)) open(host, to);
     } catch (const SocketError&) {  // out of descriptors, say: the launcher has a connection already
     }
-    to.relayed = !to.socket;
+    to.relayed = !to.line;
     return to;
 }
 
 void PeerConnections::open(const std::string& host, Peer& to) {
-    to.socket.reset();  // first: there may be no descriptors for both
-    to.socket.emplace(asking_socket(context_, host, handlers_.keys(host)));
+    to.line.reset();  // first: there may be no descriptors for both
+    to.line.emplace(context_, host, handlers_.keys(host));
+    const auto parts = tcp_endpoint(host);
+    if (const auto heard = heard_.find(parts ? parts->host : host); heard != heard_.end()) to.line->hear(heard->second);
     to.opened = std::chrono::steady_clock::now();
+}
+
+void PeerConnections::hear(const std::string& lines) {
+    heard_.clear();
+    std::istringstream in(lines);
+    for (std::string name, number; in >> name >> number;)
+        if (const auto at = ip_address(number);
+            at && !at->is_loopback() && !at->is_unspecified() && !at->is_link_local())
+            heard_[name].push_back(*at);
+    for (auto& [host, to] : peers_)
+        if (const auto parts = tcp_endpoint(host); parts && to.line && heard_.contains(parts->host))
+            to.line->hear(heard_[parts->host]);
 }
 
 bool PeerConnections::send(Peer& to, Frames& frames) {
     Frames packet;
     packet.emplace_back(seal({me_, text_of(frames[0])}));
     for (const auto i : {2u, 3u}) packet.push_back(frames[i].shared());
-    return to.socket->send(packet);
+    return to.line->send(packet);
 }
 
 void PeerConnections::ask(Frames frames) {
@@ -52,11 +68,12 @@ void PeerConnections::tick(Time now) {
     const bool look = now - looked_ >= look_interval;
     if (look) looked_ = now;
     for (auto& [host, to] : peers_) {
-        if (!to.socket) continue;
-        while (auto frames = to.socket->receive()) take(host, to, *frames);
+        if (!to.line) continue;
+        to.line->tick(now);
+        while (auto frames = to.line->receive()) take(host, to, *frames);
         while (!to.relayed && !to.waiting.empty() && send(to, to.waiting.front())) to.waiting.pop_front();
         if (look) renew_old(host, to, now);
-        if (look && to.socket && !to.relayed) look_whether_reachable(host, to, now);
+        if (look && to.line && !to.relayed) look_whether_reachable(host, to, now);
     }
 }
 
@@ -87,7 +104,7 @@ void PeerConnections::renew_old(const std::string& host, Peer& to, Time now) {
 }
 
 void PeerConnections::look_whether_reachable(const std::string& host, Peer& to, Time now) {
-    if (to.socket->can_send()) return to.unreachable.reset();
+    if (to.line->can_send()) return to.unreachable.reset();
     if (!to.unreachable) to.unreachable = now;
     if (now - *to.unreachable < unreachable_after) return;
     to.relayed = true;
@@ -110,7 +127,7 @@ bool PeerConnections::waiting() const {
 
 void PeerConnections::watch(Poll& poll) const {
     for (const auto& [host, to] : peers_)
-        if (to.socket) poll.add(*to.socket);
+        if (to.line) to.line->watch(poll);
 }
 
 }  // namespace lightnet

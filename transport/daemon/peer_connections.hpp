@@ -7,8 +7,10 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/network/graph/plan.hpp"
+#include "transport/zmq/caller.hpp"
 #include "transport/zmq/poll.hpp"
 #include "transport/zmq/socket.hpp"
 
@@ -35,6 +37,9 @@ public:
     void ask(Frames frames);
     /// Takes in what has come, and sends what has waited for its connection.
     void tick(Time now);
+    /// Where the launcher has found hosts ("onyx1 10.0.0.11" a line), whose names may mean nothing here. Numbers that
+    /// mean another machine elsewhere are left out.
+    void hear(const std::string& lines);
     /// Connections to hosts that are no more are closed.
     void use(const Plan& plan);
     /// Should tick() be called though nothing has come?
@@ -45,8 +50,8 @@ public:
 
 private:
     struct Peer {
-        std::optional<Socket> socket{};  // none could be had, or may be
-        bool greeted = false;            // doors greet each connection with an empty message: the first is expected
+        std::optional<Caller> line{};  // none could be had, or may be
+        bool greeted = false;          // doors greet each connection with an empty message: the first is expected
         Time opened{};
         bool relayed = false;               // its host can't be reached from here
         std::optional<Time> unreachable{};  // since when
@@ -63,7 +68,8 @@ private:
     std::string me_;
     Handlers handlers_;
     std::chrono::milliseconds line_life_;
-    std::map<std::string, Peer> peers_;  // by host
+    std::map<std::string, Peer> peers_;                    // by host
+    std::map<std::string, std::vector<IpAddress>> heard_;  // by name
     Time looked_{};
 };
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "core/base/error.hpp"
+#include "transport/launcher/key_trouble.hpp"
 #include "transport/wire/packet.hpp"
 #include "transport/zmq/poll.hpp"
-#include "transport/zmq/socket.hpp"
 
 namespace lightnet {
 namespace {
@@ -15,14 +15,16 @@ using packet::Fields;
 using packet::Type;
 
 struct Asked {
-    std::string endpoint;
-    Socket socket;
+    AskedHost host;
+    Caller line;
+    std::optional<Handshake> seen{};
+    int abandoned = 0;
     bool sent = false, all = false;
-    std::vector<HostAnswer> answers;
+    std::vector<HostAnswer> answers{};
 
     HostAnswer answer_in(const Fields& fields) const {
         HostAnswer answer;
-        answer.asked = endpoint;
+        answer.asked = host.endpoint;
         answer.of_launcher = !fields.numbers.contains("broken_packets");  // only daemons count them
         answer.name = fields.text("name"), answer.state = fields.text("state");
         answer.who = fields.text("who"), answer.nodes = fields.text("nodes");
@@ -34,11 +36,16 @@ struct Asked {
     }
 
     void look() {
+        line.tick(Clock::now());
+        if (const auto handshake = line.look_at_handshake()) {
+            seen = handshake;
+            abandoned = *seen == Handshake::abandoned ? abandoned + 1 : 0;
+        }
         if (!sent) {
             auto frames = frames_of(packet::pack(Type::status, 0, {}));
-            sent = socket.send(frames);
+            sent = line.send(frames);
         }
-        while (auto frames = socket.receive()) {
+        while (auto frames = line.receive()) {
             if (frames->size() != 2) continue;  // the greeting
             const auto header = packet::read_header(bytes_of((*frames)[0]), bytes_of((*frames)[1]));
             const auto fields = packet::unpack_fields(bytes_of((*frames)[1]));
@@ -51,30 +58,45 @@ struct Asked {
 
 }  // namespace
 
+HostAnswer no_answer(const AskedHost& host, const Caller& line, std::optional<Handshake> seen, int abandoned) {
+    HostAnswer answer{host.endpoint, false, host.endpoint, "does not answer", {}, {}, {}};
+    answer.answers = false;
+    const bool by_keys =
+        seen && *seen != Handshake::made && (*seen != Handshake::abandoned || abandoned >= abandoned_tells_of_keys);
+    if (by_keys) {
+        const auto trouble = key_trouble(host.endpoint, host.keys, *seen);
+        answer.unknown = host.keys || *seen != Handshake::abandoned;
+        answer.state = trouble.what;
+        answer.advice = trouble.advice;
+    } else if (const auto why = line.trouble(); !why.empty()) {
+        answer.state += ": " + why;
+    }
+    return answer;
+}
+
 std::vector<HostAnswer> ask_state(const std::vector<AskedHost>& hosts, std::chrono::milliseconds patience) {
     const SocketContext context;
     std::vector<Asked> asked;
-    for (const auto& [endpoint, keys] : hosts) {
+    for (const auto& host : hosts) {
         if (std::any_of(asked.begin(), asked.end(),
-                        [&, &it = endpoint](const auto& one) { return one.endpoint == it; }))
+                        [&](const auto& one) { return one.host.endpoint == host.endpoint; }))
             continue;
         try {
-            asked.push_back({endpoint, asking_socket(context, endpoint, keys), false, false, {}});
+            asked.push_back({host, Caller(context, host.endpoint, host.keys, Caller::Handshakes::noted)});
         } catch (const SocketError& error) {
-            throw Error(endpoint, std::string("can't be called: ") + error.what());
+            throw Error(host.endpoint, std::string("can't be called: ") + error.what());
         }
     }
     const auto end = Clock::now() + patience;
     while (Clock::now() < end && !std::all_of(asked.begin(), asked.end(), [](const auto& one) { return one.all; })) {
         Poll poll;
-        for (const auto& one : asked) poll.add(one.socket);
+        for (const auto& one : asked) one.line.watch(poll);
         poll.wait(std::chrono::milliseconds(5));
         for (auto& one : asked) one.look();
     }
     std::vector<HostAnswer> answers;
     for (auto& one : asked) {
-        if (one.answers.empty())
-            one.answers.push_back({one.endpoint, false, one.endpoint, "does not answer", {}, {}, {}});
+        if (one.answers.empty()) one.answers.push_back(no_answer(one.host, one.line, one.seen, one.abandoned));
         answers.insert(answers.end(), one.answers.begin(), one.answers.end());
     }
     return answers;

@@ -9,6 +9,7 @@
 
 #include "transport/keys/key.hpp"
 #include "transport/wire/machine.hpp"
+#include "transport/zmq/caller.hpp"
 
 namespace lightnet {
 
@@ -25,6 +26,9 @@ struct HostAnswer {
     std::uint64_t bundles = 0;          // that came from other hosts in this run
     std::uint64_t broken_packets = 0;   // dropped
     std::uint64_t resident_memory = 0;  // of its process, now; bytes. 0: it doesn't say
+    bool answers = true;                // else `state` says why not
+    bool unknown = false;               // it's there, but it and we don't know each other's keys
+    std::string advice{};               // what would be right
 };
 
 /// Somebody to ask, and by which keys; none: without.
@@ -33,7 +37,11 @@ struct AskedHost {
     std::optional<LineKeys> keys{};
 };
 
-/// Asks all of them together, each once. One that does not answer within `patience` has the state "does not answer".
+/// What there is to say of a host that has not answered; `abandoned`: handshakes, in a row.
+HostAnswer no_answer(const AskedHost& host, const Caller& line, std::optional<Handshake> seen, int abandoned);
+
+/// Asks all of them together, each once. One that does not answer within `patience` has a state that begins with "does
+/// not answer", or says what is wrong with keys.
 /// A launcher answers for all its hosts.
 std::vector<HostAnswer> ask_state(const std::vector<AskedHost>& hosts, std::chrono::milliseconds patience);
 

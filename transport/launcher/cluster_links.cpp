@@ -1,6 +1,7 @@
 #include "transport/launcher/cluster_links.hpp"
 
 #include "core/base/error.hpp"
+#include "core/base/ip_address.hpp"
 #include "core/run/runtime/fingerprint.hpp"
 #include "transport/keys/key_file.hpp"
 #include "transport/launcher/own_host.hpp"
@@ -58,6 +59,16 @@ void Cluster::Links::add(const std::string& name, std::unique_ptr<HostConnection
     if (!key) return;
     members.add(*key, name);
     offer.members = members.text();
+    for (auto& link : links) link->tell_members();
+}
+
+void Cluster::Links::tell_numbers() {
+    std::string numbers;
+    for (const auto& link : links) {
+        const auto name = tcp_endpoint(link->name()), at = tcp_endpoint(link->answering_at());
+        if (name && at && name->host != at->host) numbers += name->host + " " + at->host + "\n";
+    }
+    if (std::exchange(offer.numbers, numbers) == numbers) return;
     for (auto& link : links) link->tell_members();
 }
 
@@ -204,6 +215,7 @@ void Cluster::Links::tell_changes() {
         changed |= state == State::ready || was_there;
     }
     if (!changed) return;
+    tell_numbers();
     plan = plan_for(offers(true));
     Message message;
     message.type = Message::Type::plan;

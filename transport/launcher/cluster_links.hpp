@@ -54,6 +54,8 @@ struct Cluster::Links {
     }
     void call(const std::string& endpoint, const HostKey& key);
     void add(const std::string& name, std::unique_ptr<HostConnection> connection, const HostKey& key);
+    // Hosts may not know the names of others as we do.
+    void tell_numbers();
     // Hosts are there, but they and we don't know each other's keys.
     bool all_unknown() const;
 

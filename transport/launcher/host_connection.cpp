@@ -11,19 +11,24 @@ constexpr auto old_line_lasts = std::chrono::seconds(10);  // for replies that a
 
 CalledConnection::CalledConnection(const SocketContext& context, std::string endpoint, std::optional<LineKeys> keys)
     : context_(context), endpoint_(std::move(endpoint)), keys_(std::move(keys)) {
-    for (auto* lane : {&work_, &files_}) connect(*lane);
+    work_.line.emplace(context_, endpoint_, keys_, Caller::Handshakes::noted);
+    open(files_);
 }
 
-void CalledConnection::connect(Lane& lane) {
-    lane = Lane{unconnected_asking_socket(context_, endpoint_, keys_), false};
-    if (&lane == &work_ || &lane == &next_) note_handshakes(context_, *lane.socket);
-    lane.socket->connect(endpoint_);
+// Behind two addresses of a name may be two hosts.
+std::string CalledConnection::endpoint_of(const Lane& lane) const {
+    if (&lane == &work_) return endpoint_;
+    return work_.line ? work_.line->answering_at() : std::string();
 }
 
 bool CalledConnection::open(Lane& lane) {
-    if (lane.socket) return true;
+    if (lane.line) return true;
+    const auto endpoint = endpoint_of(lane);
+    if (endpoint.empty()) return false;
     try {
-        connect(lane);
+        lane = {};
+        lane.line.emplace(context_, endpoint, keys_,
+                          &lane == &files_ ? Caller::Handshakes::ignored : Caller::Handshakes::noted);
         return true;
     } catch (const SocketError&) {  // out of descriptors, say
         lane = {};
@@ -31,13 +36,18 @@ bool CalledConnection::open(Lane& lane) {
     }
 }
 
+void CalledConnection::tick(std::chrono::steady_clock::time_point now) {
+    for (auto* lane : {&work_, &files_, &next_, &old_})
+        if (lane->line) lane->line->tick(now);
+}
+
 bool CalledConnection::send(Frames& frames, bool files) {
     auto& lane = files ? files_ : work_;
-    return open(lane) && lane.socket->send(frames);
+    return open(lane) && lane.line->send(frames);
 }
 
 std::optional<Frames> CalledConnection::Lane::receive() {
-    auto frames = socket ? socket->receive() : std::nullopt;
+    auto frames = line ? line->receive() : std::nullopt;
     if (frames && is_empty(*frames) && !std::exchange(greeted, true)) return receive();
     return frames;
 }
@@ -49,23 +59,21 @@ std::optional<Frames> CalledConnection::receive() {
 }
 
 std::optional<Handshake> CalledConnection::look_at_handshake() {
-    return work_.socket ? last_handshake(*work_.socket) : std::nullopt;
+    return work_.line ? work_.line->look_at_handshake() : std::nullopt;
 }
 
-void CalledConnection::open_next() {
-    if (!next_.socket) open(next_);
-}
+void CalledConnection::open_next() { open(next_); }
 
 bool CalledConnection::send_on_next(Frames& frames) {
-    if (!next_.socket || !next_.socket->send(frames)) return false;
+    if (!next_.line || !next_.line->send(frames)) return false;
     old_ = std::exchange(work_, std::exchange(next_, {}));
     old_since_ = std::chrono::steady_clock::now();
     return true;
 }
 
 bool CalledConnection::has_old(std::chrono::steady_clock::time_point now) {
-    if (old_.socket && now - old_since_ > old_line_lasts) old_ = {};
-    return old_.socket.has_value();
+    if (old_.line && now - old_since_ > old_line_lasts) old_ = {};
+    return old_.line.has_value();
 }
 
 void CalledConnection::renew() {
@@ -76,7 +84,7 @@ void CalledConnection::renew() {
 
 void CalledConnection::watch(Poll& poll) const {
     for (const auto* lane : {&work_, &files_, &next_, &old_})
-        if (lane->socket) poll.add(*lane->socket);
+        if (lane->line) lane->line->watch(poll);
 }
 
 bool JoinedConnection::send(Frames& frames, bool) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "transport/zmq/caller.hpp"
 #include "transport/zmq/handshake.hpp"
 #include "transport/zmq/poll.hpp"
 #include "transport/zmq/socket.hpp"
@@ -34,11 +35,17 @@ public:
     virtual std::optional<Handshake> look_at_handshake() { return std::nullopt; }
     /// Whom it expects at the other end, and who we are there; none: neither has a key.
     virtual std::optional<LineKeys> keys() const { return std::nullopt; }
+    /// Calls anew where it is time to. To be called several times a second.
+    virtual void tick(std::chrono::steady_clock::time_point) {}
+    /// Why the host can't even be called, as far as that is known; "": nothing is known.
+    virtual std::string trouble() const { return {}; }
+    /// Where the host answers, in numbers; "": it doesn't, or isn't called.
+    virtual std::string answering_at() const { return {}; }
     /// Adds the sockets of its own.
     virtual void watch(Poll& poll) const = 0;
 };
 
-/// The launcher calls the host at its endpoint.
+/// The launcher calls the host at its endpoint. Of several addresses, all lines go to the one that answers first.
 class CalledConnection final : public HostConnection {
 public:
     /// Throws SocketError.
@@ -52,16 +59,19 @@ public:
     bool send_on_next(Frames& frames) override;
     bool has_old(std::chrono::steady_clock::time_point now) override;
     std::optional<LineKeys> keys() const override { return keys_; }
+    void tick(std::chrono::steady_clock::time_point now) override;
+    std::string answering_at() const override { return work_.line ? work_.line->answering_at() : std::string(); }
+    std::string trouble() const override { return work_.line ? work_.line->trouble() : std::string(); }
 
 private:
     // Doors greet each connection with an empty message: the first is expected, others tell of a cut.
     struct Lane {
-        std::optional<Socket> socket{};  // none: the system had none to give; tried again when it is needed
+        std::optional<Caller> line{};  // none: the system had none to give; tried again when it is needed
         bool greeted = false;
         std::optional<Frames> receive();
     };
     bool open(Lane& lane);
-    void connect(Lane& lane);
+    std::string endpoint_of(const Lane& lane) const;
     const SocketContext& context_;
     std::string endpoint_;
     std::optional<LineKeys> keys_;

@@ -13,14 +13,19 @@ std::string HostLink::trouble() const {
         case State::greeted:
             return "looks at the job";
         default:
-            return "does not answer";
+            return unanswered();
     }
+}
+
+std::string HostLink::unanswered() const {
+    const auto why = silence();
+    return why.empty() ? "does not answer" : "does not answer: " + why;
 }
 
 std::string HostLink::words() const {
     switch (state_) {
         case State::calling:
-            return reason_.empty() ? "does not answer" : "is lost: " + reason_;
+            return reason_.empty() ? unanswered() : "is lost: " + reason_;
         case State::greeted:
             return reason_.empty() ? "is greeted" : "is busy: " + reason_;
         case State::sending:

@@ -100,6 +100,10 @@ public:
     virtual std::string title() const { return name_; }
     std::string words() const;
     std::string trouble() const;
+    /// Where it answers, in numbers; "": that isn't known.
+    virtual std::string answering_at() const { return {}; }
+    /// Why it doesn't answer, where that is known.
+    virtual std::string silence() const { return {}; }
     virtual std::string ready_words() const { return name_ + " is ready"; }
 
     /// Adds what it waits for.
@@ -133,6 +137,8 @@ public:
     virtual Counters wait_for_end() = 0;
 
 protected:
+    std::string unanswered() const;
+
     std::string name_;
     State state_ = State::calling;
     std::string reason_;

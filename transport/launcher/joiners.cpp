@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/base/error.hpp"
+#include "core/base/ip_address.hpp"
 #include "transport/launcher/cluster.hpp"
 
 namespace lightnet {
@@ -17,11 +17,14 @@ constexpr std::size_t most_joined = 4096;
 constexpr auto joined_lease = std::chrono::milliseconds(1500);
 constexpr std::size_t longest_name = 200;
 
-// Where a host that listens on all its addresses can be called: at the one from which it dialled in.
+// Where a host that listens on all its addresses can be called: at the one from which it dialled in. "": it listens in
+// one family, and came by the other.
 std::string callable(const std::string& endpoint, const std::string& address) {
-    const std::string all = "tcp://0.0.0.0:";
-    if (!endpoint.starts_with(all) || address.empty()) return endpoint;
-    return "tcp://" + address + ":" + endpoint.substr(all.size());
+    const auto parts = tcp_endpoint(endpoint);
+    const auto number = parts ? ip_address(parts->host) : std::nullopt, from = ip_address(address);
+    if (!number || !number->is_unspecified() || !from) return endpoint;
+    if (from->six && !number->six) return {};
+    return TcpEndpoint{address, parts->port}.text();
 }
 
 // A name that can't be taken for an endpoint, nor for the launcher.
@@ -41,13 +44,9 @@ Joiners::Joiners(const SocketContext& context, const std::string& endpoint, Door
 Joiners::Joiners(const SocketContext& context, const std::string& endpoint, std::optional<Pass> pass,
                  std::optional<Door> door)
     : pass_(std::move(pass)), door_(std::move(door)), keeper_(context, keys_of_door()), socket_(door_socket(context)) {
-    try {
-        keeper_.guard(socket_);
-        socket_.bind(endpoint);
-        keeper_.try_out(socket_);
-    } catch (const SocketError& error) {
-        throw Error(endpoint, std::string("can't listen there: ") + error.what());
-    }
+    keeper_.guard(socket_);
+    listen(socket_, context, endpoint);
+    keeper_.try_out(socket_);
 }
 
 std::optional<Doorkeeper::Keys> Joiners::keys_of_door() {
@@ -135,7 +134,7 @@ bool Joiners::control(Frames& frames, const Sender& sender, const Handlers& hand
 
 bool Joiners::take_join(const std::string& route, const Fields& fields, const std::string& address,
                         const Sender& sender, const Handlers& handlers) {
-    const auto& endpoint = fields.text("endpoint");
+    const auto endpoint = callable(fields.text("endpoint"), address);
     if (!is_expected(fields)) {
         challenge(route, fields, address, handlers);
         return fields.number("process") != 0;
@@ -144,9 +143,11 @@ bool Joiners::take_join(const std::string& route, const Fields& fields, const st
         if (fields.number("process")) join(route, fields, sender, handlers);
         return fields.number("process") != 0;
     }
-    if (!endpoint.starts_with("tcp://")) return false;
+    const auto parts = tcp_endpoint(endpoint);
+    if (!parts || !ip_address(parts->host))
+        return false;  // a host knows where it listens: no names are looked up for it
     try {
-        handlers.call(callable(endpoint, address), sender.key);
+        handlers.call(endpoint, sender.key);
     } catch (const SocketError&) {  // not an endpoint at all
         return false;
     }

@@ -5,7 +5,6 @@
 #include "core/base/error.hpp"
 #include "transport/wire/packet.hpp"
 #include "transport/zmq/poll.hpp"
-#include "transport/zmq/socket.hpp"
 
 namespace lightnet {
 namespace {
@@ -23,7 +22,7 @@ std::chrono::nanoseconds wall_time() { return std::chrono::system_clock::now().t
 class Asker {
 public:
     Asker(const SocketContext& context, const AskedHost& host, Clock::time_point end)
-        : socket_(asking_socket(context, host.endpoint, host.keys)), end_(end) {}
+        : host_(host), line_(context, host.endpoint, host.keys, Caller::Handshakes::noted), end_(end) {}
 
     struct Trip {
         Fields fields;
@@ -35,7 +34,7 @@ public:
         Fields question;
         if (more > 0) question.set("load", std::string(more, 'x'));
         auto frames = frames_of(packet::pack(Type::status, 0, question));
-        while (!socket_.send(frames)) {
+        while (!line_.send(frames)) {
             if (Clock::now() > end_) return std::nullopt;
             wait();
         }
@@ -43,7 +42,7 @@ public:
         const auto begin_wall = wall_time();
         while (Clock::now() < end_) {
             wait();
-            while (auto answer = socket_.receive())
+            while (auto answer = line_.receive())
                 if (auto fields = state_in(*answer)) {
                     const std::chrono::nanoseconds taken = Clock::now() - begin;
                     return Trip{std::move(*fields), taken, begin_wall + taken / 2};
@@ -52,11 +51,18 @@ public:
         return std::nullopt;
     }
 
+    HostAnswer no_answer() const { return lightnet::no_answer(host_, line_, seen_, abandoned_); }
+
 private:
     void wait() {
         Poll poll;
-        poll.add(socket_);
+        line_.watch(poll);
         poll.wait(std::chrono::milliseconds(5));
+        line_.tick(Clock::now());
+        const auto handshake = line_.look_at_handshake();
+        if (!handshake) return;
+        seen_ = handshake;
+        abandoned_ = *seen_ == Handshake::abandoned ? abandoned_ + 1 : 0;
     }
     static std::optional<Fields> state_in(Frames& frames) {
         if (frames.size() != 2) return std::nullopt;  // the greeting
@@ -65,19 +71,25 @@ private:
         return packet::unpack_fields(bytes_of(frames[1]));
     }
 
-    Socket socket_;
+    const AskedHost& host_;
+    Caller line_;
+    std::optional<Handshake> seen_{};
+    int abandoned_ = 0;
     Clock::time_point end_;
 };
 
 HostProbe probe(const SocketContext& context, const AskedHost& host, std::chrono::milliseconds patience) {
     HostProbe found;
-    found.answer = {host.endpoint, false, host.endpoint, "does not answer", {}, {}, {}};
     Asker asker(context, host, Clock::now() + patience);
     for (int i = 0; i < trips; ++i) {
         const auto trip = asker.ask(0);
-        if (!trip) return found;
+        if (!trip) {
+            found.answer = asker.no_answer();
+            return found;
+        }
         if (i > 0 && trip->taken >= found.round_trip) continue;
         found.round_trip = trip->taken;
+        found.answer.asked = host.endpoint;
         found.answer.name = trip->fields.text("name"), found.answer.state = trip->fields.text("state");
         found.answer.machine = machine_from(trip->fields);
         found.answer.places = trip->fields.number("places");

@@ -73,7 +73,8 @@ Fields RemoteHost::job_with(const std::string& plan) const {
         .set("plan", plan)
         .set("you", name_)
         .set("who", offer_.who)
-        .set("members", offer_.members);
+        .set("members", offer_.members)
+        .set("numbers", offer_.numbers);
 }
 
 // A connection never gets new keys, so it gets a successor: the host is begun with on that as if it had been lost, and
@@ -94,6 +95,7 @@ void RemoteHost::look_at_line(Time now, const ExpectedPlan& plan) {
 
 void RemoteHost::tick(Time now, const ExpectedPlan& plan) {
     if (state_ == State::refused) return;
+    connection_->tick(now);
     look_at_handshake(now);
     look_at_line(now, plan);
     if (next_renewal_ && now >= *next_renewal_) {
@@ -354,7 +356,7 @@ void RemoteHost::request_resend() {
 // Who is not told now is told when it is begun with.
 void RemoteHost::tell_members() {
     const bool begun = state_ != State::calling && state_ != State::greeted && state_ != State::refused;
-    if (begun) send(Type::members, Fields{}.set("members", offer_.members));
+    if (begun) send(Type::members, Fields{}.set("members", offer_.members).set("numbers", offer_.numbers));
 }
 
 void RemoteHost::use(const WrittenPlan& plan) { send(Type::plan, Fields{}.set("plan", plan.text)); }

@@ -29,6 +29,7 @@ struct RunOffer {
     std::map<Hash, Bytes> blobs;
     std::chrono::milliseconds line_life{};  // after which a line with keys gets new ones
     std::string members{};                  // keys of all its hosts, see AllowList; changes as they come
+    std::string numbers{};                  // addresses of those that have names; likewise
 };
 
 /// Greets a host, sends it the job and the files that it lacks, waits until its places are ready, and keeps its lease:
@@ -45,6 +46,8 @@ public:
     HostFigures figures() const override { return figures_; }  // the same
     std::uint64_t renewed_lines() const override { return renewed_lines_; }
     void watch(Poll& poll) override { connection_->watch(poll); }
+    std::string answering_at() const override { return connection_->answering_at(); }
+    std::string silence() const override { return connection_->trouble(); }
     void tick(Time now, const ExpectedPlan& plan) override;
     bool receive(Time now, const Handlers& handlers) override;
     bool send(Message& message, std::uint32_t place) override;

@@ -9,6 +9,7 @@
 #include <boost/asio.hpp>
 
 #include "core/base/error.hpp"
+#include "core/base/ip_address.hpp"
 
 namespace lightnet {
 namespace {
@@ -92,10 +93,9 @@ private:
 };
 
 Tcp::endpoint address_in(const std::string& endpoint) {
-    const auto colon = endpoint.rfind(':');
-    const std::string tcp = "tcp://";
-    return {asio::ip::make_address(endpoint.substr(tcp.size(), colon - tcp.size())),
-            static_cast<unsigned short>(std::stoi(endpoint.substr(colon + 1)))};
+    const auto parts = tcp_endpoint(endpoint);
+    if (!parts || !ip_address(parts->host)) throw Error(endpoint, "is no address in numbers");
+    return {asio::ip::make_address(parts->host), static_cast<unsigned short>(std::stoi(parts->port))};
 }
 
 }  // namespace

@@ -1,21 +1,15 @@
 #include "transport/wire/loopback.hpp"
 
-#include <arpa/inet.h>
-
-#include <cstdint>
+#include "core/base/ip_address.hpp"
 
 namespace lightnet {
 
 bool stays_on_this_machine(std::string_view endpoint) {
-    constexpr std::string_view scheme = "tcp://";
     if (endpoint.starts_with("ipc://")) return true;
-    if (!endpoint.starts_with(scheme)) return false;
-    endpoint.remove_prefix(scheme.size());
-    const std::string host(endpoint.substr(0, endpoint.rfind(':')));
-    in_addr address{};
-    constexpr std::uint32_t loopback = 127;
-    if (inet_pton(AF_INET, host.c_str(), &address) == 1) return ntohl(address.s_addr) >> 24 == loopback;
-    return host == "localhost" || host == "[::1]";
+    const auto parts = tcp_endpoint(endpoint);
+    if (!parts) return false;
+    const auto address = ip_address(parts->host);
+    return address ? address->is_loopback() : parts->host == own_machine;
 }
 
 std::string beyond_this_machine(const std::string& what, const std::string& with_keys) {

@@ -47,7 +47,7 @@ enum class Type : std::uint8_t {
     hello = 16,  // version, build, isa
     welcome,     //                             places, process, fingerprint
     refuse,      //                             text: what differs, or who is being served
-    begin,       // graph, plan, seed, rules, manifest of the scene's files, who, members
+    begin,       // graph, plan, seed, rules, manifest of the scene's files, who, members, numbers
     need,        //                             hashes that are not in the host's cache
     blob,        // hash, offset, bytes
     blob_taken,  //                             hash, offset
@@ -69,7 +69,9 @@ enum class Type : std::uint8_t {
     // anyone → a host or a launcher
     status,
     state,    // a host in words; `left` more follow
-    members,  // launcher → host: the keys of the run's hosts, see AllowList, for this run only
+    members,  // launcher → host: the keys of the run's hosts, see AllowList, and where those are that have names
+              // (numbers:
+              // "onyx1 10.0.0.11" a line), for this run only
     last = members,
 };
 

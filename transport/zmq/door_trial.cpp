@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "core/base/error.hpp"
+#include "core/base/ip_address.hpp"
 #include "transport/zmq/handshake.hpp"
 #include "transport/zmq/poll.hpp"
 #include "transport/zmq/socket.hpp"
@@ -14,10 +15,10 @@ constexpr auto patience = std::chrono::seconds(5);
 
 // From where it can be reached on this machine.
 std::string knocked_at(const std::string& endpoint) {
-    for (const auto& [all, here] : {std::pair{std::string("tcp://0.0.0.0:"), std::string("tcp://127.0.0.1:")},
-                                    std::pair{std::string("tcp://[::]:"), std::string("tcp://[::1]:")}})
-        if (endpoint.starts_with(all)) return here + endpoint.substr(all.size());
-    return endpoint;
+    const auto parts = tcp_endpoint(endpoint);
+    const auto number = parts ? ip_address(parts->host) : std::nullopt;
+    // One for all addresses takes in the old family, too, and a machine may have no other.
+    return number && number->is_unspecified() ? TcpEndpoint{"127.0.0.1", parts->port}.text() : endpoint;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/ip_address.hpp"
 #include "transport/places/descriptors.hpp"
 #include "transport/zmq/door_trial.hpp"
 
@@ -16,6 +17,12 @@ namespace {
 constexpr const char* authentication = "inproc://zeromq.zap.01";  // the name is ZeroMQ's
 constexpr int enforce_domain = 93;  // ZMQ_ZAP_ENFORCE_DOMAIN: without a doorkeeper nobody gets in; not in all headers
 constexpr std::size_t for_own_work = 64, most_let_in = 4096, least_let_in = 8;
+
+// One of the old family comes in the new one's clothes at a port for both.
+std::string usual_number(const std::string& text) {
+    const auto number = ip_address(text);
+    return number ? number->text() : text;
+}
 
 constexpr int watched = ZMQ_EVENT_ACCEPTED | ZMQ_EVENT_DISCONNECTED | ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL |
                         ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL | ZMQ_EVENT_HANDSHAKE_FAILED_AUTH;
@@ -94,7 +101,7 @@ const char* Doorkeeper::verdict(const Frames& request, std::string& who) {
     who = theirs.text();
     if (keys_->knows(theirs)) return "200";
     ++turned_away_;
-    if (!on_trial_) keys_->turned_away(theirs, text_of(request[3]));
+    if (!on_trial_) keys_->turned_away(theirs, usual_number(text_of(request[3])));
     return "400";
 }
 

@@ -4,21 +4,33 @@
 
 namespace lightnet {
 
-void note_handshakes(const SocketContext& context, Socket& socket) {
-    socket.note_events(context, ZMQ_EVENT_HANDSHAKE_SUCCEEDED | ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL |
-                                    ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL | ZMQ_EVENT_HANDSHAKE_FAILED_AUTH);
+int handshake_events() {
+    return ZMQ_EVENT_HANDSHAKE_SUCCEEDED | ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL | ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL |
+           ZMQ_EVENT_HANDSHAKE_FAILED_AUTH;
+}
+
+void note_handshakes(const SocketContext& context, Socket& socket) { socket.note_events(context, handshake_events()); }
+
+std::optional<Handshake> handshake_in(const SocketEvent& event) {
+    switch (event.number) {
+        case ZMQ_EVENT_HANDSHAKE_SUCCEEDED:
+            return Handshake::made;
+        case ZMQ_EVENT_HANDSHAKE_FAILED_AUTH:
+            return Handshake::refused;
+        case ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL:
+            return Handshake::abandoned;
+        case ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL:
+            return event.value == ZMQ_PROTOCOL_ERROR_ZMTP_MECHANISM_MISMATCH ? Handshake::mismatched
+                                                                             : Handshake::abandoned;
+        default:
+            return std::nullopt;
+    }
 }
 
 std::optional<Handshake> last_handshake(Socket& socket) {
     std::optional<Handshake> last;
-    while (const auto event = socket.next_event()) {
-        if (event->number == ZMQ_EVENT_HANDSHAKE_SUCCEEDED) last = Handshake::made;
-        if (event->number == ZMQ_EVENT_HANDSHAKE_FAILED_AUTH) last = Handshake::refused;
-        if (event->number == ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL) last = Handshake::abandoned;
-        if (event->number == ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL)
-            last = event->value == ZMQ_PROTOCOL_ERROR_ZMTP_MECHANISM_MISMATCH ? Handshake::mismatched
-                                                                              : Handshake::abandoned;
-    }
+    while (const auto event = socket.next_event())
+        if (const auto seen = handshake_in(*event)) last = seen;
     return last;
 }
 

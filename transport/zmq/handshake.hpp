@@ -19,5 +19,9 @@ enum class Handshake {
 void note_handshakes(const SocketContext& context, Socket& socket);
 /// How the last one ended since the last call; none: there was none.
 std::optional<Handshake> last_handshake(Socket& socket);
+/// How the one ended of which an event tells; none: it tells of something else.
+std::optional<Handshake> handshake_in(const SocketEvent& event);
+/// The events of which it is told.
+int handshake_events();
 
 }  // namespace lightnet

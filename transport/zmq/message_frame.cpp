@@ -7,6 +7,8 @@
 #include <new>
 #include <utility>
 
+#include "core/base/ip_address.hpp"
+
 #if defined(__SANITIZE_THREAD__)
 extern "C" void __tsan_acquire(void*);
 extern "C" void __tsan_release(void*);
@@ -86,7 +88,8 @@ const void* MessageFrame::data() const { return zmq_msg_data(const_cast<zmq_msg_
 
 std::string MessageFrame::peer_address() const {
     const char* address = zmq_msg_gets(library(), "Peer-Address");
-    return address ? address : "";
+    const auto number = ip_address(address ? address : "");  // of the old family, at a port for both
+    return number ? number->text() : address ? address : "";
 }
 
 std::string_view MessageFrame::peer_key() const {

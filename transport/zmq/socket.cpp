@@ -4,11 +4,14 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <charconv>
 #include <cstdint>
 #include <cstring>
 #include <utility>
 
+#include "core/base/ip_address.hpp"
 #include "core/base/spare_threads.hpp"
+#include "transport/address/listening.hpp"
 #include "transport/places/descriptors.hpp"
 
 namespace lightnet {
@@ -35,6 +38,28 @@ void heartbeat_options(Socket& socket) {
     socket.set(ZMQ_HEARTBEAT_TTL, time_to_live_ms);
 }
 
+IpAddress number_in(const std::string& endpoint) {
+    const auto parts = tcp_endpoint(endpoint);
+    const auto number = parts ? ip_address(parts->host) : std::nullopt;
+    if (!number) throw SocketError(EINVAL);
+    return *number;
+}
+
+std::uint16_t port_number(const std::string& port) {
+    std::uint16_t number = 0;
+    const auto [end, fault] = std::from_chars(port.data(), port.data() + port.size(), number);
+    if (fault != std::errc{} || end != port.data() + port.size()) throw SocketError(EINVAL);
+    return number;
+}
+
+ListeningPort open_port(const IpAddress& address, std::uint16_t port) {
+    try {
+        return ListeningPort(address, port);
+    } catch (const std::system_error& error) {
+        throw SocketError(error.code().value());
+    }
+}
+
 }  // namespace
 
 SocketError::SocketError(int number) : std::runtime_error(zmq_strerror(number)), number_(number) {}
@@ -44,7 +69,8 @@ bool SocketError::out_of_descriptors() const { return number_ == EMFILE || numbe
 // DECISIONS: threads-are-tried
 // The library starts its threads with the first socket, and ends the process when it gets none: they are asked for
 // beforehand, and started at once, so that nobody else of this process takes them meanwhile.
-SocketContext::SocketContext(int io_threads) {
+SocketContext::SocketContext(int io_threads, std::shared_ptr<const NameService> names)
+    : names_(std::make_unique<Resolver>(std::move(names))) {
     want_descriptors(descriptors_of_context, "a process with sockets");
     want_threads(static_cast<std::size_t>(io_threads) + threads_of_context, "a process with sockets");
     context_ = zmq_ctx_new();
@@ -108,11 +134,26 @@ std::optional<SocketEvent> Socket::next_event() {
 
 void Socket::bind(const std::string& endpoint) {
     quiet_ = false;
+    if (endpoint.starts_with("tcp://")) {
+        const auto number = number_in(endpoint);
+        const auto port = tcp_endpoint(endpoint)->port;
+        return bind(open_port(number, port == "*" ? 0 : port_number(port)), endpoint);
+    }
     if (zmq_bind(socket_, endpoint.c_str()) != 0) throw SocketError();
+}
+
+// The library itself would look at all network cards first, and end the process where it may not.
+// DECISIONS: names-are-ours
+void Socket::bind(ListeningPort port, const std::string& endpoint) {
+    set(ZMQ_USE_FD, port.descriptor());
+    if (zmq_bind(socket_, endpoint.c_str()) != 0) throw SocketError();
+    port.give_away();
+    set(ZMQ_USE_FD, -1);
 }
 
 void Socket::connect(const std::string& endpoint) {
     quiet_ = false;
+    if (endpoint.starts_with("tcp://") && number_in(endpoint).six) set(ZMQ_IPV6, 1);
     if (zmq_connect(socket_, endpoint.c_str()) != 0) throw SocketError();
 }
 

@@ -8,10 +8,13 @@
 #include <stdexcept>
 #include <string>
 
+#include "transport/address/resolver.hpp"
 #include "transport/keys/key.hpp"
 #include "transport/zmq/message_frame.hpp"
 
 namespace lightnet {
+
+class ListeningPort;
 
 /// What became of a message.
 enum class SendResult { sent, line_is_full, peer_is_gone };
@@ -35,15 +38,18 @@ class SocketContext {
 public:
     /// With room for as many sockets as the system has descriptors for. Throws Error when there are too few left for
     /// any work, or too few threads. `io_threads` 0: for sockets within the process only.
-    explicit SocketContext(int io_threads = 1);
+    /// `names`: who knows where hosts are.
+    explicit SocketContext(int io_threads = 1, std::shared_ptr<const NameService> names = system_names());
     /// Waits until all its sockets are closed.
     ~SocketContext();
     SocketContext(const SocketContext&) = delete;
     SocketContext& operator=(const SocketContext&) = delete;
     void* library() const { return context_; }
+    Resolver& names() const { return *names_; }
 
 private:
     void* context_;
+    std::unique_ptr<Resolver> names_;
 };
 
 /// What happened to a connection: a number of the library (ZMQ_EVENT_…) and a value.
@@ -60,9 +66,12 @@ public:
     Socket(Socket&& other) noexcept;
     Socket& operator=(Socket&& other) noexcept;
 
-    /// Both throw SocketError.
+    /// Both throw SocketError. Of tcp:// they take numbers only, as the library's one thread for all connections would
+    /// wait for the name server; see listen() and Caller.
     void bind(const std::string& endpoint);
     void connect(const std::string& endpoint);
+    /// Takes in callers at a port that listens already, and is this socket's from then on. Throws SocketError.
+    void bind(ListeningPort port, const std::string& endpoint);
     /// The endpoint is free for others at once; closing alone frees it later.
     void unbind(const std::string& endpoint) noexcept;
     /// Where it is bound, with the port that the system chose.
@@ -112,6 +121,9 @@ Socket answering_socket(const SocketContext& context);
 /// The same for other hosts: greets each connection with an empty message, so that a peer whose connection was cut
 /// knows that what was under way may be lost. Who does not answer its heartbeats is cut off.
 Socket door_socket(const SocketContext& context);
+/// Has a door listen at `endpoint`: an address, a name or a network card of this machine, and a port, which may be "*".
+/// Where a name has several addresses, at all of them. Throws Error with what would be right.
+void listen(Socket& door, const SocketContext& context, const std::string& endpoint);
 /// A socket that connects and asks: one peer only, sends nothing before the peer is there, says hello by itself after
 /// each reconnection. Without `keys` nothing is encrypted, and nobody knows who the other is.
 Socket asking_socket(const SocketContext& context, const std::string& endpoint,

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/base/in_quotes.hpp"
+#include "core/base/ip_address.hpp"
 #include "core/network/graph/check_params.hpp"
 #include "core/network/graph/layout.hpp"
 #include "core/network/graph/strategy.hpp"
@@ -101,20 +102,27 @@ void check_layouts(const Hosts& hosts, const Graph& graph, const Registry& regis
     }
 }
 
+// What is written in numbers can be wrong without asking anybody.
+void check_address(const EntryCheck& check, const HostEntry& entry) {
+    const auto parts = address_of(entry.endpoint);
+    if (!parts) return;
+    if (is_mistaken_number(parts->host))
+        return check.complain("no host is called " + in_quotes(parts->host) + ": it is neither an address nor a name");
+    const auto address = ip_address(parts->host);
+    if (address && address->six && address->is_link_local() && address->card.empty())
+        check.complain("such an address takes the network card that leads there, as in [" + parts->host + "%eth0]");
+}
+
 }  // namespace
 
 std::optional<Address> address_of(std::string_view endpoint) {
-    constexpr std::string_view scheme = "tcp://";
-    if (!endpoint.starts_with(scheme)) return std::nullopt;
-    endpoint.remove_prefix(scheme.size());
-    const auto colon = endpoint.rfind(':');
-    if (colon == std::string_view::npos || colon == 0) return std::nullopt;
-    const std::string_view host = endpoint.substr(0, colon), digits = endpoint.substr(colon + 1);
+    const auto parts = tcp_endpoint(endpoint);
+    if (!parts || parts->host.find('*') != std::string::npos) return std::nullopt;
+    const std::string& digits = parts->port;
     int port = 0;
-    const auto [end, fault] = std::from_chars(digits.begin(), digits.end(), port);
-    if (fault != std::errc{} || end != digits.end() || port < 1 || port > 65535) return std::nullopt;
-    if (host.find_first_of(" \t/*") != std::string_view::npos) return std::nullopt;
-    return Address{std::string(host), port};
+    const auto [end, fault] = std::from_chars(digits.data(), digits.data() + digits.size(), port);
+    if (fault != std::errc{} || end != digits.data() + digits.size() || port < 1 || port > 65535) return std::nullopt;
+    return Address{parts->host, port};
 }
 
 bool is_joining_name(std::string_view name) {
@@ -133,9 +141,12 @@ void check_hosts(const Hosts& hosts, const Graph& graph, const Registry& registr
         const EntryCheck check(entry, problems);
         if (!entry.is_here() && !address_of(entry.endpoint) && !is_joining_name(entry.endpoint))
             check.complain(
-                "a host is named like tcp://host:7777 (when it joins by itself, like onyx1; this process is called "
+                "a host is named like tcp://host:7777 or tcp://[fd00::7]:7777 (when it joins by itself, like onyx1; "
+                "this process is called "
                 "here)");
-        if (!entry.is_here() && !seen.insert(entry.endpoint).second) check.complain("the host stands here twice");
+        check_address(check, entry);
+        if (!entry.is_here() && !seen.insert(usual_text(entry.endpoint)).second)
+            check.complain("the host stands here twice");
         if (entry.places < 0 || entry.places > most_places)
             check.complain("'places' must be 1 … " + std::to_string(most_places));
         for (const auto& [name, count] : entry.replicas) {

@@ -19,7 +19,7 @@ void check_hosts(const Hosts& hosts, const Graph& graph, const Registry& registr
 
 /// Host and port of "tcp://host:port"; empty where it isn't one.
 struct Address {
-    std::string host;
+    std::string host;  // without brackets
     int port = 0;
 };
 std::optional<Address> address_of(std::string_view endpoint);
