@@ -124,7 +124,7 @@ TEST_F(Metrics, TellWhatTheProcessTakes) {
 
 TEST_F(Metrics, SayWhetherItCanTakeWork) {
     metrics_with("places", 2);  // it serves
-    const auto well = ask("GET /healthz HTTP/1.0\r\nHost: here\r\n\r\n");
+    const auto well = ask("GET /healthz HTTP/1.1\r\nHost: " + own() + "\r\n\r\n");
     EXPECT_THAT(well, StartsWith("HTTP/1.1 200"));
     EXPECT_THAT(well, HasSubstr("\r\n\r\nok\n"));
 }
