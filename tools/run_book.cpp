@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <iostream>
 #include <iterator>
@@ -144,59 +143,6 @@ void RunBook::show(const Watcher::Hosts& hosts) {
     watcher_->progress(steps_.done(), renders ? progress_.seconds_left(Clock::now()) : std::nullopt);
     watcher_->look(film(), hosts);
     for (const auto& line : watcher_->news()) say(line);
-}
-
-void RunBook::limit_time(double seconds) {
-    if (seconds <= 0) return;
-    steps_.limit({std::chrono::duration<double>(seconds), begun_});
-    progress_.end_by(*steps_.limit().end());
-}
-
-std::optional<std::chrono::milliseconds> RunBook::time_left() const {
-    const auto end = steps_.limit().end();
-    if (!end) return std::nullopt;
-    return std::max(std::chrono::ceil<std::chrono::milliseconds>(*end - Clock::now()), std::chrono::milliseconds(0));
-}
-
-void RunBook::compare_with(ErrorCurve curve) {
-    curve_ = std::move(curve);
-    steps_.by_groups();
-}
-
-std::vector<Tile> RunBook::next_step() {
-    const auto now = Clock::now();
-    auto tiles = steps_.next(now);
-    note_error(now);
-    steps_.begin(Clock::now());
-    return tiles;
-}
-
-// Of the picture that would be written now, unless that has been noted.
-void RunBook::note_error(Clock::time_point now) {
-    const Film& film = steps_.picture();
-    if (!curve_ || film.covered() < 1) return;
-    const double samples = film.mean_samples();
-    if (report_.error && report_.error->samples == samples) return;
-    try {
-        curve_->note(samples, std::chrono::duration<double>(now - begun_).count(), film.picture(scale_));
-    } catch (const Error& error) {
-        alert(std::string("no curve of errors: ") + error.what());
-    }
-    report_.error = curve_->last();
-}
-
-std::string RunBook::end_early() {
-    const auto wanted = report_.settings["samples"];
-    steps_.end();
-    note_error(Clock::now());
-    const Film& film = steps_.picture();
-    if (film.mean_samples() == 0) return {};
-    report_.settings["samples"] = std::to_string(film.format().samples);
-    if (film.covered() < 1) return fmt::format("{:.1f} % of the picture", std::floor(1000 * film.covered()) / 10);
-    const bool even = film.complete() && !film.format().adaptive();
-    const double mean = film.mean_samples();
-    return fmt::format("{:.{}g} sample{} per pixel of {}{}", mean, even ? 10 : 4, mean == 1 ? "" : "s", wanted,
-                       even ? "" : ", on average");
 }
 
 std::string RunBook::preview_now(const std::string& exr) {

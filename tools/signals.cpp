@@ -38,9 +38,9 @@ void ask_to_stop() {
 
 std::chrono::duration<double> time_to_end(const Signals& told) {
     constexpr std::chrono::seconds patience(9);  // of Docker: ten
-    using Clock = std::chrono::steady_clock;
-    const Clock::time_point came{Clock::duration(told.came.load())};
-    return std::max<std::chrono::duration<double>>(came + patience - Clock::now(), std::chrono::seconds(0));
+    const std::chrono::steady_clock::duration came(told.came.load());
+    const auto now = std::chrono::steady_clock::now().time_since_epoch();
+    return std::max<std::chrono::duration<double>>(came + patience - now, std::chrono::seconds(0));
 }
 
 const Signals& watch_signals() {
