@@ -120,6 +120,8 @@ TEST(RunTableOfAReport, HasItsHostsAndNodes) {
     EXPECT_EQ(table.hosts[0].parts[0], 0.5);
     EXPECT_FALSE(table.hosts[0].there);
     EXPECT_THAT(to_text(table, 0, 0), HasSubstr("warning: careful"));
+    report.hosts[0].state = "takes no part: somebody who watched the run wanted it so";
+    EXPECT_FALSE(table_of_report(to_json(report)).hosts[0].there);
     EXPECT_THROW(table_of_report("{}"), Error);
     EXPECT_THROW(table_of_report("[1"), Error);
 }

@@ -147,7 +147,8 @@ RunTable table_of_report(const std::string& text) {
     if (report.has("hosts"))
         for (const auto& said : report.at("hosts").list()) {
             auto& host = hosts[said.at("host").text()];
-            host.state = said.at("state").text(), host.there = !host.state.starts_with("is lost");
+            host.state = said.at("state").text();
+            host.there = !host.state.starts_with("is lost") && !host.state.starts_with("takes no part");
             host.places = said.at("places").whole<std::uint64_t>();
         }
     for (auto& [name, host] : hosts) {
