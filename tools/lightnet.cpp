@@ -1,6 +1,7 @@
 // The launcher: the one place where all rooms meet.
 #include <exception>
 #include <iostream>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,9 @@ int perform(const std::vector<std::string>& words) try {
 } catch (const lightnet::UserError& error) {  // in what the user has settled
     std::cerr << error.what() << '\n';
     return lightnet::exit_code::usage;
+} catch (const std::bad_alloc&) {  // whose own words are none
+    std::cerr << "lightnet: there is not enough memory\n";
+    return lightnet::exit_code::failed;
 } catch (const std::exception& error) {
     std::cerr << "lightnet: " << error.what() << '\n';
     return lightnet::exit_code::failed;

@@ -7,6 +7,7 @@
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfIO.h>
+#include <ImfInputFile.h>
 #include <ImfMatrixAttribute.h>
 #include <ImfOutputFile.h>
 #include <ImfStringAttribute.h>
@@ -16,6 +17,7 @@
 #include <algorithm>
 #include <cstring>
 #include <list>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -44,6 +46,25 @@ public:
 
 private:
     std::string bytes_;
+    std::size_t at_ = 0;
+};
+
+/// The same bytes, to be looked at again.
+class Written final : public Imf::IStream {
+public:
+    explicit Written(std::string_view bytes) : IStream("picture"), bytes_(bytes) {}
+    bool read(char into[], int count) override {
+        const auto size = static_cast<std::size_t>(count);
+        if (at_ > bytes_.size() || bytes_.size() - at_ < size) throw Error("picture", "it ends early");
+        std::memcpy(into, bytes_.data() + at_, size);
+        at_ += size;
+        return at_ < bytes_.size();
+    }
+    std::uint64_t tellg() override { return at_; }
+    void seekg(std::uint64_t position) override { at_ = position; }
+
+private:
+    std::string_view bytes_;
     std::size_t at_ = 0;
 };
 
@@ -169,7 +190,12 @@ std::string exr_of(const Picture& picture) {
         file.setFrameBuffer(channels.buffer());
         file.writePixels(static_cast<int>(picture.height));
     }
-    return memory.take();
+    // The library says nothing where its compressor has no memory, and leaves lines out.
+    std::string bytes = memory.take();
+    Written written(bytes);
+    if (!Imf::InputFile(written, 0).isComplete())
+        throw Error("picture", "it could not be compressed: there is not enough memory");
+    return bytes;
 }
 
 void write_exr(const std::filesystem::path& path, const Picture& picture) { write_file(path, exr_of(picture)); }

@@ -25,7 +25,7 @@ namespace lightnet::bench {
 namespace {
 
 constexpr std::uint32_t places = 4, free_tiles = 60, long_tiles = 12;
-constexpr auto long_time = std::chrono::seconds(10);
+const auto long_time = sized(std::chrono::milliseconds(10000), std::chrono::milliseconds(100));
 
 /// Waits at tiles as if they were dear, but for the first ones.
 class Waiting final : public Renderer {
@@ -98,7 +98,8 @@ int main() {
         bench::figure("long.tiles", {bench::tiles()}, 1.34, false);  // one tile more, in a bundle with free ones
         const lightnet::test::Folder folder;
         const lightnet::Registry registry{lightnet::standard_nodes()};
-        bench::Stage stage(registry, "path_all.lua", {{"file", bench::landscape_file(folder)}, {"samples", "48"}});
+        bench::Stage stage(registry, "path_all.lua",
+                           {{"file", bench::landscape_file(folder)}, {"samples", bench::sized("48", "1")}});
         const double serial = stage.in_threads(1).rays;
         bench::figure("long.rays", {bench::rays(stage, false, serial)}, 1.01, false);
         bench::figure("long.rays_busy", {bench::rays(stage, true, serial)}, 1.01, false);
