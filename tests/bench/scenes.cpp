@@ -57,6 +57,12 @@ const std::array<Way, 2>& ways() {
     return both;
 }
 
+void make_small(Constants& constants) {
+    if (!smoke()) return;
+    for (const auto& [name, value] : Constants{{"samples", "1"}, {"photons", "2000"}, {"rays", "16"}})
+        if (constants.contains(name)) constants[name] = value;
+}
+
 // The most memory that this process has had since it was asked to forget, bytes.
 void forget_peak() { std::ofstream("/proc/self/clear_refs") << 5; }
 double peak() {
@@ -97,7 +103,7 @@ void measure_pictures(const ReferenceScene& row, const Way& way, Constants const
                       const lightnet::Picture& reference, const Registry& registry) {
     constants.merge(Constants(way.constants));
     constants.try_emplace("samples", std::to_string(row.samples));
-    if (smoke()) constants["samples"] = "1";
+    make_small(constants);
     forget_peak();
     Stage stage(registry, way.graph, constants);
     std::vector<double> errors, trimmed, means, to_target, with_loading, rates, preparing;
@@ -132,6 +138,7 @@ void measure_share(const ReferenceScene& row, const Way& way, Constants constant
     constants.merge(Constants(way.constants));
     const bool path = !way.biased;
     constants["samples"] = "1";
+    make_small(constants);
     const auto found = beside_bare_embree(registry, path ? "path_all.lua" : way.graph, constants, rounds);
     const std::string name = "scenes." + row.name + (path ? "" : "." + way.name);
     if (!found) return not_run(name, "it wants Embree 3");
