@@ -49,7 +49,7 @@ TEST_F(DaemonTest, WelcomesALauncherOfItsOwnBuild) {
 }
 
 TEST_F(DaemonTest, KeepsASignalIgnoredThatWasSoAndEndsInOrderWhenSlurmWarnsIt) {
-    Process one({"sh", "-c", "trap '' INT; exec \"$@\"", "sh", program("lightnetd"), "--listen", "tcp://127.0.0.1:*",
+    Process one({"/bin/sh", "-c", "trap '' INT; exec \"$@\"", "sh", program("lightnetd"), "--listen", "tcp://127.0.0.1:*",
                  "--places", "1", "--cache", folder / "other"});
     ASSERT_TRUE(one.wait_for("listening on ") && one.wait_for("\n")) << one.output();
     const auto from = one.output().find("tcp://");

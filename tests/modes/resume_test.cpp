@@ -129,7 +129,7 @@ TEST_F(Resume, IsNotNeededAfterASignalThatIsIgnored) {
     for (const auto& [name, number] :
          {std::pair("INT", SIGINT), std::pair("USR1", SIGUSR1), std::pair("HUP", SIGHUP)}) {
         auto all = words({"--threads", "2"});
-        all.insert(all.begin(), {"sh", "-c", std::string("trap '' ") + name + "; exec \"$@\"", "sh"});
+        all.insert(all.begin(), {"/bin/sh", "-c", std::string("trap '' ") + name + "; exec \"$@\"", "sh"});
         Process run(all);
         ASSERT_TRUE(run.wait_for("\"event\":\"progress\"")) << run.output();
         run.signal(number);
