@@ -240,6 +240,7 @@ Cluster::Options Rendering::cluster_options(const DiskFiles& files) {
         return lightnet::plan(what_.job.graph, what_.registry, whole_ ? Hosts{} : what_.request.hosts, offers);
     };
     options.say = [this](const std::string& text) { book_.say(text); };
+    options.warn = [this](const std::string& text) { book_.warn(text); };
     return options;
 }
 

@@ -1,6 +1,7 @@
 // What somebody says who is not of the run changes nothing in it.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <csignal>
 #include <fstream>
 #include <random>
@@ -83,6 +84,20 @@ TEST_F(ForeignPackets, ThatBeginRunsAreReadBesideTheServing) {
     EXPECT_LT(std::chrono::steady_clock::now() - begun, slowdown * seconds(1));
     EXPECT_EQ(stranger.receive().first, Type::broken);
     EXPECT_EQ(Process(words("picture.exr")).wait(), 0) << "and the next run is served";
+}
+
+TEST_F(ForeignPackets, AreToldOfInSoManyLinesAndNoMore) {
+    Stranger stranger(daemon.endpoint);
+    for (int i = 0; i < 300; ++i) {
+        stranger.send(packet::pack(Type::begin, 5, Fields{}.set("job", "{}").set("plan", "{}").set("you", "x")));
+        ASSERT_EQ(stranger.receive().first, Type::broken);
+    }
+    daemon.process->signal(SIGTERM);
+    ASSERT_EQ(daemon.process->wait(), 0);
+    const auto& said = daemon.process->output();
+    const auto lines = static_cast<int>(std::count(said.begin(), said.end(), '\n'));
+    EXPECT_LT(lines, 60) << said;
+    EXPECT_THAT(said, HasSubstr("more lines like 'refuses a …'"));
 }
 
 TEST_F(ForeignPackets, AreNoJobWhenTheyAreTooLong) {

@@ -9,6 +9,7 @@
 
 #include "core/base/error.hpp"
 #include "tests/support/folder.hpp"
+#include "transport/store/cache_claim.hpp"
 
 namespace lightnet::blob_cache_test {
 namespace {
@@ -46,6 +47,32 @@ TEST_F(BlobCacheTest, RefusesWhatIsNotWhatItsNameSaysAndLeavesNothing) {
     }
     cache.receive(content_hash(bytes("half"))).add(bytes("ha"));
     EXPECT_TRUE(holds_nothing(folder));
+}
+
+TEST_F(BlobCacheTest, MakesRoomForWhatComesAndLeavesWhatIsClaimed) {
+    const BlobCache cache(folder, 20);
+    const auto mine = bytes("mine......"), others = bytes("others...."), old = bytes("old.......");
+    for (const auto& blob : {mine, others, old}) cache.store(content_hash(blob), blob);
+    std::optional<CacheClaim> run(std::in_place, folder), another(std::in_place, folder);
+    run->add({content_hash(mine)});
+    another->add({content_hash(others)});
+    cache.make_room(15);
+    EXPECT_TRUE(cache.has(content_hash(mine)) && cache.has(content_hash(others)));
+    EXPECT_FALSE(cache.has(content_hash(old)));
+    another.reset();
+    cache.make_room(15);
+    EXPECT_TRUE(cache.has(content_hash(mine)));
+    EXPECT_FALSE(cache.has(content_hash(others))) << "nobody claims it any more";
+}
+
+TEST_F(BlobCacheTest, ForgetsTheClaimsOfTheDead) {
+    const BlobCache cache(folder, 5);
+    const auto blob = bytes("a mesh");
+    cache.store(content_hash(blob), blob);
+    std::ofstream(folder / "claim-1-2") << to_hex(content_hash(blob)) << "\n";
+    cache.trim();
+    EXPECT_FALSE(cache.has(content_hash(blob)));
+    EXPECT_FALSE(fs::exists(folder / "claim-1-2"));
 }
 
 TEST_F(BlobCacheTest, KeepsBytesByTheirHash) {

@@ -1,6 +1,7 @@
 // How the launcher keeps a host, with a line and a clock of the test's own.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <deque>
 #include <memory>
 #include <string>
@@ -27,6 +28,8 @@ public:
     bool send(Frames& frames, bool) override {
         if (refuses) return false;
         sent.push_back(packet::peek_header(bytes_of(frames[frames.size() - 2]))->type);
+        if (sent.back() == Type::mark && answers_marks)
+            say(packet::pack(Type::marked, packet::peek_header(bytes_of(frames[0]))->bundle));
         if (sent.back() == Type::ping) said = packet::unpack_fields(bytes_of(frames[1]))->number("sent");
         return true;
     }
@@ -47,7 +50,7 @@ public:
     std::uint64_t said = 0;  // messages so far, in the last ping
     std::deque<Frames> arriving;
     int renewed = 0;
-    bool refuses = false;
+    bool refuses = false, answers_marks = true;
     std::optional<Handshake> handshake;
     std::optional<LineKeys> line_keys;
 };
@@ -129,7 +132,10 @@ TEST_F(RemoteHostTest, CountsWhatAFullLineRefusesAndNotWhatACutOneDoes) {
     EXPECT_EQ(counters.refused_sends, 0u) << "nothing was on its way that could have filled it";
 
     line->refuses = false;
-    for (int i = 0; i < high_water_mark; ++i) ASSERT_TRUE(ask());
+    for (int i = 0; i < high_water_mark; ++i) {
+        ASSERT_TRUE(ask());
+        pass({});
+    }
     line->refuses = true;
     EXPECT_FALSE(ask());
     EXPECT_EQ(counters.refused_sends, 1u);
@@ -179,6 +185,47 @@ TEST_F(RemoteHostTest, SpeaksOfNoKeysWhereAHostHasTakenPart) {
         EXPECT_FALSE(link->unknown());
         EXPECT_THAT(link->reason(), AllOf(HasSubstr("its line may be cut"), Not(HasSubstr("key"))));
     }
+}
+
+TEST_F(RemoteHostTest, WaitsLongerForWhoIsBusyTakingIn) {
+    line->answers_marks = false;
+    become_ready();
+    const auto asks = [&] { return std::count(line->sent.begin(), line->sent.end(), Type::ask_light); };
+    for (int i = 0; i < 1000; ++i) ASSERT_TRUE(ask());
+    EXPECT_LT(asks(), 1000) << "some wait until the line has taken what is under way";
+    for (int i = 0; i < 6; ++i) pass(milliseconds(400));
+    EXPECT_EQ(link->state(), State::ready) << "a heartbeat waits behind what was sent";
+    for (int i = 0; i < 10; ++i) pass(milliseconds(400));
+    EXPECT_EQ(link->state(), State::calling) << "but not for ever";
+}
+
+TEST_F(RemoteHostTest, TakesAPartOfAMessageForASignOfLife) {
+    become_ready();
+    const std::vector<std::byte> some(1000);
+    for (std::uint64_t i = 0; i < 10; ++i) {
+        line->say(packet::pack(1, packet::Part{i * some.size(), 1'000'000, some}));
+        pass(milliseconds(1000));
+        ASSERT_EQ(link->state(), State::ready);
+    }
+}
+
+TEST_F(RemoteHostTest, SendsFilesInPiecesAsTheLineTakesThem) {
+    const auto file = std::make_shared<const std::vector<std::byte>>(3'000'000);
+    const auto hash = content_hash(*file);
+    offer.blobs[hash] = file;
+    pass({});
+    line->say(packet::pack(Type::welcome, 1, Fields{}.set("places", 2).set("process", 5)));
+    pass({});
+    line->say(packet::pack(Type::need, 1, Fields{}.set("hashes", to_hex(hash))));
+    pass({});
+    EXPECT_GT(counters.file_bytes, 0u);
+    EXPECT_LT(counters.file_bytes, 40'000u) << "nobody knows yet how fast the line is";
+    for (int i = 0; i < 1000 && link->state() == State::sending; ++i) {
+        line->say(packet::pack(Type::blob_taken, 1, Fields{}.set("hash", to_hex(hash))));
+        pass(milliseconds(1));
+    }
+    EXPECT_EQ(link->state(), State::building);
+    EXPECT_EQ(counters.file_bytes, file->size());
 }
 
 TEST_F(RemoteHostTest, KeepsAHostThatHasAllMessages) {

@@ -46,7 +46,10 @@ const std::map<std::string, Type> types{{"ask_light", Type::ask_light},
                                         {"fault", Type::fault},
                                         {"status", Type::status},
                                         {"state", Type::state},
-                                        {"members", Type::members}};
+                                        {"members", Type::members},
+                                        {"part", Type::part},
+                                        {"mark", Type::mark},
+                                        {"marked", Type::marked}};
 
 constexpr std::array parties{Party::launcher, Party::owner, Party::member, Party::host, Party::user};
 

@@ -59,8 +59,24 @@ HostDoor::Options Host::Service::door_options() const {
     return made;
 }
 
+// Strangers can have much said.
+Host::Options Host::Service::bounded(Options given) {
+    given.log = [this, tell = std::move(given.log)](const LogEntry& entry) {
+        const auto kind = kind_of_line(entry.text);
+        auto& bounds = kind == "refuses a" || kind == "turns away" ? refusals : log_bounds;
+        if (bounds.may_be_said(kind, Clock::now())) tell(entry);
+    };
+    return given;
+}
+
+void Host::Service::tell_left_out(Time now) {
+    for (auto* bounds : {&log_bounds, &refusals})
+        for (const auto& [kind, count] : bounds->left_out(now))
+            options.log({LogLevel::warning, "… and " + std::to_string(count) + " more lines like '" + kind + " …'"});
+}
+
 Host::Service::Service(Options given_options, const Registry& kinds)
-    : options(std::move(given_options)),
+    : options(bounded(std::move(given_options))),
       registry(kinds),
       cache(options.cache.empty() ? default_cache_folder() : options.cache, options.cache_size),
       rights(options.allow, options.launcher_key),
@@ -101,6 +117,7 @@ void Host::serve(const std::atomic<bool>& stop) {
         }
         s.look_at_arriving();
         s.look_at_ending();
+        s.door.go_on(now);
         if (readable.gateway) s.forward_asks();
         if (s.peers && (readable.peers || s.peers->due(now))) s.peers->tick(now);
         if (readable.news || (s.run && !s.run->serving())) s.advance();
@@ -111,18 +128,21 @@ void Host::serve(const std::atomic<bool>& stop) {
         if (s.run) s.needed = now;
         if (!s.run) s.last_scene.wait(now);
         s.show_figures(now);
+        s.tell_left_out(now);
         if (s.options.patience && now - s.needed > *s.options.patience) {
             s.options.log("nobody needs it any more");
             break;
         }
     }
     if (s.run) s.drop_run("this host is stopping");
+    s.tell_left_out(Clock::now() + std::chrono::minutes(2));  // all that there is to tell
 }
 
 bool Host::hangs() const { return !service_->background.done_within(goodbye_deadline); }
 
 void Host::Service::arrived(Frames frames) {
     const auto route = text_of(frames[0]);
+    if (run && route == launcher) heard = Clock::now();
     if (frames.size() == 2 && frames[1].size() == 0) {  // what went through the launcher may be lost
         if (gateway && route == launcher) gateway->request_resend("");
         return;
@@ -131,7 +151,7 @@ void Host::Service::arrived(Frames frames) {
     const auto header_bytes = bytes_of(frames[frames.size() - 2]);
     const auto header = packet::peek_header(header_bytes);
     const bool plain = frames.size() == 3;
-    const auto key = door.key_of(frames);
+    const auto key = door.key();
     if (header && !rights.may(key, header->type, run && header->run == run->id())) {
         ++broken_packets;
         return;
@@ -259,7 +279,7 @@ bool Host::Service::gone(Clock::time_point now) {
     if (leaving->farewell) return !run && now - *leaving->farewell > goodbye_deadline;
     if (!run) return !ending || now - leaving->since > goodbye_deadline;
     if (now - leaving->since > options.drain) return true;
-    const bool idle = answered >= given && now - leaving->last_work > quiet_before_leaving;
+    const bool idle = answered >= given && !door.waiting() && now - leaving->last_work > quiet_before_leaving;
     if (!leaving->known || !idle) return false;
     end(launcher, run->id());
     leaving->farewell = now;

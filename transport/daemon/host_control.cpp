@@ -200,7 +200,7 @@ void Host::Service::use(const Plan& plan) {
 // The launcher has begun it, or has found us again.
 void Host::Service::go_on(const std::string& route, const Plan& plan) {
     launcher = route;
-    door.count(route);
+    door.count(route, run->id());
     heard = std::chrono::steady_clock::now();
     run->expect(plan);
     peers->use(plan);
@@ -258,11 +258,13 @@ void Host::Service::stop_run(const std::string& route) {
     if (run->places()) figures.answered += run->places()->progress();
     peers.reset();
     gateway.reset();
+    door.drop_waiting();
     run->begin_to_stop();
     const auto over = std::make_shared<std::unique_ptr<HostedRun>>(std::move(run));
     const auto stop = [over, this] {
-        const auto last = std::move(*over);
+        auto last = std::move(*over);
         const auto counters = last->stop();
+        last.reset();  // it claims what it needed no more
         cache.trim();
         return counters;
     };

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/error.hpp"
+#include "core/run/runtime/job.hpp"
 
 namespace lightnet {
 namespace {
@@ -13,6 +14,8 @@ using packet::Type;
 
 constexpr auto join_interval = 500ms;
 constexpr int abandoned_for_sure = 3;  // handshakes: a line may be cut in the middle of one
+constexpr std::size_t many_lines = 256;
+constexpr auto unused_for = 10s;
 constexpr auto shortest_silence = 2000ms, longest_silence = 10'000ms;
 
 // ZeroMQ's own routes begin with a zero.
@@ -41,6 +44,7 @@ HostDoor::HostDoor(const SocketContext& context, Options options)
 std::string HostDoor::endpoint() const { return port_ ? port_->endpoint() : std::string(); }
 
 void HostDoor::dial(Time now) {
+    begin_anew(launcher_route);
     launcher_.reset();  // first: there may be no descriptors for both
     challenge_.clear();
     heard_ = dialled_ = now;
@@ -93,16 +97,14 @@ void HostDoor::look_at_handshake() {
         options_.log({LogLevel::warning, "the launcher at " + options_.join + " " + trouble});
 }
 
-std::string HostDoor::key_of(const Frames& frames) const {
-    if (text_of(frames.front()) != launcher_route) return std::string(frames.back().peer_key());
-    return options_.launcher ? options_.launcher->theirs.text() : std::string();
-}
-
 std::optional<Frames> HostDoor::from_launcher(Time now) {
     while (auto frames = launcher_->receive()) {
         heard_ = now;
         silence_ = shortest_silence;
-        if (frames->size() == 1 && is_empty(*frames)) next_join_ = {};  // a new connection: it does not know us yet
+        if (frames->size() == 1 && is_empty(*frames)) {
+            next_join_ = {};  // a new connection: it does not know us yet
+            begin_anew(launcher_route);
+        }
         frames->emplace(frames->begin(), launcher_route);
         take_challenge(*frames);
         return frames;
@@ -111,22 +113,105 @@ std::optional<Frames> HostDoor::from_launcher(Time now) {
 }
 
 std::optional<Frames> HostDoor::receive(Time now) {
-    auto frames = from_anyone(now);
-    if (frames && text_of(frames->front()) == counted_ && is_counted(*frames)) ++tally_.taken;
-    return frames;
+    while (auto frames = from_anyone(now)) {
+        auto message = take(std::move(*frames), now);
+        if (!message) continue;
+        if (text_of(message->front()) == counted_ && is_counted(*message)) ++tally_.taken;
+        return message;
+    }
+    return std::nullopt;
 }
 
 std::optional<Frames> HostDoor::from_anyone(Time now) {
     if (port_)
-        if (auto frames = port_->receive()) return frames;
+        if (auto frames = port_->receive()) {
+            key_ = frames->back().peer_key();
+            return frames;
+        }
+    key_ = options_.launcher ? options_.launcher->theirs.text() : std::string();
     return launcher_ ? from_launcher(now) : std::nullopt;
 }
 
-bool HostDoor::send(Frames& frames) {
-    if (text_of(frames.front()) == counted_ && is_counted(frames)) ++tally_.told;  // even if it is lost right here
-    if (text_of(frames.front()) != launcher_route) return port_ && port_->send(frames);
+// Puts together what comes in parts, and answers marks.
+std::optional<Frames> HostDoor::take(Frames frames, Time now) {
+    const auto header = frames.size() == 3 ? packet::peek_header(bytes_of(frames[1])) : std::nullopt;
+    if (!header || header->type < Type::part) return frames;
+    const auto route = text_of(frames[0]);
+    if (header->type == Type::part && !may_come_in_parts(frames, route)) return std::nullopt;
     frames.erase(frames.begin());
-    return launcher_ && launcher_->send(frames);
+    auto message = line_to(route, now).line.take(std::move(frames), now, [&](Frames& answer) {
+        return send_at_once(route, answer);
+    });
+    if (message) message->emplace(message->begin(), route);
+    return message;
+}
+
+// Strangers may only begin a run so, and all of them together get room for one job.
+bool HostDoor::may_come_in_parts(const Frames& frames, const std::string& route) const {
+    const auto header = packet::peek_header(bytes_of(frames[1]));
+    if (route == counted_ || (run_ && header->run == run_)) return true;
+    std::size_t room = most_job_bytes;
+    for (const auto& [other, to] : lines_) room -= std::min(room, other == counted_ ? 0 : to.line.incomplete());
+    return frames[2].size() <= room;
+}
+
+HostDoor::Line& HostDoor::line_to(const std::string& route, Time now) {
+    if (lines_.size() >= many_lines && !lines_.contains(route))
+        std::erase_if(lines_, [&](const auto& one) {
+            return one.first != counted_ && !one.second.line.waiting() && now - one.second.used > unused_for;
+        });
+    auto& line = lines_[route];
+    line.used = now;
+    return line;
+}
+
+bool HostDoor::send_at_once(const std::string& route, Frames& frames) {
+    if (route == launcher_route) return launcher_ && launcher_->send(frames);
+    if (!port_) return false;
+    frames.emplace(frames.begin(), route);
+    const auto result = port_->try_send(frames);
+    if (result == SendResult::sent) return true;
+    frames.erase(frames.begin());
+    gone_ = result == SendResult::peer_is_gone;
+    return false;
+}
+
+bool HostDoor::send(Frames& frames) {
+    const auto route = text_of(frames.front());
+    const auto now = std::chrono::steady_clock::now();
+    frames.erase(frames.begin());
+    gone_ = false;
+    auto& to = line_to(route, now).line;
+    const bool sent = to.send(frames, now, [&](Frames& packet) { return send_at_once(route, packet); });
+    if (gone_) lines_.erase(route);
+    if (!sent && !gone_ && !frames.empty()) to.put(std::move(frames));
+    return sent;
+}
+
+// Who dials anew is asked anew, too.
+void HostDoor::begin_anew(const std::string& route) {
+    const auto found = lines_.find(route);
+    if (found == lines_.end()) return;
+    found->second.line.drop_waiting();
+    found->second.line.restart();
+}
+
+void HostDoor::go_on(Time now) {
+    for (auto one = lines_.begin(); one != lines_.end();) {
+        const auto& route = one->first;
+        auto& line = one->second.line;
+        gone_ = false;
+        if (line.waiting()) line.go_on(now, [&](Frames& packet) { return send_at_once(route, packet); });
+        one = gone_ ? lines_.erase(one) : std::next(one);
+    }
+}
+
+bool HostDoor::waiting() const {
+    return std::any_of(lines_.begin(), lines_.end(), [](const auto& one) { return one.second.line.waiting(); });
+}
+
+void HostDoor::drop_waiting() {
+    for (auto& [route, to] : lines_) to.line.drop_waiting();
 }
 
 void HostDoor::send(const std::string& route, Type type, std::uint64_t run, const Fields& fields) {
@@ -157,10 +242,19 @@ void HostDoor::keep_in_touch(Time now) {
     if (!launcher_->send(frames)) next_join_ = now + 20ms;
 }
 
-void HostDoor::count(const std::string& route) {
+void HostDoor::count(const std::string& route, std::uint64_t run) {
+    run_ = run;
     if (route == counted_) return;
     counted_ = route;
     tally_ = {tally_.line + 1, 0, 0};
+    auto& line = line_to(route, std::chrono::steady_clock::now());
+    line.told_before = line.line.counted();
+}
+
+const HostDoor::Tally& HostDoor::tally() {
+    const auto found = lines_.find(counted_);
+    if (found != lines_.end()) tally_.told = found->second.line.counted() - found->second.told_before;
+    return tally_;
 }
 
 void HostDoor::let_in() {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -13,6 +14,7 @@
 #include "transport/zmq/caller.hpp"
 #include "transport/zmq/doorkeeper.hpp"
 #include "transport/zmq/handshake.hpp"
+#include "transport/zmq/paced_line.hpp"
 #include "transport/zmq/socket.hpp"
 
 namespace lightnet {
@@ -37,13 +39,19 @@ public:
 
     /// Where it listens, with the port that the system chose; empty: nowhere.
     std::string endpoint() const;
-    /// The key, as text, of whom a message came from; empty: it came without.
-    std::string key_of(const Frames& frames) const;
+    /// The key, as text, of whom the last message came from; empty: it came without.
+    const std::string& key() const { return key_; }
     /// What arrived, if anything.
     std::optional<Frames> receive(Time now);
     void send(const std::string& route, packet::Type type, std::uint64_t run, const packet::Fields& fields);
-    /// Route first.
+    /// Route first. What its line has no room for waits; false: nobody is there.
     bool send(Frames& frames);
+    /// Sends what waits, as far as there is room.
+    void go_on(Time now);
+    /// Something waits for room on its line.
+    bool waiting() const;
+    /// What waits for anybody is of a run that is over.
+    void drop_waiting();
     /// Reports to the launcher that was dialled, until it answers and from time to time; dials anew when it is silent.
     void keep_in_touch(Time now);
     /// Lets in who waits, as long as there is room for connections. To be called before receive().
@@ -55,16 +63,27 @@ public:
         std::uint64_t line = 0;  // another number: another connection, counted from nothing
         std::uint64_t taken = 0, told = 0;
     };
-    /// From now on this is that connection.
-    void count(const std::string& route);
-    const Tally& tally() const { return tally_; }
+    /// From now on this is that connection; `run` is known to those who take part in it.
+    void count(const std::string& route, std::uint64_t run);
+    const Tally& tally();
 
 private:
+    // To whoever has a route to here, and when it was last used.
+    struct Line {
+        PacedLine line;
+        std::uint64_t told_before = 0;  // messages, before they were counted
+        Time used{};
+    };
     void dial(Time now);
     void take_challenge(const Frames& frames);
     void look_at_handshake();
     std::optional<Frames> from_launcher(Time now);
     std::optional<Frames> from_anyone(Time now);
+    std::optional<Frames> take(Frames frames, Time now);
+    bool may_come_in_parts(const Frames& frames, const std::string& route) const;
+    Line& line_to(const std::string& route, Time now);
+    void begin_anew(const std::string& route);
+    bool send_at_once(const std::string& route, Frames& frames);
 
     const SocketContext& context_;
     Options options_;
@@ -77,7 +96,11 @@ private:
     bool turned_down_ = false;
     Time heard_{}, dialled_{}, next_join_{};
     std::chrono::milliseconds silence_;  // after which it dials anew
-    std::string counted_;                // route
+    std::string key_;
+    std::map<std::string, Line> lines_;  // by route
+    bool gone_ = false;                  // it was, when something was last sent to somebody
+    std::uint64_t run_ = 0;
+    std::string counted_;  // route
     Tally tally_;
 };
 

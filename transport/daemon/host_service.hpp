@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/log_bounds.hpp"
 #include "transport/daemon/background_work.hpp"
 #include "transport/daemon/host.hpp"
 #include "transport/daemon/host_door.hpp"
@@ -25,9 +26,12 @@ namespace lightnet {
 
 /// The host itself. What it serves is one run at a time; all of it belongs to the thread of serve().
 struct Host::Service {
+    static constexpr double lines_per_minute = 300;  // of one kind: a loop of short runs says two in .2 s
+    static constexpr double refusals_per_minute = 20;
     using Time = std::chrono::steady_clock::time_point;
     Options options;
     const Registry& registry;
+    LogBounds log_bounds{lines_per_minute}, refusals{refusals_per_minute};
     BlobCache cache;
     Machine machine = this_machine();
     std::uint64_t process = process_number();
@@ -86,6 +90,7 @@ struct Host::Service {
     BackgroundWork background;  // last: what it does looks at the rest
 
     Service(Options given, const Registry& kinds);
+    Options bounded(Options given);
     HostDoor::Options door_options() const;
     void arrived(Frames frames);
     void damaged(const std::string& route);
@@ -124,6 +129,7 @@ struct Host::Service {
     void forward_asks();
     void forward_to_launcher(Frames& frames);
     void show_figures(Time now);
+    void tell_left_out(Time now);
     void add_ended(const Counters& counters);
     PlaceThreads::SoFar so_far() const;
     void leave(Time now, bool for_good);

@@ -7,6 +7,17 @@
 #include "core/base/unwanted.hpp"
 
 namespace lightnet {
+namespace {
+
+// Sizes come from the network.
+std::uint64_t plus(std::uint64_t a, std::uint64_t b) { return a + std::min(b, ~std::uint64_t{0} - a); }
+
+std::string in_words(std::uint64_t bytes) {
+    if (bytes < 1 << 20) return std::to_string(bytes) + " bytes";
+    return std::to_string(bytes >> 20) + " MiB";
+}
+
+}  // namespace
 
 HostedRun::HostedRun(std::shared_ptr<const SocketContext> context, BlobCache& cache, const Registry& registry,
                      LastScene& last_scene, Assignment assignment)
@@ -14,29 +25,58 @@ HostedRun::HostedRun(std::shared_ptr<const SocketContext> context, BlobCache& ca
       cache_(cache),
       registry_(registry),
       last_scene_(last_scene),
-      assignment_(std::move(assignment)) {
+      assignment_(std::move(assignment)),
+      claim_(cache.folder()) {
+    claim_files();
     expect(assignment_.plan);
     // DECISIONS: last-scene-stays
     last_ = last_scene_.take(scene_source(assignment_.job, registry_));
     if (goes_on_from_kept(assignment_.job.graph, registry_)) last_.reset();
     has_last_scene_ = last_ != nullptr;
-    looking_ = background_.start([this] {
+    looking_ = background_.start([this, room = room_] {
         std::set<Hash> missing;
         if (has_last_scene_) return missing;
         for (const auto& file : assignment_.job.files)
             if (!cache_.has(file.hash)) missing.insert(file.hash);
+        cache_.make_room(room);
         return missing;
     });
 }
 
-std::uint64_t HostedRun::size_of(const Hash& hash) const {
-    for (const auto& file : assignment_.job.files)
-        if (file.hash == hash) return file.size;
-    return 0;
+// DECISIONS: caches-are-claimed
+void HostedRun::claim_files() {
+    std::set<Hash> all;
+    for (const auto& file : assignment_.job.files) {
+        auto& size = sizes_[file.hash];
+        needed_ = plus(needed_, file.size - std::min(file.size, size));
+        size = std::max(size, file.size);
+        all.insert(file.hash);
+    }
+    if (needed_ > cache_.most_bytes())
+        throw Error("the files of this run have " + in_words(needed_) + ", and the cache of this host may hold " +
+                    in_words(cache_.most_bytes()) + " (lightnetd --cache-size)");
+    room_ = needed_;
+    claim_.add(all);
+}
+
+// Room is made in steps, as there may be many results.
+void HostedRun::claim_result(const Hash& hash, std::uint64_t size) {
+    constexpr std::size_t most_blobs = 1 << 20;
+    if (!sizes_.emplace(hash, size).second) return;
+    needed_ = plus(needed_, size);
+    if (needed_ > cache_.most_bytes() || sizes_.size() > most_blobs)
+        throw Error("the files of this run and what its nodes have prepared have " + in_words(needed_) +
+                    ", and the cache of this host may hold " + in_words(cache_.most_bytes()) +
+                    " (lightnetd --cache-size)");
+    claim_.add({hash});
+    if (needed_ <= room_) return;
+    room_ = std::min(cache_.most_bytes(), std::max(needed_, 2 * room_));
+    making_room_.push_back(background_.start([this, room = room_] { cache_.make_room(room); }));
 }
 
 void HostedRun::expect(const Hash& hash, std::uint64_t size) {
     if (results_->in_memory(hash)) return found_.push_back({hash, true});
+    claim_result(hash, size);
     expected_[hash].size = size;
     if (!looked_for_.contains(hash)) looked_for_[hash] = background_.start([this, hash] { return cache_.read(hash); });
 }
@@ -59,8 +99,8 @@ std::vector<std::pair<Hash, bool>> HostedRun::found() {
 }
 
 void HostedRun::take_result(const packet::Piece& piece, IncomingResult& result) {
-    constexpr std::uint64_t believed = std::uint64_t{4} << 30;  // room is taken for so much before it is there
-    if (piece.offset == 0) {                                    // from the beginning, perhaps again
+    constexpr std::uint64_t believed = std::uint64_t{64} << 20;  // room is taken for so much before it is there
+    if (piece.offset == 0) {                                     // from the beginning, perhaps again
         result.bytes = std::make_shared<std::vector<std::byte>>();
         result.bytes->reserve(std::min(result.size, believed));
         result.hasher.emplace();
@@ -89,9 +129,9 @@ bool HostedRun::take_blob(const packet::Piece& piece) {
     if (found == incoming_.end()) found = incoming_.emplace(hash, cache_.receive(hash)).first;
     auto& blob = found->second;
     if (offset != blob.size()) return offset < blob.size();  // pieces come in order; some may come again
-    if (bytes.size() > size_of(hash) - offset) throw Error("a file of the scene is longer than it was said to be");
+    if (bytes.size() > sizes_.at(hash) - offset) throw Error("a file of the scene is longer than it was said to be");
     blob.add(bytes);
-    if (blob.size() < size_of(hash)) return true;
+    if (blob.size() < sizes_.at(hash)) return true;
     blob.finish();
     incoming_.erase(hash);
     missing_.erase(hash);

@@ -17,6 +17,7 @@
 #include "transport/daemon/last_scene.hpp"
 #include "transport/places/place_threads.hpp"
 #include "transport/store/blob_cache.hpp"
+#include "transport/store/cache_claim.hpp"
 #include "transport/store/results.hpp"
 #include "transport/wire/packet.hpp"
 #include "transport/zmq/zmq_place_transport.hpp"
@@ -25,7 +26,8 @@ namespace lightnet {
 
 /// Looks for the files of a job in the cache, takes in those that are missing, builds the network, and starts the
 /// places. If it has the scene of the run before, and that is its own, no file is needed. Used by one thread, which
-/// must stay free for heartbeats: what takes time happens in the background.
+/// must stay free for heartbeats: what takes time happens in the background. What it puts into the cache is no more
+/// than that may hold.
 class HostedRun {
 public:
     struct Assignment {
@@ -49,7 +51,8 @@ public:
     void expect_files_anew() { incoming_.clear(); }
     /// Takes a piece of a file. True: it is here now. Throws Error when a whole file is not what it was named.
     bool take_blob(const packet::Piece& piece);
-    /// Bytes that a step will name are to come, unless the cache has them: see found().
+    /// Bytes that a step will name are to come, unless the cache has them: see found(). Throws Error when they are too
+    /// many.
     void expect(const Hash& hash, std::uint64_t size);
     /// What has become of bytes that were expected, since the last call: here, or lacking.
     std::vector<std::pair<Hash, bool>> found();
@@ -92,7 +95,8 @@ private:
 
     void take_plan(const Plan& plan);
     void begin_to_build();
-    std::uint64_t size_of(const Hash& hash) const;
+    void claim_files();
+    void claim_result(const Hash& hash, std::uint64_t size);
     void take_result(const packet::Piece& piece, IncomingResult& result);
 
     std::shared_ptr<const SocketContext> context_;
@@ -105,6 +109,10 @@ private:
     bool has_last_scene_ = false;
     std::future<std::set<Hash>> looking_;
     std::set<Hash> missing_;
+    CacheClaim claim_;
+    std::map<Hash, std::uint64_t> sizes_;  // of all that the run needs
+    std::uint64_t needed_ = 0, room_ = 0;  // bytes: of these; that room was made for
+    std::vector<std::future<void>> making_room_;
     std::map<Hash, BlobCache::Incoming> incoming_;
     std::future<std::shared_ptr<const Network>> building_;
     std::shared_ptr<Results> results_ = std::make_shared<Results>(cache_);  // of preparing; places read them

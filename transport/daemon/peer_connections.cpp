@@ -12,6 +12,8 @@ namespace {
 
 constexpr auto unreachable_after = std::chrono::seconds(1);  // then the launcher passes on what is for that host
 constexpr auto look_interval = std::chrono::milliseconds(200);
+constexpr auto call_interval = std::chrono::milliseconds(500);
+constexpr auto lease = std::chrono::milliseconds(2500);
 
 }  // namespace
 
@@ -36,7 +38,8 @@ void PeerConnections::open(const std::string& host, Peer& to) {
     to.line.emplace(context_, host, handlers_.keys(host));
     const auto parts = tcp_endpoint(host);
     if (const auto heard = heard_.find(parts ? parts->host : host); heard != heard_.end()) to.line->hear(heard->second);
-    to.opened = std::chrono::steady_clock::now();
+    to.paced.restart();
+    to.opened = to.heard = to.called = std::chrono::steady_clock::now();
 }
 
 void PeerConnections::hear(const std::string& lines) {
@@ -51,17 +54,17 @@ void PeerConnections::hear(const std::string& lines) {
             to.line->hear(heard_[parts->host]);
 }
 
-bool PeerConnections::send(Peer& to, Frames& frames) {
-    Frames packet;
-    packet.emplace_back(seal({me_, text_of(frames[0])}));
-    for (const auto i : {2u, 3u}) packet.push_back(frames[i].shared());
-    return to.line->send(packet);
+PacedLine::Send PeerConnections::socket_of(Peer& to) {
+    return [&to](Frames& frames) { return to.line->send(frames); };
 }
 
 void PeerConnections::ask(Frames frames) {
     auto& to = peer(text_of(frames[1]));
     if (to.relayed) return handlers_.launcher(frames);
-    if (!to.waiting.empty() || !send(to, frames)) to.waiting.push_back(std::move(frames));
+    Frames packet;
+    packet.emplace_back(seal({me_, text_of(frames[0])}));
+    for (const auto i : {2u, 3u}) packet.push_back(std::move(frames[i]));
+    if (!to.paced.send(packet, std::chrono::steady_clock::now(), socket_of(to))) to.paced.put(std::move(packet));
 }
 
 void PeerConnections::tick(Time now) {
@@ -70,10 +73,15 @@ void PeerConnections::tick(Time now) {
     for (auto& [host, to] : peers_) {
         if (!to.line) continue;
         to.line->tick(now);
-        while (auto frames = to.line->receive()) take(host, to, *frames);
-        while (!to.relayed && !to.waiting.empty() && send(to, to.waiting.front())) to.waiting.pop_front();
+        while (auto frames = to.line->receive()) {
+            to.heard = now;
+            if (auto message = to.paced.take(std::move(*frames), now, socket_of(to))) take(host, to, *message);
+            to.relayed = false;
+        }
+        if (!to.relayed) to.paced.go_on(now, socket_of(to));
         if (look) renew_old(host, to, now);
         if (look && to.line && !to.relayed) look_whether_reachable(host, to, now);
+        if (look && to.line && !to.relayed) look_whether_silent(host, to, now);
     }
 }
 
@@ -83,6 +91,7 @@ void PeerConnections::take(const std::string& host, Peer& to, Frames& frames) {
         const bool expected = !std::exchange(to.greeted, true);
         const bool was_relayed = std::exchange(to.relayed, false);
         to.unreachable.reset();
+        if (!expected) to.paced.restart();
         if (!expected || was_relayed) handlers_.request_resend(host);
         return;
     }
@@ -106,10 +115,24 @@ void PeerConnections::renew_old(const std::string& host, Peer& to, Time now) {
 void PeerConnections::look_whether_reachable(const std::string& host, Peer& to, Time now) {
     if (to.line->can_send()) return to.unreachable.reset();
     if (!to.unreachable) to.unreachable = now;
-    if (now - *to.unreachable < unreachable_after) return;
+    if (now - *to.unreachable >= unreachable_after) give_up(host, to);
+}
+
+void PeerConnections::give_up(const std::string& host, Peer& to) {
     to.relayed = true;
-    to.waiting.clear();  // places keep what is not answered
+    to.paced.drop_waiting();  // places keep what is not answered
     handlers_.request_resend(host);
+}
+
+// ZeroMQ's own heartbeats are patient, as they wait behind what is under way. The line stays, and is taken again when
+// the host is heard on it or its connection is made anew.
+void PeerConnections::look_whether_silent(const std::string& host, Peer& to, Time now) {
+    if (now - std::max(to.heard, to.called) > call_interval) {
+        to.called = now;
+        auto call = frames_of(packet::pack(packet::Type::mark, std::uint64_t{0}));
+        to.line->send(call);
+    }
+    if (now - to.heard > lease + to.paced.expected()) give_up(host, to);
 }
 
 void PeerConnections::use(const Plan& plan) {
@@ -122,7 +145,7 @@ void PeerConnections::use(const Plan& plan) {
 bool PeerConnections::due(Time now) const { return waiting() || now - looked_ >= look_interval; }
 
 bool PeerConnections::waiting() const {
-    return std::any_of(peers_.begin(), peers_.end(), [](const auto& peer) { return !peer.second.waiting.empty(); });
+    return std::any_of(peers_.begin(), peers_.end(), [](const auto& peer) { return peer.second.paced.refused(); });
 }
 
 void PeerConnections::watch(Poll& poll) const {

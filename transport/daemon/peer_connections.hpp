@@ -2,7 +2,6 @@
 #pragma once
 
 #include <chrono>
-#include <deque>
 #include <functional>
 #include <map>
 #include <optional>
@@ -11,13 +10,14 @@
 
 #include "core/network/graph/plan.hpp"
 #include "transport/zmq/caller.hpp"
+#include "transport/zmq/paced_line.hpp"
 #include "transport/zmq/poll.hpp"
 #include "transport/zmq/socket.hpp"
 
 namespace lightnet {
 
 /// One connection to each host that is asked, shared by all places of this one. Looks at nothing but addresses. What is
-/// for a host that can't be reached goes to the launcher instead, which passes it on. One thread's.
+/// for a host that can't be reached, or is silent, goes to the launcher instead, which passes it on. One thread's.
 class PeerConnections {
 public:
     using Time = std::chrono::steady_clock::time_point;
@@ -55,11 +55,14 @@ private:
         Time opened{};
         bool relayed = false;               // its host can't be reached from here
         std::optional<Time> unreachable{};  // since when
-        std::deque<Frames> waiting{};       // as for ask()
+        PacedLine paced{};                  // [address][header][body]
+        Time heard{}, called{};             // last; asked whether it is there
     };
     Peer& peer(const std::string& host);
     void open(const std::string& host, Peer& to);
-    bool send(Peer& to, Frames& frames);
+    static PacedLine::Send socket_of(Peer& to);
+    void look_whether_silent(const std::string& host, Peer& to, Time now);
+    void give_up(const std::string& host, Peer& to);
     void take(const std::string& host, Peer& to, Frames& frames);
     void renew_old(const std::string& host, Peer& to, Time now);
     void look_whether_reachable(const std::string& host, Peer& to, Time now);

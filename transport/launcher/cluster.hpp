@@ -64,6 +64,7 @@ public:
         std::map<std::string, Bytes> files;                       // the scene's, by path
         std::function<Plan(const std::vector<HostOffer>&)> plan;  // for the hosts that are there
         std::function<void(const std::string&)> say = [](const std::string&) {};
+        std::function<void(const std::string&)> warn{};  // of what a user should look at; empty: as `say`
     };
     explicit Cluster(Options options);
     /// What `call()` is told of whoever it calls.

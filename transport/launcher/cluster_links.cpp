@@ -1,5 +1,7 @@
 #include "transport/launcher/cluster_links.hpp"
 
+#include <bit>
+
 #include "core/base/error.hpp"
 #include "core/base/ip_address.hpp"
 #include "core/run/runtime/fingerprint.hpp"
@@ -28,12 +30,14 @@ Pass pass_for_joiners(const Cluster::Options& options) {
 }  // namespace
 
 Cluster::Links::Links(Options given) : options(std::move(given)), offer(offer_of(options)) {
+    if (!options.warn) options.warn = options.say;
+    const auto say_so = [this](const std::string& text) { say_of_stranger(text); };
     plan.places_of.resize(options.job.graph.nodes.size());
     constexpr std::size_t per_host = 5;  // two sockets with a connection each, and what watches one
     want_descriptors(per_host * options.endpoints.size(),
                      "a run on " + std::to_string(options.endpoints.size()) + " hosts");
     if (!options.listen.empty() && options.join_keys)
-        joiners.emplace(*context, options.listen, Joiners::Door{options.key.value(), *options.join_keys, options.say});
+        joiners.emplace(*context, options.listen, Joiners::Door{options.key.value(), *options.join_keys, say_so});
     else if (!options.listen.empty())
         joiners.emplace(*context, options.listen, pass_for_joiners(options));
     for (const auto& endpoint : options.endpoints) {
@@ -167,8 +171,8 @@ void Cluster::Links::take_joiners(Clock::time_point now) {
         [&] { return hosts(); },
         [&](const std::string& name, const std::string& address) {
             if (turned_down.size() < most_hosts && turned_down.insert(name + " " + address).second)
-                options.say(name + " (" + address +
-                            ") wants to join, but does not know the pass of this run's user (--pass)");
+                say_of_stranger(name + " (" + address +
+                                ") wants to join, but does not know the pass of this run's user (--pass)");
         }};
     counters.broken_packets += joiners->receive(handlers);
 }
@@ -210,8 +214,7 @@ void Cluster::Links::tell_changes() {
             options.say(link->name() + (was_there ? " is taken out: " : " takes no part: ") + link->reason());
         if (state == State::leaving) options.say(link->name() + " was told to stop: it finishes what it has");
         if (before == State::leaving) options.say(link->name() + " has left");
-        if (before == State::ready && state == State::calling)
-            options.say(link->name() + " is lost: " + link->reason() + "; its work is asked again elsewhere");
+        if (before == State::ready && state == State::calling) tell_loss(*link);
         changed |= state == State::ready || was_there;
     }
     if (!changed) return;
@@ -222,6 +225,24 @@ void Cluster::Links::tell_changes() {
     message.run = options.run;
     message.plan = std::make_shared<const Plan>(plan);
     arrived.push_back(std::move(message));
+}
+
+void Cluster::Links::tell_loss(const HostLink& link) {
+    const auto elsewhere = !offers(true).empty();
+    options.say(link.name() + " is lost: " + link.reason() +
+                (elsewhere ? "; its work is asked again elsewhere" : "; its work waits until a host is there"));
+    const auto times = ++losses[link.name()];
+    if (times > 1 && std::has_single_bit(times))
+        options.warn(link.name() + " was lost " + std::to_string(times) + " times (" + link.reason() +
+                     "), and what it had is asked again each time, in smaller pieces: its line is cut, or too busy for "
+                     "others to get through, or its machine is");
+}
+
+void Cluster::Links::say_of_stranger(const std::string& text) {
+    const auto now = Clock::now();
+    if (strangers.may_be_said("", now)) options.say(text);
+    for (const auto& [kind, count] : strangers.left_out(now))
+        options.say("… and " + std::to_string(count) + " more who want to get in");
 }
 
 std::vector<HostState> Cluster::Links::hosts() const {

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/log_bounds.hpp"
 #include "transport/launcher/cluster.hpp"
 #include "transport/launcher/host_wait.hpp"
 #include "transport/launcher/joiners.hpp"
@@ -26,13 +27,16 @@ namespace lightnet {
 struct Cluster::Links {
     using Clock = std::chrono::steady_clock;
     using State = HostLink::State;
+    static constexpr double strangers_per_minute = 20;  // that are told of
 
     Options options;
     RunOffer offer;
     std::shared_ptr<const SocketContext> context = std::make_shared<const SocketContext>();
     std::optional<Joiners> joiners;  // hosts that dial in
     std::vector<std::unique_ptr<HostLink>> links;
-    std::map<std::string, State> states;  // as last told
+    std::map<std::string, State> states;     // as last told
+    std::map<std::string, unsigned> losses;  // of hosts that took part
+    LogBounds strangers{strangers_per_minute};
     Plan plan;                            // proposed
     std::optional<WrittenPlan> in_force;  // that hosts are to go by
     std::deque<Message> arrived;
@@ -82,6 +86,9 @@ struct Cluster::Links {
 
     // Hosts that became ready or are no more: a new plan is proposed, and a line said for the user.
     void tell_changes();
+    void tell_loss(const HostLink& link);
+    // Of somebody who is not of the run, and may come as often as he likes.
+    void say_of_stranger(const std::string& text);
     std::vector<HostState> hosts() const;
     std::string reasons() const;
     void say_what_is_missing(Clock::duration waited) const;

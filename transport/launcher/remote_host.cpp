@@ -25,16 +25,18 @@ constexpr auto wanted_so = "somebody who watched the run wanted it so";
 
 RemoteHost::RemoteHost(const RunOffer& offer, Counters& counters, std::string name,
                        std::unique_ptr<HostConnection> connection)
-    : HostLink(std::move(name)), offer_(offer), counters_(counters), connection_(std::move(connection)) {}
+    : HostLink(std::move(name)),
+      offer_(offer),
+      counters_(counters),
+      connection_(std::move(connection)),
+      socket_([this](Frames& frames) { return connection_->send(frames, false); }) {}
 
 bool RemoteHost::send(Type type, const Fields& fields) {
     // Before it takes part it need not know the number that members of the run are known by.
     const bool member =
         type == Type::begin || type == Type::end || (state_ != State::calling && state_ != State::greeted);
     auto frames = frames_of(packet::pack(type, member ? offer_.run : 0, fields));
-    const bool sent = connection_->send(frames, false);
-    if (sent && packet::is_counted(type)) ++sent_;
-    return sent;
+    return line_.send(frames, now_, socket_);
 }
 
 // Only a handshake that went so far that the two ends differ tells of keys: one that was begun and came to no end may
@@ -89,11 +91,13 @@ void RemoteHost::look_at_line(Time now, const ExpectedPlan& plan) {
     if (!expected) return;
     auto frames = frames_of(packet::pack(Type::begin, offer_.run, job_with(*expected)));
     if (!connection_->send_on_next(frames)) return;
+    line_.restart();
     ++renewed_lines_;
     line_ends_ = now + offer_.line_life;
 }
 
 void RemoteHost::tick(Time now, const ExpectedPlan& plan) {
+    now_ = now;
     if (state_ == State::refused) return;
     connection_->tick(now);
     look_at_handshake(now);
@@ -109,19 +113,21 @@ void RemoteHost::tick(Time now, const ExpectedPlan& plan) {
     } else if (now >= next_call_ && state_ == State::greeted) {
         const auto expected = plan();
         next_call_ = now + (expected ? std::chrono::milliseconds(busy_interval) : connect_interval);
-        if (expected) send(Type::begin, job_with(*expected));
+        if (expected && !line_.waiting()) send(Type::begin, job_with(*expected));
     }
-    if (pieces_out_ > 0 && now - piece_taken_ > longest_piece) return lose(now, "it takes no files");
+    line_.go_on(now, socket_);
+    if (pieces_out() && now - piece_taken_ > longest_piece) return lose(now, "it takes no files");
     if (!pieces_.empty()) send_blobs(now);
 }
 
 void RemoteHost::heartbeat(Time now) {
-    if (now - heard_ > lease) return lose(now, "it does not answer");
+    const auto busy_for = std::max(line_.expected(), files_.expected());
+    if (now - heard_ > lease + busy_for) return lose(now, "it does not answer");
     if (now < next_ping_) return;
     next_ping_ = now + ping_interval;
     // Figures are worth less than what they cost, so every other heartbeat does without.
     ask_figures_ = watched_ && !ask_figures_;
-    auto fields = Fields{}.set("sent", sent_).set("asked_at", steady_nanoseconds());
+    auto fields = Fields{}.set("sent", line_.counted()).set("asked_at", steady_nanoseconds());
     if (ask_figures_) fields.set("watch", 1);
     send(Type::ping, fields);
 }
@@ -156,15 +162,28 @@ void RemoteHost::lose(Time now, const std::string& why) {
     state_ = State::calling;
     reason_ = why;
     next_call_ = now;
-    pieces_.clear(), pieces_out_ = 0;
+    pieces_.clear();
+    files_.restart();
     brought_.clear();
     between_.reset();
-    arrived_ = sent_;
+    line_.drop_waiting();
+    line_.restart();
+    arrived_ = line_.counted();
     connection_->renew();
 }
 
+// What is no message, or a part of one, shows all the same that the host is alive.
+std::optional<Frames> RemoteHost::next_message(Time now) {
+    now_ = now;
+    while (auto frames = connection_->receive()) {
+        if (auto message = line_.take(std::move(*frames), now, socket_)) return message;
+        heard_ = now;
+    }
+    return std::nullopt;
+}
+
 bool RemoteHost::receive(Time now, const Handlers& handlers) {
-    auto frames = connection_->receive();
+    auto frames = next_message(now);
     if (!frames) return false;
     if (is_empty(*frames)) {
         if (state_ != State::calling && state_ != State::refused) lose(now, "its connection was cut");
@@ -227,9 +246,9 @@ void RemoteHost::control(Type type, const Fields& fields, Time now) {
             state_ = pieces_.empty() ? State::building : State::sending;
             return;
         case Type::blob_taken:
-            if (pieces_out_ > 0) --pieces_out_;
+            files_.piece_taken(now);
             piece_taken_ = now;
-            if (state_ == State::sending && pieces_.empty() && pieces_out_ == 0) state_ = State::building;
+            if (state_ == State::sending && pieces_.empty() && !pieces_out()) state_ = State::building;
             return;
         case Type::lacks:
             if (const auto hash = hash_from_hex(fields.text("hash")); hash && brought_.contains(*hash))
@@ -329,23 +348,15 @@ void RemoteHost::welcome(const Fields& fields) {
 bool RemoteHost::send(Message& message, std::uint32_t place) {
     auto frames = frames_of(packet::pack(message, place));
     const std::size_t size = frames[0].size() + frames[1].size();
-    if (!connection_->send(frames, false)) {
-        counters_.refused_sends += may_be_full(sent_ - arrived_);
-        return false;
-    }
+    if (!forward(frames)) return false;
     counters_.bytes += size;
-    ++sent_;
     return true;
 }
 
 bool RemoteHost::forward(Frames& frames) {
-    const bool work = frames.size() == 3;  // or that something is to be sent again
-    if (connection_->send(frames, false)) {
-        sent_ += work;
-        return true;
-    }
-    counters_.refused_sends += may_be_full(sent_ - arrived_);
-    return false;
+    const bool sent = line_.send(frames, now_, socket_);
+    if (!sent) counters_.refused_sends += may_be_full(line_.counted() - arrived_);
+    return sent;
 }
 
 void RemoteHost::request_resend() {
@@ -361,6 +372,10 @@ void RemoteHost::tell_members() {
 
 void RemoteHost::use(const WrittenPlan& plan) { send(Type::plan, Fields{}.set("plan", plan.text)); }
 
-void RemoteHost::send_end() { send(Type::end, {}); }
+// What still waits for the line is not wanted any more.
+void RemoteHost::send_end() {
+    line_.drop_waiting();
+    send(Type::end, {});
+}
 
 }  // namespace lightnet

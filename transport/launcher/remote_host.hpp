@@ -15,7 +15,9 @@
 #include "core/run/message/message.hpp"
 #include "transport/launcher/host_connection.hpp"
 #include "transport/launcher/host_link.hpp"
+#include "transport/wire/line_pace.hpp"
 #include "transport/wire/packet.hpp"
+#include "transport/zmq/paced_line.hpp"
 
 namespace lightnet {
 
@@ -33,7 +35,8 @@ struct RunOffer {
 };
 
 /// Greets a host, sends it the job and the files that it lacks, waits until its places are ready, and keeps its lease:
-/// a host that does not answer three heartbeats in a row, or whose connection was cut, is lost, and greeted anew.
+/// a host that does not answer three heartbeats in a row, or whose connection was cut, is lost, and greeted anew. A
+/// line that is busy with what was sent before gets the time for it.
 class RemoteHost final : public HostLink {
 public:
     /// Counts what it sends and receives in `counters`, which must outlive it. `name` is that of the host in plans.
@@ -65,6 +68,7 @@ public:
 
 private:
     bool forward(Frames& frames);
+    std::optional<Frames> next_message(Time now);
     bool send(packet::Type type, const packet::Fields& fields);
     void control(packet::Type type, const packet::Fields& fields, Time now);
     void welcome(const packet::Fields& fields);
@@ -74,6 +78,8 @@ private:
     void queue_blob(const Hash& hash);
     Bytes blob(const Hash& hash) const;
     void send_blobs(Time now);
+    static LinePace pace_of_files();
+    bool pieces_out() const { return files_.under_way() > 0; }
     void heartbeat(Time now);
     void look_at_handshake(Time now);
     void look_at_line(Time now, const ExpectedPlan& plan);
@@ -102,12 +108,16 @@ private:
         std::uint64_t line, asks, replies;
         friend bool operator==(const Between&, const Between&) = default;
     };
-    std::uint64_t sent_ = 0, received_ = 0;
+    PacedLine line_;
+    const PacedLine::Send socket_;
+    LinePace files_ = pace_of_files();
+    Time now_{};  // when it was last looked after
+    std::uint64_t received_ = 0;
     std::uint64_t arrived_ = 0;  // of those sent, at least
     std::optional<Between> between_;
     struct PieceAt {
         Hash hash;
-        std::uint64_t offset;
+        std::uint64_t offset;  // of what is still to be sent
     };
     std::deque<PieceAt> pieces_;
     struct Brought {
@@ -115,7 +125,6 @@ private:
         bool here = false;
     };
     std::map<Hash, Brought> brought_;
-    std::size_t pieces_out_ = 0;
     int abandoned_ = 0;      // handshakes, in a row
     bool welcomed_ = false;  // by the host, some time: its keys, or that it has none, were right
 };

@@ -1,4 +1,4 @@
-// How a host gets the files of the job, and what others have prepared: in pieces, a few under way at a time.
+// How a host gets the files of the job, and what others have prepared: in pieces, as many under way as its line takes.
 #include <algorithm>
 
 #include "transport/launcher/remote_host.hpp"
@@ -9,10 +9,12 @@ namespace {
 using packet::Fields;
 using packet::Type;
 
-constexpr std::size_t piece_size = 256 << 10;
-constexpr std::size_t pieces_under_way = 16;
+constexpr std::size_t largest_piece = 256 << 10;
+constexpr std::size_t most_under_way = 4 << 20;
 
 }  // namespace
+
+LinePace RemoteHost::pace_of_files() { return LinePace(most_under_way, largest_piece); }
 
 void RemoteHost::queue_blobs(const std::string& hashes) {
     constexpr std::size_t digits = 64;
@@ -28,13 +30,7 @@ Bytes RemoteHost::blob(const Hash& hash) const {
 }
 
 void RemoteHost::queue_blob(const Hash& hash) {
-    const auto bytes = blob(hash);
-    if (!bytes) return;
-    std::uint64_t offset = 0;
-    do {
-        pieces_.push_back({hash, offset});
-        offset += piece_size;
-    } while (offset < bytes->size());
+    if (blob(hash)) pieces_.push_back({hash, 0});
 }
 
 bool RemoteHost::bring(const Hash& name, const Bytes& bytes) {
@@ -45,19 +41,23 @@ bool RemoteHost::bring(const Hash& name, const Bytes& bytes) {
 }
 
 void RemoteHost::send_blobs(Time now) {
-    while (!pieces_.empty() && pieces_out_ < pieces_under_way) {
-        const auto& [hash, offset] = pieces_.front();
+    while (!pieces_.empty()) {
+        auto& [hash, offset] = pieces_.front();
         const auto whole = blob(hash);
         if (!whole) {  // it is there already
             pieces_.pop_front();
             continue;
         }
-        const auto bytes = std::span(*whole).subspan(offset, std::min<std::size_t>(piece_size, whole->size() - offset));
+        const auto bytes =
+            std::span(*whole).subspan(offset, std::min<std::size_t>(files_.piece(), whole->size() - offset));
+        if (!files_.may_send(bytes.size())) return;
         auto frames = frames_of(packet::pack(offer_.run, {hash, offset, bytes}));
         if (!connection_->send(frames, true)) return;
         counters_.file_bytes += bytes.size();
-        if (pieces_out_++ == 0) piece_taken_ = now;
-        pieces_.pop_front();
+        if (!pieces_out()) piece_taken_ = now;
+        files_.sent_piece(bytes.size() + packet::header_size, now);
+        offset += bytes.size();
+        if (offset == whole->size()) pieces_.pop_front();
     }
 }
 

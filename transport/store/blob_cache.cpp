@@ -12,6 +12,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/regular_file.hpp"
+#include "transport/store/cache_claim.hpp"
 #include "transport/store/cache_folder.hpp"
 #include "transport/store/recipes.hpp"
 
@@ -120,19 +121,24 @@ void BlobCache::Incoming::appear() {
     partial_.clear();
 }
 
-void BlobCache::trim() const {
+void BlobCache::make_room(std::uint64_t bytes) const {
+    const auto claimed = claimed_in(folder_);
+    const auto most = most_bytes_ - std::min(most_bytes_, bytes);
     auto files = files_of_ours(folder_);
     const auto recipes = recipes_in(folder_);
     for (auto& file : files_of_ours(recipes)) files.push_back(std::move(file));
     const auto now = fs::file_time_type::clock::now();
     for (const auto& file : files)
         if (file.partial && now - file.used > given_up) remove(file, recipes);
-    std::erase_if(files, [](const auto& file) { return file.partial; });
+    std::erase_if(files, [&](const auto& file) {
+        const auto name = file.partial ? std::nullopt : hash_from_hex(file.path.filename().string());
+        return !name || claimed.contains(*name);
+    });
     std::uint64_t sum = 0;
     for (const auto& file : files) sum += file.size;
     std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) { return a.used < b.used; });
     for (const auto& file : files)
-        if (sum <= most_bytes_)
+        if (sum <= most)
             break;
         else if (remove(file, recipes))
             sum -= file.size;

@@ -34,8 +34,11 @@ Result DiskResultCache::find(const Hash& recipe) const {
 }
 
 void DiskResultCache::keep(const Hash& recipe, const Result& result) {
-    const auto work = [this, recipe, result] {
+    const auto size = result.bytes->size();
+    if (size > blobs_.most_bytes()) return;
+    const auto work = [this, recipe, result, size] {
         try {
+            blobs_.make_room(size);
             blobs_.store(result.name, *result.bytes);
             write_recipe(recipes_, recipe, result.name);
         } catch (const std::exception&) {

@@ -13,7 +13,7 @@
 namespace lightnet {
 
 /// Results are blobs; beside them, in a folder of their own, each recipe names one. Keeping happens in the background.
-/// The folder is within its limit before and after. Used by one thread.
+/// What is larger than the folder may be is not kept. Used by one thread.
 class DiskResultCache final : public ResultCache {
 public:
     /// Throws Error when the folder can't be made, or is no cache: see open_cache_folder().

@@ -26,7 +26,7 @@ public:
 
     /// One that the cache has.
     void take(const Hash& name, Bytes bytes);
-    /// One that it is to have: written by a thread of its own, and held until it is on disk.
+    /// One that it is to have, as room was made for it: written by a thread of its own, and held until it is on disk.
     void keep(const Hash& name, Bytes bytes);
     bool in_memory(const Hash& name) const;
     /// Null when the cache has lost it.

@@ -289,6 +289,27 @@ std::optional<Piece> unpack_piece(View body) {
     return piece;
 }
 
+Packet pack(std::uint64_t run, const Part& part) {
+    Header header;
+    header.type = Type::part, header.run = run;
+    header.bundle = part.offset, header.count = part.whole;
+    return finish(header, {part.bytes.begin(), part.bytes.end()});
+}
+
+std::optional<Part> part_of(const Header& header, View body) {
+    constexpr std::size_t most_else = 64 << 10;  // in a message, besides a body
+    if (header.count > most_bytes + most_else || header.bundle > header.count || body.empty() ||
+        body.size() > header.count - header.bundle)
+        return std::nullopt;
+    return Part{header.bundle, header.count, body};
+}
+
+Packet pack(Type type, std::uint64_t mark) {
+    Header header;
+    header.type = type, header.bundle = mark;
+    return finish(header, {});
+}
+
 std::optional<Fields> unpack_fields(View body) {
     if (body.size() > most_bytes) return std::nullopt;
     const BodyReader map(body);

@@ -5,6 +5,9 @@
 //   body     a msgpack map. Asks: columns, see columns.hpp. Replies: colours, see colours.hpp. Control: small maps
 //            of numbers and texts; unknown keys are skipped.
 //
+// What is large goes in parts of its bytes (all frames, each behind its length), so that no line is busy with it for
+// long, and both ends of a line ask each other now and then how far they have got, see paced_line.hpp.
+//
 // A message of one empty frame instead: a connection was made, or a packet was damaged; what was under way may be lost.
 //
 // `run` in the header is a random number that a run tells its members alone. What does not name it is not of that run:
@@ -72,7 +75,11 @@ enum class Type : std::uint8_t {
     members,  // launcher → host: the keys of the run's hosts, see AllowList, and where those are that have names
               // (numbers:
               // "onyx1 10.0.0.11" a line), for this run only
-    last = members,
+    // either end of a line, about the line; all in the header
+    part,    // of a message: bundle: where it begins; count: bytes of the whole. The body is nothing but its bytes
+    mark,    // bundle: a number, to be said back by whoever gets so far
+    marked,  // it has come so far
+    last = marked,
 };
 
 constexpr bool is_ask(Type type) {
@@ -94,6 +101,10 @@ constexpr bool is_counted(Type type) {
         default:
             return type < Type::hello;
     }
+}
+/// Goes on a line in its turn, behind what was sent before. Others are small, and show that an end is alive: at once.
+constexpr bool waits_its_turn(Type type) {
+    return is_counted(type) || type == Type::begin || type == Type::end || type == Type::ended;
 }
 constexpr bool is_reply(Type type) { return type < Type::hello && !is_ask(type); }
 
@@ -159,6 +170,19 @@ struct Piece {
 Packet pack(std::uint64_t run, const Piece& piece);
 /// The piece of a blob packet whose header has been read, in `body`. None: damaged.
 std::optional<Piece> unpack_piece(std::span<const std::byte> body);
+
+/// A part of a message, as bytes; they are a view.
+struct Part {
+    std::uint64_t offset = 0;
+    std::uint32_t whole = 0;  // bytes
+    std::span<const std::byte> bytes;
+};
+
+Packet pack(std::uint64_t run, const Part& part);
+/// Of a part packet whose header has been read. None: it does not fit into its message.
+std::optional<Part> part_of(const Header& header, std::span<const std::byte> body);
+/// A mark, or the answer to one.
+Packet pack(Type type, std::uint64_t mark);
 
 /// The fields of a control packet whose header has been read. None: damaged.
 std::optional<Fields> unpack_fields(std::span<const std::byte> body);

@@ -39,6 +39,7 @@ bool serves_a_run(Type type) {
 
 // DECISIONS: rights-by-key
 bool may(Party party, Type type) {
+    if (type >= Type::part) return party != Party::stranger;  // what comes in parts is looked at when it is whole
     switch (party) {
         case Party::stranger:
             return false;

@@ -22,14 +22,16 @@ constexpr std::size_t descriptors_of_context = 16;
 constexpr std::size_t threads_of_context = 1;  // that closes sockets
 constexpr int most_sockets = 65535;            // that it can have
 
-constexpr int heartbeat_ms = 500, heartbeat_timeout_ms = 1500, time_to_live_ms = 5000;
+// Who is silent is noticed before by those who talk to him, as they know what is under way; this is for connections
+// that nobody looks after, and a line may be busy for a while.
+constexpr int heartbeat_ms = 500, heartbeat_timeout_ms = 3000, time_to_live_ms = 5000, handshake_ms = 4000;
 
 void common_options(Socket& socket) {
     socket.set(ZMQ_SNDHWM, high_water_mark);
     socket.set(ZMQ_RCVHWM, high_water_mark);
     const auto most = static_cast<std::int64_t>(packet::most_bytes);
     if (zmq_setsockopt(socket.library(), ZMQ_MAXMSGSIZE, &most, sizeof most) != 0) throw SocketError();
-    socket.set(ZMQ_HANDSHAKE_IVL, 2000);
+    socket.set(ZMQ_HANDSHAKE_IVL, handshake_ms);
 }
 
 void heartbeat_options(Socket& socket) {
