@@ -221,6 +221,46 @@ TEST_F(MultiplexerTest, NamesTheBundleThatIsSetAsideAndTheHostsThatDiedOfIt) {
     EXPECT_NE(owner.aside[0].find("onyx1, onyx2, onyx3"), std::string::npos) << owner.aside[0];
 }
 
+TEST_F(MultiplexerTest, AsksInHalvesWhatWasLostTwiceOnTheWayToAHostThatLives) {
+    FakeChannel<Tile> far;
+    far.number = 17;
+    Owner<Tile> tiles;
+    Multiplexer<Tile> replicas({&far}, rules());
+    auto wanted = std::make_shared<std::vector<Tile>>();
+    for (std::uint32_t i = 0; i < 4; ++i) wanted->push_back(Tile{i, 0, 1 + i, 1, 0, 1});
+    replicas.send({wanted, &tiles, 5, 1});
+    for (const std::size_t size : {4, 4, 2, 2, 1}) {
+        ASSERT_FALSE(far.sent.empty());
+        EXPECT_EQ(far.sent.front().questions->size(), size);
+        replicas.use({}), far.sent.clear();  // the line is cut
+        replicas.use({&far}), replicas.tick();
+    }
+    // Each answer bears the number of its tile.
+    for (std::size_t pieces = 0; tiles.numbers.empty() && pieces < 4; ++pieces) {
+        const auto bundle = far.take();
+        std::vector<Rgb> answers;
+        for (const auto& tile : *bundle.questions)
+            answers.insert(answers.end(), tile.pixels(), Rgb{float(tile.x), 0, 0});
+        bundle.owner->answered(bundle, std::move(answers));
+    }
+    ASSERT_EQ(tiles.numbers, std::vector<std::uint64_t>{5});
+    std::size_t at = 0;
+    for (const auto& tile : *wanted)
+        for (std::uint32_t pixel = 0; pixel < tile.pixels(); ++pixel)
+            EXPECT_EQ(tiles.answers[0].at(at++).r, float(tile.x));
+}
+
+TEST_F(MultiplexerTest, LeavesWholeWhatWasLostWithAProcess) {
+    FakeChannel<Query> far;
+    Multiplexer<Query> replicas({&far}, rules());
+    replicas.send(bundle_of(100));
+    for (far.number = 1; far.number < 3; ++far.number) {
+        EXPECT_EQ(far.sent.front().questions->size(), 100u);
+        replicas.use({}), far.sent.clear();
+        replicas.use({&far}), replicas.tick();
+    }
+}
+
 TEST_F(MultiplexerTest, IsItselfAChannelAndNests) {
     FakeChannel<Query> a, b, c;
     Multiplexer<Query> pair({&a, &b}, rules());

@@ -26,6 +26,7 @@ public:
     Credit credit() const override { return {credit_, 1u << 20, 1u << 30}; }
     Load load() const override { return load_; }
     std::string host() const override { return where; }
+    std::uint64_t process() const override { return number; }
 
     /// Answers the oldest bundle.
     void answer() {
@@ -45,6 +46,7 @@ public:
 
     std::deque<Bundle<Question>> sent;
     bool refuse = false;
+    std::uint64_t number = 0;  // of the process; 0: not known
     std::string where = "host " + std::to_string(reinterpret_cast<std::uintptr_t>(this));  // one of its own
 
 private:

@@ -56,7 +56,8 @@ struct MultiplexerRules {
 /// multiplexers: whoever asks other hosts deals to hosts, and each of those to its places. Bundles that are large for
 /// what they cost are cut up, so that idle replicas share them; with affinity, every replica gets the questions of its
 /// regions. Bundles come back to their owner answered, failed or set aside, never returned: what a lost replica had is
-/// asked again here. Does not own its channels; used by one thread.
+/// asked again here, and in halves if it was lost twice on the way to a host that did not die. Does not own its
+/// channels; used by one thread.
 template <class Question>
 class Multiplexer final : public Channel<Question>, private BundleOwner<Question> {
 public:
@@ -118,12 +119,14 @@ private:
         std::string host;
         std::uint32_t places = 1;
         std::uint64_t pulse = 0;
+        std::uint64_t process = 0;
     };
     // A bundle that was cut up.
     struct Whole {
         Bundle<Question> bundle;
         std::vector<Rgb> answers;
-        std::size_t missing = 0;  // pieces
+        std::vector<std::size_t> at{};  // where those to each question begin, if questions have not equally many
+        std::size_t missing = 0;        // pieces
         bool given_up = false;
     };
     // Work that several hosts are asked. All entries of it share it; the last that comes back hands on the answers.
@@ -140,6 +143,7 @@ private:
         std::vector<Scheduler::CopyId> copies;
         Failure failure{};               // the last
         std::shared_ptr<Check> check{};  // null: one host is asked
+        std::vector<Scheduler::Host> lost_at{};
     };
 
     void answered(const Bundle<Question>& bundle, std::vector<Rgb> answers) override {
@@ -165,6 +169,11 @@ private:
     void compare(Scheduler::CopyId copy, const std::vector<Rgb>& answers);
     std::vector<std::vector<std::uint32_t>> cut(const std::vector<Question>& questions) const;
     std::vector<std::vector<std::uint32_t>> by_home(const std::vector<Question>& questions) const;
+    std::shared_ptr<Whole> whole_of(const Bundle<Question>& bundle) const;
+    void add_piece(const std::shared_ptr<Whole>& whole, std::vector<std::uint32_t> where);
+    void note_loss(const std::vector<Scheduler::Replica>& replicas);
+    void halve_what_was_lost_twice(Scheduler::Host host);
+    void halve(Scheduler::WorkId work);
     void add(Entry entry, std::set<Scheduler::Host> not_at = {});
     bool ask_another(Entry& entry, Scheduler::Replica asked);
     void heard(Entry entry, const std::string& host, std::vector<Rgb> answers);
@@ -182,6 +191,7 @@ private:
     std::vector<Scheduler::Replica> free_slots_;
     std::map<std::string, Scheduler::Host> hosts_;
     std::vector<std::string> host_names_;
+    std::map<Scheduler::Host, std::uint64_t> processes_;  // of those that were lost
     std::unordered_map<Scheduler::WorkId, Entry> entries_;
     std::unordered_map<Scheduler::CopyId, Hash> expected_;  // of copies whose work is done, when checking
     Scheduler::WorkId next_work_ = 1;

@@ -19,12 +19,13 @@ void Multiplexer<Question>::use(std::vector<Channel<Question>*> channels,
             known.insert(slot.channel);
         } else {
             (slot.draining ? left : died).replicas.push_back(replica);
-            slot = {};
-            free_slots_.push_back(replica);
         }
     }
+    note_loss(died.replicas);
     for (const auto& gone : {left, died})
         if (!gone.replicas.empty()) tell(gone);
+    for (const auto& gone : {left, died})
+        for (const auto replica : gone.replicas) slots_[replica] = {}, free_slots_.push_back(replica);
     for (auto* channel : channels)
         if (known.insert(channel).second) add_replica(channel);
     for (Scheduler::Replica replica = 0; replica < slots_.size(); ++replica) {
@@ -51,9 +52,10 @@ void Multiplexer<Question>::add_replica(Channel<Question>* channel) {
     const auto host_name = channel->host();
     const auto [host, is_new] = hosts_.emplace(host_name, static_cast<Scheduler::Host>(host_names_.size()));
     if (is_new) host_names_.push_back(host_name);
-    slots_[replica] = {channel, false, host_name, channel->places(), channel->pulse()};
+    slots_[replica] = {channel, false, host_name, channel->places(), channel->pulse(), channel->process()};
     tell(Scheduler::Joined{replica, host->second, channel->name() ? channel->name() : replica + 1, channel->credit(),
                            channel->process(), channel->places(), channel->reserve(), channel->within_process()});
+    halve_what_was_lost_twice(host->second);
 }
 
 // Replicas that work at what they have are waited for, however long it takes.
@@ -70,6 +72,50 @@ void Multiplexer<Question>::feel_pulses() {
     }
 }
 
+// What is lost with a process may be what it died of, and is Suspects' business.
+template <class Question>
+void Multiplexer<Question>::note_loss(const std::vector<Scheduler::Replica>& replicas) {
+    for (const auto replica : replicas) {
+        const auto host = hosts_.at(slots_[replica].host);
+        processes_[host] = slots_[replica].process;
+        for (auto& [work, entry] : entries_)
+            if (scheduler_.is_at(work, replica)) entry.lost_at.push_back(host);
+    }
+}
+
+// The line to it does not stand for as long as such work takes on it.
+template <class Question>
+void Multiplexer<Question>::halve_what_was_lost_twice(Scheduler::Host host) {
+    const auto before = processes_.find(host);
+    const auto same = [&](const Slot& slot) { return slot.channel && hosts_.at(slot.host) == host; };
+    const auto slot = std::ranges::find_if(slots_, same);
+    if (before == processes_.end() || before->second == 0 || slot == slots_.end() || slot->process != before->second)
+        return;
+    std::vector<Scheduler::WorkId> too_long;
+    for (const auto& [work, entry] : entries_)
+        if (!entry.check && entry.bundle.questions->size() > 1 && !scheduler_.is_under_way(work) &&
+            std::ranges::count(entry.lost_at, host) > 1)
+            too_long.push_back(work);
+    for (const auto work : too_long) halve(work);
+}
+
+template <class Question>
+void Multiplexer<Question>::halve(Scheduler::WorkId work) {
+    tell(Scheduler::Forgotten{work});
+    Entry entry = std::move(entries_.extract(work).mapped());
+    auto& where = entry.where;
+    if (!entry.whole) {
+        entry.whole = whole_of(entry.bundle);
+        where.resize(entry.bundle.questions->size());
+        std::iota(where.begin(), where.end(), 0u);
+        ++entry.whole->missing;
+    }
+    const auto middle = where.begin() + static_cast<std::ptrdiff_t>(where.size() / 2);
+    ++entry.whole->missing;
+    add_piece(entry.whole, {where.begin(), middle});
+    add_piece(entry.whole, {middle, where.end()});
+}
+
 // ---- the way there ----
 
 template <class Question>
@@ -79,19 +125,37 @@ bool Multiplexer<Question>::send(const Bundle<Question>& bundle) {
         add({bundle, nullptr, {}, {}});
     } else {
         if (counters_) counters_->cut_bundles += 1;
-        auto whole = std::make_shared<Whole>();
-        whole->bundle = bundle;
-        whole->answers.resize(answers_to(*bundle.questions, bundle.width));
+        const auto whole = whole_of(bundle);
         whole->missing = pieces.size();
-        for (auto& where : pieces) {
-            auto questions = std::make_shared<std::vector<Question>>();
-            questions->reserve(where.size());
-            for (const auto index : where) questions->push_back((*bundle.questions)[index]);
-            add({{std::move(questions), nullptr, 0, bundle.width}, whole, std::move(where), {}});
-        }
+        for (auto& where : pieces) add_piece(whole, std::move(where));
     }
     tick();
     return true;
+}
+
+template <class Question>
+std::shared_ptr<typename Multiplexer<Question>::Whole> Multiplexer<Question>::whole_of(
+    const Bundle<Question>& bundle) const {
+    auto whole = std::make_shared<Whole>();
+    whole->bundle = bundle;
+    whole->answers.resize(answers_to(*bundle.questions, bundle.width));
+    if constexpr (!std::is_same_v<Question, Query>) {
+        std::size_t at = 0;
+        for (const auto& question : *bundle.questions) {
+            whole->at.push_back(at);
+            at += answers_to(question, bundle.width);
+        }
+    }
+    return whole;
+}
+
+template <class Question>
+void Multiplexer<Question>::add_piece(const std::shared_ptr<Whole>& whole, std::vector<std::uint32_t> where) {
+    auto questions = std::make_shared<std::vector<Question>>();
+    questions->reserve(where.size());
+    for (const auto index : where) questions->push_back((*whole->bundle.questions)[index]);
+    const auto width = whole->bundle.width;
+    add({{std::move(questions), nullptr, 0, width}, whole, std::move(where), {}});
 }
 
 template <class Question>
@@ -251,11 +315,13 @@ template <class Question>
 void Multiplexer<Question>::deliver(Entry entry, std::vector<Rgb> answers) {
     if (!entry.whole) return entry.bundle.owner->answered(entry.bundle, std::move(answers));
     auto& whole = *entry.whole;
-    // A cut bundle has equal questions: as many colours for each.
-    const std::size_t each = answers.size() / entry.where.size();
-    for (std::size_t i = 0; i < entry.where.size(); ++i)
-        std::copy_n(answers.begin() + static_cast<std::ptrdiff_t>(i * each), each,
-                    whole.answers.begin() + static_cast<std::ptrdiff_t>(entry.where[i] * each));
+    auto from = answers.begin();
+    for (const auto index : entry.where) {
+        const auto count = answers_to((*whole.bundle.questions)[index], whole.bundle.width);
+        const auto to = whole.at.empty() ? index * count : whole.at[index];
+        std::copy_n(from, count, whole.answers.begin() + static_cast<std::ptrdiff_t>(to));
+        from += static_cast<std::ptrdiff_t>(count);
+    }
     if (--whole.missing == 0 && !whole.given_up) whole.bundle.owner->answered(whole.bundle, std::move(whole.answers));
 }
 

@@ -37,6 +37,17 @@ void Scheduler::happens(const Forgotten& event, Time) {
     if (items_.contains(event.work)) finish(event.work);
 }
 
+bool Scheduler::is_at(WorkId work, Replica replica) const {
+    const auto found = items_.find(work);
+    return found != items_.end() &&
+           std::ranges::any_of(found->second.copies, [&](CopyId copy) { return ledger_.replica_of(copy) == replica; });
+}
+
+bool Scheduler::is_under_way(WorkId work) const {
+    const auto found = items_.find(work);
+    return found != items_.end() && !found->second.copies.empty();
+}
+
 Scheduler::Item* Scheduler::waiting_item(WorkId work) {
     const auto found = items_.find(work);
     return found == items_.end() || !found->second.waiting ? nullptr : &found->second;

@@ -210,6 +210,9 @@ public:
     std::optional<WorkId> work_of(CopyId copy) const { return ledger_.work_of(copy); }
     /// Is this work wanted, and not done?
     bool knows(WorkId work) const { return items_.contains(work); }
+    /// Is a copy of it under way there, or anywhere?
+    bool is_at(WorkId work, Replica replica) const;
+    bool is_under_way(WorkId work) const;
     /// Work that is not done.
     std::size_t unfinished() const { return items_.size(); }
     const Counts& counts() const { return counts_; }
