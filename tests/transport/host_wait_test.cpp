@@ -37,6 +37,11 @@ TEST_F(HostWaitTest, DoesNotWaitForEverForOneThatNeverGetsReady) {
     EXPECT_EQ(wait_for_hosts.look(standing, begun + 601s), Verdict::nobody);
 }
 
+TEST_F(HostWaitTest, WaitsAsLongAsFilesArrive) {
+    standing.pending = standing.files_arrive = true;
+    EXPECT_EQ(wait_for_hosts.look(standing, begun + 1h), Verdict::wait) << "over a slow line that takes its time";
+}
+
 TEST_F(HostWaitTest, WaitsForTheAbsentAndTheBusyButNotForLong) {
     standing.ready = standing.absent = true;
     EXPECT_EQ(wait_for_hosts.look(standing, begun + 4s), Verdict::wait);

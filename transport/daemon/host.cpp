@@ -276,7 +276,8 @@ void Host::Service::leave(Clock::time_point now, bool for_good) {
 }
 
 bool Host::Service::gone(Clock::time_point now) {
-    if (leaving->farewell) return !run && now - *leaving->farewell > goodbye_deadline;
+    const bool said = !door.waiting() || now - leaving->since > options.drain;
+    if (leaving->farewell) return !run && said && now - *leaving->farewell > goodbye_deadline;
     if (!run) return !ending || now - leaving->since > goodbye_deadline;
     if (now - leaving->since > options.drain) return true;
     const bool idle = answered >= given && !door.waiting() && now - leaving->last_work > quiet_before_leaving;

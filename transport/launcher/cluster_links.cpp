@@ -281,11 +281,12 @@ bool Cluster::Links::absent() const {
 }
 
 HostWait::Standing Cluster::Links::standing() const {
-    HostWait::Standing all{false, false, absent(), false, links.empty() || joiners};
+    HostWait::Standing all{false, false, absent(), false, links.empty() || joiners, false};
     for (const auto& link : links) {
         all.ready |= link->state() == State::ready;
         all.busy |= link->busy();
         all.pending |= link->pending();
+        all.files_arrive |= link->state() == State::sending;
     }
     return all;
 }

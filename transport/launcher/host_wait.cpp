@@ -18,7 +18,8 @@ HostWait::Verdict HostWait::look(const Standing& standing, Time now) {
     if (patience_.most && waited >= *patience_.most && !standing.ready)
         return standing.busy ? Verdict::nobody_free : Verdict::nobody;
     if (patience_.most && waited >= *patience_.most) return Verdict::begin;
-    if (standing.pending && !too_slow && (standing.ready || waited < patience_.build)) return Verdict::wait;
+    if (standing.pending && !too_slow && (standing.ready || standing.files_arrive || waited < patience_.build))
+        return Verdict::wait;
     if (waited < patience_.absent && (standing.absent || standing.busy)) return Verdict::wait;
     if (standing.ready) return Verdict::begin;
     if (standing.pending) return Verdict::nobody;

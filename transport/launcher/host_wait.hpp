@@ -17,9 +17,10 @@ class HostWait {
 public:
     using Time = std::chrono::steady_clock::time_point;
     /// Of all hosts together: is one ready, does one take the job in, is one that was named not there, does one serve
-    /// another run? And may others come that nobody has named?
+    /// another run? And may others come that nobody has named? Do files arrive somewhere, however slowly?
     struct Standing {
         bool ready = false, pending = false, absent = false, busy = false, others_may_come = false;
+        bool files_arrive = false;
     };
     enum class Verdict { wait, begin, nobody, nobody_free };
 

@@ -178,6 +178,7 @@ std::optional<Frames> RemoteHost::next_message(Time now) {
     while (auto frames = connection_->receive()) {
         if (auto message = line_.take(std::move(*frames), now, socket_)) return message;
         heard_ = now;
+        ++carried_;
     }
     return std::nullopt;
 }
@@ -247,6 +248,7 @@ void RemoteHost::control(Type type, const Fields& fields, Time now) {
             return;
         case Type::blob_taken:
             files_.piece_taken(now);
+            ++carried_;
             piece_taken_ = now;
             if (state_ == State::sending && pieces_.empty() && !pieces_out()) state_ = State::building;
             return;

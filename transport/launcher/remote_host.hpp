@@ -43,7 +43,7 @@ public:
     RemoteHost(const RunOffer& offer, Counters& counters, std::string name, std::unique_ptr<HostConnection> connection);
 
     std::uint64_t progress() const override { return progress_; }  // as of its last heartbeat
-    std::uint64_t pulse() const override { return pulse_; }
+    std::uint64_t pulse() const override { return pulse_ + carried_; }
     Doings doing() const override { return doing_; }  // the same
     void watch_places() override { watched_ = true; }
     HostFigures figures() const override { return figures_; }  // the same
@@ -98,6 +98,7 @@ private:
     bool watched_ = false, ask_figures_ = false;
     bool drained_ = false;  // see drain()
     std::uint64_t progress_ = 0, pulse_ = 0;
+    std::uint64_t carried_ = 0;  // parts and files, either way: who waits for his line works, too
     std::optional<Time> next_renewal_{};  // of the connection, which is broken
     std::optional<Time> line_ends_{};     // of the line, which is not
     std::uint64_t renewed_lines_ = 0;

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view claim_name = "claim-";
-constexpr std::size_t digits = 64;
+constexpr std::size_t digits_of_hash = 64;
 constexpr std::size_t most_bytes = 64 << 20;  // of one that is believed
 
 std::string random_name() {
@@ -34,11 +34,11 @@ bool is_there(int file, const std::string& path) {
 }
 
 void read_claim(int file, std::set<Hash>& blobs) {
-    std::string text(digits + 1, '\0');
+    std::string text(digits_of_hash + 1, '\0');
     for (std::size_t at = 0; at < most_bytes; at += text.size()) {
         if (::pread(file, text.data(), text.size(), static_cast<off_t>(at)) != static_cast<ssize_t>(text.size()))
             return;
-        if (const auto hash = hash_from_hex(std::string_view(text).substr(0, digits))) blobs.insert(*hash);
+        if (const auto hash = hash_from_hex(std::string_view(text).substr(0, digits_of_hash))) blobs.insert(*hash);
     }
 }
 
