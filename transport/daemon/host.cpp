@@ -60,13 +60,13 @@ HostDoor::Options Host::Service::door_options() const {
 }
 
 // Strangers can have much said.
-Host::Options Host::Service::bounded(Options given) {
-    given.log = [this, tell = std::move(given.log)](const LogEntry& entry) {
+Host::Options Host::Service::bounded(Options wanted) {
+    wanted.log = [this, tell = std::move(wanted.log)](const LogEntry& entry) {
         const auto kind = kind_of_line(entry.text);
         auto& bounds = kind == "refuses a" || kind == "turns away" ? refusals : log_bounds;
         if (bounds.may_be_said(kind, Clock::now())) tell(entry);
     };
-    return given;
+    return wanted;
 }
 
 void Host::Service::tell_left_out(Time now) {

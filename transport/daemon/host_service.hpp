@@ -90,7 +90,7 @@ struct Host::Service {
     BackgroundWork background;  // last: what it does looks at the rest
 
     Service(Options given, const Registry& kinds);
-    Options bounded(Options given);
+    Options bounded(Options wanted);
     HostDoor::Options door_options() const;
     void arrived(Frames frames);
     void damaged(const std::string& route);
