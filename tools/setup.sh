@@ -21,6 +21,7 @@ packages_of_tests=(
     graphviz python3-jsonschema prometheus              # drawings, reports, metrics as their own programs read them
     python3-openimageio                                 # pictures, as another library reads them
     iproute2                                            # network namespaces: hosts of their own
+    openssh-client openssh-server python3-yaml          # hosts by ssh; what deploys farms
     slurm-client slurmctld slurmd munge                 # a queue
 )
 
