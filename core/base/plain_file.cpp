@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <limits>
 #include <new>
 
 #include "core/base/error.hpp"
@@ -25,8 +26,10 @@ std::string why_not_plain(const struct stat& facts) {
 
 }  // namespace
 
-PlainFile::PlainFile(const std::filesystem::path& path, std::uint64_t most_bytes)
-    : name_(path.string()), file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)) {
+PlainFile::PlainFile(const std::filesystem::path& path, std::uint64_t most_bytes, Links links)
+    : name_(path.string()),
+      file_(::open(path.c_str(),
+                   O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY | (links == Links::refused ? O_NOFOLLOW : 0))) {
     struct stat facts {};
     if (file_ < 0 || ::fstat(file_, &facts) != 0) {
         const int error = errno;
@@ -71,5 +74,25 @@ Content PlainFile::content() try {
 
 std::vector<std::byte> PlainFile::bytes() { return content<std::vector<std::byte>>(); }
 std::string PlainFile::text() { return content<std::string>(); }
+
+std::optional<std::string> text_of_plain_file(const std::filesystem::path& path, std::uint64_t most) try {
+    return PlainFile(path, most, PlainFile::Links::refused).text();
+} catch (const Error&) {
+    return std::nullopt;
+}
+
+std::optional<Hash> hash_of_plain_file(const std::filesystem::path& path) try {
+    PlainFile file(path, std::numeric_limits<std::uint64_t>::max(), PlainFile::Links::refused);
+    Hasher hasher;
+    std::uint64_t sum = 0;
+    std::vector<std::byte> room(std::size_t{1} << 20);
+    while (const auto size = file.read(room)) {
+        hasher.add(std::span(room).first(size));
+        sum += size;
+    }
+    return sum == file.size() ? std::optional(hasher.finish()) : std::nullopt;
+} catch (const Error&) {
+    return std::nullopt;
+}
 
 }  // namespace lightnet

@@ -6,12 +6,13 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <memory>
 #include <random>
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "core/base/regular_file.hpp"
+#include "core/base/plain_file.hpp"
 #include "transport/store/cache_claim.hpp"
 #include "transport/store/cache_folder.hpp"
 #include "transport/store/recipes.hpp"
@@ -24,17 +25,17 @@ namespace fs = std::filesystem;
 constexpr auto given_up = std::chrono::hours(24);  // what was not written to for so long comes no more
 
 // Null: there is no such file, or something else, such as a pipe that would never end.
-Bytes read_file(const std::string& path) {
-    RegularFile file(path);
-    if (!file.readable()) return nullptr;
-    auto bytes = std::make_shared<std::vector<std::byte>>(static_cast<std::size_t>(file.size()));
-    return file.read(*bytes) == bytes->size() ? bytes : nullptr;
+Bytes read_file(const std::string& path) try {
+    PlainFile file(path, std::numeric_limits<std::uint64_t>::max(), PlainFile::Links::refused);
+    return std::make_shared<std::vector<std::byte>>(file.bytes());
+} catch (const Error&) {
+    return nullptr;
 }
 
 // What bears the name of a blob is one when it holds what its name says; others name their files in this way, too.
 bool is_blob(const CacheFile& file) {
     const auto name = hash_from_hex(file.path.filename().string());
-    return name && hash_of_regular_file(file.path) == name;
+    return name && hash_of_plain_file(file.path) == name;
 }
 
 // False: it is none of ours, and stays.

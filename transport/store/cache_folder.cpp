@@ -11,7 +11,7 @@
 
 #include "core/base/atomic_file.hpp"
 #include "core/base/error.hpp"
-#include "core/base/regular_file.hpp"
+#include "core/base/plain_file.hpp"
 
 namespace lightnet {
 namespace {
@@ -51,7 +51,7 @@ bool is_part(std::string_view ending) {
 }
 
 bool is_marked(const fs::path& folder) {
-    const auto text = text_of_regular_file(folder / mark_name, longest_mark);
+    const auto text = text_of_plain_file(folder / mark_name, longest_mark);
     return text && text->starts_with(mark);
 }
 

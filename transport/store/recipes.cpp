@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "core/base/atomic_file.hpp"
-#include "core/base/regular_file.hpp"
+#include "core/base/plain_file.hpp"
 #include "transport/store/cache_folder.hpp"
 
 namespace lightnet {
@@ -26,12 +26,12 @@ std::string text_of(const Hash& recipe, const Hash& blob) {
 std::string recipes_in(const std::string& cache) { return cache + "/recipes"; }
 
 bool is_recipe(const fs::path& file) {
-    const auto text = text_of_regular_file(file, longest_recipe);
+    const auto text = text_of_plain_file(file, longest_recipe);
     return text && text->starts_with(beginning);
 }
 
 std::optional<Hash> read_recipe(const std::string& folder, const Hash& recipe) {
-    const auto text = text_of_regular_file(folder + "/" + to_hex(recipe), longest_recipe);
+    const auto text = text_of_plain_file(folder + "/" + to_hex(recipe), longest_recipe);
     const auto at = text ? text->find("\nblob ") : std::string::npos;
     if (at == std::string::npos) return std::nullopt;
     const auto blob = hash_from_hex(text->substr(at + 6, 2 * sizeof(Hash::bytes)));
