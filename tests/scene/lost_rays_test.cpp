@@ -90,7 +90,9 @@ TEST(LostRays, ChangeNothingForThoseBesideThemInAPacket) {
             for (std::size_t i = 0; i < count; ++i) {
                 EXPECT_EQ(hits[i].has_value(), i != count / 2);
                 EXPECT_EQ(hidden[i] != 0, i != count / 2);
-                if (hits[i]) EXPECT_EQ(hits[i]->distance, alone->distance);
+                if (hits[i]) {
+                    EXPECT_EQ(hits[i]->distance, alone->distance);
+                }
             }
         }
 }
@@ -127,7 +129,9 @@ TEST(Reach, OfAnInstanceEndsWhereEmbreeCanNotInvertIt) {
         SceneData data = one_of_each();
         for (std::size_t i = 0; i < 3; ++i) data.instances[0].to_world.m[i][i] = scale;
         EXPECT_FALSE(out_of_reach(data, "s").empty()) << scale;
-        if (scale < 1) EXPECT_THROW(Scene{std::move(data)}, Error) << scale;
+        if (scale < 1) {
+            EXPECT_THROW(Scene{std::move(data)}, Error) << scale;
+        }
     }
     EXPECT_TRUE(out_of_reach(one_of_each(), "s").empty());
 }
