@@ -69,13 +69,13 @@ INSTANTIATE_TEST_SUITE_P(Programs, Endless,
 TEST(Sandbox, EndsWithItsTime) {
     const lua::Budget budget{.cpu_seconds = 20, .wall_seconds = 0.1};
     const auto begin = std::chrono::steady_clock::now();
-    EXPECT_EQ(error_of([&] {
-                  lua::in_child(budget, [] {
-                      for (;;) ::pause();
-                      return std::string();
-                  });
-              }),
-              "takes more than 0.1 s");
+    EXPECT_THAT(error_of([&] {
+                    lua::in_child(budget, [] {
+                        for (;;) ::pause();
+                        return std::string();
+                    });
+                }),
+                ::testing::StartsWith("takes more than 0.1 s, in which it did not get"));
     EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
 }
 

@@ -144,7 +144,7 @@ TEST(Mtl, SaysWhatIsWrongAndWhere) {
     EXPECT_THAT(errors, HasSubstr("m.mtl:3: a finite number expected, not 'red'"));
     EXPECT_THAT(errors, HasSubstr("m.mtl:4: 'Ns' needs a number"));
     EXPECT_THAT(errors, HasSubstr("m.mtl:5: 'map_Kd' names no file"));
-    EXPECT_THAT(errors, HasSubstr("m.mtl:6: can't read a file: none.png: no such file"));
+    EXPECT_THAT(errors, HasSubstr("m.mtl:6: image 'none.png': none.png: no such file"));
 }
 
 TEST(PlyScene, HasTheColoursOfItsVertices) {

@@ -198,7 +198,7 @@ TEST(PbrtMistakes, InOtherFilesBearTheirNames) {
                 HasSubstr("scene.pbrt:2: Shape 'plymesh': 'a.ply': PLY: the header ends early"));
     const MemoryFiles text{{"a.png", "hello"}};
     EXPECT_THAT(errors_of_world("Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"a.png\"", text),
-                HasSubstr("scene.pbrt:2: 'a.png': not an image of a known format"));
+                HasSubstr("scene.pbrt:2: can't read 'a.png': not an image of a known format"));
 }
 
 TEST(PbrtMistakes, OfHugeNumbersAreNamed) {

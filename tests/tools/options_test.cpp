@@ -123,7 +123,7 @@ TEST(Options, MixAllWaysToRun) {
     EXPECT_EQ(mixed.hosts, "h.lua");
     EXPECT_EQ(mixed.threads, 2u);
     EXPECT_EQ(mixed.local_workers, 1u);
-    EXPECT_EQ(mixed.wait, 30);
+    EXPECT_EQ(mixed.wait, std::nullopt) << "as long as it takes, where hosts are busy";
     EXPECT_THAT(usage_error({"run", "g.lua", "--partition", "main"}), HasSubstr("--slurm"));
 }
 
@@ -229,8 +229,7 @@ TEST(Options, RefuseNumbersThatMakeNoSense) {
           Words{"run", "g.lua", "--samples", "1.5"}, Words{"run", "g.lua", "--size", "64"},
           Words{"run", "g.lua", "--size", "0x64"}, Words{"run", "g.lua", "--size", "64x1e9"},
           Words{"run", "g.lua", "--seed", "-1"}, Words{"run", "g.lua", "--preview", "0"},
-          Words{"run", "g.lua", "--preview", "soon"}, Words{"run", "g.lua", "--threads", "2", "--threads", "3"},
-          Words{"run", "g.lua", "--local-workers", "0"}, Words{"run"}})
+          Words{"run", "g.lua", "--preview", "soon"}, Words{"run", "g.lua", "--local-workers", "0"}, Words{"run"}})
         EXPECT_THAT(usage_error(words), StartsWith("lightnet: ")) << words.back();
 }
 
