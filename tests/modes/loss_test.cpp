@@ -215,7 +215,7 @@ TEST_F(Loss, OfTimeDrainsTheRunWithinItsDeadline) {
     ASSERT_TRUE(in_the_middle(*run));
     run->signal(SIGTERM);
     EXPECT_EQ(run->wait(seconds(8)), 130) << run->output();
-    EXPECT_FALSE(std::filesystem::exists(out));
+    EXPECT_TRUE(std::filesystem::exists(out)) << "the picture that there is is left";
     EXPECT_NE(bytes_of(folder / "picture.run.json").find("\"late_replies\": 0"), std::string::npos)
         << "all that was out came in";
     EXPECT_EQ(
