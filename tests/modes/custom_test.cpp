@@ -85,8 +85,6 @@ it = Custom { direct,
 TEST_F(CustomTest, EndsWhatDoesNotEnd) {
     const auto begin = std::chrono::steady_clock::now();
     EXPECT_THAT(why_not("light = function(q)\n while true do end\n end"), HasSubstr("g.lua:3: takes more than"));
-    EXPECT_THAT(why_not("light = function(q)\n local t = {}\n for i = 1, 1e10 do t[i] = i end\n end"),
-                HasSubstr("g.lua:4: takes more than"));
     EXPECT_THAT(why_not("light = function(q)\n local p = q.p\n while true do p = p + 1 end\n end"),
                 HasSubstr("g.lua:4: takes more than"));
     EXPECT_LT(std::chrono::steady_clock::now() - begin, test::slowdown * std::chrono::seconds(20));
@@ -95,7 +93,7 @@ TEST_F(CustomTest, EndsWhatDoesNotEnd) {
 // One instruction may make, copy or compare much.
 TEST_F(CustomTest, EndsWhatTakesBytes) {
     const std::string text = "light = function(q)\n local s = 'xxxxxxxxxxxxxxxx'\n for i = 1, ";
-    EXPECT_THAT(why_not(text + "20 do s = s .. s end\n end"), HasSubstr("g.lua:5: makes a text of more than 4 KiB"));
+    EXPECT_THAT(why_not(text + "20 do s = s .. s end\n end"), HasSubstr("g.lua:4: makes a text of more than 4 KiB"));
     EXPECT_THAT(why_not(text + "7 do s = s .. s end\n for i = 1, 1e9 do local t = s .. 'y' end\n end"),
                 HasSubstr("takes more than"));
     EXPECT_THAT(why_not("light = function(q)\n local t = {}\n for i = 1, 1e5 do t[i] = i end\n end"),

@@ -180,8 +180,8 @@ TEST(MetricsOptions, GoBeyondThisMachineOnlyWhenThatIsSaid) {
     EXPECT_EQ(refused.wait(), 2);
     EXPECT_THAT(refused.output(), HasSubstr("--insecure"));
     Process wrong({program("lightnetd"), "--metrics", "127.0.0.1:x"});
-    EXPECT_EQ(wrong.wait(), 1);
-    EXPECT_THAT(wrong.output(), HasSubstr("an address is like 127.0.0.1:9100"));
+    EXPECT_EQ(wrong.wait(), 2);
+    EXPECT_THAT(wrong.output(), HasSubstr("takes an address like 127.0.0.1:9100"));
 }
 
 }  // namespace

@@ -98,7 +98,7 @@ TEST_F(NamesOfHosts, OfWhichNoServerTellsInMidRunTakeNoOtherHostAway) {
     const Daemon well(folder), named(folder, 1, "tcp://127.0.0.2:*");
     const auto port = named.endpoint.substr(named.endpoint.rfind(':'));
     const auto launch =
-        start(place(well.endpoint) + place("tcp://named.lab" + port), {"--samples", "512", "--tile", "8"});
+        start(place(well.endpoint) + place("tcp://named.lab" + port), {"--samples", "2048", "--tile", "8"});
     ASSERT_TRUE(launch->wait_for("named.lab" + port + " is ready")) << launch->output();
     ASSERT_TRUE(launch->wait_for(well.endpoint + " is ready")) << launch->output();
     names("named.lab silent\n");

@@ -154,23 +154,6 @@ TEST_F(Gone, WritesThePictureWhereItBelongsWhenTheFolderComesBack) {
     EXPECT_THAT(run->output(), testing::Not(HasSubstr("it is in ")));
 }
 
-// Of a cache: entries that are no marks.
-std::size_t entries_of(const fs::path& cache) {
-    const fs::directory_iterator files(cache);
-    return static_cast<std::size_t>(std::count_if(
-        begin(files), end(files), [](const auto& file) { return file.path().filename().string().size() == 64; }));
-}
-
-TEST_F(Outputs, OfADaemonsCacheAreWithinItsSizeAfterEachRun) {
-    const Daemon small_one(folder, 1, "tcp://127.0.0.1:*", {"--cache-size", "100"});
-    const auto hosts = folder.write("hosts.lua", "place '" + small_one.endpoint + "' {}");
-    auto words = small;
-    words.insert(words.end(), {"--hosts", hosts});
-    ASSERT_EQ(launch(graph_file("direct.lua"), folder, words).code, 0);
-    EXPECT_EQ(entries_of(folder / "cache"), 0u);
-    EXPECT_EQ(launch(graph_file("direct.lua"), folder, words).code, 0);
-}
-
 TEST_F(Outputs, OfADaemonLieInNoFolderOfOthers) {
     const auto mine = folder.write("papers/thesis.tex", "text");
     Process daemon({program("lightnetd"), "--listen", "tcp://127.0.0.1:*", "--cache", folder / "papers"});
