@@ -131,7 +131,7 @@ TEST(Project, HasDocumentsWhoseFiguresAreTheCodes) {
         {engine, "(#, 8192 and 8 MiB)", tuning, "std::uint32_t credit = #;"},
         {engine, "(32, # and 8 MiB)", tuning, "credit_questions = #;"},
         {engine, "8192 and # MiB)", tuning, "credit_bytes = std::uint64_t{#} << 20;"},
-        {engine, "by `HostLink`: no answer for # s", "transport/launcher/remote_host.cpp",
+        {engine, "by `HostLink`: no sign of life for # s", "transport/launcher/remote_host.cpp",
          "lease = std::chrono::milliseconds(#)", 1e-3},
         {engine, "or after # s without any", "transport/zmq/zmq_carrier.cpp",
          "shortest_patience = std::chrono::milliseconds(#)", 1e-3},
