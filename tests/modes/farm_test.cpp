@@ -112,6 +112,8 @@ TEST_F(Farm, FewDescriptorsAreSaid) {
     const auto graph = folder.write("box.lua", graph_text);
     for (const char* most : {"4", "5", "6", "7", "8", "9", "10", "11", "12", "16", "24"}) {
         const auto said = shell("ulimit -n " + std::string(most) + "; exec " + run(graph, "--threads 2"));
+        // The fewest may not do for the loader, before there is a program that could say so.
+        if (said.code == 127 && said.text.find("while loading shared libraries") != std::string::npos) continue;
         EXPECT_TRUE(said.code == 0 || said.code == 1 || said.code == 2) << most << ": " << said.code << said.text;
         EXPECT_THAT(said.text, Not(HasSubstr("signal"))) << most;
         EXPECT_THAT(said.text, Not(HasSubstr("without an answer"))) << most;
