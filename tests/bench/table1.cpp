@@ -38,7 +38,7 @@ Graph gathering() {
     graph.file = LIGHTNET_SOURCE_DIR "/graphs/table1.lua";
     const auto ref = [](const char* name) { return Value{NodeRef{name}}; };
     Table film;
-    film.list = {Value{double{side}}, Value{double{side}}};
+    film.list = {Value{double(side)}, Value{double(side)}};
     graph.nodes = {{"scene", "Scene", {Value{std::string("cornell_box.pbrt")}}, {}, {}},
                    {"direct", "CandelaDirect", {}, {}, {}},
                    {"gathered", "CandelaGathered", {ref("direct")}, {{"rays", Value{rays}}}, {}},

@@ -112,7 +112,7 @@ void measure_real_hosts() {
     const Hosts hosts = table3_hosts({one.daemon->endpoint(), two.daemon->endpoint(), three.daemon->endpoint()});
     Stage stage(registry, graph);
     std::vector<double> efficiency;
-    for (std::uint64_t round = 1; round <= rounds; ++round) {
+    for (std::uint64_t round = 1; round <= std::uint64_t(rounds); ++round) {
         stage.use_seed(round);  // nobody finds what was prepared before
         const double work = seconds_of_work(registry, graph, round);
         const double seconds = seconds_of_run(stage, registry, daemons, hosts, round);
