@@ -273,7 +273,8 @@ void RunBook::name_bad_light(const Graph& graph) {
                         "nothing",
                         node, count));
     for (const auto& [node, count] : counters_.unsound_questions)
-        alert(fmt::format("'{}' was asked {} questions whose numbers are not finite; they count as black", node, count));
+        alert(
+            fmt::format("'{}' was asked {} questions whose numbers are not finite; they count as black", node, count));
     const auto lost = steps_.picture().lost();
     for (std::size_t layer = 0; layer < lost.size(); ++layer)
         if (lost[layer])

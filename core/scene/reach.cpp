@@ -15,7 +15,9 @@
 namespace lightnet {
 namespace {
 
-std::string too_far(const char* what) { return fmt::format("{} lies beyond {:g}, where no ray can be traced", what, farthest); }
+std::string too_far(const char* what) {
+    return fmt::format("{} lies beyond {:g}, where no ray can be traced", what, farthest);
+}
 
 // The largest coordinate; not finite where one of them isn't.
 float extent_of(Vec3 p) { return std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z); }
@@ -108,7 +110,8 @@ private:
         if (const std::string fault = Placement::fault(instance.to_world); !fault.empty())
             return problems_.push_back({where(), fault});
         if (Placement(instance.to_world).farthest_inside(most_) > 1e17)
-            problems_.push_back({where(), "an instance makes this object so small that no ray of the scene can be traced in it"});
+            problems_.push_back(
+                {where(), "an instance makes this object so small that no ray of the scene can be traced in it"});
     }
 
     static constexpr std::size_t most_problems = 100;

@@ -71,7 +71,8 @@ int main() {
         if (Clock::now() - begun > 1s) {
             kill(processes["consumer"], SIGSTOP);
             // Asked while it stands still, so that it says what has come together before it works any of that off.
-            if (round % 10 == 0 || waiting.empty()) asked = std::async(std::launch::async, waiting_at, consumer.endpoint());
+            if (round % 10 == 0 || waiting.empty())
+                asked = std::async(std::launch::async, waiting_at, consumer.endpoint());
             std::this_thread::sleep_for(495ms);
             kill(processes["consumer"], SIGCONT);
         }

@@ -49,8 +49,8 @@ TEST_F(DaemonTest, WelcomesALauncherOfItsOwnBuild) {
 }
 
 TEST_F(DaemonTest, KeepsASignalIgnoredThatWasSoAndEndsInOrderWhenSlurmWarnsIt) {
-    Process one({"/bin/sh", "-c", "trap '' INT; exec \"$@\"", "sh", program("lightnetd"), "--listen", "tcp://127.0.0.1:*",
-                 "--places", "1", "--cache", folder / "other"});
+    Process one({"/bin/sh", "-c", "trap '' INT; exec \"$@\"", "sh", program("lightnetd"), "--listen",
+                 "tcp://127.0.0.1:*", "--places", "1", "--cache", folder / "other"});
     ASSERT_TRUE(one.wait_for("listening on ") && one.wait_for("\n")) << one.output();
     const auto from = one.output().find("tcp://");
     const auto endpoint = one.output().substr(from, one.output().find('\n', from) - from);

@@ -98,7 +98,7 @@ private:
     bool watched_ = false, ask_figures_ = false;
     bool drained_ = false;  // see drain()
     std::uint64_t progress_ = 0, pulse_ = 0;
-    std::uint64_t carried_ = 0;  // parts and files, either way: who waits for his line works, too
+    std::uint64_t carried_ = 0;           // parts and files, either way: who waits for his line works, too
     std::optional<Time> next_renewal_{};  // of the connection, which is broken
     std::optional<Time> line_ends_{};     // of the line, which is not
     std::uint64_t renewed_lines_ = 0;

@@ -57,18 +57,18 @@ enum class Type : std::uint8_t {
     ready,       //                             all places are assembled
     broken,      //                             text: the run can't be served here
     ping,        // heartbeat; sent: messages so far, see is_counted(); watch: figures are wanted
-    pong,        //                          process, run, progress, pulse, sent (as in pings), taken, told, line, figures,
+    pong,  //                          process, run, progress, pulse, sent (as in pings), taken, told, line, figures,
     //                                         peak_memory
-    plan,        // who answers for which node from now on
-    end,         // of the run
-    ended,       //                             counters, peak_memory
-    leaving,     // it is to leave the run           it was told to: it answers what it has, then ends the run
-    join,    //                             name, process, endpoint, proof: "I am here", from a host that dialled out
-    joined,  // to such a host: challenge, see pass.hpp; turned_down
-    expect,  // hash, size: bytes that a step will name
-    lacks,   //                             hash: please send them
-    here,    //                             hash: it has them
-    fault,   //                             host, text: another host that failed at what this one asked of it
+    plan,     // who answers for which node from now on
+    end,      // of the run
+    ended,    //                             counters, peak_memory
+    leaving,  // it is to leave the run           it was told to: it answers what it has, then ends the run
+    join,     //                             name, process, endpoint, proof: "I am here", from a host that dialled out
+    joined,   // to such a host: challenge, see pass.hpp; turned_down
+    expect,   // hash, size: bytes that a step will name
+    lacks,    //                             hash: please send them
+    here,     //                             hash: it has them
+    fault,    //                             host, text: another host that failed at what this one asked of it
     // anyone → a host or a launcher
     status,
     state,    // a host in words; `left` more follow
