@@ -72,9 +72,8 @@ enum class Type : std::uint8_t {
     // anyone → a host or a launcher
     status,
     state,    // a host in words; `left` more follow
-    members,  // launcher → host: the keys of the run's hosts, see AllowList, and where those are that have names
-              // (numbers:
-              // "onyx1 10.0.0.11" a line), for this run only
+    members,  // launcher → host, for this run only: the keys of its hosts, see AllowList; numbers: where those are
+              // that have names, a line each, like "onyx1 10.0.0.11"
     // either end of a line, about the line; all in the header
     part,    // of a message: bundle: where it begins; count: bytes of the whole. The body is nothing but its bytes
     mark,    // bundle: a number, to be said back by whoever gets so far
