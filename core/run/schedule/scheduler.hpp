@@ -50,8 +50,9 @@ public:
         Strategy strategy = Strategy::fastest;
         bool last_to_idle = false;      // the end of its phases is foreseen: who is busy gets nothing of the last work
         bool double_tail = false;       // idle replicas do what is left once more
-        std::size_t tail_least = 4;     // pieces of work may always be done twice so ...
-        double tail_part = 0.05;        // ... and such a part of all questions
+        double tail_part = 0.01;        // such a part of all questions may be done twice so ...
+        std::size_t tail_least = 4;     // ... and some pieces of work where that saves ...
+        double tail_saves = 1;          // ... so many seconds each
         double late = 2;                // times as long as expected: then an idle replica does it once more
         double worth = 0.01;            // seconds: what saves less is not worth it
         double patience = 2;            // seconds without a sign of life that any work may take ...
@@ -176,8 +177,9 @@ public:
     bool refused() const { return !refused_.empty(); }
     /// When a Tick is due though nothing else happens. Lowest::none: never.
     Time next_tick() const {
-        const bool watches = idle_one() && is_tail() && may_be_afforded(1);
-        return watches ? std::min(stragglers_.next_overdue(), stragglers_.late()) : stragglers_.next_overdue();
+        if (!idle_one() || !is_tail() || !may_be_afforded(1, rules_.tail_saves)) return stragglers_.next_overdue();
+        const double later = may_be_afforded(1, 0) ? 0 : rules_.tail_saves;
+        return std::min(stragglers_.next_overdue(), stragglers_.late() + later);
     }
     /// Replicas that have not gone.
     std::size_t replicas() const { return present_; }
@@ -291,7 +293,8 @@ private:
     void double_tail(Time now);
     bool is_tail() const { return rules_.double_tail && waiting_.empty() && suspects_.empty() && foreseen_ == 0; }
     std::optional<Replica> idle_one() const;
-    bool may_be_afforded(std::size_t questions) const;
+    bool may_be_afforded(std::size_t questions, double saves) const;
+    double saved_by(Replica idle, const Ledger::Copy& copy, Time now) const;
     bool may_be_doubled(const Ledger::Copy& copy) const;
     const Ledger::Copy* worth_doubling(Replica idle, Time now) const;
 

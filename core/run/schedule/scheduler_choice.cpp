@@ -171,9 +171,16 @@ bool Scheduler::may_be_doubled(const Ledger::Copy& copy) const {
            found->second.copies.size() == 1;
 }
 
-bool Scheduler::may_be_afforded(std::size_t questions) const {
-    return counts_.doubled < rules_.tail_least || static_cast<double>(questions_doubled_ + questions) <
-                                                      rules_.tail_part * static_cast<double>(questions_added_);
+bool Scheduler::may_be_afforded(std::size_t questions, double saves) const {
+    const auto doubled = static_cast<double>(questions_doubled_ + questions);
+    return doubled <= rules_.tail_part * static_cast<double>(questions_added_) ||
+           (counts_.doubled < rules_.tail_least && saves >= rules_.tail_saves);
+}
+
+// Seconds, as far as can be foreseen: who is late already may be so for as long again.
+double Scheduler::saved_by(Replica idle, const Ledger::Copy& copy, Time now) const {
+    if (copy.late <= now) return now - copy.late;
+    return copy.expected - now - completion_time(idle, copy.questions);
 }
 
 // What `idle` could do: a copy that is late, if `idle` takes no longer than it was to take; else the one that is
@@ -223,7 +230,7 @@ void Scheduler::double_tail(Time now) {
             idle = idle_elsewhere();
             copy = idle ? worth_doubling(*idle, now) : nullptr;
         }
-        if (!copy || !may_be_afforded(copy->questions)) return;
+        if (!copy || !may_be_afforded(copy->questions, saved_by(*idle, *copy, now))) return;
         ++counts_.doubled;
         questions_doubled_ += copy->questions;
         send(items_.at(copy->work), *idle, now);
