@@ -11,7 +11,7 @@ namespace lightnet::test {
 
 /// Is Python's package jsonschema here?
 inline bool schemas_can_be_checked() {
-    Process python({"/usr/bin/env", "python3", "-c", "import jsonschema"});
+    Process python({"/usr/bin/python3", "-c", "import jsonschema"});
     return python.wait() == 0;
 }
 
@@ -28,7 +28,7 @@ inline std::string complaints_of_schema(const std::string& name, const std::file
         "texts = text.splitlines() if sys.argv[3] == 'lines' else [text]\n"
         "for text in texts:\n"
         "    for wrong in check.iter_errors(json.loads(text)): print(wrong.json_path, wrong.message[:300])\n";
-    Process python({"/usr/bin/env", "python3", "-c", code,
+    Process python({"/usr/bin/python3", "-c", code,
                     std::string(LIGHTNET_SOURCE_DIR) + "/docs/schemas/" + name + ".schema.json", file.string(),
                     lines ? "lines" : "whole"});
     const int ended = python.wait();
