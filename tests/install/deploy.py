@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """deploy.py PROGRAMS SOURCES: the files in packaging/deploy are sound, and their command lines render a picture.
 
 No container runs here: the words of each file start the same programs in folders that stand for volumes, with keys that
