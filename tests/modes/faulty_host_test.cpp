@@ -81,7 +81,9 @@ TEST_P(FaultyHost, IsTakenOutAndTheOthersGoOn) {
         HostThread one(sick, 1, folder.file("one")), two(healthy, 1, folder.file("two")),
             three(healthy, 1, folder.file("three"));
         said.clear();
-        EXPECT_EQ(render_on({one.endpoint(), two.endpoint(), three.endpoint()}, spread_out), expected);
+        // The others may be done with so small a picture before the sick one is prepared and asked for anything.
+        for (int run = 0; run < 10 && said.find("is taken out") == std::string::npos; ++run)
+            EXPECT_EQ(render_on({one.endpoint(), two.endpoint(), three.endpoint()}, spread_out), expected);
         EXPECT_THAT(said, HasSubstr(one.endpoint() + " is taken out: ")) << (spread_out ? "spread out" : "whole");
         EXPECT_THAT(said, HasSubstr("bad_alloc"));
     }
