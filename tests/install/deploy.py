@@ -113,7 +113,7 @@ def compose(folder):
                 name = mount.split(":")[0]
                 assert name.startswith("./") or name in file["volumes"], f"{mount} is nowhere"
             assert set(service["networks"]) <= set(file["networks"])
-        paths = {"/keys/": f"{farm.folder}/keys/", "/cache": farm.folder / "cache", "/work/": f"{farm.folder}/work/"}
+        paths = {"/keys/": f"{farm.folder}/keys/", "/cache": farm.folder / "cache", "/pictures/": f"{farm.folder}/work/"}
         words = lambda service: [farm.here(str(word), paths) for word in service["entrypoint"] + service["command"]]
         return farm.render(words(daemon), words(launcher), farm.folder / "work/cornell.exr")
     finally:
@@ -151,8 +151,8 @@ def kubernetes(folder):
                 assert variable["name"] in values, variable
             text = [re.sub(r"\$\((\w+)\)", lambda name: values[name.group(1)], word)
                     for word in container["command"] + container["args"]]
-            paths["/work/"] = f"{farm.folder}/work/"
-            paths.pop("/work", None)
+            paths["/pictures/"] = f"{farm.folder}/work/"
+            paths.pop("/pictures", None)
             paths.pop("/tmp")  # no word names it
             return [farm.here(word, paths) for word in text]
 
