@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <random>
@@ -68,6 +69,17 @@ class Reading : public testing::TestWithParam<Target> {};
 
 TEST_P(Reading, TakesSoundInputs) {
     for (const auto& seed : GetParam().seeds()) EXPECT_NO_THROW(GetParam().read(bytes_of(seed)));
+}
+
+// What once ended the program, or went on for ever.
+TEST_P(Reading, TakesWhatWasFoundBefore) {
+    const auto folder = std::filesystem::path(LIGHTNET_SOURCE_DIR) / "tests/fuzz/found" / GetParam().name;
+    if (!exists(folder)) return;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        std::ifstream file(entry.path(), std::ios::binary);
+        const std::string text{std::istreambuf_iterator<char>(file), {}};
+        EXPECT_NO_THROW(GetParam().read(bytes_of(text))) << entry.path();
+    }
 }
 
 TEST_P(Reading, TakesInputsThatAreCutAnywhere) {

@@ -2,21 +2,14 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include "tests/fuzz/put_right.hpp"
 #include "tests/fuzz/targets.hpp"
 #include "transport/wire/packet.hpp"
 
 namespace lightnet::fuzz {
-namespace {
 
 using View = std::span<const std::byte>;
 
-void read_both(View header, View body) {
-    (void)packet::peek_header(header);
-    (void)packet::claimed_version(header);
-    (void)packet::unpack(header, body);
-}
-
-// What a sender with bad intentions would do: a header that is right about a body that is not.
 std::vector<std::byte> put_right(View given, View body) {
     std::vector<std::byte> header(given.begin(), given.end());
     const auto put = [&](std::size_t at, auto value) { std::memcpy(header.data() + at, &value, sizeof value); };
@@ -26,6 +19,14 @@ std::vector<std::byte> put_right(View given, View body) {
     put(checksum_at - sizeof(std::uint32_t), static_cast<std::uint32_t>(body.size()));
     put(checksum_at, XXH3_64bits_withSeed(body.data(), body.size(), XXH3_64bits(header.data(), checksum_at)));
     return header;
+}
+
+namespace {
+
+void read_both(View header, View body) {
+    (void)packet::peek_header(header);
+    (void)packet::claimed_version(header);
+    (void)packet::unpack(header, body);
 }
 
 void read(View bytes) {

@@ -64,8 +64,13 @@ Target keys();
 /// Packets as they come to a host's door that asks for keys: a byte says from whom, the rest is the header.
 Target gates();
 
+/// Packets in any order, as they come to a daemon that asks for no keys, with jobs, plans and files.
+Target conversations();
+
 /// What comes to the server of a watched run: HTTP, and a WebSocket.
 Target watched();
+/// What comes from there to `watch`, or from whoever else listens.
+Target lines();
 
 /// The same scenes, read and rendered: what comes between the file and the ray.
 Target rays_pbrt();
@@ -82,10 +87,10 @@ Target pasts();
 Target words();
 
 inline std::vector<Target> all_targets() {
-    return {packets(),    scenes(),   meshes(),  texts(),     mitsuba(),      gltf(),        obj(),
-            serialized(), pictures(), films(),   manifests(), jobs(),         checkpoints(), graphs(),
-            keys(),       gates(),    watched(), rays_pbrt(), rays_mitsuba(), rays_gltf(),   rays_obj(),
-            customs(),    kept(),     pasts(),   words()};
+    return {packets(),    scenes(),   meshes(),  texts(),     mitsuba(),       gltf(),        obj(),
+            serialized(), pictures(), films(),   manifests(), jobs(),          checkpoints(), graphs(),
+            keys(),       gates(),    watched(), rays_pbrt(), rays_mitsuba(),  rays_gltf(),   rays_obj(),
+            customs(),    kept(),     pasts(),   words(),     conversations(), lines()};
 }
 
 }  // namespace lightnet::fuzz

@@ -5,6 +5,8 @@
 #include <boost/asio.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/websocket.hpp>
+#include <limits>
+#include <new>
 
 #include "core/base/error.hpp"
 #include "core/base/ip_address.hpp"
@@ -20,21 +22,44 @@ using Fault = boost::system::error_code;
 using namespace std::chrono_literals;
 
 constexpr auto line_patience = 5s;
-constexpr std::size_t most_heard = 16 << 20;  // bytes of a message
+constexpr std::size_t most_heard = 16 << 20;      // bytes of a message
+constexpr std::size_t longest_answer = 64 << 10;  // to the first request
+
+// The library keeps what it is answered at first, however much it is: until that is over, few bytes are let in.
+class FewAtFirst {
+public:
+    bool used_up() const { return left_ == 0; }
+    void let_all_in() { left_ = all; }
+
+private:
+    friend class beast::rate_policy_access;
+    static constexpr auto all = std::numeric_limits<std::size_t>::max();
+    std::size_t available_read_bytes() const { return left_; }
+    std::size_t available_write_bytes() const { return all; }
+    void transfer_read_bytes(std::size_t bytes) {
+        if (left_ != all) left_ -= std::min(left_, bytes);
+    }
+    void transfer_write_bytes(std::size_t) {}
+    void on_timer() {}
+
+    std::size_t left_ = longest_answer;
+};
+using Line = beast::basic_stream<asio::ip::tcp, asio::any_io_executor, FewAtFirst>;
 
 }  // namespace
 
 struct LiveLine::Parts {
     asio::io_context io{1};
-    websocket::stream<beast::tcp_stream> socket{io};
+    websocket::stream<Line> socket{io};
     beast::flat_buffer heard;
     bool reading = false, complete = false, over = false;
 
-    // None: it took too long.
+    FewAtFirst& let_in() { return beast::get_lowest_layer(socket).rate_policy(); }
+    // None: it took too long, or more was said than is listened to.
     std::optional<Fault> finish(const std::optional<Fault>& done, std::chrono::milliseconds patience) {
         const auto end = std::chrono::steady_clock::now() + patience;
         io.restart();
-        while (!done && std::chrono::steady_clock::now() < end && io.run_one_until(end) > 0) {
+        while (!done && !let_in().used_up() && std::chrono::steady_clock::now() < end && io.run_one_until(end) > 0) {
         }
         return done;
     }
@@ -56,13 +81,20 @@ struct LiveLine::Parts {
         }
         throw Error(where, trouble.empty() ? "nobody answers" : trouble);
     }
-    void must(const std::optional<Fault>& done, const std::string& where) {
+    // What shakes hands with somebody who may be no launcher.
+    void must(const std::optional<Fault>& done, const std::string& where) try {
         const auto fault = finish(done, line_patience);
-        if (fault && !*fault) return;
+        if (fault && !*fault) return let_in().let_all_in();
+        const bool long_winded = let_in().used_up();
         beast::get_lowest_layer(socket).close();
+        let_in().let_all_in();
         io.restart();
         io.run();  // what refers to `done` is over
-        throw Error(where, fault ? fault->message() : "nobody answers");
+        throw Error(where, long_winded ? "what answers there is no launcher"
+                           : fault     ? fault->message()
+                                       : "nobody answers");
+    } catch (const std::bad_alloc&) {  // it announced an answer of that size
+        throw Error(where, "what answers there is no launcher");
     }
 };
 
