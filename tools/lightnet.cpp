@@ -11,6 +11,7 @@
 #include "tools/exit_code.hpp"
 #include "tools/launcher.hpp"
 #include "tools/plugins.hpp"
+#include "tools/signals.hpp"
 #include "tools/standard_output.hpp"
 #include "transport/places/descriptors.hpp"
 
@@ -44,6 +45,7 @@ int perform(const std::vector<std::string>& words) try {
 }  // namespace
 
 int main(int count, char** words) {
+    lightnet::end_on_signals(lightnet::exit_code::interrupted, "lightnet: stopped by a signal\n");
     lightnet::keep_standard_descriptors();
     lightnet::StandardOutput output;
     return output.end(perform({words + 1, words + count}), "lightnet");

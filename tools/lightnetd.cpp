@@ -171,6 +171,7 @@ int perform_in_words(const std::vector<std::string>& typed, lightnet::StandardOu
 }  // namespace
 
 int main(int count, char** words) {
+    lightnet::end_on_signals(lightnet::exit_code::done, "lightnetd: stopped by a signal\n");
     lightnet::keep_standard_descriptors();
     lightnet::StandardOutput output;
     return output.end(perform_in_words({words + 1, words + count}, output), "lightnetd");

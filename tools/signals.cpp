@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <initializer_list>
 
 namespace lightnet {
 namespace {
@@ -24,9 +25,24 @@ void on_signal(int signal) {
     (signal == SIGINT ? signals.interrupted : signals.terminated) = true;
 }
 
+int code_at_first = 0;
+std::string_view words_at_first;
+
+void end_at_once(int) {
+    [[maybe_unused]] const auto written = write(STDERR_FILENO, words_at_first.data(), words_at_first.size());
+    _exit(code_at_first);
+}
+
 bool is_ignored(int signal) {
     struct sigaction action {};
     return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
+void take(std::initializer_list<int> which, void (*handler)(int)) {
+    struct sigaction action {};
+    action.sa_handler = handler;
+    for (const int signal : which)
+        if (!is_ignored(signal)) sigaction(signal, &action, nullptr);
 }
 
 }  // namespace
@@ -43,11 +59,14 @@ std::chrono::duration<double> time_to_end(const Signals& told) {
     return std::max<std::chrono::duration<double>>(came + patience - now, std::chrono::seconds(0));
 }
 
+void end_on_signals(int code, std::string_view words) {
+    code_at_first = code, words_at_first = words;
+    take({SIGINT, SIGTERM, SIGHUP}, end_at_once);
+    take({SIGUSR1}, [](int) {});
+}
+
 const Signals& watch_signals() {
-    struct sigaction action {};
-    action.sa_handler = on_signal;
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1})
-        if (!is_ignored(signal)) sigaction(signal, &action, nullptr);
+    take({SIGINT, SIGTERM, SIGHUP, SIGUSR1}, on_signal);
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error like a full disk
     return signals;

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <string_view>
 
 namespace lightnet {
 
@@ -19,6 +20,10 @@ struct Signals {
 /// warnings do not count. What is ignored when the program starts stays so: SIGHUP under nohup, SIGINT in the
 /// background jobs of a script. Broken pipes are no longer deadly.
 const Signals& watch_signals();
+
+/// Until then, or for good: they end the process with `code` and `words` on standard error, which stay where they are.
+/// To be called first of all; what is ignored stays so, as above, and SIGUSR1 does nothing.
+void end_on_signals(int code, std::string_view words);
 
 /// Whoever ends programs gives them some ten seconds to end in order, and then none: how much is left of it.
 std::chrono::duration<double> time_to_end(const Signals& signals);

@@ -1,6 +1,9 @@
 // What the launcher says of wrong launches, before work starts.
 #include <gtest/gtest.h>
 
+#include <csignal>
+#include <fstream>
+
 #include "tests/modes/daemons.hpp"
 #include "tests/support/pixels_in.hpp"
 
@@ -23,6 +26,25 @@ TEST(Launch, RefusesAnOutputThatCannotBeWrittenBeforeItRenders) {
     const auto png = launch_to(folder / "x.png");
     EXPECT_EQ(png.code, 2);
     EXPECT_NE(png.said.find("written as .exr"), std::string::npos) << png.said;
+}
+
+bool catches(int process, int signal) {
+    std::ifstream status("/proc/" + std::to_string(process) + "/status");
+    for (std::string line; std::getline(status, line);)
+        if (line.starts_with("SigCgt:")) return std::stoull(line.substr(7), nullptr, 16) >> (signal - 1) & 1;
+    return false;
+}
+
+TEST(Launch, EndsInWordsWhenItIsToldToBeforeItHasBegun) {
+    const Folder folder;
+    std::ofstream(folder / "endless.lua") << "while true do end\n";
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        Process run(launch_words(folder / "endless.lua", folder / "x.exr", {}));
+        while (!catches(run.id(), signal)) ASSERT_TRUE(run.lives());
+        run.signal(signal);
+        EXPECT_EQ(run.wait(), 130);
+        EXPECT_EQ(run.output(), "lightnet: stopped by a signal\n");
+    }
 }
 
 TEST(Launch, TellsAllThatIsWrongWithASceneAtOnce) {
