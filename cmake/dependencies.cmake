@@ -16,6 +16,8 @@ find_package(ZLIB REQUIRED)                                # packed scene files
 find_package(JPEG REQUIRED)                                # textures in
 find_package(TIFF 4.5 REQUIRED)                            # textures in
 pkg_check_modules(libjpeg QUIET libjpeg)                   # its full version: decoders differ in bits
+pkg_check_modules(draco REQUIRED IMPORTED_TARGET draco)     # packed meshes (core/readers/gltf)
+find_package(meshoptimizer 0.18 REQUIRED CONFIG)           # the same, by another packer
 find_package(pugixml REQUIRED)                             # scenes in XML (core/readers/mitsuba)
 find_package(Boost 1.74 REQUIRED COMPONENTS context)       # fibers (core/fiber); Beast: HTTP (tools/watch)
 find_package(Eigen3 3.4 REQUIRED CONFIG)                # least squares (core/film)

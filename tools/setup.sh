@@ -9,6 +9,7 @@ packages=(
     libembree-dev libopenexr-dev libpng-dev libjpeg62-turbo-dev libtiff-dev   # rays and pictures
     libjemalloc-dev                                     # memory in large pages
     libeigen3-dev                                       # linear equations
+    libdraco-dev libmeshoptimizer-dev                   # packed meshes
     libpugixml-dev zlib1g-dev                           # scenes in XML
     libboost-dev libboost-context-dev libzmq3-dev cppzmq-dev libmsgpack-cxx-dev libssl-dev libxxhash-dev   # fibers, HTTP, sockets, hashes
     libsodium-dev                                       # keys

@@ -85,6 +85,8 @@ bool is_ear(const std::vector<Flat>& flat, const std::vector<std::size_t>& rest,
 
 }  // namespace
 
+Vec3 moved_normal(Vec3 normal, const Matrix& to_world) { return NormalTransform(to_world)(normal); }
+
 bool transform(Mesh& mesh, const Matrix& to_world) {
     const NormalTransform normal(to_world);
     bool good = true;

@@ -12,6 +12,8 @@ namespace lightnet {
 
 /// Moves a mesh into another space. Normals come out as unit vectors, or zero. False: a vertex is not finite there.
 bool transform(Mesh& mesh, const Matrix& to_world);
+/// A normal in another space: unit, or zero. It stays outside where the transform mirrors.
+Vec3 moved_normal(Vec3 normal, const Matrix& to_world);
 /// The shading normals decide on which side of a triangle its normal is: vertices are swapped where need be. Vertices
 /// without a sound normal get the one of a triangle. For meshes that have normals.
 void order_by_normals(Mesh& mesh);

@@ -64,6 +64,8 @@ const std::array homes{
     Home{"libpng", std::regex("png\\.h"), std::regex("core/film/.*|core/readers/image_\\w+\\.cpp")},
     Home{"libjpeg", std::regex("jpeglib\\.h"), std::regex("core/readers/image_\\w+\\.cpp")},
     Home{"pugixml", std::regex("pugixml\\.hpp"), std::regex("core/readers/mitsuba/.*")},
+    Home{"Draco", std::regex("draco/.*"), std::regex("core/readers/gltf/draco\\.cpp")},
+    Home{"meshoptimizer", std::regex("meshoptimizer\\.h"), std::regex("core/readers/gltf/meshopt\\.cpp")},
     Home{"zlib", std::regex("zlib\\.h"), std::regex("core/readers/(mitsuba/\\w+|gzip)\\.cpp")},
     Home{"Boost.Context", std::regex("boost/context/.*"), std::regex("core/run/fiber/.*")},
     Home{"Boost.Beast", std::regex("boost/beast.*"), std::regex("tools/http/.*")},

@@ -27,22 +27,35 @@ Stored load(const std::byte* at) {
     return value;
 }
 
+/// What a whole number means as a share of the largest.
+double share_of(double value, Component type) {
+    const double most = type == Component::i8    ? 127
+                        : type == Component::u8  ? 255
+                        : type == Component::i16 ? 32767
+                        : type == Component::u16 ? 65535
+                        : type == Component::u32 ? 4294967295.0
+                                                 : 1;
+    return type == Component::f32 ? value : std::max(value / most, -1.0);
+}
+
 double component(const std::byte* at, Component type, bool normalised) {
-    const auto share = [&](double value, double most) { return normalised ? std::max(value / most, -1.0) : value; };
-    switch (type) {
-        case Component::i8:
-            return share(load<std::int8_t>(at), 127);
-        case Component::u8:
-            return share(load<std::uint8_t>(at), 255);
-        case Component::i16:
-            return share(load<std::int16_t>(at), 32767);
-        case Component::u16:
-            return share(load<std::uint16_t>(at), 65535);
-        case Component::u32:
-            return share(load<std::uint32_t>(at), 4294967295.0);
-        default:
-            return double(load<float>(at));
-    }
+    const auto stored = [&]() -> double {
+        switch (type) {
+            case Component::i8:
+                return load<std::int8_t>(at);
+            case Component::u8:
+                return load<std::uint8_t>(at);
+            case Component::i16:
+                return load<std::int16_t>(at);
+            case Component::u16:
+                return load<std::uint16_t>(at);
+            case Component::u32:
+                return load<std::uint32_t>(at);
+            default:
+                return double(load<float>(at));
+        }
+    };
+    return normalised ? share_of(stored(), type) : stored();
 }
 
 std::optional<Component> component_of(const At& at, bool indices) {
@@ -58,8 +71,8 @@ std::optional<Component> component_of(const At& at, bool indices) {
 }
 
 std::optional<std::size_t> width_of(const At& at) {
-    constexpr std::array<std::pair<std::string_view, std::size_t>, 4> names{
-        {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}}};
+    constexpr std::array<std::pair<std::string_view, std::size_t>, 5> names{
+        {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT4", 16}}};
     const std::string type = at.text("");
     for (const auto& [name, width] : names)
         if (type == name) return width;
@@ -172,6 +185,15 @@ std::optional<Values> Document::values(const At& accessor_index) {
     if (!numbers) return std::nullopt;
     values.numbers = *std::move(numbers);
     return values;
+}
+
+void Document::normalise(const At& accessor_index, Values& values) const {
+    const At accessors = root()["accessors"];
+    const auto index = accessor_index.index(accessors.size());
+    if (!index || !accessors[*index]["normalized"].boolean(false)) return;
+    const auto type = component_of(accessors[*index]["componentType"], false);
+    if (!type) return;
+    for (float& number : values.numbers) number = float(share_of(double(number), *type));
 }
 
 std::optional<std::vector<std::uint32_t>> Document::indices(const At& accessor_index) {

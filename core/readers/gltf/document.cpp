@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cstring>
 #include <string_view>
+#include <utility>
+
+#include "core/readers/gltf/meshopt.hpp"
 
 namespace lightnet::gltf {
 namespace {
@@ -143,7 +146,24 @@ std::optional<std::span<const std::byte>> Document::view(const At& view_index) {
     const At views = root()["bufferViews"];
     const auto index = view_index.index(views.size());
     if (!index) return std::nullopt;
-    const At at = views[*index];
+    const At at = views[*index], packed = at["extensions"]["EXT_meshopt_compression"];
+    return packed ? unpacked(*index, packed) : part_of_buffer(at);
+}
+
+std::optional<std::span<const std::byte>> Document::unpacked(std::size_t view, const At& packed) {
+    auto known = unpacked_.find(view);
+    if (known == unpacked_.end()) {
+        const auto bytes = part_of_buffer(packed);
+        auto made = bytes ? unpack_view(packed, *bytes) : std::nullopt;
+        if (made) loaded_ += made->size();
+        known = unpacked_.emplace(view, std::move(made)).first;
+    }
+    if (!known->second) return std::nullopt;
+    return std::span<const std::byte>(*known->second);
+}
+
+/// What "buffer", "byteOffset" and "byteLength" say.
+std::optional<std::span<const std::byte>> Document::part_of_buffer(const At& at) {
     const auto which = at["buffer"].index(buffers_.size());
     if (!which) {
         if (!at["buffer"]) at.error("names no buffer");

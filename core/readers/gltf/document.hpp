@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -35,7 +36,9 @@ public:
     std::optional<Values> values(const At& accessor_index);
     /// The same of whole numbers without a sign. None: reported.
     std::optional<std::vector<std::uint32_t>> indices(const At& accessor_index);
-    /// The bytes of a buffer view. None: reported.
+    /// Makes of whole numbers what an accessor says that they mean: shares, where it is normalised.
+    void normalise(const At& accessor_index, Values& values) const;
+    /// The bytes of a buffer view, unpacked. None: reported.
     std::optional<std::span<const std::byte>> view(const At& view_index);
     /// The bytes behind a "uri": data in it, or a file. None: reported.
     std::optional<Bytes> resource(const At& uri) const;
@@ -49,6 +52,8 @@ private:
     bool overlay(const At& sparse, const Layout& layout, std::vector<Value>& values);
     bool spend(const At& where, std::uint64_t elements);
     Bytes buffer(std::size_t index);
+    std::optional<std::span<const std::byte>> part_of_buffer(const At& part);
+    std::optional<std::span<const std::byte>> unpacked(std::size_t view, const At& packed);
     std::span<const std::byte> json_chunk();
 
     Assets& assets_;
@@ -56,8 +61,9 @@ private:
     Bytes bytes_;
     std::span<const std::byte> binary_;  // of a .glb
     Json json_;
-    std::vector<std::optional<Bytes>> buffers_;  // none: not loaded yet; null: reported
-    std::uint64_t spent_ = 0, loaded_ = 0;       // elements, bytes
+    std::vector<std::optional<Bytes>> buffers_;                              // none: not loaded yet; null: reported
+    std::map<std::size_t, std::optional<std::vector<std::byte>>> unpacked_;  // views; none: reported
+    std::uint64_t spent_ = 0, loaded_ = 0;                                   // elements, bytes
 };
 
 }  // namespace lightnet::gltf

@@ -23,6 +23,9 @@ const std::set<std::string, std::less<>> known_extensions{"KHR_materials_transmi
                                                           "KHR_texture_transform",
                                                           "KHR_mesh_quantization",
                                                           "EXT_mesh_gpu_instancing",
+                                                          "KHR_node_visibility",
+                                                          "KHR_draco_mesh_compression",
+                                                          "EXT_meshopt_compression",
                                                           "KHR_materials_emissive_strength",
                                                           "KHR_materials_pbrSpecularGlossiness"};
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/readers/gltf/draco.hpp"
 #include "core/readers/mesh_tools.hpp"
 
 namespace lightnet::gltf {
@@ -30,7 +31,7 @@ std::vector<std::array<std::uint32_t, 3>> cut(const std::vector<std::uint32_t>& 
 
 class Reader {
 public:
-    Reader(const At& at, Document& document) : at_(at), document_(document) {}
+    Reader(const At& at, const Moved& moved, Document& document) : at_(at), moved_(moved), document_(document) {}
 
     /// Positions, normals, colours and triangles. None: reported, or without a surface.
     std::optional<Mesh> read() {
@@ -41,36 +42,91 @@ public:
             return std::nullopt;
         }
         const At attributes = at_["attributes"];
-        if (at_["targets"].size()) at_.warn("morph targets are left out");
-        if (attributes["JOINTS_0"]) at_.warn("skins are left out: meshes stand as they were made");
-        auto positions = vectors<Vec3>(attributes["POSITION"], 3);
+        if (packed() && !unpack()) return std::nullopt;
+        auto positions = vectors<Vec3>("POSITION", 3);
         if (!positions || positions->empty()) {
             if (!attributes["POSITION"]) at_.error("has no POSITION");
             return std::nullopt;
         }
         mesh_.positions = *std::move(positions);
-        if (auto normals = vectors<Vec3>(attributes["NORMAL"], 3)) mesh_.normals = *std::move(normals);
-        colours(attributes["COLOR_0"]);
+        if (auto normals = vectors<Vec3>("NORMAL", 3)) mesh_.normals = *std::move(normals);
+        if (!moved_.weights.empty())
+            for (Vec3& n : mesh_.normals) n = length_squared(n) > 0 ? normalize(n) : n;
+        colours();
         if (!corners(mode) || !sound()) return std::nullopt;
+        if (moved_.skin && !hang()) return std::nullopt;
         return std::move(mesh_);
     }
 
     std::vector<Vec2> uvs(std::size_t set) {
-        const At at = at_["attributes"][fmt::format("TEXCOORD_{}", set)];
-        auto found = at ? vectors<Vec2>(at, 2) : std::nullopt;
+        auto found = vectors<Vec2>(fmt::format("TEXCOORD_{}", set), 2);
         if (!found) return {};
         for (auto& uv : *found) uv.y = 1 - uv.y;  // glTF counts from the top
         return *std::move(found);
     }
 
 private:
+    At packed() const { return at_["extensions"]["KHR_draco_mesh_compression"]; }
+
+    bool unpack() {
+        const auto bytes = document_.view(packed()["bufferView"]);
+        if (!bytes) return false;
+        auto mesh = unpack_mesh(packed(), *bytes, (std::uint64_t{1} << 20) + bytes->size() * 256);
+        if (mesh) unpacked_ = *std::move(mesh);
+        return mesh.has_value();
+    }
+
+    bool hang() {
+        const auto values = [&](const std::string& name) { return attribute(name); };
+        return hang_on(*moved_.skin, at_["attributes"], values, mesh_);
+    }
+
+    /// An attribute as it was made.
+    std::optional<Values> plain_attribute(const std::string& name) {
+        const At at = at_["attributes"][name], id = packed()["attributes"][name];
+        if (!id) return at ? document_.values(at) : std::nullopt;
+        const auto found = unpacked_.attributes.find(id.whole(~std::uint64_t{0}));
+        if (found == unpacked_.attributes.end()) {
+            id.error("names an attribute that the packed mesh does not have");
+            return std::nullopt;
+        }
+        Values values = found->second;
+        document_.normalise(at, values);
+        return values;
+    }
+
+    /// An attribute, moved by the morph targets. None: not there, or reported.
+    std::optional<Values> attribute(const std::string& name) {
+        const At targets = at_["targets"];
+        auto values = plain_attribute(name);
+        for (std::size_t i = 0; values && i < std::min(moved_.weights.size(), targets.size()); ++i) {
+            const At target = targets[i][name];
+            if (!target || moved_.weights[i] == 0) continue;
+            if (!add(target, float(moved_.weights[i]), *values)) return std::nullopt;
+        }
+        return values;
+    }
+
+    bool add(const At& target, float weight, Values& to) {
+        const auto by = document_.values(target);
+        if (!by) return false;
+        if (by->width > to.width || by->count() != to.count()) {
+            target.error(fmt::format("must name {} vectors of {} numbers", to.count(), to.width));
+            return false;
+        }
+        for (std::size_t i = 0; i < by->count(); ++i)
+            for (std::size_t j = 0; j < by->width; ++j)
+                to.numbers[i * to.width + j] += weight * by->numbers[i * by->width + j];
+        return true;
+    }
+
     template <class Vector>
-    std::optional<std::vector<Vector>> vectors(const At& at, std::size_t width) {
-        if (!at) return std::nullopt;
-        const auto values = document_.values(at);
+    std::optional<std::vector<Vector>> vectors(const std::string& name, std::size_t width) {
+        const auto values = attribute(name);
         if (!values) return std::nullopt;
         if (values->width != width || (!mesh_.positions.empty() && values->count() != mesh_.positions.size())) {
-            at.error(fmt::format("must name {} vectors of {} numbers", mesh_.positions.size(), width));
+            at_["attributes"][name].error(
+                fmt::format("must name {} vectors of {} numbers", mesh_.positions.size(), width));
             return std::nullopt;
         }
         std::vector<Vector> result(values->count());
@@ -84,11 +140,13 @@ private:
         return result;
     }
 
-    void colours(const At& at) {
-        const auto values = at ? document_.values(at) : std::nullopt;
+    void colours() {
+        auto values = attribute("COLOR_0");
         if (!values) return;
         if (values->width < 3 || values->count() != mesh_.positions.size())
-            return at.error("must name a colour for each vertex");
+            return at_["attributes"]["COLOR_0"].error("must name a colour for each vertex");
+        if (!moved_.weights.empty())
+            for (float& number : values->numbers) number = std::clamp(number, 0.0f, 1.0f);
         for (std::size_t i = 0; i < values->count(); ++i) {
             const float* v = &values->numbers[i * values->width];
             mesh_.colours.push_back({v[0], v[1], v[2]});
@@ -97,7 +155,10 @@ private:
 
     bool corners(std::uint64_t mode) {
         std::vector<std::uint32_t> list;
-        if (at_["indices"]) {
+        if (packed()) {
+            list = std::move(unpacked_.corners);
+            mode = triangles;
+        } else if (at_["indices"]) {
             auto given = document_.indices(at_["indices"]);
             if (!given) return false;
             list = *std::move(given);
@@ -126,18 +187,20 @@ private:
     }
 
     const At& at_;
+    const Moved& moved_;
     Document& document_;
+    Unpacked unpacked_;
     Mesh mesh_;
 };
 
 }  // namespace
 
-std::vector<Primitive> read_mesh(const At& at, Document& document, Materials& materials) {
+std::vector<Primitive> read_mesh(const At& at, const Moved& moved, Document& document, Materials& materials) {
     std::vector<Primitive> found;
     const At primitives = at["primitives"];
     for (std::size_t i = 0; i < primitives.size() && !at.report().full(); ++i) {
         const At primitive = primitives[i];
-        Reader reader(primitive, document);
+        Reader reader(primitive, moved, document);
         auto mesh = reader.read();
         if (!mesh) continue;
         const Surface& surface = materials.of(primitive["material"], !mesh->colours.empty());

@@ -9,38 +9,13 @@
 #include <utility>
 
 #include "core/readers/gltf/meshes.hpp"
+#include "core/readers/gltf/skins.hpp"
 #include "core/readers/mesh_tools.hpp"
 #include "core/scene/reach.hpp"
 #include "core/scene/surfaces/placement.hpp"
 
 namespace lightnet::gltf {
 namespace {
-
-Matrix from_parts(const std::array<double, 3>& move, std::array<double, 4> q, const std::array<double, 3>& scale) {
-    const double size = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    if (!(size > 0)) q = {0, 0, 0, 1};
-    const double n = size > 0 ? 1 / size : 1, x = q[0] * n, y = q[1] * n, z = q[2] * n, w = q[3] * n;
-    const double r[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
-                            {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)},
-                            {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)}};
-    Matrix t;
-    for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t j = 0; j < 3; ++j) t.m[i][j] = r[i][j] * scale[j];
-        t.m[i][3] = move[i];
-    }
-    return t;
-}
-
-Matrix matrix_of(const At& node) {
-    if (!node["matrix"])
-        return from_parts(node["translation"].numbers<3>({0, 0, 0}), node["rotation"].numbers<4>({0, 0, 0, 1}),
-                          node["scale"].numbers<3>({1, 1, 1}));
-    const auto columns = node["matrix"].numbers<16>({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
-    Matrix t;
-    for (std::size_t i = 0; i < 4; ++i)
-        for (std::size_t j = 0; j < 4; ++j) t.m[i][j] = columns[j * 4 + i];
-    return t;
-}
 
 /// Has an inverse, and no numbers beyond sense.
 bool invertible(const Matrix& t) {
@@ -61,7 +36,23 @@ Vec3 axis_of(const Matrix& t, Vec3 direction) {
 struct Standing {
     At node;
     Matrix to_world;
+    bool visible = true;  // it and all above it
 };
+
+/// How a mesh looks where it stands.
+struct Pose {
+    std::size_t mesh = 0;
+    std::vector<double> weights{};      // of its morph targets; none: as it was made
+    std::optional<std::size_t> skin{};  // that it hangs on
+    friend auto operator<=>(const Pose&, const Pose&) = default;
+};
+
+std::vector<double> weights_of(const At& list) {
+    std::vector<double> weights(list.size());
+    for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = list[i].number(0);
+    if (std::ranges::all_of(weights, [](double weight) { return weight == 0; })) weights.clear();
+    return weights;
+}
 
 class Builder {
 public:
@@ -71,44 +62,46 @@ public:
     void build() {
         const auto standing = all_nodes();
         const std::size_t meshes = document_.root()["meshes"].size();
-        std::map<std::size_t, std::vector<Matrix>> places;
-        std::map<std::size_t, std::string> names;  // of the first node that has the mesh
-        for (const auto& [node, to_world] : standing) {
+        std::map<Pose, std::vector<Matrix>> places;
+        std::map<Pose, std::string> names;  // of the first node that has the mesh
+        for (const auto& [node, to_world, visible] : standing) {
             if (assets_.report().full()) return;
             if (node["mesh"])
-                if (const auto mesh = node["mesh"].index(meshes)) {
-                    put(node, to_world, places[*mesh]);
-                    names.try_emplace(*mesh, node["name"].text(""));
+                if (const auto mesh = node["mesh"].index(meshes); mesh && visible) {
+                    const Pose pose = pose_of(node, *mesh);
+                    put(node, to_world, pose, places[pose]);
+                    names.try_emplace(pose, node["name"].text(""));
                 }
             if (node["camera"]) camera(node["camera"], to_world, node["name"].text(""));
-            if (const At light = node["extensions"]["KHR_lights_punctual"]["light"])
+            if (const At light = node["extensions"]["KHR_lights_punctual"]["light"]; light && visible)
                 this->light(light, to_world, node["name"].text(""));
         }
-        for (const auto& [mesh, where] : places)
-            if (!assets_.report().full()) add(document_.root()["meshes"][mesh], where, names[mesh]);
+        for (const auto& [pose, where] : places)
+            if (!assets_.report().full()) add(pose, where, names[pose]);
     }
 
 private:
     /// Every node of the scene, parents before children.
     std::vector<Standing> all_nodes() {
         std::vector<Standing> result;
-        std::vector<std::pair<At, Matrix>> waiting;
+        std::vector<Standing> waiting;
         std::vector<bool> seen(nodes_.size());
-        const auto add = [&](const At& index, const Matrix& parent) {
+        const auto add = [&](const At& index, const Matrix& parent, bool visible) {
             const auto which = index.index(nodes_.size());
             if (!which) return;
             if (seen[*which]) return index.error(fmt::format("names node {}, which stands elsewhere already", *which));
             seen[*which] = true;
-            waiting.emplace_back(nodes_[*which], parent);
+            waiting.push_back({nodes_[*which], parent, visible});
         };
         roots(add);
         while (!waiting.empty() && !assets_.report().full()) {
-            const auto [node, parent] = waiting.back();
+            const auto [node, parent, shown] = waiting.back();
             waiting.pop_back();
             const Matrix to_world = parent * matrix_of(node);
-            result.push_back({node, to_world});
+            const bool visible = shown && node["extensions"]["KHR_node_visibility"]["visible"].boolean(true);
+            result.push_back({node, to_world, visible});
             const At children = node["children"];
-            for (std::size_t i = children.size(); i-- > 0;) add(children[i], to_world);
+            for (std::size_t i = children.size(); i-- > 0;) add(children[i], to_world, visible);
         }
         return result;
     }
@@ -119,7 +112,7 @@ private:
         const At chosen = document_.root()["scene"];
         if (scenes.size()) {
             const At list = scenes[chosen ? chosen.index(scenes.size()).value_or(0) : 0]["nodes"];
-            for (std::size_t i = list.size(); i-- > 0;) add(list[i], Matrix{});
+            for (std::size_t i = list.size(); i-- > 0;) add(list[i], Matrix{}, true);
             return;
         }
         std::vector<bool> child(nodes_.size());
@@ -132,12 +125,24 @@ private:
         for (std::size_t i = nodes_.size(); i-- > 0;) {
             if (child[i]) continue;
             const Json index{std::uint64_t{i}};
-            add(At(index, document_.path(), assets_.report()), Matrix{});
+            add(At(index, document_.path(), assets_.report()), Matrix{}, true);
         }
     }
 
-    /// Where a node's mesh stands: once, or as often as EXT_mesh_gpu_instancing says.
-    void put(const At& node, const Matrix& to_world, std::vector<Matrix>& places) {
+    Pose pose_of(const At& node, std::size_t mesh) {
+        const At own = node["weights"], usual = document_.root()["meshes"][mesh]["weights"];
+        Pose pose{mesh, weights_of(own ? own : usual)};
+        if (node["skin"]) pose.skin = node["skin"].index(document_.root()["skins"].size());
+        return pose;
+    }
+
+    /// Where a node's mesh stands: once, or as often as EXT_mesh_gpu_instancing says. What hangs on a skin stands where
+    /// its joints do.
+    void put(const At& node, const Matrix& to_world, const Pose& pose, std::vector<Matrix>& places) {
+        if (pose.skin) {
+            places.resize(1);
+            return;
+        }
         const At many = node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"];
         const auto place = [&](const Matrix& t) {
             if (!invertible(t)) return node.warn("meshes without a size are left out");
@@ -163,10 +168,17 @@ private:
 
     /// A mesh at all its places: one object with instances, but lamps and what stands once in the world itself. It
     /// goes by its own name, or by that of its first node.
-    void add(const At& mesh, const std::vector<Matrix>& places, const std::string& node) {
+    void add(const Pose& pose, const std::vector<Matrix>& places, const std::string& node) {
+        const At mesh = document_.root()["meshes"][pose.mesh];
+        std::optional<Skin> skin;
+        if (pose.skin) {
+            if (!world_of_nodes_) world_of_nodes_.emplace(nodes_);
+            skin = read_skin(document_.root()["skins"][*pose.skin], *world_of_nodes_, document_);
+            if (!skin) return;
+        }
         Object object;
         object.name = mesh["name"].text(node);
-        for (auto& primitive : read_mesh(mesh, document_, materials_)) {
+        for (auto& primitive : read_mesh(mesh, {pose.weights, skin ? &*skin : nullptr}, document_, materials_)) {
             if (places.size() > 1 && !primitive.emission) {
                 object.shapes.push_back(shape(std::move(primitive), object.name));
                 continue;
@@ -285,7 +297,8 @@ private:
     Assets& assets_;
     Materials materials_;
     At nodes_;
-    std::uint64_t baked_ = 0;  // triangles
+    std::optional<WorldOfNodes> world_of_nodes_;  // once a skin asks
+    std::uint64_t baked_ = 0;                     // triangles
 };
 
 }  // namespace
