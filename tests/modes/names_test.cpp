@@ -69,6 +69,13 @@ TEST_F(NamesOfHosts, ThatNobodyHasAreHostsThatNeverCame) {
     EXPECT_THAT(alone.said, HasSubstr("no host is called 'render9.farm'"));
 }
 
+TEST_F(NamesOfHosts, OfLaunchersThatNobodyHasAreToldInTheLogOfWhoJoins) {
+    const auto daemon = joining_daemon(folder, "tcp://front.farm:7777", "inside", {"--insecure"});
+    EXPECT_TRUE(
+        daemon->wait_for("the launcher at tcp://front.farm:7777 does not answer: no host is called 'front.farm'"))
+        << daemon->output();
+}
+
 TEST_F(NamesOfHosts, AreTriedAtAllTheirAddresses) {
     names("two.lab 127.0.0.1 127.0.0.3\n");
     const Daemon second(folder, 1, "tcp://127.0.0.3:*", {"--insecure"});

@@ -101,6 +101,7 @@ std::optional<Frames> HostDoor::from_launcher(Time now) {
     while (auto frames = launcher_->receive()) {
         heard_ = now;
         silence_ = shortest_silence;
+        told_silence_.clear();
         if (frames->size() == 1 && is_empty(*frames)) {
             next_join_ = {};  // a new connection: it does not know us yet
             begin_anew(launcher_route);
@@ -228,6 +229,7 @@ void HostDoor::keep_in_touch(Time now) {
     // DECISIONS: lines-are-renewed
     if (options_.launcher && now - dialled_ > options_.line_life) dial(now);
     if (now - heard_ > silence_) {
+        tell_silence();
         // Half of the connection may be gone without a word.
         silence_ = std::min<std::chrono::milliseconds>(2 * silence_, longest_silence);
         dial(now);
@@ -240,6 +242,15 @@ void HostDoor::keep_in_touch(Time now) {
     if (!challenge_.empty() && options_.pass) fields.set("proof", options_.pass->proof(challenge_, claim));
     auto frames = frames_of(packet::pack(Type::join, 0, fields));
     if (!launcher_->send(frames)) next_join_ = now + 20ms;
+}
+
+// Once for each reason that its name may be.
+void HostDoor::tell_silence() {
+    const auto why = launcher_ ? launcher_->trouble() : std::string();
+    if (why.empty() || why == told_silence_) return;
+    told_silence_ = why;
+    options_.log({LogLevel::warning,
+                  "the launcher at " + options_.join + " does not answer: " + why + "; this host goes on dialling"});
 }
 
 void HostDoor::count(const std::string& route, std::uint64_t run) {

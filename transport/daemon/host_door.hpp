@@ -77,6 +77,7 @@ private:
     void dial(Time now);
     void take_challenge(const Frames& frames);
     void look_at_handshake();
+    void tell_silence();
     std::optional<Frames> from_launcher(Time now);
     std::optional<Frames> from_anyone(Time now);
     std::optional<Frames> take(Frames frames, Time now);
@@ -96,6 +97,7 @@ private:
     bool turned_down_ = false;
     Time heard_{}, dialled_{}, next_join_{};
     std::chrono::milliseconds silence_;  // after which it dials anew
+    std::string told_silence_;           // why, as was last said
     std::string key_;
     std::map<std::string, Line> lines_;  // by route
     bool gone_ = false;                  // it was, when something was last sent to somebody
