@@ -124,40 +124,56 @@ constexpr std::array<NamedLight, 16> lights{{{"stdillum-D65", 0.31272, 0.32903},
                                              {"stdillum-F12", 0.4370, 0.4042},
                                              {"illum-acesD60", 0.32168, 0.33767}}};
 
-Rgb of_chromaticity(double x, double y) {
+LightColour of_chromaticity(double x, double y) {
     const auto c = to_rgb(x / y, 1, (1 - x - y) / y);
-    return with_luminance_one({float(c[0]), float(c[1]), float(c[2])});
+    return {with_luminance_one({float(c[0]), float(c[1]), float(c[2])})};
+}
+
+/// By sums over the wavelengths of its colours, and of the eye's sensitivity.
+LightColour light_of_sums(const std::array<double, 3>& sums, double whole) {
+    const auto part = [&](double sum) { return float(std::max(0.0, sum / whole)); };
+    return {{part(sums[0]), part(sums[1]), part(sums[2])}};
 }
 
 }  // namespace
 
-Rgb surface_colour(std::span<const SpectrumPoint> spectrum) {
-    return balanced([&](double w, double d65) { return d65 * value_at(spectrum, w); });
+SurfaceColour surface_colour(std::span<const SpectrumPoint> spectrum) {
+    return {balanced([&](double w, double d65) { return d65 * value_at(spectrum, w); })};
 }
 
-Rgb light_colour(std::span<const SpectrumPoint> spectrum) {
-    return with_luminance_one(balanced([&](double w, double) { return value_at(spectrum, w); }));
+LightColour light_colour(std::span<const SpectrumPoint> spectrum) {
+    return {with_luminance_one(balanced([&](double w, double) { return value_at(spectrum, w); }))};
 }
 
-Rgb mean_colour(std::span<const SpectrumPoint> spectrum) {
+LightColour mean_light(std::span<const SpectrumPoint> spectrum) {
     const auto sums = project([&](double w, double) { return value_at(spectrum, w); });
     double whole = 0;
     for (std::size_t i = 0; i < daylight.size(); ++i)
         whole += matching_functions(first_wavelength + step * static_cast<double>(i))[1];
-    const auto part = [&](double sum) { return float(std::max(0.0, sum / whole)); };
-    return {part(sums[0]), part(sums[1]), part(sums[2])};
+    return light_of_sums(sums, whole);
 }
 
-Rgb blackbody_colour(float kelvin) {
+LightColour mean_light_of_lines(std::span<const SpectrumPoint> spectrum) {
+    double x = 0, y = 0, z = 0, whole = 0;
+    for (double wavelength = 360; wavelength <= 830; wavelength += 1) {
+        const auto match = matching_functions(wavelength);
+        const double value = value_at(spectrum, wavelength);
+        x += value * match[0], y += value * match[1], z += value * match[2];
+        whole += match[1];
+    }
+    return light_of_sums(to_rgb(x, y, z), whole);
+}
+
+LightColour blackbody_colour(float kelvin) {
     constexpr double second_radiation_constant = 1.438776877e7;  // nm·K
     const auto planck = [&](double w) {
         return std::pow(w / 560, -5) / std::expm1(second_radiation_constant / (w * kelvin));
     };
     const double scale = 1 / planck(780);
-    return with_luminance_one(balanced([&](double w, double) { return planck(w) * scale; }));
+    return {with_luminance_one(balanced([&](double w, double) { return planck(w) * scale; }))};
 }
 
-Rgb daylight_colour(float kelvin) {
+LightColour daylight_colour(float kelvin) {
     if (!(kelvin >= 4000)) return blackbody_colour(kelvin);
     // CIE 15:2004, eqs. 3.3 and 3.4
     const double t = std::min(double(kelvin), 25000.0);
@@ -167,14 +183,14 @@ Rgb daylight_colour(float kelvin) {
     return of_chromaticity(x, y);
 }
 
-std::optional<Rgb> named_index(std::string_view name) {
+std::optional<SurfaceColour> named_index(std::string_view name) {
     for (const auto& index : indices)
-        if (index.name == name) return index.value;
+        if (index.name == name) return SurfaceColour{index.value};
     return std::nullopt;
 }
 
-std::optional<Rgb> named_light(std::string_view name) {
-    if (name == lights[0].name) return Rgb{1, 1, 1};  // white by definition
+std::optional<LightColour> named_light(std::string_view name) {
+    if (name == lights[0].name) return LightColour{{1, 1, 1}};  // white by definition
     for (const auto& light : lights)
         if (light.name == name) return of_chromaticity(light.x, light.y);
     return std::nullopt;

@@ -17,26 +17,40 @@ struct SpectrumPoint {
     float value = 0;
 };
 
-/// The colour of a surface (or an index of refraction) with that spectrum, under daylight D65: the same value at all
-/// wavelengths c gives {c, c, c}.
-Rgb surface_colour(std::span<const SpectrumPoint> spectrum);
-/// The colour of a light with that spectrum, of luminance 1; D65 gives {1, 1, 1}. Colours that no screen can show are
-/// cut at 0. Black when the spectrum is.
-Rgb light_colour(std::span<const SpectrumPoint> spectrum);
-/// The mean over the wavelengths, as the eye sees it and without any adaptation: the same value c everywhere gives
-/// {1.205, 0.948, 0.909} c. Colours that no screen can show are cut at 0.
-Rgb mean_colour(std::span<const SpectrumPoint> spectrum);
-/// The colour of a black body of that many kelvin (> 0), of luminance 1.
-Rgb blackbody_colour(float kelvin);
+/// Light, and what light meets (a reflectance, an index of refraction, an absorption). One spectrum is another RGB as
+/// the one than as the other, so they are two types, and who takes the one for the other does not compile.
+/// DECISIONS: light-and-surface-colours
+struct LightColour {
+    Rgb rgb;
+    friend bool operator==(const LightColour&, const LightColour&) = default;
+};
+struct SurfaceColour {
+    Rgb rgb;
+    friend bool operator==(const SurfaceColour&, const SurfaceColour&) = default;
+};
 
-/// The colour of daylight (CIE series D) of that many kelvin, of luminance 1; 6504 is D65, {1, 1, 1}. Beneath 4000 K,
-/// where the series ends, of a black body.
-Rgb daylight_colour(float kelvin);
+/// Of a surface (or an index of refraction) with that spectrum, under daylight D65: the same value at all wavelengths
+/// c gives {c, c, c}.
+SurfaceColour surface_colour(std::span<const SpectrumPoint> spectrum);
+/// Of a light with that spectrum, of luminance 1; D65 gives {1, 1, 1}. Colours that no screen can show are cut at 0.
+/// Black when the spectrum is.
+LightColour light_colour(std::span<const SpectrumPoint> spectrum);
+/// Of a light with that spectrum: the mean over the wavelengths, as the eye sees it and without any adaptation. The
+/// same value c everywhere gives {1.205, 0.948, 0.909} c. Colours that no screen can show are cut at 0.
+LightColour mean_light(std::span<const SpectrumPoint> spectrum);
+/// As mean_light(), in steps of a nanometre: for tables with lines in them.
+LightColour mean_light_of_lines(std::span<const SpectrumPoint> spectrum);
+/// Of a black body of that many kelvin (> 0), of luminance 1.
+LightColour blackbody_colour(float kelvin);
+
+/// Of daylight (CIE series D) of that many kelvin, of luminance 1; 6504 is D65, {1, 1, 1}. Beneath 4000 K, where the
+/// series ends, of a black body.
+LightColour daylight_colour(float kelvin);
 
 /// Indices of refraction that pbrt names: "metal-Cu-eta", "metal-Cu-k", "glass-BK7".
-std::optional<Rgb> named_index(std::string_view name);
+std::optional<SurfaceColour> named_index(std::string_view name);
 /// Lights that pbrt names: "stdillum-D65" and its like.
-std::optional<Rgb> named_light(std::string_view name);
+std::optional<LightColour> named_light(std::string_view name);
 /// All names above, for suggestions.
 const std::vector<std::string>& spectrum_names();
 

@@ -75,6 +75,35 @@ TEST(MitsubaIncludes, ArePartOfTheSceneWithLinesOfTheirOwn) {
     EXPECT_THAT(errors, HasSubstr("scene.xml:1: can't read a file: none.xml: no such file"));
 }
 
+// Beside the file that names them, beside the first one, and in folders beside either.
+TEST(MitsubaIncludes, FindFilesFromTheirOwnFolderAndFromTheFirstFiles) {
+    const std::string ball = "<scene>" + sphere + "</scene>";
+    const auto scene =
+        read_mitsuba("<include filename='sub/a.xml'/>",
+                     {{"sub/a.xml",
+                       "<scene><include filename='sub/deep/b.xml'/><include filename='near.xml'/><path value='extra'/>"
+                       "<include filename='c.xml'/><include filename='d.xml'/></scene>"},
+                      {"sub/deep/b.xml", ball},
+                      {"sub/near.xml", ball},
+                      {"extra/c.xml", ball},
+                      {"sub/extra/d.xml", ball}});
+    EXPECT_THAT(scene.shapes, SizeIs(4));
+    EXPECT_EQ(scene.shapes[0].where.file, "sub/deep/b.xml");
+}
+
+TEST(MitsubaReferences, MakeNoFalseAlarms) {
+    const auto scene = read_mitsuba(
+        "<shape type='rectangle'><ref id='lamp'/></shape><emitter type='area' id='lamp'/>"
+        "<medium type='homogeneous' id='ink'><rgb name='sigma_a' value='1'/><rgb name='sigma_s' value='0'/></medium>"
+        "<shape type='sphere'><bsdf type='dielectric'/><ref id='ink' name='interior'/></shape>"
+        "<spectrum id='s' name='x' value='.5'/><shape type='sphere'><bsdf type='diffuse'><ref id='s' "
+        "name='reflectance'/></bsdf></shape>");
+    EXPECT_THAT(scene.warnings, IsEmpty()) << warnings_of(scene);
+    EXPECT_TRUE(scene.shapes[0].emission.has_value());
+    EXPECT_THAT(warnings_of(read_mitsuba(sphere + "<emitter type='area' id='lamp'/>")),
+                HasSubstr("emitter 'area' belongs to no shape and is left out"));
+}
+
 TEST(MitsubaTransforms, ApplyInTheOrderInWhichTheyStand) {
     EXPECT_EQ(center_of("<translate x='1'/><scale value='2'/>"), (Vec3{2, 0, 0}));
     EXPECT_EQ(center_of("<scale value='2'/><translate x='1'/>"), (Vec3{1, 0, 0}));

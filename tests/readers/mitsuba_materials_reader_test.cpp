@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/readers/spectra.hpp"
 #include "core/scene/textures/look_up.hpp"
 #include "tests/support/scene_text.hpp"
 
@@ -48,6 +49,70 @@ TEST(MitsubaColours, AreWrittenInManyWays) {
     EXPECT_NEAR(flat.r, 0.3f, 1e-3f);
     EXPECT_NEAR(flat.b, 0.3f, 1e-3f);
     EXPECT_EQ(reflectance(""), (Rgb{0.5f, 0.5f, 0.5f}));
+}
+
+Rgb radiance(const std::string& colour) {
+    return read_mitsuba("<shape type='sphere'><emitter type='area'>" + colour + "</emitter></shape>")
+        .shapes[0]
+        .emission->radiance;
+}
+
+void expect_near(Rgb got, Rgb wanted, float share) {
+    EXPECT_NEAR(got.r, wanted.r, share * wanted.r);
+    EXPECT_NEAR(got.g, wanted.g, share * wanted.g);
+    EXPECT_NEAR(got.b, wanted.b, share * wanted.b);
+}
+
+// By the CIE's tables of 1931 alone.
+TEST(MitsubaColours, OfLightAreSeenWithoutDaylight) {
+    const Rgb flat{1.2048f, 0.9483f, 0.9087f};
+    for (const std::string table :
+         {"<spectrum name='radiance' value='360:1, 830:1'/>",
+          "<spectrum name='radiance' type='irregular'><string name='wavelengths' value='360, 830'/>"
+          "<string name='values' value='1, 1'/></spectrum>",
+          "<spectrum name='radiance' type='regular'><string name='values' value='1, 1'/></spectrum>",
+          "<spectrum name='radiance' type='uniform'/>"})
+        expect_near(radiance(table), flat, 0.01f);
+    // the lamp of Mitsuba's Cornell box
+    const Rgb lamp = radiance("<spectrum name='radiance' value='400:0, 500:8, 600:15.6, 700:18.4'/>");
+    EXPECT_NEAR(lamp.r / lamp.g, 1.891f, 0.02f);
+    EXPECT_NEAR(lamp.b / lamp.g, 0.2533f, 0.003f);
+    for (const std::string grey : {"<spectrum name='radiance' value='3'/>", "<rgb name='radiance' value='3'/>",
+                                   "<spectrum name='radiance' type='d65'><float name='scale' value='3'/></spectrum>"})
+        EXPECT_EQ(radiance(grey), (Rgb{3, 3, 3}));
+}
+
+TEST(MitsubaColours, OfEveryEmitterAreLight) {
+    const Rgb flat{1.2048f, 0.9483f, 0.9087f};
+    const MemoryFiles files{{"flat.spd", "360 1\n830 1\n"}};
+    const auto emitter = [&](const std::string& type, const std::string& name) {
+        return read_mitsuba("<shape type='sphere'/><emitter type='" + type + "'><spectrum name='" + name +
+                                "' filename='flat.spd'/></emitter>",
+                            files);
+    };
+    expect_near(std::get<PointLight>(emitter("point", "intensity").lights.at(0)).intensity, flat, 0.01f);
+    expect_near(std::get<SpotLight>(emitter("spot", "intensity").lights.at(0)).intensity, flat, 0.01f);
+    expect_near(std::get<DirectionalLight>(emitter("directional", "irradiance").lights.at(0)).irradiance, flat, 0.01f);
+    expect_near(emitter("constant", "radiance").environments.at(0).radiance, flat, 0.01f);
+    // in a texture of light, and in the same one of a surface
+    const auto both = read_mitsuba(
+        "<texture type='checkerboard' id='t'><spectrum name='color0' value='360:.5, 830:.5'/></texture>"
+        "<shape type='sphere'><bsdf type='diffuse'><ref name='reflectance' id='t'/></bsdf>"
+        "<emitter type='area'><ref name='radiance' id='t'/></emitter></shape>");
+    const auto first = [&](TextureId id) {
+        return colour_of(both, std::get<CheckerTexture>(both.textures[id].pattern).even);
+    };
+    expect_near(first(*both.shapes[0].emission->texture), flat * 0.5f, 0.01f);
+    expect_near(first(model_of<DiffuseMaterial>(both).reflectance), {0.5f, 0.5f, 0.5f}, 0.01f);
+}
+
+TEST(MitsubaColours, AreNothingBeyondTheirTables) {
+    const Rgb red = reflectance("<spectrum name='reflectance' value='620:.5, 760:.5'/>");
+    EXPECT_GT(red.r, 0.2f);
+    EXPECT_LT(red.g, 0.05f);
+    const Rgb line = radiance("<spectrum name='radiance' value='585:1, 595:1'/>");
+    EXPECT_LT(luminance(line), 0.1f);
+    EXPECT_GT(luminance(line), 0.05f);
 }
 
 TEST(MitsubaColours, SayWhatIsWrong) {
@@ -105,8 +170,6 @@ TEST(MitsubaConductor, KnowsItsMetals) {
     EXPECT_EQ(model_of<ConductorMaterial>(chrome).roughness.v, 0.2f);
     EXPECT_NEAR(colour_of(chrome, model_of<ConductorMaterial>(chrome).metal.k).g, 4.231365f, 1e-5f);
     EXPECT_THAT(warnings_of(chrome), testing::Not(HasSubstr("distribution")));
-    EXPECT_THAT(warnings_of(read_mitsuba_bsdf("<bsdf type='conductor'><string name='material' value='Xx'/></bsdf>")),
-                HasSubstr("the metal 'Xx' is not known: copper is taken"));
 }
 
 TEST(MitsubaRoughness, FollowsTheLawThatTheFileNames) {
@@ -135,6 +198,49 @@ TEST(MitsubaPlastic, IsADiffuseBaseUnderACoat) {
     EXPECT_EQ(model.roughness.u, 0.1f);
     EXPECT_TRUE(model.base_colours_repeat);
     EXPECT_FALSE(model_of<CoatedDiffuseMaterial>(read_mitsuba_bsdf("<bsdf type='plastic'/>")).base_colours_repeat);
+}
+
+// Copper is the default of version 0.6 alone.
+TEST(MitsubaConductor, IsAPerfectMirrorUnlessItNamesAMetal) {
+    const auto of = [](const std::string& version, const std::string& bsdf) {
+        return read_as("scene.xml",
+                       "<scene version='" + version + "'><shape type='sphere'>" + bsdf + "</shape></scene>");
+    };
+    for (const std::string type : {"conductor", "roughconductor"}) {
+        for (const std::string version : {"3.0.0", "2.1.0"}) {
+            const auto scene = of(version, "<bsdf type='" + type + "'/>");
+            const auto& metal = model_of<ConductorMaterial>(scene).metal;
+            ASSERT_TRUE(metal.reflectance.has_value());
+            EXPECT_EQ(colour_of(scene, *metal.reflectance), (Rgb{1, 1, 1}));
+        }
+        const auto old = of("0.6.0", "<bsdf type='" + type + "'/>");
+        EXPECT_EQ(colour_of(old, model_of<ConductorMaterial>(old).metal.eta), named_index("metal-Cu-eta")->rgb);
+    }
+    const auto own = of("3.0.0", "<bsdf type='conductor'><rgb name='eta' value='.2'/></bsdf>");
+    EXPECT_EQ(colour_of(own, model_of<ConductorMaterial>(own).metal.eta), (Rgb{0.2f, 0.2f, 0.2f}));
+    EXPECT_EQ(colour_of(own, model_of<ConductorMaterial>(own).metal.k), (Rgb{1, 1, 1}));
+}
+
+TEST(MitsubaConductor, IsGreyRatherThanOfAWrongColour) {
+    const auto scene = read_mitsuba_bsdf("<bsdf type='conductor'><string name='material' value='Unobtainium'/></bsdf>");
+    EXPECT_EQ(colour_of(scene, model_of<ConductorMaterial>(scene).metal.reflectance.value()), (Rgb{0.5f, 0.5f, 0.5f}));
+    EXPECT_THAT(warnings_of(scene), HasSubstr("the metal 'Unobtainium' is not known: grey is taken"));
+}
+
+// Scenes are read, and what is missing in them is said.
+TEST(MitsubaTextures, ForNumbersAreLeftOutAndNamed) {
+    const std::string checks = " type='checkerboard'><float name='color0' value='.4'/></texture>";
+    for (const auto& [type, name] : {std::pair{"dielectric", "int_ior"},
+                                     {"plastic", "ext_ior"},
+                                     {"roughdiffuse", "alpha"},
+                                     {"phong", "exponent"},
+                                     {"ward", "alpha_u"},
+                                     {"principled", "eta"}}) {
+        const auto scene = read_mitsuba_bsdf(std::string("<bsdf type='") + type + "'><texture name='" + name + "'" +
+                                             checks + "</bsdf>");
+        EXPECT_THAT(warnings_of(scene), HasSubstr(std::string("the texture of '") + name + "' of bsdf '" + type))
+            << type;
+    }
 }
 
 TEST(MitsubaPrincipled, TakesBurleysParameters) {

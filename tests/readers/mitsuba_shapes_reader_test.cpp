@@ -286,6 +286,43 @@ TEST(MitsubaSensor, HasItsAngleAcrossTheAxisThatItNames) {
                 HasSubstr("between 0 and 180"));
 }
 
+std::string film_of(int width, int height) {
+    return "<film type='hdrfilm'><integer name='width' value='" + std::to_string(width) +
+           "'/><integer name='height' value='" + std::to_string(height) + "'/></film>";
+}
+
+// The diagonal of 36 × 24 mm; across the shorter side of 4:3 that is atan(0.6 × 43.27 / 100).
+TEST(MitsubaSensor, HasTheLensOf50mmOnTheDiagonalUnlessToldOtherwise) {
+    for (const std::string type : {"perspective", "thinlens"})
+        for (const std::string lens : {"", "<string name='focal_length' value='50mm'/>",
+                                       "<string name='focalLength' value='50'/><string name='fov_axis' value='y'/>"}) {
+            const auto seen = [&](int w, int h) {
+                const auto scene = seen_by("type='" + type + "'>" + lens + film_of(w, h));
+                EXPECT_THAT(warnings_of(scene), Not(HasSubstr("sensor")));
+                return scene.camera.fov;
+            };
+            const float half = std::hypot(36.0f, 24.0f) / 2 / 50;
+            EXPECT_NEAR(seen(60, 60), 34.022f, 2e-3f) << type << lens;
+            EXPECT_NEAR(seen(80, 60), 2 * std::atan(half * 0.6f) / degrees, 2e-3f);
+            EXPECT_NEAR(2 * std::atan(half * 0.8f) / degrees, 38.18f, 5e-3f) << "across the longer side";
+            EXPECT_NEAR(seen(60, 80), 2 * std::atan(half * 0.6f) / degrees, 2e-3f);
+        }
+    const auto tele = seen_by("type='perspective'><string name='focal_length' value='100mm'/>" + film_of(60, 60));
+    EXPECT_NEAR(tele.camera.fov, 2 * std::atan(std::hypot(36.0f, 24.0f) / 200 / std::sqrt(2.0f)) / degrees, 2e-3f);
+    EXPECT_THAT(warnings_of(seen_by("type='perspective'><float name='fov' value='9'/><string name='focal_length' "
+                                    "value='50mm'/>")),
+                HasSubstr("a sensor has a 'fov' or a 'focal_length': the latter is taken"));
+}
+
+// As Mitsuba 3 has it: what is seen at x is what is seen at x + offset without it, in shares of the picture, y down.
+TEST(MitsubaSensor, MovesWhatItSeesByItsPrincipalPoint) {
+    const auto scene = seen_by(
+        "type='perspective'><float name='fov' value='90'/><float name='principal_point_offset_x' value='.25'/>"
+        "<float name='principalPointOffsetY' value='.5'/>" +
+        film_of(200, 100));
+    EXPECT_EQ(scene.camera.screen, (std::array<float, 4>{-1, 3, -2, 0}));
+}
+
 TEST(MitsubaSensor, SeesPlusXOnTheLeft) {
     const auto scene = seen_by(
         "type='perspective'><float name='fov' value='50'/><transform name='to_world'>"

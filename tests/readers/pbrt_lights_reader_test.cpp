@@ -181,12 +181,12 @@ TEST(PbrtFilms, ShowTheLightOfTheirWhiteBalanceAsWhite) {
 }
 
 TEST(Daylight, OfD65IsWhite) {
-    const Rgb white = daylight_colour(6504);
+    const Rgb white = daylight_colour(6504).rgb;
     EXPECT_NEAR(white.r, 1, 0.003f);
     EXPECT_NEAR(white.g, 1, 0.003f);
     EXPECT_NEAR(white.b, 1, 0.003f);
-    EXPECT_GT(daylight_colour(5000).r, daylight_colour(5000).b);
-    EXPECT_LT(daylight_colour(10000).r, daylight_colour(10000).b);
+    EXPECT_GT(daylight_colour(5000).rgb.r, daylight_colour(5000).rgb.b);
+    EXPECT_LT(daylight_colour(10000).rgb.r, daylight_colour(10000).rgb.b);
 }
 
 std::string packed(const std::string& text) {

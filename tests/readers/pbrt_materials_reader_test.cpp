@@ -132,7 +132,7 @@ TEST(PbrtMaterials, MayBeCoatedMetals) {
     EXPECT_EQ(model.coat.u, 0.01f);
     EXPECT_EQ(model.roughness.v, 0.04f);
     EXPECT_EQ(model.coat_eta, 1.3f);
-    EXPECT_EQ(colour_of(scene, model.metal.k), *named_index("metal-Ag-k"));
+    EXPECT_EQ(colour_of(scene, model.metal.k), named_index("metal-Ag-k")->rgb);
     EXPECT_THAT(scene.warnings, IsEmpty());
 }
 

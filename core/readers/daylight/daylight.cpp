@@ -123,7 +123,7 @@ Rgb radiance_of_sun(double from_zenith, double turbidity) {
         const float wavelength = 380 + 10 * float(i);
         left.push_back({wavelength, float(double{solar[i]} * passes(double{wavelength}, mass, turbidity))});
     }
-    return mean_colour(left);
+    return mean_light(left).rgb;
 }
 
 // All its light in one direction, or as much of it on a plane across as the disk's angle leaves.

@@ -8,6 +8,7 @@
 
 #include "core/base/suggestion.hpp"
 #include "core/readers/mitsuba/colours.hpp"
+#include "core/readers/mitsuba/metals.hpp"
 
 namespace lightnet::mitsuba {
 namespace {
@@ -176,25 +177,28 @@ Material Bsdfs::rough_dielectric(Properties& properties) {
     return {"", model};
 }
 
+/// Without a material and an index it is copper in Mitsuba 0, and the perfect mirror since then.
 ConductorMaterial Bsdfs::metal(Properties& properties) {
     ConductorMaterial model;
-    const std::string name = properties.text("material", "Cu");
+    const std::string name = properties.text("material", context_.document.version == 0 ? "Cu" : "none");
     const float outside = index_of(properties, "ext_eta", "vacuum");
     model.tint = textures_.maybe(properties, "specular_reflectance");
-    if (name == "none") {
-        model.metal.reflectance = context_.assets.grey(1);
+    const bool by_index = properties.has("eta") || properties.has("k");
+    constexpr ComplexIndex mirror{{{0, 0, 0}}, {{1, 1, 1}}};
+    auto index = name == "none" ? mirror : metal_named(name);
+    if (!index && !by_index)
+        context_.warn(properties.node(), fmt::format("the metal '{}' is not known{}: grey is taken", name.substr(0, 32),
+                                                     did_you_mean(name, metal_names())));
+    if (!by_index && (!index || name == "none")) {
+        model.metal.reflectance = context_.assets.grey(index ? 1.0f : 0.5f);
         return model;
     }
-    auto index = metal_named(name);
-    if (!index) {
-        context_.warn(properties.node(),
-                      fmt::format("the metal '{}' is not known: copper is taken", name.substr(0, 32)));
-        index = metal_named("Cu");
-    }
-    const auto part = [&](const char* key, Rgb fallback) {
+    if (!index) index = mirror;
+    const auto part = [&](const char* key, SurfaceColour fallback) {
         const Node* given = properties.find(key);
         if (given && !is_colour(*given)) return textures_.of(*given);
-        return context_.assets.colour((given ? colour_of(*given, context_).value_or(fallback) : fallback) / outside);
+        return context_.assets.colour((given ? surface_of(*given, context_).value_or(fallback) : fallback).rgb /
+                                      outside);
     };
     model.metal.eta = part("eta", index->eta);
     model.metal.k = part("k", index->k);

@@ -112,7 +112,7 @@ Material Bsdfs::coating(Properties& properties) {
     const auto inner = nested(properties, 1);
     const float eta = index_of(properties, "int_ior", "bk7") / index_of(properties, "ext_ior", "air");
     const Roughness rough = properties.node().type == "roughcoating" ? roughness(properties, 0.1f) : Roughness{};
-    if (properties.has("sigma_a") && !is_black(colour_of(properties, "sigma_a", {})))
+    if (properties.has("sigma_a") && !is_black(surface_of(properties, "sigma_a", {}).rgb))
         context_.warn(properties.node(), "the colour of a coat ('sigma_a') is left out");
     properties.ignore({"thickness", "specular_reflectance"});
     if (inner.empty()) return grey();

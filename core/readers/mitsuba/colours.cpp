@@ -7,6 +7,9 @@
 #include <charconv>
 #include <cmath>
 #include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "core/base/suggestion.hpp"
 #include "core/readers/spectra.hpp"
@@ -52,8 +55,31 @@ double planck(double kelvin, double nanometres) {
     return first / std::pow(nanometres, 5) / std::expm1(second / (nanometres * kelvin));
 }
 
+/// What of a spectrum depends on whether it is one of light.
+template <class Colour>
+constexpr bool shines = std::is_same_v<Colour, LightColour>;
+
+/// Spectra of Mitsuba are 0 beyond their tables. Those of surfaces often end at 400 and 700 nm, where they were
+/// measured no further, and go on so.
+template <class Colour>
+Colour of_table(std::vector<SpectrumPoint> points) {
+    constexpr float none = 0, endless = 1e6f, low = shines<Colour> ? 360 : 400, high = shines<Colour> ? 830 : 700;
+    const float first = points.front().wavelength, last = points.back().wavelength;
+    if (first > low) points.insert(points.begin(), {std::nextafter(first, none), 0});
+    if (last < high) points.push_back({std::nextafter(last, endless), 0});
+    if constexpr (shines<Colour>)
+        return mean_light_of_lines(points);
+    else
+        return surface_colour(points);
+}
+
 /// With the absolute brightness of Mitsuba, which is the mean over the eye's sensitivity.
-std::optional<Rgb> blackbody(double kelvin, double scale, const Node& node, const Context& context) {
+template <class Colour>
+std::optional<Colour> blackbody(double kelvin, double scale, const Node& node, const Context& context) {
+    if (!shines<Colour>) {
+        context.error(node, "a black body is light, and no colour of a surface");
+        return std::nullopt;
+    }
     if (!(kelvin > 0) || kelvin > 1e6) {
         context.error(node, "a black body needs a temperature in kelvin");
         return std::nullopt;
@@ -63,11 +89,11 @@ std::optional<Rgb> blackbody(double kelvin, double scale, const Node& node, cons
         const double t = (w - 556) / 45, weight = std::exp(-0.5 * t * t);  // about the CIE's ȳ
         sum += weight * planck(kelvin, w), weights += weight;
     }
-    return blackbody_colour(static_cast<float>(kelvin)) * static_cast<float>(scale * sum / weights);
+    return Colour{blackbody_colour(static_cast<float>(kelvin)).rgb * static_cast<float>(scale * sum / weights)};
 }
 
 /// "400:0.1, 700:0.3"
-std::optional<Rgb> table(std::string_view text, const Node& node, const Context& context) {
+std::optional<std::vector<SpectrumPoint>> table(std::string_view text, const Node& node, const Context& context) {
     std::string spaced(text);
     std::replace(spaced.begin(), spaced.end(), ':', ' ');
     const auto values = numbers(spaced, node, context);
@@ -81,59 +107,112 @@ std::optional<Rgb> table(std::string_view text, const Node& node, const Context&
         context.error(node, "a spectrum is written 'wavelength:value, …', with ascending wavelengths");
         return std::nullopt;
     }
-    return surface_colour(points);
+    return points;
 }
 
-std::optional<Rgb> spectrum_file(const Node& node, const Context& context) {
+std::optional<std::vector<SpectrumPoint>> spectrum_file(const Node& node, const Context& context) {
     const auto bytes = context.assets.read(context.path(std::string(node.attribute("filename")), node), node.where);
     if (!bytes) return std::nullopt;
     try {
-        const auto points = read_spd({reinterpret_cast<const char*>((*bytes)->data()), (*bytes)->size()});
-        return surface_colour(points);
+        return read_spd({reinterpret_cast<const char*>((*bytes)->data()), (*bytes)->size()});
     } catch (const Error& problem) {
         context.error(node, problem.what());
         return std::nullopt;
     }
 }
 
-/// <spectrum type="…">, as version 3 has it.
-std::optional<Rgb> plugin(const Node& node, const Context& context) {
-    Properties properties(node, context);
-    if (node.type == "blackbody")
-        return blackbody(double(properties.number("temperature", 5000)), double(properties.number("scale", 1)), node,
-                         context);
-    if (node.type == "uniform" || node.type == "d65") {
-        const float value = properties.number(node.type == "d65" ? "scale" : "value", 1);
-        return Rgb{value, value, value};
+/// <spectrum type="regular"> and "irregular".
+std::optional<std::vector<SpectrumPoint>> samples(Properties& properties) {
+    const Node& node = properties.node();
+    const auto& context = properties.context();
+    const auto values = numbers(properties.text("values", ""), node, context);
+    auto wavelengths = numbers(properties.text("wavelengths", ""), node, context);
+    if (!values || !wavelengths) return std::nullopt;
+    if (node.type == "regular") {
+        const auto bound = [&](const char* name, const char* older, float fallback) {
+            return double(properties.number(name, properties.number(older, fallback)));
+        };
+        const double low = bound("wavelength_min", "lambda_min", 360),
+                     high = bound("wavelength_max", "lambda_max", 830);
+        for (std::size_t i = 0; i < values->size(); ++i)
+            wavelengths->push_back(low + (high - low) * double(i) / std::max(1.0, double(values->size()) - 1));
     }
-    if (node.type == "rgb" || node.type == "srgb")
-        return colour_of(properties, node.type == "rgb" ? "value" : "color", {1, 1, 1});
-    if (node.type == "irregular" || node.type == "regular") {
-        const auto values = numbers(properties.text("values", ""), node, context);
-        auto wavelengths = numbers(properties.text("wavelengths", ""), node, context);
-        if (!values || !wavelengths) return std::nullopt;
-        if (node.type == "regular") {
-            const double low = double(properties.number("wavelength_min", 360)),
-                         high = double(properties.number("wavelength_max", 830));
-            for (std::size_t i = 0; i < values->size(); ++i)
-                wavelengths->push_back(low + (high - low) * double(i) / std::max(1.0, double(values->size()) - 1));
-        }
-        std::string pairs;
-        for (std::size_t i = 0; i < std::min(values->size(), wavelengths->size()); ++i)
-            pairs += fmt::format("{}:{} ", (*wavelengths)[i], (*values)[i]);
-        return table(pairs, node, context);
-    }
-    properties.ignore_all();
-    context.error(node, fmt::format("unknown spectrum '{}'", node.type));
+    std::string pairs;
+    for (std::size_t i = 0; i < std::min(values->size(), wavelengths->size()); ++i)
+        pairs += fmt::format("{}:{} ", (*wavelengths)[i], (*values)[i]);
+    return table(pairs, node, context);
+}
+
+template <class Colour>
+std::optional<Colour> colour_of(const Node& node, const Context& context);
+
+template <class Colour>
+std::optional<Colour> colour_in(Properties& properties, std::string_view name) {
+    const Node* given = properties.find(name);
+    if (!given) return std::nullopt;
+    if (is_colour(*given)) return colour_of<Colour>(*given, properties.context());
+    if (given->tag == "texture" || given->tag == "ref" || given->tag == "volume")
+        properties.context().warn(*given, fmt::format("<{}> for '{}' of {} is left out: its usual colour is taken",
+                                                      given->tag, name, properties.owner()));
+    else
+        properties.context().error(
+            *given, fmt::format("'{}' of {} must be a colour, not <{}>", name, properties.owner(), given->tag));
     return std::nullopt;
 }
 
-std::optional<Rgb> spectrum(const Node& node, const Context& context) {
-    if (!node.type.empty()) return plugin(node, context);
-    if (node.has("filename")) return spectrum_file(node, context);
+/// <spectrum type="…">, as version 3 has it.
+template <class Colour>
+std::optional<Colour> plugin(const Node& node, const Context& context) {
+    Properties properties(node, context);
+    const auto grey = [](float value) { return Rgb{value, value, value}; };
+    if (node.type == "blackbody")
+        return blackbody<Colour>(double(properties.number("temperature", 5000)), double(properties.number("scale", 1)),
+                                 node, context);
+    if (node.type == "uniform") {
+        const float value = properties.number("value", 1);
+        return shines<Colour> ? of_table<Colour>({{360, value}, {830, value}}) : Colour{grey(value)};
+    }
+    if (node.type == "d65") {
+        const auto colour = colour_in<Colour>(properties, "color");
+        return Colour{(colour ? colour->rgb : grey(1)) * properties.number("scale", 1)};
+    }
+    if (node.type == "rgb" || node.type == "srgb")
+        return colour_in<Colour>(properties, node.type == "rgb" ? "value" : "color").value_or(Colour{grey(1)});
+    if (node.type == "irregular" || node.type == "regular") {
+        auto points = samples(properties);
+        return points ? std::optional(of_table<Colour>(*std::move(points))) : std::nullopt;
+    }
+    properties.ignore_all();
+    context.warn(node, fmt::format("spectrum '{}' is not supported: {} is taken", node.type,
+                                   shines<Colour> ? "white light" : "grey"));
+    return Colour{grey(shines<Colour> ? 1.0f : 0.5f)};
+}
+
+template <class Colour>
+std::optional<Colour> spectrum(const Node& node, const Context& context) {
+    if (!node.type.empty()) return plugin<Colour>(node, context);
     const auto text = node.attribute("value");
-    if (text.find(':') != text.npos) return table(text, node, context);
-    return rgb(node, context);
+    const bool filed = node.has("filename");
+    if (filed || text.find(':') != text.npos) {
+        auto points = filed ? spectrum_file(node, context) : table(text, node, context);
+        return points ? std::optional(of_table<Colour>(*std::move(points))) : std::nullopt;
+    }
+    const auto colour = rgb(node, context);
+    return colour ? std::optional(Colour{*colour}) : std::nullopt;
+}
+
+template <class Colour>
+std::optional<Colour> colour_of(const Node& node, const Context& context) {
+    if (node.tag == "blackbody") {
+        auto kelvin = node.attribute("temperature");
+        if (kelvin.ends_with('K') || kelvin.ends_with('k')) kelvin.remove_suffix(1);
+        const auto temperature = number(kelvin, node, context);
+        const auto scale = node.has("scale") ? number(node.attribute("scale"), node, context) : 1.0;
+        return temperature && scale ? blackbody<Colour>(*temperature, *scale, node, context) : std::nullopt;
+    }
+    if (node.tag == "spectrum") return spectrum<Colour>(node, context);
+    const auto colour = rgb(node, context);
+    return colour ? std::optional(Colour{*colour}) : std::nullopt;
 }
 
 struct NamedIor {
@@ -152,27 +231,6 @@ constexpr std::array<NamedIor, 24> dielectrics{
      {"bk7", 1.5046f},      {"sodium chloride", 1.544f},  {"amber", 1.55f},
      {"pet", 1.575f},       {"diamond", 2.419f},          {"none", 1}}};
 
-struct NamedMetal {
-    std::string_view name;
-    ComplexIndex index;
-};
-
-/// Those that pbrt doesn't name: the usual RGB values of the same measurements.
-constexpr std::array<NamedMetal, 13> metals{
-    {{"Be", {{4.185059f, 3.185060f, 2.784091f}, {3.835440f, 3.010126f, 2.869009f}}},
-     {"Cr", {{4.369683f, 2.916702f, 1.654700f}, {5.206434f, 4.231365f, 3.754947f}}},
-     {"Hg", {{2.398931f, 1.440025f, 0.909551f}, {6.327627f, 4.371941f, 3.421790f}}},
-     {"Ir", {{3.086410f, 2.082194f, 1.617887f}, {5.592151f, 4.067176f, 3.267261f}}},
-     {"K", {{0.064049f, 0.046410f, 0.038184f}, {2.104216f, 1.348936f, 0.913211f}}},
-     {"Li", {{0.265787f, 0.195610f, 0.220920f}, {3.540174f, 2.311131f, 1.668593f}}},
-     {"Mo", {{4.483701f, 3.525458f, 2.776077f}, {4.111131f, 3.420872f, 3.150603f}}},
-     {"Na_palik", {{0.060267f, 0.056141f, 0.061991f}, {3.179291f, 2.112480f, 1.579094f}}},
-     {"Nb", {{3.420135f, 2.790192f, 2.395586f}, {3.441382f, 2.737644f, 2.579913f}}},
-     {"Rh", {{2.585795f, 1.860187f, 1.554428f}, {6.782293f, 4.702950f, 3.976089f}}},
-     {"TiN", {{1.648469f, 1.150448f, 1.379780f}, {3.368460f, 1.943489f, 1.102012f}}},
-     {"V_palik", {{4.277513f, 3.513154f, 2.761126f}, {3.491184f, 2.889358f, 3.111697f}}},
-     {"W", {{4.370703f, 3.300297f, 2.998267f}, {3.500678f, 2.604865f, 2.273193f}}}}};
-
 }  // namespace
 
 bool is_colour(const Node& node) {
@@ -180,24 +238,20 @@ bool is_colour(const Node& node) {
            node.tag == "float" || node.tag == "color";
 }
 
-std::optional<Rgb> colour_of(const Node& node, const Context& context) {
-    if (node.tag == "blackbody") {
-        auto kelvin = node.attribute("temperature");
-        if (kelvin.ends_with('K') || kelvin.ends_with('k')) kelvin.remove_suffix(1);
-        const auto temperature = number(kelvin, node, context);
-        const auto scale = node.has("scale") ? number(node.attribute("scale"), node, context) : 1.0;
-        return temperature && scale ? blackbody(*temperature, *scale, node, context) : std::nullopt;
-    }
-    return node.tag == "spectrum" ? spectrum(node, context) : rgb(node, context);
+std::optional<LightColour> light_of(const Node& node, const Context& context) {
+    return colour_of<LightColour>(node, context);
 }
 
-Rgb colour_of(Properties& properties, std::string_view name, Rgb fallback) {
-    const Node* given = properties.find(name);
-    if (!given) return fallback;
-    if (is_colour(*given)) return colour_of(*given, properties.context()).value_or(fallback);
-    properties.context().error(
-        *given, fmt::format("'{}' of {} must be a colour, not <{}>", name, properties.owner(), given->tag));
-    return fallback;
+LightColour light_of(Properties& properties, std::string_view name, float fallback) {
+    return colour_in<LightColour>(properties, name).value_or(LightColour{{fallback, fallback, fallback}});
+}
+
+std::optional<SurfaceColour> surface_of(const Node& node, const Context& context) {
+    return colour_of<SurfaceColour>(node, context);
+}
+
+SurfaceColour surface_of(Properties& properties, std::string_view name, Rgb fallback) {
+    return colour_in<SurfaceColour>(properties, name).value_or(SurfaceColour{fallback});
 }
 
 float index_of(Properties& properties, std::string_view name, const std::string& fallback) {
@@ -217,20 +271,17 @@ float index_of(Properties& properties, std::string_view name, const std::string&
                       fmt::format("there is no dielectric '{}'{}", word.substr(0, 32), did_you_mean(word, names)));
         return named(fallback)->value;
     }
-    if (const auto colour = colour_of(*given, context); colour && colour->g > 0) {
-        if (colour->r != colour->g || colour->g != colour->b)
+    if (!is_colour(*given)) {
+        context.warn(*given, fmt::format("the texture of '{}' of {} is left out: {} is taken", name, properties.owner(),
+                                         named(fallback)->value));
+        return named(fallback)->value;
+    }
+    if (const auto index = surface_of(*given, context); index && index->rgb.g > 0) {
+        if (index->rgb.r != index->rgb.g || index->rgb.g != index->rgb.b)
             context.warn(*given, "dispersion is left out: the index of green light is taken");
-        return colour->g;
+        return index->rgb.g;
     }
     return named(fallback)->value;
-}
-
-std::optional<ComplexIndex> metal_named(const std::string& name) {
-    const auto eta = named_index("metal-" + name + "-eta"), k = named_index("metal-" + name + "-k");
-    if (eta && k) return ComplexIndex{*eta, *k};
-    for (const auto& [known, index] : metals)
-        if (known == name) return index;
-    return std::nullopt;
 }
 
 }  // namespace lightnet::mitsuba

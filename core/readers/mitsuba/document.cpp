@@ -105,15 +105,20 @@ private:
         if (tag == "default") return define(xml, where);
         if (tag == "include") return include(xml, where, into);
         if (tag == "alias") return alias(xml, where);
-        if (tag == "path")
-            return document_->folders.push_back(beside(source.path, filled(xml.attribute("value").value(), where)));
+        if (tag == "path") return folder(filled(xml.attribute("value").value(), where), source.path);
         auto node = std::make_unique<Node>();
         node->tag = modern(tag);
         node->where = where;
         for (const auto& attribute : xml.attributes()) take(attribute, *node);
         children(xml, source, *node, depth + 1);
+        if (node->tag == "ref") document_->lent.insert(node->id);
         remember(*node);
         into.children.push_back(std::move(node));
+    }
+
+    /// Beside the file that names it, and beside the scene's first one.
+    void folder(const std::string& name, const std::string& from) {
+        for (const auto& file : {from, document_->scene.where.file}) document_->folders.push_back(beside(file, name));
     }
 
     void take(const pugi::xml_attribute& attribute, Node& node) {
@@ -149,12 +154,13 @@ private:
         const std::string id = filled(xml.attribute("id").value(), where);
         const auto known = document_->ids.find(id);
         if (known == document_->ids.end()) return error(where, fmt::format("there is no id '{}' above", id));
+        document_->lent.insert(id);
         document_->ids.emplace(filled(xml.attribute("as").value(), where), known->second);
     }
 
     void include(const pugi::xml_node& xml, const SourceLine& where, Node& into) {
         const std::string name = filled(xml.attribute("filename").value(), where);
-        const std::string path = beside(where.file, name);
+        const std::string path = path_of(assets_, *document_, where.file, name);
         if (open_.contains(path) || path == document_->scene.where.file)
             return error(where, fmt::format("'{}' includes itself", name));
         if (open_.size() >= deepest_include || ++includes_ > most_includes)
@@ -209,6 +215,15 @@ private:
 std::string_view Node::attribute(std::string_view key) const {
     const auto found = attributes.find(key);
     return found == attributes.end() ? std::string_view() : std::string_view(found->second);
+}
+
+std::string path_of(Assets& assets, const Document& document, const std::string& from, const std::string& name) {
+    const std::string near = beside(from, name), main = beside(document.scene.where.file, name);
+    for (const auto& path : {near, main})
+        if (assets.exists(path)) return path;
+    for (const auto& folder : document.folders)
+        if (const auto path = beside(folder + "/", name); assets.exists(path)) return path;
+    return near;
 }
 
 std::string snake_case(std::string_view name) {

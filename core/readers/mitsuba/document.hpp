@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,9 +31,14 @@ struct Node {
 struct Document {
     Node scene;
     std::map<std::string, const Node*, std::less<>> ids;
-    std::vector<std::string> folders;  // further ones in which files may be
-    int version = 0;                   // of Mitsuba, the first number of it; 0: the file says none
+    std::set<std::string, std::less<>> lent;  // ids that a <ref> names
+    std::vector<std::string> folders;         // further ones in which files may be
+    int version = 0;                          // of Mitsuba, the first number of it; 0: the file says none
 };
+
+/// The path of a file that an element in the file `from` names: beside that file, beside the scene's first one, or in
+/// one of its folders, whatever is there. As if beside `from`, where none is.
+std::string path_of(Assets& assets, const Document& document, const std::string& from, const std::string& name);
 
 /// "toWorld" → "to_world", "intIOR" → "int_ior".
 std::string snake_case(std::string_view name);

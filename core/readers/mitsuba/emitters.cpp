@@ -45,8 +45,8 @@ LampLabel label(const Properties& properties) { return {properties.node().id}; }
 void point(Properties& properties, SceneData& scene) {
     const Matrix to_world = transform_of(properties);
     const Vec3 origin = transform_point(to_world, {0, 0, 0});
-    scene.lights.push_back(PointLight{properties.point("position", origin),
-                                      colour_of(properties, "intensity", {1, 1, 1}), label(properties)});
+    scene.lights.push_back(
+        PointLight{properties.point("position", origin), light_of(properties, "intensity", 1).rgb, label(properties)});
 }
 
 void spot(Properties& properties, SceneData& scene) {
@@ -54,7 +54,7 @@ void spot(Properties& properties, SceneData& scene) {
     SpotLight light;
     light.position = transform_point(to_world, {0, 0, 0});
     light.axis = unit(transform_direction(to_world, {0, 0, 1}), {0, 0, 1});
-    light.intensity = colour_of(properties, "intensity", {1, 1, 1});
+    light.intensity = light_of(properties, "intensity", 1).rgb;
     const float cutoff = std::clamp(properties.number("cutoff_angle", 20), 0.01f, 180.0f);
     const float beam = std::clamp(properties.number("beam_width", cutoff * 0.75f), 0.0f, cutoff);
     light.outer = cutoff * to_radians, light.inner = beam * to_radians;
@@ -70,12 +70,12 @@ void directional(Properties& properties, SceneData& scene) {
     const Vec3 ahead = properties.has("direction") ? properties.point("direction", {0, 0, 1})
                                                    : transform_direction(to_world, {0, 0, 1});
     scene.lights.push_back(
-        DirectionalLight{unit(ahead, {0, 0, 1}), colour_of(properties, "irradiance", {1, 1, 1}), label(properties)});
+        DirectionalLight{unit(ahead, {0, 0, 1}), light_of(properties, "irradiance", 1).rgb, label(properties)});
 }
 
 void constant(Properties& properties, SceneData& scene) {
     EnvironmentData environment;
-    environment.radiance = colour_of(properties, "radiance", {1, 1, 1});
+    environment.radiance = light_of(properties, "radiance", 1).rgb;
     scene.environments.push_back(environment);
 }
 
@@ -159,7 +159,7 @@ void sun_and_sky(Properties& properties, SceneData& scene) {
     day.stretch = bounded(properties, "stretch", 1, 1, 2);
     day.extended = properties.boolean("extend", false);
     const float ground = third ? 0.3f : 0.2f;
-    day.albedo = colour_of(properties, "albedo", {ground, ground, ground});
+    day.albedo = surface_of(properties, "albedo", {ground, ground, ground}).rgb;
     const float scale = properties.number("scale", 1);
     const float sun_scale = properties.number("sun_scale", scale), sky_scale = properties.number("sky_scale", scale);
     const auto columns = std::uint32_t(bounded(properties, "resolution", 512, 4, 16384));
@@ -190,6 +190,15 @@ void add_emitter(const Node& node, const Context& context) {
                                                                   {"sky", sun_and_sky},
                                                                   {"sun", sun_and_sky}};
     Properties properties(node, context);
+    if (context.document.lent.contains(node.id) && !adders.contains(node.type)) {
+        properties.ignore_all();  // the shapes that it is lent to say what there is to say
+        return;
+    }
+    if (node.type == "area") {
+        properties.ignore_all();
+        context.warn(node, "emitter 'area' belongs to no shape and is left out");
+        return;
+    }
     properties.ignore({"sampling_weight"});
     if (const auto adder = adders.find(node.type); adder != adders.end()) {
         auto& scene = context.assets.scene();

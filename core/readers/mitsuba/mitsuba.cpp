@@ -25,7 +25,9 @@ public:
         if (node.tag == "emitter") return add_emitter(node, context_);
         if (node.tag == "sensor") return sensor(node);
         if (node.tag == "ref") return referred(node);
+        static const std::set<std::string, std::less<>> parts{"medium", "spectrum", "volume", "rgb"};
         if (silent.contains(node.tag) || node.name == "scene_scale") return;
+        if (parts.contains(node.tag) && context_.document.lent.contains(node.id)) return;  // said where it is lent to
         if (node.tag == "medium")
             context_.warn(node, "<medium> is left out: light is not scattered inside of things");
         else

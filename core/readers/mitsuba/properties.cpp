@@ -27,12 +27,7 @@ const Node* Context::resolved(const Node& node) const {
 }
 
 std::string Context::path(const std::string& name, const Node& node) const {
-    const std::string near = beside(node.where.file, name);
-    if (assets.exists(near)) return near;
-    if (const auto main = beside(document.scene.where.file, name); assets.exists(main)) return main;
-    for (const auto& folder : document.folders)
-        if (const auto path = beside(folder + "/", name); assets.exists(path)) return path;
-    return near;
+    return path_of(assets, document, node.where.file, name);
 }
 
 std::optional<double> number(std::string_view text, const Node& node, const Context& context) {
@@ -106,6 +101,11 @@ const Node* Properties::find(std::string_view name) {
 float Properties::number(std::string_view name, float fallback) {
     const Node* given = find(name);
     if (!given) return fallback;
+    if (given->tag == "texture" || given->tag == "ref") {
+        context_.warn(*given,
+                      fmt::format("the texture of '{}' of {} is left out: {} is taken", name, owner(), fallback));
+        return fallback;
+    }
     return static_cast<float>(mitsuba::number(given->attribute("value"), *given, context_).value_or(double(fallback)));
 }
 

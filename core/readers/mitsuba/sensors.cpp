@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <numbers>
 
@@ -42,31 +43,37 @@ struct Extent {
     double x = 1, y = 1;
 };
 
-/// The larger of tan(fov / 2) over the axis that the file means.
-Extent extent_of(Properties& properties, const FilmData& film) {
-    const double w = film.width, h = film.height, diagonal = std::hypot(w, h);
-    std::string axis = properties.text("fov_axis", "x");
-    double tangent = 0;
-    if (properties.has("focal_length")) {
-        std::string length = properties.text("focal_length", "50mm");
-        if (length.ends_with("mm")) length.resize(length.size() - 2);
-        const double focal = number(length, properties.node(), properties.context()).value_or(50);
-        tangent = std::hypot(36.0, 24.0) / (2 * std::max(focal, 1e-3));  // of a 35 mm film
-        axis = "diagonal";
-        properties.ignore({"fov"});
-    } else {
-        if (!properties.has("fov"))
-            properties.context().warn(properties.node(),
-                                      "a sensor without 'fov' is taken to have 50mm of focal length");
-        const double fallback = 2 * std::atan(36.0 / 2 / 50) / one_degree;
-        const double fov = double(properties.number("fov", static_cast<float>(fallback)));
-        if (!(fov > 0 && fov < 180))
-            properties.context().error(properties.node(), "'fov' must lie between 0 and 180 degrees");
-        tangent = std::tan(std::clamp(fov, 0.01, 179.9) * one_degree / 2);
-    }
-    const bool by_width = axis == "x" || (axis == "smaller" && w <= h) || (axis == "larger" && w >= h);
+std::string lower_case(std::string text) {
+    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+}
+
+/// tan(fov / 2) along the diagonal of a film of 35 mm, which lengths of lenses mean in Mitsuba; 50 mm if none is given.
+double tangent_of_lens(Properties& properties) {
+    std::string length = lower_case(properties.text("focal_length", "50mm"));
+    if (length.ends_with("mm")) length.resize(length.size() - 2);
+    const double focal = number(length, properties.node(), properties.context()).value_or(50);
+    if (!(focal > 0)) properties.context().error(properties.node(), "'focal_length' must be above 0");
+    if (properties.has("fov"))
+        properties.context().warn(properties.node(), "a sensor has a 'fov' or a 'focal_length': the latter is taken");
+    properties.ignore({"fov_axis"});  // is of 'fov' alone
+    return std::hypot(36.0, 24.0) / (2 * std::max(focal, 1e-3));
+}
+
+double tangent_of_fov(Properties& properties) {
+    const double fov = double(properties.number("fov", 90));
+    if (!(fov > 0 && fov < 180))
+        properties.context().error(properties.node(), "'fov' must lie between 0 and 180 degrees");
+    return std::tan(std::clamp(fov, 0.01, 179.9) * one_degree / 2);
+}
+
+Extent extent_of(Properties& properties, double w, double h) {
+    const bool by_angle = properties.has("fov") && !properties.has("focal_length");
+    const double tangent = by_angle ? tangent_of_fov(properties) : tangent_of_lens(properties);
+    const std::string axis = by_angle ? lower_case(properties.text("fov_axis", "x")) : "diagonal";
+    const double diagonal = std::hypot(w, h);
     if (axis == "diagonal") return {tangent * w / diagonal, tangent * h / diagonal};
-    if (by_width) return {tangent, tangent * h / w};
+    if (axis == "x" || (axis == "smaller" && w <= h) || (axis == "larger" && w >= h)) return {tangent, tangent * h / w};
     if (axis != "y" && axis != "smaller" && axis != "larger")
         properties.context().error(properties.node(), fmt::format("unknown fov_axis '{}'", axis.substr(0, 32)));
     return {tangent * w / h, tangent};
@@ -106,14 +113,14 @@ void set_sensor(const Node& node, const Context& context) {
     } else {
         if (node.type != "perspective" && node.type != "thinlens")
             context.warn(node, fmt::format("sensor '{}' is taken as 'perspective'", node.type));
-        const Extent extent = extent_of(properties, scene.film);
+        const Extent extent = extent_of(properties, w, h);
         camera.fov = static_cast<float>(2 * std::atan(std::min(extent.x, extent.y)) / one_degree);
     }
     if (shift_x != 0 || shift_y != 0) {
         const float wide = camera.orthographic ? camera.screen[1] : float(std::max(1.0, w / h));
         const float high = camera.orthographic ? camera.screen[3] : float(std::max(1.0, h / w));
         const float x = 2 * shift_x * wide, y = 2 * shift_y * high;
-        camera.screen = {-wide - x, wide - x, -high + y, high + y};
+        camera.screen = {x - wide, x + wide, -y - high, -y + high};  // what Mitsuba sees is moved right and down
         camera.screen_given = true;
     }
     if (node.type == "thinlens") {

@@ -241,9 +241,9 @@ std::optional<AreaEmission> Shapes::emission(Properties& properties) {
     AreaEmission emission{{1, 1, 1}, false, {}, {given[0]->id}};
     const Node* radiance = lamp.find("radiance");
     if (radiance && !is_colour(*radiance))
-        emission.texture = textures_.of(*radiance);
+        emission.texture = textures_.of_light(*radiance);
     else
-        emission.radiance = radiance ? colour_of(*radiance, context_).value_or(Rgb{}) : Rgb{1, 1, 1};
+        emission.radiance = radiance ? light_of(*radiance, context_).value_or(LightColour{}).rgb : Rgb{1, 1, 1};
     return emission;
 }
 
@@ -258,9 +258,10 @@ void Shapes::absorb(Properties& properties, MaterialId& id) {
             if (const Node* given = inside.find(name); given && !is_colour(*given)) return;
         const bool by_parts = inside.has("sigma_a");
         const Rgb scattered =
-            colour_of(inside, by_parts ? "sigma_s" : "albedo", by_parts ? Rgb{1, 1, 1} : Rgb{0.75f, 0.75f, 0.75f});
+            surface_of(inside, by_parts ? "sigma_s" : "albedo", by_parts ? Rgb{1, 1, 1} : Rgb{0.75f, 0.75f, 0.75f}).rgb;
         if (!is_black(scattered)) return;
-        const Rgb absorbed = colour_of(inside, by_parts ? "sigma_a" : "sigma_t", {1, 1, 1}) * inside.number("scale", 1);
+        const Rgb absorbed =
+            surface_of(inside, by_parts ? "sigma_a" : "sigma_t", {1, 1, 1}).rgb * inside.number("scale", 1);
         Material copy = context_.assets.scene().materials[id];
         if (!std::holds_alternative<DielectricMaterial>(copy.model)) return;
         properties.find("interior");

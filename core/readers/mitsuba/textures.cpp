@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "core/readers/mitsuba/colours.hpp"
 #include "core/readers/mitsuba/transforms.hpp"
@@ -56,16 +57,26 @@ TextureId Textures::get(Properties& properties, std::string_view name, Rgb fallb
 TextureId Textures::of(const Node& node) {
     const Node* target = context_.resolved(node);
     if (!target) return context_.assets.grey(0.5f);
-    if (is_colour(*target)) {
-        const auto colour = colour_of(*target, context_);
-        return context_.assets.colour(colour.value_or(Rgb{0.5f, 0.5f, 0.5f}));
-    }
-    const auto [entry, fresh] = made_.try_emplace(target);
+    if (is_colour(*target)) return context_.assets.colour(colour(*target));
+    const auto [entry, fresh] = made_.try_emplace({target, shines_});
     if (!fresh && !entry->second) context_.error(node, fmt::format("texture '{}' refers to itself", target->id));
     if (!fresh) return entry->second.value_or(context_.assets.grey(0.5f));
     const TextureId made = make(*target);
-    made_[target] = made;
+    made_[{target, shines_}] = made;
     return made;
+}
+
+TextureId Textures::of_light(const Node& node) {
+    const bool before = std::exchange(shines_, true);
+    const TextureId made = of(node);
+    shines_ = before;
+    return made;
+}
+
+Rgb Textures::colour(const Node& node) const {
+    constexpr Rgb grey{0.5f, 0.5f, 0.5f};
+    return shines_ ? light_of(node, context_).value_or(LightColour{grey}).rgb
+                   : surface_of(node, context_).value_or(SurfaceColour{grey}).rgb;
 }
 
 TextureId Textures::make(const Node& node) {
@@ -123,11 +134,11 @@ TextureId Textures::checkerboard(Properties& properties) {
 }
 
 TextureId Textures::scaled(Properties& properties) {
-    const Rgb scale = colour_of(properties, "scale", {1, 1, 1});
+    const Rgb scale = surface_of(properties, "scale", {1, 1, 1}).rgb;
     const auto nested = properties.objects("texture");
     if (nested.empty()) {
-        const Rgb value = colour_of(properties, "value", {1, 1, 1});
-        return context_.assets.colour(value * scale);
+        const Node* value = properties.find("value");
+        return context_.assets.colour((value && is_colour(*value) ? colour(*value) : Rgb{1, 1, 1}) * scale);
     }
     Texture copy = context_.assets.scene().textures[of(*nested[0])];
     copy.scale *= scale;

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "core/readers/mitsuba/properties.hpp"
 
@@ -22,17 +23,21 @@ public:
     }
     /// A colour, a texture, or a reference to one. What is wrong is reported and grey.
     TextureId of(const Node& node);
+    /// As of(), where what it covers shines: colours in it are light.
+    TextureId of_light(const Node& node);
 
     const Context& context() const { return context_; }
 
 private:
+    Rgb colour(const Node& node) const;
     TextureId make(const Node& node);
     TextureId bitmap(Properties& properties);
     TextureId checkerboard(Properties& properties);
     TextureId scaled(Properties& properties);
 
     const Context& context_;
-    std::map<const Node*, std::optional<TextureId>> made_;  // none: being made
+    bool shines_ = false;                                                    // what is being made
+    std::map<std::pair<const Node*, bool>, std::optional<TextureId>> made_;  // by node and shines_; none: being made
 };
 
 }  // namespace lightnet::mitsuba

@@ -36,9 +36,9 @@ std::optional<Rgb> absorption_of(Parameters& parameters, const Sources& sources)
     const Parameter* scattered = parameters.find("sigma_s");
     const bool homogeneous = parameters.text("type", "") == "homogeneous";
     if (!homogeneous || !absorbed || !scattered || parameters.find("Le") || parameters.find("preset")) return {};
-    const auto left = colour_of(*absorbed, Use::index, sources), aside = colour_of(*scattered, Use::index, sources);
-    if (!left || !aside || !is_black(*aside)) return {};
-    const Rgb each = *left * parameters.number("scale", 1);
+    const auto left = surface_of(*absorbed, Use::index, sources), aside = surface_of(*scattered, Use::index, sources);
+    if (!left || !aside || !is_black(aside->rgb)) return {};
+    const Rgb each = left->rgb * parameters.number("scale", 1);
     return finite(each) && each.r >= 0 && each.g >= 0 && each.b >= 0 ? std::optional(each) : std::nullopt;
 }
 

@@ -123,7 +123,7 @@ FilmShot make_film(const std::string& type, Parameters& parameters) {
     if (!(film.scale > 0)) parameters.error("'iso' must be above 0");
     if (const std::string sensor = parameters.text("sensor", "cie1931"); sensor != "cie1931")
         parameters.warn(fmt::format("the colours of sensor '{}' are left out: taken as 'cie1931'", sensor));
-    if (const float kelvin = parameters.number("whitebalance", 0); kelvin > 0) shot.white = daylight_colour(kelvin);
+    if (const float kelvin = parameters.number("whitebalance", 0); kelvin > 0) shot.white = daylight_colour(kelvin).rgb;
     if (const Parameter* crop = parameters.find("cropwindow", Type::number)) {
         film.crop = window(*crop, parameters, film.crop);
         for (float& side : film.crop) side = std::clamp(side, 0.0f, 1.0f);

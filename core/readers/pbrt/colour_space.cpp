@@ -50,6 +50,8 @@ Rgb to_srgb(Rgb colour, ColourSpace from) {
     }
 }
 
-Rgb white_light(ColourSpace space) { return space == ColourSpace::aces2065_1 ? daylight_colour(6000) : Rgb{1, 1, 1}; }
+Rgb white_light(ColourSpace space) {
+    return space == ColourSpace::aces2065_1 ? daylight_colour(6000).rgb : Rgb{1, 1, 1};
+}
 
 }  // namespace lightnet::pbrt

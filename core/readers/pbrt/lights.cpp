@@ -20,9 +20,9 @@ constexpr float float_pi = std::numbers::pi_v<float>;
 std::optional<Rgb> strength(Parameters& parameters, const Sources& sources, const char* name) {
     Rgb colour{1, 1, 1};
     if (const Parameter* given = parameters.find(name)) {
-        const auto found = colour_of(*given, Use::light, sources);
+        const auto found = light_of(*given, sources);
         if (!found) return std::nullopt;
-        colour = *found;
+        colour = found->rgb;
     }
     const float scale = parameters.number("scale", 1);
     if (scale < 0) parameters.error("'scale' must not be negative");

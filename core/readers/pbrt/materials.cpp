@@ -71,7 +71,7 @@ Metal metal_of(Parameters& parameters, const MaterialSources& sources, const std
     if (reflective && (parameters.find(prefix + "eta") || parameters.find(prefix + "k")))
         parameters.error("'reflectance' and 'eta' or 'k' exclude each other");
     if (reflective) metal.reflectance = sources.textures.colour(parameters, "reflectance", grey);
-    const Rgb copper_eta = *named_index("metal-Cu-eta"), copper_k = *named_index("metal-Cu-k");
+    const Rgb copper_eta = named_index("metal-Cu-eta")->rgb, copper_k = named_index("metal-Cu-k")->rgb;
     metal.eta = sources.textures.colour(parameters, prefix + "eta", copper_eta, Use::index);
     metal.k = sources.textures.colour(parameters, prefix + "k", copper_k, Use::index);
     return metal;

@@ -7,64 +7,70 @@
 #include <vector>
 
 #include "core/base/suggestion.hpp"
-#include "core/readers/spectra.hpp"
 
 namespace lightnet::pbrt {
 namespace {
 
-Rgb project(const std::vector<SpectrumPoint>& points, Use use) {
-    return use == Use::light ? light_colour(points) : surface_colour(points);
+enum class Seen { surface, index, light };
+
+Rgb project(const std::vector<SpectrumPoint>& points, Seen as) {
+    return as == Seen::light ? light_colour(points).rgb : surface_colour(points).rgb;
 }
 
-std::optional<Rgb> from_file(const std::string& name, const Parameter& parameter, Use use, const Sources& sources) {
+std::optional<Rgb> named(const std::string& name, Seen as) {
+    const auto rgb = [](const auto& known) { return known ? std::optional(known->rgb) : std::nullopt; };
+    return as == Seen::light ? rgb(named_light(name)) : rgb(named_index(name));
+}
+
+std::optional<Rgb> from_file(const std::string& name, const Parameter& parameter, Seen as, const Sources& sources) {
     const auto bytes = sources.read(name, parameter.where);
     if (!bytes) return std::nullopt;
     try {
-        return project(read_spd({reinterpret_cast<const char*>((*bytes)->data()), (*bytes)->size()}), use);
+        return project(read_spd({reinterpret_cast<const char*>((*bytes)->data()), (*bytes)->size()}), as);
     } catch (const Error& problem) {
         sources.report.error(parameter.where, fmt::format("'{}': {}", name, problem.what()));
         return std::nullopt;
     }
 }
 
-std::optional<Rgb> from_name(const Parameter& parameter, Use use, const Sources& sources) {
+std::optional<Rgb> from_name(const Parameter& parameter, Seen as, const Sources& sources) {
     const std::string& name = parameter.texts[0];
-    if (const auto known = use == Use::light ? named_light(name) : named_index(name)) return known;
+    if (const auto known = named(name, as)) return known;
     // a name of ours with an end is a file: "spds/Au.eta.spd"
-    if (name.find('.') != std::string::npos) return from_file(name, parameter, use, sources);
+    if (name.find('.') != std::string::npos) return from_file(name, parameter, as, sources);
     sources.report.error(parameter.where, fmt::format("unknown spectrum '{}' for parameter '{}'{}", name,
                                                       parameter.name, did_you_mean(name, spectrum_names())));
     return std::nullopt;
 }
 
-std::optional<Rgb> from_values(const Parameter& parameter, Use use, const Sources& sources) {
+std::optional<Rgb> from_values(const Parameter& parameter, Seen as, const Sources& sources) {
     std::vector<SpectrumPoint> points;
     const auto& n = parameter.numbers;
-    if (n.size() == 1 && use != Use::light) return Rgb{n[0], n[0], n[0]};
+    if (n.size() == 1 && as != Seen::light) return Rgb{n[0], n[0], n[0]};
     bool sound = n.size() % 2 == 0;
     for (std::size_t i = 0; sound && i < n.size(); i += 2) {
         sound = points.empty() || n[i] > points.back().wavelength;
         points.push_back({n[i], n[i + 1]});
     }
-    if (sound) return project(points, use);
+    if (sound) return project(points, as);
     sources.report.error(parameter.where, fmt::format("spectrum '{}' needs wavelengths, ascending, each with its value",
                                                       parameter.name));
     return std::nullopt;
 }
 
-std::optional<Rgb> checked(Rgb colour, const Parameter& parameter, Use use, const Sources& sources) {
+std::optional<Rgb> checked(Rgb colour, const Parameter& parameter, Seen as, const Sources& sources) {
     if (std::min({colour.r, colour.g, colour.b}) < 0 && parameter.type == Type::rgb) {
         sources.report.error(parameter.where, fmt::format("rgb '{}' has a negative component", parameter.name));
         return std::nullopt;
     }
-    const auto clamped = [&](float value) { return std::clamp(value, 0.0f, use == Use::surface ? 1.0f : value); };
-    if (use == Use::surface && parameter.type == Type::rgb && max_component(colour) > 1)
+    const auto clamped = [&](float value) { return std::clamp(value, 0.0f, as == Seen::surface ? 1.0f : value); };
+    if (as == Seen::surface && parameter.type == Type::rgb && max_component(colour) > 1)
         sources.report.warn(parameter.where,
                             fmt::format("rgb '{}' reflects more than arrives and is cut at 1", parameter.name));
     return Rgb{clamped(std::max(colour.r, 0.0f)), clamped(std::max(colour.g, 0.0f)), clamped(std::max(colour.b, 0.0f))};
 }
 
-std::optional<Rgb> unchecked(const Parameter& parameter, Use use, const Sources& sources) {
+std::optional<Rgb> unchecked(const Parameter& parameter, Seen as, const Sources& sources) {
     const auto wrong = [&](const std::string& what) -> std::optional<Rgb> {
         sources.report.error(parameter.where, fmt::format("parameter '{}' {}", parameter.name, what));
         return std::nullopt;
@@ -75,17 +81,26 @@ std::optional<Rgb> unchecked(const Parameter& parameter, Use use, const Sources&
             if (n.size() != 3) return wrong("needs three numbers");
             return Rgb{n[0], n[1], n[2]};
         case Type::blackbody:
-            if (use != Use::light) return wrong("of type blackbody fits a light only");
+            if (as != Seen::light) return wrong("of type blackbody fits a light only");
             if (n.size() != 1 || n[0] <= 0) return wrong("needs one temperature above 0, in kelvin");
-            return blackbody_colour(n[0]);
+            return blackbody_colour(n[0]).rgb;
         case Type::spectrum:
-            if (parameter.texts.size() == 1 && n.empty()) return from_name(parameter, use, sources);
-            if (parameter.texts.empty()) return from_values(parameter, use, sources);
+            if (parameter.texts.size() == 1 && n.empty()) return from_name(parameter, as, sources);
+            if (parameter.texts.empty()) return from_values(parameter, as, sources);
             return wrong("needs one name, or wavelengths and values");
         default:
             return wrong(fmt::format("is of type {}, but must be {}", name_of(parameter.type),
-                                     use == Use::light ? "rgb, spectrum or blackbody" : "rgb, spectrum or texture"));
+                                     as == Seen::light ? "rgb, spectrum or blackbody" : "rgb, spectrum or texture"));
     }
+}
+
+/// In linear sRGB, before the white of another colour space counts.
+std::optional<Rgb> colour_of(const Parameter& parameter, Seen as, const Sources& sources) {
+    const auto colour = unchecked(parameter, as, sources);
+    if (!colour) return std::nullopt;
+    const auto sound = checked(*colour, parameter, as, sources);
+    if (!sound || parameter.type != Type::rgb || parameter.space == ColourSpace::srgb) return sound;
+    return to_srgb(*sound, parameter.space);
 }
 
 }  // namespace
@@ -99,14 +114,16 @@ std::optional<Bytes> Sources::read(const std::string& name, const SourceLine& wh
     }
 }
 
-std::optional<Rgb> colour_of(const Parameter& parameter, Use use, const Sources& sources) {
-    const auto colour = unchecked(parameter, use, sources);
-    if (!colour) return std::nullopt;
-    auto sound = checked(*colour, parameter, use, sources);
-    if (!sound || parameter.type != Type::rgb || parameter.space == ColourSpace::srgb) return sound;
-    sound = to_srgb(*sound, parameter.space);
-    if (use == Use::light) *sound *= white_light(parameter.space);
-    return sound;
+std::optional<LightColour> light_of(const Parameter& parameter, const Sources& sources) {
+    auto light = colour_of(parameter, Seen::light, sources);
+    if (!light) return std::nullopt;
+    if (parameter.type == Type::rgb && parameter.space != ColourSpace::srgb) *light *= white_light(parameter.space);
+    return LightColour{*light};
+}
+
+std::optional<SurfaceColour> surface_of(const Parameter& parameter, Use use, const Sources& sources) {
+    const auto colour = colour_of(parameter, use == Use::surface ? Seen::surface : Seen::index, sources);
+    return colour ? std::optional(SurfaceColour{*colour}) : std::nullopt;
 }
 
 }  // namespace lightnet::pbrt

@@ -9,6 +9,7 @@
 #include "core/readers/files.hpp"
 #include "core/readers/pbrt/parameters.hpp"
 #include "core/readers/report.hpp"
+#include "core/readers/spectra.hpp"
 
 namespace lightnet::pbrt {
 
@@ -23,10 +24,12 @@ struct Sources {
     std::optional<Bytes> read(const std::string& name, const SourceLine& where) const;
 };
 
-/// What a colour is for: the same spectrum is another RGB as a surface than as a lamp.
-enum class Use { surface, index, light };
+/// The light that a parameter of type rgb, spectrum or blackbody stands for. None: reported.
+std::optional<LightColour> light_of(const Parameter& parameter, const Sources& sources);
 
-/// The colour that a parameter of type rgb, spectrum or blackbody stands for. None: reported.
-std::optional<Rgb> colour_of(const Parameter& parameter, Use use, const Sources& sources);
+/// What a colour of something that light meets says of it: reflectances are at most 1.
+enum class Use { surface, index };
+/// What a parameter of type rgb or spectrum stands for. None: reported.
+std::optional<SurfaceColour> surface_of(const Parameter& parameter, Use use, const Sources& sources);
 
 }  // namespace lightnet::pbrt

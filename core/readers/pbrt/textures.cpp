@@ -275,7 +275,7 @@ Rgb Textures::corner(Parameters& parameters, std::string_view name, float fallba
     const Parameter* given = parameters.find(name);
     if (!given) return all(fallback);
     if (given->type == Type::number) return all(parameters.number(name, fallback));
-    return colour_of(*given, Use::index, sources_).value_or(all(fallback));
+    return surface_of(*given, Use::index, sources_).value_or(SurfaceColour{all(fallback)}).rgb;
 }
 
 TextureId Textures::input(Named& named, Parameters& parameters, std::string_view name, float fallback) {
@@ -310,7 +310,7 @@ std::optional<TextureId> Textures::maybe_colour(Parameters& parameters, std::str
     const Parameter* given = parameters.find(name);
     if (!given) return std::nullopt;
     if (given->type == Type::texture) return find(spectra_, *given).value_or(0);
-    return constant(colour_of(*given, use, sources_).value_or(middle_grey));
+    return constant(surface_of(*given, use, sources_).value_or(SurfaceColour{middle_grey}).rgb);
 }
 
 TextureId Textures::colour(Parameters& parameters, std::string_view name, Rgb fallback, Use use) {
