@@ -47,6 +47,33 @@ Bytes DiskFiles::read(const std::string& path) {
     return bytes;
 }
 
+// From folder to folder, each of which may be named in several ways.
+std::optional<std::string> DiskFiles::like(const std::string& path) {
+    namespace fs = std::filesystem;
+    std::vector<fs::path> found{{}};
+    const fs::path whole(path);
+    for (const fs::path& part : whole) {
+        std::vector<fs::path> next;
+        for (const fs::path& folder : found) {
+            if (part == whole.root_path() || part == ".." || part == ".") {
+                next.push_back(folder / part);
+                continue;
+            }
+            std::error_code problem;
+            const fs::directory_iterator end;
+            for (fs::directory_iterator at(folder.empty() ? "." : folder, problem); !problem && at != end;
+                 at.increment(problem))
+                if (same_but_for_case(at->path().filename().string(), part.string()))
+                    next.push_back(folder / at->path().filename());
+        }
+        found = std::move(next);
+    }
+    std::error_code problem;
+    std::erase_if(found, [&](const fs::path& one) { return !fs::is_regular_file(one, problem); });
+    const auto first = std::ranges::min_element(found);
+    return first == found.end() ? std::nullopt : std::optional(first->string());
+}
+
 std::string DiskFiles::real_path(const std::string& path) const {
     std::error_code problem;
     const auto real = std::filesystem::weakly_canonical(std::filesystem::absolute(path), problem);
@@ -56,6 +83,11 @@ std::string DiskFiles::real_path(const std::string& path) const {
 std::map<std::string, Hash> DiskFiles::hashes() {
     workshop_->finish();
     return hashes_;
+}
+
+bool same_but_for_case(std::string_view a, std::string_view b) {
+    const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; };
+    return std::ranges::equal(a, b, {}, small, small);
 }
 
 std::string beside(const std::string& from, const std::string& path) {

@@ -34,6 +34,7 @@ public:
     std::vector<std::byte> beginning(const std::string& path, std::size_t most) override {
         return files_.beginning(path, most);
     }
+    std::optional<std::string> like(const std::string& path) override { return files_.like(path); }
     std::string real_path(const std::string& path) const override { return files_.real_path(path); }
     /// "": all of them are where the scene is, or below.
     const std::string& outside() const { return outside_; }

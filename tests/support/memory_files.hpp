@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,6 +36,12 @@ public:
         const auto found = files_.find(path);
         if (found == files_.end()) throw Error(path, "no such file");
         return found->second;
+    }
+
+    std::optional<std::string> like(const std::string& path) override {
+        for (const auto& [known, bytes] : files_)
+            if (same_but_for_case(known, path)) return known;
+        return std::nullopt;
     }
 
 private:

@@ -153,8 +153,15 @@ Bytes BlobFiles::read(const std::string& path) {
     const auto found = std::find_if(files_.begin(), files_.end(), [&](const auto& file) { return file.path == path; });
     if (found == files_.end()) throw Error(path, "no such file among those that were sent");
     auto bytes = cache_.read(found->hash);
-    if (!bytes) throw Error(path, "the cache has lost it");
+    if (!bytes) throw MissingHere(path, "the cache has lost it");
     return bytes;
+}
+
+std::optional<std::string> BlobFiles::like(const std::string& path) {
+    std::optional<std::string> first;
+    for (const JobFile& file : files_)
+        if (same_but_for_case(file.path, path) && (!first || file.path < *first)) first = file.path;
+    return first;
 }
 
 }  // namespace lightnet

@@ -72,6 +72,7 @@ class BlobFiles final : public Files {
 public:
     BlobFiles(const BlobCache& cache, const std::vector<JobFile>& files) : cache_(cache), files_(files) {}
     Bytes read(const std::string& path) override;
+    std::optional<std::string> like(const std::string& path) override;
 
 private:
     const BlobCache& cache_;
