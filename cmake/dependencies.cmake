@@ -15,6 +15,9 @@ find_package(PNG REQUIRED)                                 # pictures out, textu
 find_package(ZLIB REQUIRED)                                # packed scene files
 find_package(JPEG REQUIRED)                                # textures in
 find_package(TIFF 4.5 REQUIRED)                            # textures in
+find_package(GIF 5 REQUIRED)                               # textures in
+pkg_check_modules(webp REQUIRED IMPORTED_TARGET libwebp libwebpdemux)   # textures in
+pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)   # packed textures in
 pkg_check_modules(libjpeg QUIET libjpeg)                   # its full version: decoders differ in bits
 pkg_check_modules(draco REQUIRED IMPORTED_TARGET draco)     # packed meshes (core/readers/gltf)
 find_package(meshoptimizer 0.18 REQUIRED CONFIG)           # the same, by another packer

@@ -2,14 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
 #include <new>
+#include <string>
 #include <string_view>
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/readers/files.hpp"
 #include "core/readers/image_decoders.hpp"
 
 namespace lightnet {
@@ -53,10 +56,82 @@ Image to_image(decoders::Raster raster, const Encoding& encoding) {
     return {raster.width, raster.height, std::move(coded)};
 }
 
-constexpr const char* no_image = "not an image of a known format (JPEG, PNG, TIFF, TGA, OpenEXR, Radiance HDR)";
+constexpr const char* known_kinds = "JPEG, PNG, TIFF, TGA, BMP, GIF, WebP, PNM, PFM, KTX 2, OpenEXR, Radiance HDR";
 
-bool begins(std::span<const std::byte> bytes, std::string_view start) {
-    return bytes.size() >= start.size() && std::memcmp(bytes.data(), start.data(), start.size()) == 0;
+bool begins(std::span<const std::byte> bytes, std::string_view start, std::size_t at = 0) {
+    return bytes.size() >= at + start.size() && std::memcmp(bytes.data() + at, start.data(), start.size()) == 0;
+}
+
+/// How files of a kind begin, and what reads them; nothing does so: what they are called.
+struct Kind {
+    std::string_view start;
+    decoders::Found (*read)(decoders::Input) = nullptr;
+    const char* name = nullptr;
+    std::string_view further{};  // what stands at byte 8, or 4 of those without a start
+};
+
+template <auto decode>
+decoders::Found found(decoders::Input bytes) {
+    return decode(bytes);
+}
+
+constexpr std::array kinds{
+    Kind{"\xFF\xD8\xFF", found<decoders::read_jpeg>},
+    Kind{"\x89PNG\r\n\x1A\n", found<decoders::read_png>},
+    Kind{"\x76\x2F\x31\x01", found<decoders::read_exr>},
+    Kind{"#?", found<decoders::read_hdr>},
+    Kind{{"II*\0", 4}, found<decoders::read_tiff>},
+    Kind{{"MM\0*", 4}, found<decoders::read_tiff>},
+    Kind{{"II+\0", 4}, found<decoders::read_tiff>},
+    Kind{"GIF87a", found<decoders::read_gif>},
+    Kind{"GIF89a", found<decoders::read_gif>},
+    Kind{"RIFF", found<decoders::read_webp>, nullptr, "WEBP"},
+    Kind{"\xABKTX 20\xBB\r\n\x1A\n", found<decoders::read_ktx>},
+    Kind{"\xABKTX 11\xBB\r\n\x1A\n", nullptr, "KTX 1"},
+    Kind{"DDS ", nullptr, "DDS"},
+    Kind{"8BPS", nullptr, "Photoshop's PSD"},
+    Kind{{"\0\0\0\x0CjP  ", 8}, nullptr, "JPEG 2000"},
+    Kind{"\xFF\x4F\xFF\x51", nullptr, "JPEG 2000"},
+    Kind{{"\0\0\0\x0CJXL ", 8}, nullptr, "JPEG XL"},
+    Kind{"\xFF\x0A", nullptr, "JPEG XL"},
+    Kind{"", nullptr, "AVIF", "ftypavif"},
+    Kind{"", nullptr, "HEIC", "ftyphei"},
+    Kind{"", nullptr, "HEIC", "ftypmif1"},
+};
+
+bool is_of(std::span<const std::byte> bytes, const Kind& kind) {
+    return begins(bytes, kind.start) && begins(bytes, kind.further, kind.start.empty() ? 4 : 8);
+}
+
+/// "P6" and the like: letters that a blank ends, and nothing else tells.
+bool is_netpbm(std::span<const std::byte> bytes, std::string_view letters) {
+    if (bytes.size() < 3 || bytes[0] != std::byte{'P'}) return false;
+    const auto at = [&](std::size_t i) { return static_cast<char>(bytes[i]); };
+    return letters.find(at(1)) != letters.npos && std::string_view(" \t\r\n#").find(at(2)) != std::string_view::npos;
+}
+
+/// A header that has a known size.
+bool is_bmp(std::span<const std::byte> bytes) {
+    constexpr std::array<unsigned, 9> sizes{12, 16, 40, 52, 56, 64, 108, 124, 20};
+    if (bytes.size() < 18 || !begins(bytes, "BM")) return false;
+    const unsigned size = std::to_integer<unsigned>(bytes[14]);
+    return bytes[15] == std::byte{} && std::ranges::find(sizes, size) != sizes.end();
+}
+
+using Reading = decoders::Found (*)(decoders::Input);
+
+/// What reads a file that begins so. Throws Error: nothing does.
+Reading reading_of(std::span<const std::byte> beginning) {
+    for (const Kind& kind : kinds) {
+        if (!is_of(beginning, kind)) continue;
+        if (kind.read) return kind.read;
+        throw Error(std::string("images of the format ") + kind.name + " are not supported (" + known_kinds + " are)");
+    }
+    if (is_netpbm(beginning, "1234567")) return found<decoders::read_netpbm>;
+    if (is_netpbm(beginning, "Ff")) return found<decoders::read_pfm>;
+    if (is_bmp(beginning)) return found<decoders::read_bmp>;
+    if (decoders::is_tga(beginning)) return found<decoders::read_tga>;
+    throw Error(std::string("not an image of a known format (") + known_kinds + ")");
 }
 
 }  // namespace
@@ -68,14 +143,7 @@ void decoders::check_size(std::int64_t width, std::int64_t height) {
         throw Error(fmt::format("an image of {} x {} pixels is too large (at most 2^26 pixels)", width, height));
 }
 
-void expect_image(std::span<const std::byte> bytes) {
-    for (const std::string_view start :
-         {std::string_view("\xFF\xD8\xFF"), std::string_view("\x89PNG\r\n\x1A\n"), std::string_view("\x76\x2F\x31\x01"),
-          std::string_view("#?"), std::string_view("II*\0", 4), std::string_view("MM\0*", 4),
-          std::string_view("II+\0", 4)})
-        if (begins(bytes, start)) return;
-    if (!decoders::is_tga(bytes)) throw Error(no_image);
-}
+void expect_image(std::span<const std::byte> beginning) { reading_of(beginning); }
 
 void decoders::check_size(std::int64_t width, std::int64_t height, Input file, std::int64_t pixels_per_byte) {
     check_size(width, height);
@@ -84,19 +152,13 @@ void decoders::check_size(std::int64_t width, std::int64_t height, Input file, s
 }
 
 Image read_image(std::span<const std::byte> bytes, const Encoding& encoding) try {
-    if (begins(bytes, "\xFF\xD8\xFF")) return to_image(decoders::read_jpeg(bytes), encoding);
-    if (begins(bytes, "\x89PNG\r\n\x1A\n")) return to_image(decoders::read_png(bytes), encoding);
-    if (begins(bytes, "\x76\x2F\x31\x01")) return decoders::read_exr(bytes);
-    if (begins(bytes, "#?")) return decoders::read_hdr(bytes);
-    if (begins(bytes, {"II*\0", 4}) || begins(bytes, {"MM\0*", 4}) || begins(bytes, {"II+\0", 4})) {
-        auto found = decoders::read_tiff(bytes);
-        if (auto* raster = std::get_if<decoders::Raster>(&found)) return to_image(std::move(*raster), encoding);
-        return std::get<Image>(std::move(found));
-    }
-    if (decoders::is_tga(bytes)) return to_image(decoders::read_tga(bytes), encoding);
-    throw Error(no_image);
+    auto found = reading_of(bytes)(bytes);
+    if (auto* raster = std::get_if<decoders::Raster>(&found)) return to_image(std::move(*raster), encoding);
+    return std::get<Image>(std::move(found));
 } catch (const std::bad_alloc&) {
-    throw Error("there is not enough memory for its pixels");
+    throw MissingHere("there is not enough memory for its pixels");
 }
+
+Image mid_grey() { return {1, 1, {{0.5f, 0.5f, 0.5f}}}; }
 
 }  // namespace lightnet

@@ -1,4 +1,4 @@
-// Images read from files, for textures: JPEG, PNG, TIFF, TGA, OpenEXR and Radiance HDR.
+// Images read from files, for textures and skies.
 #pragma once
 
 #include <cstddef>
@@ -18,8 +18,11 @@ struct Encoding {
 };
 
 /// Decodes an image; its format is told by its first bytes. Throws Error (without a file name) when it is broken, of
-/// no known kind, or has more than 2²⁶ pixels.
+/// no known kind, or has more than 2²⁶ pixels; MissingHere where memory is short.
 Image read_image(std::span<const std::byte> bytes, const Encoding& encoding = {});
+
+/// What stands in for an image that can't be read: one pixel that reflects half of the light.
+Image mid_grey();
 
 /// Throws Error (without a file name) when a file that begins so is no image of a known kind: said before all of it is
 /// read. So much of its beginning tells:

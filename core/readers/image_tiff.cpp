@@ -174,7 +174,10 @@ Raster turned_into_eight_bits(const OpenTiff& tiff, const Layout& layout) {
     char why[1024] = "";
     if (!TIFFRGBAImageOK(tiff, why)) throw Error("TIFF: " + std::string(why));
     std::vector<std::uint32_t> pixels(std::size_t{layout.width} * layout.height);
-    tiff.must(TIFFReadRGBAImageOriented(tiff, layout.width, layout.height, pixels.data(), ORIENTATION_TOPLEFT, 1) == 1);
+    std::uint16_t turned = ORIENTATION_TOPLEFT;
+    TIFFGetFieldDefaulted(tiff, TIFFTAG_ORIENTATION,
+                          &turned);  // asked for as it stands there, so that nothing turns it
+    tiff.must(TIFFReadRGBAImageOriented(tiff, layout.width, layout.height, pixels.data(), turned, 1) == 1);
     Raster raster{layout.width, layout.height, 3, false, {}};
     raster.bytes.reserve(pixels.size() * 3);
     for (const std::uint32_t pixel : pixels)
@@ -185,7 +188,7 @@ Raster turned_into_eight_bits(const OpenTiff& tiff, const Layout& layout) {
 
 }  // namespace
 
-std::variant<Raster, Image> read_tiff(Input bytes) {
+Found read_tiff(Input bytes) {
     const OpenTiff tiff(bytes);
     const Layout layout = layout_of(tiff);
     check_size(layout.width, layout.height, bytes, pixels_per_byte_of(tiff));

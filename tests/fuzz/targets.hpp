@@ -43,8 +43,9 @@ Target gltf();
 Target obj();
 /// Mitsuba's packed meshes.
 Target serialized();
-/// Pictures of any kind.
+/// Pictures of the usual kinds, and of the others.
 Target pictures();
+Target rare_pictures();
 
 /// Pictures that this project has written, with layers, mattes and words.
 Target films();
@@ -90,7 +91,7 @@ inline std::vector<Target> all_targets() {
     return {packets(),    scenes(),   meshes(),  texts(),     mitsuba(),       gltf(),        obj(),
             serialized(), pictures(), films(),   manifests(), jobs(),          checkpoints(), graphs(),
             keys(),       gates(),    watched(), rays_pbrt(), rays_mitsuba(),  rays_gltf(),   rays_obj(),
-            customs(),    kept(),     pasts(),   words(),     conversations(), lines()};
+            customs(),    kept(),     pasts(),   words(),     conversations(), lines(),       rare_pictures()};
 }
 
 }  // namespace lightnet::fuzz

@@ -104,7 +104,7 @@ TEST(Exr, MayBeCutIntoTilesWithSmallerLevels) {
 
 TEST(Exr, SpreadsGreyOverAllColours) { EXPECT_EQ(read(exr({"Y"})).colour(2, 0), (Rgb{2, 2, 2})); }
 
-TEST(Exr, NeedsColour) { EXPECT_THAT(error_of(exr({"Z"})), HasSubstr("no channel R")); }
+TEST(Exr, NeedsColour) { EXPECT_THAT(error_of(exr({"U", "V"})), HasSubstr("no channel R")); }
 
 TEST(Hdr, ReadsRunLengths) {
     const Image image = read(hdr());
@@ -180,7 +180,7 @@ TEST(Tga, IsRefusedWhereItIsTooShortForItsPixels) {
 }
 
 TEST(Pictures, OfUnknownKindsAreRefused) {
-    EXPECT_THAT(error_of("GIF89a"), HasSubstr("not an image of a known format"));
+    EXPECT_THAT(error_of("GIT89a"), HasSubstr("not an image of a known format"));
     EXPECT_THAT(error_of(""), HasSubstr("not an image of a known format"));
 }
 

@@ -119,8 +119,9 @@ std::string tiff(int bits, bool tiles) {
     });
 }
 
-std::string palette_tiff() {
-    return tiff_of(2, 1, 8, [](TIFF* file) {
+std::string palette_tiff(int turned) {
+    return tiff_of(2, 1, 8, [turned](TIFF* file) {
+        TIFFSetField(file, TIFFTAG_ORIENTATION, turned);
         TIFFSetField(file, TIFFTAG_SAMPLESPERPIXEL, 1);
         TIFFSetField(file, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_PALETTE);
         std::vector<std::uint16_t> red(256), green(256), blue(256);

@@ -19,8 +19,9 @@ std::string exr(const std::vector<std::string>& channels);
 std::string tiled_exr();
 /// 20 x 18 pixels, each {x, y, 1}, of 8 or 16 bits or (32) floats in tiles of 16 x 16 or in strips, packed.
 std::string tiff(int bits, bool tiles);
-/// Two pixels beside each other, of a palette: red, and a blue that is half of 255.
-std::string palette_tiff();
+/// Two pixels beside each other, of a palette: red, and a blue that is half of 255; `turned`: how cameras say it was
+/// held.
+std::string palette_tiff(int turned = 1);
 /// 3 x 2 pixels of 32, 24 or 16 bits, or (8) grey: red, green, blue over white, half, black; in runs or not.
 std::string tga(int bits, bool packed);
 /// Eight pixels of {1, 0.5, 0.25} with run lengths.
