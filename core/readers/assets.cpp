@@ -18,49 +18,67 @@ bool has_light(const SceneData& scene) {
 
 }  // namespace
 
-std::optional<Bytes> Assets::read(const std::string& path, const SourceLine& where) {
+Assets::Found Assets::try_read(const std::string& path) {
     try {
-        return files_.read(path);
+        return {files_.read(path), ""};
+    } catch (const MissingHere&) {
+        throw;
     } catch (const Error& problem) {
-        report_.error(where, fmt::format("can't read a file: {}", problem.what()));
-        return std::nullopt;
+        return {nullptr, problem.what()};
     }
 }
 
-bool Assets::exists(const std::string& path) {
+std::optional<Bytes> Assets::read(const std::string& path, const SourceLine& where) {
+    auto [bytes, problem] = try_read(path);
+    if (bytes) return std::move(bytes);
+    report_.error(where, fmt::format("can't read a file: {}", problem));
+    return std::nullopt;
+}
+
+bool Assets::exists(const std::string& path) { return try_read(path).bytes != nullptr; }
+
+const Assets::Picture& Assets::decoded(const std::string& name, const Encoding& encoding,
+                                       const std::function<Image()>& decode) {
+    const auto [entry, fresh] = pictures_.try_emplace({name, encoding.curve, encoding.gamma});
+    if (!fresh) return entry->second;
     try {
-        files_.read(path);
-        return true;
-    } catch (const Error&) {
-        return false;
+        entry->second.image = std::make_shared<const Image>(decode());
+    } catch (const MissingHere&) {
+        throw;
+    } catch (const Error& problem) {
+        entry->second.problem = problem.what();
     }
+    return entry->second;
+}
+
+const Assets::Picture& Assets::try_picture(const std::string& path, const Encoding& encoding) {
+    return decoded(path, encoding, [&] {
+        expect_image(files_.beginning(path, image_beginning));
+        return read_image(*files_.read(path), encoding);
+    });
+}
+
+// DECISIONS: grey-stands-in
+std::shared_ptr<const Image> Assets::or_grey(const std::string& name, const Picture& picture, const SourceLine& where) {
+    if (picture.image) return picture.image;
+    report_.warn(where, fmt::format("image '{}': {}: mid-grey is taken instead", name, picture.problem));
+    if (!grey_) grey_ = std::make_shared<const Image>(mid_grey());
+    return grey_;
 }
 
 std::shared_ptr<const Image> Assets::picture(const std::string& path, const Encoding& encoding,
                                              const SourceLine& where) {
-    if (const auto known = pictures_.find({path, encoding.curve, encoding.gamma}); known != pictures_.end())
-        return known->second;
-    try {
-        expect_image(files_.beginning(path, image_beginning));
-    } catch (const Error& problem) {
-        report_.error(where, fmt::format("image '{}': {}", path, problem.what()));
-        return pictures_[{path, encoding.curve, encoding.gamma}] = nullptr;
-    }
-    const auto bytes = read(path, where);
-    if (!bytes) return pictures_[{path, encoding.curve, encoding.gamma}] = nullptr;
-    return picture(path, **bytes, encoding, where);
+    return or_grey(path, try_picture(path, encoding), where);
 }
 
 std::shared_ptr<const Image> Assets::picture(const std::string& name, std::span<const std::byte> bytes,
                                              const Encoding& encoding, const SourceLine& where) {
-    const auto [entry, fresh] = pictures_.try_emplace({name, encoding.curve, encoding.gamma});
-    if (!fresh) return entry->second;
-    try {
-        entry->second = std::make_shared<const Image>(read_image(bytes, encoding));
-    } catch (const Error& problem) {
-        report_.error(where, fmt::format("image '{}': {}", name, problem.what()));
-    }
-    return entry->second;
+    return or_grey(name, decoded(name, encoding, [&] { return read_image(bytes, encoding); }), where);
+}
+
+std::shared_ptr<const Image> Assets::no_picture(const std::string& name, const std::string& why,
+                                                const SourceLine& where) {
+    return or_grey(name, {nullptr, why}, where);
 }
 
 TextureId Assets::add(Texture texture) {

@@ -24,16 +24,31 @@ public:
 
     /// The bytes of the file at `path`. None: reported.
     std::optional<Bytes> read(const std::string& path, const SourceLine& where);
+    /// The same, or null and why there are none.
+    struct Found {
+        Bytes bytes;
+        std::string problem;
+    };
+    Found try_read(const std::string& path);
     bool exists(const std::string& path);
     /// See lightnet::stays_beside().
     bool stays_beside(const std::string& from, const std::string& path) const {
         return lightnet::stays_beside(files_, from, path);
     }
-    /// The image at `path`. Null: reported.
+    std::optional<std::string> like(const std::string& path) { return files_.like(path); }
+    /// An image, or why there is none.
+    struct Picture {
+        std::shared_ptr<const Image> image;
+        std::string problem;
+    };
+    const Picture& try_picture(const std::string& path, const Encoding& encoding);
+    /// The image at `path`; one that is missing or damaged is mid-grey, with a warning.
     std::shared_ptr<const Image> picture(const std::string& path, const Encoding& encoding, const SourceLine& where);
     /// An image inside another file; `name` tells it from all others.
     std::shared_ptr<const Image> picture(const std::string& name, std::span<const std::byte> bytes,
                                          const Encoding& encoding, const SourceLine& where);
+    /// Mid-grey for one of that name that can't be had, with a warning.
+    std::shared_ptr<const Image> no_picture(const std::string& name, const std::string& why, const SourceLine& where);
 
     TextureId add(Texture texture);
     TextureId colour(Rgb value);
@@ -46,10 +61,14 @@ public:
 private:
     using Key = std::tuple<std::string, Encoding::Curve, float>;
 
+    const Picture& decoded(const std::string& name, const Encoding& encoding, const std::function<Image()>& decode);
+    std::shared_ptr<const Image> or_grey(const std::string& name, const Picture& picture, const SourceLine& where);
+
     Files& files_;
     Report& report_;
     SceneData& scene_;
-    std::map<Key, std::shared_ptr<const Image>> pictures_;
+    std::map<Key, Picture> pictures_;
+    std::shared_ptr<const Image> grey_;  // null: not needed so far
     std::map<std::tuple<float, float, float>, TextureId> colours_;
 };
 

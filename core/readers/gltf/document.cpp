@@ -99,26 +99,28 @@ std::span<const std::byte> Document::json_chunk() {
     return all.subspan(20, length);
 }
 
-std::optional<Bytes> Document::resource(const At& uri) const {
+Document::Resource Document::try_resource(const At& uri) const {
     const std::string text = uri.text("");
-    if (text.empty()) {
-        uri.error("names nothing");
-        return std::nullopt;
-    }
+    if (text.empty()) return {nullptr, "names nothing"};
     if (!text.starts_with("data:")) {
         const auto file = beside(path_, from_uri(text));
-        if (assets_.stays_beside(path_, file)) return assets_.read(file, {path_, 0});
         // What a scene names is sent to all hosts, and scenes come from anywhere.
-        uri.error(fmt::format("names '{}', which is outside of the scene's folder", text.substr(0, 256)));
-        return std::nullopt;
+        if (!assets_.stays_beside(path_, file))
+            return {nullptr, fmt::format("names '{}', which is outside of the scene's folder", text.substr(0, 256))};
+        auto [bytes, problem] = assets_.try_read(file);
+        return {bytes, bytes ? "" : "names a file that can't be read: " + problem};
     }
     const auto comma = text.find(";base64,");
     auto decoded = comma == text.npos ? std::nullopt : from_base64(std::string_view(text).substr(comma + 8));
-    if (!decoded) {
-        uri.error("is no base64 data");
-        return std::nullopt;
-    }
-    return std::make_shared<const std::vector<std::byte>>(*std::move(decoded));
+    if (!decoded) return {nullptr, "is no base64 data"};
+    return {std::make_shared<const std::vector<std::byte>>(*std::move(decoded)), ""};
+}
+
+std::optional<Bytes> Document::resource(const At& uri) const {
+    auto [bytes, problem] = try_resource(uri);
+    if (bytes) return std::move(bytes);
+    uri.error(problem);
+    return std::nullopt;
 }
 
 Bytes Document::buffer(std::size_t index) {

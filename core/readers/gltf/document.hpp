@@ -42,6 +42,12 @@ public:
     std::optional<std::span<const std::byte>> view(const At& view_index);
     /// The bytes behind a "uri": data in it, or a file. None: reported.
     std::optional<Bytes> resource(const At& uri) const;
+    /// The same; null: what is wrong with it.
+    struct Resource {
+        Bytes bytes;
+        std::string problem;
+    };
+    Resource try_resource(const At& uri) const;
 
 private:
     struct Layout;

@@ -26,6 +26,8 @@ const std::set<std::string, std::less<>> known_extensions{"KHR_materials_transmi
                                                           "KHR_node_visibility",
                                                           "KHR_draco_mesh_compression",
                                                           "EXT_meshopt_compression",
+                                                          "EXT_texture_webp",
+                                                          "KHR_texture_basisu",
                                                           "KHR_materials_emissive_strength",
                                                           "KHR_materials_pbrSpecularGlossiness"};
 

@@ -65,8 +65,8 @@ std::shared_ptr<const Image> Materials::image(const At& index, Kind kind) {
         const auto bytes = document_.view(at["bufferView"]);
         return bytes ? assets_.picture(name, *bytes, encoding, where) : nullptr;
     }
-    const auto bytes = document_.resource(at["uri"]);
-    return bytes ? assets_.picture(name, **bytes, encoding, where) : nullptr;
+    const auto [bytes, problem] = document_.try_resource(at["uri"]);
+    return bytes ? assets_.picture(name, *bytes, encoding, where) : assets_.no_picture(name, "it " + problem, where);
 }
 
 std::optional<ImageTexture> Materials::picture(const At& info, Kind kind) {
@@ -75,12 +75,16 @@ std::optional<ImageTexture> Materials::picture(const At& info, Kind kind) {
     const auto index = info["index"].index(list.size());
     if (!index) return std::nullopt;
     const At at = list[*index];
-    if (!at["source"]) {
+    // images of WebP are read as well as what stands in for them; those of Basis Universal are not
+    At source = at["extensions"]["EXT_texture_webp"]["source"];
+    if (!source) source = at["source"];
+    if (!source) source = at["extensions"]["KHR_texture_basisu"]["source"];
+    if (!source) {
         at.warn("a texture without an image of a known format is left out");
         return std::nullopt;
     }
     ImageTexture pattern;
-    pattern.image = image(at["source"], kind);
+    pattern.image = image(source, kind);
     if (!pattern.image) return std::nullopt;
     const At samplers = document_.root()["samplers"];
     if (const auto sampler = at["sampler"].index(samplers.size())) {

@@ -15,26 +15,25 @@ constexpr std::uint64_t most_pixels = std::uint64_t{1} << 28;  // of up to 16 by
 std::shared_ptr<const Image> Pictures::get(const std::string& name, const Encoding& encoding, const SourceLine& where) {
     const Key key{sources_.path(name), encoding.curve, encoding.gamma};
     if (const auto known = known_.find(key); known != known_.end()) return known->second;
-    const auto bytes = is_one(name, where) ? sources_.read(name, where) : std::nullopt;
-    if (!bytes) {
-        known_.emplace(key, nullptr);
-        return nullptr;
-    }
     orders_.push_back(std::make_unique<Order>(Order{name, where, std::make_shared<Image>(), {}}));
     Order& order = *orders_.back();
     known_.emplace(key, order.image);
-    workshop_.add([this, &order, bytes = *bytes, encoding] { decode(order, bytes, encoding); });
+    if (const Bytes bytes = read(order))
+        workshop_.add([this, &order, bytes, encoding] { decode(order, bytes, encoding); });
     return order.image;
 }
 
-// False: reported.
-bool Pictures::is_one(const std::string& name, const SourceLine& where) const {
+// Null: its problem says why.
+Bytes Pictures::read(Order& order) const {
     try {
-        expect_image(sources_.files.beginning(sources_.path(name), image_beginning));
-        return true;
+        const std::string path = sources_.path(order.name);
+        expect_image(sources_.files.beginning(path, image_beginning));
+        return sources_.files.read(path);
+    } catch (const MissingHere&) {
+        throw;
     } catch (const Error& problem) {
-        sources_.report.error(where, fmt::format("can't read '{}': {}", name, problem.what()));
-        return false;
+        order.problem = problem.what();
+        return nullptr;
     }
 }
 
@@ -44,6 +43,8 @@ void Pictures::decode(Order& order, const Bytes& bytes, const Encoding& encoding
         Image image = read_image(*bytes, encoding);
         pixels_ += std::uint64_t{image.width} * image.height;
         *order.image = std::move(image);
+    } catch (const MissingHere& problem) {
+        order.problem = problem.what(), order.here_only = true;
     } catch (const std::exception& problem) {
         order.problem = problem.what();
     }
@@ -53,8 +54,11 @@ void Pictures::finish() {
     workshop_.finish();
     for (; reported_ < orders_.size(); ++reported_) {
         const Order& order = *orders_[reported_];
-        if (!order.problem.empty())
-            sources_.report.error(order.where, fmt::format("'{}': {}", order.name, order.problem));
+        if (order.problem.empty()) continue;
+        if (order.here_only) throw MissingHere(order.name, order.problem);
+        sources_.report.warn(order.where,
+                             fmt::format("image '{}': {}: mid-grey is taken instead", order.name, order.problem));
+        *order.image = mid_grey();
     }
     if (pixels_ > most_pixels && !std::exchange(too_many_, true))
         sources_.report.error({sources_.main, 0}, "the images of the scene have more than 2^28 pixels in all");

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/workshop.hpp"
+#include "core/readers/files.hpp"
 #include "core/readers/image_file.hpp"
 #include "core/readers/pbrt/sources.hpp"
 #include "core/scene/data/scene_data.hpp"
@@ -21,9 +22,10 @@ class Pictures {
 public:
     Pictures(const Sources& sources, Workshop& workshop) : sources_(sources), workshop_(workshop) {}
 
-    /// An image that is empty until finish(). None: the file can't be read, which is reported.
+    /// An image that is empty until finish().
     std::shared_ptr<const Image> get(const std::string& name, const Encoding& encoding, const SourceLine& where);
-    /// Waits until all images are there. Broken ones stay empty and are reported, in the order in which they came.
+    /// Waits until all images are there. Those that can't be read are mid-grey, with warnings in the order in which
+    /// they came.
     void finish();
 
 private:
@@ -31,11 +33,12 @@ private:
         std::string name;
         SourceLine where;
         std::shared_ptr<Image> image;
-        std::string problem;  // "": none
+        std::string problem;     // "": none
+        bool here_only = false;  // elsewhere it may be had
     };
     using Key = std::tuple<std::string, Encoding::Curve, float>;
 
-    bool is_one(const std::string& name, const SourceLine& where) const;
+    Bytes read(Order& order) const;
     void decode(Order& order, const Bytes& bytes, const Encoding& encoding);
 
     const Sources& sources_;

@@ -1,0 +1,126 @@
+// Pictures that can't be read are mid-grey in scenes of every format, and each is named.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/readers/files.hpp"
+#include "core/scene/textures/look_up.hpp"
+#include "tests/support/folder.hpp"
+#include "tests/support/picture_kinds.hpp"
+#include "tests/support/scene_text.hpp"
+
+namespace lightnet::test::missing_pictures_reader_test {
+namespace {
+
+using testing::HasSubstr;
+
+const MemoryFiles all_bad{{"broken.png", "\x89PNG\r\n\x1A\nand no more"}, {"unknown.png", "hello, no picture at all"}};
+const std::pair<const char*, const char*> bad[] = {
+    {"gone.png", "no such file"}, {"broken.png", "PNG: "}, {"unknown.png", "not an image of a known format"}};
+
+void expect_grey(const SceneData& scene, TextureId texture, const std::string& name, const std::string& why) {
+    EXPECT_EQ(look_up(scene.textures, texture, {{0.3f, 0.8f}}), (Rgb{0.5f, 0.5f, 0.5f})) << name;
+    EXPECT_THAT(warnings_of(scene), testing::AllOf(HasSubstr(name), HasSubstr(why), HasSubstr("mid-grey is taken")));
+}
+
+TEST(MissingPictures, AreGreyInMitsubasScenes) {
+    for (const auto& [name, why] : bad) {
+        const std::string file = "<string name='filename' value='" + std::string(name) + "'/>";
+        const auto scene = read_mitsuba("<emitter type='envmap'>" + file +
+                                            "</emitter><shape type='rectangle'><bsdf type='diffuse'><texture "
+                                            "name='reflectance' type='bitmap'>" +
+                                            file + "</texture></bsdf></shape>",
+                                        all_bad);
+        expect_grey(scene, model_of<DiffuseMaterial>(scene).reflectance, name, why);
+        EXPECT_EQ(scene.environments.at(0).image->colour(0, 0), (Rgb{0.5f, 0.5f, 0.5f}));
+    }
+}
+
+TEST(MissingPictures, AreGreyInPbrtsScenes) {
+    for (const auto& [name, why] : bad) {
+        const std::string file = "\"string filename\" \"" + std::string(name) + "\"";
+        const auto scene =
+            read_world("LightSource \"infinite\" " + file + "\nTexture \"t\" \"spectrum\" \"imagemap\" " + file +
+                           "\nMaterial \"diffuse\" \"texture reflectance\" \"t\" \"string normalmap\" \"" + name +
+                           "\"\nShape \"sphere\"\n",
+                       all_bad);
+        expect_grey(scene, model_of<DiffuseMaterial>(scene).reflectance, name, why);
+        EXPECT_EQ(scene.environments.at(0).image->colour(0, 0), (Rgb{0.5f, 0.5f, 0.5f}));
+    }
+}
+
+SceneData gltf_with(const std::string& image, const std::string& texture, MemoryFiles files,
+                    const std::string& more = "") {
+    files.add("p.bin", std::string(36, '\0'));
+    return read_as("a.gltf",
+                   R"({"asset":{"version":"2.0"},)" + more +
+                       R"("buffers":[{"byteLength":36,"uri":"p.bin"}],"bufferViews":[{"buffer":0,"byteLength":36}],
+        "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],
+        "meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],"nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],
+        "images":[)" + image +
+                       R"(],"textures":[)" + texture +
+                       R"(],"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}]})",
+                   std::move(files));
+}
+
+TEST(MissingPictures, AreGreyInGltf) {
+    for (const auto& [name, why] : bad) {
+        const auto scene = gltf_with(R"({"uri":")" + std::string(name) + "\"}", R"({"source":0})", all_bad);
+        expect_grey(scene, model_of<PrincipledMaterial>(scene).base_colour, "images[0]", why);
+    }
+    const auto outside = gltf_with(R"({"uri":"../../secret.png"})", R"({"source":0})", {{"../../secret.png", "x"}});
+    expect_grey(outside, model_of<PrincipledMaterial>(outside).base_colour, "images[0]",
+                "outside of the scene's folder");
+    const auto data = gltf_with(R"({"uri":"data:image/png;base64,*"})", R"({"source":0})", {});
+    expect_grey(data, model_of<PrincipledMaterial>(data).base_colour, "images[0]", "is no base64 data");
+}
+
+TEST(Gltf, TakesPicturesOfWebP) {
+    const auto scene = gltf_with(R"({"uri":"gone.png"},{"uri":"a.webp"})",
+                                 R"({"source":0,"extensions":{"EXT_texture_webp":{"source":1}}})",
+                                 {{"a.webp", webp(true, false)}}, R"("extensionsRequired":["EXT_texture_webp"],)");
+    EXPECT_THAT(warnings_of(scene), testing::Not(HasSubstr("image")));
+    const auto& texture = scene.textures[model_of<PrincipledMaterial>(scene).base_colour];
+    EXPECT_EQ(std::get<ImageTexture>(texture.pattern).image->width, Wheel::width);
+}
+
+TEST(Gltf, TakesWhatStandsInForBasisUniversal) {
+    const MemoryFiles files{{"a.webp", webp(true, false)}, {"b.ktx2", ktx({.format = 0, .packing = 1}, "x")}};
+    const std::string images = R"({"uri":"a.webp"},{"uri":"b.ktx2"})";
+    const auto with = gltf_with(images, R"({"source":0,"extensions":{"KHR_texture_basisu":{"source":1}}})", files);
+    const auto& texture = with.textures[model_of<PrincipledMaterial>(with).base_colour];
+    EXPECT_EQ(std::get<ImageTexture>(texture.pattern).image->width, Wheel::width);
+    const auto without = gltf_with(images, R"({"extensions":{"KHR_texture_basisu":{"source":1}}})", files,
+                                   R"("extensionsRequired":["KHR_texture_basisu"],)");
+    expect_grey(without, model_of<PrincipledMaterial>(without).base_colour, "images[1]", "Basis Universal");
+}
+
+/// A cache that has lost a file.
+class LosingFiles final : public Files {
+public:
+    Bytes read(const std::string& path) override {
+        if (path == "a.obj") return bytes_of("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
+        if (path == "m.mtl") return bytes_of("newmtl a\nmap_Kd lost.png\n");
+        throw MissingHere(path, "the cache has lost it");
+    }
+    std::optional<std::string> like(const std::string&) override { return std::nullopt; }
+};
+
+// or this host's picture would be another one
+TEST(MissingPictures, EndTheWorkWhereOneMachineAloneMissesThem) {
+    LosingFiles files;
+    EXPECT_THROW(read_scene(files, "a.obj"), MissingHere);
+}
+
+TEST(DiskFiles, FindNamesOfAnotherCase) {
+    const Folder folder;
+    folder.write("Maps/Wood.PNG", "x");
+    folder.write("Maps/stone.png", "y");
+    DiskFiles files;
+    EXPECT_EQ(files.like((folder / "maps/wood.png").string()), (folder / "Maps/Wood.PNG").string());
+    EXPECT_EQ(files.like((folder / "Maps/stone.png").string()), (folder / "Maps/stone.png").string());
+    EXPECT_FALSE(files.like((folder / "maps/stones.png").string()));
+    EXPECT_FALSE(files.like((folder / "MAPS").string()));
+}
+
+}  // namespace
+}  // namespace lightnet::test::missing_pictures_reader_test
