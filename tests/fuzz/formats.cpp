@@ -95,7 +95,10 @@ std::vector<std::string> obj_seeds() {
             std::string(1, '\0') +
             "newmtl a\nKd .5 .5 .5\nmap_Kd -s 2 2 -o 1 p.hdr\nPr .3\nd .5\nKe 1 1 1\nnewmtl b\nillum 7\nNi 1.5\nbump "
             "-bm 2 p.hdr\n",
-        square + "g x\no y\nusemtl none\nf 1 2 3\n"};
+        square + "g x\no y\nusemtl none\nf 1 2 3\n",
+        "\xEF\xBB\xBFmtllib my m.mtl M.MTL C:\\m.mtl # all\n" + square + "usemtl a\nf 1/1/1 2/-1/-1 3/9/9\n" +
+            std::string(1, '\0') +
+            "\xEF\xBB\xBFnewmtl a\nmap_Kd -imfchan r -texres 9 C:\\lost\\P.HDR\nmap_Ke gone.png\nbump m.mtl\nmap_d\n"};
 }
 
 void read_serialized(std::span<const std::byte> bytes) {

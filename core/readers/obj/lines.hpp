@@ -16,7 +16,10 @@ namespace lightnet::obj {
 class Lines {
 public:
     Lines(std::span<const std::byte> bytes, std::string file)
-        : text_(reinterpret_cast<const char*>(bytes.data()), bytes.size()), file_(std::move(file)) {}
+        : text_(reinterpret_cast<const char*>(bytes.data()), bytes.size()), file_(std::move(file)) {
+        constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+        if (text_.starts_with(byte_order_mark)) text_.remove_prefix(byte_order_mark.size());
+    }
 
     /// The next line that says anything; none: the end.
     bool next();

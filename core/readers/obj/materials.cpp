@@ -8,6 +8,7 @@
 #include <set>
 #include <string_view>
 
+#include "core/readers/obj/elsewhere.hpp"
 #include "core/readers/obj/lines.hpp"
 
 namespace lightnet::obj {
@@ -119,9 +120,8 @@ private:
             map_option(option, map);
         }
         map.file = lines_.rest();
-        std::replace(map.file.begin(), map.file.end(), '\\', '/');
         if (!map.file.empty()) return map;
-        report_.error(map.where, fmt::format("'{}' names no file", word));
+        report_.warn(map.where, fmt::format("'{}' names no file and is left out", word));
         return std::nullopt;
     }
 
@@ -138,9 +138,11 @@ private:
         } else if (option == "-t" || option == "-mm") {
             report_.warn(map.where, fmt::format("option '{}' of a map is left out", option));
             numbers_ahead(option == "-t" ? 3 : 2);
-        } else if (option == "-blendu" || option == "-blendv" || option == "-cc" || option == "-imfchan" ||
-                   option == "-type" || option == "-texres" || option == "-boost" || option == "-colorspace") {
-            lines_.word();
+        } else if (option == "-cc" || option == "-imfchan" || option == "-boost" || option == "-colorspace") {
+            report_.warn(map.where, fmt::format("option '{} {}' of a map is left out", option,
+                                                std::string(lines_.word().substr(0, 32))));
+        } else if (option == "-blendu" || option == "-blendv" || option == "-type" || option == "-texres") {
+            lines_.word();  // of no effect on what is there
         } else {
             report_.warn(map.where, fmt::format("unknown option '{}' of a map is left out", option.substr(0, 32)));
         }
@@ -185,12 +187,17 @@ public:
     }
 
 private:
+    /// None: there is none that can be read, which is warned of.
     std::optional<Texture> picture(const Statements& said, std::string_view key, const Encoding& encoding = {}) {
         const auto map = said.maps.find(key);
         if (map == said.maps.end()) return std::nullopt;
         const auto& [file, where, scale, offset, clamp, bump] = map->second;
         ImageTexture pattern;
-        pattern.image = assets_.picture(beside(path_, file), encoding, where);
+        const bool coloured = said.colours.contains(key) && !is_black(said.colour(key, {}));
+        const std::string instead = coloured      ? fmt::format("{} alone is taken", key)
+                                    : key == "Kd" ? "mid-grey is taken"
+                                                  : "it is left out";
+        pattern.image = find_picture(path_, file, encoding, where, instead, assets_);
         if (!pattern.image) return std::nullopt;
         pattern.wrap_u = pattern.wrap_v = clamp ? Wrap::clamp : Wrap::repeat;
         pattern.uv = {scale, offset, 0};
@@ -199,9 +206,11 @@ private:
 
     TextureId coloured(const Statements& said, std::string_view key, Rgb fallback) {
         auto texture = picture(said, key);
-        if (!texture) return assets_.colour(said.colour(key, fallback));
         // exporters write 0 beside a map; the map is meant
         const Rgb factor = said.colour(key, {1, 1, 1});
+        if (!texture && said.maps.contains(key) && (is_black(factor) || !said.colours.contains(key)))
+            return assets_.grey(0.5f);
+        if (!texture) return assets_.colour(said.colour(key, fallback));
         texture->scale = is_black(factor) ? Rgb{1, 1, 1} : factor;
         return assets_.add(*texture);
     }

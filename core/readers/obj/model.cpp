@@ -118,19 +118,39 @@ private:
         open_ = nullptr;
     }
 
-    /// "7", or "-1" from the end. None: reported, or not there.
-    std::optional<std::uint32_t> index(std::string_view digits, std::size_t count, const char* of) {
+    /// None: reported.
+    std::optional<std::int64_t> whole(std::string_view digits) {
         std::int64_t value = 0;
         const auto [end, problem] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-        const auto size = static_cast<std::int64_t>(count);
-        if (problem != std::errc{} || end != digits.data() + digits.size())
-            report_.error(lines_.where(), fmt::format("an index expected, not '{}'", digits.substr(0, 32)));
-        else if (value == 0 || value > size || value < -size)
-            report_.error(lines_.where(),
-                          fmt::format("index {} is out of range: so far there are {} {}", value, count, of));
-        else
-            return static_cast<std::uint32_t>(value > 0 ? value - 1 : size + value);
+        if (problem == std::errc{} && end == digits.data() + digits.size()) return value;
+        report_.error(lines_.where(), fmt::format("an index expected, not '{}'", digits.substr(0, 32)));
         return std::nullopt;
+    }
+
+    /// Of "7", or of "-1" from the end. None: there is no such one.
+    static std::optional<std::uint32_t> place(std::int64_t value, std::size_t count) {
+        const auto size = static_cast<std::int64_t>(count);
+        if (value == 0 || value > size || value < -size) return std::nullopt;
+        return static_cast<std::uint32_t>(value > 0 ? value - 1 : size + value);
+    }
+
+    /// None: reported.
+    std::optional<std::uint32_t> vertex_index(std::string_view digits) {
+        const auto value = whole(digits);
+        const auto found = value ? place(*value, positions_.size()) : std::nullopt;
+        if (value && !found)
+            report_.error(lines_.where(), fmt::format("index {} is out of range: so far there are {} vertices", *value,
+                                                      positions_.size()));
+        return found;
+    }
+
+    /// A face is there without them, too.
+    std::uint32_t index_or_none(std::string_view digits, std::size_t count, const char* of) {
+        const auto value = whole(digits);
+        const auto found = value ? place(*value, count) : std::nullopt;
+        if (value && !found)
+            report_.warn(lines_.where(), fmt::format("faces name {} that are not there, and go without", of));
+        return found.value_or(none);
     }
 
     /// "v", "v/vt", "v//vn" or "v/vt/vn".
@@ -142,13 +162,13 @@ private:
             return digits;
         };
         Corner corner;
-        const auto position = index(part(), positions_.size(), "vertices");
+        const auto position = vertex_index(part());
         if (!position) return std::nullopt;
         corner.position = *position;
         if (const auto digits = part(); !digits.empty())
-            corner.uv = index(digits, uvs_.size(), "texture coordinates").value_or(none);
+            corner.uv = index_or_none(digits, uvs_.size(), "texture coordinates");
         if (const auto digits = part(); !digits.empty())
-            corner.normal = index(digits, normals_.size(), "normals").value_or(none);
+            corner.normal = index_or_none(digits, normals_.size(), "normals");
         return corner;
     }
 

@@ -20,7 +20,7 @@ struct Part {
 };
 
 struct Library {
-    std::string name;
+    std::string name;  // or several
     SourceLine where;
 };
 

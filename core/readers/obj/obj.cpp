@@ -2,9 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <optional>
+#include <string_view>
+#include <vector>
+
 #include "core/base/suggestion.hpp"
 #include "core/readers/assets.hpp"
 #include "core/readers/mesh_tools.hpp"
+#include "core/readers/obj/elsewhere.hpp"
 #include "core/readers/obj/materials.hpp"
 #include "core/readers/obj/model.hpp"
 
@@ -40,14 +46,72 @@ private:
     Surface painted_;
 };
 
-void libraries(const Model& model, const std::string& path, Assets& assets, Palette& palette) {
-    for (const auto& [name, where] : model.libraries) {
-        if (assets.exists(beside(path, name)))
-            read_materials(beside(path, name), where, assets, palette.all());
-        else  // shapes without their colours are better than none
-            assets.report().warn(where, fmt::format("there is no material library '{}': grey is taken", name));
+/// The words of a line, up to a remark.
+std::vector<std::string_view> words_of(std::string_view line) {
+    constexpr std::string_view blanks = " \t";
+    std::vector<std::string_view> words;
+    for (std::size_t at = line.find_first_not_of(blanks); at < line.size() && line[at] != '#';) {
+        const auto end = std::min(line.find_first_of(blanks, at), line.size());
+        words.push_back(line.substr(at, end - at));
+        at = line.find_first_not_of(blanks, end);
     }
+    return words;
 }
+
+bool is_whole_name(std::string_view word) {
+    return word.size() > 4 && same_but_for_case(word.substr(word.size() - 4), ".mtl");
+}
+
+/// The libraries that a line names: the name of each may have blanks, and the longest that is there counts.
+class LibraryLine {
+public:
+    LibraryLine(const Library& line, const std::string& path, Assets& assets)
+        : line_(line), path_(path), assets_(assets), words_(words_of(line.name)) {}
+
+    void read(Palette& palette) {
+        if (words_.empty()) missing("");
+        for (std::size_t begin = 0, end = 0; begin < words_.size(); begin = end) {
+            end = begin + 1;
+            if (const auto found = find(begin, end))
+                read_materials(*found, line_.where, assets_, palette.all());
+            else
+                missing(joined(begin, end));
+        }
+    }
+
+private:
+    std::string joined(std::size_t begin, std::size_t end) const {
+        return {words_[begin].data(), words_[end - 1].data() + words_[end - 1].size()};
+    }
+
+    /// The one whose name begins there; `end`: behind it.
+    std::optional<std::string> find(std::size_t begin, std::size_t& end) {
+        constexpr std::size_t most_in_a_name = 16;
+        const std::size_t most = std::min(words_.size(), begin + most_in_a_name);
+        for (std::size_t last = most; last > begin; --last)
+            if (auto whole = beside(path_, joined(begin, last)); assets_.exists(whole)) {
+                end = last;
+                return whole;
+            }
+        // what is called otherwise ends where a name seems to end
+        for (std::size_t last = begin; last < most; ++last)
+            if (is_whole_name(words_[last])) {
+                end = last + 1;
+                return find_library(path_, joined(begin, end), line_.where, assets_);
+            }
+        return std::nullopt;
+    }
+
+    // shapes without their colours are better than none
+    void missing(const std::string& name) {
+        assets_.report().warn(line_.where, fmt::format("there is no material library '{}': grey is taken", name));
+    }
+
+    const Library& line_;
+    const std::string& path_;
+    Assets& assets_;
+    std::vector<std::string_view> words_;
+};
 
 SceneData read(Files& files, const std::string& path, const SceneConstants&) {
     return read_by_assets(files, path, [&](Assets& assets) {
@@ -57,7 +121,7 @@ SceneData read(Files& files, const std::string& path, const SceneConstants&) {
         report.check();
         Model model = read_model(**bytes, path, Cut::by_material, report);
         Palette palette(assets);
-        libraries(model, path, assets, palette);
+        for (const Library& line : model.libraries) LibraryLine(line, path, assets).read(palette);
         for (auto& part : model.parts) {
             const Surface surface = palette.of(part);
             if (part.mesh.normals.empty() && part.smooth)
