@@ -135,6 +135,22 @@ TEST_F(BlobCacheTest, ReadsTheFilesOfAJobAndNoOthers) {
     BlobFiles sent(cache, files);
     EXPECT_EQ(*sent.read("scenes/box.pbrt"), blob);
     EXPECT_THROW(sent.read("/etc/passwd"), Error);
+    EXPECT_EQ(sent.like("Scenes/BOX.pbrt"), "scenes/box.pbrt");
+    EXPECT_FALSE(sent.like("scenes/boxes.pbrt"));
+}
+
+// A file that was never sent is one that the launcher lacks, too; one that is lost must not look like that.
+TEST_F(BlobCacheTest, TellsLostFilesFromThoseThatNeverWere) {
+    const BlobCache cache(folder);
+    const std::vector<JobFile> files{{"a.png", content_hash(bytes("lost")), 4}};
+    BlobFiles sent(cache, files);
+    EXPECT_THROW(sent.read("a.png"), MissingHere);
+    try {
+        sent.read("b.png");
+    } catch (const MissingHere&) {
+        ADD_FAILURE() << "it was never sent";
+    } catch (const Error&) {
+    }
 }
 
 }  // namespace
