@@ -10,6 +10,7 @@
 #include "core/base/error.hpp"
 #include "tests/support/memory_files.hpp"
 #include "tests/support/picture_bytes.hpp"
+#include "tests/support/picture_kinds.hpp"
 
 namespace lightnet::image_file_test {
 namespace {
@@ -231,6 +232,13 @@ TEST_P(EveryPicture, NeverCrashesWithABrokenByte) {
 INSTANTIATE_TEST_SUITE_P(Kind, EveryPicture,
                          testing::Values(small_png(), jpeg(100, 3), exr({"R", "G", "B"}), hdr(), test::tiff(8, false),
                                          test::tiff(16, true), test::tga(24, false), test::tga(32, true)));
+
+INSTANTIATE_TEST_SUITE_P(RarerKind, EveryPicture,
+                         testing::Values(test::bmp(8, false, true), test::bmp(32, true, true), test::netpbm('3'),
+                                         test::netpbm('7'), test::pfm(true, -1), test::webp(false, true),
+                                         test::webp(true, true), test::gif(true), test::cmyk_jpeg(1, 2, 3, 4, true),
+                                         test::ktx({.packing = 2}, std::string(18, 'x')), test::chroma_exr(1, 1, 1),
+                                         test::parts_exr()));
 
 }  // namespace
 }  // namespace lightnet::image_file_test

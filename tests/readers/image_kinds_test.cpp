@@ -170,25 +170,5 @@ TEST(Pictures, OfKnownKindsThatAreNotReadAreNamed) {
     EXPECT_THAT(error_of("<html>"), HasSubstr("not an image of a known format (JPEG, PNG"));
 }
 
-class RarerPicture : public testing::TestWithParam<std::string> {};
-
-TEST_P(RarerPicture, IsReadOrRefusedWhereverItIsCutOrBroken) {
-    const std::string& bytes = GetParam();
-    for (std::size_t length = 0; length + 4 < bytes.size(); ++length) error_of(bytes.substr(0, length));
-    for (std::size_t i = 0; i < bytes.size(); ++i)
-        for (const char byte : {'\0', '\x7f', '\xff'}) {
-            std::string broken = bytes;
-            broken[i] = byte;
-            error_of(broken);
-        }
-}
-
-INSTANTIATE_TEST_SUITE_P(Kind, RarerPicture,
-                         testing::Values(test::bmp(8, false, true), test::bmp(32, true, true), test::netpbm('3'),
-                                         test::netpbm('7'), test::pfm(true, -1), test::webp(false, true),
-                                         test::webp(true, true), test::gif(true), test::cmyk_jpeg(1, 2, 3, 4, true),
-                                         test::ktx({.packing = 2}, level(3)), test::chroma_exr(1, 1, 1),
-                                         test::parts_exr()));
-
 }  // namespace
 }  // namespace lightnet::image_kinds_test
