@@ -29,6 +29,12 @@ Vec2 point_of_kernel(Vec2 u) {
     return {even.x * part, even.y * part};
 }
 
+// Photons don't keep of what shape their surface is, and their normals are rounded: further off than a ray needs to be
+// that starts from a surface point.
+Vec3 off_photon(Vec3 position, Vec3 normal) {
+    return position + normal * (16 * rounding_step * largest_coordinate(position));
+}
+
 }  // namespace
 
 /// Where a photon is spread.
@@ -80,7 +86,7 @@ std::vector<PhotonSpread::Disc> PhotonSpread::discs_of(std::span<const Photon> p
         Vec3 normal = photon.normal();
         if (dot(normal, photon.towards_light()) < 0) normal = -normal;
         const float radius = radius_of(photon, scratch);
-        rays.push_back({photon.position + normal * offset_at(photon.position, 0), normal, radius});
+        rays.push_back({off_photon(photon.position, normal), normal, radius});
         discs.push_back({photon.position, normal, radius, {}});
     }
     std::vector<std::optional<Hit>> ceilings(rays.size());
@@ -120,7 +126,7 @@ void PhotonSpread::look_behind(std::span<const Disc> discs, std::span<Try> tries
         if (!lands(disc, hits[k])) continue;
         const Vec3 out = Frame::around(disc.normal).to_world(cosine_hemisphere(missed[k]->way_out));
         const Vec3 position = scene_.surface(*hits[k]).position;
-        ways_out.push_back({position + disc.normal * offset_at(position, 0), out, wide_open * disc.radius});
+        ways_out.push_back({off_photon(position, disc.normal), out, wide_open * disc.radius});
         missed[left++] = missed[k];
     }
     hits.resize(ways_out.size());

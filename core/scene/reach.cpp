@@ -19,6 +19,20 @@ std::string too_far(const char* what) {
     return fmt::format("{} lies beyond {:g}, where no ray can be traced", what, farthest);
 }
 
+// Can Embree meet triangles of that size with rays that begin as far away? It works with the product of three
+// distances in single precision, and where that is no number finds nothing.
+bool is_meetable(double size, double reach) { return size * size * reach <= 8e36; }
+
+// The longest side of the box around it, which no edge is much longer than.
+double size_of(const ShapeGeometry& geometry) {
+    const auto* mesh = std::get_if<Mesh>(&geometry);
+    if (!mesh) return 0;
+    Box box;
+    for (const Vec3 p : mesh->positions) box.add(p);
+    const Vec3 side = mesh->positions.empty() ? Vec3{} : box.size();
+    return std::max({side.x, side.y, side.z});
+}
+
 // The largest coordinate; not finite where one of them isn't.
 float extent_of(Vec3 p) { return std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z); }
 
@@ -78,6 +92,8 @@ public:
         if (scene_.camera_given) most_ = std::max(most_, largest_row(scene_.camera.to_world, 0));
         if (!problems_.empty()) return;
         for (const auto& instance : scene_.instances) grow(instance);
+        for (std::size_t s = 0; s < scene_.shapes.size(); ++s)
+            if (!placed[s] && problems_.size() < most_problems) check_size(scene_.shapes[s], of_shape_[s], most_);
         for (const auto& instance : scene_.instances)
             if (problems_.empty()) look_into(instance);
     }
@@ -88,6 +104,13 @@ private:
         of_shape_[s] = std::visit([](const auto& geometry) { return extent_of(geometry); }, shape.geometry);
         if (!in_reach(of_shape_[s]) && problems_.size() < most_problems)
             problems_.push_back({shape.where, too_far(what_of(shape.geometry))});
+    }
+    // `extent`: of the shape, which is cheaper to know than its size and nearly always small enough.
+    void check_size(const Shape& shape, double extent, double reach) {
+        if (is_meetable(2 * extent, reach) || is_meetable(size_of(shape.geometry), reach)) return;
+        problems_.push_back({shape.where, fmt::format("its triangles are so large that no ray from {:.0e} units away, "
+                                                      "where the scene ends, can meet them: scale the scene down",
+                                                      reach)});
     }
     double extent_of_object(const Object& object) const {
         double most = 0;
@@ -109,9 +132,13 @@ private:
         const auto where = [&] { return place_of(scene_, scene_.objects[instance.object], file_); };
         if (const std::string fault = Placement::fault(instance.to_world); !fault.empty())
             return problems_.push_back({where(), fault});
-        if (Placement(instance.to_world).farthest_inside(most_) > 1e17)
-            problems_.push_back(
+        const double reach = Placement(instance.to_world).farthest_inside(most_);
+        if (reach > 1e17)
+            return problems_.push_back(
                 {where(), "an instance makes this object so small that no ray of the scene can be traced in it"});
+        for (const auto shape : scene_.objects[instance.object].shapes)
+            if (shape < of_shape_.size() && problems_.empty())
+                check_size(scene_.shapes[shape], of_shape_[shape], reach);
     }
 
     static constexpr std::size_t most_problems = 100;

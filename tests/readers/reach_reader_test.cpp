@@ -52,6 +52,24 @@ TEST(Reach, IsWorldSpace) {
               "");
 }
 
+// Embree multiplies three distances, in single precision.
+TEST(Reach, EndsWhereTrianglesAreTooLargeToBeMet) {
+    const auto floor = [](const std::string& scale) {
+        return errors_of_world("Scale " + scale + " " + scale + " " + scale +
+                               "\nShape \"trianglemesh\" \"point3 P\" [ -1 0 -1  1 0 -1  0 0 1 ]");
+    };
+    EXPECT_EQ(floor("1e12"), "");
+    EXPECT_THAT(floor("1e13"), HasSubstr("scene.pbrt:3: its triangles are so large that no ray from 1e+13 units away"));
+    EXPECT_THAT(floor("1e15"), HasSubstr("scene.pbrt:3:"));
+    EXPECT_THAT(errors_of_world("Shape \"trianglemesh\" \"point3 P\" [ -1e12 0 -1e12  1e12 0 -1e12  0 0 1e12 ]\n"
+                                "Translate 0 0 1e14 Shape \"sphere\""),
+                HasSubstr("scene.pbrt:2: its triangles"));
+    EXPECT_EQ(errors_of_world("Translate 0 0 1e14\n" + test::triangle + "Shape \"sphere\""), "") << "small ones";
+    EXPECT_THAT(errors_of_world("ObjectBegin \"a\"\nShape \"trianglemesh\" \"point3 P\" [ -1 0 -1  1 0 -1  0 0 1 ]\n"
+                                "ObjectEnd\nScale 1e12 1e12 1e12 Scale 20 20 20 ObjectInstance \"a\""),
+                HasSubstr("scene.pbrt:"));
+}
+
 TEST(Reach, OfObjVerticesIsChecked) {
     EXPECT_THAT(errors_in("s.obj", "v 0 0 0\nv 1.8e18 0 0\nv 0 1 0\nf 1 2 3\n"), HasSubstr("s.obj:2: the vertex"));
 }

@@ -5,6 +5,7 @@
 
 #include "core/base/math/octahedral.hpp"
 #include "core/base/math/vec.hpp"
+#include "core/base/math/wide_vec.hpp"
 #include "core/scene/data/scene_data.hpp"
 
 namespace lightnet {
@@ -32,8 +33,8 @@ void meet(const Sphere& sphere, Vec3 origin, Vec3 direction, float near, float f
     const auto [first, second] = crossings(sphere.center, sphere.radius, origin, direction);
     for (const double root : {first, second}) {
         if (!(root > near && root < far)) continue;
-        const auto t = float(root);
-        if (accept(t, to_octahedral(normalize(origin + direction * t - sphere.center)))) return;
+        const WideVec3 outwards = WideVec3(origin) - WideVec3(sphere.center) + WideVec3(direction) * root;
+        if (accept(float(root), to_octahedral(normalize(outwards.rounded())))) return;
     }
 }
 

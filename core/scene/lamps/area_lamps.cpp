@@ -28,7 +28,7 @@ inline Facet facet(const Mesh& mesh, std::uint32_t triangle) {
     const Corners at = corners(mesh, triangle);
     return {at.a, at.b - at.a, at.c - at.a, geometric_normal(mesh, triangle, at)};
 }
-float area_of(const Facet& facet) { return 0.5f * length(cross(facet.first_edge, facet.second_edge)); }
+float area_of(const Facet& facet) { return area_of(Corners{{}, facet.first_edge, facet.second_edge}); }
 
 bool is_lamp(const SceneData& data, const Shape& shape, GroupSet groups) {
     return shape.emission && (groups >> shape.emission->label.group & 1) && !is_black(shape.emission->radiance) &&
@@ -80,7 +80,7 @@ void AreaLamps::add_mesh(std::uint32_t shape, const Mesh& mesh) {
     const std::size_t first = facets_.size();
     for (std::uint32_t t = 0; t < count; ++t) {
         facets_.push_back(facet(mesh, t));
-        areas.push_back(0.5 * length(cross(facets_.back().first_edge, facets_.back().second_edge)));
+        areas.push_back(double{area_of(facets_.back())});
     }
     ends_.resize(facets_.size(), 1);
     running_shares(std::span<const double>(areas), std::span(ends_).subspan(first));
@@ -120,7 +120,7 @@ AreaLamps::Lamp AreaLamps::lamp(std::size_t index) const {
     if (!source.by_triangle) return {source, 0, source.area};
     const auto triangle = std::uint32_t(index - source.first_lamp);
     const Corners at = corners(mesh_of(source), triangle);
-    const float area = 0.5f * length(cross(at.b - at.a, at.c - at.a));
+    const float area = area_of(at);
     return {source, triangle, std::isfinite(area) ? area : 0};
 }
 
@@ -204,7 +204,7 @@ AreaLamps::PointOnLamp AreaLamps::on_mesh(const Lamp& lamp, Vec2 u) const {
 
 AreaLamps::PointOnLamp AreaLamps::on_sphere(const Sphere& ball, Vec3 outwards) const {
     const Vec2 name = to_octahedral(outwards);
-    return {ball.center + outwards * ball.radius, ball.flip_normals ? -outwards : outwards, 0, name.x, name.y};
+    return {on_ball(ball.center, ball.radius, outwards), ball.flip_normals ? -outwards : outwards, 0, name.x, name.y};
 }
 
 AreaLamps::PointOnLamp AreaLamps::on_quadric(const PlacedQuadric& quadric, Vec3 own) const {
@@ -249,7 +249,7 @@ std::optional<LightSample> AreaLamps::from_mesh(const Lamp& lamp, Vec3 from, Vec
         if (!is_there(source, point)) return {};
         radiance = radiance_at(source, point);
     }
-    return LightSample{position, direction, radiance, pdf, false, false, source.group};
+    return LightSample{before_lamp(on, position, direction), direction, radiance, pdf, false, false, source.group};
 }
 
 std::optional<FlatLamp> AreaLamps::flat(const Lamp& one) const {
@@ -301,7 +301,9 @@ std::optional<LightSample> AreaLamps::from_quadric(const Lamp& lamp, Vec3 from, 
     const float pdf = seen.pdf(direction, own);
     const bool dark = !shines_towards(source.two_sided, point.normal, -direction) || !is_there(source, point);
     if (dark || !(pdf > 0) || !std::isfinite(pdf)) return {};
-    return LightSample{point.position, direction, radiance_at(source, point), pdf, false, false, source.group};
+    const float offset = offset_at(point.position, point.normal, quadric.own_offset(own, point.normal));
+    const Vec3 end = off_surface(point.position, point.normal, offset, -direction);
+    return LightSample{end, direction, radiance_at(source, point), pdf, false, false, source.group};
 }
 
 float AreaLamps::pdf(std::size_t index, Vec3 from, Vec3 direction, const SurfacePoint& on) const {

@@ -9,6 +9,7 @@
 #include "core/base/math/rgb.hpp"
 #include "core/base/math/sampling.hpp"
 #include "core/base/math/vec.hpp"
+#include "core/scene/surfaces/ball.hpp"
 
 namespace lightnet {
 
@@ -62,7 +63,8 @@ struct BallLamp {
     std::uint32_t group = 0;
 };
 
-/// From a point that is lit to one that was chosen on a ball. As direction_to_lamp().
+/// From a point that is lit to one that was chosen on a ball. As direction_to_lamp(). `position`: off the ball, where
+/// the lit point is to be seen.
 struct WayToBall {
     Vec3 outwards, position, direction;
     float pdf;
@@ -71,12 +73,13 @@ struct WayToBall {
 [[gnu::always_inline]] inline WayToBall way_to_ball(const BallLamp& ball, Vec3 from, Vec2 u) {
     const SeenBall seen(ball.center, ball.radius, from);
     const Vec3 outwards = seen.sample(u);
-    const Vec3 position = ball.center + outwards * ball.radius, way = position - from;
+    const Vec3 position = on_ball(ball.center, ball.radius, outwards), way = position - from;
     const float way2 = length_squared(way);
     const Vec3 direction = way / std::sqrt(way2);
     const float away = dot(outwards, direction), towards = ball.inwards ? away : -away;
-    return {outwards, position, direction, seen.pdf(outwards, direction, way2, ball.area),
-            bool((way2 > 0) & (ball.two_sided | (towards > 0)))};
+    const float offset = offset_at(position, outwards, ball_offset(ball.radius));
+    return {outwards, off_surface(position, outwards, offset, -direction), direction,
+            seen.pdf(outwards, direction, way2, ball.area), bool((way2 > 0) & (ball.two_sided | (towards > 0)))};
 }
 
 }  // namespace lightnet

@@ -13,7 +13,7 @@ struct Way {
     const Vec3 position = lamp.facet.at({lamp.whole ? u.x : folded.x, lamp.whole ? u.y : folded.y});
     const auto [direction, pdf, found] =
         direction_to_lamp(from, position, lamp.facet.normal, lamp.area, lamp.two_sided);
-    return {position, direction, pdf, found};
+    return {before_lamp(lamp.facet, position, direction), direction, pdf, found};
 }
 [[gnu::always_inline]] inline Way way_to(const BallLamp& lamp, Vec3 from, Vec2 u) {
     const WayToBall way = way_to_ball(lamp, from, u);

@@ -7,6 +7,7 @@
 #include "core/base/math/rgb.hpp"
 #include "core/base/math/sampling.hpp"
 #include "core/base/math/vec.hpp"
+#include "core/scene/surfaces/surface.hpp"
 
 namespace lightnet {
 
@@ -33,6 +34,15 @@ inline DirectionToLamp direction_to_lamp(Vec3 from, Vec3 position, Vec3 normal, 
     const float towards = -dot(normal, direction), cosine = std::fabs(towards);
     const bool found = (distance2 > 0) & (cosine >= 1e-7f) & (two_sided | (towards > 0));
     return {direction, distance2 / (area * cosine), found};
+}
+
+/// Where a ray into `direction` ends that is to see that point of a facet: off it, on the side from which it comes. The
+/// lamp itself is not in the way, as nothing of it is rounded so far.
+inline Vec3 before_lamp(const Facet& facet, Vec3 position, Vec3 direction) {
+    const Vec3 a = facet.first_edge, b = facet.second_edge;
+    const float edges = std::sqrt(length_squared(a) + length_squared(b));  // longer than a third one over the root of 2
+    const float offset = offset_at(position, facet.normal, 16 * rounding_step * edges);
+    return off_surface(position, facet.normal, offset, -direction);
 }
 
 /// One that emits the same radiance everywhere.

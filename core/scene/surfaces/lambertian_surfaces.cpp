@@ -68,8 +68,9 @@ struct LambertianSurfaces::Looking {
             const Rgb value = Rgb{at.albedo_.x[i], at.albedo_.y[i], at.albedo_.z[i]} * pdf;
             const float part = whole ? 1 : share(squared, way.pdf, pdf);
             const Rgb arriving = value * radiance * (part / way.pdf);
+            const Vec3 end = before_lamp(facet, on_lamp, way.direction);
             const Ray ray =
-                ray_between(off_surface(position, normal, at.offset_[i], way.direction), on_lamp, way.direction);
+                ray_between(off_surface(position, normal, at.offset_[i], way.direction), end, way.direction);
             at.rays_.origin.set(i, ray.origin);
             at.rays_.direction.set(i, ray.direction);
             at.rays_.far[i] = ray.far;

@@ -13,7 +13,7 @@ namespace lightnet {
 
 /// A sampled direction towards a light.
 struct LightSample {
-    Vec3 position;   // of the emitting point; of no use when that is at infinity
+    Vec3 position;   // of the emitting point, off its surface; of no use when that is at infinity
     Vec3 direction;  // unit, from the lit point
     Rgb radiance;  // arriving, if nothing is in between; of a bare light its irradiance across the direction, W·m⁻²
     float pdf = 0;      // per steradian at the lit point, choice of the light included; > 0. Of a bare light the chance

@@ -138,7 +138,7 @@ private:
         return;
     }
     const Corners normals{mesh.normals[i], mesh.normals[j], mesh.normals[k]};
-    interpolated_.set(to, on_triangle(normals, hit.u, hit.v));
+    interpolated_.set(to, between_corners(normals, hit.u, hit.v));
     towards_.set(to, normals.a + normals.b + normals.c);
     flip_[to] = 0;
 }

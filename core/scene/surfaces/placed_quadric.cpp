@@ -1,6 +1,7 @@
 #include "core/scene/surfaces/placed_quadric.hpp"
 
 #include "core/base/math/sampling.hpp"
+#include "core/scene/surfaces/ball.hpp"
 
 #include <algorithm>
 
@@ -27,6 +28,8 @@ PlacedQuadric::PlacedQuadric(const Quadric& quadric) : quadric_(quadric) {
         }
     const double determinant = m[0][0] * cofactors_[0][0] + m[0][1] * cofactors_[0][1] + m[0][2] * cofactors_[0][2];
     volume_ = std::fabs(determinant);
+    for (const auto& row : m)
+        for (std::size_t j = 0; j < 3; ++j) size_ = std::max(size_, float(std::fabs(row[j])));
     usable_ = all_finite && determinant != 0;
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j) {
@@ -131,6 +134,13 @@ Vec3 PlacedQuadric::normal(Vec3 own) const {
     const double x = row(0), y = row(1), z = row(2), size = std::sqrt(x * x + y * y + z * z);
     const double sign = quadric_.flip_normals ? -1 : 1;
     return {float(sign * x / size), float(sign * y / size), float(sign * z / size)};
+}
+
+// Its points are rounded along their radius. What rays round is far less, as they are met in double.
+float PlacedQuadric::own_offset(Vec3 own, Vec3 normal) const {
+    const bool flat = quadric_.round == Quadric::Round::disk;
+    const float radius = flat ? 0 : std::fabs(dot(out_of_own(own_normal(own)), normal));
+    return ball_offset(radius) + rounding_step * size_;
 }
 
 float PlacedQuadric::stretch(Vec3 own) const {

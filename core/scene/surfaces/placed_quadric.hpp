@@ -37,6 +37,8 @@ public:
     Vec3 position(Vec3 own) const;
     /// Unit, in the world, on the side where a lamp shines.
     Vec3 normal(Vec3 own) const;
+    /// What its own space rounds along that normal, wherever it stands: own part of an offset, m.
+    float own_offset(Vec3 own, Vec3 normal) const;
     Vec2 uv(Vec3 own) const;
     /// ∂position/∂u and ∂position/∂v.
     struct Along {
@@ -71,6 +73,7 @@ private:
     const Quadric& quadric_;
     std::array<std::array<double, 3>, 3> inverse_{}, cofactors_{};
     double volume_ = 0;
+    float size_ = 0;  // m
     double end_ = 4;  // of the turn, in quarters of a square
     bool usable_ = false;
 };

@@ -10,8 +10,6 @@ namespace {
 
 float largest(Vec3 v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
 
-Vec3 magnitudes(Vec3 v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
-
 }  // namespace
 
 Placement::Placement(const Matrix& to_world, Unchecked) {
@@ -70,8 +68,13 @@ Vec3 Placement::direction_to_world(Vec3 v) const {
     return {row(0), row(1), row(2)};
 }
 
+// The nearest that there is in single precision.
 Vec3 Placement::point_to_world(Vec3 p) const {
-    return direction_to_world(p) + Vec3{columns_[9], columns_[10], columns_[11]};
+    const auto row = [&](std::size_t i) {
+        return double{columns_[i]} * p.x + double{columns_[3 + i]} * p.y + double{columns_[6 + i]} * p.z +
+               double{columns_[9 + i]};
+    };
+    return {float(row(0)), float(row(1)), float(row(2))};
 }
 
 Vec3 Placement::point_to_object(Vec3 p) const {
@@ -92,11 +95,14 @@ SurfacePoint Placement::place(const SurfacePoint& point) const {
     placed.along_v = direction_to_world(point.along_v);
 
     // What the point was off in its object, as the world sees it; what the world's own numbers round; and what Embree
-    // rounds when it takes a ray into the object, which shear makes worse.
-    const Vec3 n = magnitudes(point.normal), at = magnitudes(placed.position);
+    // rounds when it takes a ray into the object, which shear makes worse: where the object's origin stands, and what
+    // it multiplies to come there.
+    const Vec3 n = magnitudes(point.normal), middle{columns_[9], columns_[10], columns_[11]};
+    const Vec3 far = magnitudes(placed.position) + magnitudes(middle),
+               from_middle = magnitudes(placed.position - middle);
     const Vec3 rounded = magnitudes(inverse_[0]) * n.x + magnitudes(inverse_[1]) * n.y + magnitudes(inverse_[2]) * n.z;
-    placed.offset = std::max(
-        {point.offset / steepness, 0x1p-16f * largest(placed.position), 0x1p-20f * dot(rounded, at) / steepness});
+    const float by_embree = rounding_step * dot(rounded, far * 4 + from_middle * 16);
+    placed.offset = offset_at(placed.position, placed.normal, (point.offset + by_embree) / steepness);
 
     const Vec3 z = normal_to_world(point.shading.z);
     const float size = length(z);

@@ -3,6 +3,7 @@
 #include "core/base/math/octahedral.hpp"
 #include "core/base/math/random.hpp"
 #include "core/base/math/sampling.hpp"
+#include "core/scene/surfaces/ball.hpp"
 #include "core/scene/surfaces/bumps.hpp"
 #include "core/scene/surfaces/fetch_ahead.hpp"
 #include "core/scene/surfaces/triangle.hpp"
@@ -15,19 +16,22 @@
 namespace lightnet {
 namespace {
 
-// Rounding of a point grows with the coordinates of the shape: fully for spheres, far less for triangles.
-float least_offset(const Shape& shape) {
-    if (const auto* sphere = std::get_if<Sphere>(&shape.geometry))
-        return 0x1p-20f * (largest_coordinate(sphere->center) + sphere->radius);
-    if (const auto* quadric = std::get_if<Quadric>(&shape.geometry)) {
-        float reach = 0;
-        for (std::size_t i = 0; i < 3; ++i)
-            for (const double number : quadric->to_world.m[i]) reach = std::max(reach, float(std::fabs(number)));
-        return 0x1p-19f * reach;
+// A ray that leaves one triangle may pass close above all others of the mesh.
+float longest_edge(const Mesh& mesh) {
+    float square = 0;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+        const Corners at = corners(mesh, t);
+        const Vec3 ab = at.b - at.a, bc = at.c - at.b, ca = at.a - at.c;
+        square = std::max({square, length_squared(ab), length_squared(bc), length_squared(ca)});
     }
-    float reach = 0;
-    for (const Vec3 p : std::get<Mesh>(shape.geometry).positions) reach = std::max(reach, largest_coordinate(p));
-    return 0x1p-21f * reach;
+    return std::sqrt(square);
+}
+
+// What a shape's size rounds, wherever it stands.
+float least_offset(const Shape& shape) {
+    if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) return ball_offset(sphere->radius);
+    const auto* mesh = std::get_if<Mesh>(&shape.geometry);
+    return mesh ? triangle_offset(longest_edge(*mesh)) : 0;
 }
 
 struct Along {
@@ -146,11 +150,11 @@ void Shading::on_mesh(const Needs& needs, SurfacePoint& point) const {
     Vec3 interpolated;
     if (!mesh.normals.empty()) {
         const auto [i, j, k] = mesh.triangles[point.primitive];
-        interpolated = on_triangle({mesh.normals[i], mesh.normals[j], mesh.normals[k]}, point.u, point.v);
+        interpolated = between_corners({mesh.normals[i], mesh.normals[j], mesh.normals[k]}, point.u, point.v);
     }
     point.position = on_triangle(at, point.u, point.v);
     point.normal = geometric_normal(mesh, point.primitive, at);
-    point.offset = offset_at(point.position, needs.offset);
+    point.offset = triangle_offset_at(at, point.position, point.normal, needs.offset);
     point.shading = Frame::around(shading_normal(interpolated, point.normal));
     dress(mesh, needs, point);
 }
@@ -175,9 +179,9 @@ void Shading::dress(const Mesh& mesh, const Needs& needs, SurfacePoint& point) c
 
 void Shading::on_sphere(const Sphere& sphere, const Needs& needs, SurfacePoint& point) const {
     const Vec3 outwards = from_octahedral({point.u, point.v});
-    point.position = sphere.center + outwards * sphere.radius;
+    point.position = on_ball(sphere.center, sphere.radius, outwards);
     point.normal = sphere.flip_normals ? -outwards : outwards;
-    point.offset = needs.offset;
+    point.offset = offset_at(point.position, outwards, needs.offset);
     point.shading = Frame::around(point.normal);
     if (!needs.material.texture && !needs.material.tangent) return;
     const auto [uv, along] = laid_on(sphere, outwards);
@@ -193,7 +197,7 @@ void Shading::on_quadric(const PlacedQuadric& quadric, const Needs& needs, Surfa
     const Vec3 own = quadric.own_point({point.u, point.v});
     point.position = quadric.position(own);
     point.normal = quadric.normal(own);
-    point.offset = needs.offset;
+    point.offset = offset_at(point.position, point.normal, quadric.own_offset(own, point.normal));
     point.shading = Frame::around(point.normal);
     if (!needs.material.texture && !needs.material.tangent) return;
     point.uv = quadric.uv(own);

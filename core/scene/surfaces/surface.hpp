@@ -38,13 +38,19 @@ inline float largest_coordinate(Vec3 v) {
     const float x = std::fabs(v.x), y = std::fabs(v.y), z = std::fabs(v.z), xy = x > y ? x : y;
     return xy > z ? xy : z;
 }
-/// Beyond the rounding errors of a point of a triangle, and `least`.
-inline float offset_at(Vec3 position, float least) {
-    const float own = 0x1p-16f * largest_coordinate(position);
-    return own > least ? own : least;
+inline Vec3 magnitudes(Vec3 v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
+
+/// How far a number may lie from what was rounded to it, over its size.
+inline constexpr float rounding_step = 0x1p-24f;
+
+/// DECISIONS: tight-offsets
+/// Along `normal`, beyond what is rounded where coordinates are as large as those of `position`: once in the point,
+/// once in the start of its ray, and twice that for safety. `own`: the same of the shape, wherever it stands.
+inline float offset_at(Vec3 position, Vec3 normal, float own) {
+    return 4 * rounding_step * dot(magnitudes(position), magnitudes(normal)) + own;
 }
 
-/// The same of what it takes: a ray's start, that far off a surface.
+/// A ray's start, that far off a surface.
 inline Vec3 off_surface(Vec3 position, Vec3 normal, float offset, Vec3 direction) {
     return position + normal * (dot(direction, normal) < 0 ? -offset : offset);
 }

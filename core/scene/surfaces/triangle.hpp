@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/base/math/wide_vec.hpp"
 #include "core/scene/data/scene_data.hpp"
+#include "core/scene/surfaces/surface.hpp"
 
 namespace lightnet {
 
@@ -19,13 +21,21 @@ inline Corners corners(const Mesh& mesh, std::uint32_t triangle) {
 
 // Without a branch, as loops over many triangles want it.
 
+/// By the order of the corners; as long as twice the triangle is large. In double: in single precision slivers would be
+/// turned, and what is larger than some 4e9 metres would have none.
+inline WideVec3 wide_normal(const Corners& at) {
+    const WideVec3 a(at.a);
+    return cross(WideVec3(at.b) - a, WideVec3(at.c) - a);
+}
+inline float area_of(const Corners& at) { return float(0.5 * length(wide_normal(at))); }
+
 /// Unit normal of a triangle: on the side of `towards`, if that isn't nothing; by the order of its vertices, or against
 /// it, if it is.
 inline Vec3 geometric_normal(const Corners& at, Vec3 towards, bool flip) {
-    const Vec3 n = cross(at.b - at.a, at.c - at.a);
-    const float size = length(n), side = dot(n, towards);
-    const float sign = side < 0 ? -1 : 1, turned = flip ? -sign : sign;
-    const Vec3 unit = n * (turned / size);
+    const WideVec3 n = wide_normal(at);
+    const double size = length(n), side = dot(n, WideVec3(towards));
+    const double sign = side < 0 ? -1 : 1, turned = flip ? -sign : sign;
+    const Vec3 unit = (n * (turned / size)).rounded();
     const bool some = size > 0;
     return {some ? unit.x : 0, some ? unit.y : 0, some ? unit.z : 1};
 }
@@ -45,7 +55,26 @@ inline Vec3 geometric_normal(const Mesh& mesh, std::uint32_t triangle, const Cor
     return geometric_normal(at, mesh.normals[i] + mesh.normals[j] + mesh.normals[k], false);
 }
 
-/// A point of a triangle by its weights.
-inline Vec3 on_triangle(const Corners& at, float u, float v) { return at.a * (1 - u - v) + at.b * u + at.c * v; }
+/// Of what the corners have, such as normals, by a point's weights.
+inline Vec3 between_corners(const Corners& of, float u, float v) { return of.a * (1 - u - v) + of.b * u + of.c * v; }
+
+/// A point of a triangle by its weights: the nearest to it that there is in single precision.
+inline Vec3 on_triangle(const Corners& at, float u, float v) {
+    const WideVec3 a(at.a);
+    return (a + (WideVec3(at.b) - a) * double{u} + (WideVec3(at.c) - a) * double{v}).rounded();
+}
+
+/// What rays round when they look for a triangle whose edges are no longer: own part of an offset.
+inline float triangle_offset(float longest_edge) { return 8 * rounding_step * longest_edge; }
+
+/// By how much rays must leave a triangle at `position`. Where one of its angles is nearly straight, rays turn it about
+/// its longest edge, as far as the circle through its corners is wider than that. `least`: because of its mesh.
+inline float triangle_offset_at(const Corners& at, Vec3 position, Vec3 normal, float least) {
+    const WideVec3 a(at.a), ab = WideVec3(at.b) - a, ac = WideVec3(at.c) - a, bc = ac - ab;
+    const double size = length(cross(ab, ac)), edges = std::sqrt(dot(ab, ab) * dot(ac, ac) * dot(bc, bc));
+    const float turned = triangle_offset(float(edges / size)), most = 0x1p-16f * largest_coordinate(position);
+    const float no_more = turned < most ? turned : most;  // of what is hardly there
+    return offset_at(position, normal, no_more > least ? no_more : least);
+}
 
 }  // namespace lightnet
