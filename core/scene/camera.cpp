@@ -1,12 +1,25 @@
 #include "core/scene/camera.hpp"
 
 #include "core/base/math/sampling.hpp"
+#include "core/scene/lamps/sky_layout.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace lightnet {
+namespace {
+
+// The inverse of a rotation that may have a mirror in it.
+Matrix turned_back(const Matrix& turn) {
+    Matrix back;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) back.m[i][j] = turn.m[j][i];
+    return back;
+}
+
+}  // namespace
+
 std::array<float, 4> screen_of(float width, float height) {
     const float aspect = width / height;
     if (aspect > 1) return {-aspect, aspect, -1, 1};
@@ -15,7 +28,11 @@ std::array<float, 4> screen_of(float width, float height) {
 
 Camera::Camera(const CameraData& data, std::uint32_t width, std::uint32_t height)
     : orthographic_(data.orthographic),
-      has_lens_(data.lens_radius > 0),
+      has_lens_(data.lens_radius > 0 && data.panorama == CameraData::Panorama::none),
+      panorama_(data.panorama),
+      to_world_(data.to_world),
+      from_world_(turned_back(data.to_world)),
+      size_{float(width), float(height)},
       origin_(transform_point(data.to_world, {0, 0, 0})) {
     const float w = float(width), h = float(height);
     const auto [left, right, bottom, top] = data.screen_given ? data.screen : screen_of(w, h);
@@ -29,13 +46,28 @@ Camera::Camera(const CameraData& data, std::uint32_t width, std::uint32_t height
     focus_ = data.focus_distance / depth;
 }
 
+Ray Camera::around(float x, float y) const {
+    const Vec2 at{x / size_.x, y / size_.y};
+    Vec3 d;
+    if (panorama_ == CameraData::Panorama::equal_area) {
+        const Vec3 there = from_equal_area(at);
+        d = {there.x, there.z, there.y};
+    } else {
+        const Vec3 there = from_latitude_longitude(at);
+        d = {there.z, there.y, -there.x};
+    }
+    return {origin_, normalize(transform_direction(to_world_, d))};
+}
+
 Ray Camera::ray(float x, float y) const {
+    if (panorama_ != CameraData::Panorama::none) return around(x, y);
     const Vec3 at = corner_ + right_ * x + down_ * y;
     if (orthographic_) return {origin_ + at, normalize(axis_)};
     return {origin_, normalize(at)};
 }
 
 Ray Camera::ray(float x, float y, Vec2 lens) const {
+    if (panorama_ != CameraData::Panorama::none) return around(x, y);
     const Vec3 at = corner_ + right_ * x + down_ * y;
     const Vec2 d = disk(lens);
     const Vec3 aside = lens_x_ * d.x + lens_y_ * d.y;
@@ -53,6 +85,12 @@ void Camera::rays(std::span<const Vec2> positions, std::span<const Vec2> lens, s
 // Solves position - origin = corner w + right x + down y (perspective), or corner + right x + down y + axis d, by
 // Cramer's rule.
 Vec3 Camera::project(Vec3 position) const {
+    if (panorama_ != CameraData::Panorama::none) {
+        const Vec3 d = normalize(transform_direction(from_world_, position - origin_));
+        const bool squares = panorama_ == CameraData::Panorama::equal_area;
+        const Vec2 at = squares ? to_equal_area({d.x, d.z, d.y}) : to_latitude_longitude({-d.z, d.y, d.x});
+        return {at.x * size_.x, at.y * size_.y, 1};
+    }
     const Vec3 third = orthographic_ ? axis_ : corner_;
     const Vec3 from = orthographic_ ? position - origin_ - corner_ : position - origin_;
     const auto volume = [](Vec3 a, Vec3 b, Vec3 c) { return dot(a, cross(b, c)); };

@@ -11,7 +11,8 @@
 
 namespace lightnet {
 
-/// A camera for a picture of a given size: perspective or orthographic, with a pinhole or a thin lens.
+/// A camera for a picture of a given size: perspective or orthographic, with a pinhole or a thin lens; or all
+/// directions around one point.
 class Camera {
 public:
     Camera() = default;
@@ -33,7 +34,12 @@ public:
     Vec3 project(Vec3 position) const;
 
 private:
+    Ray around(float x, float y) const;
+
     bool orthographic_ = false, has_lens_ = false;
+    CameraData::Panorama panorama_ = CameraData::Panorama::none;
+    Matrix to_world_, from_world_;          // of panoramas
+    Vec2 size_{1, 1};                       // the same: pixels
     Vec3 origin_;                           // all in world space
     Vec3 corner_{-1, 1, 1};                 // from the eye to the picture's upper left corner, one unit of screen away;
                                             // orthographic: to that corner itself

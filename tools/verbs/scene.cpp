@@ -55,7 +55,10 @@ std::string camera_text(const SceneData& scene) {
     const auto column = [&](int j) {
         return Vec3{float(camera.to_world.m[0][j]), float(camera.to_world.m[1][j]), float(camera.to_world.m[2][j])};
     };
-    std::string text = camera.orthographic ? "orthographic" : fmt::format("perspective, {:.4g} degrees", camera.fov);
+    const bool around = camera.panorama != CameraData::Panorama::none;
+    std::string text = around                ? "all directions around"
+                       : camera.orthographic ? "orthographic"
+                                             : fmt::format("perspective, {:.4g} degrees", camera.fov);
     text += fmt::format(", at {}, looks along {}", point_text(column(3)), point_text(column(2)));
     if (camera.lens_radius > 0)
         text += fmt::format(", lens of radius {:.4g}, in focus at {:.4g} (scene units)", camera.lens_radius,

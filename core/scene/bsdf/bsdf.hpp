@@ -40,8 +40,9 @@ public:
 
     /// Black from behind.
     void make_one_sided() { one_sided_ = true; }
-    /// What lies behind the surface absorbs that much per metre. Keeps looking at it; blends have none.
-    void fill_with(const Rgb* absorption) { absorption_ = absorption; }
+    /// What lies behind the surface, or in front of it, absorbs that much per metre; null: nothing. Keeps looking at
+    /// them; blends have none.
+    void fill_with(const Rgb* behind, const Rgb* in_front) { absorption_ = behind, absorption_in_front_ = in_front; }
 
     /// Which lobes the surface has.
     std::uint8_t lobes() const { return diffuse() ? lobe::diffuse : lobes_of_any(); }
@@ -81,7 +82,7 @@ public:
     /// What a ray into `direction` passes through absorbs, per metre: of light over a length, exp(-it × length)
     /// is left. Null: nothing.
     const Rgb* absorption(Vec3 direction) const {
-        return absorption_ && dot(direction, normal_) < 0 ? absorption_ : nullptr;
+        return dot(direction, normal_) < 0 ? absorption_ : absorption_in_front_;
     }
 
 private:
@@ -107,7 +108,7 @@ private:
     Vec3 normal_;  // geometric
     Model model_;
     bool one_sided_ = false;
-    const Rgb* absorption_ = nullptr;
+    const Rgb *absorption_ = nullptr, *absorption_in_front_ = nullptr;
     std::shared_ptr<const std::vector<Part>> parts_;  // null but for blends
 };
 

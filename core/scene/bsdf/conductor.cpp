@@ -40,7 +40,7 @@ ConductorBsdf Metal::at(const MaterialInputs& inputs, const Microfacets& facets)
 
 ConductorBsdf ConductorMaterial::at(const MaterialInputs& inputs) const {
     ConductorBsdf model = metal.at(inputs, inputs.facets(roughness));
-    model.tint = inputs.tint(tint);
+    model.tint = inputs.tint(tint) * strength;
     return model;
 }
 

@@ -48,13 +48,14 @@ struct ConductorMaterial {
     Metal metal{};
     Roughness roughness{};
     std::optional<TextureId> tint{};  // times this
+    float strength = 1;               // and this; above 1 for a small share of a mixture only
 
     Transparency transparency() const { return Transparency::opaque; }
     ConductorBsdf at(const MaterialInputs& inputs) const;
 };
 void visit_members(Is<ConductorMaterial> auto& material, const auto& visit) {
-    auto& [metal, roughness, tint] = material;
-    visit(metal, roughness, tint);
+    auto& [metal, roughness, tint, strength] = material;
+    visit(metal, roughness, tint, strength);
 }
 
 }  // namespace lightnet

@@ -91,10 +91,13 @@ struct Material {
     float normal_scale = 1;                 // of its x and y
     std::optional<TextureId> bump_map{};    // height, metres, in the normal's direction; its red counts
     Rgb absorption{};                       // per metre inside a solid (glTF's attenuation, Beer and Lambert's law)
+    Rgb absorption_in_front{};              // the same of what lies around it, where its normal points
 };
 void visit_members(Is<Material> auto& material, const auto& visit) {
-    auto& [name, model, one_sided, opacity, opacity_cutoff, normal_map, normal_scale, bump_map, absorption] = material;
-    visit(model, one_sided, opacity, opacity_cutoff, normal_map, normal_scale, bump_map, absorption);
+    auto& [name, model, one_sided, opacity, opacity_cutoff, normal_map, normal_scale, bump_map, absorption,
+           absorption_in_front] = material;
+    visit(model, one_sided, opacity, opacity_cutoff, normal_map, normal_scale, bump_map, absorption,
+          absorption_in_front);
 }
 
 inline Transparency transparency_of(const Material& material) {

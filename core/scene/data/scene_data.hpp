@@ -30,10 +30,11 @@ struct AreaEmission {
     bool two_sided = false;
     std::optional<TextureId> texture{};  // times this
     LampLabel label{};
+    bool unseen = false;  // no ray meets it, whatever its material: it shines, and is not there
 };
 void visit_members(Is<AreaEmission> auto& emission, const auto& visit) {
-    auto& [radiance, two_sided, texture, label] = emission;
-    visit(radiance, two_sided, texture);
+    auto& [radiance, two_sided, texture, label, unseen] = emission;
+    visit(radiance, two_sided, texture, unseen);
 }
 
 struct Mesh {
@@ -119,7 +120,10 @@ void visit_members(Is<Instance> auto& instance, const auto& visit) {
 struct CameraData {
     Matrix to_world{};  // camera space: looks along +z, y up, x to the right of the picture
     bool orthographic = false;
-    float fov = 90;  // degrees, across the shorter side of the picture; of no use when orthographic
+    /// All directions at once, as sky_layout.hpp lays them out in a picture, of which x and z are turned to -z and x
+    /// (latitude_longitude), y and z swapped (equal_area): pbrt's.
+    enum class Panorama { none, latitude_longitude, equal_area } panorama = Panorama::none;
+    float fov = 90;  // degrees, across the shorter side of the picture; of use for a perspective camera only
     std::array<float, 4> screen{-1, 1, -1, 1};  // x min, x max, y min, y max at distance 1/tan(fov/2), shorter side =
                                                 // ±1; orthographic: in metres
     bool screen_given = false;                  // else derived from the picture's shape
@@ -185,10 +189,11 @@ struct PointLight {
     Vec3 position;
     Rgb intensity;  // W·sr⁻¹
     LampLabel label{};
+    std::optional<EnvironmentData> pattern{};  // times this, by the direction into which it shines
 };
 void visit_members(Is<PointLight> auto& light, const auto& visit) {
-    auto& [position, intensity, label] = light;
-    visit(position, intensity);
+    auto& [position, intensity, label, pattern] = light;
+    visit(position, intensity, pattern);
 }
 
 /// Full intensity within `inner` of its axis, none beyond `outer` (radians), between them as `falloff` says.
@@ -196,7 +201,12 @@ struct SpotLight {
     Vec3 position, axis{0, 0, 1};  // axis: unit
     Rgb intensity;                 // W·sr⁻¹, on the axis
     float inner = 0, outer = 0;
-    enum class Falloff { smoothstep, linear, squared_linear } falloff = Falloff::smoothstep;  // in cos, angle, cos
+    enum class Falloff {  // in the cosine but for `linear`, which is in the angle
+        smoothstep,
+        linear,
+        squared_linear,
+        fourth_power
+    } falloff = Falloff::smoothstep;
     LampLabel label{};
 };
 void visit_members(Is<SpotLight> auto& light, const auto& visit) {

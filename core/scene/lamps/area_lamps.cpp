@@ -99,7 +99,8 @@ void AreaLamps::add_source(std::uint32_t shape, std::uint32_t lamps, std::uint32
     source.radiance = emission.radiance;
     source.two_sided = emission.two_sided;
     source.group = group_of(shape);
-    source.uniform = !emission.texture && !shading_.has_holes(shape);
+    source.unseen = emission.unseen;
+    source.uniform = !emission.texture && !shading_.has_holes(shape) && !emission.unseen;
     for (std::uint32_t f = source.first; f < facets_.size(); ++f) source.area += area_of(facets_[f]);
     if (const auto* ball = std::get_if<Sphere>(&data_.shapes[shape].geometry))
         source.area = 4 * pi * ball->radius * ball->radius;
@@ -249,7 +250,8 @@ std::optional<LightSample> AreaLamps::from_mesh(const Lamp& lamp, Vec3 from, Vec
         if (!is_there(source, point)) return {};
         radiance = radiance_at(source, point);
     }
-    return LightSample{before_lamp(on, position, direction), direction, radiance, pdf, false, false, source.group};
+    return LightSample{
+        before_lamp(on, position, direction), direction, radiance, pdf, source.unseen, false, source.group};
 }
 
 std::optional<FlatLamp> AreaLamps::flat(const Lamp& one) const {
@@ -285,7 +287,7 @@ std::optional<LightSample> AreaLamps::from_sphere(const Lamp& lamp, Vec3 from, V
         if (!is_there(source, point)) return {};
         radiance = radiance_at(source, point);
     }
-    return LightSample{way.position, way.direction, radiance, way.pdf, false, false, source.group};
+    return LightSample{way.position, way.direction, radiance, way.pdf, source.unseen, false, source.group};
 }
 
 std::optional<LightSample> AreaLamps::from_quadric(const Lamp& lamp, Vec3 from, Vec2 u) const {
@@ -303,7 +305,7 @@ std::optional<LightSample> AreaLamps::from_quadric(const Lamp& lamp, Vec3 from, 
     if (dark || !(pdf > 0) || !std::isfinite(pdf)) return {};
     const float offset = offset_at(point.position, point.normal, quadric.own_offset(own, point.normal));
     const Vec3 end = off_surface(point.position, point.normal, offset, -direction);
-    return LightSample{end, direction, radiance_at(source, point), pdf, false, false, source.group};
+    return LightSample{end, direction, radiance_at(source, point), pdf, source.unseen, false, source.group};
 }
 
 float AreaLamps::pdf(std::size_t index, Vec3 from, Vec3 direction, const SurfacePoint& on) const {
@@ -377,9 +379,10 @@ std::optional<Emission> AreaLamps::emit(std::size_t index, Vec2 position_sample,
                     source.group};
 }
 
-// Where a mask has holes a lamp does not shine.
+// Where a mask has holes a lamp does not shine, unless there is nothing of it to be seen.
 bool AreaLamps::is_there(const Source& source, const PointOnLamp& point) const {
-    return !shading_.has_holes(source.shape) || shading_.is_there(source.shape, point.primitive, point.u, point.v);
+    return source.unseen || !shading_.has_holes(source.shape) ||
+           shading_.is_there(source.shape, point.primitive, point.u, point.v);
 }
 
 std::size_t AreaLamps::memory() const {

@@ -74,6 +74,7 @@ private:
         Rgb radiance;
         bool two_sided = false;
         bool uniform = true;         // neither texture nor holes
+        bool unseen = false;         // by any ray
         std::uint32_t whole = none;  // into wholes_
         std::uint32_t group = 0;
     };

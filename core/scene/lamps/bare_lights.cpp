@@ -20,6 +20,13 @@ float outer_cosine(const SpotLight& light) { return std::cos(std::max(light.inne
 
 }  // namespace
 
+NearLight near_light_of(const PointLight& light) {
+    if (!light.pattern) return light;
+    EnvironmentData pattern = *light.pattern;
+    pattern.radiance *= light.intensity;
+    return PatternedLight{light.position, Environment(pattern), light.label};
+}
+
 float spot_falloff(const SpotLight& light, float cosine) {
     const float inner = std::cos(light.inner), outer = outer_cosine(light);
     if (cosine >= inner) return 1;
@@ -30,6 +37,8 @@ float spot_falloff(const SpotLight& light, float cosine) {
             return t * t * (3 - 2 * t);
         case SpotLight::Falloff::squared_linear:
             return t * t;
+        case SpotLight::Falloff::fourth_power:
+            return (t * t) * (t * t);
         case SpotLight::Falloff::linear:
             break;
     }
@@ -44,6 +53,24 @@ std::optional<LightSample> light_from(const PointLight& light, Vec3 from) {
 std::optional<LightSample> light_from(const SpotLight& light, Vec3 from) {
     const Vec3 way = from - light.position;
     return from_point(light.position, light.intensity * spot_falloff(light, dot(way, light.axis) / length(way)), from);
+}
+
+std::optional<LightSample> light_from(const PatternedLight& light, Vec3 from) {
+    const Vec3 way = from - light.position;
+    if (!(length_squared(way) > 0)) return {};
+    return from_point(light.position, light.pattern.radiance(normalize(way)), from);
+}
+
+// By the mean of its intensity: what it sends into the brightest direction may be a thousand times that.
+LightBounds bounds_of(const PatternedLight& light) {
+    return {light.position, light.position, {0, 0, 1}, -1, 0, luminance(light.pattern.total()) / (4 * pi), false};
+}
+
+Rgb power_of(const PatternedLight& light) { return light.pattern.total(); }
+
+Emission emission_of(const PatternedLight& light, Vec2 u) {
+    const SkyRadiance sent = light.pattern.sample_all(u);
+    return {light.position, sent.direction, sent.pdf > 0 ? sent.radiance / sent.pdf : Rgb{}};
 }
 
 LightBounds bounds_of(const PointLight& light) {
@@ -72,6 +99,8 @@ Rgb power_of(const SpotLight& light) {
             return light.intensity * (2 * pi * (1 - std::cos(i) + across / 2));
         case SpotLight::Falloff::squared_linear:
             return light.intensity * (2 * pi * (1 - std::cos(i) + across / 3));
+        case SpotLight::Falloff::fourth_power:
+            return light.intensity * (2 * pi * (1 - std::cos(i) + across / 5));
         case SpotLight::Falloff::linear:
             break;
     }

@@ -16,13 +16,6 @@
 namespace lightnet {
 namespace {
 
-// Of a point or a spot; the others stand elsewhere.
-template <class Function>
-auto near_light(const BareLight& light, Function function) {
-    const auto* spot = std::get_if<SpotLight>(&light);
-    return spot ? function(*spot) : function(std::get<PointLight>(light));
-}
-
 // The place of `choice` within a share of [0,1) that begins at `start`.
 float within(float choice, float start, float share) {
     return std::clamp((choice - start) / share, 0.0f, 0x1.fffffep-1f);
@@ -38,8 +31,9 @@ Lights::Lights(const SceneData& data, const Shading& shading, const Ball& around
     const auto is_wanted = [&](std::uint32_t group) { return (wanted.groups >> group & 1) != 0; };
     for (const auto& light : data.lights) {
         if (!std::visit([&](const auto& one) { return is_wanted(one.label.group); }, light)) continue;
-        const auto* directional = std::get_if<DirectionalLight>(&light);
-        directional ? far_.add(*directional, groups_ > 1) : near_.push_back(light);
+        if (const auto* directional = std::get_if<DirectionalLight>(&light)) far_.add(*directional, groups_ > 1);
+        if (const auto* spot = std::get_if<SpotLight>(&light)) near_.emplace_back(*spot);
+        if (const auto* point = std::get_if<PointLight>(&light)) near_.push_back(near_light_of(*point));
     }
     std::vector<double> light_of_maps;
     for (const auto& each : data.environments) {
@@ -68,7 +62,7 @@ void Lights::build_tree() {
     in_pieces(lamps_.size(), [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) bounds[i] = lamps_.bounds(i);
     });
-    for (const auto& light : near_) bounds.push_back(near_light(light, [](const auto& l) { return bounds_of(l); }));
+    for (const auto& light : near_) bounds.push_back(std::visit([](const auto& l) { return bounds_of(l); }, light));
     const auto in_tree =
         std::size_t(std::count_if(bounds.begin(), bounds.end(), [](const auto& b) { return b.intensity > 0; }));
     tree_ = LightTree(bounds);
@@ -103,7 +97,7 @@ std::optional<LightSample> Lights::from_chosen(const LightChoice& chosen, Vec3 f
         return found;
     };
     auto sample =
-        light < lamps_.size() ? lamps_.sample(light, from, u) : near_light(near_[light - lamps_.size()], from_near);
+        light < lamps_.size() ? lamps_.sample(light, from, u) : std::visit(from_near, near_[light - lamps_.size()]);
     if (sample) sample->pdf = sample->pdf * chosen.chance * share_of_tree_;
     return sample;
 }
@@ -324,7 +318,7 @@ std::optional<SeenSun> Lights::sun(Vec3 direction) const {
 Rgb Lights::power(std::size_t light) const {
     if (light < lamps_.size()) return lamps_.power(light);
     light -= lamps_.size();
-    if (light < near_.size()) return near_light(near_[light], [](const auto& l) { return power_of(l); });
+    if (light < near_.size()) return std::visit([](const auto& l) { return power_of(l); }, near_[light]);
     light -= near_.size();
     const float disk = pi * around_.radius * around_.radius;
     if (light < far_.size()) return far_.total(light) * disk;
@@ -354,8 +348,8 @@ std::optional<Emission> Lights::emit(float choice, Vec2 position_sample, Vec2 di
     }
     light -= lamps_.size();
     if (light < near_.size())
-        return near_light(near_[light],
-                          [&](const auto& l) { return weighted(emission_of(l, direction_sample), group(l.label)); });
+        return std::visit([&](const auto& l) { return weighted(emission_of(l, direction_sample), group(l.label)); },
+                          near_[light]);
     light -= near_.size();
     if (light < far_.size()) {
         const Vec3 along = far_.shines_along(light, direction_sample);

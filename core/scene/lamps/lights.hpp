@@ -11,6 +11,7 @@
 #include "core/base/math/vec.hpp"
 #include "core/scene/data/scene_data.hpp"
 #include "core/scene/lamps/area_lamps.hpp"
+#include "core/scene/lamps/bare_lights.hpp"
 #include "core/scene/lamps/environment.hpp"
 #include "core/scene/lamps/lamp_met.hpp"
 #include "core/scene/lamps/light_tree.hpp"
@@ -125,7 +126,7 @@ private:
     std::size_t groups_;
     std::uint32_t environment_group_;
     AreaLamps lamps_;
-    std::vector<BareLight> near_;  // points and spots
+    std::vector<NearLight> near_;  // points and spots
     Suns far_;
     std::vector<Environment> environments_;
     std::vector<std::uint32_t> maps_;  // into environments_: those that are sampled, as they have a map or a portal

@@ -57,7 +57,8 @@ void Materials::make(MaterialId id) {
         material.model);
     made.bumpy = material.normal_map || material.bump_map;
     if (material.bump_map) made.step = step_of(data_, *material.bump_map);
-    made.filled = transparency_of(material) == Transparency::solid && !is_black(material.absorption);
+    const bool absorbs = !is_black(material.absorption) || !is_black(material.absorption_in_front);
+    made.filled = transparency_of(material) == Transparency::solid && absorbs;
     made.simple = made.constant && !made.bumpy && !made.filled && !material.one_sided;
     made.lobes = lobes_everywhere(id);
 }
@@ -103,7 +104,9 @@ Bsdf Materials::bsdf(MaterialId id, const SurfacePoint& point) const {
     const auto whole = [&](const Bsdf::Model& model) {
         Bsdf result(made.bumpy ? bumpy_frame(id, point) : point.shading, point.normal, model);
         if (material.one_sided) result.make_one_sided();
-        if (made.filled) result.fill_with(&material.absorption);
+        const auto unless_black = [](const Rgb& c) { return is_black(c) ? nullptr : &c; };
+        if (made.filled)
+            result.fill_with(unless_black(material.absorption), unless_black(material.absorption_in_front));
         return result;
     };
     if (made.constant) return whole(*made.constant);
