@@ -91,7 +91,9 @@ bool same_but_for_case(std::string_view a, std::string_view b) {
 }
 
 std::string beside(const std::string& from, const std::string& path) {
-    const std::filesystem::path written(path);
+    std::string name = path;
+    std::replace(name.begin(), name.end(), '\\', '/');
+    const std::filesystem::path written(name);
     if (written.is_absolute()) return written.lexically_normal().string();
     return (std::filesystem::path(from).parent_path() / written).lexically_normal().string();
 }
