@@ -81,8 +81,37 @@ LightSource "spot" "float coneangle" 30 "point3 from" [ 0 0 1 ]
 LightSource "distant" "float illuminance" 3
 LightSource "infinite" "string filename" "picture.hdr" "float illuminance" 2
 LightSource "projection" "string filename" "picture.hdr"
+LightSource "goniometric" "rgb I" [ 1 2 3 ] "float power" 5
+MakeNamedMedium "m" "string type" "homogeneous" "rgb sigma_a" [ 1 1 1 ] "rgb sigma_s" [ 0 0 0 ]
+MediumInterface "" "m"
 AreaLightSource "diffuse" "string filename" "picture.hdr" "float power" 10
-Shape "disk"
+Shape "disk" "float alpha" 0
+)",
+        R"(Film "image" "integer xresolution" 8 "float scale" 2
+Camera "environment"
+Sampler "02sequence" "integer pixelsamples" 4
+WorldBegin
+Texture "r" "float" "imagemap" "string filename" "picture.hdr" "bool gamma" "false"
+Texture "c" "color" "scale" "color tex1" [ .5 1 .25 ] "xyz tex2" [ .5 .5 1 ]
+Material "uber" "texture Kd" "c" "texture roughness" "r" "color Kr" [ .1 .1 .1 ] "rgb opacity" [ .5 .5 .5 ]
+Shape "heightfield" "integer nu" 2 "integer nv" 2 "float Pz" [ 0 1 0 1 ]
+MakeNamedMaterial "a" "string type" "plastic" "float uroughness" .1 "texture bumpmap" "r"
+MakeNamedMaterial "b" "string type" "translucent" "bool remaproughness" "false"
+Material "mix" "string namedmaterial1" "a" "string namedmaterial2" "b" "color amount" [ .3 .3 .3 ]
+Shape "cone" "float phimax" 200
+Material "fourier" "string bsdffile" "roughgold_alpha_0.2.bsdf"
+Shape "hyperboloid" "point p1" [ 1 0 0 ] "point p2" [ 1 1 1 ]
+Material "substrate" "float roughness" .1
+Shape "paraboloid"
+Material "glass" "float vroughness" .2
+Shape "trianglemesh" "point P" [ 0 0 0 1 0 0 0 1 0 ] "float uv" [ 0 0 1 0 0 1 ] "integer indices" [ 0 1 2 ]
+LightSource "infinite" "string mapname" "picture.hdr" "color scale" [ 1 2 3 ] "integer nsamples" 4
+LightSource "goniometric" "string mapname" "picture.hdr" "blackbody I" [ 4000 2 ]
+LightSource "spot" "color I" [ 1 1 1 ] "float coneangle" 20
+AreaLightSource "area" "spectrum L" [ 400 1 700 2 ]
+Material "disney"
+Shape "sphere"
+WorldEnd
 )",
     };
 }

@@ -20,6 +20,34 @@ void expect_near(Vec3 a, Vec3 b) {
 
 Vec3 first_vertex(const std::string& statements) { return mesh_of(read_world(statements)).positions[1]; }
 
+TEST(PbrtText, HasBlanksWhereverTheyFit) {
+    for (const std::string radius :
+         {"\" float radius\" 2", "\"float  radius \"[2]", "\"\tfloat\tradius\"\n[ 2\n]", "\"  float radius  \" [\t2 ]"})
+        EXPECT_EQ(sphere_of(read_world("Shape \"sphere\" " + radius)).radius, 2) << radius;
+    EXPECT_TRUE(read_world("AreaLightSource \"diffuse\" \" bool  twosided \" [ true ] " + ball)
+                    .shapes.at(0)
+                    .emission->two_sided);
+}
+
+TEST(PbrtFiles, MayBeNamedWithBackslashes) {
+    const std::string mesh =
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face "
+        "1\n"
+        "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    const MemoryFiles files{{"parts/new/t.ply", mesh},
+                            {"parts/all.pbrt", "Shape \"plymesh\" \"string filename\" \"parts\\new\\t.ply\""},
+                            {"parts/b.spd", "400 1 700 1"}};
+    for (const std::string statement :
+         {"Shape \"plymesh\" \"string filename\" \"parts\\new\\t.ply\"",
+          "Shape \"plymesh\" \"string filename\" \".\\\\parts\\\\new\\\\t.ply\"", "Include \"parts\\all.pbrt\"",
+          "Import \"parts\\\\all.pbrt\"",
+          "Material \"diffuse\" \"spectrum reflectance\" \"parts\\b.spd\" Include \"parts\\all.pbrt\""}) {
+        const auto scene = read_world(statement, files);
+        ASSERT_EQ(scene.shapes.size(), 1u) << statement;
+        EXPECT_EQ(mesh_of(scene).positions.size(), 3u);
+    }
+}
+
 TEST(PbrtTransforms, ApplyTheLatestFirst) {
     expect_near(first_vertex("Translate 5 0 0 Scale 2 2 2 " + triangle), {7, 0, 0});
     expect_near(first_vertex("Scale 2 2 2 Translate 5 0 0 " + triangle), {12, 0, 0});

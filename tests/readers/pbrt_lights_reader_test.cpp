@@ -6,6 +6,9 @@
 #include <numbers>
 
 #include "core/readers/spectra.hpp"
+#include "core/scene/camera.hpp"
+#include "core/scene/scene.hpp"
+#include "tests/support/both_ways.hpp"
 #include "tests/support/pbrt_text.hpp"
 
 namespace lightnet::test::pbrt_lights_reader_test {
@@ -81,12 +84,74 @@ TEST(PbrtDistantLights, ShineFromOnePointToAnother) {
     EXPECT_NEAR(luminance(sun.irradiance), 5, 1e-4f);
 }
 
-TEST(PbrtLights, WithPicturesOfDirectionsAreApproximated) {
+// An invisible lamp, which no ray meets, and which shines all the same.
+TEST(PbrtLamps, OfWhichNothingIsThereShine) {
+    const std::string lamp = "AreaLightSource \"diffuse\" ";
+    const auto emission = [&](const std::string& shape) { return read_world(lamp + shape).shapes.at(0).emission; };
+    EXPECT_TRUE(emission("Shape \"sphere\" \"float alpha\" 0").value().unseen);
+    EXPECT_TRUE(
+        emission("Texture \"t\" \"float\" \"constant\" \"float value\" 0 Shape \"disk\" \"texture alpha\" \"t\"")
+            .value()
+            .unseen);
+    EXPECT_FALSE(emission("Shape \"sphere\" \"float alpha\" .5").value().unseen);
+    EXPECT_FALSE(emission("Shape \"sphere\"").value().unseen);
+}
+
+// Radiance that a white floor sends up: ρ L r²/d² below a ball of radius r at height d, whoever looks for the light.
+TEST(PbrtLamps, OfWhichNothingIsThereLightLikeOthers) {
+    const std::string floor =
+        "Shape \"trianglemesh\" \"point3 P\" [ -5 0 -5 5 0 -5 0 0 5 ]\n AttributeBegin AreaLightSource \"diffuse\" "
+        "\"rgb L\" [ 4 4 4 ] Translate 0 1 0 ";
+    for (const std::string shape : {"Shape \"sphere\" \"float radius\" .5 \"float alpha\" 0",
+                                    "Shape \"sphere\" \"float radius\" .5 \"float alpha\" 0 \"float zmin\" -.49999"}) {
+        const Scene scene(
+            read_world("Material \"diffuse\" \"rgb reflectance\" [ 1 1 1 ] " + floor + shape + " AttributeEnd"));
+        const SurfacePoint point = scene.surface(Query{.primitive = 0, .u = 0.25f, .v = 0.5f});
+        const Bsdf bsdf = scene.bsdf(point);
+        double sum = 0;
+        constexpr std::uint32_t many = 1 << 14;
+        for (std::uint32_t i = 0; i < many; ++i) sum += both_ways(scene, point, bsdf, Samples(4, i)).g;
+        EXPECT_NEAR(sum / many, 4 * 0.25, 0.02);
+        EXPECT_FALSE(scene.intersect({{0, 0.1f, 0}, {0, 1, 0}}));
+    }
+}
+
+/// The mean flux of what all its lights send out.
+float power_of(const Scene& scene) {
+    double sum = 0;
+    constexpr std::uint32_t many = 1 << 14;
+    for (std::uint32_t i = 0; i < many; ++i) {
+        Samples samples(9, i);
+        const float choice = samples.next();
+        const Vec2 place = samples.next_2d();
+        if (const auto sent = scene.emit(choice, place, samples.next_2d())) sum += sent->flux.g;
+    }
+    return float(sum / many);
+}
+
+TEST(PbrtLights, MayShineByAPictureOfDirections) {
+    // brighter below: of a square of equal areas the middle is +y, and its rim -y
+    std::string square = "#?RADIANCE\n\n-Y 3 +X 3\n";
+    for (int i = 0; i < 9; ++i)
+        square += i == 4 ? std::string("\x80\x80\x80\x82", 4) : std::string("\x80\x80\x80\x80", 4);
+    const MemoryFiles files{{"p.hdr", square}};
+    const std::string plain = "LightSource \"goniometric\" \"string filename\" \"p.hdr\" ",
+                      lamp = plain + "\"rgb I\" [ 3 3 3 ] ";
+    const auto scene = read_world(lamp + ball, files);
+    EXPECT_THAT(scene.warnings, IsEmpty());
+    const Scene made(scene);
+    const auto from = [&](const Scene& which, Vec3 place) {
+        return which.sample_light(LitPoint(place), 0.5f, {0.5f, 0.5f});
+    };
+    EXPECT_NEAR(from(made, {0, 2, 0})->radiance.g, 3 * 2.0f / 4, 1e-3f);
+    EXPECT_NEAR(from(made, {0, -2, 0})->radiance.g, 3 * 0.5f / 4, 1e-3f);
+    // its power is that over all directions
+    const Scene strong(read_world(plain + "\"float power\" 10 " + ball, files));
+    EXPECT_NEAR(power_of(strong), 10, 0.1f);
+}
+
+TEST(PbrtLights, ThatProjectAreApproximated) {
     const MemoryFiles files{{"p.hdr", picture(2, 2)}};
-    const auto round =
-        read_world("LightSource \"goniometric\" \"string filename\" \"p.hdr\" \"rgb I\" [ 2 2 2 ]", files);
-    EXPECT_GT(std::get<PointLight>(round.lights.at(0)).intensity.r, 0.5f);
-    EXPECT_THAT(warnings_of(round), HasSubstr("taken as a point light"));
     const auto slide = read_world("LightSource \"projection\" \"string filename\" \"p.hdr\" \"float fov\" 60", files);
     EXPECT_NEAR(std::get<SpotLight>(slide.lights.at(0)).outer, pi / 6, 1e-6f);
     EXPECT_EQ(std::get<SpotLight>(slide.lights.at(0)).intensity, (Rgb{1, 0.5f, 0.25f}));
@@ -158,11 +223,33 @@ TEST(PbrtCameras, MayBeOrthographic) {
 }
 
 TEST(PbrtCameras, OfOtherTypesAreApproximated) {
-    for (const char* type : {"realistic", "spherical"}) {
-        const auto scene = read_text("Camera \"" + std::string(type) + "\"\nWorldBegin\n" + ball);
-        EXPECT_THAT(warnings_of(scene), HasSubstr("are not supported: a perspective one"));
-        EXPECT_FALSE(scene.camera.orthographic);
-    }
+    const auto scene = read_text("Camera \"realistic\"\nWorldBegin\n" + ball);
+    EXPECT_THAT(warnings_of(scene), HasSubstr("are not supported: a perspective one"));
+    EXPECT_FALSE(scene.camera.orthographic);
+}
+
+// pbrt begins on the right, goes on ahead, to the left and behind.
+TEST(PbrtCameras, MayLookAround) {
+    const auto look = [&](const std::string& mapping, float x, float y) {
+        const auto data = camera("Camera \"spherical\" \"string mapping\" \"" + mapping + "\"");
+        return Camera(data, 8, 8).ray(x, y).direction;
+    };
+    expect_near(look("equirectangular", 0, 4), {1, 0, 0});
+    expect_near(look("equirectangular", 2, 4), {0, 0, 1});
+    expect_near(look("equirectangular", 4, 4), {-1, 0, 0});
+    expect_near(look("equirectangular", 6, 4), {0, 0, -1});
+    expect_near(look("equirectangular", 3, 0), {0, 1, 0});
+    expect_near(look("equalarea", 4, 4), {0, 1, 0});
+    expect_near(look("equalarea", 0, 0), {0, -1, 0});
+    expect_near(look("equalarea", 8, 4), {1, 0, 0});
+    const auto data = camera("Translate 1 2 3 Rotate 30 1 1 0 Camera \"spherical\"");
+    const Camera made(data, 64, 64);
+    const Ray ray = made.ray(20, 50);
+    const Vec3 back = made.project(ray.origin + ray.direction * 7);
+    EXPECT_NEAR(back.x / back.z, 20, 1e-2f);
+    EXPECT_NEAR(back.y / back.z, 50, 1e-2f);
+    EXPECT_THAT(errors_of("Camera \"spherical\" \"string mapping\" \"round\"\nWorldBegin"),
+                HasSubstr("unknown mapping 'round'"));
 }
 
 TEST(PbrtFilms, ScaleByIsoAndExposureTime) {

@@ -35,30 +35,6 @@ Rgb value_at(const std::string& textures, Vec2 uv) {
     return look_up(scene.textures, model_of<DiffuseMaterial>(scene).reflectance, {uv});
 }
 
-TEST(PbrtMedia, ColourTheGlassThatTheyOnlyAbsorbIn) {
-    const std::string green =
-                          "MakeNamedMedium \"green\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [ .5 .2 4 ] "
-                          "\"float scale\" 2 \"rgb sigma_s\" [ 0 0 0 ]\n",
-                      inside = "MediumInterface \"green\" \"\"\n";
-    const auto glass = with(green + inside + "Material \"dielectric\"");
-    EXPECT_EQ(glass.materials[glass.shapes[0].material].absorption, (Rgb{1, 0.4f, 8}));
-    EXPECT_THAT(glass.warnings, IsEmpty());
-    EXPECT_THAT(warnings_of(with(green + inside + "Material \"diffuse\"")),
-                HasSubstr("a medium that absorbs is left out"));
-    EXPECT_THAT(warnings_of(with(green + "MediumInterface \"green\"\nMaterial \"dielectric\"")),
-                HasSubstr("the space is taken as empty"));
-    const auto outside = with(green + "AttributeBegin\n" + inside + "AttributeEnd\nMaterial \"dielectric\"");
-    EXPECT_EQ(outside.materials[outside.shapes[0].material].absorption, (Rgb{0, 0, 0}));
-}
-
-TEST(PbrtMedia, ThatScatterAreLeftOut) {
-    const auto scene = with(
-        "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [ 1 1 1 ]\n"
-        "MediumInterface \"fog\" \"\"\nMaterial \"dielectric\"");
-    EXPECT_EQ(scene.materials[scene.shapes[0].material].absorption, (Rgb{0, 0, 0}));
-    EXPECT_THAT(warnings_of(scene), HasSubstr("scene.pbrt:2: participating media are not supported"));
-}
-
 TEST(PbrtMaterials, MayBeDiffuse) {
     const auto scene = with("Material \"diffuse\" \"rgb reflectance\" [ .1 .2 .3 ]");
     EXPECT_EQ(colour_of(scene, model_of<DiffuseMaterial>(scene).reflectance), (Rgb{0.1f, 0.2f, 0.3f}));

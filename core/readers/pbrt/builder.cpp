@@ -49,7 +49,7 @@ Builder::Builder(const Sources& sources)
       pictures_(sources_, workshop_),
       textures_(sources_, scene_, pictures_),
       shapes_(sources_, workshop_) {
-    scene_.film.width = 1280, scene_.film.height = 720;  // pbrt's defaults
+    scene_.film.width = sources_.older() ? 640 : 1280, scene_.film.height = sources_.older() ? 480 : 720;
     Material grey;
     grey.model = DiffuseMaterial{textures_.constant({0.5f, 0.5f, 0.5f}), 0, std::nullopt};
     scene_.materials.push_back(std::move(grey));
@@ -81,25 +81,31 @@ const std::map<std::string, Builder::Handler>& Builder::handlers() {
                                                       {"ObjectBegin", &Builder::object_begin},
                                                       {"ObjectEnd", &Builder::object_end},
                                                       {"ObjectInstance", &Builder::object_instance},
-                                                      {"Option", &Builder::ignored},
+                                                      {"Option", &Builder::option},
                                                       {"PixelFilter", &Builder::ignored},
+                                                      {"Renderer", &Builder::older_business},
                                                       {"ReverseOrientation", &Builder::reverse_orientation},
                                                       {"Rotate", &Builder::rotate},
                                                       {"Sampler", &Builder::ignored},
                                                       {"Scale", &Builder::scale},
                                                       {"Shape", &Builder::shape},
+                                                      {"SurfaceIntegrator", &Builder::older_business},
                                                       {"Texture", &Builder::texture},
                                                       {"Transform", &Builder::transform},
                                                       {"TransformBegin", &Builder::transform_begin},
                                                       {"TransformEnd", &Builder::transform_end},
                                                       {"TransformTimes", &Builder::ignored},
                                                       {"Translate", &Builder::translate},
-                                                      {"WorldBegin", &Builder::world_begin}};
+                                                      {"Volume", &Builder::volume},
+                                                      {"VolumeIntegrator", &Builder::older_business},
+                                                      {"WorldBegin", &Builder::world_begin},
+                                                      {"WorldEnd", &Builder::world_end}};
     return table;
 }
 
 void Builder::execute(Statement& statement) {
     end_if_unwanted();
+    if (ended_) return sources_.report.warn(statement.where, "what stands behind the first WorldEnd is left out");
     const Part part = part_of(statement.directive);
     if (state_.space != ColourSpace::srgb) statement.parameters.set_colour_space(state_.space);
     if (part == Part::before_world && in_world_)
@@ -145,12 +151,8 @@ void Builder::look_at(Statement& s) {
 
 void Builder::translate(Statement& s) { apply(translation(s.numbers[0], s.numbers[1], s.numbers[2])); }
 
-void Builder::scale(Statement& s) {
-    if (s.numbers[0] == 0 || s.numbers[1] == 0 || s.numbers[2] == 0)
-        sources_.report.error(s.where, "Scale by 0 leaves nothing");
-    else
-        apply(scaling(s.numbers[0], s.numbers[1], s.numbers[2]));
-}
+// What is scaled by 0, or by a singular matrix, does no harm until something stands there.
+void Builder::scale(Statement& s) { apply(scaling(s.numbers[0], s.numbers[1], s.numbers[2])); }
 
 void Builder::rotate(Statement& s) {
     if (const auto matrix = rotation(s.numbers[0], s.numbers[1], s.numbers[2], s.numbers[3]))
@@ -160,20 +162,10 @@ void Builder::rotate(Statement& s) {
 }
 
 void Builder::transform(Statement& s) {
-    const Matrix matrix = by_columns(std::span<const double, 16>(s.numbers));
-    if (!inverse(matrix))
-        sources_.report.error(s.where, "the matrix is singular");
-    else if (state_.active)
-        state_.to_world = matrix;
+    if (state_.active) state_.to_world = by_columns(std::span<const double, 16>(s.numbers));
 }
 
-void Builder::concat_transform(Statement& s) {
-    const Matrix matrix = by_columns(std::span<const double, 16>(s.numbers));
-    if (inverse(matrix))
-        apply(matrix);
-    else
-        sources_.report.error(s.where, "the matrix is singular");
-}
+void Builder::concat_transform(Statement& s) { apply(by_columns(std::span<const double, 16>(s.numbers))); }
 
 void Builder::identity(Statement&) {
     if (state_.active) state_.to_world = {};
@@ -258,6 +250,32 @@ void Builder::world_begin(Statement&) {
     systems_["world"] = {};
 }
 
+void Builder::world_end(Statement& s) {
+    if (!sources_.older())
+        return sources_.report.error(s.where, "'WorldEnd' belongs to pbrt-v3; in pbrt-v4 the file simply ends");
+    ended_ = true;
+    while (!stack_.empty()) {
+        sources_.report.error(stack_.back().where, "this block is never closed");
+        stack_.pop_back();
+    }
+}
+
+void Builder::older_business(Statement& s) {
+    if (!sources_.older())
+        sources_.report.error(s.where,
+                              fmt::format("'{}' belongs to older versions; pbrt-v4 says 'Integrator'", s.directive));
+}
+
+void Builder::volume(Statement& s) {
+    older_business(s);
+    sources_.report.warn(s.where, no_media);
+}
+
+void Builder::option(Statement& s) {
+    if (s.parameters.boolean("forcediffuse", false))
+        s.parameters.warn("'forcediffuse' is left out: surfaces keep their materials");
+}
+
 // how images are sampled is the graph's business
 void Builder::ignored(Statement&) {}
 
@@ -269,10 +287,10 @@ void Builder::make_named_medium(Statement& s) {
         s.parameters.error(fmt::format("there is a medium '{}' already", s.names[0]));
 }
 
-/// One name is that of both sides. What is inside of a shape waits for its material.
+/// One name is that of both sides. What media a shape parts waits for its material.
 void Builder::medium_interface(Statement& s) {
-    state_.inside = s.names.empty() ? "" : s.names[0];
-    if (!s.names.empty() && !s.names.back().empty()) sources_.report.warn(s.where, no_media);
+    state_.inside = s.names.empty() ? "" : s.names.front();
+    state_.outside = s.names.empty() ? "" : s.names.back();
 }
 
 void Builder::color_space(Statement& s) {
@@ -289,17 +307,19 @@ void Builder::camera(Statement& s) {
         sources_.report.error(s.where, "the camera's transform is singular");
         return;
     }
-    const Shot shot = make_camera(s.names[0], s.parameters, *to_world);
+    const Shot shot = make_camera(s.names[0], s.parameters, *to_world, sources_.version);
     s.parameters.warn_unused();
     scene_.camera = shot.camera;
     scene_.camera.where = s.where;
     scene_.camera_given = true;
+    if (!state_.outside.empty())
+        s.parameters.warn("it stands in a medium, which is left out: what it sees lies in empty space");
     exposure_ = shot.exposure;
     systems_["camera"] = *to_world;
 }
 
 void Builder::film(Statement& s) {
-    const FilmShot shot = make_film(s.names[0], s.parameters);
+    const FilmShot shot = make_film(s.names[0], s.parameters, sources_.version);
     scene_.film = shot.film;
     white_ = shot.white;
     s.parameters.warn_unused();

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -50,7 +51,7 @@ private:
         ColourSpace space = ColourSpace::srgb;
         std::size_t material = 0;  // index into uses_
         std::optional<AreaLight> lamp;
-        std::string inside;  // name of the medium there; empty: none
+        std::string inside, outside;  // names of the media there; empty: none
         std::map<std::string, std::vector<std::shared_ptr<const Parameter>>>
             defaults;  // of Attribute, by what they are for
     };
@@ -72,7 +73,8 @@ private:
         std::size_t material = 0;
         std::optional<TextureId> alpha;
         std::optional<AreaLight> lamp;
-        std::string inside;              // name of its medium
+        std::string inside, outside;     // names of its media
+        bool turned = false;             // its normal is against the one that the shape has by itself
         bool lamp_per_triangle = false;  // for pbrt every triangle of a mesh is a lamp of its own
         std::optional<std::uint32_t> object;
         std::string owner;  // for messages
@@ -99,6 +101,10 @@ private:
     void attribute(Statement&);
     void reverse_orientation(Statement&);
     void world_begin(Statement&);
+    void world_end(Statement&);
+    void older_business(Statement&);
+    void volume(Statement&);
+    void option(Statement&);
     void ignored(Statement&);
     void make_named_medium(Statement&);
     void medium_interface(Statement&);
@@ -123,13 +129,15 @@ private:
     void object_end(Statement&);
     void object_instance(Statement&);
     std::optional<TextureId> alpha_of(Parameters& parameters);
+    bool is_nowhere(TextureId alpha) const;
 
     void check_uses();
     void finish_shapes();
     void finish_shape(WaitingShape& waiting);
     MaterialId with_alpha(MaterialId material, TextureId alpha);
+    Rgb absorbed_in(const std::string& medium, const SourceLine& where);
     MaterialId filled(MaterialId material, const WaitingShape& waiting);
-    void emit(Shape shape, const AreaLight& lamp, bool each_triangle);
+    void emit(Shape shape, const WaitingShape& waiting);
     void add_shape(Shape shape, const std::optional<std::uint32_t>& object);
     void finish_film();
 
@@ -141,7 +149,7 @@ private:
     Shapes shapes_;
     State state_;
     std::vector<Saved> stack_;
-    bool in_world_ = false;
+    bool in_world_ = false, ended_ = false;
     float exposure_ = 1;
     Rgb white_{1, 1, 1};
     std::map<std::string, Matrix> systems_;
@@ -149,7 +157,7 @@ private:
     std::map<std::string, std::size_t> named_;  // index into uses_
     std::map<std::pair<MaterialId, TextureId>, MaterialId> with_alpha_;
     std::map<std::string, std::optional<Rgb>> media_;  // what they absorb, per metre; none: they do more than that
-    std::map<std::pair<MaterialId, std::string>, MaterialId> filled_;
+    std::map<std::tuple<MaterialId, std::string, std::string, bool>, MaterialId> filled_;
     std::map<std::string, std::uint32_t> objects_;
     std::optional<std::uint32_t> open_object_;
     std::vector<WaitingShape> waiting_;

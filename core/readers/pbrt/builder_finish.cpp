@@ -67,31 +67,46 @@ void Builder::finish_shape(WaitingShape& waiting) {
     shape.where = waiting.where;
     shape.name = std::move(waiting.name);
     if (waiting.lamp)
-        emit(std::move(shape), *waiting.lamp, waiting.lamp_per_triangle);
+        emit(std::move(shape), waiting);
     else
         add_shape(std::move(shape), waiting.object);
 }
 
-/// A copy of solid glass that is filled with a medium which only absorbs. No other medium is there for light.
+/// Per metre. Black of what was told where it was made.
+Rgb Builder::absorbed_in(const std::string& medium, const SourceLine& where) {
+    if (medium.empty()) return {};
+    const auto found = media_.find(medium);
+    if (found == media_.end()) sources_.report.error(where, fmt::format("there is no medium '{}'", medium));
+    return found == media_.end() ? Rgb{} : found->second.value_or(Rgb{});
+}
+
+/// A copy of solid glass between media of which one absorbs, or both. As in pbrt the outside is where the normal
+/// points, which may be the hollow of the shape. Elsewhere there is no medium for light.
 MaterialId Builder::filled(MaterialId material, const WaitingShape& waiting) {
-    if (waiting.inside.empty()) return material;
-    const auto medium = media_.find(waiting.inside);
-    if (medium == media_.end()) {
-        sources_.report.error(waiting.where, fmt::format("there is no medium '{}'", waiting.inside));
-        return material;
-    }
-    if (!medium->second) return material;  // was told where it was made
+    const Rgb inside = absorbed_in(waiting.inside, waiting.where),
+              outside = absorbed_in(waiting.outside, waiting.where);
+    const Transparency lets_through = transparency_of(scene_.materials[material]);
+    if (lets_through == Transparency::opaque || (is_black(inside) && is_black(outside))) return material;
     const auto* glass = std::get_if<DielectricMaterial>(&scene_.materials[material].model);
-    if (!glass || glass->thin) {
+    // pbrt's rays stay in the medium in which they are, unless it changes there
+    if (!glass || glass->thin || waiting.inside == waiting.outside) {
         sources_.report.warn(waiting.where,
-                             "a medium that absorbs is left out where it isn't inside of a 'dielectric'");
+                             "a medium that absorbs is left out where it isn't on one side of a 'dielectric'");
         return material;
     }
-    const auto [place, fresh] = filled_.try_emplace({material, waiting.inside});
+    // who turns a shape and names what fills it as its outside means the shape that isn't turned
+    const bool hollow = waiting.turned && is_black(inside);
+    if (hollow && glass->eta != 1)
+        sources_.report.warn(waiting.where,
+                             "a 'dielectric' that is turned, with a medium outside of it only, bends light as if that "
+                             "were inside of one that isn't turned (pbrt bends it the other way round)");
+    const auto [place, fresh] = filled_.try_emplace({material, waiting.inside, waiting.outside, hollow});
     if (fresh) {
         place->second = static_cast<MaterialId>(scene_.materials.size());
         Material copy = scene_.materials[material];
-        copy.absorption = *medium->second;
+        copy.absorption = inside;
+        copy.absorption_in_front = outside;
+        if (hollow) std::get<DielectricMaterial>(copy.model).eta = 1 / glass->eta;
         scene_.materials.push_back(std::move(copy));
     }
     return place->second;
@@ -109,9 +124,12 @@ MaterialId Builder::with_alpha(MaterialId material, TextureId alpha) {
     return place->second;
 }
 
-/// `each_triangle`: for pbrt every triangle of a mesh is a lamp of its own, with the power that was asked for.
-void Builder::emit(Shape shape, const AreaLight& lamp, bool each_triangle) {
+/// For pbrt every triangle of a mesh may be a lamp of its own, with the power that was asked for.
+void Builder::emit(Shape shape, const WaitingShape& waiting) {
     constexpr std::size_t most_lamps = 1 << 16;
+    AreaLight lamp = *waiting.lamp;
+    lamp.emission.unseen = waiting.alpha && is_nowhere(*waiting.alpha);
+    const bool each_triangle = waiting.lamp_per_triangle;
     const auto* mesh = std::get_if<Mesh>(&shape.geometry);
     const double area = area_of(shape.geometry);
     if (!lamp.power || !each_triangle || !mesh) {

@@ -7,6 +7,7 @@
 #include "core/readers/files.hpp"
 #include "core/readers/pbrt/builder.hpp"
 #include "core/readers/pbrt/materials.hpp"
+#include "core/readers/pbrt/older_materials.hpp"
 #include "core/readers/pbrt/transforms.hpp"
 #include "core/scene/reach.hpp"
 #include "core/scene/surfaces/placement.hpp"
@@ -19,7 +20,16 @@ Material Builder::material_of(const std::string& type, Parameters& parameters) {
         const auto found = named_.find(name);
         return found == named_.end() ? std::nullopt : uses_[found->second].made;
     };
-    Material material = make_material(type, parameters, {textures_, find});
+    Material material;
+    if (sources_.older()) {
+        const auto add = [&](Material part) {
+            scene_.materials.push_back(std::move(part));
+            return static_cast<MaterialId>(scene_.materials.size() - 1);
+        };
+        material = make_older_material(type, parameters, {{textures_, find}, add});
+    } else {
+        material = make_material(type, parameters, {textures_, find});
+    }
     parameters.warn_unused();
     return material;
 }
@@ -39,6 +49,10 @@ std::size_t Builder::use_of(const std::string& name, const SourceLine& where) {
 void Builder::make_named_material(Statement& s) {
     const std::string& name = s.names[0];
     const std::string type = s.parameters.text("type", "");
+    if (const auto known = named_.find(name); sources_.older() && known != named_.end() && uses_[known->second].made) {
+        s.parameters.warn("a material of that name is there already: from here on this one is meant");
+        named_.erase(known);
+    }
     const std::size_t use = use_of(name, s.where);
     if (!s.parameters.find("type")) {
         s.parameters.error("parameter 'type' is missing");
@@ -69,6 +83,9 @@ void Builder::area_light(Statement& s) {
 
 void Builder::light(Statement& s) {
     s.parameters.inherit(state_.defaults["light"]);
+    const bool everywhere = s.names[0] == "infinite" && !s.parameters.find("filename") && !s.parameters.find("mapname");
+    if (!everywhere && !inverse(state_.to_world))
+        return s.parameters.warn("it stands under a singular transform, and is left out");
     const std::size_t before = scene_.lights.size();
     add_light(s.names[0], s.parameters, textures_, sources_, state_.to_world, scene_);
     if (scene_.lights.size() > before && !in_reach(scene_.lights.back())) s.parameters.error("it stands out of reach");
@@ -78,13 +95,14 @@ void Builder::light(Statement& s) {
 void Builder::shape(Statement& s) {
     s.parameters.inherit(state_.defaults["shape"]);
     const auto from_world = inverse(state_.to_world);
-    if (!from_world) {
-        s.parameters.error("the transform is singular");
-        return;
-    }
+    if (!from_world) return s.parameters.warn("it stands under a singular transform, and is left out");
     WaitingShape shape;
     shape.alpha = alpha_of(s.parameters);
-    shape.made = shapes_.make(s.names[0], s.parameters, {state_.to_world, *from_world, state_.reversed});
+    if (sources_.older() && s.parameters.find("shadowalpha"))
+        s.parameters.warn("'shadowalpha' is left out: the shape throws the whole shadow of what is there");
+    const Placement placement{state_.to_world, *from_world, state_.reversed};
+    shape.made = shapes_.make(s.names[0], s.parameters, placement);
+    shape.turned = placement.flips();
     s.parameters.warn_unused();
     if (!shape.made) return;
     if (state_.lamp && open_object_)
@@ -94,11 +112,18 @@ void Builder::shape(Statement& s) {
     shape.lamp_per_triangle = s.names[0] == "trianglemesh" || s.names[0] == "plymesh";
     shape.material = state_.material;
     shape.inside = state_.inside;
+    shape.outside = state_.outside;
     shape.object = open_object_;
     shape.owner = s.parameters.owner();
-    shape.name = stem_of(s.names[0] == "plymesh" ? s.parameters.text("filename", "") : "");
+    shape.name = stem_of(s.names[0] == "plymesh" ? s.parameters.file("filename") : "");
     shape.where = s.where;
     waiting_.push_back(std::move(shape));
+}
+
+/// Is nothing of it there? pbrt lets a lamp shine all the same.
+bool Builder::is_nowhere(TextureId alpha) const {
+    const auto everywhere = textures_.constant_value(alpha);
+    return everywhere && everywhere->r <= 0;
 }
 
 /// None: opaque.
@@ -129,8 +154,10 @@ void Builder::object_end(Statement& s) {
 void Builder::object_instance(Statement& s) {
     constexpr std::uint64_t size = 16;  // in memory, beside a vertex's
     const auto found = objects_.find(s.names[0]);
-    const std::string fault =
-        inverse(state_.to_world) ? lightnet::Placement::fault(state_.to_world) : "the transform is singular";
+    const bool singular = !inverse(state_.to_world);
+    if (singular && found != objects_.end() && !open_object_)
+        return sources_.report.warn(s.where, "an instance stands under a singular transform, and is left out");
+    const std::string fault = singular ? "" : lightnet::Placement::fault(state_.to_world);
     if (found != objects_.end() && !open_object_ && fault.empty()) {
         shapes_.budget().take(size);
         if (!shapes_.budget().exceeded()) scene_.instances.push_back({found->second, state_.to_world});

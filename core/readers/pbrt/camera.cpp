@@ -52,6 +52,31 @@ void approximate_lens_system(CameraData& camera, Parameters& parameters) {
     parameters.ignore({"lensfile", "aperture"});
 }
 
+/// All directions, by pbrt's maps; pbrt-v3 has one only.
+void look_around(CameraData& camera, Parameters& parameters, Version version) {
+    using Panorama = CameraData::Panorama;
+    const std::string mapping = version == Version::v3 ? "equirectangular" : parameters.text("mapping", "equalarea");
+    if (mapping != "equirectangular" && mapping != "equalarea")
+        parameters.error(fmt::format("unknown mapping '{}' (there are 'equalarea' and 'equirectangular')", mapping));
+    camera.panorama = mapping == "equalarea" ? Panorama::equal_area : Panorama::latitude_longitude;
+}
+
+/// The angle of view in degrees; half of it has a name of its own.
+float angle_of_view(Parameters& parameters, Version version) {
+    const float fov = parameters.number("fov", 90);
+    if (version == Version::v4) return fov;
+    const auto half = parameters.maybe_number("halffov");
+    return half && *half > 0 ? 2 * *half : fov;
+}
+
+std::vector<std::string> camera_types(Version version) {
+    return {"orthographic", "perspective", "realistic", version == Version::v3 ? "environment" : "spherical"};
+}
+std::vector<std::string> film_types(Version version) {
+    if (version == Version::v3) return {"image"};
+    return {"gbuffer", "rgb", "spectral"};
+}
+
 }  // namespace
 
 void take_scale_out(CameraData& camera) {
@@ -65,10 +90,10 @@ void take_scale_out(CameraData& camera) {
         for (float& side : camera.screen) side *= float(*scale);
 }
 
-Shot make_camera(const std::string& type, Parameters& parameters, const Matrix& to_world) {
+Shot make_camera(const std::string& type, Parameters& parameters, const Matrix& to_world, Version version) {
     Shot shot;
     shot.camera.to_world = to_world;
-    static const std::vector<std::string> known{"orthographic", "perspective", "realistic", "spherical"};
+    const std::vector<std::string> known = camera_types(version);
     if (std::find(known.begin(), known.end(), type) == known.end()) {
         parameters.error(fmt::format("unknown camera '{}'{}", type, did_you_mean(type, known)));
         parameters.ignore_all();
@@ -76,11 +101,8 @@ Shot make_camera(const std::string& type, Parameters& parameters, const Matrix& 
     }
     shot.camera.orthographic = type == "orthographic";
     if (type == "realistic") approximate_lens_system(shot.camera, parameters);
-    if (type == "spherical") {
-        parameters.warn("cameras of type 'spherical' are not supported: a perspective one of 90 degrees is taken");
-        parameters.ignore({"mapping"});
-    }
-    if (type == "perspective") shot.camera.fov = parameters.number("fov", 90);
+    if (type == "spherical" || type == "environment") look_around(shot.camera, parameters, version);
+    if (type == "perspective") shot.camera.fov = angle_of_view(parameters, version);
     if (!(shot.camera.fov > 0 && shot.camera.fov < 180)) parameters.error("'fov' must be between 0 and 180 degrees");
     if (const auto aspect = parameters.maybe_number("frameaspectratio")) {
         if (*aspect > 0) {
@@ -100,38 +122,47 @@ Shot make_camera(const std::string& type, Parameters& parameters, const Matrix& 
     if (!(shot.camera.focus_distance > 0)) parameters.error("'focaldistance' must be above 0");
     shot.exposure = parameters.number("shutterclose", 1) - parameters.number("shutteropen", 0);
     if (!(shot.exposure > 0)) {
-        parameters.error("the shutter must close after it has opened");
+        if (version == Version::v4) parameters.error("the shutter must close after it has opened");
         shot.exposure = 1;
     }
+    if (version == Version::v3) shot.exposure = 1;  // there, a shutter is for motion alone
     return shot;
 }
 
-FilmShot make_film(const std::string& type, Parameters& parameters) {
-    static const std::vector<std::string> known{"gbuffer", "rgb", "spectral"};
+FilmShot make_film(const std::string& type, Parameters& parameters, Version version) {
+    const bool older = version == Version::v3;
+    const std::vector<std::string> known = film_types(version);
     if (std::find(known.begin(), known.end(), type) == known.end())
         parameters.error(fmt::format("unknown film '{}'{}", type, did_you_mean(type, known)));
     FilmShot shot;
     FilmData& film = shot.film;
     constexpr int longest_side = 1 << 16;
-    const int width = parameters.integer("xresolution", 1280), height = parameters.integer("yresolution", 720);
+    const int width = parameters.integer("xresolution", older ? 640 : 1280),
+              height = parameters.integer("yresolution", older ? 480 : 720);
     if (width < 1 || height < 1 || width > longest_side || height > longest_side)
         parameters.error(
             fmt::format("a film of {} x {} pixels is not possible (1 to {} each)", width, height, longest_side));
     else
         film.width = static_cast<std::uint32_t>(width), film.height = static_cast<std::uint32_t>(height);
-    film.scale = parameters.number("iso", 100) / 100;
-    if (!(film.scale > 0)) parameters.error("'iso' must be above 0");
-    if (const std::string sensor = parameters.text("sensor", "cie1931"); sensor != "cie1931")
+    film.scale = older ? parameters.number("scale", 1) : parameters.number("iso", 100) / 100;
+    if (!(film.scale > 0)) parameters.error(older ? "'scale' must be above 0" : "'iso' must be above 0");
+    if (const std::string sensor = older ? "cie1931" : parameters.text("sensor", "cie1931"); sensor != "cie1931")
         parameters.warn(fmt::format("the colours of sensor '{}' are left out: taken as 'cie1931'", sensor));
-    if (const float kelvin = parameters.number("whitebalance", 0); kelvin > 0) shot.white = daylight_colour(kelvin).rgb;
+    if (const float kelvin = older ? 0 : parameters.number("whitebalance", 0); kelvin > 0)
+        shot.white = daylight_colour(kelvin).rgb;
     if (const Parameter* crop = parameters.find("cropwindow", Type::number)) {
         film.crop = window(*crop, parameters, film.crop);
         for (float& side : film.crop) side = std::clamp(side, 0.0f, 1.0f);
     }
     pixel_bounds(film, parameters);
+    if (!(shot.white == Rgb{1, 1, 1}))
+        parameters.warn("the white balance is done for each channel, not for the cones of the eye, as pbrt does it");
+    for (const char* most : {"maxcomponentvalue", "maxsampleluminance"})
+        if (parameters.find(most))
+            parameters.warn(fmt::format("'{}' is left out: samples keep all of their light, however bright", most));
     // the picture's file is the graph's business
-    parameters.ignore({"filename", "diagonal", "savefp16", "maxcomponentvalue", "coordinatesystem", "buckets",
-                       "nbuckets", "lambdamin", "lambdamax"});
+    parameters.ignore(
+        {"filename", "diagonal", "savefp16", "coordinatesystem", "buckets", "nbuckets", "lambdamin", "lambdamax"});
     return shot;
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/base/math/transform.hpp"
 #include "core/readers/pbrt/parameters.hpp"
+#include "core/readers/pbrt/version.hpp"
 #include "core/scene/data/scene_data.hpp"
 
 namespace lightnet::pbrt {
@@ -16,7 +17,7 @@ struct Shot {
 };
 
 /// `to_world` is the inverse of the transform at the Camera statement.
-Shot make_camera(const std::string& type, Parameters& parameters, const Matrix& to_world);
+Shot make_camera(const std::string& type, Parameters& parameters, const Matrix& to_world, Version version);
 
 /// Makes the axes of a camera's transform unit vectors, and its lens and screen as large as they were.
 void take_scale_out(CameraData& camera);
@@ -28,7 +29,7 @@ struct FilmShot {
 };
 
 /// The film, its scale without the exposure time: with a sensor of ISO 100 and one second a light of `rgb L` [l l l],
-/// seen directly, has the value l.
-FilmShot make_film(const std::string& type, Parameters& parameters);
+/// seen directly, has the value l. In pbrt-v3 it has that with any shutter.
+FilmShot make_film(const std::string& type, Parameters& parameters, Version version);
 
 }  // namespace lightnet::pbrt

@@ -20,7 +20,7 @@ constexpr Rows from_aces{
     {{2.521686f, -1.134131f, -0.387555f}, {-0.276480f, 1.372719f, -0.096239f}, {-0.015378f, -0.152975f, 1.168353f}}};
 
 Rgb through(const Rows& m, Rgb c) {
-    const auto row = [&](int i) { return std::max(0.0f, m[i][0] * c.r + m[i][1] * c.g + m[i][2] * c.b); };
+    const auto row = [&](int i) { return m[i][0] * c.r + m[i][1] * c.g + m[i][2] * c.b; };
     return {row(0), row(1), row(2)};
 }
 

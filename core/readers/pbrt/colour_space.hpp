@@ -15,7 +15,7 @@ enum class ColourSpace { srgb, dci_p3, rec2020, aces2065_1 };
 std::optional<ColourSpace> colour_space_named(const std::string& name);
 const std::vector<std::string>& colour_space_names();
 
-/// White stays white. What sRGB can't show is cut at 0.
+/// White stays white. Of what sRGB can't show some parts are below 0.
 Rgb to_srgb(Rgb colour, ColourSpace from);
 /// The light that counts as white in that space.
 Rgb white_light(ColourSpace space);

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <vector>
 
 #include "core/base/suggestion.hpp"
+#include "core/readers/pbrt/older_light.hpp"
 #include "core/readers/pbrt/pictured_lights.hpp"
 #include "core/readers/pbrt/transforms.hpp"
 
@@ -16,17 +18,32 @@ namespace {
 
 constexpr float float_pi = std::numbers::pi_v<float>;
 
-/// pbrt gives a light of rgb the luminance that the numbers say, and any other spectrum luminance 1; then `scale`.
+/// pbrt-v4's number; pbrt-v3 has a colour. None: reported.
+std::optional<Rgb> scale_of(Parameters& parameters, const Sources& sources) {
+    if (!sources.older()) {
+        const float scale = parameters.number("scale", 1);
+        if (scale < 0) parameters.error("'scale' must not be negative");
+        return Rgb{1, 1, 1} * std::max(scale, 0.0f);
+    }
+    const Parameter* given = parameters.find("scale");
+    if (given && given->type == Type::number) parameters.warn_type(*given, "rgb");
+    if (!given || given->type == Type::number) return Rgb{1, 1, 1};
+    const auto colour = light_of(*given, sources);
+    return colour ? std::optional(colour->rgb) : std::nullopt;
+}
+
+/// pbrt-v4 gives a light of rgb the luminance that the numbers say, and any other spectrum luminance 1; then `scale`.
 std::optional<Rgb> strength(Parameters& parameters, const Sources& sources, const char* name) {
     Rgb colour{1, 1, 1};
+    if (sources.older()) parameters.ignore({"samples", "nsamples"});  // how it is sampled
     if (const Parameter* given = parameters.find(name)) {
         const auto found = light_of(*given, sources);
         if (!found) return std::nullopt;
         colour = found->rgb;
     }
-    const float scale = parameters.number("scale", 1);
-    if (scale < 0) parameters.error("'scale' must not be negative");
-    const Rgb strength = colour * std::max(scale, 0.0f);
+    const auto scale = scale_of(parameters, sources);
+    if (!scale) return std::nullopt;
+    const Rgb strength = colour * *scale;
     if (finite(strength)) return strength;
     parameters.error("the light is infinitely bright");
     return std::nullopt;
@@ -35,9 +52,10 @@ std::optional<Rgb> strength(Parameters& parameters, const Sources& sources, cons
 /// Not of pbrt, whose files name no light; pbrt lets it pass in an Attribute statement.
 LampLabel label_of(Parameters& parameters) { return {parameters.text("name", "")}; }
 
-/// An image and a colour exclude each other.
-std::string picture_file(Parameters& parameters, const char* colour) {
-    const std::string file = parameters.text("filename", "");
+/// An image and a colour exclude each other; in pbrt-v3 they are multiplied.
+std::string picture_file(Parameters& parameters, const char* colour, const Sources& sources) {
+    if (sources.older()) return parameters.file("mapname");
+    const std::string file = parameters.file("filename");
     if (!file.empty() && *colour && parameters.find(colour))
         parameters.error(fmt::format("'{}' and 'filename' exclude each other", colour));
     return file;
@@ -66,6 +84,15 @@ struct Making {
     LampLabel label;
 };
 
+std::optional<float> power_of(const Making& making) {
+    return making.sources.older() ? std::nullopt : power_of(making.parameters);
+}
+/// What only pbrt-v4 has.
+std::optional<float> illuminance_of(const Making& making) {
+    const float lux = making.sources.older() ? -1 : making.parameters.number("illuminance", -1);
+    return lux > 0 ? std::optional(lux) : std::nullopt;
+}
+
 /// Where the axis of a light goes in the world. None: reported.
 std::optional<Vec3> axis_of(const Making& making, Vec3 from, Vec3 to) {
     const Vec3 axis = transform_direction(making.to_world, to - from);
@@ -78,7 +105,7 @@ std::optional<Vec3> axis_of(const Making& making, Vec3 from, Vec3 to) {
 void point_light(const Making& making) {
     auto colour = strength(making.parameters, making.sources, "I");
     const Vec3 from = transform_point(making.to_world, point(making.parameters, "from", {}));
-    if (const auto power = power_of(making.parameters); power && colour) *colour *= *power / (4 * float_pi);
+    if (const auto power = power_of(making); power && colour) *colour *= *power / (4 * float_pi);
     if (colour) making.scene.lights.push_back(PointLight{from, *colour, making.label});
 }
 
@@ -94,8 +121,9 @@ void spot_light(const Making& making) {
     }
     SpotLight light;
     light.position = transform_point(making.to_world, from);
+    if (making.sources.older()) light.falloff = SpotLight::Falloff::fourth_power;
     light.inner = std::max(inner, 0.0f) * float_pi / 180, light.outer = outer * float_pi / 180;
-    if (const auto power = power_of(parameters); power && colour) {
+    if (const auto power = power_of(making); power && colour) {
         const float start = std::cos(light.inner), end = std::cos(light.outer);
         *colour *= *power / (2 * float_pi * ((1 - start) + (start - end) / 2));
     }
@@ -108,7 +136,7 @@ void distant_light(const Making& making) {
     auto colour = strength(making.parameters, making.sources, "L");
     const Vec3 from = point(making.parameters, "from", {}), to = point(making.parameters, "to", {0, 0, 1});
     const auto axis = axis_of(making, from, to);
-    if (const float lux = making.parameters.number("illuminance", -1); lux > 0 && colour) *colour *= lux;
+    if (const auto lux = illuminance_of(making); lux && colour) *colour *= *lux;
     if (colour && axis) making.scene.lights.push_back(DirectionalLight{*axis, *colour, making.label});
 }
 
@@ -146,47 +174,81 @@ void infinite_light(const Making& making) {
     EnvironmentData environment;
     environment.to_world = turn_of(making);
     const auto colour = strength(parameters, making.sources, "L");
-    const std::string file = picture_file(parameters, "L");
+    const std::string file = picture_file(parameters, "L", making.sources);
     if (!file.empty()) {
         environment.image = making.textures.pictures().get(file, {}, parameters.where());
         if (!environment.image) return;
         making.textures.pictures().finish();  // its shape tells how it is laid out
-        environment.layout = layout_of(*environment.image);
+        environment.layout =
+            making.sources.older() ? EnvironmentData::Layout::latitude_longitude : layout_of(*environment.image);
     }
-    environment.portal = portal_of(parameters);
+    if (making.sources.older())
+        environment.to_world = environment.to_world * older_sky_axes();
+    else
+        environment.portal = portal_of(parameters);
     if (!colour) return;
     environment.radiance = *colour;
-    if (const float lux = parameters.number("illuminance", -1); lux > 0) {
+    if (const auto lux = illuminance_of(making)) {
         // of the upper half, as pbrt takes it
         const float now = environment.image ? upper_illuminance(environment) : float_pi;
-        if (now > 0) environment.radiance *= lux / now;
+        if (now > 0) environment.radiance *= *lux / now;
     }
     making.scene.environments.push_back(environment);
 }
 
-/// Lights with an image of directions are taken as the nearest that a scene has.
-void goniometric_light(const Making& making) {
-    auto& parameters = making.parameters;
-    auto colour = strength(parameters, making.sources, "I");
-    const std::string file = picture_file(parameters, "");
-    float mean = 1;
-    if (!file.empty()) {
-        const auto image = making.textures.pictures().get(file, {}, parameters.where());
-        making.textures.pictures().finish();
-        if (image) mean = mean_luminance(*image);
-        parameters.warn("a goniometric light is taken as a point light with the same power in all directions");
+/// As pbrt takes the picture of a goniometric light: the same part of all colours into each direction.
+std::shared_ptr<const Image> in_grey(const Image& image) {
+    std::vector<Rgb> pixels;
+    for (std::uint32_t y = 0; y < image.height; ++y)
+        for (std::uint32_t x = 0; x < image.width; ++x) {
+            const Rgb c = image.colour(x, y);
+            pixels.push_back(Rgb{1, 1, 1} * ((c.r + c.g + c.b) / 3));
+        }
+    return std::make_shared<const Image>(image.width, image.height, pixels);
+}
+
+/// The picture by which a goniometric light shines: of pbrt-v4 a square of equal areas whose middle is y; of pbrt-v3 by
+/// latitude and longitude, in colour. None: reported, or there is none.
+std::optional<EnvironmentData> goniogram(const Making& making) {
+    const std::string file = picture_file(making.parameters, "", making.sources);
+    const auto image = file.empty() ? nullptr : making.textures.pictures().get(file, {}, making.parameters.where());
+    making.textures.pictures().finish();
+    if (!image || image->empty()) return std::nullopt;
+    EnvironmentData pattern;
+    pattern.image = making.sources.older() ? image : in_grey(*image);
+    pattern.to_world = turn_of(making);
+    if (making.sources.older()) {
+        pattern.to_world = pattern.to_world * older_goniometer_axes();
+        return pattern;
     }
-    const auto power = power_of(parameters);
-    if (colour) *colour *= power ? *power / (4 * float_pi) : mean;
-    if (colour) making.scene.lights.push_back(PointLight{transform_point(making.to_world, {}), *colour, making.label});
+    if (image->width != image->height)
+        making.parameters.error("the picture of a goniometric light is a square of equal areas, as pbrt-v4 has it");
+    pattern.layout = EnvironmentData::Layout::equal_area;
+    Matrix swap;
+    swap.m[1] = {0, 0, 1, 0}, swap.m[2] = {0, 1, 0, 0};
+    pattern.to_world = pattern.to_world * swap;
+    return pattern;
+}
+
+void goniometric_light(const Making& making) {
+    auto colour = strength(making.parameters, making.sources, "I");
+    PointLight light{transform_point(making.to_world, {}), {}, making.label, goniogram(making)};
+    if (const auto power = power_of(making); power && colour) {
+        const float mean = light.pattern ? mean_luminance(*light.pattern->image) : 1;
+        *colour *= mean > 0 ? *power / (4 * float_pi * mean) : 0;
+    }
+    if (!colour) return;
+    light.intensity = *colour;
+    making.scene.lights.push_back(std::move(light));
 }
 
 void projection_light(const Making& making) {
     auto& parameters = making.parameters;
     auto colour = strength(parameters, making.sources, "I");
-    const std::string file = picture_file(parameters, "");
-    if (file.empty()) parameters.error("parameter 'filename' is missing");
-    const float fov = parameters.number("fov", 90);
+    const std::string file = picture_file(parameters, "", making.sources);
+    if (file.empty())
+        parameters.error(making.sources.older() ? "parameter 'mapname' is missing" : "parameter 'filename' is missing");
+    const float fov = parameters.number("fov", making.sources.older() ? 45 : 90);
     if (!(fov > 0 && fov < 180)) parameters.error("'fov' must be between 0 and 180 degrees");
     const auto image = file.empty() ? nullptr : making.textures.pictures().get(file, {}, parameters.where());
     making.textures.pictures().finish();
@@ -199,7 +261,7 @@ void projection_light(const Making& making) {
     light.axis = *axis;
     light.outer = light.inner = fov / 2 * float_pi / 180;
     light.intensity = *colour * mean_colour(*image);
-    if (const auto power = power_of(parameters); power && luminance(light.intensity) > 0)
+    if (const auto power = power_of(making); power && luminance(light.intensity) > 0)
         light.intensity *= *power / (2 * float_pi * (1 - std::cos(light.outer)) * luminance(light.intensity));
     making.scene.lights.push_back(light);
 }
@@ -208,8 +270,9 @@ using LightMaker = void (*)(const Making&);
 
 const std::map<std::string, LightMaker>& light_makers() {
     static const std::map<std::string, LightMaker> table{
-        {"distant", distant_light}, {"goniometric", goniometric_light}, {"infinite", infinite_light},
-        {"point", point_light},     {"projection", projection_light},   {"spot", spot_light}};
+        {"distant", distant_light},   {"exinfinite", infinite_light}, {"goniometric", goniometric_light},
+        {"infinite", infinite_light}, {"point", point_light},         {"projection", projection_light},
+        {"spot", spot_light}};
     return table;
 }
 
@@ -225,16 +288,17 @@ AreaEmission AreaLight::on(double area) const {
 
 std::optional<AreaLight> make_area_light(const std::string& type, Parameters& parameters, Textures& textures,
                                          const Sources& sources) {
-    if (type != "diffuse") {
+    if (type != "diffuse" && !(type == "area" && sources.older())) {
         parameters.error(fmt::format("unknown area light '{}' (there is 'diffuse')", type));
         parameters.ignore_all();
         return std::nullopt;
     }
     AreaLight light;
     light.emission.two_sided = parameters.boolean("twosided", false);
-    light.power = power_of(parameters);
+    if (!sources.older()) light.power = power_of(parameters);
     const auto colour = strength(parameters, sources, "L");
-    if (const std::string file = picture_file(parameters, "L"); !file.empty()) {
+    const std::string file = sources.older() ? "" : picture_file(parameters, "L", sources);
+    if (!file.empty()) {
         ImageTexture picture;
         picture.image = textures.pictures().get(file, {}, parameters.where());
         if (picture.image && light.power) {
@@ -251,7 +315,8 @@ std::optional<AreaLight> make_area_light(const std::string& type, Parameters& pa
 
 void add_light(const std::string& type, Parameters& parameters, Textures& textures, const Sources& sources,
                const Matrix& to_world, SceneData& scene) {
-    if (const auto maker = light_makers().find(type); maker != light_makers().end())
+    const bool known_there = type != "exinfinite" || sources.older();
+    if (const auto maker = light_makers().find(type); maker != light_makers().end() && known_there)
         return maker->second({parameters, textures, sources, to_world, scene, label_of(parameters)});
     std::vector<std::string> known;
     for (const auto& [name, maker] : light_makers()) known.push_back(name);

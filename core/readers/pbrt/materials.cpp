@@ -228,7 +228,7 @@ Material make_material(const std::string& type, Parameters& parameters, const Ma
     }
     Material material = maker->second(parameters, sources);
     material.bump_map = sources.textures.maybe_number(parameters, "displacement");
-    if (const std::string file = parameters.text("normalmap", ""); !file.empty())
+    if (const std::string file = parameters.file("normalmap"); !file.empty())
         material.normal_map = sources.textures.linear_image(file, parameters.where());
     return material;
 }

@@ -65,7 +65,8 @@ std::optional<Mesh> vertices(Parameters& parameters) {
     mesh.positions = parameters.triples("P", Type::point3);
     mesh.normals = parameters.triples("N", Type::normal);
     mesh.uvs = parameters.pairs(parameters.find("st") ? "st" : "uv", Type::point2);
-    parameters.ignore({"S", "faceIndices", "uv"});
+    parameters.ignore({"faceIndices", "uv"});
+    if (parameters.find("S")) parameters.warn("tangents ('S') are left out: grooves follow the texture coordinates");
     const std::size_t count = mesh.positions.size();
     if (count == 0) {
         parameters.error("parameter 'P' is missing");
@@ -149,7 +150,7 @@ std::optional<Mesh> bilinear_mesh(Parameters& parameters) {
 std::optional<Mesh> subdivision_mesh(Parameters& parameters) {
     constexpr std::uint64_t most_triangles = std::uint64_t{1} << 24;
     parameters.ignore({"scheme"});
-    const int levels = parameters.integer("levels", 3);
+    const int levels = parameters.integer(parameters.find("nlevels") ? "nlevels" : "levels", 3);
     auto control = triangle_mesh(parameters);
     if (!control) return std::nullopt;
     if (levels < 0 || levels > 12 || (control->triangles.size() << (2 * levels)) > most_triangles) {

@@ -65,10 +65,13 @@ Parameters::Parameters(std::string owner, SourceLine where, Report& report)
 void Parameters::add(Parameter parameter) {
     constexpr std::size_t most_parameters = 256;
     const auto same = [&](const auto& p) { return p->name == parameter.name; };
-    if (parameters_.size() == most_parameters) {
+    const auto earlier = std::find_if(parameters_.begin(), parameters_.end(), same);
+    if (earlier != parameters_.end()) {
+        report_->warn(parameter.where,
+                      fmt::format("{}: parameter '{}' is given twice: the last one holds", owner_, parameter.name));
+        *earlier = std::make_shared<const Parameter>(std::move(parameter));
+    } else if (parameters_.size() == most_parameters) {
         report_->error(parameter.where, owner_ + ": too many parameters");
-    } else if (std::any_of(parameters_.begin(), parameters_.end(), same)) {
-        report_->error(parameter.where, fmt::format("{}: parameter '{}' is given twice", owner_, parameter.name));
     } else {
         parameters_.push_back(std::make_shared<const Parameter>(std::move(parameter)));
         own_ = parameters_.size();
@@ -101,9 +104,19 @@ const Parameter* Parameters::find(std::string_view name) {
 const Parameter* Parameters::find(std::string_view name, Type type) {
     const Parameter* found = find(name);
     if (!found || found->type == type) return found;
+    if (lenient_) {
+        warn_type(*found, name_of(type));
+        return nullptr;
+    }
     report_->error(found->where, fmt::format("{}: parameter '{}' is of type {}, but must be {}", owner_, name,
                                              name_of(found->type), name_of(type)));
     return nullptr;
+}
+
+void Parameters::warn_type(const Parameter& parameter, std::string_view wanted) const {
+    report_->warn(parameter.where, fmt::format("{}: parameter '{}' is of type {}, not {}, and has no effect (as in "
+                                               "pbrt-v3)",
+                                               owner_, parameter.name, name_of(parameter.type), wanted));
 }
 
 template <class Value>
@@ -141,6 +154,11 @@ std::string Parameters::text(std::string_view name, const std::string& fallback)
     return value ? *value : fallback;
 }
 
+std::string Parameters::file(std::string_view name) {
+    const std::string* value = single(name, Type::text, &Parameter::paths);
+    return value ? *value : "";
+}
+
 std::vector<Vec3> Parameters::triples(std::string_view name, Type type) {
     std::vector<Vec3> result;
     const Parameter* found = find(name, type);
@@ -153,7 +171,8 @@ std::vector<Vec3> Parameters::triples(std::string_view name, Type type) {
 
 std::vector<Vec2> Parameters::pairs(std::string_view name, Type type) {
     std::vector<Vec2> result;
-    const Parameter* found = find(name, type);
+    const Parameter* found = find(name);
+    if (!(found && lenient_ && found->type == Type::number)) found = find(name, type);
     if (!found) return result;
     const auto& n = found->numbers;
     result.reserve(n.size() / 2);

@@ -49,8 +49,10 @@ struct Parameter {
     std::vector<float> numbers;  // of number, points, vectors, normals, rgb, spectrum, blackbody
     std::vector<std::int32_t> integers;
     std::vector<std::string> texts;
+    std::vector<std::string> paths;  // the texts, read as names of files
     std::vector<bool> booleans;
     ColourSpace space = ColourSpace::srgb;  // of rgb
+    bool xyz = false;                       // it was given so
 };
 
 /// The parameters of one statement, asked for by name and type. A wrong type is reported where it stands, and the
@@ -74,10 +76,18 @@ public:
     int integer(std::string_view name, int fallback);
     bool boolean(std::string_view name, bool fallback);
     std::string text(std::string_view name, const std::string& fallback);
+    /// The name of a file; "": there is none.
+    std::string file(std::string_view name);
     std::vector<Vec3> triples(std::string_view name, Type type);
+    /// As in pbrt-v3, they may be plain numbers, too.
     std::vector<Vec2> pairs(std::string_view name, Type type);
     /// The rgb that the statement itself gives are of that space.
     void set_colour_space(ColourSpace space);
+    /// As in pbrt-v3, a parameter of another type than is asked for is none, and named.
+    void be_lenient() { lenient_ = true; }
+    bool lenient() const { return lenient_; }
+    /// Says that a parameter's type makes it none.
+    void warn_type(const Parameter& parameter, std::string_view wanted) const;
     /// Nobody looks at the rest of this statement.
     void ignore_all();
     /// Names that may stand there without any effect on what is read here.
@@ -100,6 +110,7 @@ private:
     SourceLine where_;
     Report* report_;
     std::vector<std::shared_ptr<const Parameter>> parameters_;
+    bool lenient_ = false;
     std::size_t own_ = 0;  // the first so many are the statement's own
     std::set<std::string, std::less<>> asked_;
 };

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "core/readers/gzip.hpp"
 #include "core/readers/pbrt/builder.hpp"
 #include "core/readers/pbrt/syntax.hpp"
+#include "core/readers/pbrt/version.hpp"
 
 namespace lightnet::pbrt {
 namespace {
@@ -17,19 +19,38 @@ namespace {
 constexpr std::size_t deepest_include = 32;
 constexpr int most_includes = 10000;
 
+Bytes unpacked(const Bytes& bytes) {
+    return is_gzip(*bytes) ? std::make_shared<const std::vector<std::byte>>(gunzip(*bytes)) : bytes;
+}
+
+/// The first sign of a version: in the main file, then in those that it includes, as long as there is none.
+std::optional<VersionSign> find_version(Files& files, const std::string& main) {
+    constexpr std::size_t most_files = 64;
+    std::vector<std::string> names{main};
+    for (std::size_t i = 0; i < names.size() && i < most_files; ++i) try {
+            std::vector<std::string> included;
+            if (auto sign = version_sign(names[i], unpacked(files.read(names[i])), included)) return sign;
+            for (const auto& name : included) names.push_back(beside(main, name));
+        } catch (const MissingHere&) {
+            throw;
+        } catch (const Error&) {  // told when it is read
+        }
+    return std::nullopt;
+}
+
 /// Goes through the files in the order in which they include each other.
 class Walk {
 public:
     Walk(const Sources& sources, Builder& builder) : sources_(sources), builder_(builder) {}
 
     void file(const std::string& name, Bytes bytes) {
-        if (is_gzip(*bytes)) try {
-                bytes = std::make_shared<const std::vector<std::byte>>(gunzip(*bytes));
-            } catch (const Error& problem) {
-                return sources_.report.error({name, 0}, problem.what());
-            }
+        try {
+            bytes = unpacked(bytes);
+        } catch (const Error& problem) {
+            return sources_.report.error({name, 0}, problem.what());
+        }
         open_.push_back(name);
-        Syntax syntax(name, std::move(bytes), sources_.report);
+        Syntax syntax(name, std::move(bytes), sources_.version, sources_.report);
         while (auto statement = syntax.next()) {
             if (statement->directive == "Include" || statement->directive == "Import")
                 include(*statement);
@@ -63,14 +84,19 @@ private:
 
 SceneData read(Files& files, const std::string& path, const SceneConstants&) {
     Report report;
-    const Sources sources{files, path, report};
-    Builder builder(sources);
     Bytes bytes;
     try {
         bytes = files.read(path);
     } catch (const Error& problem) {
         throw UserError({path, 0}, fmt::format("can't read the scene: {}", problem.what()));
     }
+    const auto sign = find_version(files, path);
+    const Sources sources{files, path, report, sign ? sign->version : Version::v4};
+    if (sources.older())
+        report.warn(sign->where, fmt::format("the scene is read as one of pbrt-v3, of which only that says {}: see "
+                                             "docs/pbrt.md for what differs",
+                                             sign->text));
+    Builder builder(sources);
     Walk(sources, builder).file(path, bytes);
     builder.finish();
     report.check();

@@ -12,6 +12,7 @@
 #include "core/base/suggestion.hpp"
 #include "core/readers/gzip.hpp"
 #include "core/readers/pbrt/meshes.hpp"
+#include "core/readers/pbrt/older_shapes.hpp"
 #include "core/readers/pbrt/quadrics.hpp"
 #include "core/readers/pbrt/transforms.hpp"
 #include "core/readers/ply/mesh.hpp"
@@ -84,6 +85,19 @@ const std::map<std::string, ShapeMaker>& shape_makers() {
     return table;
 }
 
+/// Of pbrt-v3 alone.
+template <auto make>
+std::optional<Geometry> older(Parameters& parameters, const Placement& placement) {
+    return placed(make(parameters), parameters, placement, placement.reversed);
+}
+const std::map<std::string, ShapeMaker>& older_shape_makers() {
+    static const std::map<std::string, ShapeMaker> table{{"cone", older<cone>},
+                                                         {"heightfield", older<height_field>},
+                                                         {"hyperboloid", older<hyperboloid>},
+                                                         {"paraboloid", older<paraboloid>}};
+    return table;
+}
+
 Geometry read_mesh(const Bytes& bytes, const Placement& placement) {
     Mesh mesh = is_gzip(*bytes) ? read_ply(gunzip(*bytes)) : read_ply(*bytes);
     if (const std::string problem = place(mesh, placement, placement.reversed); !problem.empty()) throw Error(problem);
@@ -103,14 +117,17 @@ std::shared_ptr<MadeShape> Shapes::make(const std::string& type, Parameters& par
         parameters.ignore_all();
         return nullptr;  // said in the end
     }
-    if (type == "curve") {
+    if (type == "curve" || (type == "nurbs" && sources_.older())) {
         parameters.ignore_all();
-        sources_.report.warn(parameters.where(), "shapes of type 'curve' are not supported and left out");
+        sources_.report.warn(parameters.where(),
+                             fmt::format("shapes of type '{}' are not supported and left out", type));
         return nullptr;
     }
     if (type == "plymesh") return ply_mesh(parameters, placement);
-    const auto maker = shape_makers().find(type);
-    if (maker == shape_makers().end()) {
+    const bool of_v3 = sources_.older() && older_shape_makers().contains(type);
+    const auto& makers = of_v3 ? older_shape_makers() : shape_makers();
+    const auto maker = makers.find(type);
+    if (maker == makers.end()) {
         std::vector<std::string> known{"plymesh"};
         for (const auto& entry : shape_makers()) known.push_back(entry.first);
         parameters.error("unknown shape" + did_you_mean(type, known));
@@ -124,7 +141,7 @@ std::shared_ptr<MadeShape> Shapes::make(const std::string& type, Parameters& par
 }
 
 std::shared_ptr<MadeShape> Shapes::ply_mesh(Parameters& parameters, const Placement& placement) {
-    const std::string file = parameters.text("filename", "");
+    const std::string file = parameters.file("filename");
     if (parameters.find("displacement")) parameters.warn("displacement is left out");
     parameters.ignore({"edgelength"});
     if (file.empty()) {

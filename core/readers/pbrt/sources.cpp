@@ -7,14 +7,17 @@
 #include <vector>
 
 #include "core/base/suggestion.hpp"
+#include "core/readers/pbrt/older_light.hpp"
 
 namespace lightnet::pbrt {
 namespace {
 
 enum class Seen { surface, index, light };
 
-Rgb project(const std::vector<SpectrumPoint>& points, Seen as) {
-    return as == Seen::light ? light_colour(points).rgb : surface_colour(points).rgb;
+/// The lights of pbrt-v3 are as bright as their tables say.
+Rgb project(const std::vector<SpectrumPoint>& points, Seen as, const Sources& sources) {
+    if (as != Seen::light) return surface_colour(points).rgb;
+    return sources.older() ? mean_light(points).rgb : light_colour(points).rgb;
 }
 
 std::optional<Rgb> named(const std::string& name, Seen as) {
@@ -26,7 +29,7 @@ std::optional<Rgb> from_file(const std::string& name, const Parameter& parameter
     const auto bytes = sources.read(name, parameter.where);
     if (!bytes) return std::nullopt;
     try {
-        return project(read_spd({reinterpret_cast<const char*>((*bytes)->data()), (*bytes)->size()}), as);
+        return project(read_spd({reinterpret_cast<const char*>((*bytes)->data()), (*bytes)->size()}), as, sources);
     } catch (const Error& problem) {
         sources.report.error(parameter.where, fmt::format("'{}': {}", name, problem.what()));
         return std::nullopt;
@@ -35,9 +38,10 @@ std::optional<Rgb> from_file(const std::string& name, const Parameter& parameter
 
 std::optional<Rgb> from_name(const Parameter& parameter, Seen as, const Sources& sources) {
     const std::string& name = parameter.texts[0];
+    if (sources.older()) return from_file(parameter.paths[0], parameter, as, sources);
     if (const auto known = named(name, as)) return known;
     // a name of ours with an end is a file: "spds/Au.eta.spd"
-    if (name.find('.') != std::string::npos) return from_file(name, parameter, as, sources);
+    if (name.find('.') != std::string::npos) return from_file(parameter.paths[0], parameter, as, sources);
     sources.report.error(parameter.where, fmt::format("unknown spectrum '{}' for parameter '{}'{}", name,
                                                       parameter.name, did_you_mean(name, spectrum_names())));
     return std::nullopt;
@@ -52,7 +56,7 @@ std::optional<Rgb> from_values(const Parameter& parameter, Seen as, const Source
         sound = points.empty() || n[i] > points.back().wavelength;
         points.push_back({n[i], n[i + 1]});
     }
-    if (sound) return project(points, as);
+    if (sound) return project(points, as, sources);
     sources.report.error(parameter.where, fmt::format("spectrum '{}' needs wavelengths, ascending, each with its value",
                                                       parameter.name));
     return std::nullopt;
@@ -81,6 +85,10 @@ std::optional<Rgb> unchecked(const Parameter& parameter, Seen as, const Sources&
             if (n.size() != 3) return wrong("needs three numbers");
             return Rgb{n[0], n[1], n[2]};
         case Type::blackbody:
+            if (sources.older()) {
+                if (n.size() != 2 || n[0] <= 0) return wrong("needs a temperature above 0, in kelvin, and a scale");
+                return peaked_blackbody(n[0]).rgb * n[1];
+            }
             if (as != Seen::light) return wrong("of type blackbody fits a light only");
             if (n.size() != 1 || n[0] <= 0) return wrong("needs one temperature above 0, in kelvin");
             return blackbody_colour(n[0]).rgb;
@@ -100,7 +108,12 @@ std::optional<Rgb> colour_of(const Parameter& parameter, Seen as, const Sources&
     if (!colour) return std::nullopt;
     const auto sound = checked(*colour, parameter, as, sources);
     if (!sound || parameter.type != Type::rgb || parameter.space == ColourSpace::srgb) return sound;
-    return to_srgb(*sound, parameter.space);
+    const Rgb here = to_srgb(*sound, parameter.space);
+    constexpr float rounding = 1e-5f;
+    if (std::min({here.r, here.g, here.b}) < -rounding * max_component(*sound))
+        sources.report.warn(parameter.where,
+                            fmt::format("rgb '{}' is of a colour that sRGB can't show, and is cut", parameter.name));
+    return Rgb{std::max(here.r, 0.0f), std::max(here.g, 0.0f), std::max(here.b, 0.0f)};
 }
 
 }  // namespace

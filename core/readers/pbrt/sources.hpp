@@ -8,6 +8,7 @@
 #include "core/base/math/rgb.hpp"
 #include "core/readers/files.hpp"
 #include "core/readers/pbrt/parameters.hpp"
+#include "core/readers/pbrt/version.hpp"
 #include "core/readers/report.hpp"
 #include "core/readers/spectra.hpp"
 
@@ -18,7 +19,9 @@ struct Sources {
     Files& files;
     std::string main;
     Report& report;
+    Version version = Version::v4;
 
+    bool older() const { return version == Version::v3; }
     std::string path(const std::string& name) const { return beside(main, name); }
     /// The bytes of a file that is named at `where`; none: reported.
     std::optional<Bytes> read(const std::string& name, const SourceLine& where) const;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -51,26 +52,45 @@ const std::map<std::string, Form, std::less<>>& forms() {
                                                                 {"ObjectInstance", name},
                                                                 {"Option", {0, 0, 0, true}},
                                                                 {"PixelFilter", typed},
+                                                                {"Renderer", typed},
                                                                 {"ReverseOrientation", nothing},
                                                                 {"Rotate", {4}},
                                                                 {"Sampler", typed},
                                                                 {"Scale", {3}},
                                                                 {"Shape", typed},
+                                                                {"SurfaceIntegrator", typed},
                                                                 {"Texture", {0, 3, 3, true}},
                                                                 {"Transform", {16}},
                                                                 {"TransformBegin", nothing},
                                                                 {"TransformEnd", nothing},
                                                                 {"TransformTimes", {2}},
                                                                 {"Translate", {3}},
-                                                                {"WorldBegin", nothing}};
+                                                                {"Volume", typed},
+                                                                {"VolumeIntegrator", typed},
+                                                                {"WorldBegin", nothing},
+                                                                {"WorldEnd", nothing}};
     return table;
 }
 
+bool is_older(std::string_view directive) {
+    return directive == "Renderer" || directive == "SurfaceIntegrator" || directive == "Volume" ||
+           directive == "VolumeIntegrator" || directive == "WorldEnd";
+}
+
+/// IEC 61966-2-1, white D65. What no screen can show is cut at 0.
+void xyz_to_rgb(std::vector<float>& n) {
+    for (std::size_t i = 0; i + 2 < n.size(); i += 3) {
+        const double x = n[i], y = n[i + 1], z = n[i + 2];
+        n[i] = float(std::max(0.0, 3.240479 * x - 1.537150 * y - 0.498535 * z));
+        n[i + 1] = float(std::max(0.0, -0.969256 * x + 1.875991 * y + 0.041556 * z));
+        n[i + 2] = float(std::max(0.0, 0.055648 * x - 0.204043 * y + 1.057311 * z));
+    }
+}
+
 std::string unknown_directive(std::string_view word) {
-    if (word == "WorldEnd") return "'WorldEnd' belongs to pbrt-v3; in pbrt-v4 the file simply ends";
-    if (word == "SurfaceIntegrator") return "'SurfaceIntegrator' belongs to older versions; pbrt-v4 says 'Integrator'";
     std::vector<std::string> known;
-    for (const auto& [directive, form] : forms()) known.push_back(directive);
+    for (const auto& [directive, form] : forms())
+        if (!is_older(directive)) known.push_back(directive);
     return fmt::format("unknown statement '{}'{}", word.substr(0, 64), did_you_mean(word, known));
 }
 
@@ -92,13 +112,20 @@ std::optional<std::int32_t> parse_integer(std::string_view text) {
 
 std::string_view text_of(const Bytes& bytes) { return {reinterpret_cast<const char*>(bytes->data()), bytes->size()}; }
 
+bool names_file(const std::string& directive) { return directive == "Include" || directive == "Import"; }
+
+void add_text(Parameter& parameter, std::string_view raw) {
+    parameter.texts.push_back(unescape(raw));
+    parameter.paths.push_back(path_in(raw));
+}
+
 /// For messages: a hostile word may be a gigabyte.
 std::string_view shortened(std::string_view raw) { return raw.substr(0, 64); }
 
 }  // namespace
 
-Syntax::Syntax(std::string file, Bytes bytes, Report& report)
-    : bytes_(std::move(bytes)), report_(report), tokens_(std::move(file), text_of(bytes_), report) {}
+Syntax::Syntax(std::string file, Bytes bytes, Version version, Report& report)
+    : bytes_(std::move(bytes)), version_(version), report_(report), tokens_(std::move(file), text_of(bytes_), report) {}
 
 std::optional<Statement> Syntax::next() {
     while (!report_.full()) {
@@ -133,6 +160,7 @@ std::optional<Statement> Syntax::read_statement(const Token& word) {
     if (!form.parameters) return statement;
     if (!statement.names.empty())
         statement.parameters = Parameters(fmt::format("{} '{}'", directive, statement.names[0]), where, report_);
+    if (version_ == Version::v3) statement.parameters.be_lenient();
     read_parameters(statement);
     return statement;
 }
@@ -143,7 +171,8 @@ void Syntax::read_names(Statement& statement, int least, int most, bool bare) {
     for (int i = 0; i < most && tokens_.peek(); ++i) {
         const auto kind = tokens_.peek()->kind;
         if (kind != Token::Kind::text && !(bare && kind == Token::Kind::word)) break;
-        statement.names.push_back(unescape(tokens_.next()->raw));
+        const auto raw = tokens_.next()->raw;
+        statement.names.push_back(names_file(statement.directive) ? path_in(raw) : unescape(raw));
     }
     if (bracket && tokens_.peek() && tokens_.peek()->kind == Token::Kind::close) tokens_.next();
 }
@@ -197,29 +226,33 @@ void Syntax::read_parameter(Statement& statement, const Token& declaration) {
             fmt::format("{}: parameter '{}' of type {} has {} numbers, which is no multiple of {}", owner,
                         parameter.name, name_of(parameter.type), parameter.numbers.size(), width_of(parameter.type)));
     } else {
+        if (parameter.xyz) xyz_to_rgb(parameter.numbers);
         statement.parameters.add(std::move(parameter));
     }
 }
 
 bool Syntax::declare(Parameter& parameter, const Token& declaration, const std::string& owner) {
     const std::string text = unescape(declaration.raw);
-    const auto type_end = text.find_first_of(" \t");
-    const auto name_start = text.find_first_not_of(" \t", type_end);
+    constexpr std::string_view blank = " \t\r\n";
+    const auto type_start = text.find_first_not_of(blank);
+    const auto type_end = text.find_first_of(blank, type_start);
+    const auto name_start = text.find_first_not_of(blank, type_end);
     if (type_end == std::string::npos || name_start == std::string::npos) {
         report_.error(parameter.where,
                       fmt::format("{}: a parameter is written \"type name\", not \"{}\"", owner, shortened(text)));
         return false;
     }
-    const std::string word = text.substr(0, type_end);
-    parameter.name = text.substr(name_start, text.find_last_not_of(" \t") + 1 - name_start);
-    const auto type = type_named(word);
+    const std::string word = text.substr(type_start, type_end - type_start);
+    parameter.name = text.substr(name_start, text.find_last_not_of(blank) + 1 - name_start);
+    parameter.xyz = word == "xyz" && version_ == Version::v3;
+    const auto type = parameter.xyz ? Type::rgb : type_named(word);
     if (!type) {
         report_.error(parameter.where,
                       fmt::format("{}: parameter '{}' has the unknown type '{}'{}", owner, shortened(parameter.name),
                                   shortened(word), did_you_mean(word, type_names())));
         return false;
     }
-    if (name_of(*type) != word)
+    if (name_of(*type) != word && version_ == Version::v4)
         report_.warn(parameter.where,
                      fmt::format("type '{}' is an older spelling, read as '{}'", word, name_of(*type)));
     parameter.type = *type;
@@ -258,7 +291,7 @@ bool Syntax::read_value(Parameter& parameter, const Token& token) {
         case Type::text:
         case Type::texture:
             if (!quoted) return wrong("a text in quotes");
-            parameter.texts.push_back(unescape(token.raw));
+            add_text(parameter, token.raw);
             return true;
         case Type::boolean:
             if (token.raw != "true" && token.raw != "false") return wrong("true or false");
@@ -272,7 +305,7 @@ bool Syntax::read_value(Parameter& parameter, const Token& token) {
             return wrong("a whole number");
         case Type::spectrum:
             if (!quoted) return read_number_value(parameter, token);
-            parameter.texts.push_back(unescape(token.raw));
+            add_text(parameter, token.raw);
             return true;
         default:
             return quoted ? wrong("a number") : read_number_value(parameter, token);

@@ -9,6 +9,7 @@
 #include "core/readers/files.hpp"
 #include "core/readers/pbrt/parameters.hpp"
 #include "core/readers/pbrt/tokenizer.hpp"
+#include "core/readers/pbrt/version.hpp"
 
 namespace lightnet::pbrt {
 
@@ -24,7 +25,7 @@ struct Statement {
 /// Reads the statements of one file. Broken ones are reported and skipped. The report must outlive it.
 class Syntax {
 public:
-    Syntax(std::string file, Bytes bytes, Report& report);
+    Syntax(std::string file, Bytes bytes, Version version, Report& report);
 
     /// The next sound statement; none when the file has ended.
     std::optional<Statement> next();
@@ -43,6 +44,7 @@ private:
     void skip_to_directive();
 
     Bytes bytes_;
+    Version version_;
     Report& report_;
     Tokenizer tokens_;
 };

@@ -64,35 +64,20 @@ TextureId Textures::add(Texture texture) {
     return static_cast<TextureId>(scene_.textures.size() - 1);
 }
 
-void Textures::finish() {
-    pictures_.finish();
-    std::map<const Image*, bool> translucent;
-    const auto is_translucent = [&](const Image* image) {
-        const auto [place, fresh] = translucent.try_emplace(image, false);
-        if (fresh && image->has_alpha())
-            for (std::uint32_t y = 0; y < image->height && !place->second; ++y)
-                for (std::uint32_t x = 0; x < image->width && !place->second; ++x)
-                    place->second = image->alpha(x, y) != 1;
-        return place->second;
-    };
-    for (auto& texture : scene_.textures)
-        if (auto* picture = std::get_if<ImageTexture>(&texture.pattern);
-            picture && picture->channel == ImageTexture::Channel::mean && is_translucent(picture->image.get()))
-            picture->channel = ImageTexture::Channel::alpha;
-}
-
 void Textures::define(const std::string& name, const std::string& kind, const std::string& type, const Matrix& to_world,
                       Parameters& parameters) {
-    if (kind != "float" && kind != "spectrum") {
+    const bool colour = kind == "spectrum" || (kind == "color" && sources_.older());
+    if (kind != "float" && !colour) {
         parameters.error(fmt::format("a texture is of kind 'float' or 'spectrum', not '{}'{}", kind,
                                      kind == "color" ? " (did you mean 'spectrum'?)" : ""));
         return;
     }
-    Named& named = kind == "float" ? floats_ : spectra_;
-    if (named.contains(name)) parameters.error("a texture of that name and kind is there already");
-    const auto from_world = inverse(to_world);
-    if (!from_world) parameters.error("the transform here has no inverse");
-    to_world_ = to_world, from_world_ = from_world.value_or(Matrix{});
+    Named& named = colour ? spectra_ : floats_;
+    if (named.contains(name)) {
+        const std::string what = "a texture of that name and kind is there already";
+        sources_.older() ? parameters.warn(what + ": from here on this one is meant") : parameters.error(what);
+    }
+    to_world_ = to_world, from_world_ = inverse(to_world);
     auto texture = make(type, named, parameters);
     named.insert_or_assign(name, add(texture ? std::move(*texture) : Texture{middle_grey, {}, false}));
 }
@@ -113,6 +98,7 @@ std::optional<Texture> Textures::make(const std::string& type, Named& named, Par
     if (type == "fbm") return noise(NoiseTexture::Kind::fractal, parameters);
     if (type == "wrinkled") return noise(NoiseTexture::Kind::turbulence, parameters);
     if (type == "windy") return noise(NoiseTexture::Kind::wind, parameters);
+    if (type == "uv" && sources_.older()) return unsupported(type, parameters, {0.5f, 0.5f, 0});
     if (type == "ptex") return unsupported(type, parameters, middle_grey);
     static const std::vector<std::string> known{"bilerp", "checkerboard", "constant", "directionmix", "dots",
                                                 "fbm",    "imagemap",     "marble",   "mix",          "ptex",
@@ -120,6 +106,12 @@ std::optional<Texture> Textures::make(const std::string& type, Named& named, Par
     parameters.ignore_all();
     parameters.error(fmt::format("unknown class of texture '{}'{}", type, did_you_mean(type, known)));
     return std::nullopt;
+}
+
+// Asked for by those alone that lie in the world.
+Matrix Textures::from_world(const Parameters& parameters) const {
+    if (!from_world_) parameters.warn("it stands under a singular transform: it lies as the world does");
+    return from_world_.value_or(Matrix{});
 }
 
 Texture Textures::unsupported(const std::string& type, Parameters& parameters, Rgb mean) {
@@ -135,15 +127,17 @@ Texture Textures::projected(Texture texture, Parameters& parameters) {
     using By = ProjectedTexture::By;
     const std::string mapping = parameters.text("mapping", "uv");
     if (mapping == "uv") return texture;
-    if (mapping == "spherical") return {{1, 1, 1}, ProjectedTexture{add(std::move(texture)), By::sphere, from_world_}};
+    if (mapping == "spherical")
+        return {{1, 1, 1}, ProjectedTexture{add(std::move(texture)), By::sphere, from_world(parameters)}};
     if (mapping == "cylindrical")
-        return {{1, 1, 1}, ProjectedTexture{add(std::move(texture)), By::cylinder, from_world_}};
+        return {{1, 1, 1}, ProjectedTexture{add(std::move(texture)), By::cylinder, from_world(parameters)}};
     if (mapping == "planar") {
         const Vec3 u = vector_of(parameters, "v1", {1, 0, 0}), v = vector_of(parameters, "v2", {0, 1, 0});
         Matrix onto;
         onto.m[0] = {u.x, u.y, u.z, parameters.number("udelta", 0)};
         onto.m[1] = {v.x, v.y, v.z, parameters.number("vdelta", 0)};
-        return {{1, 1, 1}, ProjectedTexture{add(std::move(texture)), By::plane, onto * from_world_}};
+        if (!sources_.older()) onto = onto * from_world(parameters);  // pbrt-v3 looks at the world's own axes
+        return {{1, 1, 1}, ProjectedTexture{add(std::move(texture)), By::plane, onto}};
     }
     static const std::vector<std::string> known{"cylindrical", "planar", "spherical", "uv"};
     parameters.error(fmt::format("unknown mapping '{}'{}", mapping, did_you_mean(mapping, known)));
@@ -158,7 +152,7 @@ std::int32_t Textures::octaves(Parameters& parameters) const {
 }
 
 Texture Textures::noise(NoiseTexture::Kind kind, Parameters& parameters) {
-    NoiseTexture pattern{kind, 8, 0.5f, from_world_};
+    NoiseTexture pattern{kind, 8, 0.5f, from_world(parameters)};
     if (kind != NoiseTexture::Kind::wind) {
         pattern.octaves = octaves(parameters);
         pattern.roughness = parameters.number("roughness", 0.5f);
@@ -170,7 +164,7 @@ Texture Textures::marble(Parameters& parameters) {
     const float scale = parameters.number("scale", 1);
     return {{1, 1, 1},
             MarbleTexture{octaves(parameters), parameters.number("roughness", 0.5f),
-                          parameters.number("variation", 0.2f), scaling(scale, scale, scale) * from_world_},
+                          parameters.number("variation", 0.2f), scaling(scale, scale, scale) * from_world(parameters)},
             false};
 }
 
@@ -179,7 +173,7 @@ Texture Textures::imagemap(Parameters& parameters, ImageTexture::Channel channel
     pattern.channel = channel;
     pattern.uv = laid(parameters);
     const Encoding encoding = encoding_of(parameters);
-    const std::string file = parameters.text("filename", "");
+    const std::string file = parameters.file("filename");
     if (file.empty())
         parameters.error("parameter 'filename' is missing");
     else
@@ -187,12 +181,17 @@ Texture Textures::imagemap(Parameters& parameters, ImageTexture::Channel channel
     pattern.wrap_u = pattern.wrap_v = wrap_of(parameters);
     pattern.nearest = nearest(parameters);
     const Rgb scale = all(parameters.number("scale", 1));
-    const bool invert = parameters.boolean("invert", false);
+    const bool invert = !sources_.older() && parameters.boolean("invert", false);
+    if (sources_.older()) parameters.ignore({"trilinear"});
     if (!pattern.image) return {middle_grey, {}, false};
     return {scale, std::move(pattern), invert};
 }
 
 Encoding Textures::encoding_of(Parameters& parameters) {
+    if (sources_.older()) {
+        const bool gamma = parameters.boolean("gamma", true);  // of pictures of eight bits
+        return gamma ? Encoding{} : Encoding{Encoding::Curve::linear, 1};
+    }
     const std::string word = parameters.text("encoding", "sRGB");
     if (word == "sRGB") return {};
     if (word == "linear") return {Encoding::Curve::linear, 1};
@@ -203,25 +202,11 @@ Encoding Textures::encoding_of(Parameters& parameters) {
     return {};
 }
 
-TextureId Textures::scaled(TextureId texture, float factor) {
-    if (factor == 1) return texture;
-    Texture copy = scene_.textures[texture];
-    if (!copy.invert) {
-        copy.scale *= factor;
-        return add(std::move(copy));
-    }
-    return add({{1, 1, 1}, ProductTexture{texture, constant(all(factor))}, false});
-}
-
-std::optional<Rgb> Textures::constant_value(TextureId id) const {
-    const Texture& texture = scene_.textures[id];
-    if (!std::holds_alternative<std::monostate>(texture.pattern)) return std::nullopt;
-    return texture.invert ? Rgb{1, 1, 1} - texture.scale : texture.scale;
-}
-
 Texture Textures::scale(Named& named, Parameters& parameters) {
-    const TextureId base = input(named, parameters, "tex", 1);
-    const TextureId factor = number_or(parameters, "scale", 1);  // a number, whatever kind the product is
+    const bool older = sources_.older();
+    const TextureId base = input(named, parameters, older ? "tex1" : "tex", 1);
+    // of pbrt-v4 a number, whatever kind the product is
+    const TextureId factor = older ? input(named, parameters, "tex2", 1) : number_or(parameters, "scale", 1);
     const auto both = [&](TextureId pattern, Rgb by) {
         Texture texture = scene_.textures[pattern];
         texture.scale *= by;
@@ -248,7 +233,8 @@ Texture Textures::direction_mix(Named& named, Parameters& parameters) {
 Texture Textures::checkerboard(Named& named, Parameters& parameters) {
     const TextureId even = input(named, parameters, "tex1", 1), odd = input(named, parameters, "tex2", 0);
     const int dimension = parameters.integer("dimension", 2);
-    if (dimension == 3) return {{1, 1, 1}, CubesTexture{even, odd, from_world_}, false};
+    if (sources_.older()) parameters.ignore({"aamode"});
+    if (dimension == 3) return {{1, 1, 1}, CubesTexture{even, odd, from_world(parameters)}, false};
     if (dimension != 2) parameters.error(fmt::format("a checkerboard has 2 or 3 dimensions, not {}", dimension));
     return projected({{1, 1, 1}, CheckerTexture{even, odd, laid(parameters)}, false}, parameters);
 }
@@ -275,12 +261,19 @@ Rgb Textures::corner(Parameters& parameters, std::string_view name, float fallba
     const Parameter* given = parameters.find(name);
     if (!given) return all(fallback);
     if (given->type == Type::number) return all(parameters.number(name, fallback));
+    if (parameters.lenient() && given->type != Type::rgb && given->type != Type::spectrum) {
+        parameters.warn_type(*given, "rgb");
+        return all(fallback);
+    }
     return surface_of(*given, Use::index, sources_).value_or(SurfaceColour{all(fallback)}).rgb;
 }
 
 TextureId Textures::input(Named& named, Parameters& parameters, std::string_view name, float fallback) {
     const Parameter* given = parameters.find(name);
-    if (given && given->type == Type::texture) return find(named, *given).value_or(0);
+    if (given && given->type == Type::texture) {
+        const auto found = found_or_none(named, *given);
+        return found ? *found : constant(all(fallback));
+    }
     return constant(corner(parameters, name, fallback));
 }
 
@@ -295,42 +288,19 @@ std::optional<TextureId> Textures::find(const Named& named, const Parameter& par
         const bool number = &named == &floats_;
         const std::string& name = parameter.texts[0];
         const bool other = (number ? spectra_ : floats_).contains(name);
-        sources_.report.error(
-            parameter.where,
+        const std::string what =
             fmt::format("there is no {} texture '{}' above{}", number ? "float" : "spectrum", name,
                         other ? fmt::format(" (that one is of kind '{}')", number ? "spectrum" : "float")
-                              : did_you_mean(name, names_of(named))));
+                              : did_you_mean(name, names_of(named)));
+        if (sources_.older())
+            sources_.report.warn(parameter.where,
+                                 what + fmt::format(": '{}' is as if it were not given", parameter.name));
+        else
+            sources_.report.error(parameter.where, what);
     } else {
         sources_.report.error(parameter.where, fmt::format("parameter '{}' needs one texture", parameter.name));
     }
     return std::nullopt;
-}
-
-std::optional<TextureId> Textures::maybe_colour(Parameters& parameters, std::string_view name, Use use) {
-    const Parameter* given = parameters.find(name);
-    if (!given) return std::nullopt;
-    if (given->type == Type::texture) return find(spectra_, *given).value_or(0);
-    return constant(surface_of(*given, use, sources_).value_or(SurfaceColour{middle_grey}).rgb);
-}
-
-TextureId Textures::colour(Parameters& parameters, std::string_view name, Rgb fallback, Use use) {
-    const auto given = maybe_colour(parameters, name, use);
-    return given ? *given : constant(fallback);
-}
-
-std::optional<TextureId> Textures::maybe_number(Parameters& parameters, std::string_view name) {
-    const Parameter* given = parameters.find(name);
-    if (!given) return std::nullopt;
-    if (given->type == Type::texture) return find(floats_, *given).value_or(0);
-    const auto number = parameters.maybe_number(name);
-    return number ? std::optional(constant(all(*number))) : std::nullopt;
-}
-
-std::optional<TextureId> Textures::linear_image(const std::string& file, const SourceLine& where) {
-    ImageTexture pattern;
-    pattern.image = pictures_.get(file, {Encoding::Curve::linear, 1}, where);
-    if (!pattern.image) return std::nullopt;
-    return add({{1, 1, 1}, std::move(pattern), false});
 }
 
 }  // namespace lightnet::pbrt

@@ -37,6 +37,8 @@ public:
     std::optional<TextureId> linear_image(const std::string& file, const SourceLine& where);
     /// The value of a texture that is the same everywhere.
     std::optional<Rgb> constant_value(TextureId texture) const;
+    /// The texture of `of` the numbers of another: exact where that is one number, a picture or squares of such.
+    TextureId mapped(TextureId texture, float (*of)(float), const Parameters& parameters);
     /// The product of a texture and a number.
     TextureId scaled(TextureId texture, float factor);
 
@@ -48,6 +50,7 @@ private:
     using Named = std::map<std::string, TextureId, std::less<>>;
 
     std::optional<Texture> make(const std::string& type, Named& named, Parameters& parameters);
+    Matrix from_world(const Parameters& parameters) const;
     Texture projected(Texture texture, Parameters& parameters);
     Texture imagemap(Parameters& parameters, ImageTexture::Channel channel);
     Texture scale(Named& named, Parameters& parameters);
@@ -63,6 +66,7 @@ private:
     Rgb corner(Parameters& parameters, std::string_view name, float fallback);
     TextureId input(Named& named, Parameters& parameters, std::string_view name, float fallback);
     TextureId number_or(Parameters& parameters, std::string_view name, float fallback);
+    std::optional<TextureId> found_or_none(const Named& named, const Parameter& parameter);
     std::optional<TextureId> find(const Named& named, const Parameter& parameter);
     Encoding encoding_of(Parameters& parameters);
 
@@ -70,7 +74,8 @@ private:
     SceneData& scene_;
     Pictures& pictures_;
     Named floats_, spectra_;
-    Matrix to_world_, from_world_;  // of the texture that is being made
+    Matrix to_world_;                   // of the texture that is being made
+    std::optional<Matrix> from_world_;  // none: that is singular
 };
 
 }  // namespace lightnet::pbrt

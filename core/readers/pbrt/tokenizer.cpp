@@ -36,6 +36,17 @@ std::string unescape(std::string_view raw) {
     return text;
 }
 
+std::string path_in(std::string_view raw) {
+    std::string path;
+    for (std::size_t i = 0; i < raw.size(); ++i) {
+        const char next = i + 1 < raw.size() ? raw[i + 1] : ' ';
+        const bool backslash = raw[i] == '\\', quote = backslash && next == '"';
+        path += quote ? '"' : backslash ? '/' : raw[i];
+        if (quote || (backslash && next == '\\')) ++i;
+    }
+    return path;
+}
+
 Tokenizer::Tokenizer(std::string file, std::string_view text, Report& report)
     : file_(std::move(file)), text_(text), report_(report) {
     constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";

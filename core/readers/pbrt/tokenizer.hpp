@@ -20,6 +20,8 @@ struct Token {
 
 /// The characters that the escapes in a quoted text stand for.
 std::string unescape(std::string_view raw);
+/// The path in a quoted text. Systems on which `\` is between folders wrote many of them, and rarely escaped it.
+std::string path_in(std::string_view raw);
 
 /// Cuts the text of one file into tokens. The text must outlive it and its tokens. Broken quotes are reported.
 class Tokenizer {
