@@ -77,13 +77,14 @@ std::string endings_text(std::span<const SceneFormat> formats) {
     return text;
 }
 
-/// "Mitsuba's scenes ('.xml')"
+/// "Mitsuba's scenes ('.xml'), scenes in '.gltf'"
 std::string with_variables(std::span<const SceneFormat> formats) {
     std::string text;
     for (const SceneFormat& format : formats)
         if (format.has_variables)
-            text += (text.empty() ? "" : ", ") + std::string(format.maker) + "'s scenes ('" +
-                    std::string(format.endings.front()) + "')";
+            text += (text.empty() ? "" : ", ") +
+                    (format.maker.empty() ? "scenes in '" : std::string(format.maker) + "'s scenes ('") +
+                    std::string(format.endings.front()) + (format.maker.empty() ? "'" : "')");
     return text;
 }
 

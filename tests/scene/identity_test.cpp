@@ -52,7 +52,8 @@ std::vector<Texture> all_textures() {
             {{1, 1, 1}, DotsTexture{0, 1, {}}, false},
             {{1, 1, 1}, DirectionTexture{0, 1, {0, 0, 1}}, false},
             {{1, 1, 1}, NoiseTexture{}, false},
-            {{1, 1, 1}, MarbleTexture{}, false}};
+            {{1, 1, 1}, MarbleTexture{}, false},
+            {{1, 1, 1}, SecondUvTexture{1}, false}};
 }
 
 SceneData room() {
@@ -62,7 +63,8 @@ SceneData room() {
                     {{0, 0}, {1, 0}, {0, 1}},
                     {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
                     {{0, 1, 2}},
-                    false};
+                    false,
+                    {{0, 1}, {1, 1}, {0, 0}}};
     scene.shapes.push_back({mesh, 1, AreaEmission{{1, 2, 3}, false, TextureId{1}}, {"room.pbrt", 7}, "lamp"});
     scene.shapes.push_back({Sphere{{1, 2, 3}, 2, false, {}}, 0, {}, {"room.pbrt", 8}, "ball"});
     scene.objects.push_back({"chair", {1}});

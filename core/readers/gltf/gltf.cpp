@@ -24,6 +24,7 @@ const std::set<std::string, std::less<>> known_extensions{"KHR_materials_transmi
                                                           "KHR_mesh_quantization",
                                                           "EXT_mesh_gpu_instancing",
                                                           "KHR_node_visibility",
+                                                          "KHR_materials_variants",
                                                           "KHR_draco_mesh_compression",
                                                           "EXT_meshopt_compression",
                                                           "EXT_texture_webp",
@@ -53,7 +54,19 @@ void check_occlusion(const At& root) {
             root.warn("occlusion maps are left out: light finds by itself where it is dark");
 }
 
-SceneData read(Files& files, const std::string& path, const SceneConstants&) {
+/// The one variable of a file is which of its variants is shown.
+std::string variant_in(const SceneConstants& constants, const std::string& path) {
+    std::string variant;
+    for (const auto& [name, value] : constants)
+        if (name == "variant")
+            variant = value;
+        else
+            throw UserError({path, 0}, "glTF has no variables but 'variant': there is no '" + name + "' to define");
+    return variant;
+}
+
+SceneData read(Files& files, const std::string& path, const SceneConstants& constants) {
+    const std::string variant = variant_in(constants, path);
     return read_by_assets(files, path, [&](Assets& assets) {
         Report& report = assets.report();
         SceneData& scene = assets.scene();
@@ -61,7 +74,7 @@ SceneData read(Files& files, const std::string& path, const SceneConstants&) {
         check_extensions(document.root());
         report.check();  // what is packed in unknown ways would only give more errors
         check_occlusion(document.root());
-        add_nodes(document, assets);
+        add_nodes(document, assets, variant);
         if (scene.shapes.empty() && report.good()) report.error({path, 0}, "there are no triangles");
         if (std::ranges::any_of(scene.shapes, [](const Shape& shape) { return shape.emission.has_value(); }) &&
             scene.environments.empty() && scene.lights.empty())
@@ -73,6 +86,6 @@ SceneData read(Files& files, const std::string& path, const SceneConstants&) {
 
 }  // namespace
 
-SceneFormat format() { return {.endings = {".gltf", ".glb"}, .read = read}; }
+SceneFormat format() { return {.endings = {".gltf", ".glb"}, .has_variables = true, .read = read}; }
 
 }  // namespace lightnet::gltf

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/joined.hpp"
+#include "core/base/suggestion.hpp"
+
 namespace lightnet::gltf {
 namespace {
 
@@ -35,6 +38,12 @@ UvTransform transform_of(const At& at) {
     return result;
 }
 
+/// Which texture coordinates an image lies on.
+std::size_t set_of(const At& info) {
+    const At moved = info["extensions"]["KHR_texture_transform"]["texCoord"];
+    return (moved ? moved : info["texCoord"]).whole(0);
+}
+
 Rgb inverse_of_attenuation(Rgb colour, float distance) {
     const auto one = [&](float c) { return -std::log(std::clamp(c, 1e-6f, 1.0f)) / distance; };
     return {one(colour.r), one(colour.g), one(colour.b)};
@@ -42,14 +51,43 @@ Rgb inverse_of_attenuation(Rgb colour, float distance) {
 
 }  // namespace
 
-const Surface& Materials::of(const At& index, bool painted) {
+Materials::Materials(Document& document, Assets& assets, const std::string& variant)
+    : document_(document), assets_(assets) {
+    if (variant.empty()) return;
+    const At list = document.root()["extensions"]["KHR_materials_variants"]["variants"];
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < list.size(); ++i) names.push_back(list[i]["name"].text(""));
+    const auto found = std::ranges::find(names, variant);
+    if (found != names.end())
+        variant_ = static_cast<std::size_t>(found - names.begin());
+    else if (names.empty())
+        assets.report().error({document.path(), 0}, fmt::format("has no variants: there is no '{}'", variant));
+    else
+        assets.report().error({document.path(), 0}, fmt::format("has no variant '{}', but {}{}", variant, joined(names),
+                                                                did_you_mean(variant, names)));
+}
+
+/// Of the material of a primitive in the chosen variant.
+At Materials::index_of(const At& primitive) const {
+    const At mappings = primitive["extensions"]["KHR_materials_variants"]["mappings"];
+    for (std::size_t i = 0; variant_ && i < mappings.size(); ++i) {
+        const At variants = mappings[i]["variants"];
+        for (std::size_t j = 0; j < variants.size(); ++j)
+            if (variants[j].whole() == *variant_) return mappings[i]["material"];
+    }
+    return primitive["material"];
+}
+
+const Surface& Materials::of(const At& primitive, bool painted) {
+    const At index = index_of(primitive);
     const At list = document_.root()["materials"];
     const auto which = index.index(list.size());
     const std::pair key{which.value_or(no_material), painted};
     if (const auto known = made_.find(key); known != made_.end()) return known->second;
-    uv_set_.reset();
-    Surface surface = make(list[which.value_or(no_material)], painted);
-    surface.uv_set = uv_set_.value_or(0);
+    const At at = list[which.value_or(no_material)];
+    lay(at);
+    Surface surface = make(at, painted);
+    surface.uv_set = uv_set_, surface.second_uv_set = second_uv_set_;
     return made_.emplace(key, surface).first->second;
 }
 
@@ -91,20 +129,32 @@ std::optional<ImageTexture> Materials::picture(const At& info, Kind kind) {
         pattern.wrap_u = wrap_of(samplers[*sampler]["wrapS"]), pattern.wrap_v = wrap_of(samplers[*sampler]["wrapT"]);
         pattern.nearest = samplers[*sampler]["magFilter"].whole(9729) == 9728;
     }
-    const At moved = info["extensions"]["KHR_texture_transform"];
-    if (moved) pattern.uv = transform_of(moved);
-    const std::size_t set = (moved["texCoord"] ? moved["texCoord"] : info["texCoord"]).whole(0);
-    if (uv_set_.value_or(set) != set)
-        info.warn("images of one material on different texture coordinates are all laid on the first's");
-    uv_set_ = uv_set_.value_or(set);
+    if (const At moved = info["extensions"]["KHR_texture_transform"]) pattern.uv = transform_of(moved);
     return pattern;
+}
+
+/// The main texture coordinates are those of what is turned along them.
+void Materials::lay(const At& material) {
+    uv_set_.reset(), second_uv_set_.reset();
+    if (const At map = material["normalTexture"]) uv_set_ = set_of(map);
+}
+
+bool Materials::is_on_second(const At& info) {
+    const std::size_t set = set_of(info);
+    if (!uv_set_) uv_set_ = set;
+    if (*uv_set_ == set) return false;
+    if (!second_uv_set_) second_uv_set_ = set;
+    if (*second_uv_set_ == set) return true;
+    info.warn("images of one material on more than two sets of texture coordinates are laid on the main ones");
+    return false;
 }
 
 std::optional<TextureId> Materials::texture(const At& info, Kind kind, Rgb scale, Channel channel) {
     auto pattern = picture(info, kind);
     if (!pattern) return std::nullopt;
     pattern->channel = channel;
-    return assets_.add({scale, *pattern, false});
+    const TextureId map = assets_.add({scale, *pattern, false});
+    return is_on_second(info) ? assets_.add({{1, 1, 1}, SecondUvTexture{map}, false}) : map;
 }
 
 /// The colour of a surface: factor × image × the colours of the mesh.

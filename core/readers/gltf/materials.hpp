@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -14,21 +15,25 @@ namespace lightnet::gltf {
 struct Surface {
     MaterialId material = 0;
     std::optional<AreaEmission> emission;
-    std::size_t uv_set = 0;  // the texture coordinates that its images lie on
+    // the texture coordinates that its images lie on; none: it has none
+    std::optional<std::size_t> uv_set{}, second_uv_set{};
 };
 
 /// Makes the materials of one document, each when a primitive first asks for it.
 class Materials {
 public:
-    Materials(Document& document, Assets& assets) : document_(document), assets_(assets) {}
+    /// `variant`: which one of the file's; "": it stands as it is.
+    Materials(Document& document, Assets& assets, const std::string& variant);
 
-    /// Of a primitive's "material"; where it is not there, the default. `painted`: the mesh has colours of its own.
-    const Surface& of(const At& index, bool painted);
+    /// Of a primitive; where it names none, the default. `painted`: the mesh has colours of its own.
+    const Surface& of(const At& primitive, bool painted);
 
 private:
     enum class Kind { colour, numbers };
 
+    At index_of(const At& primitive) const;
     Surface make(const At& at, bool painted);
+    void lay(const At& material);
     PrincipledMaterial model(const At& at, bool painted);
     void extensions(const At& at, PrincipledMaterial& model, Material& material);
     void older(const At& at, PrincipledMaterial& model, bool painted);
@@ -38,13 +43,15 @@ private:
     std::optional<TextureId> texture(const At& info, Kind kind, Rgb scale,
                                      ImageTexture::Channel channel = ImageTexture::Channel::colour);
     std::optional<ImageTexture> picture(const At& info, Kind kind);
+    bool is_on_second(const At& info);
     std::shared_ptr<const Image> image(const At& index, Kind kind);
     TextureId base(const At& info, Rgb factor, bool painted);
 
     Document& document_;
     Assets& assets_;
     std::map<std::pair<std::size_t, bool>, Surface> made_;
-    std::optional<std::size_t> uv_set_;  // of the material that is being made
+    std::optional<std::size_t> variant_;
+    std::optional<std::size_t> uv_set_, second_uv_set_;  // of the material that is being made
 };
 
 }  // namespace lightnet::gltf

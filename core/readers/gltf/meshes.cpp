@@ -203,9 +203,11 @@ std::vector<Primitive> read_mesh(const At& at, const Moved& moved, Document& doc
         Reader reader(primitive, moved, document);
         auto mesh = reader.read();
         if (!mesh) continue;
-        const Surface& surface = materials.of(primitive["material"], !mesh->colours.empty());
-        mesh->uvs = reader.uvs(surface.uv_set);
-        if (mesh->uvs.size() != mesh->positions.size()) mesh->uvs = {};
+        const Surface& surface = materials.of(primitive, !mesh->colours.empty());
+        mesh->uvs = reader.uvs(surface.uv_set.value_or(0));
+        if (surface.second_uv_set) mesh->second_uvs = reader.uvs(*surface.second_uv_set);
+        if ((surface.uv_set && mesh->uvs.empty()) || (surface.second_uv_set && mesh->second_uvs.empty()))
+            primitive.warn("a mesh lacks the texture coordinates that its material asks for: its images lie anyhow");
         if (!mesh->normals.empty()) order_by_normals(*mesh);  // without any, glTF wants flat ones
         found.push_back({*std::move(mesh), surface.material, surface.emission});
     }

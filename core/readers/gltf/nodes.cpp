@@ -56,8 +56,11 @@ std::vector<double> weights_of(const At& list) {
 
 class Builder {
 public:
-    Builder(Document& document, Assets& assets)
-        : document_(document), assets_(assets), materials_(document, assets), nodes_(document.root()["nodes"]) {}
+    Builder(Document& document, Assets& assets, const std::string& variant)
+        : document_(document),
+          assets_(assets),
+          materials_(document, assets, variant),
+          nodes_(document.root()["nodes"]) {}
 
     void build() {
         const auto standing = all_nodes();
@@ -303,6 +306,8 @@ private:
 
 }  // namespace
 
-void add_nodes(Document& document, Assets& assets) { Builder(document, assets).build(); }
+void add_nodes(Document& document, Assets& assets, const std::string& variant) {
+    Builder(document, assets, variant).build();
+}
 
 }  // namespace lightnet::gltf

@@ -5,7 +5,8 @@
 
 namespace lightnet::gltf {
 
-/// Adds all that stands in the document's default scene. Meshes that stand there more than once become objects.
-void add_nodes(Document& document, Assets& assets);
+/// `variant`: of the file's materials; "": none. Adds all that stands in the document's default scene. Meshes that
+/// stand there more than once become objects.
+void add_nodes(Document& document, Assets& assets, const std::string& variant);
 
 }  // namespace lightnet::gltf

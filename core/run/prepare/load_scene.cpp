@@ -79,12 +79,14 @@ SceneOverrides scene_overrides(const Graph& graph, const Registry& registry) {
 std::map<std::string, std::string> scene_constants(const Graph& graph, const Registry& registry) {
     const Values& params = scene_of(graph, registry).params;
     std::map<std::string, std::string> constants;
-    const auto given = params.find("constants");
-    if (given == params.end()) return constants;
-    for (const auto& [name, value] : std::get<Table>(given->second.data).named) {
-        const auto* text = std::get_if<std::string>(&value.data);
-        constants[name] = text ? *text : to_string(value);
-    }
+    if (const auto given = params.find("constants"); given != params.end())
+        for (const auto& [name, value] : std::get<Table>(given->second.data).named) {
+            const auto* text = std::get_if<std::string>(&value.data);
+            constants[name] = text ? *text : to_string(value);
+        }
+    // to the reader it is one more variable of the file
+    if (const auto variant = params.find("variant"); variant != params.end())
+        constants["variant"] = std::get<std::string>(variant->second.data);
     return constants;
 }
 

@@ -43,12 +43,13 @@ struct Mesh {
     std::vector<Vec2> uvs;        // per vertex, or empty
     std::vector<Rgb> colours;     // per vertex, linear, or empty
     std::vector<std::array<std::uint32_t, 3>> triangles;
-    bool flip_normals = false;  // geometric normal against the order of vertices; with shading normals
-                                // a reader orders them so that both lie on the same side
+    bool flip_normals = false;       // geometric normal against the order of vertices; with shading normals
+                                     // a reader orders them so that both lie on the same side
+    std::vector<Vec2> second_uvs{};  // per vertex, or empty: see SecondUvTexture
 };
 void visit_members(Is<Mesh> auto& mesh, const auto& visit) {
-    auto& [positions, normals, uvs, colours, triangles, flip_normals] = mesh;
-    visit(positions, normals, uvs, colours, triangles, flip_normals);
+    auto& [positions, normals, uvs, colours, triangles, flip_normals, second_uvs] = mesh;
+    visit(positions, normals, uvs, colours, triangles, flip_normals, second_uvs);
 }
 
 struct Sphere {

@@ -27,7 +27,9 @@ Bsdf::Model as_model(const std::variant<Models...>& model) {
 // Those that are looked up by texture coordinates.
 void add_pictures(const SceneData& data, TextureId id, std::vector<const ImageTexture*>& to) {
     const Texture& texture = data.textures[id];
-    if (std::holds_alternative<ProjectedTexture>(texture.pattern)) return;
+    if (std::holds_alternative<ProjectedTexture>(texture.pattern) ||
+        std::holds_alternative<SecondUvTexture>(texture.pattern))
+        return;
     if (const auto* picture = std::get_if<ImageTexture>(&texture.pattern)) to.push_back(picture);
     for (const TextureId input : inputs_of(texture)) add_pictures(data, input, to);
 }

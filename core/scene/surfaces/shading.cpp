@@ -59,6 +59,13 @@ Vec3 axis_of(const Sphere& sphere, std::size_t i) {
     return normalize({float(m[0][i]), float(m[1][i]), float(m[2][i])});
 }
 
+// Of a place on a mesh that may have none.
+Vec2 second_uv_at(const Mesh& mesh, std::uint32_t triangle, float u, float v) {
+    if (mesh.second_uvs.empty()) return {};
+    const auto [i, j, k] = mesh.triangles[triangle];
+    return mesh.second_uvs[i] * (1 - u - v) + mesh.second_uvs[j] * u + mesh.second_uvs[k] * v;
+}
+
 // By longitude and latitude, from pole to pole.
 struct OnSphere {
     Vec2 uv;
@@ -165,6 +172,7 @@ void Shading::dress(const Mesh& mesh, const Needs& needs, SurfacePoint& point) c
     const auto [a, b, c] = uvs_of(mesh, point.primitive);
     const float u = point.u, v = point.v, w = 1 - u - v;
     point.uv = a * w + b * u + c * v;
+    point.second_uv = second_uv_at(mesh, point.primitive, u, v);
     point.vertex_colour = {1, 1, 1};
     if (!mesh.colours.empty()) {
         const auto [i, j, k] = mesh.triangles[point.primitive];
@@ -224,6 +232,7 @@ TexturePlace Shading::coordinates(std::uint32_t geometry, std::uint32_t primitiv
     const auto [a, b, c] = uvs_of(mesh, primitive);
     const float w = 1 - u - v;
     TexturePlace place{a * w + b * u + c * v, {1, 1, 1}};
+    place.second_uv = second_uv_at(mesh, primitive, u, v);
     if (mesh.colours.empty()) return place;
     const auto [i, j, k] = mesh.triangles[primitive];
     place.vertex_colour = mesh.colours[i] * w + mesh.colours[j] * u + mesh.colours[k] * v;

@@ -18,6 +18,7 @@ struct SurfacePoint {
     Vec3 normal;                 // geometric, unit; the side on which a one-sided lamp shines
     Frame shading;               // z: shading normal, on the side of `normal`
     Vec2 uv;                     // texture coordinates
+    Vec2 second_uv{};            // of meshes that have two sets of them
     Rgb vertex_colour{1, 1, 1};  // of the mesh, interpolated
     Vec3 along_u, along_v;       // ∂position/∂u and ∂position/∂v, metres
     std::uint32_t geometry = 0;  // index into the scene's shapes
@@ -31,7 +32,7 @@ struct SurfacePoint {
 
 /// What its textures may depend on.
 inline TexturePlace place_of(const SurfacePoint& point) {
-    return {point.uv, point.vertex_colour, point.position, point.normal};
+    return {point.uv, point.vertex_colour, point.position, point.normal, point.second_uv};
 }
 
 inline float largest_coordinate(Vec3 v) {

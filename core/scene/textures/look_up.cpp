@@ -127,6 +127,11 @@ struct Pattern {
         there.uv = projected(t, place.position);
         return value_at(textures, t.texture, there);
     }
+    Rgb operator()(const SecondUvTexture& t) const {
+        TexturePlace there = place;
+        there.uv = place.second_uv;
+        return value_at(textures, t.texture, there);
+    }
     Rgb operator()(const CubesTexture& t) const {
         const Vec3 at = transform_point(t.from_world, place.position);
         const auto cube = [](float x) { return std::int64_t(std::floor(tame(x))); };

@@ -17,6 +17,8 @@ struct TexturePlace {
     // world space; only where depends_on_place() says so
     Vec3 position{};
     Vec3 normal{};  // geometric, unit
+    // of meshes that have a second set of texture coordinates
+    Vec2 second_uv{};
 };
 
 /// The value of a texture at a place: bilinear, not filtered over an area. Coordinate v counts upwards from the

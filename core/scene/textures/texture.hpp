@@ -88,6 +88,15 @@ void visit_members(Is<ProjectedTexture> auto& projected, const auto& visit) {
     visit(texture, by, from_world);
 }
 
+/// Another texture, laid over meshes by their second texture coordinates.
+struct SecondUvTexture {
+    TextureId texture = 0;
+};
+void visit_members(Is<SecondUvTexture> auto& second, const auto& visit) {
+    auto& [texture] = second;
+    visit(texture);
+}
+
 /// Cubes of side 1 in a space of their own, alternating: `even` where ⌊x⌋ + ⌊y⌋ + ⌊z⌋ is.
 struct CubesTexture {
     TextureId even = 0, odd = 0;
@@ -152,7 +161,8 @@ void visit_members(Is<VertexColour> auto&, const auto&) { static_assert(std::is_
 struct Texture {
     Rgb scale{1, 1, 1};
     std::variant<std::monostate, ImageTexture, CheckerTexture, ProductTexture, MixTexture, VertexColour,
-                 ProjectedTexture, CubesTexture, DotsTexture, DirectionTexture, NoiseTexture, MarbleTexture>
+                 ProjectedTexture, CubesTexture, DotsTexture, DirectionTexture, NoiseTexture, MarbleTexture,
+                 SecondUvTexture>
         pattern;
     bool invert = false;
 };
