@@ -136,7 +136,10 @@ std::optional<ImageTexture> Materials::picture(const At& info, Kind kind) {
 /// The main texture coordinates are those of what is turned along them.
 void Materials::lay(const At& material) {
     uv_set_.reset(), second_uv_set_.reset();
-    if (const At map = material["normalTexture"]) uv_set_ = set_of(map);
+    const At more = material["extensions"];
+    for (const At& map : {material["normalTexture"], more["KHR_materials_clearcoat"]["clearcoatNormalTexture"],
+                          more["KHR_materials_anisotropy"]["anisotropyTexture"]})
+        if (map && !uv_set_) uv_set_ = set_of(map);
 }
 
 bool Materials::is_on_second(const At& info) {
@@ -190,19 +193,21 @@ void Materials::older(const At& at, PrincipledMaterial& model, bool painted) {
     model.specular_colour = rgb(at["specularFactor"], {1, 1, 1}) / 0.04f;  // over what an index of 1.5 reflects
 }
 
-void Materials::extensions(const At& at, PrincipledMaterial& model, Material& material) {
-    const At clear = at["KHR_materials_clearcoat"], sheen = at["KHR_materials_sheen"];
-    const At specular = at["KHR_materials_specular"], through = at["KHR_materials_transmission"];
-    const At volume = at["KHR_materials_volume"];
-    model.eta = at["KHR_materials_ior"]["ior"].real(1.5f);
-    if (model.eta < 1) model.eta = model.eta == 0 ? 1e3f : 1;  // 0: reflects all
+void Materials::coat(const At& clear, PrincipledMaterial& model) {
     model.clearcoat = share(clear["clearcoatFactor"], 0);
     model.clearcoat_texture = texture(clear["clearcoatTexture"], Kind::numbers, {1, 1, 1}, Channel::red);
-    const float coat = share(clear["clearcoatRoughnessFactor"], 0);
-    model.clearcoat_roughness = {coat, coat, {}, Roughness::Means::square};
+    const float rough = share(clear["clearcoatRoughnessFactor"], 0);
+    model.clearcoat_roughness = {rough, rough, {}, Roughness::Means::square};
     model.clearcoat_roughness.texture =
         texture(clear["clearcoatRoughnessTexture"], Kind::numbers, {1, 1, 1}, Channel::green);
-    if (clear["clearcoatNormalTexture"]) at.warn("the normal map of a clear coat is left out");
+    const At bumps = clear["clearcoatNormalTexture"];
+    model.coat_normal = {true, texture(bumps, Kind::numbers, {1, 1, 1}), bumps["scale"].real(1)};
+}
+
+/// What becomes of light at the surface.
+void Materials::shine(const At& at, PrincipledMaterial& model) {
+    const At sheen = at["KHR_materials_sheen"], specular = at["KHR_materials_specular"];
+    const At grooves = at["KHR_materials_anisotropy"], film = at["KHR_materials_iridescence"];
     if (sheen) {
         model.sheen_colour = rgb(sheen["sheenColorFactor"], {0, 0, 0});
         model.sheen = is_black(model.sheen_colour) ? 0 : 1;
@@ -215,12 +220,48 @@ void Materials::extensions(const At& at, PrincipledMaterial& model, Material& ma
     model.specular_texture = texture(specular["specularTexture"], Kind::numbers, {1, 1, 1}, Channel::alpha);
     model.specular_colour = rgb(specular["specularColorFactor"], {1, 1, 1});
     model.specular_colour_texture = texture(specular["specularColorTexture"], Kind::colour, {1, 1, 1});
+    const float turn = grooves["anisotropyRotation"].real(0);
+    model.grooves = {share(grooves["anisotropyStrength"], 0),
+                     {std::cos(turn), std::sin(turn)},
+                     texture(grooves["anisotropyTexture"], Kind::numbers, {1, 1, 1})};
+    const At thickness = film["iridescenceThicknessTexture"];
+    model.film = {share(film["iridescenceFactor"], 0),
+                  std::clamp(film["iridescenceIor"].real(1.3f), 1.0f, 10.0f),
+                  std::clamp(film["iridescenceThicknessMinimum"].real(100), 0.0f, 1e5f),
+                  std::clamp(film["iridescenceThicknessMaximum"].real(400), 0.0f, 1e5f),
+                  texture(film["iridescenceTexture"], Kind::numbers, {1, 1, 1}, Channel::red),
+                  texture(thickness, Kind::numbers, {1, 1, 1}, Channel::green)};
+}
+
+/// What becomes of light that goes through.
+void Materials::pass_on(const At& at, PrincipledMaterial& model, Material& material) {
+    const At through = at["KHR_materials_transmission"], volume = at["KHR_materials_volume"];
+    const At leaf = at["KHR_materials_diffuse_transmission"];
+    model.eta = at["KHR_materials_ior"]["ior"].real(1.5f);
+    if (model.eta < 1) model.eta = model.eta == 0 ? 1e3f : 1;  // 0: reflects all
     model.transmission = share(through["transmissionFactor"], 0);
     model.transmission_texture = texture(through["transmissionTexture"], Kind::numbers, {1, 1, 1}, Channel::red);
     model.thin = volume["thicknessFactor"].number(0) == 0;
     const float distance = volume["attenuationDistance"].real(0);
     if (!model.thin && distance > 0)
         material.absorption = inverse_of_attenuation(rgb(volume["attenuationColor"], {1, 1, 1}), distance);
+    // half of the difference that Abbe's number, 20 over this, tells for the ends of the spectrum
+    const float dispersion = at["KHR_materials_dispersion"]["dispersion"].real(0);
+    model.dispersion = std::clamp((model.eta - 1) * 0.025f * std::max(dispersion, 0.0f), 0.0f, model.eta - 1);
+    if (model.dispersion > 0 && model.transmission > 0 && !model.thin)
+        at.warn(
+            "KHR_materials_dispersion is approximated by three indices, for red, green and blue: rainbows have "
+            "three colours");
+    model.translucence = {share(leaf["diffuseTransmissionFactor"], 0),
+                          rgb(leaf["diffuseTransmissionColorFactor"], {1, 1, 1}),
+                          texture(leaf["diffuseTransmissionTexture"], Kind::numbers, {1, 1, 1}, Channel::alpha),
+                          texture(leaf["diffuseTransmissionColorTexture"], Kind::colour, {1, 1, 1})};
+}
+
+void Materials::extensions(const At& at, PrincipledMaterial& model, Material& material) {
+    pass_on(at, model, material);
+    coat(at["KHR_materials_clearcoat"], model);
+    shine(at, model);
 }
 
 void Materials::opacity(const At& at, const At& base, float factor, Material& material) {

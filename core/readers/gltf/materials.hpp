@@ -36,6 +36,9 @@ private:
     void lay(const At& material);
     PrincipledMaterial model(const At& at, bool painted);
     void extensions(const At& at, PrincipledMaterial& model, Material& material);
+    void shine(const At& extensions, PrincipledMaterial& model);
+    void coat(const At& clear, PrincipledMaterial& model);
+    void pass_on(const At& extensions, PrincipledMaterial& model, Material& material);
     void older(const At& at, PrincipledMaterial& model, bool painted);
     void opacity(const At& at, const At& base, float factor, Material& material);
     void emission(const At& at, Surface& surface);

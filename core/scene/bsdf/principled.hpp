@@ -7,13 +7,15 @@
 #include "core/scene/bsdf/material_inputs.hpp"
 #include "core/scene/bsdf/microfacets.hpp"
 #include "core/scene/bsdf/scattering.hpp"
+#include "core/scene/bsdf/thin_film.hpp"
 
 namespace lightnet {
 
 /// glTF 2.0's metallic-roughness model (appendix B of its specification) with the extensions specular, ior,
-/// transmission, volume, sheen and clearcoat. Its mixes and layers are those of the specification; where that shares
-/// light between layers by a rule which can give more than it got, or depends on the order of the two directions, a
-/// symmetric one by directional albedos stands here: never above 1, and reciprocal.
+/// transmission, volume, sheen, clearcoat, anisotropy, iridescence, dispersion and diffuse transmission. Its mixes and
+/// layers are those of the specification; where that shares light between layers by a rule which can give more than it
+/// got, or depends on the order of the two directions, a symmetric one by directional albedos stands here: never above
+/// 1, and reciprocal.
 struct PrincipledBsdf {
     static constexpr bool two_sided = false;  // but for solids that let light through, it is made so
     static constexpr bool chooses = true;
@@ -27,6 +29,13 @@ struct PrincipledBsdf {
     float sheen_alpha = 0.1f;
     float coat = 0, coat_alpha = 0;
     bool thin = true;
+    Vec2 groove{1, 0};       // cosine and sine of the turn from the frame's x to the first of the facets' tangents
+    ThinFilm film{};         // on the facets
+    float film_f0 = 1;       // its film_ceiling() over f0
+    float dispersion = 0;    // the index is eta - this for red, and eta + this for blue
+    float translucence = 0;  // share of the diffuse base that lets light through instead
+    Rgb passed;              // colour of that
+    Vec3 coat_up{0, 0, 1};   // normal of the coat, unit
 
     bool smooth() const { return is_specular(facets.alpha_u, facets.alpha_v); }
     bool smooth_coat() const { return is_specular(coat_alpha, coat_alpha); }
@@ -54,22 +63,43 @@ struct PrincipledBsdf {
     float passes_on_average() const;
 
 private:
-    bool turned(Vec3 outgoing) const { return outgoing.z < 0 && (thin || transmission == 0); }
+    bool turned(Vec3 outgoing) const { return outgoing.z < 0 && sheet(); }
+    bool sheet() const { return thin || transmission == 0; }  // both sides look alike
+    bool tilted() const { return coat_up.x != 0 || coat_up.y != 0; }
+    bool grooved() const { return groove.x != 1; }
+    bool plain_glass() const { return film.share == 0 && dispersion == 0; }
+    PrincipledBsdf upright(bool turn) const;
+    float index(std::size_t colour) const { return eta + (float(colour) - 1) * dispersion; }
+    Rgb filmed(Rgb bare, Rgb below, float cosine) const;
+    Rgb opaque_reflectance(float cosine) const;
+    Rgb glass_mirror(float cosine) const;
+    float ceiling_f0() const;
+    float ceiling_f90() const { return film.share > 0 ? 1 : f90; }
+    float through_chance() const;
     float alpha() const;
     float glass_share() const { return (1 - metallic) * transmission; }
     Rgb glass_tint() const;
     float glass_reflectance(float cosine) const;
     Rgb reflectance(float cosine) const;
     Rgb transmittance(float cosine) const;
+    float dispersed_transmittance(float cosine, std::size_t colour) const;
     float reflection_chance(float cosine) const;
     float window_share(float height) const;
+    Layers layers(float height, float above_coat) const;
+    Layers layers(Vec3 direction) const;
     Layers layers(Vec3 outgoing, Vec3 incoming) const;
+    Chances chances(const Layers& above, float height, std::uint8_t lobes) const;
+    Chances chances(Vec3 outgoing, std::uint8_t lobes) const;
+    void add_translucent(Vec3 o, Vec3 i, const Layers& layers, const Chances& chances, BsdfValue& sum) const;
+    void add_dispersed(Vec3 o, Vec3 i, float passes, const Chances& chances, BsdfValue& sum) const;
+    void add_coat(Vec3 o, Vec3 i, const Chances& chances, BsdfValue& sum) const;
+    std::optional<BsdfSample> sample_coat(Vec3 o, Vec2 u, float chance) const;
     void add_diffuse(Vec3 o, Vec3 i, const Layers& layers, const Chances& chances, BsdfValue& sum) const;
     void add_glossy(Vec3 o, Vec3 i, const Layers& layers, const Chances& chances, BsdfValue& sum) const;
     BsdfValue upright_value(Vec3 o, Vec3 i, std::uint8_t lobes) const;
     std::optional<BsdfSample> upright_sample(Vec3 o, float choice, Vec2 u, std::uint8_t lobes) const;
     std::optional<BsdfSample> mirror(Vec3 o, const Rgb& value, float chance) const;
-    std::optional<BsdfSample> window(Vec3 o, float chance) const;
+    std::optional<BsdfSample> window(Vec3 o, float choice, float chance) const;
     std::optional<BsdfSample> sample_smooth(Vec3 o, float choice, float chance) const;
     std::optional<BsdfSample> sample_facets(Vec3 o, float choice, Vec2 u) const;
 };
@@ -101,6 +131,50 @@ inline constexpr float principled_coat_f0 = 0.04f;  // its index is 1.5
     return base * (share * (passes_out * passes_in / passes_on_average) * (cosine * inverse_pi));
 }
 
+/// KHR_materials_anisotropy.
+struct PrincipledGrooves {
+    float strength = 0;                  // how much rougher facets are along their first tangent: α² … 1
+    Vec2 along{1, 0};                    // cosine and sine of its turn from the direction in which u grows
+    std::optional<TextureId> texture{};  // turns it by red and green, -1 … 1, and times the strength by blue
+};
+void visit_members(Is<PrincipledGrooves> auto& grooves, const auto& visit) {
+    auto& [strength, along, texture] = grooves;
+    visit(strength, along, texture);
+}
+
+/// KHR_materials_iridescence.
+struct PrincipledFilm {
+    float share = 0, eta = 1.3f;
+    float least = 100, most = 400;  // nanometres, where the texture of its thickness is 0 and 1; without one the latter
+    std::optional<TextureId> share_texture{}, thickness_texture{};
+};
+void visit_members(Is<PrincipledFilm> auto& film, const auto& visit) {
+    auto& [share, eta, least, most, share_texture, thickness_texture] = film;
+    visit(share, eta, least, most, share_texture, thickness_texture);
+}
+
+/// KHR_materials_diffuse_transmission.
+struct PrincipledTranslucence {
+    float share = 0;
+    Rgb colour{1, 1, 1};
+    std::optional<TextureId> share_texture{}, colour_texture{};
+};
+void visit_members(Is<PrincipledTranslucence> auto& translucence, const auto& visit) {
+    auto& [share, colour, share_texture, colour_texture] = translucence;
+    visit(share, colour, share_texture, colour_texture);
+}
+
+/// Where the coat's normal is another than the surface's.
+struct PrincipledCoatNormal {
+    bool own = false;                // it does not follow the material's bumps
+    std::optional<TextureId> map{};  // but this normal map
+    float scale = 1;                 // of its x and y
+};
+void visit_members(Is<PrincipledCoatNormal> auto& normal, const auto& visit) {
+    auto& [own, map, scale] = normal;
+    visit(own, map, scale);
+}
+
 /// The principled model of Burley (2012, 2015), of which glTF's metallic-roughness model with its extensions is a part.
 /// Numbers are 0 … 1 where nothing else is said; a texture multiplies.
 struct PrincipledMaterial {
@@ -120,22 +194,32 @@ struct PrincipledMaterial {
     std::optional<TextureId> clearcoat_texture{};
     Roughness clearcoat_roughness{0.03f, 0.03f, {}, Roughness::Means::square};
     bool thin = true;  // of transmission: a pane rather than a solid
+    PrincipledGrooves grooves{};
+    PrincipledFilm film{};
+    float dispersion = 0;  // half of what blue's index is above red's
+    PrincipledTranslucence translucence{};
+    PrincipledCoatNormal coat_normal{};
 
     Transparency transparency() const {
-        if (!(transmission > 0)) return Transparency::opaque;
+        if (!(transmission > 0) && !(translucence.share > 0)) return Transparency::opaque;
         return thin ? Transparency::sheet : Transparency::solid;
     }
-    /// Opaque, and without cloth.
-    bool plain() const { return !(transmission > 0) && !(sheen > 0); }
+    /// Opaque, and without cloth and films.
+    bool plain() const {
+        return !(transmission > 0) && !(sheen > 0) && !(film.share > 0) && !(translucence.share > 0) &&
+               !(grooves.strength > 0);
+    }
     PrincipledBsdf at(const MaterialInputs& inputs) const;
 };
 void visit_members(Is<PrincipledMaterial> auto& material, const auto& visit) {
     auto& [base_colour, metallic, transmission, metallic_texture, transmission_texture, roughness, eta, specular,
            specular_colour, specular_texture, specular_colour_texture, sheen, sheen_roughness, sheen_colour,
-           sheen_texture, sheen_roughness_texture, clearcoat, clearcoat_texture, clearcoat_roughness, thin] = material;
+           sheen_texture, sheen_roughness_texture, clearcoat, clearcoat_texture, clearcoat_roughness, thin, grooves,
+           film, dispersion, translucence, coat_normal] = material;
     visit(base_colour, metallic, transmission, metallic_texture, transmission_texture, roughness, eta, specular,
           specular_colour, specular_texture, specular_colour_texture, sheen, sheen_roughness, sheen_colour,
-          sheen_texture, sheen_roughness_texture, clearcoat, clearcoat_texture, clearcoat_roughness, thin);
+          sheen_texture, sheen_roughness_texture, clearcoat, clearcoat_texture, clearcoat_roughness, thin, grooves,
+          film, dispersion, translucence, coat_normal);
 }
 
 }  // namespace lightnet

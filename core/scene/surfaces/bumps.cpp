@@ -20,9 +20,9 @@ Vec3 kept_above(Vec3 z, Vec3 normal) {
     return flat * (std::sqrt(1 - least_cosine * least_cosine) / size) + normal * least_cosine;
 }
 
-Vec3 mapped_normal(const SceneData& data, const Material& material, const SurfacePoint& point) {
-    const Rgb colour = look_up(data.textures, *material.normal_map, place_of(point));
-    const float x = (2 * colour.r - 1) * material.normal_scale, y = (2 * colour.g - 1) * material.normal_scale;
+Vec3 mapped_normal(const SceneData& data, TextureId map, float scale, const SurfacePoint& point) {
+    const Rgb colour = look_up(data.textures, map, place_of(point));
+    const float x = (2 * colour.r - 1) * scale, y = (2 * colour.g - 1) * scale;
     const Frame frame = frame_along(point.shading.z, point.along_u);
     // pictures are laid either way round on a surface
     const float hand = dot(frame.y, point.along_v) < 0 ? -1.0f : 1.0f;
@@ -47,6 +47,12 @@ Vec3 bumped_normal(const SceneData& data, TextureId map, const SurfacePoint& poi
     return dot(n, z) < 0 ? -n : n;
 }
 
+Vec3 sound_normal(Vec3 turned, const SurfacePoint& point) {
+    const float size = length(turned);
+    if (!(size > 0) || !std::isfinite(size)) return point.shading.z;
+    return kept_above(turned / size, point.normal);
+}
+
 }  // namespace
 
 Frame frame_along(Vec3 z, Vec3 tangent) {
@@ -57,11 +63,13 @@ Frame frame_along(Vec3 z, Vec3 tangent) {
 }
 
 Vec3 bumpy_normal(const SceneData& data, const Material& material, const SurfacePoint& point, float step) {
-    const Vec3 turned = material.normal_map ? mapped_normal(data, material, point)
-                                            : bumped_normal(data, *material.bump_map, point, step);
-    const float size = length(turned);
-    if (!(size > 0) || !std::isfinite(size)) return point.shading.z;
-    return kept_above(turned / size, point.normal);
+    return sound_normal(material.normal_map ? mapped_normal(data, *material.normal_map, material.normal_scale, point)
+                                            : bumped_normal(data, *material.bump_map, point, step),
+                        point);
+}
+
+Vec3 coat_normal(const SceneData& data, const PrincipledCoatNormal& coat, const SurfacePoint& point) {
+    return coat.map ? sound_normal(mapped_normal(data, *coat.map, coat.scale, point), point) : point.shading.z;
 }
 
 float step_of(const SceneData& data, TextureId texture) {

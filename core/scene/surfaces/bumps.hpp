@@ -13,6 +13,9 @@ Frame frame_along(Vec3 z, Vec3 tangent);
 /// surface. Heights are compared over `step` of the texture coordinates.
 Vec3 bumpy_normal(const SceneData& data, const Material& material, const SurfacePoint& point, float step);
 
+/// The normal of a coat that does not follow the material's bumps.
+Vec3 coat_normal(const SceneData& data, const PrincipledCoatNormal& coat, const SurfacePoint& point);
+
 /// A step that suits the images of a texture: half a pixel.
 float step_of(const SceneData& data, TextureId texture);
 

@@ -9,10 +9,23 @@
 namespace lightnet {
 namespace {
 
+bool turned_grooves(const Material& material) {
+    const auto* principled = std::get_if<PrincipledMaterial>(&material.model);
+    return principled && principled->grooves.strength > 0;
+}
+
+/// Of a coat that does not follow the bumps there are. Null: there is none.
+const PrincipledCoatNormal* own_coat(const Material& material) {
+    const auto* principled = std::get_if<PrincipledMaterial>(&material.model);
+    if (!principled || !(principled->clearcoat > 0) || !principled->coat_normal.own) return nullptr;
+    const bool differs = principled->coat_normal.map || material.normal_map || material.bump_map;
+    return differs ? &principled->coat_normal : nullptr;
+}
+
 bool anisotropic(const Material& material) {
     bool found = false;
     visit_each<Roughness>(material, [&](const Roughness& roughness) { found |= roughness.u != roughness.v; });
-    return found;
+    return found || turned_grooves(material);
 }
 
 template <class Model>
@@ -61,7 +74,9 @@ void Materials::make(MaterialId id) {
     if (material.bump_map) made.step = step_of(data_, *material.bump_map);
     const bool absorbs = !is_black(material.absorption) || !is_black(material.absorption_in_front);
     made.filled = transparency_of(material) == Transparency::solid && absorbs;
-    made.simple = made.constant && !made.bumpy && !made.filled && !material.one_sided;
+    made.handed = turned_grooves(material);
+    made.coat = own_coat(material);
+    made.simple = made.constant && !made.bumpy && !made.filled && !made.handed && !made.coat && !material.one_sided;
     made.lobes = lobes_everywhere(id);
 }
 
@@ -88,7 +103,7 @@ MaterialNeeds Materials::needs_of(MaterialId id) {
         add_pictures(data_, texture, made_[id].pictures);
     });
     needs.grooves = anisotropic(material);
-    needs.tangent = needs.grooves || material.normal_map || material.bump_map;
+    needs.tangent = needs.grooves || material.normal_map || material.bump_map || own_coat(material);
     visit_each<MaterialId>(material, [&](MaterialId part) {
         make(part);
         needs = needs | made_[part].needs;
@@ -104,7 +119,8 @@ Bsdf Materials::bsdf(MaterialId id, const SurfacePoint& point) const {
     if (made.simple) return {point.shading, point.normal, *made.constant};
     const Material& material = data_.materials[id];
     const auto whole = [&](const Bsdf::Model& model) {
-        Bsdf result(made.bumpy ? bumpy_frame(id, point) : point.shading, point.normal, model);
+        const Frame frame = frame_at(id, point);
+        Bsdf result(frame, point.normal, made.coat ? under_own_coat(id, model, frame, point) : model);
         if (material.one_sided) result.make_one_sided();
         const auto unless_black = [](const Rgb& c) { return is_black(c) ? nullptr : &c; };
         if (made.filled)
@@ -127,6 +143,22 @@ Vec3 Materials::bumpy_normal(MaterialId id, const SurfacePoint& point) const {
     return lightnet::bumpy_normal(data_, data_.materials[id], point, made_[id].step);
 }
 
+Frame Materials::frame_at(MaterialId id, const SurfacePoint& point) const {
+    const Made& made = made_[id];
+    Frame frame = made.bumpy ? bumpy_frame(id, point) : point.shading;
+    if (made.handed && dot(frame.y, point.along_v) < 0) frame.y = -frame.y;
+    return frame;
+}
+
+Bsdf::Model Materials::under_own_coat(MaterialId id, const Bsdf::Model& model, const Frame& frame,
+                                      const SurfacePoint& point) const {
+    Bsdf::Model result = model;
+    const Vec3 up = frame.to_local(coat_normal(data_, *made_[id].coat, point));
+    if (auto* principled = std::get_if<PrincipledBsdf>(&result); principled && up.z > 0)
+        principled->coat_up = normalize(up);
+    return result;
+}
+
 Frame Materials::bumpy_frame(MaterialId id, const SurfacePoint& point) const {
     const Vec3 normal = bumpy_normal(id, point);
     return made_[id].needs.grooves ? frame_along(normal, point.along_u) : Frame::around(normal);
@@ -144,7 +176,7 @@ Bsdf Materials::blend(std::span<const BlendPart> of, const SurfacePoint& point) 
 ColumnShape::Kind Materials::column_kind(MaterialId id) const {
     using Kind = ColumnShape::Kind;
     const Made& made = made_[id];
-    if (made.filled || made.needs.grooves) return Kind::none;
+    if (made.filled || made.needs.grooves || made.coat) return Kind::none;
     if (made.lobes && !(made.lobes & lobe::rough)) return Kind::none;  // a mirror, say
     const auto& model = data_.materials[id].model;
     const auto by_law = [](const Roughness& roughness, Kind ggx, Kind beckmann) {

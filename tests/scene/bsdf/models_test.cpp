@@ -94,6 +94,37 @@ PrincipledBsdf everything(float coat_alpha) {
     return model;
 }
 
+PrincipledBsdf filmed(PrincipledBsdf model, float share, float thickness) {
+    model.film = {share, 1.33f, thickness};
+    model.film_f0 = film_ceiling(model.film, model.f0);
+    return model;
+}
+
+PrincipledBsdf dispersed(Microfacets facets) {
+    PrincipledBsdf model = principled(0, 1, facets, false);
+    model.dispersion = 0.06f;
+    return model;
+}
+
+PrincipledBsdf leaf(PrincipledBsdf model, float share) {
+    model.translucence = share;
+    model.passed = {0.6f, 0.9f, 0.3f};
+    return model;
+}
+
+PrincipledBsdf grooved(PrincipledBsdf model) {
+    model.groove = {0.6f, 0.8f};
+    return model;
+}
+
+/// Its coat has a normal of its own.
+PrincipledBsdf tilted(PrincipledBsdf model, float coat_alpha) {
+    model.coat = 0.8f;
+    model.coat_alpha = coat_alpha;
+    model.coat_up = normalize(Vec3{0.3f, -0.2f, 0.9f});
+    return model;
+}
+
 /// A model that is made when it is wanted.
 struct Made {
     std::function<Bsdf::Model()> make;
@@ -141,19 +172,43 @@ const std::vector<Case> cases{
     {"tinted_rough_glass", DielectricBsdf{1.33f, {0.3f, 0.3f}, {{0.5f, 0.6f, 0.7f}, {0.9f, 0.8f, 0.3f}}}},
     {"pane", ThinDielectricBsdf{1.5f}},
     {"tinted_pane", ThinDielectricBsdf{1.5f, {{0.5f, 0.6f, 0.7f}, {0.9f, 0.8f, 0.3f}}}},
-    {"plastic", [] { return CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &smooth_coat()}; }},
-    {"rough_plastic", [] { return CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &rough_coat(), {0.3f, 0.3f}}; }},
+    {"plastic",
+     [] {
+         return CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &smooth_coat()};
+     }},
+    {"rough_plastic",
+     [] {
+         return CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &rough_coat(), {0.3f, 0.3f}};
+     }},
     {"beckmann_plastic",
-     [] { return CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &beckmann_coat(), {0.3f, 0.3f, mitsubas}}; }},
+     [] {
+         return CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &beckmann_coat(), {0.3f, 0.3f, mitsubas}};
+     }},
     {"plastic_of_any_roughness",
-     [] { return CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &any_coat(), {0.2f, 0.2f}, {0.9f, 0.8f, 0.7f}}; }},
-    {"plastic_of_one_hue", [] { return CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &smooth_coat(), {}, {1, 1, 1}, false}; }},
-    {"plastic_with_grooves", [] { return CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &grooved_coat(), {0.1f, 0.5f}}; }},
+     [] {
+         return CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &any_coat(), {0.2f, 0.2f}, {0.9f, 0.8f, 0.7f}};
+     }},
+    {"plastic_of_one_hue",
+     [] {
+         return CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &smooth_coat(), {}, {1, 1, 1}, false};
+     }},
+    {"plastic_with_grooves",
+     [] {
+         return CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &grooved_coat(), {0.1f, 0.5f}};
+     }},
     {"lacquered_mirror", [] { return lacquered(smooth_coat(), mirror_below(), {}); }},
-    {"lacquered_metal", [] { return lacquered(smooth_coat(), metal_below(), {0.2f, 0.2f}); }},
-    {"matt_lacquered_metal", [] { return lacquered(rough_coat(), grooves_below(), {0.2f, 0.4f}, {0.3f, 0.3f}); }},
+    {"lacquered_metal",
+     [] {
+         return lacquered(smooth_coat(), metal_below(), {0.2f, 0.2f});
+     }},
+    {"matt_lacquered_metal",
+     [] {
+         return lacquered(rough_coat(), grooves_below(), {0.2f, 0.4f}, {0.3f, 0.3f});
+     }},
     {"lacquered_metal_of_any_roughness",
-     [] { return lacquered(any_coat(), any_below(), {0.1f, 0.1f}, {0.25f, 0.25f}); }},
+     [] {
+         return lacquered(any_coat(), any_below(), {0.1f, 0.1f}, {0.25f, 0.25f});
+     }},
     {"principled_plastic", principled(0, 0, {0.25f, 0.25f})},
     {"principled_smooth_plastic", principled(0, 0, {})},
     {"principled_metal", principled(1, 0, {0.15f, 0.4f})},
@@ -166,9 +221,33 @@ const std::vector<Case> cases{
     {"velvet", velvet()},
     {"everything", everything(0.1f)},
     {"everything_smoothly_coated", everything(0)},
+    {"grooved_metal", grooved(principled(1, 0, {0.5f, 0.1f}))},
+    {"grooved_plastic", grooved(principled(0, 0, {1, 0.04f}))},
+    {"grooved_rough_glass", grooved(principled(0, 1, {0.4f, 0.15f}, false))},
+    {"filmed_mirror", filmed(principled(1, 0, {}), 1, 300)},
+    {"filmed_metal", filmed(principled(1, 0, {0.3f, 0.3f}), 0.7f, 550)},
+    {"filmed_plastic", filmed(principled(0, 0, {0.25f, 0.25f}), 1, 400)},
+    {"filmed_smooth_plastic", filmed(principled(0, 0, {}), 1, 250)},
+    {"filmed_glass", filmed(principled(0, 1, {}, false), 1, 350)},
+    {"filmed_rough_glass", filmed(principled(0, 1, {0.3f, 0.3f}, false), 0.8f, 350)},
+    {"soap_bubble", filmed(principled(0, 1, {}), 1, 200)},
+    {"dispersing_glass", dispersed({})},
+    {"dispersing_rough_glass", dispersed({0.3f, 0.3f})},
+    {"leaf", leaf(principled(0, 0, {0.3f, 0.3f}), 0.6f)},
+    {"smooth_leaf", leaf(principled(0.2f, 0, {}), 1)},
+    {"translucent_solid", leaf(principled(0, 0, {0.4f, 0.4f}, false), 0.5f)},
+    {"coated_leaf", leaf(everything(0.1f), 0)},
+    {"leaf_with_a_window", leaf(principled(0, 0.4f, {0.3f, 0.3f}), 0.5f)},
+    {"coat_of_another_normal", tilted(principled(0, 0, {0.4f, 0.4f}), 0.15f)},
+    {"smooth_coat_of_another_normal", tilted(grooved(principled(1, 0, {0.4f, 0.2f})), 0)},
+    {"all_of_it", tilted(grooved(filmed(leaf(principled(0.3f, 0.2f, {0.5f, 0.2f}), 0.5f), 0.6f, 450)), 0.2f)},
     {"mixture", DiffuseBsdf{{0.8f, 0.5f, 0.2f}}, ConductorBsdf{copper.eta, copper.k, {0.3f, 0.3f}}},
     {"mixture_with_a_mirror", RoughDiffuseBsdf{{0.8f, 0.5f, 0.2f}, 0.4f}, ConductorBsdf{copper.eta, copper.k, {}}},
-    {"mixture_with_nothing", [] { return CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &smooth_coat()}; }, ThinDielectricBsdf{1}},
+    {"mixture_with_nothing",
+     [] {
+         return CoatedDiffuseBsdf{{0.8f, 0.5f, 0.2f}, &smooth_coat()};
+     },
+     ThinDielectricBsdf{1}},
 };
 
 class EveryModel : public testing::TestWithParam<Case> {
@@ -209,13 +288,14 @@ std::optional<BsdfSample> draw(const Bsdf& bsdf, Vec3 outgoing, std::uint32_t i,
 
 TEST_P(EveryModel, NeverGivesMoreThanItGot) {
     for (const Vec3 o : outgoing()) {
-        double sum = 0;
+        double red = 0, green = 0, blue = 0;
         for (std::uint32_t i = 0; i < tries; ++i)
             if (const auto s = draw(bsdf, o, i)) {
                 ASSERT_TRUE(finite(s->weight) && finite(s->incoming) && s->pdf >= 0);
-                sum += max_component(s->weight) * s->eta * s->eta;
+                const float squeezed = s->eta * s->eta;
+                red += s->weight.r * squeezed, green += s->weight.g * squeezed, blue += s->weight.b * squeezed;
             }
-        EXPECT_LE(sum / tries, 1.002);
+        EXPECT_LE(std::max({red, green, blue}) / tries, 1.002);
     }
 }
 
@@ -291,6 +371,8 @@ TEST_P(EveryModel, PassesTheChiSquareTest) {
 
 TEST_P(EveryModel, IsReciprocal) {
     const Bsdf::Model model = GetParam().model.make();
+    if (const auto* many = std::get_if<PrincipledBsdf>(&model); many && many->coat_up.x != 0)
+        GTEST_SKIP() << "seen against the surface's normal, no other normal's reflection is";
     for (std::uint32_t k = 0; k < 2000; ++k) {
         Samples samples(5, k);
         const Vec3 a = sphere(samples.next_2d()), b = sphere(samples.next_2d());
@@ -300,7 +382,8 @@ TEST_P(EveryModel, IsReciprocal) {
         const auto scale = [&](Vec3 w) {
             const auto* glass = std::get_if<DielectricBsdf>(&model);
             const auto* many = std::get_if<PrincipledBsdf>(&model);
-            const float eta = glass ? glass->eta : many && !many->thin ? many->eta : 1;
+            const bool solid = many && !many->thin && many->transmission > 0;
+            const float eta = glass ? glass->eta : solid ? many->eta - many->dispersion : 1;  // of red
             return dot(w, frame.z) < 0 ? eta * eta : 1.0f;
         };
         const float there = bsdf.evaluate(a, b, lobe::all).r / cos_b / scale(a);
