@@ -26,7 +26,8 @@ void check_mesh(const Shape& shape, const Mesh& mesh) {
     for (const auto& [a, b, c] : mesh.triangles) last = std::max({last, a, b, c});
     if (!mesh.triangles.empty() && last >= vertices) throw wrong(shape, "a triangle names a vertex that isn't there");
     const auto fits = [&](std::size_t count) { return count == 0 || count == vertices; };
-    if (!fits(mesh.normals.size()) || !fits(mesh.uvs.size()) || !fits(mesh.second_uvs.size()) || !fits(mesh.colours.size()))
+    if (!fits(mesh.normals.size()) || !fits(mesh.uvs.size()) || !fits(mesh.second_uvs.size()) ||
+        !fits(mesh.colours.size()))
         throw wrong(shape, "normals, texture coordinates or colours don't match the vertices");
 }
 

@@ -4,6 +4,8 @@
 #include "core/readers/mitsuba/serialized.hpp"
 #include "core/readers/read_scene.hpp"
 #include "tests/fuzz/targets.hpp"
+#include "tests/support/gltf_text.hpp"
+#include "tests/support/packed_meshes.hpp"
 #include "tests/support/scene_text.hpp"
 
 namespace lightnet::fuzz {
@@ -62,6 +64,44 @@ void read_gltf(std::span<const std::byte> bytes) {
             {{"p.hdr", dot}, {"b.bin", std::string(80, '\1')}}, use);
 }
 
+/// Morph targets, a skin, a hidden node, variants, two sets of texture coordinates, and all that materials can be.
+std::string posed_seed() {
+    test::GltfText text = test::triangle_text();
+    text.vectors("VEC2", {0, 0, 1, 0, 0, 1});
+    text.accessor<std::uint8_t>("VEC4", 5121, std::vector<std::uint8_t>(12), 3);
+    text.vectors("VEC4", {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
+    text.vectors("MAT4", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
+    return text.file(R"("nodes":[{"mesh":0,"skin":0,"weights":[0.5,1]},{"translation":[0,0,1],"children":[2]},
+{"mesh":0,"extensions":{"KHR_node_visibility":{"visible":false}}}],"skins":[{"joints":[1],"inverseBindMatrices":4}],
+"extensions":{"KHR_materials_variants":{"variants":[{"name":"a"}]}},"images":[{"uri":"p.hdr"}],"textures":[{"source":0}],
+"meshes":[{"weights":[1,0],"primitives":[{"material":0,"attributes":{"POSITION":0,"TEXCOORD_0":1,"TEXCOORD_1":1,"JOINTS_0":2,"WEIGHTS_0":3},
+"targets":[{"POSITION":0},{"POSITION":0,"TEXCOORD_0":1}],"extensions":{"KHR_materials_variants":{"mappings":[{"material":0,"variants":[0]}]}}}]}],
+"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0,"texCoord":1}},"normalTexture":{"index":0},"extensions":{
+"KHR_materials_clearcoat":{"clearcoatFactor":1,"clearcoatNormalTexture":{"index":0}},"KHR_materials_anisotropy":{"anisotropyStrength":1,
+"anisotropyTexture":{"index":0}},"KHR_materials_iridescence":{"iridescenceFactor":1,"iridescenceThicknessTexture":{"index":0}},
+"KHR_materials_transmission":{"transmissionFactor":0.5},"KHR_materials_volume":{"thicknessFactor":1},"KHR_materials_dispersion":{"dispersion":5},
+"KHR_materials_diffuse_transmission":{"diffuseTransmissionFactor":0.5}}}],)");
+}
+
+/// One mesh of Draco's, one of meshopt's.
+std::string packed_seed() {
+    test::GltfText text;
+    const auto packed = text.view(test::packed_by_draco(4, true));
+    text.empty_accessor("VEC3", 5126, 10);
+    text.empty_accessor("VEC4", 5121, 10, R"(,"normalized":true)");
+    const auto view = [&](const test::PackedView& made) {
+        const auto at = text.put(made.bytes);
+        return text.view(made.json(at), nullptr);
+    };
+    text.accessor("VEC3", 5126, view(test::packed_corners()), 4);
+    text.accessor("SCALAR", 5123, view(test::packed_order()), 6);
+    return text.file(
+        R"("nodes":[{"mesh":0},{"mesh":1}],"meshes":[{"primitives":[{"attributes":{"POSITION":0,"COLOR_0":1},
+"extensions":{"KHR_draco_mesh_compression":{"bufferView":)" +
+        std::to_string(packed) + R"(,"attributes":{"POSITION":0,"COLOR_0":1}}}}]},
+{"primitives":[{"attributes":{"POSITION":2},"indices":3}]}],)");
+}
+
 std::vector<std::string> gltf_seeds() {
     const std::string json =
         R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1]}],"nodes":[{"mesh":0,"children":[2]},{"mesh":0,
@@ -74,7 +114,7 @@ std::vector<std::string> gltf_seeds() {
 "bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":6}],"buffers":[{"byteLength":42)";
     const std::string binary = std::string(36, '\1') + std::string("\0\1\2\0\1\2", 6);
     return {
-        test::glb(json + "}]}", binary), json + R"(,"uri":"b.bin"}]})",
+        posed_seed(), packed_seed(), test::glb(json + "}]}", binary), json + R"(,"uri":"b.bin"}]})",
         R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":36,"uri":"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],"bufferViews":[{"buffer":0,
 "byteLength":36,"byteStride":12}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"nodes":[{"mesh":0}]})"};
 }

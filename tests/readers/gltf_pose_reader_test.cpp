@@ -1,13 +1,12 @@
 // glTF at rest: morph targets, skins, hidden nodes, and meshes that come packed.
-#include <draco/compression/encode.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <meshoptimizer.h>
 
 #include <cmath>
 
 #include "core/scene/textures/look_up.hpp"
 #include "tests/support/gltf_text.hpp"
+#include "tests/support/packed_meshes.hpp"
 
 namespace lightnet::test::gltf_pose_reader_test {
 namespace {
@@ -148,33 +147,6 @@ TEST(GltfVisibility, HidesMeshesAndLightsButNotCameras) {
     EXPECT_TRUE(scene.camera_given);
 }
 
-/// A strip of quads, packed by Draco; ids 0 and 1 are positions and colours.
-std::string packed_by_draco(int method, std::uint32_t quads) {
-    draco::Mesh mesh;
-    const std::uint32_t points = 2 * quads + 2;
-    mesh.set_num_points(points);
-    draco::GeometryAttribute position, colour;
-    position.Init(draco::GeometryAttribute::POSITION, nullptr, 3, draco::DT_FLOAT32, false, 12, 0);
-    colour.Init(draco::GeometryAttribute::COLOR, nullptr, 4, draco::DT_UINT8, true, 4, 0);
-    const int positions = mesh.AddAttribute(position, true, points), colours = mesh.AddAttribute(colour, true, points);
-    for (std::uint32_t i = 0; i < points; ++i) {
-        const float p[]{float(i / 2), float(i % 2), 0};
-        const std::uint8_t c[]{255, std::uint8_t(i % 2 ? 255 : 0), 0, 255};
-        mesh.attribute(positions)->SetAttributeValue(draco::AttributeValueIndex(i), p);
-        mesh.attribute(colours)->SetAttributeValue(draco::AttributeValueIndex(i), c);
-    }
-    for (std::uint32_t i = 0; i < quads; ++i) {
-        const auto at = [&](std::uint32_t k) { return draco::PointIndex(2 * i + k); };
-        mesh.AddFace({at(0), at(2), at(1)});
-        mesh.AddFace({at(1), at(2), at(3)});
-    }
-    draco::Encoder encoder;
-    encoder.SetEncodingMethod(method);
-    draco::EncoderBuffer buffer;
-    if (!encoder.EncodeMeshToBuffer(mesh, &buffer).ok()) return "";
-    return {buffer.data(), buffer.size()};
-}
-
 std::string by_draco(GltfText& text, const std::string& bytes, std::size_t points) {
     const auto view = text.view(bytes);
     const auto at = std::to_string(text.empty_accessor("VEC3", 5126, points));
@@ -187,9 +159,9 @@ std::string by_draco(GltfText& text, const std::string& bytes, std::size_t point
 }
 
 TEST(GltfDraco, IsUnpacked) {
-    for (const int method : {draco::MESH_SEQUENTIAL_ENCODING, draco::MESH_EDGEBREAKER_ENCODING}) {
+    for (const bool by_edges : {false, true}) {
         GltfText text;
-        const auto scene = text.read(by_draco(text, packed_by_draco(method, 8), 18));
+        const auto scene = text.read(by_draco(text, packed_by_draco(8, by_edges), 18));
         const Mesh& strip = mesh_of(scene);
         ASSERT_THAT(strip.triangles, SizeIs(16));
         float area = 0;
@@ -203,7 +175,7 @@ TEST(GltfDraco, IsUnpacked) {
 }
 
 TEST(GltfDraco, IsRefusedWhereItIsDamagedOrPromisesTooMuch) {
-    const std::string sound = packed_by_draco(draco::MESH_EDGEBREAKER_ENCODING, 8);
+    const std::string sound = packed_by_draco(8, true);
     const auto error = [](const std::string& bytes) {
         GltfText text;
         const std::string document = by_draco(text, bytes, 18);
@@ -219,36 +191,28 @@ TEST(GltfDraco, IsRefusedWhereItIsDamagedOrPromisesTooMuch) {
 }
 
 TEST(GltfMeshopt, IsUnpacked) {
-    const std::vector<float> corners{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
-    std::string numbers(meshopt_encodeVertexBufferBound(4, 12), '\0');
-    numbers.resize(meshopt_encodeVertexBuffer(reinterpret_cast<unsigned char*>(numbers.data()), numbers.size(),
-                                              corners.data(), 4, 12));
-    const std::vector<std::uint16_t> order{0, 1, 2, 2, 1, 3};
-    std::string indices(meshopt_encodeIndexBufferBound(6, 4), '\0');
-    indices.resize(meshopt_encodeIndexBuffer(reinterpret_cast<unsigned char*>(indices.data()), indices.size(),
-                                             order.data(), order.size()));
-    const auto scene_of = [&](const std::string& packed, const std::string& filter) {
+    const auto file = [](const PackedView& corners, const std::string& more = "") {
         GltfText text;
-        const auto view = [&](const std::string& bytes, const std::string& length, const std::string& more) {
-            const auto at = text.put(bytes);
-            return text.view(R"({"buffer":1,"byteLength":)" + length +
-                                 R"(,"extensions":{"EXT_meshopt_compression":{"buffer":0,"byteOffset":)" +
-                                 std::to_string(at) + R"(,"byteLength":)" + std::to_string(bytes.size()) + more + "}}}",
-                             nullptr);
+        const auto view = [&](const PackedView& packed, const std::string& with) {
+            const std::size_t at = text.put(packed.bytes);
+            return text.view(packed.json(at, with), nullptr);
         };
-        text.accessor("VEC3", 5126, view(packed, "48", R"(,"byteStride":12,"count":4,"mode":"ATTRIBUTES")" + filter),
-                      4);
-        text.accessor("SCALAR", 5123, view(indices, "12", R"(,"byteStride":2,"count":6,"mode":"TRIANGLES")"), 6);
-        std::string file = text.file(R"("extensionsRequired":["EXT_meshopt_compression"],)" +
-                                     mesh(R"("POSITION":0)", R"(,"indices":1)") + nodes(R"({"mesh":0})"));
-        return file;
+        text.accessor("VEC3", 5126, view(corners, more), 4);
+        text.accessor("SCALAR", 5123, view(packed_order(), ""), 6);
+        return text.file(R"("extensionsRequired":["EXT_meshopt_compression"],)" +
+                         mesh(R"("POSITION":0)", R"(,"indices":1)") + nodes(R"({"mesh":0})"));
     };
-    const auto scene = read_as("a.glb", scene_of(numbers, ""));
+    const auto scene = read_as("a.glb", file(packed_corners()));
     EXPECT_EQ(mesh_of(scene).positions[3], (Vec3{1, 1, 0}));
     ASSERT_THAT(mesh_of(scene).triangles, SizeIs(2));
-    EXPECT_THAT(errors_as("a.glb", scene_of(numbers.substr(0, 9), "")), HasSubstr("its bytes can't be unpacked"));
-    EXPECT_THAT(errors_as("a.glb", scene_of(numbers, R"(,"filter":"QUATERNION")")),
+    PackedView damaged = packed_corners();
+    damaged.bytes.resize(9);
+    EXPECT_THAT(errors_as("a.glb", file(damaged)), HasSubstr("its bytes can't be unpacked"));
+    EXPECT_THAT(errors_as("a.glb", file(packed_corners(), R"(,"filter":"QUATERNION")")),
                 HasSubstr("has a filter 'QUATERNION' that does not suit it"));
+    PackedView endless = packed_corners();
+    endless.count = 1'000'000'000;
+    EXPECT_THAT(errors_as("a.glb", file(endless)), HasSubstr("asks for far more than the file holds"));
 }
 
 }  // namespace

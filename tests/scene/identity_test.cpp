@@ -31,7 +31,9 @@ std::vector<Material> all_materials() {
     add(CoatedConductorMaterial{{1, 1, TextureId{1}}, rough(), 1.5f, rough(), {}});
     PrincipledMaterial all;
     all.metallic_texture = all.transmission_texture = all.specular_texture = all.specular_colour_texture =
-        all.sheen_texture = all.sheen_roughness_texture = all.clearcoat_texture = TextureId{1};
+        all.sheen_texture = all.sheen_roughness_texture = all.clearcoat_texture = all.grooves.texture =
+            all.film.share_texture = all.film.thickness_texture = all.translucence.share_texture =
+                all.translucence.colour_texture = all.coat_normal.map = TextureId{1};
     all.roughness = all.clearcoat_roughness = rough();
     add(all);
     add(MixtureMaterial{0, 1, 1});

@@ -61,12 +61,27 @@ inline void add_principled(SceneData& data, TextureId paint) {
     add_one(-1, [&](PrincipledMaterial& m) { m.base_colour = pink, m.sheen = 1; });
     add_one(-1.5f, [&](PrincipledMaterial& m) { m.base_colour = pink, m.transmission = 1; });
     add_one(-2, [&](PrincipledMaterial& m) { m.base_colour = pink, m.metallic = 1, m.roughness = {0, 0}; });
+    add_one(-2.5f, [&](PrincipledMaterial& m) { m.base_colour = pink, m.film.share = 1; });
+    add_one(-3, [&](PrincipledMaterial& m) { m.base_colour = paint, m.translucence.share = 0.5f; });
+    add_one(3, [&](PrincipledMaterial& m) { m.base_colour = pink, m.metallic = 1, m.grooves.strength = 0.8f; });
 }
 
 inline TextureId squares(SceneData& data, Rgb one, Rgb other) {
     const auto first = colour(data, one), second = colour(data, other);
     data.textures.emplace_back().pattern = CheckerTexture{first, second, {{7, 5}}};
     return TextureId(data.textures.size() - 1);
+}
+
+// Laid on second texture coordinates.
+inline void add_second(SceneData& data, TextureId pattern) {
+    data.textures.emplace_back().pattern = SecondUvTexture{pattern};
+    Mesh mesh = waves();
+    for (Vec3& p : mesh.positions) {
+        mesh.uvs.push_back({0.5f, 0.5f});
+        mesh.second_uvs.push_back({p.x / 4, p.y / 3});
+        p.x -= 3.5f;
+    }
+    add(data, mesh, material(data, DiffuseMaterial{TextureId(data.textures.size() - 1)}));
 }
 
 // With normal and bump maps, some of which would turn normals away from their surfaces.
@@ -163,6 +178,7 @@ inline SceneData everything() {
     add(data, raised(-2.5f), material(data, ConductorMaterial{{eta, k}, by_beckmann, paint}));
     add_principled(data, paint);
     add_bumpy(data, grey, copper, steel);
+    add_second(data, squares(data, {0.7f, 0.1f, 0.3f}, {0.2f, 0.8f, 0.4f}));
     const TextureId veined = solid(data);
     const auto stone = material(data, DiffuseMaterial{veined});
     Mesh rough = raised(3);

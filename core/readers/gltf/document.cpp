@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/readers/gltf/meshopt.hpp"
+#include "core/readers/gltf/unread.hpp"
 
 namespace lightnet::gltf {
 namespace {
@@ -79,6 +80,11 @@ Document::Document(Assets& assets, const std::string& path) : assets_(assets), p
                                                    : fmt::format("asset.version is '{}': only glTF 2.0 is read",
                                                                  version.substr(0, 16)));
     buffers_.resize(root()["buffers"].size());
+}
+
+void Document::warn_of_unread() const {
+    (void)root()["extensions"];  // its members are looked at
+    gltf::warn_of_unread(json_, seen_, {path_, 0}, assets_.report());
 }
 
 /// The JSON of a .glb, whose binary part is kept; else the whole file.

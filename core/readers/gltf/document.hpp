@@ -29,7 +29,9 @@ public:
     Document(const Document&) = delete;
     Document& operator=(const Document&) = delete;
 
-    At root() const { return {json_, path_, assets_.report()}; }
+    At root() const { return {json_, path_, assets_.report(), &seen_}; }
+    /// Of what nobody has asked for; when all is read.
+    void warn_of_unread() const;
     const std::string& path() const { return path_; }
 
     /// The values of an accessor; integers that are normalised lie in 0 … 1 or -1 … 1. None: reported.
@@ -67,6 +69,7 @@ private:
     Bytes bytes_;
     std::span<const std::byte> binary_;  // of a .glb
     Json json_;
+    mutable Seen seen_;
     std::vector<std::optional<Bytes>> buffers_;                              // none: not loaded yet; null: reported
     std::map<std::size_t, std::optional<std::vector<std::byte>>> unpacked_;  // views; none: reported
     std::uint64_t spent_ = 0, loaded_ = 0;                                   // elements, bytes

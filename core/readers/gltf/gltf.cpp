@@ -79,6 +79,7 @@ SceneData read(Files& files, const std::string& path, const SceneConstants& cons
         report.check();  // what is packed in unknown ways would only give more errors
         check_occlusion(document.root());
         add_nodes(document, assets, variant);
+        document.warn_of_unread();
         if (scene.shapes.empty() && report.good()) report.error({path, 0}, "there are no triangles");
         if (std::ranges::any_of(scene.shapes, [](const Shape& shape) { return shape.emission.has_value(); }) &&
             scene.environments.empty() && scene.lights.empty())

@@ -11,6 +11,7 @@ At At::operator[](std::string_view member) const {
     at.path_ = path_.empty() ? std::string(member) : fmt::format("{}.{}", path_, member);
     at.json_ = nullptr;
     if (json_ && json_->has(member)) at.json_ = &json_->at(member);
+    if (at.json_ && seen_) seen_->insert(at.json_);
     return at;
 }
 
@@ -18,6 +19,7 @@ At At::operator[](std::size_t item) const {
     At at = *this;
     at.path_ = fmt::format("{}[{}]", path_, item);
     at.json_ = item < size() ? &json_->list()[item] : nullptr;
+    if (at.json_ && seen_ && at.json_->is_object()) seen_->insert(at.json_);
     return at;
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_set>
 #include <vector>
 
 #include "core/base/json.hpp"
@@ -18,11 +19,16 @@ namespace lightnet::gltf {
 /// What a document may hold: scenes are large.
 inline constexpr JsonLimits document_limits{std::numeric_limits<std::size_t>::max(), 20'000'000, 64};
 
+/// Values that somebody asked for: members of objects, and objects in lists.
+using Seen = std::unordered_set<const Json*>;
+
 /// A place in a document, there or not. What has the wrong type is reported with its path ("nodes[3].mesh"), and the
 /// fallback taken. The document and the report must outlive it.
 class At {
 public:
-    At(const Json& root, std::string file, Report& report) : json_(&root), file_(std::move(file)), report_(&report) {}
+    /// `seen`: learns what is asked for; null: nobody wants to know.
+    At(const Json& root, std::string file, Report& report, Seen* seen = nullptr)
+        : json_(&root), file_(std::move(file)), report_(&report), seen_(seen) {}
 
     explicit operator bool() const { return json_ != nullptr; }
     At operator[](std::string_view member) const;
@@ -63,6 +69,7 @@ private:
     const Json* json_ = nullptr;
     std::string path_, file_;
     Report* report_ = nullptr;
+    Seen* seen_ = nullptr;
 };
 
 }  // namespace lightnet::gltf

@@ -40,8 +40,8 @@ UvTransform transform_of(const At& at) {
 
 /// Which texture coordinates an image lies on.
 std::size_t set_of(const At& info) {
-    const At moved = info["extensions"]["KHR_texture_transform"]["texCoord"];
-    return (moved ? moved : info["texCoord"]).whole(0);
+    const At moved = info["extensions"]["KHR_texture_transform"]["texCoord"], own = info["texCoord"];
+    return (moved ? moved : own).whole(0);
 }
 
 Rgb inverse_of_attenuation(Rgb colour, float distance) {
@@ -53,10 +53,10 @@ Rgb inverse_of_attenuation(Rgb colour, float distance) {
 
 Materials::Materials(Document& document, Assets& assets, const std::string& variant)
     : document_(document), assets_(assets) {
-    if (variant.empty()) return;
     const At list = document.root()["extensions"]["KHR_materials_variants"]["variants"];
     std::vector<std::string> names;
     for (std::size_t i = 0; i < list.size(); ++i) names.push_back(list[i]["name"].text(""));
+    if (variant.empty()) return;
     const auto found = std::ranges::find(names, variant);
     if (found != names.end())
         variant_ = static_cast<std::size_t>(found - names.begin());
@@ -70,10 +70,10 @@ Materials::Materials(Document& document, Assets& assets, const std::string& vari
 /// Of the material of a primitive in the chosen variant.
 At Materials::index_of(const At& primitive) const {
     const At mappings = primitive["extensions"]["KHR_materials_variants"]["mappings"];
-    for (std::size_t i = 0; variant_ && i < mappings.size(); ++i) {
-        const At variants = mappings[i]["variants"];
+    for (std::size_t i = 0; i < mappings.size(); ++i) {
+        const At variants = mappings[i]["variants"], material = mappings[i]["material"];
         for (std::size_t j = 0; j < variants.size(); ++j)
-            if (variants[j].whole() == *variant_) return mappings[i]["material"];
+            if (variant_ && variants[j].whole() == *variant_) return material;
     }
     return primitive["material"];
 }
@@ -87,6 +87,7 @@ const Surface& Materials::of(const At& primitive, bool painted) {
     const At at = list[which.value_or(no_material)];
     lay(at);
     Surface surface = make(at, painted);
+    surface.turned = turned_;
     surface.uv_set = uv_set_, surface.second_uv_set = second_uv_set_;
     return made_.emplace(key, surface).first->second;
 }
@@ -140,6 +141,7 @@ void Materials::lay(const At& material) {
     for (const At& map : {material["normalTexture"], more["KHR_materials_clearcoat"]["clearcoatNormalTexture"],
                           more["KHR_materials_anisotropy"]["anisotropyTexture"]})
         if (map && !uv_set_) uv_set_ = set_of(map);
+    turned_ = uv_set_.has_value();
 }
 
 bool Materials::is_on_second(const At& info) {
@@ -296,6 +298,7 @@ Surface Materials::make(const At& at, bool painted) {
     emission(at, surface);
     if (more["KHR_materials_unlit"]) {
         at.warn("KHR_materials_unlit is approximated by a surface that shines in its colour");
+        (void)at["normalTexture"]["index"], (void)at["normalTexture"]["scale"];  // it has no shades
         surface.emission = AreaEmission{{1, 1, 1}, true, model.base_colour};
         material.model = DiffuseMaterial{assets_.grey(0)};
     } else {

@@ -15,6 +15,7 @@ namespace lightnet::gltf {
 struct Surface {
     MaterialId material = 0;
     std::optional<AreaEmission> emission;
+    bool turned = false;  // it is not alike all around its normal
     // the texture coordinates that its images lie on; none: it has none
     std::optional<std::size_t> uv_set{}, second_uv_set{};
 };
@@ -54,6 +55,7 @@ private:
     Assets& assets_;
     std::map<std::pair<std::size_t, bool>, Surface> made_;
     std::optional<std::size_t> variant_;
+    bool turned_ = false;
     std::optional<std::size_t> uv_set_, second_uv_set_;  // of the material that is being made
 };
 

@@ -206,6 +206,8 @@ std::vector<Primitive> read_mesh(const At& at, const Moved& moved, Document& doc
         const Surface& surface = materials.of(primitive, !mesh->colours.empty());
         mesh->uvs = reader.uvs(surface.uv_set.value_or(0));
         if (surface.second_uv_set) mesh->second_uvs = reader.uvs(*surface.second_uv_set);
+        if (surface.turned && primitive["attributes"]["TANGENT"])
+            primitive.warn("tangents are left out: normal maps and grooves lie along the texture coordinates");
         if ((surface.uv_set && mesh->uvs.empty()) || (surface.second_uv_set && mesh->second_uvs.empty()))
             primitive.warn("a mesh lacks the texture coordinates that its material asks for: its images lie anyhow");
         if (!mesh->normals.empty()) order_by_normals(*mesh);  // without any, glTF wants flat ones

@@ -277,6 +277,7 @@ private:
         const At at = list[*which];
         const auto colour = at["color"].numbers<3>({1, 1, 1});
         const Rgb strength = Rgb{float(colour[0]), float(colour[1]), float(colour[2])} * at["intensity"].real(1);
+        if (at["range"]) at.warn("ranges of lights are left out: their light goes on beyond");
         const Vec3 position = transform_point(to_world, {0, 0, 0}), ahead = axis_of(to_world, {0, 0, -1});
         if (!in_reach(position)) return index.error("stands out of reach");
         const std::string type = at["type"].text("");

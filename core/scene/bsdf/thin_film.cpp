@@ -104,7 +104,8 @@ float film_ceiling(const ThinFilm& film, Rgb base) {
     constexpr int steps = 32;
     float most = 0;
     for (int i = 1; i <= steps; ++i) {
-        const float cosine = float(i) / steps, rest = 1 - cosine, grazing = rest * rest * rest * rest * rest;
+        const float root = float(i) / steps, cosine = root * root, rest = 1 - cosine,
+                    grazing = rest * rest * rest * rest * rest;
         most = std::max(most, (max_component(film_reflectance(film, base, cosine)) - grazing) / (1 - grazing));
     }
     return std::min(1.0f, most + 0.005f);  // for what lies between the steps

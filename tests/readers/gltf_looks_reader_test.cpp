@@ -1,0 +1,97 @@
+// glTF's materials that go beyond metal and roughness.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/gltf_text.hpp"
+
+namespace lightnet::test::gltf_looks_reader_test {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+const std::string map = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n" + std::string("\x80\x40\x20\x81", 4);
+
+SceneData with(const std::string& extensions) {
+    return read_as("a.glb",
+                   triangle_text().file(
+                       R"("nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],
+        "images":[{"uri":"p.hdr"}],"textures":[{"source":0}],"materials":[{"extensions":{)" +
+                       extensions + "}}],"),
+                   {{"p.hdr", map}});
+}
+float red_of(const SceneData& scene, std::optional<TextureId> texture) {
+    return look_up(scene.textures, texture.value(), {}).r;
+}
+
+TEST(GltfAnisotropy, IsReadWithItsTurnAndTexture) {
+    const auto scene = with(
+        R"("KHR_materials_anisotropy":{"anisotropyStrength":0.6,"anisotropyRotation":0.5,"anisotropyTexture":{"index":0}})");
+    const auto& grooves = model_of<PrincipledMaterial>(scene).grooves;
+    EXPECT_EQ(grooves.strength, 0.6f);
+    EXPECT_FLOAT_EQ(grooves.along.x, std::cos(0.5f));
+    EXPECT_FLOAT_EQ(grooves.along.y, std::sin(0.5f));
+    EXPECT_FLOAT_EQ(look_up(scene.textures, grooves.texture.value(), {}).b, 0.25f);
+}
+
+TEST(GltfIridescence, IsReadWithItsThickness) {
+    const auto scene = with(
+        R"("KHR_materials_iridescence":{"iridescenceFactor":0.5,"iridescenceIor":1.8,"iridescenceThicknessMinimum":200,
+        "iridescenceThicknessMaximum":600,"iridescenceTexture":{"index":0},"iridescenceThicknessTexture":{"index":0}})");
+    const auto& film = model_of<PrincipledMaterial>(scene).film;
+    EXPECT_EQ(film.share, 0.5f);
+    EXPECT_EQ(film.eta, 1.8f);
+    EXPECT_EQ(film.least, 200);
+    EXPECT_EQ(film.most, 600);
+    EXPECT_FLOAT_EQ(red_of(scene, film.share_texture), 1) << "its red";
+    EXPECT_FLOAT_EQ(red_of(scene, film.thickness_texture), 0.5f) << "its green";
+    EXPECT_EQ(model_of<PrincipledMaterial>(with(R"("KHR_materials_iridescence":{"iridescenceFactor":1})")).film.most,
+              400);
+}
+
+TEST(GltfDispersion, SpreadsTheIndexAsAbbesNumberSays) {
+    const auto glass = [](const std::string& thickness) {
+        return with(R"("KHR_materials_ior":{"ior":1.8},"KHR_materials_transmission":{"transmissionFactor":1},
+            "KHR_materials_dispersion":{"dispersion":5},"KHR_materials_volume":{"thicknessFactor":)" +
+                    thickness + "}");
+    };
+    const auto solid = glass("1");
+    EXPECT_FLOAT_EQ(model_of<PrincipledMaterial>(solid).dispersion, 0.8f * 0.025f * 5);
+    EXPECT_THAT(warnings_of(solid), HasSubstr("KHR_materials_dispersion is approximated by three indices"));
+    EXPECT_THAT(warnings_of(glass("0")), Not(HasSubstr("approximated"))) << "panes bend nothing";
+}
+
+TEST(GltfDiffuseTransmission, IsReadWithItsColour) {
+    const auto scene = with(R"("KHR_materials_diffuse_transmission":{"diffuseTransmissionFactor":0.25,
+        "diffuseTransmissionColorFactor":[1,0.5,0],"diffuseTransmissionColorTexture":{"index":0},"diffuseTransmissionTexture":{"index":0}})");
+    const auto& leaf = model_of<PrincipledMaterial>(scene).translucence;
+    EXPECT_EQ(leaf.share, 0.25f);
+    EXPECT_EQ(leaf.colour, (Rgb{1, 0.5f, 0}));
+    EXPECT_EQ(red_of(scene, leaf.share_texture), 1) << "an image without alpha";
+    EXPECT_TRUE(leaf.colour_texture);
+    EXPECT_EQ(model_of<PrincipledMaterial>(scene).transparency(), Transparency::sheet);
+}
+
+TEST(GltfClearcoat, HasANormalMapOfItsOwn) {
+    const auto scene =
+        with(R"("KHR_materials_clearcoat":{"clearcoatFactor":1,"clearcoatNormalTexture":{"index":0,"scale":0.5}})");
+    const auto& coat = model_of<PrincipledMaterial>(scene).coat_normal;
+    EXPECT_TRUE(coat.own);
+    EXPECT_EQ(coat.scale, 0.5f);
+    EXPECT_FLOAT_EQ(red_of(scene, coat.map), 1);
+    EXPECT_THAT(warnings_of(scene), Not(HasSubstr("clear coat")));
+}
+
+TEST(GltfExtensions, OfMaterialsMayBeRequired) {
+    for (const char* name : {"KHR_materials_anisotropy", "KHR_materials_iridescence", "KHR_materials_dispersion",
+                             "KHR_materials_diffuse_transmission", "KHR_materials_variants", "KHR_mesh_quantization"})
+        EXPECT_EQ(triangle_text().errors(
+                      std::string(R"("extensionsRequired":[")") + name + R"("],"extensionsUsed":[")" + name +
+                      R"("],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"),
+                  "");
+}
+
+}  // namespace
+}  // namespace lightnet::test::gltf_looks_reader_test
