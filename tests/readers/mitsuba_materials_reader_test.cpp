@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "core/readers/spectra.hpp"
+#include "core/scene/bsdf/bsdf.hpp"
+#include "core/scene/bsdf/fresnel.hpp"
 #include "core/scene/textures/look_up.hpp"
 #include "tests/support/scene_text.hpp"
 
@@ -13,6 +15,7 @@ namespace {
 
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 // 2 × 2 pixels of Radiance HDR: red, green over blue, white
 const std::string picture = [] {
@@ -221,6 +224,33 @@ TEST(MitsubaConductor, IsAPerfectMirrorUnlessItNamesAMetal) {
     EXPECT_EQ(colour_of(own, model_of<ConductorMaterial>(own).metal.k), (Rgb{1, 1, 1}));
 }
 
+// All of Mitsuba's documentation. Nickel and carbon as Palik has them at 550 nm: |(n - 1 + ik) / (n + 1 + ik)|².
+TEST(MitsubaConductor, KnowsAllOfMitsubasNames) {
+    for (const char* name :
+         {"a-C",        "Ag",       "Al",         "AlAs",     "AlAs_palik", "AlSb",     "AlSb_palik", "Au",
+          "Be",         "Be_palik", "Cr",         "CsI",      "CsI_palik",  "Cu",       "Cu_palik",   "Cu2O",
+          "Cu2O_palik", "CuO",      "CuO_palik",  "d-C",      "d-C_palik",  "Hg",       "Hg_palik",   "HgTe",
+          "HgTe_palik", "Ir",       "Ir_palik",   "K",        "K_palik",    "Li",       "Li_palik",   "MgO",
+          "MgO_palik",  "Mo",       "Mo_palik",   "Na_palik", "Nb",         "Nb_palik", "Ni_palik",   "Rh",
+          "Rh_palik",   "Se",       "Se_palik",   "SiC",      "SiC_palik",  "SnTe",     "SnTe_palik", "Ta",
+          "Ta_palik",   "Te",       "Te_palik",   "ThF4",     "ThF4_palik", "TiC",      "TiC_palik",  "TiN",
+          "TiN_palik",  "TiO2",     "TiO2_palik", "VC",       "VC_palik",   "V_palik",  "VN",         "VN_palik",
+          "W"}) {
+        const auto scene = read_mitsuba_bsdf(std::string("<bsdf type='conductor'><string name='material' value='") +
+                                             name + "'/></bsdf>");
+        EXPECT_THAT(warnings_of(scene), Not(HasSubstr("metal"))) << name;
+        EXPECT_GT(colour_of(scene, model_of<ConductorMaterial>(scene).metal.eta).g, 0) << name;
+    }
+    const auto green = [](const char* name) {
+        const auto scene = read_mitsuba_bsdf(std::string("<bsdf type='conductor'><string name='material' value='") +
+                                             name + "'/></bsdf>");
+        const auto& metal = model_of<ConductorMaterial>(scene).metal;
+        return fresnel_conductor(1, colour_of(scene, metal.eta), colour_of(scene, metal.k)).g;
+    };
+    EXPECT_NEAR(green("Ni_palik"), 0.608f, 0.01f);
+    EXPECT_NEAR(green("a-C"), 0.212f, 0.01f);
+}
+
 TEST(MitsubaConductor, IsGreyRatherThanOfAWrongColour) {
     const auto scene = read_mitsuba_bsdf("<bsdf type='conductor'><string name='material' value='Unobtainium'/></bsdf>");
     EXPECT_EQ(colour_of(scene, model_of<ConductorMaterial>(scene).metal.reflectance.value()), (Rgb{0.5f, 0.5f, 0.5f}));
@@ -238,8 +268,7 @@ TEST(MitsubaTextures, ForNumbersAreLeftOutAndNamed) {
                                      {"principled", "eta"}}) {
         const auto scene = read_mitsuba_bsdf(std::string("<bsdf type='") + type + "'><texture name='" + name + "'" +
                                              checks + "</bsdf>");
-        EXPECT_THAT(warnings_of(scene), HasSubstr(std::string("the texture of '") + name + "' of bsdf '" + type))
-            << type;
+        EXPECT_THAT(warnings_of(scene), HasSubstr(std::string("'") + name + "'")) << type;
     }
 }
 
@@ -248,15 +277,107 @@ TEST(MitsubaPrincipled, TakesBurleysParameters) {
         "<bsdf type='principled'><rgb name='base_color' value='1 .5 .25'/><float name='roughness' value='.4'/>"
         "<float name='metallic' value='.7'/><float name='specular' value='.5'/><float name='clearcoat' value='1'/>"
         "<float name='clearcoat_gloss' value='1'/><float name='spec_trans' value='0'/></bsdf>");
-    const auto& model = model_of<PrincipledMaterial>(scene);
-    EXPECT_EQ(model.metallic, 0.7f);
-    EXPECT_NEAR(model.eta, 1.5f, 1e-5f);
+    const auto& model = model_of<BurleyMaterial>(scene);
+    EXPECT_EQ(colour_of(scene, model.metallic).r, 0.7f);
+    EXPECT_NEAR(colour_of(scene, model.eta).r, 1.5f, 1e-5f);
     EXPECT_EQ(model.roughness.u, 0.4f);
     EXPECT_EQ(model.roughness.means, Roughness::Means::square);
-    EXPECT_NEAR(model.clearcoat, 0.25f, 1e-6f);
-    EXPECT_NEAR(model.clearcoat_roughness.u, 0.001f, 1e-6f);
+    EXPECT_EQ(colour_of(scene, model.coat).r, 1);
+    EXPECT_EQ(colour_of(scene, model.gloss).r, 1);
     EXPECT_TRUE(material_of(scene).one_sided);
     EXPECT_FALSE(model.thin);
+}
+
+Bsdf principled(const std::string& type, const std::string& parameters) {
+    const auto scene = read_mitsuba_bsdf("<bsdf type='" + type + "'>" + parameters + "</bsdf>");
+    const Frame frame = Frame::around({0, 0, 1});
+    return {frame, frame.z, model_of<BurleyMaterial>(scene).at({scene.textures, {}, {}})};
+}
+
+std::string number(const char* name, float value) {
+    return std::string("<float name='") + name + "' value='" + std::to_string(value) + "'/>";
+}
+
+/// Share of even light that is reflected to a viewer at an angle whose cosine is given.
+double albedo(const Bsdf& bsdf, float cosine) {
+    const Vec3 out{std::sqrt(1 - cosine * cosine), 0, cosine};
+    double sum = 0;
+    constexpr int rows = 256, columns = 512;
+    for (int i = 0; i < rows; ++i)
+        for (int j = 0; j < columns; ++j) {
+            const float z = (float(i) + 0.5f) / rows, turn = 6.2831853f * (float(j) + 0.5f) / columns,
+                        sine = std::sqrt(1 - z * z);
+            sum += double(
+                bsdf.evaluate(out, {sine * std::cos(turn), sine * std::sin(turn), z}, lobe::diffuse | lobe::glossy).g);
+        }
+    return sum * 2 * 3.14159265358979 / (rows * columns);
+}
+
+const std::string black = "<rgb name='base_color' value='0'/>";
+constexpr float slanted = 0.4472136f;  // cosine of 63.4°
+
+// The reflected shares of Disney's sheen, by quadrature of sheen × (1 - cos d)⁵ × cos.
+TEST(MitsubaPrincipled, HasDisneysSheen) {
+    const auto sheen = principled("principled", black + number("specular", 0) + number("sheen", 1));
+    EXPECT_NEAR(albedo(sheen, slanted), 0.0195, 0.0003);
+    EXPECT_NEAR(albedo(sheen, 1), 0.00026, 0.00003);
+    const auto thin = principled("principledthin", black + number("sheen", 1) + number("diff_trans", 1));
+    EXPECT_NEAR(albedo(thin, slanted), 0.0195 / 2, 0.0003);
+}
+
+TEST(MitsubaPrincipled, ReflectsNothingWithoutSpecular) {
+    for (const auto& none : {number("specular", 0), number("eta", 1)})
+        for (const float cosine : {1.0f, slanted, 0.05f}) {
+            EXPECT_EQ(albedo(principled("principled", black + none), cosine), 0);
+        }
+}
+
+// Mitsuba's formulas (3.5, src/bsdfs/principled.cpp) for the light from straight above to a viewer at 60°: the facet
+// lies at 30°, and all of this by hand.
+TEST(MitsubaPrincipled, FollowsMitsubasFormulas) {
+    const Vec3 out{std::sqrt(0.75f), 0, 0.5f}, up{0, 0, 1};
+    const float weight = std::pow(0.5f, 5.0f), d = std::cos(3.14159265f / 6), pi = 3.14159265f;
+    const auto value = [&](const std::string& parameters, const std::string& type = "principled") {
+        return principled(type, parameters).evaluate(out, up, lobe::diffuse | lobe::glossy).g;
+    };
+    const std::string white = "<rgb name='base_color' value='1'/>", flat = number("specular", 0);
+    const float back = 2 * 0.5f * d * d;
+    EXPECT_NEAR(value(white + flat), (1 - weight / 2 + back * weight) / pi, 1e-5f);
+    const float below = 1 + (back / 2 - 1) * weight, subsurface = 1.25f * (below * (1 / 1.5f - 0.5f) + 0.5f);
+    EXPECT_NEAR(value(white + flat + number("flatness", 1)), subsurface / pi, 1e-5f);
+    EXPECT_NEAR(value(white + number("flatness", 1) + number("diff_trans", .5f), "principledthin"),
+                subsurface * 0.75f / pi, 1e-5f);
+    // GTR1 of α = .1 and the masking of α = .25
+    const float a2 = 0.01f, density = (a2 - 1) / (pi * std::log(a2) * (1 + (a2 - 1) * d * d));
+    const float seen = 2 / (1 + std::sqrt(1 + 0.0625f * 3));
+    const float fresnel = 0.04f + 0.96f * std::pow(1 - d, 5.0f);
+    EXPECT_NEAR(value(black + flat + number("clearcoat", 1)), 0.25f * fresnel * density * seen, 1e-5f);
+    // GGX of α = .25, seen from 60° and from above
+    const float alpha2 = 0.0625f, slope = 1 + (alpha2 - 1) * d * d;
+    const float ggx = alpha2 / (pi * slope * slope) * (2 / (1 + std::sqrt(1 + alpha2 * 3))) / (4 * 0.5f);
+    EXPECT_NEAR(value(black + number("specular", 0.5f)), fresnel_dielectric(d, 1.5f) * ggx, 1e-5f);
+    EXPECT_NEAR(value("<rgb name='base_color' value='.5'/>" + number("metallic", 1)),
+                (0.5f + 0.5f * std::pow(1 - d, 5.0f)) * ggx, 1e-5f);
+    const float tinted = 0.04f + 0.96f * std::pow(1 - d, 5.0f);  // of a grey base, whose hue is white
+    EXPECT_NEAR(value("<rgb name='base_color' value='.5'/>" + number("spec_tint", 1)) -
+                    value("<rgb name='base_color' value='.5'/>" + flat),
+                tinted * ggx, 1e-5f);
+}
+
+TEST(MitsubaPrincipled, TakesTexturesForItsNumbers) {
+    const std::string checks = " type='checkerboard'><float name='color0' value='.4'/></texture>";
+    for (const auto& [type, name] : {std::pair{"principled", "metallic"},
+                                     {"principled", "flatness"},
+                                     {"principled", "clearcoat"},
+                                     {"principled", "sheen"},
+                                     {"principled", "spec_tint"},
+                                     {"principledthin", "diff_trans"},
+                                     {"principledthin", "eta"},
+                                     {"principledthin", "spec_trans"}}) {
+        const auto scene = read_mitsuba_bsdf(std::string("<bsdf type='") + type + "'><texture name='" + name + "'" +
+                                             checks + "</bsdf>");
+        EXPECT_THAT(warnings_of(scene), Not(HasSubstr(name))) << type;
+    }
 }
 
 TEST(MitsubaBlend, MixesTwo) {

@@ -39,6 +39,7 @@ std::vector<Material> all_materials() {
     add(MixtureMaterial{0, 1, 1});
     add(TwoFacedMaterial{0, 1});
     add(NoMaterial{});
+    add(BurleyMaterial{1, 1, 1, 1, rough(), 1, 1, 1, 1, 1, 1, 1, true, true});
     return materials;
 }
 

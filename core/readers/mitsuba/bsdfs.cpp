@@ -145,7 +145,7 @@ Material Bsdfs::rough_diffuse(Properties& properties) {
     Material material = diffuse(properties);
     auto& model = std::get<DiffuseMaterial>(material.model);
     // in Mitsuba 0.6 alpha is the root mean square slope of Beckmann's facets; Oren and Nayar's σ = α/√2
-    model.sigma = std::clamp(properties.number("alpha", 0.2f), 0.0f, 1.0f) / std::sqrt(2.0f);
+    model.sigma = std::clamp(mean_of(properties, "alpha", 0.2f), 0.0f, 1.0f) / std::sqrt(2.0f);
     return material;
 }
 
@@ -242,78 +242,89 @@ Material Bsdfs::highlight(Properties& properties, Roughness rough) {
 }
 
 Material Bsdfs::phong(Properties& properties) {
-    const float alpha = std::sqrt(2 / (std::max(properties.number("exponent", 30), 0.0f) + 2));
+    const float alpha = std::sqrt(2 / (std::max(mean_of(properties, "exponent", 30), 0.0f) + 2));
     return highlight(properties, {alpha, alpha, {}, Roughness::Means::alpha});
 }
 
 Material Bsdfs::ward(Properties& properties) {
     properties.ignore({"variant"});
-    const float u = properties.number("alpha_u", 0.1f), v = properties.number("alpha_v", 0.1f);
+    const float u = mean_of(properties, "alpha_u", 0.1f), v = mean_of(properties, "alpha_v", 0.1f);
     return highlight(properties, {std::clamp(u, 0.0f, 1.0f), std::clamp(v, 0.0f, 1.0f), {}, Roughness::Means::alpha});
 }
 
-PrincipledMaterial Bsdfs::burley(Properties& properties) {
-    PrincipledMaterial model;
+/// A number, or the mean of its texture.
+float Bsdfs::mean_of(Properties& properties, std::string_view name, float fallback) {
+    const Node* given = properties.find(name);
+    if (!given || is_colour(*given)) return properties.number(name, fallback);
+    context_.warn(*given, fmt::format("a texture for '{}' is taken as its mean", name));
+    return luminance(mean_colour(context_.assets.scene(), textures_.of(*given)));
+}
+
+/// Burley 2012: α = roughness², stretched by √(1 - 0.9 anisotropic).
+Roughness Bsdfs::burley_roughness(Properties& properties) {
+    const float anisotropic = std::clamp(mean_of(properties, "anisotropic", 0), 0.0f, 1.0f);
+    const float aspect = std::sqrt(std::sqrt(1 - 0.9f * anisotropic));
+    Roughness rough{1, 1, {}, Roughness::Means::square, {FacetLaw::Normals::ggx, FacetLaw::Masking::independent}};
+    const Node* given = properties.find("roughness");
+    if (given && !is_colour(*given))
+        rough.texture = textures_.of(*given);
+    else
+        rough.u = rough.v = std::clamp(properties.number("roughness", 0.5f), 0.0f, 1.0f);
+    rough.u /= aspect, rough.v *= aspect;
+    return rough;
+}
+
+BurleyMaterial Bsdfs::burley(Properties& properties) {
+    BurleyMaterial model;
+    const auto get = [&](const char* name) { return textures_.get(properties, name, 0.0f); };
     model.base_colour = textures_.get(properties, "base_color", 0.5f);
-    const auto share = [&](const char* name, float fallback, float& number, std::optional<TextureId>* texture) {
-        const Node* given = properties.find(name);
-        if (given && !is_colour(*given)) {
-            const TextureId id = textures_.of(*given);
-            number = texture ? 1 : luminance(mean_colour(context_.assets.scene(), id));
-            if (texture) *texture = id;
-            if (!texture) context_.warn(*given, fmt::format("a texture for '{}' is taken as its mean", name));
-        } else {
-            number = properties.number(name, fallback);
-        }
-        number = std::clamp(number, 0.0f, 1.0f);
-    };
-    float rough = 0.5f, anisotropic = 0, gloss = 0, tint = 0, sheen_tint = 0;
-    share("metallic", 0, model.metallic, &model.metallic_texture);
-    share("spec_trans", 0, model.transmission, &model.transmission_texture);
-    share("roughness", 0.5f, rough, &model.roughness.texture);
-    share("anisotropic", 0, anisotropic, nullptr);
-    // Burley 2012: α = roughness², stretched by √(1 - 0.9 anisotropic)
-    const float aspect = std::sqrt(1 - 0.9f * anisotropic);
-    model.roughness.u = rough / std::sqrt(aspect), model.roughness.v = rough * std::sqrt(aspect);
-    share("sheen", 0, model.sheen, nullptr);
-    share("sheen_tint", 0, sheen_tint, nullptr);
-    share("spec_tint", 0, tint, nullptr);
-    const Rgb base = mean_colour(context_.assets.scene(), model.base_colour);
-    const float bright = luminance(base);
-    const Rgb hue = bright > 0 ? base / bright : Rgb{1, 1, 1};
-    model.sheen_colour = Rgb{1, 1, 1} * (1 - sheen_tint) + hue * sheen_tint;
-    model.specular_colour = Rgb{1, 1, 1} * (1 - tint) + hue * tint;
-    share("clearcoat", 0, model.clearcoat, nullptr);
-    share("clearcoat_gloss", 0, gloss, nullptr);
-    model.clearcoat *= 0.25f;  // as strong as Burley's, whose full coat has a quarter of the light
-    const float coat = 0.1f + (0.001f - 0.1f) * gloss;
-    model.clearcoat_roughness = {coat, coat, {}, Roughness::Means::alpha};
-    if (properties.has("eta")) {
-        model.eta = std::max(index_of(properties, "eta", "bk7"), 1.0f);
-        properties.ignore({"specular"});
-    } else {
-        float specular = 0.5f;
-        share("specular", 0.5f, specular, nullptr);
-        model.eta = 2 / (1 - std::sqrt(0.08f * specular)) - 1;
-    }
+    model.transmission = get("spec_trans"), model.tint = get("spec_tint");
+    model.roughness = burley_roughness(properties);
+    model.flatness = get("flatness"), model.sheen = get("sheen"), model.sheen_tint = get("sheen_tint");
+    model.metallic = model.coat = model.gloss = model.through = context_.assets.grey(0);
     properties.ignore({"diffuse_reflectance_sampling_rate", "specular_reflectance_sampling_rate",
+                       "diffuse_transmittance_sampling_rate", "specular_transmittance_sampling_rate",
                        "clearcoat_reflectance_sampling_rate", "main_specular_sampling_rate", "diff_refl_sampling_rate",
                        "spec_refl_sampling_rate", "spec_trans_sampling_rate", "clearcoat_sampling_rate"});
-    for (const char* name : {"flatness", "diff_trans"})
-        if (properties.number(name, 0) > 0)
-            context_.warn(properties.node(), fmt::format("parameter '{}' of {} is left out", name, properties.owner()));
     return model;
 }
 
+bool Bsdfs::may_be_above_zero(TextureId texture) const {
+    const Texture& number = context_.assets.scene().textures[texture];
+    return !std::holds_alternative<std::monostate>(number.pattern) || number.scale.r > 0;
+}
+
 Material Bsdfs::principled(Properties& properties) {
-    PrincipledMaterial model = burley(properties);
-    model.thin = false;
+    BurleyMaterial model = burley(properties);
+    const auto get = [&](const char* name) { return textures_.get(properties, name, 0.0f); };
+    model.metallic = get("metallic"), model.coat = get("clearcoat"), model.gloss = get("clearcoat_gloss");
+    model.lets_through = may_be_above_zero(model.transmission);
+    float eta = 1.5f;
+    if (properties.has("eta")) {
+        eta = index_of(properties, "eta", "bk7");
+        if (eta < 1) context_.warn(properties.node(), "an 'eta' below 1 is taken as 1");
+    } else {
+        float specular = std::clamp(mean_of(properties, "specular", 0.5f), 0.0f, 1.0f);
+        if (model.lets_through && specular == 0) specular = 1e-3f;  // as in Mitsuba
+        eta = 2 / (1 - std::sqrt(0.08f * specular)) - 1;
+    }
+    model.eta = context_.assets.grey(std::max(eta, model.lets_through ? 1.001f : 1.0f));
     Material material{"", model};
-    material.one_sided = opaque(material);
+    material.one_sided = !model.lets_through;
     return material;
 }
 
-Material Bsdfs::thin_principled(Properties& properties) { return {"", burley(properties)}; }
+Material Bsdfs::thin_principled(Properties& properties) {
+    BurleyMaterial model = burley(properties);
+    model.thin = true;
+    model.eta = textures_.get(properties, "eta", 1.5f);
+    // 2 means that all goes to the other side
+    Texture half = context_.assets.scene().textures[textures_.get(properties, "diff_trans", 0.0f)];
+    half.scale *= 0.5f;
+    model.through = context_.assets.add(half);
+    model.lets_through = may_be_above_zero(model.transmission) || may_be_above_zero(model.through);
+    return {"", model};
+}
 
 Material Bsdfs::nothing(Properties&) { return {"", NoMaterial{}}; }
 

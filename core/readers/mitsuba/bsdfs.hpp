@@ -54,7 +54,10 @@ private:
     ConductorMaterial metal(Properties& properties);
     DielectricMaterial glass(Properties& properties, const char* inside);
     CoatedDiffuseMaterial coat(Properties& properties);
-    PrincipledMaterial burley(Properties& properties);
+    BurleyMaterial burley(Properties& properties);
+    Roughness burley_roughness(Properties& properties);
+    float mean_of(Properties& properties, std::string_view name, float fallback);
+    bool may_be_above_zero(TextureId texture) const;
     Material highlight(Properties& properties, Roughness roughness);
 
     Textures& textures_;

@@ -52,6 +52,7 @@ bool Bsdf::any_is_opaque() const {
     if (parts_) return std::all_of(parts_->begin(), parts_->end(), [](const Part& p) { return p.bsdf.opaque(); });
     if (const auto* principled = std::get_if<PrincipledBsdf>(&model_))
         return principled->transmission == 0 && principled->translucence == 0;
+    if (const auto* burley = std::get_if<BurleyBsdf>(&model_)) return !burley->lets_through();
     return std::visit([](const auto& m) { return always_opaque<std::decay_t<decltype(m)>>; }, model_);
 }
 

@@ -11,6 +11,7 @@
 
 #include "core/base/math/rgb.hpp"
 #include "core/scene/bsdf/blends.hpp"
+#include "core/scene/bsdf/burley.hpp"
 #include "core/scene/bsdf/coated_conductor.hpp"
 #include "core/scene/bsdf/coated_diffuse.hpp"
 #include "core/scene/bsdf/conductor.hpp"
@@ -24,7 +25,7 @@ namespace lightnet {
 /// The list. A new one goes to its end: the number of a material in it is part of a scene's identity.
 using AnyMaterial =
     std::variant<DiffuseMaterial, ConductorMaterial, DielectricMaterial, CoatedDiffuseMaterial, CoatedConductorMaterial,
-                 PrincipledMaterial, MixtureMaterial, TwoFacedMaterial, NoMaterial>;
+                 PrincipledMaterial, MixtureMaterial, TwoFacedMaterial, NoMaterial, BurleyMaterial>;
 
 /// Is a model of scattering at each place: at() gives it, or one of several.
 template <class M>

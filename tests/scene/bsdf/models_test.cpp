@@ -66,6 +66,29 @@ Bsdf::Model lacquered(const Coat& coat, const CoatedMetal& both, Microfacets bel
     return CoatedConductorBsdf{metal, &coat, above, &both, below};
 }
 
+// Its parts add up; with a bright base that would be more than it got.
+BurleyBsdf burley(Microfacets facets, float transmission = 0, bool thin = false) {
+    BurleyBsdf model;
+    model.base = {0.6f, 0.4f, 0.2f};
+    model.transmission = transmission;
+    model.facets = facets;
+    model.window = {facets.alpha_u / 2, facets.alpha_v / 2, facets.law};
+    model.matt.roughness = std::sqrt(std::sqrt(facets.alpha_u * facets.alpha_v));
+    model.thin = thin;
+    return model;
+}
+
+BurleyBsdf all_of_burley(bool thin) {
+    BurleyBsdf model = burley({0.2f, 0.35f, {FacetLaw::Normals::ggx, FacetLaw::Masking::independent}}, 0.4f, thin);
+    model.tint = 0.3f;
+    model.matt.flatness = 0.4f, model.matt.sheen = 0.5f, model.matt.sheen_tint = 0.5f;
+    if (thin)
+        model.matt.through = 0.3f;
+    else
+        model.metallic = 0.3f, model.coat = {0.8f, 0.1f};
+    return model;
+}
+
 /// A model that is made when it is wanted.
 struct Made {
     std::function<Bsdf::Model()> make;
@@ -182,6 +205,13 @@ const std::vector<Case> cases{
     {"coat_of_another_normal", tilted(principled(0, 0, {0.4f, 0.4f}), 0.15f)},
     {"smooth_coat_of_another_normal", tilted(grooved(principled(1, 0, {0.4f, 0.2f})), 0)},
     {"all_of_it", tilted(grooved(filmed(leaf(principled(0.3f, 0.2f, {0.5f, 0.2f}), 0.5f), 0.6f, 450)), 0.2f)},
+    {"burley_matt", burley({0.25f, 0.25f})},
+    {"burley_smooth", burley({})},
+    {"burley_glass", burley({}, 1)},
+    {"burley_rough_glass", burley({0.3f, 0.3f}, 1)},
+    {"burley_pane", burley({}, 1, true)},
+    {"burley_solid", all_of_burley(false)},
+    {"burley_sheet", all_of_burley(true)},
     {"mixture", DiffuseBsdf{{0.8f, 0.5f, 0.2f}}, ConductorBsdf{copper.eta, copper.k, {0.3f, 0.3f}}},
     {"mixture_with_a_mirror", RoughDiffuseBsdf{{0.8f, 0.5f, 0.2f}, 0.4f}, ConductorBsdf{copper.eta, copper.k, {}}},
     {"mixture_with_nothing",
@@ -324,7 +354,9 @@ TEST_P(EveryModel, IsReciprocal) {
             const auto* glass = std::get_if<DielectricBsdf>(&model);
             const auto* many = std::get_if<PrincipledBsdf>(&model);
             const bool solid = many && !many->thin && many->transmission > 0;
-            const float eta = glass ? glass->eta : solid ? many->eta - many->dispersion : 1;  // of red
+            const auto* burley = std::get_if<BurleyBsdf>(&model);
+            const float bent = burley && !burley->thin ? burley->eta : 1;
+            const float eta = glass ? glass->eta : solid ? many->eta - many->dispersion : bent;  // of red
             return dot(w, frame.z) < 0 ? eta * eta : 1.0f;
         };
         const float there = bsdf.evaluate(a, b, lobe::all).r / cos_b / scale(a);
