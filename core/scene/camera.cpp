@@ -44,6 +44,13 @@ Camera::Camera(const CameraData& data, std::uint32_t width, std::uint32_t height
     lens_x_ = transform_direction(data.to_world, {data.lens_radius, 0, 0});
     lens_y_ = transform_direction(data.to_world, {0, data.lens_radius, 0});
     focus_ = data.focus_distance / depth;
+    nearest_ = data.nearest;
+}
+
+Ray Camera::from_nearest(const Ray& ray) const {
+    if (!(nearest_ > 0)) return ray;
+    const float ahead = dot(ray.direction, normalize(axis_));
+    return {ray.origin + ray.direction * (nearest_ / ahead), ray.direction, ray.far};
 }
 
 Ray Camera::around(float x, float y) const {
@@ -62,8 +69,8 @@ Ray Camera::around(float x, float y) const {
 Ray Camera::ray(float x, float y) const {
     if (panorama_ != CameraData::Panorama::none) return around(x, y);
     const Vec3 at = corner_ + right_ * x + down_ * y;
-    if (orthographic_) return {origin_ + at, normalize(axis_)};
-    return {origin_, normalize(at)};
+    if (orthographic_) return from_nearest({origin_ + at, normalize(axis_)});
+    return from_nearest({origin_, normalize(at)});
 }
 
 Ray Camera::ray(float x, float y, Vec2 lens) const {
@@ -71,8 +78,8 @@ Ray Camera::ray(float x, float y, Vec2 lens) const {
     const Vec3 at = corner_ + right_ * x + down_ * y;
     const Vec2 d = disk(lens);
     const Vec3 aside = lens_x_ * d.x + lens_y_ * d.y;
-    if (orthographic_) return {origin_ + at + aside, normalize(axis_ * focus_ - aside)};
-    return {origin_ + aside, normalize(at * focus_ - aside)};
+    if (orthographic_) return from_nearest({origin_ + at + aside, normalize(axis_ * focus_ - aside)});
+    return from_nearest({origin_ + aside, normalize(at * focus_ - aside)});
 }
 
 void Camera::rays(std::span<const Vec2> positions, std::span<const Vec2> lens, std::span<Ray> rays) const {

@@ -35,6 +35,7 @@ public:
 
 private:
     Ray around(float x, float y) const;
+    Ray from_nearest(const Ray& ray) const;
 
     bool orthographic_ = false, has_lens_ = false;
     CameraData::Panorama panorama_ = CameraData::Panorama::none;
@@ -46,6 +47,7 @@ private:
     Vec3 right_{2, 0, 0}, down_{0, -2, 0};  // per pixel
     Vec3 axis_{0, 0, 1};                    // orthographic: of all rays, one unit long
     Vec3 lens_x_, lens_y_;                  // from the middle of the lens to its rim
+    float nearest_ = 0;                     // metres along the axis to the plane where rays begin
     float focus_ = 1;                       // distance of the plane in focus over that of the screen
 };
 

@@ -323,6 +323,78 @@ TEST(MitsubaSensor, MovesWhatItSeesByItsPrincipalPoint) {
     EXPECT_EQ(scene.camera.screen, (std::array<float, 4>{-1, 3, -2, 0}));
 }
 
+// Two triangles of a square.
+std::string ply_of(const std::string& of_vertex, const std::string& of_face, const std::string& vertex,
+                   const std::vector<std::string>& faces) {
+    std::string text =
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n" + of_vertex +
+        "element face 2\nproperty list uchar int vertex_indices\n" + of_face + "end_header\n";
+    for (const char* position : {"-1 -1 0", "1 -1 0", "1 1 0", "-1 1 0"}) text += std::string(position) + vertex + "\n";
+    return text + "3 0 1 2" + faces[0] + "\n3 0 2 3" + faces[1] + "\n";
+}
+
+std::string painted(const std::string& attribute) {
+    return "<shape type='ply'><string name='filename' value='m.ply'/><bsdf type='twosided'><bsdf type='diffuse'>"
+           "<texture type='mesh_attribute' name='reflectance'><string name='name' value='" +
+           attribute + "'/></texture></bsdf></bsdf></shape>";
+}
+
+TEST(MitsubaAttributes, OfVerticesGoByTheBeginningOfTheirNames) {
+    for (const std::string ends : {"012", "rgb", "xyz"}) {
+        std::string properties;
+        for (const char end : ends) properties += std::string("property float color_") + end + "\n";
+        const auto scene =
+            read_mitsuba(painted("vertex_color"), {{"m.ply", ply_of(properties, "", " .25 .5 .75", {"", ""})}});
+        EXPECT_THAT(warnings_of(scene), Not(HasSubstr("attribute")));
+        ASSERT_THAT(mesh_of(scene).colours, SizeIs(4)) << ends;
+        EXPECT_EQ(mesh_of(scene).colours[1], (Rgb{0.25f, 0.5f, 0.75f}));
+    }
+    const auto heat =
+        read_mitsuba(painted("vertex_heat"), {{"m.ply", ply_of("property float heat_0\n", "", " .25", {"", ""})}});
+    EXPECT_EQ(mesh_of(heat).colours.at(2), (Rgb{0.25f, 0.25f, 0.25f}));
+}
+
+TEST(MitsubaAttributes, OfFacesAreTheirTriangles) {
+    const auto scene =
+        read_mitsuba(painted("face_color"),
+                     {{"m.ply", ply_of("", "property float color_0\nproperty float color_1\nproperty float color_2\n",
+                                       "", {" 1 0 0", " 0 .5 1"})}});
+    const Mesh& mesh = mesh_of(scene);
+    ASSERT_THAT(mesh.positions, SizeIs(6));
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_EQ(mesh.colours[mesh.triangles[0][i]], (Rgb{1, 0, 0}));
+        EXPECT_EQ(mesh.colours[mesh.triangles[1][i]], (Rgb{0, 0.5f, 1}));
+    }
+}
+
+TEST(MitsubaAttributes, ThatAreNotThereAreNamed) {
+    const auto scene = read_mitsuba(painted("vertex_dust"), {{"m.ply", ply_of("", "", "", {"", ""})}});
+    EXPECT_THAT(warnings_of(scene), HasSubstr("there is no mesh attribute 'vertex_dust' in 'm.ply': white is taken"));
+}
+
+// As Mitsuba does, but where nothing is cut: there rays begin at the eye.
+TEST(MitsubaSensor, CutsWhatIsTooNear) {
+    const std::string plate =
+        "<shape type='rectangle'><transform name='to_world'><translate z='.5'/></transform></shape>";
+    const auto with = [&](const std::string& more) {
+        return read_mitsuba(plate + "<sensor type='perspective'><float name='fov' value='40'/>" + more + "</sensor>");
+    };
+    EXPECT_EQ(with("<float name='near_clip' value='1'/>").camera.nearest, 1);
+    EXPECT_EQ(with("<float name='near_clip' value='.25'/>").camera.nearest, 0);
+    EXPECT_EQ(with("").camera.nearest, 0);
+    EXPECT_THAT(warnings_of(with("<float name='far_clip' value='.4'/>")), HasSubstr("'far_clip' cuts nothing away"));
+    EXPECT_THAT(warnings_of(with("")), Not(HasSubstr("far_clip")));
+}
+
+TEST(MitsubaSpot, IsAsBrightAsItsTextureIsOnAverage) {
+    const auto scene = read_mitsuba(
+        one_ball +
+        "<emitter type='spot'><rgb name='intensity' value='10'/><texture type='checkerboard' name='texture'><float "
+        "name='color0' value='.2'/><float name='color1' value='.2'/></texture></emitter>");
+    EXPECT_NEAR(std::get<SpotLight>(scene.lights.at(0)).intensity.g, 2, 1e-5f);
+    EXPECT_THAT(warnings_of(scene), HasSubstr("the texture of emitter 'spot' is taken as its mean"));
+}
+
 TEST(MitsubaSensor, SeesPlusXOnTheLeft) {
     const auto scene = seen_by(
         "type='perspective'><float name='fov' value='50'/><transform name='to_world'>"

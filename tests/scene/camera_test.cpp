@@ -52,6 +52,26 @@ TEST(Camera, TakesAScreenThatIsGiven) {
     EXPECT_NEAR(length(camera.ray(64, 64).direction - normalize({1, -1, -1})), 0, 1e-6f);
 }
 
+TEST(Camera, SeesNothingBeforeItsNearestPlane) {
+    CameraData data;
+    data.to_world.m[2][3] = 5;
+    data.nearest = 2;
+    for (const bool parallel : {false, true})
+        for (const float lens : {0.0f, 0.5f}) {
+            data.orthographic = parallel, data.lens_radius = lens, data.focus_distance = 9;
+            const Camera camera(data, 8, 4);
+            data.nearest = 0;
+            const Camera whole(data, 8, 4);
+            data.nearest = 2;
+            const auto [ray, from_eye] = lens > 0
+                                             ? std::pair{camera.ray(1, 3, {0.9f, 0.2f}), whole.ray(1, 3, {0.9f, 0.2f})}
+                                             : std::pair{camera.ray(1, 3), whole.ray(1, 3)};
+            EXPECT_NEAR(ray.origin.z, 7, 1e-5f);
+            EXPECT_EQ(ray.direction, from_eye.direction);
+            EXPECT_LT(length(cross(ray.origin - from_eye.origin, ray.direction)), 1e-5f);
+        }
+}
+
 TEST(Camera, GivesManyRaysAsItGivesOne) {
     for (const float lens_radius : {0.0f, 0.1f}) {
         CameraData data = test::camera({1, 2, 3}, {0, 1, 0}, 50);

@@ -114,7 +114,7 @@ Material Bsdfs::coating(Properties& properties) {
     const Roughness rough = properties.node().type == "roughcoating" ? roughness(properties, 0.1f) : Roughness{};
     if (properties.has("sigma_a") && !is_black(surface_of(properties, "sigma_a", {}).rgb))
         context_.warn(properties.node(), "the colour of a coat ('sigma_a') is left out");
-    properties.ignore({"thickness", "specular_reflectance"});
+    properties.ignore({"thickness"});
     if (inner.empty()) return grey();
     Material material = copy_of(of(*inner[0]));
     if (const auto* base = std::get_if<DiffuseMaterial>(&material.model)) {

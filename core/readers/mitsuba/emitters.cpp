@@ -42,14 +42,23 @@ Matrix rotation_of(Matrix t) {
 
 LampLabel label(const Properties& properties) { return {properties.node().id}; }
 
-void point(Properties& properties, SceneData& scene) {
+void point(Properties& properties, Textures&, SceneData& scene) {
     const Matrix to_world = transform_of(properties);
     const Vec3 origin = transform_point(to_world, {0, 0, 0});
     scene.lights.push_back(
         PointLight{properties.point("position", origin), light_of(properties, "intensity", 1).rgb, label(properties)});
 }
 
-void spot(Properties& properties, SceneData& scene) {
+/// What a texture in front of a light leaves of it, on average.
+Rgb mean_of_texture(Properties& properties, Textures& textures, const char* name) {
+    const Node* given = properties.find(name);
+    if (!given) return {1, 1, 1};
+    properties.context().warn(
+        *given, fmt::format("the texture of {} is taken as its mean: no picture is thrown", properties.owner()));
+    return mean_colour(properties.context().assets.scene(), textures.of_light(*given));
+}
+
+void spot(Properties& properties, Textures& textures, SceneData& scene) {
     const Matrix to_world = transform_of(properties);
     SpotLight light;
     light.position = transform_point(to_world, {0, 0, 0});
@@ -60,12 +69,11 @@ void spot(Properties& properties, SceneData& scene) {
     light.outer = cutoff * to_radians, light.inner = beam * to_radians;
     light.falloff = SpotLight::Falloff::linear;
     light.label = label(properties);
-    if (properties.has("texture"))
-        properties.context().warn(properties.node(), "the texture of a spot light is left out");
+    light.intensity *= mean_of_texture(properties, textures, "texture");
     scene.lights.push_back(light);
 }
 
-void directional(Properties& properties, SceneData& scene) {
+void directional(Properties& properties, Textures&, SceneData& scene) {
     const Matrix to_world = transform_of(properties);
     const Vec3 ahead = properties.has("direction") ? properties.point("direction", {0, 0, 1})
                                                    : transform_direction(to_world, {0, 0, 1});
@@ -73,13 +81,13 @@ void directional(Properties& properties, SceneData& scene) {
         DirectionalLight{unit(ahead, {0, 0, 1}), light_of(properties, "irradiance", 1).rgb, label(properties)});
 }
 
-void constant(Properties& properties, SceneData& scene) {
+void constant(Properties& properties, Textures&, SceneData& scene) {
     EnvironmentData environment;
     environment.radiance = light_of(properties, "radiance", 1).rgb;
     scene.environments.push_back(environment);
 }
 
-void environment_map(Properties& properties, SceneData& scene) {
+void environment_map(Properties& properties, Textures&, SceneData& scene) {
     const auto& context = properties.context();
     EnvironmentData environment;
     const float scale = properties.number("scale", 1), gamma = properties.number("gamma", -1);
@@ -88,7 +96,9 @@ void environment_map(Properties& properties, SceneData& scene) {
     const Node* file = properties.find("filename");
     properties.ignore({"cache", "max_anisotropy"});
     if (!file) return context.error(properties.node(), "an envmap needs a 'filename'");
-    const Encoding encoding = gamma == 1 ? Encoding{Encoding::Curve::linear, 1} : Encoding{};
+    const Encoding encoding = gamma == 1  ? Encoding{Encoding::Curve::linear, 1}
+                              : gamma > 0 ? Encoding{Encoding::Curve::gamma, gamma}
+                                          : Encoding{};
     environment.image =
         context.assets.picture(context.path(std::string(file->attribute("value")), *file), encoding, file->where);
     scene.environments.push_back(environment);
@@ -147,7 +157,7 @@ float bounded(Properties& properties, std::string_view name, float fallback, flo
 }
 
 /// Both in one, or one of both. By default the sun is as bright as the sky, whose scale is that of both.
-void sun_and_sky(Properties& properties, SceneData& scene) {
+void sun_and_sky(Properties& properties, Textures&, SceneData& scene) {
     const auto& context = properties.context();
     const auto& node = properties.node();
     const bool third = context.document.version >= 3;
@@ -179,8 +189,9 @@ void sun_and_sky(Properties& properties, SceneData& scene) {
 
 }  // namespace
 
-void add_emitter(const Node& node, const Context& context) {
-    using Adder = void (*)(Properties&, SceneData&);
+void add_emitter(const Node& node, Textures& textures) {
+    const auto& context = textures.context();
+    using Adder = void (*)(Properties&, Textures&, SceneData&);
     static const std::map<std::string, Adder, std::less<>> adders{{"point", point},
                                                                   {"spot", spot},
                                                                   {"directional", directional},
@@ -203,7 +214,7 @@ void add_emitter(const Node& node, const Context& context) {
     if (const auto adder = adders.find(node.type); adder != adders.end()) {
         auto& scene = context.assets.scene();
         const std::size_t before = scene.lights.size();
-        adder->second(properties, scene);
+        adder->second(properties, textures, scene);
         if (scene.lights.size() > before && !in_reach(scene.lights.back()))
             context.error(node, "it stands out of reach");
         return;

@@ -6,6 +6,6 @@
 namespace lightnet::mitsuba {
 
 /// Adds the lights of an <emitter> to the scene.
-void add_emitter(const Node& node, const Context& context);
+void add_emitter(const Node& node, Textures& textures);
 
 }  // namespace lightnet::mitsuba

@@ -4,7 +4,9 @@
 
 #include <set>
 #include <string>
+#include <vector>
 
+#include "core/readers/mitsuba/clipping.hpp"
 #include "core/readers/mitsuba/emitters.hpp"
 #include "core/readers/mitsuba/sensors.hpp"
 #include "core/readers/mitsuba/shapes.hpp"
@@ -22,7 +24,7 @@ public:
         static const std::set<std::string, std::less<>> silent{"integrator", "sampler", "film", "rfilter",
                                                                "bsdf",       "texture", "mode", "phase"};
         if (node.tag == "shape") return shapes_.add(node);
-        if (node.tag == "emitter") return add_emitter(node, context_);
+        if (node.tag == "emitter") return add_emitter(node, textures_);
         if (node.tag == "sensor") return sensor(node);
         if (node.tag == "ref") return referred(node);
         static const std::set<std::string, std::less<>> parts{"medium", "spectrum", "volume", "rgb"};
@@ -32,6 +34,14 @@ public:
             context_.warn(node, "<medium> is left out: light is not scattered inside of things");
         else
             unknown(node);
+    }
+
+    /// Once all shapes are there.
+    void finish() {
+        SceneData& scene = context_.assets.scene();
+        for (std::size_t i = 0; i < depths_.size(); ++i)
+            clip(scene.cameras[i].camera, depths_[i].nearest, depths_[i].farthest, context_);
+        if (!depths_.empty()) scene.camera.nearest = scene.cameras[0].camera.nearest;
     }
 
     /// What is wrong with a scene that has no shapes.
@@ -48,7 +58,7 @@ private:
         SceneData& scene = context_.assets.scene();
         const CameraData camera = scene.camera;
         const FilmData film = scene.film;
-        set_sensor(node, context_);
+        depths_.push_back(set_sensor(node, context_));
         scene.cameras.push_back({node.id, scene.camera, scene.film});
         if (scene.cameras.size() > 1) scene.camera = camera, scene.film = film;
     }
@@ -67,6 +77,7 @@ private:
     Textures textures_;
     Bsdfs bsdfs_;
     Shapes shapes_;
+    std::vector<SensorDepth> depths_;  // by camera
     std::string first_unknown_;
 };
 
@@ -80,6 +91,7 @@ SceneData read(Files& files, const std::string& path, const SceneConstants& cons
         Builder builder(context);
         for (const auto& node : document->scene.children)
             if (!report.full()) builder.add(*node);
+        if (report.good()) builder.finish();
         if (scene.shapes.empty() && report.good()) report.error({path, 0}, builder.why_empty());
     });
 }

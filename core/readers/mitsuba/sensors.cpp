@@ -93,10 +93,11 @@ Vec3 take_scale(Matrix& t) {
 
 }  // namespace
 
-void set_sensor(const Node& node, const Context& context) {
+SensorDepth set_sensor(const Node& node, const Context& context) {
     Properties properties(node, context);
-    properties.ignore({"near_clip", "far_clip", "shutter_open", "shutter_close", "kc", "srf"});
+    properties.ignore({"shutter_open", "shutter_close"});
     properties.objects("sampler"), properties.objects("rfilter");
+    const SensorDepth depth{properties.number("near_clip", 1e-2f), properties.number("far_clip", 1e4f)};
     SceneData& scene = context.assets.scene();
     scene.film = film_of(properties);
     CameraData camera;
@@ -125,16 +126,20 @@ void set_sensor(const Node& node, const Context& context) {
     }
     if (node.type == "thinlens") {
         camera.lens_radius = std::max(properties.number("aperture_radius", 0), 0.0f);
-        camera.focus_distance = std::max(properties.number("focus_distance", 1e6f), 1e-6f);
+        camera.focus_distance = std::max(properties.number("focus_distance", depth.farthest), 1e-6f);
     } else {
         properties.ignore({"focus_distance", "aperture_radius"});
     }
     for (const auto& row : camera.to_world.m)
         for (const double value : row)
-            if (!std::isfinite(value)) return context.error(node, "the transform of the sensor is not finite");
+            if (!std::isfinite(value)) {
+                context.error(node, "the transform of the sensor is not finite");
+                return depth;
+            }
     camera.where = node.where;
     scene.camera = camera;
     scene.camera_given = true;
+    return depth;
 }
 
 }  // namespace lightnet::mitsuba

@@ -6,7 +6,11 @@
 
 namespace lightnet::mitsuba {
 
+/// Between these planes across its axis a sensor of Mitsuba sees things; metres.
+struct SensorDepth {
+    float nearest = 0, farthest = 0;
+};
 /// Sets the camera and the film of the scene from a <sensor>.
-void set_sensor(const Node& node, const Context& context);
+SensorDepth set_sensor(const Node& node, const Context& context);
 
 }  // namespace lightnet::mitsuba

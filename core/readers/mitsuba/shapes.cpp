@@ -9,6 +9,7 @@
 #include "core/base/unwanted.hpp"
 #include "core/readers/files.hpp"
 #include "core/readers/mesh_tools.hpp"
+#include "core/readers/mitsuba/attributes.hpp"
 #include "core/readers/mitsuba/colours.hpp"
 #include "core/readers/mitsuba/primitives.hpp"
 #include "core/readers/mitsuba/serialized.hpp"
@@ -172,25 +173,42 @@ std::optional<ShapeGeometry> Shapes::round(Properties& properties) {
     return std::nullopt;
 }
 
-std::optional<Mesh> Shapes::decoded(Properties& properties, const Node& name, bool& face_normals) {
+/// The attribute that the shape's textures ask for; "": none. There is room for one.
+std::string Shapes::attribute_of(const Node& shape) const {
+    const auto names = attributes_in(shape, context_);
+    for (std::size_t i = 1; i < names.size(); ++i)
+        context_.warn(shape,
+                      fmt::format("the mesh attribute '{}' is left out, as there is '{}': its textures take that",
+                                  names[i].substr(0, 32), names[0].substr(0, 32)));
+    return names.empty() ? "" : names[0];
+}
+
+std::optional<Mesh> Shapes::decoded(Properties& properties, const Node& name, bool& face_normals,
+                                    std::vector<Rgb>& of_triangles) {
     const std::string path = context_.path(std::string(name.attribute("value")), name);
     const auto& type = properties.node().type;
     const int index = std::max(properties.integer("shape_index", 0), 0);
     const bool turned = properties.boolean("flip_tex_coords", type == "obj");
     const auto bytes = context_.assets.read(path, name.where);
     if (!bytes) return std::nullopt;
+    const std::string attribute = attribute_of(properties.node());
     try {
         Mesh mesh;
         if (type == "obj") {
             auto model = obj::read_model(**bytes, path, obj::Cut::nowhere, context_.report());
             if (!model.parts.empty()) mesh = std::move(model.parts[0].mesh);
         } else if (type == "ply") {
-            mesh = read_ply(**bytes);
+            auto read = attribute.empty() ? AttributedMesh{read_ply(**bytes), {}, true} : read_ply(**bytes, attribute);
+            mesh = std::move(read.mesh);
+            of_triangles = std::move(read.of_triangles);
         } else {
             bool flat = false;
             mesh = read_serialized(**bytes, static_cast<std::size_t>(index), flat);
             face_normals = face_normals || flat;
         }
+        if (!attribute.empty() && mesh.colours.empty() && of_triangles.empty())
+            context_.warn(properties.node(), fmt::format("there is no mesh attribute '{}' in '{}': white is taken",
+                                                         attribute.substr(0, 32), path));
         if (!turned) turn_uvs(mesh);  // Mitsuba's v goes down
         return mesh;
     } catch (const Error& problem) {
@@ -203,12 +221,13 @@ std::optional<Mesh> Shapes::file(Properties& properties) {
     const Node* name = properties.find("filename");
     bool face_normals = properties.boolean("face_normals", false);
     const bool turned = properties.boolean("flip_normals", false);
-    properties.ignore({"max_smooth_angle", "collapse", "recompute_vertex_normals", "srgb", "merge"});
+    properties.ignore({"collapse", "merge"});
     if (!name) {
         context_.error(properties.node(), fmt::format("{} needs a 'filename'", properties.owner()));
         return std::nullopt;
     }
-    auto mesh = decoded(properties, *name, face_normals);
+    std::vector<Rgb> of_triangles;
+    auto mesh = decoded(properties, *name, face_normals, of_triangles);
     const Matrix to_world = transform_of(properties);
     if (!mesh) return std::nullopt;
     if (face_normals) mesh->normals.clear();
@@ -218,6 +237,7 @@ std::optional<Mesh> Shapes::file(Properties& properties) {
     }
     if (!face_normals) mesh->normals.empty() ? smooth_normals(*mesh) : order_by_normals(*mesh);
     if (turned) flip(*mesh);
+    if (!of_triangles.empty()) paint(*mesh, of_triangles);
     return mesh;
 }
 

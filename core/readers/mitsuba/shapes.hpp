@@ -24,7 +24,9 @@ private:
     std::optional<ShapeGeometry> geometry(Properties& properties);
     std::optional<ShapeGeometry> round(Properties& properties);
     std::optional<Mesh> file(Properties& properties);
-    std::optional<Mesh> decoded(Properties& properties, const Node& name, bool& face_normals);
+    std::optional<Mesh> decoded(Properties& properties, const Node& name, bool& face_normals,
+                                std::vector<Rgb>& of_triangles);
+    std::string attribute_of(const Node& shape) const;
     std::optional<ShapeGeometry> cylinder(Properties& properties);
     std::optional<ShapeGeometry> stood(Properties& properties, Quadric quadric, const Matrix& own);
     std::optional<Mesh> placed(Properties& properties, Mesh mesh);

@@ -92,7 +92,8 @@ TextureId Textures::make(const Node& node) {
     if (node.type == "vertexcolors") return context_.assets.add({{1, 1, 1}, VertexColour{}, false});
     if (node.type == "mesh_attribute") {
         const float scale = properties.number("scale", 1);
-        if (properties.text("name", "") == "vertex_color")
+        const std::string name = properties.text("name", "");
+        if (name.starts_with("vertex_") || name.starts_with("face_"))  // the shape has it: see attributes_in()
             return context_.assets.add({{scale, scale, scale}, VertexColour{}, false});
     }
     properties.ignore_all();

@@ -81,6 +81,26 @@ int slot_of(std::string_view name) {
     return -1;
 }
 
+/// What properties of an element are told apart by.
+struct Names {
+    std::string_view attribute{};  // without "vertex_" or "face_"; "": of nobody's
+    bool own_colours = true;       // red, green and blue count
+
+    /// Which number of the attribute a property is; none: -1.
+    int number_of(std::string_view name) const {
+        if (attribute.empty() || name.size() != attribute.size() + 2 || !name.starts_with(attribute)) return -1;
+        constexpr std::string_view ends[] = {"_0_r_x", "_1_g_y", "_2_b_z"};
+        for (int i = 0; i < 3; ++i)
+            if (ends[i].find(name.substr(attribute.size())) != std::string_view::npos) return i;
+        return -1;
+    }
+    int slot(std::string_view name) const {
+        if (const int number = number_of(name); number >= 0) return red + number;
+        const int known = slot_of(name);
+        return known >= red && !own_colours ? -1 : known;
+    }
+};
+
 /// Colours in whole numbers are encoded as sRGB, those in floats are linear.
 float colour_value(double value, Scalar type) {
     if (type == Scalar::f32 || type == Scalar::f64) return static_cast<float>(value);
@@ -93,16 +113,22 @@ bool all_floats(const Element& element) {
                        [](const Property& p) { return !p.list && p.type == Scalar::f32; });
 }
 
-void read_vertices(Input& input, Format format, const Element& element, Mesh& mesh) {
+/// One number alone is a grey.
+Rgb colour_of(const float* first, bool grey) {
+    return grey ? Rgb{*first, *first, *first} : Rgb{first[0], first[1], first[2]};
+}
+
+void read_vertices(Input& input, Format format, const Element& element, const Names& names, Mesh& mesh) {
     std::array<bool, slots> has{};
     std::vector<int> slot_by_property;
     for (const auto& property : element.properties) {
-        slot_by_property.push_back(property.list ? -1 : slot_of(property.name));
+        slot_by_property.push_back(property.list ? -1 : names.slot(property.name));
         if (slot_by_property.back() >= 0) has[slot_by_property.back()] = true;
     }
     if (!has[0] || !has[1] || !has[2]) fail("the vertices have no x, y and z");
     const bool normals = has[3] && has[4] && has[5], uvs = has[6] && has[7];
-    const bool colours = has[red] && has[red + 1] && has[red + 2];
+    const bool grey = !names.attribute.empty() && has[red] && !has[red + 1] && !has[red + 2];
+    const bool colours = grey || (has[red] && has[red + 1] && has[red + 2]);
     std::vector<float> row(all_floats(element) ? element.properties.size() : 0);
     mesh.positions.reserve(element.count);
     if (normals) mesh.normals.reserve(element.count);
@@ -130,7 +156,7 @@ void read_vertices(Input& input, Format format, const Element& element, Mesh& me
         mesh.positions.push_back({v[0], v[1], v[2]});
         if (normals) mesh.normals.push_back({v[3], v[4], v[5]});
         if (uvs) mesh.uvs.push_back({v[6], v[7]});
-        if (colours) mesh.colours.push_back({v[red], v[red + 1], v[red + 2]});
+        if (colours) mesh.colours.push_back(colour_of(&v[red], grey));
     }
 }
 
@@ -175,9 +201,11 @@ std::uint64_t read_strip(Input& input, Format format, const Property& list, std:
 }
 
 /// Reads the elements whose list of corners `read` understands: at least one at a time, and several where they have
-/// nothing but that list.
+/// nothing but that list. Numbers of theirs that have the name go to their triangles.
 template <class Read>
-void read_lists(Input& input, Format format, const Element& element, Mesh& mesh, const Read& read) {
+void read_lists(Input& input, Format format, const Element& element, const Names& names, AttributedMesh& to,
+                const Read& read) {
+    Mesh& mesh = to.mesh;
     const auto corners = [](const Property& p) {
         return p.list && (p.name == "vertex_indices" || p.name == "vertex_index");
     };
@@ -185,15 +213,22 @@ void read_lists(Input& input, Format format, const Element& element, Mesh& mesh,
         fail(fmt::format("'{}' has no list 'vertex_indices'", element.name.substr(0, 32)));
     mesh.triangles.reserve(mesh.triangles.size() + element.count);
     const bool alone = element.properties.size() == 1;
+    const auto number_of = [&](const Property& p) { return p.list ? -1 : names.number_of(p.name); };
+    const auto numbers = std::count_if(element.properties.begin(), element.properties.end(),
+                                       [&](const Property& p) { return number_of(p) >= 0; });
     for (std::uint64_t i = 0; i < element.count;) {
         end_if_unwanted();
         std::uint64_t count = 1;
+        std::array<float, 3> colour{};
         for (const auto& property : element.properties) {
             if (corners(property))
                 count = read(input, format, property, alone ? element.count - i : 1, mesh);
+            else if (const int number = number_of(property); number >= 0)
+                colour[std::size_t(number)] = colour_value(input.number(format, property.type), property.type);
             else
                 skip(input, format, property);
         }
+        if (numbers) to.of_triangles.resize(mesh.triangles.size(), colour_of(colour.data(), numbers == 1));
         i += count;
     }
 }
@@ -206,29 +241,40 @@ void check_indices(const Mesh& mesh) {
                                  mesh.positions.size()));
 }
 
-}  // namespace
-
-Mesh read_ply(std::span<const std::byte> bytes) {
+AttributedMesh read_all(std::span<const std::byte> bytes, const Names& of_vertices, const Names& of_faces) {
     Input input({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     const ply::Header header = ply::read_header(input);
-    Mesh mesh;
+    AttributedMesh result;
     bool vertices = false, faces = false;
     for (const auto& element : header.elements) {
         check_room(input, header.format, element);
         if (element.name == "vertex" && !std::exchange(vertices, true)) {
-            read_vertices(input, header.format, element, mesh);
+            read_vertices(input, header.format, element, of_vertices, result.mesh);
         } else if (element.name == "face" && !std::exchange(faces, true)) {
-            read_lists(input, header.format, element, mesh, read_faces);
+            read_lists(input, header.format, element, of_faces, result, read_faces);
         } else if (element.name == "tristrips" && !std::exchange(faces, true)) {
-            read_lists(input, header.format, element, mesh, read_strip);
+            read_lists(input, header.format, element, of_faces, result, read_strip);
         } else {
             for (std::uint64_t i = 0; i < element.count; ++i)
                 for (const auto& property : element.properties) skip(input, header.format, property);
         }
     }
     if (!vertices || !faces) fail("there are no vertices or no faces");
-    check_indices(mesh);
-    return mesh;
+    check_indices(result.mesh);
+    result.found = !result.mesh.colours.empty() || !result.of_triangles.empty();
+    return result;
+}
+
+}  // namespace
+
+Mesh read_ply(std::span<const std::byte> bytes) { return read_all(bytes, {}, {}).mesh; }
+
+AttributedMesh read_ply(std::span<const std::byte> bytes, std::string_view attribute) {
+    constexpr std::string_view vertex = "vertex_", face = "face_";
+    Names of_vertices{"", attribute == "vertex_color"}, of_faces;
+    if (attribute.starts_with(vertex)) of_vertices.attribute = attribute.substr(vertex.size());
+    if (attribute.starts_with(face)) of_faces.attribute = attribute.substr(face.size());
+    return read_all(bytes, of_vertices, of_faces);
 }
 
 }  // namespace lightnet

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <span>
+#include <string_view>
+#include <vector>
 
 #include "core/scene/data/scene_data.hpp"
 
@@ -13,5 +15,16 @@ namespace lightnet {
 /// Other properties and elements are skipped. Throws Error (without a file name) when the bytes are no sound PLY file;
 /// allocates no more than a small multiple of them.
 Mesh read_ply(std::span<const std::byte> bytes);
+
+/// A mesh with numbers of a name of their own, in the place of its colours.
+struct AttributedMesh {
+    Mesh mesh;
+    std::vector<Rgb> of_triangles;  // where faces have them, and not vertices; else empty
+    bool found = false;             // there is something of that name
+};
+/// The same with the numbers that Mitsuba calls "vertex_NAME" or "face_NAME": those of the properties NAME_0, NAME_1
+/// and NAME_2, or NAME_r, NAME_g and NAME_b, or NAME_x …; one alone is a grey. "vertex_color" may also be red, green
+/// and blue.
+AttributedMesh read_ply(std::span<const std::byte> bytes, std::string_view attribute);
 
 }  // namespace lightnet

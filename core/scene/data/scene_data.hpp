@@ -131,6 +131,7 @@ struct CameraData {
     float lens_radius = 0;                      // metres; 0: a pinhole
     float focus_distance = 1e6f;                // metres along the axis to the plane in which everything is sharp
     SourceLine where{};                         // it stands in the files, if anywhere
+    float nearest = 0;                          // metres along the axis: what lies before that is not seen
 };
 
 struct FilmData {

@@ -1,0 +1,46 @@
+#include "core/readers/mitsuba/attributes.hpp"
+
+#include <algorithm>
+#include <set>
+
+namespace lightnet::mitsuba {
+namespace {
+
+void collect(const Node& node, const Context& context, std::set<const Node*>& seen, std::vector<std::string>& names) {
+    if (!seen.insert(&node).second) return;
+    if (node.tag == "texture" && node.type == "mesh_attribute")
+        for (const auto& child : node.children)
+            if (const std::string name(child->attribute("value")); child->name == "name")
+                if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    for (const auto& child : node.children) {
+        const auto known = child->tag == "ref" ? context.document.ids.find(child->id) : context.document.ids.end();
+        collect(known == context.document.ids.end() ? *child : *known->second, context, seen, names);
+    }
+}
+
+}  // namespace
+
+std::vector<std::string> attributes_in(const Node& node, const Context& context) {
+    std::set<const Node*> seen;
+    std::vector<std::string> names;
+    collect(node, context, seen, names);
+    return names;
+}
+
+void paint(Mesh& mesh, const std::vector<Rgb>& of_triangles) {
+    Mesh painted;
+    painted.flip_normals = mesh.flip_normals;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const auto first = static_cast<std::uint32_t>(painted.positions.size());
+        for (const auto corner : mesh.triangles[i]) {
+            painted.positions.push_back(mesh.positions[corner]);
+            if (!mesh.normals.empty()) painted.normals.push_back(mesh.normals[corner]);
+            if (!mesh.uvs.empty()) painted.uvs.push_back(mesh.uvs[corner]);
+            painted.colours.push_back(of_triangles[i]);
+        }
+        painted.triangles.push_back({first, first + 1, first + 2});
+    }
+    mesh = std::move(painted);
+}
+
+}  // namespace lightnet::mitsuba
