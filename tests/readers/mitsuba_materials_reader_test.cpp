@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "core/readers/spectra.hpp"
-#include "core/scene/bsdf/bsdf.hpp"
 #include "core/scene/bsdf/fresnel.hpp"
 #include "core/scene/textures/look_up.hpp"
 #include "tests/support/scene_text.hpp"
@@ -52,70 +51,6 @@ TEST(MitsubaColours, AreWrittenInManyWays) {
     EXPECT_NEAR(flat.r, 0.3f, 1e-3f);
     EXPECT_NEAR(flat.b, 0.3f, 1e-3f);
     EXPECT_EQ(reflectance(""), (Rgb{0.5f, 0.5f, 0.5f}));
-}
-
-Rgb radiance(const std::string& colour) {
-    return read_mitsuba("<shape type='sphere'><emitter type='area'>" + colour + "</emitter></shape>")
-        .shapes[0]
-        .emission->radiance;
-}
-
-void expect_near(Rgb got, Rgb wanted, float share) {
-    EXPECT_NEAR(got.r, wanted.r, share * wanted.r);
-    EXPECT_NEAR(got.g, wanted.g, share * wanted.g);
-    EXPECT_NEAR(got.b, wanted.b, share * wanted.b);
-}
-
-// By the CIE's tables of 1931 alone.
-TEST(MitsubaColours, OfLightAreSeenWithoutDaylight) {
-    const Rgb flat{1.2048f, 0.9483f, 0.9087f};
-    for (const std::string table :
-         {"<spectrum name='radiance' value='360:1, 830:1'/>",
-          "<spectrum name='radiance' type='irregular'><string name='wavelengths' value='360, 830'/>"
-          "<string name='values' value='1, 1'/></spectrum>",
-          "<spectrum name='radiance' type='regular'><string name='values' value='1, 1'/></spectrum>",
-          "<spectrum name='radiance' type='uniform'/>"})
-        expect_near(radiance(table), flat, 0.01f);
-    // the lamp of Mitsuba's Cornell box
-    const Rgb lamp = radiance("<spectrum name='radiance' value='400:0, 500:8, 600:15.6, 700:18.4'/>");
-    EXPECT_NEAR(lamp.r / lamp.g, 1.891f, 0.02f);
-    EXPECT_NEAR(lamp.b / lamp.g, 0.2533f, 0.003f);
-    for (const std::string grey : {"<spectrum name='radiance' value='3'/>", "<rgb name='radiance' value='3'/>",
-                                   "<spectrum name='radiance' type='d65'><float name='scale' value='3'/></spectrum>"})
-        EXPECT_EQ(radiance(grey), (Rgb{3, 3, 3}));
-}
-
-TEST(MitsubaColours, OfEveryEmitterAreLight) {
-    const Rgb flat{1.2048f, 0.9483f, 0.9087f};
-    const MemoryFiles files{{"flat.spd", "360 1\n830 1\n"}};
-    const auto emitter = [&](const std::string& type, const std::string& name) {
-        return read_mitsuba("<shape type='sphere'/><emitter type='" + type + "'><spectrum name='" + name +
-                                "' filename='flat.spd'/></emitter>",
-                            files);
-    };
-    expect_near(std::get<PointLight>(emitter("point", "intensity").lights.at(0)).intensity, flat, 0.01f);
-    expect_near(std::get<SpotLight>(emitter("spot", "intensity").lights.at(0)).intensity, flat, 0.01f);
-    expect_near(std::get<DirectionalLight>(emitter("directional", "irradiance").lights.at(0)).irradiance, flat, 0.01f);
-    expect_near(emitter("constant", "radiance").environments.at(0).radiance, flat, 0.01f);
-    // in a texture of light, and in the same one of a surface
-    const auto both = read_mitsuba(
-        "<texture type='checkerboard' id='t'><spectrum name='color0' value='360:.5, 830:.5'/></texture>"
-        "<shape type='sphere'><bsdf type='diffuse'><ref name='reflectance' id='t'/></bsdf>"
-        "<emitter type='area'><ref name='radiance' id='t'/></emitter></shape>");
-    const auto first = [&](TextureId id) {
-        return colour_of(both, std::get<CheckerTexture>(both.textures[id].pattern).even);
-    };
-    expect_near(first(*both.shapes[0].emission->texture), flat * 0.5f, 0.01f);
-    expect_near(first(model_of<DiffuseMaterial>(both).reflectance), {0.5f, 0.5f, 0.5f}, 0.01f);
-}
-
-TEST(MitsubaColours, AreNothingBeyondTheirTables) {
-    const Rgb red = reflectance("<spectrum name='reflectance' value='620:.5, 760:.5'/>");
-    EXPECT_GT(red.r, 0.2f);
-    EXPECT_LT(red.g, 0.05f);
-    const Rgb line = radiance("<spectrum name='radiance' value='585:1, 595:1'/>");
-    EXPECT_LT(luminance(line), 0.1f);
-    EXPECT_GT(luminance(line), 0.05f);
 }
 
 TEST(MitsubaColours, SayWhatIsWrong) {
@@ -269,114 +204,6 @@ TEST(MitsubaTextures, ForNumbersAreLeftOutAndNamed) {
         const auto scene = read_mitsuba_bsdf(std::string("<bsdf type='") + type + "'><texture name='" + name + "'" +
                                              checks + "</bsdf>");
         EXPECT_THAT(warnings_of(scene), HasSubstr(std::string("'") + name + "'")) << type;
-    }
-}
-
-TEST(MitsubaPrincipled, TakesBurleysParameters) {
-    const auto scene = read_mitsuba_bsdf(
-        "<bsdf type='principled'><rgb name='base_color' value='1 .5 .25'/><float name='roughness' value='.4'/>"
-        "<float name='metallic' value='.7'/><float name='specular' value='.5'/><float name='clearcoat' value='1'/>"
-        "<float name='clearcoat_gloss' value='1'/><float name='spec_trans' value='0'/></bsdf>");
-    const auto& model = model_of<BurleyMaterial>(scene);
-    EXPECT_EQ(colour_of(scene, model.metallic).r, 0.7f);
-    EXPECT_NEAR(colour_of(scene, model.eta).r, 1.5f, 1e-5f);
-    EXPECT_EQ(model.roughness.u, 0.4f);
-    EXPECT_EQ(model.roughness.means, Roughness::Means::square);
-    EXPECT_EQ(colour_of(scene, model.coat).r, 1);
-    EXPECT_EQ(colour_of(scene, model.gloss).r, 1);
-    EXPECT_TRUE(material_of(scene).one_sided);
-    EXPECT_FALSE(model.thin);
-}
-
-Bsdf principled(const std::string& type, const std::string& parameters) {
-    const auto scene = read_mitsuba_bsdf("<bsdf type='" + type + "'>" + parameters + "</bsdf>");
-    const Frame frame = Frame::around({0, 0, 1});
-    return {frame, frame.z, model_of<BurleyMaterial>(scene).at({scene.textures, {}, {}})};
-}
-
-std::string number(const char* name, float value) {
-    return std::string("<float name='") + name + "' value='" + std::to_string(value) + "'/>";
-}
-
-/// Share of even light that is reflected to a viewer at an angle whose cosine is given.
-double albedo(const Bsdf& bsdf, float cosine) {
-    const Vec3 out{std::sqrt(1 - cosine * cosine), 0, cosine};
-    double sum = 0;
-    constexpr int rows = 256, columns = 512;
-    for (int i = 0; i < rows; ++i)
-        for (int j = 0; j < columns; ++j) {
-            const float z = (float(i) + 0.5f) / rows, turn = 6.2831853f * (float(j) + 0.5f) / columns,
-                        sine = std::sqrt(1 - z * z);
-            sum += double(
-                bsdf.evaluate(out, {sine * std::cos(turn), sine * std::sin(turn), z}, lobe::diffuse | lobe::glossy).g);
-        }
-    return sum * 2 * 3.14159265358979 / (rows * columns);
-}
-
-const std::string black = "<rgb name='base_color' value='0'/>";
-constexpr float slanted = 0.4472136f;  // cosine of 63.4°
-
-// The reflected shares of Disney's sheen, by quadrature of sheen × (1 - cos d)⁵ × cos.
-TEST(MitsubaPrincipled, HasDisneysSheen) {
-    const auto sheen = principled("principled", black + number("specular", 0) + number("sheen", 1));
-    EXPECT_NEAR(albedo(sheen, slanted), 0.0195, 0.0003);
-    EXPECT_NEAR(albedo(sheen, 1), 0.00026, 0.00003);
-    const auto thin = principled("principledthin", black + number("sheen", 1) + number("diff_trans", 1));
-    EXPECT_NEAR(albedo(thin, slanted), 0.0195 / 2, 0.0003);
-}
-
-TEST(MitsubaPrincipled, ReflectsNothingWithoutSpecular) {
-    for (const auto& none : {number("specular", 0), number("eta", 1)})
-        for (const float cosine : {1.0f, slanted, 0.05f}) {
-            EXPECT_EQ(albedo(principled("principled", black + none), cosine), 0);
-        }
-}
-
-// Mitsuba's formulas (3.5, src/bsdfs/principled.cpp) for the light from straight above to a viewer at 60°: the facet
-// lies at 30°, and all of this by hand.
-TEST(MitsubaPrincipled, FollowsMitsubasFormulas) {
-    const Vec3 out{std::sqrt(0.75f), 0, 0.5f}, up{0, 0, 1};
-    const float weight = std::pow(0.5f, 5.0f), d = std::cos(3.14159265f / 6), pi = 3.14159265f;
-    const auto value = [&](const std::string& parameters, const std::string& type = "principled") {
-        return principled(type, parameters).evaluate(out, up, lobe::diffuse | lobe::glossy).g;
-    };
-    const std::string white = "<rgb name='base_color' value='1'/>", flat = number("specular", 0);
-    const float back = 2 * 0.5f * d * d;
-    EXPECT_NEAR(value(white + flat), (1 - weight / 2 + back * weight) / pi, 1e-5f);
-    const float below = 1 + (back / 2 - 1) * weight, subsurface = 1.25f * (below * (1 / 1.5f - 0.5f) + 0.5f);
-    EXPECT_NEAR(value(white + flat + number("flatness", 1)), subsurface / pi, 1e-5f);
-    EXPECT_NEAR(value(white + number("flatness", 1) + number("diff_trans", .5f), "principledthin"),
-                subsurface * 0.75f / pi, 1e-5f);
-    // GTR1 of α = .1 and the masking of α = .25
-    const float a2 = 0.01f, density = (a2 - 1) / (pi * std::log(a2) * (1 + (a2 - 1) * d * d));
-    const float seen = 2 / (1 + std::sqrt(1 + 0.0625f * 3));
-    const float fresnel = 0.04f + 0.96f * std::pow(1 - d, 5.0f);
-    EXPECT_NEAR(value(black + flat + number("clearcoat", 1)), 0.25f * fresnel * density * seen, 1e-5f);
-    // GGX of α = .25, seen from 60° and from above
-    const float alpha2 = 0.0625f, slope = 1 + (alpha2 - 1) * d * d;
-    const float ggx = alpha2 / (pi * slope * slope) * (2 / (1 + std::sqrt(1 + alpha2 * 3))) / (4 * 0.5f);
-    EXPECT_NEAR(value(black + number("specular", 0.5f)), fresnel_dielectric(d, 1.5f) * ggx, 1e-5f);
-    EXPECT_NEAR(value("<rgb name='base_color' value='.5'/>" + number("metallic", 1)),
-                (0.5f + 0.5f * std::pow(1 - d, 5.0f)) * ggx, 1e-5f);
-    const float tinted = 0.04f + 0.96f * std::pow(1 - d, 5.0f);  // of a grey base, whose hue is white
-    EXPECT_NEAR(value("<rgb name='base_color' value='.5'/>" + number("spec_tint", 1)) -
-                    value("<rgb name='base_color' value='.5'/>" + flat),
-                tinted * ggx, 1e-5f);
-}
-
-TEST(MitsubaPrincipled, TakesTexturesForItsNumbers) {
-    const std::string checks = " type='checkerboard'><float name='color0' value='.4'/></texture>";
-    for (const auto& [type, name] : {std::pair{"principled", "metallic"},
-                                     {"principled", "flatness"},
-                                     {"principled", "clearcoat"},
-                                     {"principled", "sheen"},
-                                     {"principled", "spec_tint"},
-                                     {"principledthin", "diff_trans"},
-                                     {"principledthin", "eta"},
-                                     {"principledthin", "spec_trans"}}) {
-        const auto scene = read_mitsuba_bsdf(std::string("<bsdf type='") + type + "'><texture name='" + name + "'" +
-                                             checks + "</bsdf>");
-        EXPECT_THAT(warnings_of(scene), Not(HasSubstr(name))) << type;
     }
 }
 

@@ -22,9 +22,6 @@ Material one_sided(Model model) {
     return material;
 }
 
-/// Models that are black from behind unless they stand in a <twosided>.
-bool opaque(const Material& material) { return transparency_of(material) == Transparency::opaque; }
-
 }  // namespace
 
 const std::map<std::string, Bsdfs::Maker, std::less<>>& Bsdfs::makers() {

@@ -88,10 +88,16 @@ struct Names {
 
     /// Which number of the attribute a property is; none: -1.
     int number_of(std::string_view name) const {
-        if (attribute.empty() || name.size() != attribute.size() + 2 || !name.starts_with(attribute)) return -1;
-        constexpr std::string_view ends[] = {"_0_r_x", "_1_g_y", "_2_b_z"};
+        if (attribute.empty() || name.size() < 3) return -1;
+        const auto prefix = name.substr(0, name.size() - 2), end = name.substr(prefix.size());
+        constexpr std::string_view ends[] = {"_0_r_x", "_1_g_y", "_2_b_z"}, colour = "_color";
+        // Mitsuba calls foo_r, foo_g and foo_b "foo_color"
+        const bool coloured = attribute.ends_with(colour) &&
+                              prefix == attribute.substr(0, attribute.size() - colour.size()) &&
+                              (end == "_r" || end == "_g" || end == "_b");
+        if (prefix != attribute && !coloured) return -1;
         for (int i = 0; i < 3; ++i)
-            if (ends[i].find(name.substr(attribute.size())) != std::string_view::npos) return i;
+            if (ends[i].find(end) != std::string_view::npos) return i;
         return -1;
     }
     int slot(std::string_view name) const {
