@@ -27,7 +27,7 @@ endforeach()
 # For editors and luacheck.
 install(DIRECTORY "${manuals}/lightnet/" DESTINATION "${CMAKE_INSTALL_DATADIR}/lightnet" COMPONENT lightnet)
 install(DIRECTORY graphs DESTINATION "${CMAKE_INSTALL_DATADIR}/lightnet" COMPONENT lightnet)
-install(PROGRAMS tools/slurm/lightnet.sbatch DESTINATION "${CMAKE_INSTALL_DATADIR}/lightnet" COMPONENT lightnetd)
+install(PROGRAMS packaging/slurm/lightnet.sbatch DESTINATION "${CMAKE_INSTALL_DATADIR}/lightnet" COMPONENT lightnetd)
 
 # The unit names the program by where it really is, which is known when it is installed; packages are staged elsewhere.
 set(unit_prefix "\${CMAKE_INSTALL_PREFIX}")
@@ -35,7 +35,7 @@ if(LIGHTNET_PACKAGES)
   set(unit_prefix "/usr")
 endif()
 install(CODE "set(LIGHTNET_BINDIR \"${unit_prefix}/${CMAKE_INSTALL_BINDIR}\")
-  configure_file(\"${PROJECT_SOURCE_DIR}/tools/systemd/lightnetd.service.in\" \"${CMAKE_BINARY_DIR}/lightnetd.service\" @ONLY)"
+  configure_file(\"${PROJECT_SOURCE_DIR}/packaging/systemd/lightnetd.service.in\" \"${CMAKE_BINARY_DIR}/lightnetd.service\" @ONLY)"
   COMPONENT lightnetd)
 install(FILES "${CMAKE_BINARY_DIR}/lightnetd.service" DESTINATION lib/systemd/system COMPONENT lightnetd)
 
@@ -50,7 +50,7 @@ foreach(room IN ITEMS base film scene network estimate)
   list(APPEND node_headers ${headers})
 endforeach()
 get_target_property(headers lightnet_readers HEADER_SET)
-list(FILTER headers INCLUDE REGEX "core/readers/[^/]*$")  # what all readers use, not the readers themselves
+list(FILTER headers INCLUDE REGEX "core/readers/(files|images|common)/[^/]*$")  # what all readers use, not the readers themselves
 list(APPEND node_headers ${headers})
 target_sources(lightnet_node INTERFACE FILE_SET HEADERS
   BASE_DIRS "${PROJECT_SOURCE_DIR}" FILES ${node_headers})

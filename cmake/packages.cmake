@@ -1,4 +1,4 @@
-# Packages: `cpack` in a build of the preset "package" (tools/package.sh) makes lightnet, lightnetd, lightnet-dev and
+# Packages: `cpack` in a build of the preset "package" (scripts/package.sh) makes lightnet, lightnetd, lightnet-dev and
 # debug symbols of the programs as .deb, and the same as tar.gz. They are the components of cmake/install.cmake.
 set(CPACK_PACKAGE_NAME lightnet)
 set(CPACK_PACKAGE_VENDOR lightnet)
@@ -27,7 +27,7 @@ set(CPACK_DEBIAN_LIGHTNET_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_LIGHTNETD_PACKAGE_NAME lightnetd)
 set(CPACK_DEBIAN_LIGHTNETD_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_LIGHTNETD_PACKAGE_CONTROL_EXTRA
-  "${PROJECT_SOURCE_DIR}/tools/debian/postinst;${PROJECT_SOURCE_DIR}/tools/debian/prerm;${PROJECT_SOURCE_DIR}/tools/debian/postrm")
+  "${PROJECT_SOURCE_DIR}/packaging/debian/postinst;${PROJECT_SOURCE_DIR}/packaging/debian/prerm;${PROJECT_SOURCE_DIR}/packaging/debian/postrm")
 set(CPACK_DEBIAN_LIGHTNET-DEV_PACKAGE_NAME lightnet-dev)
 set(CPACK_DEBIAN_LIGHTNET-DEV_PACKAGE_SECTION devel)
 set(CPACK_DEBIAN_LIGHTNET-DEV_PACKAGE_SHLIBDEPS OFF)
@@ -44,7 +44,7 @@ set(CPACK_COMPONENT_LIGHTNET-DEV_DESCRIPTION "${about}This package has what ligh
 # What every package of Debian says of itself.
 foreach(component IN LISTS CPACK_COMPONENTS_ALL)
   set(documents "${CMAKE_INSTALL_DATADIR}/doc/${component}")
-  install(FILES tools/debian/copyright DESTINATION "${documents}" COMPONENT ${component})
+  install(FILES packaging/debian/copyright DESTINATION "${documents}" COMPONENT ${component})
   install(FILES "${CMAKE_BINARY_DIR}/share/changelog.gz" "${CMAKE_BINARY_DIR}/share/changelog.Debian.gz" DESTINATION "${documents}" COMPONENT ${component})
 endforeach()
 

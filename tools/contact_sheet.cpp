@@ -7,8 +7,8 @@
 #include <string>
 
 #include "core/film/png.hpp"
-#include "core/readers/files.hpp"
-#include "core/readers/image_file.hpp"
+#include "core/readers/files/files.hpp"
+#include "core/readers/images/image_file.hpp"
 
 namespace lightnet {
 namespace {

@@ -8,11 +8,12 @@
 #include "lua/custom.hpp"
 #include "nodes/examples/candela/candela_kinds.hpp"
 #include "nodes/standard_nodes.hpp"
-#include "tools/exit_code.hpp"
-#include "tools/launcher.hpp"
-#include "tools/plugins.hpp"
-#include "tools/signals.hpp"
-#include "tools/standard_output.hpp"
+#include "tools/cli/launcher.hpp"
+#include "tools/session/run.hpp"
+#include "tools/support/exit_code.hpp"
+#include "tools/support/plugins.hpp"
+#include "tools/support/signals.hpp"
+#include "tools/support/standard_output.hpp"
 #include "transport/places/descriptors.hpp"
 
 namespace {

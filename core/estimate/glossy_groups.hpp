@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/estimate/guided_columns.hpp"
-#include "core/scene/surfaces/glossy_surfaces.hpp"
+#include "core/scene/batch/glossy_surfaces.hpp"
 
 namespace lightnet {
 

@@ -12,9 +12,9 @@
 #include "core/estimate/guided_columns.hpp"
 #include "core/estimate/light_guide.hpp"
 #include "core/estimate/shadow_rays.hpp"
+#include "core/scene/batch/lambertian_surfaces.hpp"
 #include "core/scene/direct_light.hpp"
 #include "core/scene/scene.hpp"
-#include "core/scene/surfaces/lambertian_surfaces.hpp"
 
 namespace lightnet {
 

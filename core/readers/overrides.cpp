@@ -15,7 +15,7 @@
 #include "core/base/joined.hpp"
 #include "core/base/suggestion.hpp"
 #include "core/readers/daylight/daylight.hpp"
-#include "core/readers/image_file.hpp"
+#include "core/readers/images/image_file.hpp"
 #include "core/scene/reach.hpp"
 
 namespace lightnet {

@@ -9,7 +9,7 @@
 #include "core/base/error.hpp"
 #include "core/base/math/rgb.hpp"
 #include "core/base/math/vec.hpp"
-#include "core/readers/files.hpp"
+#include "core/readers/files/files.hpp"
 #include "core/scene/data/lamp_names.hpp"
 #include "core/scene/data/scene_data.hpp"
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/readers/files.hpp"
-#include "core/readers/scene_format.hpp"
+#include "core/readers/common/scene_format.hpp"
+#include "core/readers/files/files.hpp"
 #include "core/scene/data/scene_data.hpp"
 
 namespace lightnet {

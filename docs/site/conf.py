@@ -1,4 +1,4 @@
-# How the site is made: tools/site.sh.
+# How the site is made: scripts/site.sh.
 project = "lightnet"
 extensions = ["myst_parser"]
 html_theme = "furo"

@@ -10,9 +10,9 @@
 
 #include "core/base/error.hpp"
 #include "core/network/light/plugin.hpp"
-#include "core/readers/assets.hpp"
-#include "core/readers/mesh_tools.hpp"
-#include "core/readers/scene_format.hpp"
+#include "core/readers/common/assets.hpp"
+#include "core/readers/common/mesh_tools.hpp"
+#include "core/readers/common/scene_format.hpp"
 
 namespace off {
 namespace {

@@ -124,9 +124,9 @@ TEST(Project, HasDocumentsWhoseFiguresAreTheCodes) {
     const std::string engine = "docs/engine.md", tuning = "core/run/message/tuning.hpp";
     const std::vector<Figure> figures{
         {engine, "when it is full (# questions", tuning, "std::uint32_t bundle = #;"},
-        {engine, "or # ms of work for the answerer", "core/run/runtime/full_bundle.hpp", "enough_work = #;", 1000},
+        {engine, "or # ms of work for the answerer", "core/run/place/full_bundle.hpp", "enough_work = #;", 1000},
         {engine, "has waited long enough (# ms", tuning, "std::uint32_t oldest_us = #;", 1e-3},
-        {engine, "usually takes, up to # times as long", "core/run/runtime/bundle_port.cpp",
+        {engine, "usually takes, up to # times as long", "core/run/place/bundle_port.cpp",
          "rules_.oldest, # * rules_.oldest"},
         {engine, "(#, 8192 and 8 MiB)", tuning, "std::uint32_t credit = #;"},
         {engine, "(32, # and 8 MiB)", tuning, "credit_questions = #;"},

@@ -39,16 +39,22 @@ TEST(Project, KeepsDistributionOutOfNodesAndWhatTheyShare) {
 
 TEST(Project, HasHeadersThatGuardThemselves) { EXPECT_THAT(all_complaints(all_files(), bad_header), IsEmpty()); }
 
-TEST(Project, HasNoFoldersThatIncludeEachOther) { EXPECT_THAT(folder_circles(files_of("core"), "core"), IsEmpty()); }
-
-TEST(Project, HasOneTypeOfEachName) {
-    std::vector<SourceFile> product;
+std::vector<SourceFile> product() {
+    std::vector<SourceFile> files;
     for (const char* room : {"core", "nodes", "transport", "lua", "tools"})
-        std::ranges::move(files_of(room), std::back_inserter(product));
-    std::erase_if(product,
-                  [](const SourceFile& file) { return file.path.ends_with(".lua") || file.path.ends_with(".cmake"); });
-    EXPECT_THAT(repeated_types(product), IsEmpty());
+        std::ranges::move(files_of(room), std::back_inserter(files));
+    std::erase_if(files,
+                  [](const SourceFile& file) { return !file.path.ends_with(".cpp") && !file.path.ends_with(".hpp"); });
+    return files;
 }
+
+TEST(Project, HasNoFoldersThatIncludeEachOther) { EXPECT_THAT(folder_circles(product()), IsEmpty()); }
+
+TEST(Project, HasAMasterAndPlacesThatNeverSeeEachOther) {
+    EXPECT_THAT(glances(product(), "core/run/master", "core/run/place"), IsEmpty());
+}
+
+TEST(Project, HasOneTypeOfEachName) { EXPECT_THAT(repeated_types(product()), IsEmpty()); }
 
 TEST(Project, HasDocumentsThatShowItsCode) {
     for (const char* document : {"README.md", "CONTRIBUTING.md"})

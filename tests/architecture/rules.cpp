@@ -60,16 +60,16 @@ const std::array homes{
     Home{"Lua", std::regex("(lua5.4/)?(lua(_any)?|lauxlib|lualib)\\.(h|hpp)"), std::regex("lua/.*")},
     Home{"Embree", std::regex("embree.*"), std::regex("core/scene/geometry/.*")},
     Home{"OpenEXR", std::regex("(OpenEXR/|Imath/)?(Imf|Iex|Imath|half).*"),
-         std::regex("core/film/.*|core/readers/image_\\w+\\.cpp")},
-    Home{"libpng", std::regex("png\\.h"), std::regex("core/film/.*|core/readers/image_\\w+\\.cpp")},
-    Home{"libwebp", std::regex("webp/.*"), std::regex("core/readers/image_webp\\.cpp")},
-    Home{"giflib", std::regex("gif_lib\\.h"), std::regex("core/readers/image_gif\\.cpp")},
-    Home{"zstd", std::regex("zstd\\.h"), std::regex("core/readers/image_ktx\\.cpp")},
-    Home{"libjpeg", std::regex("jpeglib\\.h"), std::regex("core/readers/image_\\w+\\.cpp")},
+         std::regex("core/film/.*|core/readers/images/image_\\w+\\.cpp")},
+    Home{"libpng", std::regex("png\\.h"), std::regex("core/film/.*|core/readers/images/image_\\w+\\.cpp")},
+    Home{"libwebp", std::regex("webp/.*"), std::regex("core/readers/images/image_webp\\.cpp")},
+    Home{"giflib", std::regex("gif_lib\\.h"), std::regex("core/readers/images/image_gif\\.cpp")},
+    Home{"zstd", std::regex("zstd\\.h"), std::regex("core/readers/images/image_ktx\\.cpp")},
+    Home{"libjpeg", std::regex("jpeglib\\.h"), std::regex("core/readers/images/image_\\w+\\.cpp")},
     Home{"pugixml", std::regex("pugixml\\.hpp"), std::regex("core/readers/mitsuba/.*")},
     Home{"Draco", std::regex("draco/.*"), std::regex("core/readers/gltf/draco\\.cpp")},
     Home{"meshoptimizer", std::regex("meshoptimizer\\.h"), std::regex("core/readers/gltf/meshopt\\.cpp")},
-    Home{"zlib", std::regex("zlib\\.h"), std::regex("core/readers/(mitsuba/\\w+|gzip|image_ktx)\\.cpp")},
+    Home{"zlib", std::regex("zlib\\.h"), std::regex("core/readers/(mitsuba/\\w+|files/gzip|images/image_ktx)\\.cpp")},
     Home{"Boost.Context", std::regex("boost/context/.*"), std::regex("core/run/fiber/.*")},
     Home{"Boost.Beast", std::regex("boost/beast.*"), std::regex("tools/http/.*")},
     Home{"Boost.Asio", std::regex("boost/(?!context/|beast).*"),
@@ -208,13 +208,12 @@ Complaints too_long(const SourceFile& file, std::size_t most_lines) {
     return {at_line(file, most_lines + 1, std::to_string(lines) + " lines are too long for one file")};
 }
 
-Complaints folder_circles(const std::vector<SourceFile>& files, std::string_view room) {
+Complaints folder_circles(const std::vector<SourceFile>& files) {
     std::map<std::string, Names> sees;
     for (const SourceFile& file : files)
-        if (is_in(room, file.path) && ends_with(file.path, ".hpp"))
-            for (const Include& include : includes_of(file))
-                if (include.own && is_in(room, include.name) && folder_of(include.name) != folder_of(file.path))
-                    sees[folder_of(file.path)].insert(folder_of(include.name));
+        for (const Include& include : includes_of(file))
+            if (include.own && folder_of(include.name) != folder_of(file.path))
+                sees[folder_of(file.path)].insert(folder_of(include.name));
 
     Complaints complaints;
     for (const auto& [start, unused] : sees) {
@@ -226,6 +225,16 @@ Complaints folder_circles(const std::vector<SourceFile>& files, std::string_view
         visit(start);
         if (reached.contains(start)) complaints.push_back(start + " includes itself through other folders");
     }
+    return complaints;
+}
+
+Complaints glances(const std::vector<SourceFile>& files, std::string_view one, std::string_view other) {
+    Complaints complaints;
+    for (const SourceFile& file : files)
+        for (const Include& include : includes_of(file))
+            if ((is_in(one, file.path) && is_in(other, include.name)) ||
+                (is_in(other, file.path) && is_in(one, include.name)))
+                complaints.push_back(file.path + " sees " + std::string(include.name));
     return complaints;
 }
 

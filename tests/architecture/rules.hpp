@@ -32,8 +32,10 @@ Complaints bad_header(const SourceFile& file);
 /// A file of more lines than the house allows.
 Complaints too_long(const SourceFile& file, std::size_t most_lines);
 
-/// Folders below `room` whose headers include each other in a circle. A .cpp file may know who uses it.
-Complaints folder_circles(const std::vector<SourceFile>& files, std::string_view room);
+/// Folders that include each other in a circle.
+Complaints folder_circles(const std::vector<SourceFile>& files);
+/// Files of the folder `one` that include something of `other`, and the other way round.
+Complaints glances(const std::vector<SourceFile>& files, std::string_view one, std::string_view other);
 
 /// Code blocks of a document that are not, word for word, in the file that they say they are `<!-- cut from -->`.
 Complaints stale_cuts(const SourceFile& document, const std::vector<SourceFile>& files);

@@ -9,7 +9,7 @@
 #include "core/network/light/light_op.hpp"
 #include "core/network/light/node_context.hpp"
 #include "core/network/light/renderer.hpp"
-#include "core/run/runtime/master_renderer.hpp"
+#include "core/run/master/master_renderer.hpp"
 #include "tests/bench/figure.hpp"
 
 namespace lightnet::bench {

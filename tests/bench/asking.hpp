@@ -9,8 +9,8 @@
 
 #include "core/network/graph/kind.hpp"
 #include "core/network/graph/plan.hpp"
+#include "core/run/assembly/job.hpp"
 #include "core/run/message/carrier.hpp"
-#include "core/run/runtime/job.hpp"
 #include "tests/bench/picture.hpp"
 #include "tests/bench/plain_pair.hpp"
 

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <exception>
 
-#include "core/run/runtime/fingerprint.hpp"
+#include "core/run/assembly/fingerprint.hpp"
 #include "tests/bench/emulated.hpp"
 #include "tests/bench/figure.hpp"
 #include "transport/launcher/threaded_run.hpp"

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/network/graph/kind.hpp"
+#include "core/run/assembly/job.hpp"
 #include "core/run/message/carrier.hpp"
-#include "core/run/runtime/job.hpp"
 #include "tests/bench/picture.hpp"
 
 namespace lightnet::bench {

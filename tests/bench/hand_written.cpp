@@ -3,8 +3,8 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "core/run/prepare/assembly.hpp"
-#include "core/run/runtime/serial.hpp"
+#include "core/run/assembly/assembly.hpp"
+#include "core/run/serial/serial.hpp"
 #include "tests/bench/figure.hpp"
 #include "tests/bench/overhead.hpp"
 

@@ -12,7 +12,7 @@
 
 #include "core/network/light/node_context.hpp"
 #include "core/network/light/renderer.hpp"
-#include "core/run/runtime/fingerprint.hpp"
+#include "core/run/assembly/fingerprint.hpp"
 #include "nodes/standard_nodes.hpp"
 #include "tests/bench/emulated.hpp"
 #include "tests/bench/figure.hpp"

@@ -11,9 +11,9 @@
 #include "core/network/graph/check.hpp"
 #include "core/network/graph/graph_film.hpp"
 #include "core/readers/read_scene.hpp"
-#include "core/run/runtime/fingerprint.hpp"
-#include "core/run/runtime/master_renderer.hpp"
-#include "core/run/runtime/serial.hpp"
+#include "core/run/assembly/fingerprint.hpp"
+#include "core/run/master/master_renderer.hpp"
+#include "core/run/serial/serial.hpp"
 #include "lua/load_graph.hpp"
 #include "tests/bench/figure.hpp"
 

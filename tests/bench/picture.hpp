@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "core/network/graph/kind.hpp"
+#include "core/run/assembly/job.hpp"
 #include "core/run/message/carrier.hpp"
-#include "core/run/runtime/job.hpp"
 
 namespace lightnet::bench {
 

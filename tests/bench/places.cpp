@@ -3,7 +3,7 @@
 #include <chrono>
 #include <thread>
 
-#include "core/run/runtime/place.hpp"
+#include "core/run/place/place.hpp"
 #include "tests/bench/figure.hpp"
 #include "tests/bench/overhead.hpp"
 #include "transport/launcher/cluster.hpp"

@@ -7,7 +7,7 @@
 #include "core/network/light/light_op.hpp"
 #include "core/network/light/renderer.hpp"
 #include "core/network/light/wrap.hpp"
-#include "core/run/runtime/master_renderer.hpp"
+#include "core/run/master/master_renderer.hpp"
 #include "tests/bench/figure.hpp"
 #include "tests/bench/two_hosts.hpp"
 #include "transport/launcher/threaded_run.hpp"

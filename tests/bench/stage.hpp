@@ -12,9 +12,9 @@
 #include "core/film/film.hpp"
 #include "core/network/graph/graph_film.hpp"
 #include "core/network/graph/kind.hpp"
+#include "core/run/assembly/job.hpp"
+#include "core/run/assembly/prepared.hpp"
 #include "core/run/message/carrier.hpp"
-#include "core/run/prepare/prepared.hpp"
-#include "core/run/runtime/job.hpp"
 #include "transport/launcher/cluster.hpp"
 
 namespace lightnet::bench {

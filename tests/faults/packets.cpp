@@ -15,7 +15,7 @@
 #include "core/base/build_info.hpp"
 #include "core/network/graph/json.hpp"
 #include "core/network/graph/plan.hpp"
-#include "core/run/runtime/job.hpp"
+#include "core/run/assembly/job.hpp"
 #include "tests/faults/faults.hpp"
 #include "tests/modes/stranger.hpp"
 #include "tests/support/liar.hpp"

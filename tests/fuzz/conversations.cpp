@@ -9,8 +9,8 @@
 
 #include "core/base/build_info.hpp"
 #include "core/network/graph/plan.hpp"
-#include "core/run/runtime/fingerprint.hpp"
-#include "core/run/runtime/job.hpp"
+#include "core/run/assembly/fingerprint.hpp"
+#include "core/run/assembly/job.hpp"
 #include "nodes/standard_nodes.hpp"
 #include "tests/fuzz/put_right.hpp"
 #include "tests/fuzz/targets.hpp"
@@ -82,7 +82,9 @@ std::string said(Type type, char run, const packet::Packet& packet) {
     return text.append(reinterpret_cast<const char*>(body.data()), body.size());
 }
 
-std::string say(Type type, char run, const Fields& fields) { return said(type, run, packet::pack(type, std::uint64_t{1}, fields)); }
+std::string say(Type type, char run, const Fields& fields) {
+    return said(type, run, packet::pack(type, std::uint64_t{1}, fields));
+}
 
 std::vector<std::string> seeds() {
     const std::string scene = "WorldBegin\nLightSource \"infinite\"\nShape \"sphere\"\n";

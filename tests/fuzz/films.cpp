@@ -15,7 +15,7 @@
 #include "core/base/name_id.hpp"
 #include "core/film/exr.hpp"
 #include "tests/fuzz/targets.hpp"
-#include "tools/picture_notes.hpp"
+#include "tools/pictures/picture_notes.hpp"
 
 namespace lightnet::fuzz {
 namespace {

@@ -3,7 +3,7 @@
 #include "core/base/error.hpp"
 #include "core/network/graph/layout.hpp"
 #include "core/network/graph/plan.hpp"
-#include "core/run/runtime/job.hpp"
+#include "core/run/assembly/job.hpp"
 #include "nodes/standard_nodes.hpp"
 #include "tests/fuzz/targets.hpp"
 

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "core/base/error.hpp"
-#include "core/run/prepare/kept.hpp"
+#include "core/run/assembly/kept.hpp"
 #include "lua/custom.hpp"
 #include "nodes/standard_nodes.hpp"
 #include "tests/fuzz/targets.hpp"

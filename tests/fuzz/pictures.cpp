@@ -1,5 +1,5 @@
 #include "core/base/error.hpp"
-#include "core/readers/image_file.hpp"
+#include "core/readers/images/image_file.hpp"
 #include "tests/fuzz/targets.hpp"
 #include "tests/support/picture_bytes.hpp"
 #include "tests/support/picture_kinds.hpp"

@@ -5,8 +5,8 @@
 #include "core/network/graph/graph.hpp"
 #include "core/network/graph/hosts.hpp"
 #include "core/network/graph/plan.hpp"
+#include "core/run/assembly/job.hpp"
 #include "core/run/message/figures.hpp"
-#include "core/run/runtime/job.hpp"
 #include "tests/fuzz/targets.hpp"
 
 namespace lightnet::fuzz {

@@ -14,7 +14,7 @@ images() { buildah --root "$folder/images" --runroot "$folder/run" --storage-dri
 trap 'images rm --all >/dev/null 2>&1 || true; rm -rf --one-file-system "$folder"' EXIT
 mkdir "$folder/context"
 cp -r "$sources/Containerfile" "$sources/packaging" "$folder/context/"
-if [ -n "${2-}" ]; then cp -r "$2" "$folder/context/out"; else "$sources/tools/package.sh" "$folder/context/out" >/dev/null; fi
+if [ -n "${2-}" ]; then cp -r "$2" "$folder/context/out"; else "$sources/scripts/package.sh" "$folder/context/out" >/dev/null; fi
 
 minimal_root "$folder/root" "$folder/log"
 base=$(images from scratch)

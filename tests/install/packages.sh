@@ -12,7 +12,7 @@ for tool in debootstrap lintian dpkg-deb chroot; do command -v "$tool" >/dev/nul
 folder=$(mktemp -d)
 trap 'umount "$folder/root/proc" 2>/dev/null || true; rm -rf --one-file-system "$folder"' EXIT
 packages=${2-}
-[ -n "$packages" ] || { packages=$folder/packages; "$sources/tools/package.sh" "$packages" >/dev/null; }
+[ -n "$packages" ] || { packages=$folder/packages; "$sources/scripts/package.sh" "$packages" >/dev/null; }
 ls "$packages"/lightnet-dbgsym_*.ddeb "$packages"/lightnetd-dbgsym_*.ddeb >/dev/null || fail "no debug symbols"
 
 errors=$(lintian --fail-on none --tag-display-limit 0 "$packages"/*.deb 2>/dev/null | grep '^E:' || true)

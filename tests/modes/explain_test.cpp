@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "core/film/exr.hpp"
-#include "core/run/prepare/direct_port.hpp"
+#include "core/run/assembly/direct_port.hpp"
 #include "nodes/standard_nodes.hpp"
 #include "tests/modes/daemons.hpp"
 #include "tests/support/schema.hpp"

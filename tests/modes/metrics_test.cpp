@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "tests/modes/daemons.hpp"
-#include "tools/metrics.hpp"
+#include "tools/daemon/metrics.hpp"
 
 namespace lightnet::test {
 namespace {

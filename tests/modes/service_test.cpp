@@ -58,7 +58,7 @@ protected:
         return launch(graph_file("cornell.lua"), folder, words);
     }
 
-    static inline const std::string unit = std::string(LIGHTNET_SOURCE_DIR) + "/tools/systemd/lightnetd.service.in";
+    static inline const std::string unit = std::string(LIGHTNET_SOURCE_DIR) + "/packaging/systemd/lightnetd.service.in";
     static inline const std::string without_cards = "AF_UNIX AF_INET AF_INET6";
     Folder folder;
 };

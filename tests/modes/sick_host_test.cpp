@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/base/hash.hpp"
-#include "core/run/runtime/fingerprint.hpp"
+#include "core/run/assembly/fingerprint.hpp"
 #include "tests/modes/daemons.hpp"
 #include "tests/modes/stranger.hpp"
 

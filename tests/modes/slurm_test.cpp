@@ -140,7 +140,7 @@ TEST_F(Slurm, RunsTheScriptThatPeopleRead) {
     const auto launcher = join_endpoint(run);
     Process submit({"/usr/bin/sbatch", "--output=/dev/null", "--array=1-2",
                     "--export=ALL,LIGHTNET_FARM_KEY=" + folder.file("farm"),
-                    LIGHTNET_SOURCE_DIR "/tools/slurm/lightnet.sbatch", launcher, user.open.text(),
+                    LIGHTNET_SOURCE_DIR "/packaging/slurm/lightnet.sbatch", launcher, user.open.text(),
                     program("lightnetd")});
     EXPECT_EQ(submit.wait(seconds(20)), 0) << submit.output();
     const auto end = finish(run, out);

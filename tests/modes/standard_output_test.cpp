@@ -6,7 +6,7 @@
 #include <map>
 
 #include "tests/modes/daemons.hpp"
-#include "tools/verbs/verb.hpp"
+#include "tools/cli/verb.hpp"
 
 namespace lightnet::standard_output_test {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "core/film/compare.hpp"
 #include "core/film/exr.hpp"
-#include "core/readers/files.hpp"
+#include "core/readers/files/files.hpp"
 #include "core/readers/read_scene.hpp"
 #include "tests/support/references.hpp"
 #include "tests/support/small_network.hpp"

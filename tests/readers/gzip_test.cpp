@@ -1,5 +1,5 @@
 // Packed files, sound ones and hostile ones.
-#include "core/readers/gzip.hpp"
+#include "core/readers/files/gzip.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

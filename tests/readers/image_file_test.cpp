@@ -1,4 +1,4 @@
-#include "core/readers/image_file.hpp"
+#include "core/readers/images/image_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.hpp"
-#include "core/readers/image_file.hpp"
+#include "core/readers/images/image_file.hpp"
 #include "tests/support/memory_files.hpp"
 #include "tests/support/picture_kinds.hpp"
 

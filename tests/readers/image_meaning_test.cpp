@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
-#include "core/readers/image_file.hpp"
+#include "core/readers/images/image_file.hpp"
 #include "tests/support/memory_files.hpp"
 #include "tests/support/picture_bytes.hpp"
 #include "tests/support/picture_kinds.hpp"

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/readers/files.hpp"
+#include "core/readers/files/files.hpp"
 #include "core/scene/textures/look_up.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/support/picture_kinds.hpp"

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/readers/spectra.hpp"
+#include "core/readers/common/spectra.hpp"
 #include "core/scene/bsdf/fresnel.hpp"
 #include "core/scene/textures/look_up.hpp"
 #include "tests/support/scene_text.hpp"

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/readers/mesh_tools.hpp"
+#include "core/readers/common/mesh_tools.hpp"
 #include "tests/support/scene_text.hpp"
 
 namespace lightnet::test::obj_reader_test {

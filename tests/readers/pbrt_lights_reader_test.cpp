@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-#include "core/readers/spectra.hpp"
+#include "core/readers/common/spectra.hpp"
 #include "core/scene/camera.hpp"
 #include "core/scene/scene.hpp"
 #include "tests/support/both_ways.hpp"

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/readers/spectra.hpp"
+#include "core/readers/common/spectra.hpp"
 #include "core/scene/textures/look_up.hpp"
 #include "core/scene/textures/noise.hpp"
 #include "tests/support/pbrt_text.hpp"

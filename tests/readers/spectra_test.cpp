@@ -1,4 +1,4 @@
-#include "core/readers/spectra.hpp"
+#include "core/readers/common/spectra.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "core/run/runtime/bundle_port.hpp"
+#include "core/run/place/bundle_port.hpp"
 
 #include <gtest/gtest.h>
 

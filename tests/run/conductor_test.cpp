@@ -1,5 +1,5 @@
 // The conductor, with places that the test plays.
-#include "core/run/runtime/conductor.hpp"
+#include "core/run/master/conductor.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Tests of tiles that are rendered in pieces.
-#include "core/run/runtime/cut_tiles.hpp"
+#include "core/run/master/cut_tiles.hpp"
 
 #include <gtest/gtest.h>
 

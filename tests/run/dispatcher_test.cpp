@@ -1,4 +1,4 @@
-#include "core/run/runtime/dispatcher.hpp"
+#include "core/run/place/dispatcher.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "core/run/runtime/epoch.hpp"
+#include "core/run/master/epoch.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <thread>
 
-#include "core/run/prepare/looker.hpp"
+#include "core/run/assembly/looker.hpp"
 #include "tests/support/slowdown.hpp"
 
 namespace lightnet::figures_test {

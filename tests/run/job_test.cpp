@@ -1,4 +1,4 @@
-#include "core/run/runtime/job.hpp"
+#include "core/run/assembly/job.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 
 #include "core/base/error.hpp"
 #include "core/network/graph/check.hpp"
-#include "core/run/runtime/fingerprint.hpp"
+#include "core/run/assembly/fingerprint.hpp"
 #include "nodes/standard_nodes.hpp"
 #include "tests/support/slowdown.hpp"
 

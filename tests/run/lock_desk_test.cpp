@@ -1,8 +1,9 @@
-#include "core/run/prepare/lock_desk.hpp"
+#include "core/run/master/lock_desk.hpp"
 
 #include <gmock/gmock.h>
 
-#include "core/run/runtime/lock_keeper.hpp"
+#include "core/run/master/lock_keeper.hpp"
+#include "core/run/place/place_locks.hpp"
 
 namespace lightnet::lock_desk_test {
 namespace {

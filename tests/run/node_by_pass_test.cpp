@@ -7,7 +7,7 @@
 #include "core/base/error.hpp"
 #include "core/film/tile.hpp"
 #include "core/network/light/services.hpp"
-#include "core/run/prepare/node_by_pass.hpp"
+#include "core/run/assembly/node_by_pass.hpp"
 
 namespace lightnet::node_by_pass_test {
 namespace {

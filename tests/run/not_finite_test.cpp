@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/run/assembly/direct_port.hpp"
 #include "core/run/message/counters.hpp"
-#include "core/run/prepare/direct_port.hpp"
 
 namespace lightnet::not_finite_test {
 namespace {

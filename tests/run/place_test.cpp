@@ -1,5 +1,5 @@
 // A place, which is asked by the test.
-#include "core/run/runtime/place.hpp"
+#include "core/run/place/place.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Traces of places: a ring of fixed size, and its way as bytes.
-#include "core/run/runtime/place_tracer.hpp"
+#include "core/run/assembly/place_tracer.hpp"
 
 #include <gtest/gtest.h>
 

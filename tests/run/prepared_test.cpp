@@ -1,11 +1,11 @@
-#include "core/run/prepare/prepared.hpp"
+#include "core/run/assembly/prepared.hpp"
 
 #include <gmock/gmock.h>
 
 #include "core/network/graph/check.hpp"
 #include "core/network/light/mapped.hpp"
 #include "core/network/light/rehearsal.hpp"
-#include "core/run/runtime/serial.hpp"
+#include "core/run/serial/serial.hpp"
 #include "tests/support/learner.hpp"
 #include "tests/support/small_scenes.hpp"
 

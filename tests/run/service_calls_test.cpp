@@ -1,4 +1,4 @@
-#include "core/run/prepare/service_calls.hpp"
+#include "core/run/master/service_calls.hpp"
 
 #include <gmock/gmock.h>
 

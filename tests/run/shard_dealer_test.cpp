@@ -1,4 +1,4 @@
-#include "core/run/prepare/shard_dealer.hpp"
+#include "core/run/master/shard_dealer.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/run/prepare/shared_values.hpp"
+#include "core/run/assembly/shared_values.hpp"
 
 namespace lightnet::shared_values_test {
 namespace {
@@ -49,7 +49,8 @@ TEST(SharedValues, AreBuiltByAllWhoWaitForThem) {
     {
         std::vector<std::jthread> places;
         for (int i = 0; i < 3; ++i)
-            places.emplace_back([&] { EXPECT_EQ(*std::static_pointer_cast<const int>(values.get(0, 0, {}, make)), 7); });
+            places.emplace_back(
+                [&] { EXPECT_EQ(*std::static_pointer_cast<const int>(values.get(0, 0, {}, make)), 7); });
     }
     EXPECT_EQ(std::set(builders.begin(), builders.end()).size(), 3u);
 }

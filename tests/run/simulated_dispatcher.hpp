@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "core/run/runtime/dispatcher.hpp"
+#include "core/run/place/dispatcher.hpp"
 
 namespace lightnet::test {
 

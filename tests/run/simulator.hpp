@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/run/runtime/master_renderer.hpp"
+#include "core/run/master/master_renderer.hpp"
 #include "tests/run/simulated_dispatcher.hpp"
 #include "tests/run/simulated_world.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/network/light/mapped.hpp"
-#include "core/run/runtime/conductor.hpp"
+#include "core/run/master/conductor.hpp"
 #include "tests/run/places_by_hand.hpp"
 
 namespace lightnet::slow_places_test {

@@ -4,8 +4,8 @@
 
 #include "core/film/film.hpp"
 #include "core/network/graph/check.hpp"
-#include "core/run/prepare/prepared.hpp"
-#include "core/run/runtime/tiles_by_pass.hpp"
+#include "core/run/assembly/prepared.hpp"
+#include "core/run/master/tiles_by_pass.hpp"
 #include "lua/load_graph.hpp"
 #include "nodes/standard_nodes.hpp"
 

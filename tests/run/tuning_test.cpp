@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "core/run/runtime/job.hpp"
+#include "core/run/assembly/job.hpp"
 
 namespace lightnet::tuning_test {
 namespace {

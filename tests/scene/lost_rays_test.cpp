@@ -8,7 +8,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/unwanted.hpp"
-#include "core/scene/lost_rays.hpp"
+#include "core/scene/geometry/lost_rays.hpp"
 #include "core/scene/reach.hpp"
 #include "core/scene/scene.hpp"
 #include "tests/support/small_scenes.hpp"

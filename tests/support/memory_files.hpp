@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "core/readers/files.hpp"
+#include "core/readers/files/files.hpp"
 
 namespace lightnet::test {
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "core/run/prepare/assembly.hpp"
-#include "core/run/runtime/place.hpp"
+#include "core/run/assembly/assembly.hpp"
+#include "core/run/place/place.hpp"
 
 namespace lightnet {
 

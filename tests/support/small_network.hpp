@@ -13,7 +13,7 @@
 #include "core/film/tile.hpp"
 #include "core/network/graph/check.hpp"
 #include "core/network/graph/graph_film.hpp"
-#include "core/run/runtime/serial.hpp"
+#include "core/run/serial/serial.hpp"
 #include "core/scene/scene.hpp"
 #include "nodes/standard_nodes.hpp"
 

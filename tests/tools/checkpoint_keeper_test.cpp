@@ -1,5 +1,5 @@
 // How a run keeps what it has.
-#include "tools/checkpoint_keeper.hpp"
+#include "tools/session/checkpoint_keeper.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // `lightnet compare`.
-#include "tools/compare.hpp"
+#include "tools/pictures/compare.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 #include "core/film/png.hpp"
 #include "nodes/standard_nodes.hpp"
 #include "tests/film/pictures.hpp"
-#include "tools/launcher.hpp"
+#include "tools/cli/launcher.hpp"
 
 namespace lightnet::compare_test {
 namespace {

@@ -1,11 +1,11 @@
-#include "tools/daemon_options.hpp"
+#include "tools/daemon/daemon_options.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <regex>
 
-#include "tools/log_line.hpp"
+#include "tools/support/log_line.hpp"
 
 namespace lightnet::daemon_options_test {
 namespace {

@@ -1,5 +1,5 @@
 // A finished picture gets to a disk.
-#include "tools/delivery.hpp"
+#include "tools/session/delivery.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // What the doctor makes of what it sees.
-#include "tools/doctor.hpp"
+#include "tools/hosts/doctor.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

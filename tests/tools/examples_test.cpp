@@ -1,12 +1,12 @@
 // Every help ends in examples, and they work.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <iterator>
-#include <algorithm>
 #include <sstream>
 
-#include "tools/launcher.hpp"
+#include "tools/cli/launcher.hpp"
 
 namespace lightnet::examples_test {
 namespace {

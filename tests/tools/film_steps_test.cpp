@@ -1,5 +1,5 @@
 // Runs that may have to end early always have a picture that is that of a whole run of fewer samples.
-#include "tools/film_steps.hpp"
+#include "tools/session/film_steps.hpp"
 
 #include <gtest/gtest.h>
 

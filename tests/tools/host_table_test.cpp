@@ -1,10 +1,10 @@
 // What `lightnet hosts` prints, and what is said while a run waits for busy hosts.
-#include "tools/host_table.hpp"
+#include "tools/hosts/host_table.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tools/host_json.hpp"
+#include "tools/hosts/host_json.hpp"
 
 namespace lightnet::host_table_test {
 namespace {

@@ -1,4 +1,4 @@
-#include "tools/launcher.hpp"
+#include "tools/cli/launcher.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 #include "core/network/graph/graph_film.hpp"
 #include "tests/support/fake_registry.hpp"
 #include "tests/support/folder.hpp"
-#include "tools/options.hpp"
+#include "tools/cli/options.hpp"
 
 namespace lightnet::launcher_test {
 namespace {

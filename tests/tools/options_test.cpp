@@ -1,4 +1,4 @@
-#include "tools/options.hpp"
+#include "tools/cli/options.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "tests/support/fake_registry.hpp"
-#include "tools/launcher.hpp"
+#include "tools/cli/launcher.hpp"
 
 namespace lightnet::options_test {
 namespace {

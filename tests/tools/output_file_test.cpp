@@ -1,5 +1,5 @@
 // What is there already is left alone, unless it is ours.
-#include "tools/output_file.hpp"
+#include "tools/pictures/output_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 
 #include <filesystem>
 
-#include "core/film/run_report.hpp"
 #include "tests/support/folder.hpp"
+#include "tools/support/run_report.hpp"
 
 namespace lightnet::output_file_test {
 namespace {

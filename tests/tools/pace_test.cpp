@@ -1,4 +1,4 @@
-#include "tools/pace.hpp"
+#include "tools/support/pace.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tools/picture_lock.hpp"
+#include "tools/pictures/picture_lock.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,13 +1,13 @@
 // Manual pages and completions say all that the command line takes.
-#include "tools/program_text.hpp"
+#include "tools/support/program_text.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "tools/daemon_options.hpp"
-#include "tools/launcher.hpp"
+#include "tools/cli/launcher.hpp"
+#include "tools/daemon/daemon_options.hpp"
 
 namespace lightnet::program_text_test {
 namespace {

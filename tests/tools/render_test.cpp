@@ -1,5 +1,5 @@
 // `lightnet render` and `lightnet scene info`.
-#include "tools/render.hpp"
+#include "tools/cli/render.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,10 +8,10 @@
 
 #include "core/network/graph/graph_film.hpp"
 #include "core/network/graph/plan.hpp"
-#include "core/run/prepare/load_scene.hpp"
+#include "core/run/assembly/load_scene.hpp"
 #include "nodes/standard_nodes.hpp"
 #include "tests/support/folder.hpp"
-#include "tools/launcher.hpp"
+#include "tools/cli/launcher.hpp"
 
 namespace lightnet::render_test {
 namespace {

@@ -1,5 +1,5 @@
 // What a run says of itself.
-#include "tools/run_book.hpp"
+#include "tools/session/run_book.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // What programs are told of kinds.
-#include "tools/schema_text.hpp"
+#include "tools/cli/schema_text.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

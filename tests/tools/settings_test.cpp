@@ -1,5 +1,5 @@
 // Who decides what a command line leaves open.
-#include "tools/settings.hpp"
+#include "tools/cli/settings.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,8 +9,8 @@
 
 #include "tests/support/fake_registry.hpp"
 #include "tests/support/folder.hpp"
-#include "tools/daemon_options.hpp"
-#include "tools/launcher.hpp"
+#include "tools/cli/launcher.hpp"
+#include "tools/daemon/daemon_options.hpp"
 
 namespace lightnet::settings_test {
 namespace {

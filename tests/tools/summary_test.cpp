@@ -1,5 +1,5 @@
 // The last words of a run.
-#include "tools/summary.hpp"
+#include "tools/support/summary.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // How many samples there is time for.
-#include "tools/time_limit.hpp"
+#include "tools/support/time_limit.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "core/base/error.hpp"
-#include "core/film/run_report.hpp"
+#include "tools/support/run_report.hpp"
 
 namespace lightnet::run_table_test {
 namespace {

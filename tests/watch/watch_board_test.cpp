@@ -1,5 +1,5 @@
 // What those who watch get of a picture.
-#include "tools/watch/watch_board.hpp"
+#include "tools/preview/watch_board.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Whom the watch server answers.
-#include "tools/watch/watch_rules.hpp"
+#include "tools/http/watch_rules.hpp"
 
 #include <gtest/gtest.h>
 

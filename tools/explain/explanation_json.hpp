@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-#include "core/run/runtime/account.hpp"
+#include "core/run/assembly/account.hpp"
 #include "tools/explain/pixel_account.hpp"
 
 namespace lightnet {

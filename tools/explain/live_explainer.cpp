@@ -12,10 +12,10 @@
 
 #include "core/base/error.hpp"
 #include "core/network/graph/layout.hpp"
-#include "core/run/prepare/load_scene.hpp"
-#include "core/run/runtime/job.hpp"
+#include "core/run/assembly/job.hpp"
+#include "core/run/assembly/load_scene.hpp"
 #include "tools/explain/explanation_text.hpp"
-#include "tools/run_settings.hpp"
+#include "tools/request/run_settings.hpp"
 #include "transport/store/cache_folder.hpp"
 #include "transport/store/result_cache.hpp"
 

@@ -13,7 +13,7 @@
 #include <thread>
 
 #include "tools/explain/pixel_account.hpp"
-#include "tools/run.hpp"
+#include "tools/request/run_request.hpp"
 
 namespace lightnet {
 

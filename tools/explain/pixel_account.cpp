@@ -10,10 +10,10 @@
 
 #include "core/base/error.hpp"
 #include "core/network/graph/graph_film.hpp"
-#include "core/run/prepare/load_scene.hpp"
-#include "core/run/runtime/job.hpp"
-#include "core/run/runtime/serial.hpp"
-#include "tools/run_settings.hpp"
+#include "core/run/assembly/job.hpp"
+#include "core/run/assembly/load_scene.hpp"
+#include "core/run/serial/serial.hpp"
+#include "tools/request/run_settings.hpp"
 #include "transport/store/cache_folder.hpp"
 #include "transport/store/result_cache.hpp"
 

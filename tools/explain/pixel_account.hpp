@@ -11,9 +11,9 @@
 #include "core/film/film.hpp"
 #include "core/film/picture.hpp"
 #include "core/network/graph/kind.hpp"
-#include "core/run/prepare/assembly.hpp"
-#include "core/run/prepare/prepared.hpp"
-#include "core/run/runtime/account.hpp"
+#include "core/run/assembly/account.hpp"
+#include "core/run/assembly/assembly.hpp"
+#include "core/run/assembly/prepared.hpp"
 #include "tools/explain/past_run.hpp"
 
 namespace lightnet {

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "core/film/picture.hpp"
+#include "tools/http/watch_rules.hpp"
 #include "tools/preview/tev_packets.hpp"
-#include "tools/watch/watch_rules.hpp"
 
 namespace lightnet {
 namespace {

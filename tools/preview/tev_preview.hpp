@@ -10,7 +10,7 @@
 
 #include "core/film/film.hpp"
 #include "tools/http/byte_line.hpp"
-#include "tools/watch/watch_board.hpp"
+#include "tools/preview/watch_board.hpp"
 
 namespace lightnet {
 

@@ -5,12 +5,12 @@
 #include "core/network/graph/graph_film.hpp"
 #include "core/network/graph/layout.hpp"
 #include "core/network/graph/plan.hpp"
-#include "core/run/prepare/load_scene.hpp"
-#include "tools/command_line.hpp"
-#include "tools/exit_code.hpp"
-#include "tools/launcher.hpp"
-#include "tools/loading.hpp"
-#include "tools/options.hpp"
+#include "core/run/assembly/load_scene.hpp"
+#include "tools/cli/launcher.hpp"
+#include "tools/cli/loading.hpp"
+#include "tools/cli/options.hpp"
+#include "tools/support/command_line.hpp"
+#include "tools/support/exit_code.hpp"
 
 namespace lightnet {
 namespace {

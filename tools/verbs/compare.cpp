@@ -1,10 +1,10 @@
 // lightnet compare: tells how far pictures are from a reference.
-#include "tools/compare.hpp"
+#include "tools/pictures/compare.hpp"
 
 #include <CLI/CLI.hpp>
 
-#include "tools/command_line.hpp"
-#include "tools/launcher.hpp"
+#include "tools/cli/launcher.hpp"
+#include "tools/support/command_line.hpp"
 
 namespace lightnet {
 namespace {

@@ -7,10 +7,10 @@
 
 #include "core/network/graph/check_params.hpp"
 #include "core/network/graph/describe.hpp"
-#include "tools/command_line.hpp"
-#include "tools/exit_code.hpp"
-#include "tools/launcher.hpp"
-#include "tools/schema_text.hpp"
+#include "tools/cli/launcher.hpp"
+#include "tools/cli/schema_text.hpp"
+#include "tools/support/command_line.hpp"
+#include "tools/support/exit_code.hpp"
 
 namespace lightnet {
 namespace {

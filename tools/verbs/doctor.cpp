@@ -7,11 +7,11 @@
 #include <string>
 
 #include "core/base/build_info.hpp"
-#include "tools/asked_hosts.hpp"
-#include "tools/command_line.hpp"
-#include "tools/doctor.hpp"
-#include "tools/exit_code.hpp"
-#include "tools/launcher.hpp"
+#include "tools/cli/asked_hosts.hpp"
+#include "tools/cli/launcher.hpp"
+#include "tools/hosts/doctor.hpp"
+#include "tools/support/command_line.hpp"
+#include "tools/support/exit_code.hpp"
 
 namespace lightnet {
 namespace {

@@ -12,12 +12,12 @@
 #include "core/network/graph/dot.hpp"
 #include "core/network/graph/layout.hpp"
 #include "core/network/graph/plan.hpp"
-#include "tools/command_line.hpp"
-#include "tools/exit_code.hpp"
-#include "tools/launcher.hpp"
-#include "tools/loading.hpp"
-#include "tools/node_pictures.hpp"
-#include "tools/options.hpp"
+#include "tools/cli/launcher.hpp"
+#include "tools/cli/loading.hpp"
+#include "tools/cli/options.hpp"
+#include "tools/pictures/node_pictures.hpp"
+#include "tools/support/command_line.hpp"
+#include "tools/support/exit_code.hpp"
 
 namespace lightnet {
 namespace {

@@ -11,16 +11,16 @@
 #include "core/base/own_files.hpp"
 #include "core/base/suggestion.hpp"
 #include "core/film/png.hpp"
-#include "core/film/run_report.hpp"
-#include "tools/command_line.hpp"
-#include "tools/exit_code.hpp"
+#include "tools/cli/launcher.hpp"
 #include "tools/explain/explanation_json.hpp"
 #include "tools/explain/explanation_text.hpp"
 #include "tools/explain/past_run.hpp"
 #include "tools/explain/path_picture.hpp"
 #include "tools/explain/pixel_account.hpp"
-#include "tools/launcher.hpp"
-#include "tools/remix.hpp"
+#include "tools/pictures/remix.hpp"
+#include "tools/support/command_line.hpp"
+#include "tools/support/exit_code.hpp"
+#include "tools/support/run_report.hpp"
 
 namespace lightnet {
 namespace {

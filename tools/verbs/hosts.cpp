@@ -6,12 +6,12 @@
 #include <ostream>
 
 #include "core/base/build_info.hpp"
-#include "tools/asked_hosts.hpp"
-#include "tools/command_line.hpp"
-#include "tools/exit_code.hpp"
-#include "tools/host_json.hpp"
-#include "tools/host_table.hpp"
-#include "tools/launcher.hpp"
+#include "tools/cli/asked_hosts.hpp"
+#include "tools/cli/launcher.hpp"
+#include "tools/hosts/host_json.hpp"
+#include "tools/hosts/host_table.hpp"
+#include "tools/support/command_line.hpp"
+#include "tools/support/exit_code.hpp"
 
 namespace lightnet {
 namespace {

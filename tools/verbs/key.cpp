@@ -8,9 +8,9 @@
 #include <string>
 
 #include "core/base/this_machine.hpp"
-#include "tools/command_line.hpp"
-#include "tools/exit_code.hpp"
-#include "tools/launcher.hpp"
+#include "tools/cli/launcher.hpp"
+#include "tools/support/command_line.hpp"
+#include "tools/support/exit_code.hpp"
 #include "transport/keys/key_file.hpp"
 
 namespace lightnet {

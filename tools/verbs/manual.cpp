@@ -10,12 +10,12 @@
 #include "core/base/atomic_file.hpp"
 #include "core/base/suggestion.hpp"
 #include "core/network/graph/describe.hpp"
-#include "tools/command_line.hpp"
-#include "tools/daemon_options.hpp"
-#include "tools/exit_code.hpp"
-#include "tools/launcher.hpp"
-#include "tools/program_text.hpp"
-#include "tools/schema_text.hpp"
+#include "tools/cli/launcher.hpp"
+#include "tools/cli/schema_text.hpp"
+#include "tools/daemon/daemon_options.hpp"
+#include "tools/support/command_line.hpp"
+#include "tools/support/exit_code.hpp"
+#include "tools/support/program_text.hpp"
 
 namespace lightnet {
 namespace {

@@ -4,11 +4,11 @@
 #include <filesystem>
 
 #include "core/film/gains.hpp"
-#include "tools/command_line.hpp"
-#include "tools/exit_code.hpp"
-#include "tools/launcher.hpp"
-#include "tools/options.hpp"
-#include "tools/remix.hpp"
+#include "tools/cli/launcher.hpp"
+#include "tools/cli/options.hpp"
+#include "tools/pictures/remix.hpp"
+#include "tools/support/command_line.hpp"
+#include "tools/support/exit_code.hpp"
 
 namespace lightnet {
 namespace {

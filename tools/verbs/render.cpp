@@ -8,12 +8,12 @@
 #include <utility>
 
 #include "core/readers/read_scene.hpp"
-#include "tools/command_line.hpp"
-#include "tools/launcher.hpp"
-#include "tools/loading.hpp"
-#include "tools/options.hpp"
-#include "tools/render.hpp"
-#include "tools/run_request.hpp"
+#include "tools/cli/launcher.hpp"
+#include "tools/cli/loading.hpp"
+#include "tools/cli/options.hpp"
+#include "tools/cli/render.hpp"
+#include "tools/cli/request_of.hpp"
+#include "tools/support/command_line.hpp"
 
 namespace lightnet {
 namespace {

@@ -2,11 +2,11 @@
 #include <optional>
 #include <utility>
 
-#include "tools/command_line.hpp"
-#include "tools/launcher.hpp"
-#include "tools/loading.hpp"
-#include "tools/options.hpp"
-#include "tools/run_request.hpp"
+#include "tools/cli/launcher.hpp"
+#include "tools/cli/loading.hpp"
+#include "tools/cli/options.hpp"
+#include "tools/cli/request_of.hpp"
+#include "tools/support/command_line.hpp"
 
 namespace lightnet {
 namespace {

@@ -15,14 +15,14 @@
 #include "core/base/joined.hpp"
 #include "core/readers/read_scene.hpp"
 #include "core/readers/statistics.hpp"
-#include "core/run/runtime/fingerprint.hpp"
+#include "core/run/assembly/fingerprint.hpp"
 #include "core/scene/data/lamp_names.hpp"
 #include "core/scene/scene.hpp"
-#include "tools/command_line.hpp"
-#include "tools/exit_code.hpp"
-#include "tools/launcher.hpp"
-#include "tools/options.hpp"
-#include "tools/render.hpp"
+#include "tools/cli/launcher.hpp"
+#include "tools/cli/options.hpp"
+#include "tools/cli/render.hpp"
+#include "tools/support/command_line.hpp"
+#include "tools/support/exit_code.hpp"
 
 namespace lightnet {
 namespace {

@@ -12,12 +12,12 @@
 
 #include "core/base/error.hpp"
 #include "core/base/plain_file.hpp"
-#include "tools/command_line.hpp"
-#include "tools/exit_code.hpp"
+#include "tools/cli/launcher.hpp"
 #include "tools/http/live_line.hpp"
-#include "tools/launcher.hpp"
+#include "tools/http/watch_rules.hpp"
+#include "tools/support/command_line.hpp"
+#include "tools/support/exit_code.hpp"
 #include "tools/watch/run_table.hpp"
-#include "tools/watch/watch_rules.hpp"
 
 namespace lightnet {
 namespace {

@@ -7,12 +7,11 @@
 #include <vector>
 
 #include "core/film/picture.hpp"
+#include "tools/pictures/output_file.hpp"
 #include "tools/watch/watcher.hpp"
 
 namespace lightnet {
 
-/// How all such pages begin.
-inline constexpr std::string_view report_page_beginning = "<!doctype html>\n<!--lightnet-->";
 /// They are shorter: of a larger picture, every second pixel is shown, or every third …
 inline constexpr std::size_t most_report_bytes = 4'900'000;
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/pace.hpp"
+#include "tools/support/pace.hpp"
 
 namespace lightnet {
 

@@ -11,7 +11,7 @@
 #include "core/network/graph/hosts.hpp"
 #include "core/network/graph/layout.hpp"
 #include "core/network/graph/plan.hpp"
-#include "core/run/prepare/gauge.hpp"
+#include "core/run/assembly/gauge.hpp"
 
 namespace lightnet {
 namespace {

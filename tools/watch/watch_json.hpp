@@ -8,7 +8,7 @@
 #include "core/film/film.hpp"
 #include "core/network/graph/graph.hpp"
 #include "core/network/graph/kind.hpp"
-#include "core/run/prepare/activity.hpp"
+#include "core/run/assembly/activity.hpp"
 #include "transport/launcher/cluster.hpp"
 
 namespace lightnet {

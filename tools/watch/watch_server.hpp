@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "tools/explain/live_explainer.hpp"
-#include "tools/watch/watch_board.hpp"
-#include "tools/watch/watch_rules.hpp"
+#include "tools/http/watch_rules.hpp"
+#include "tools/preview/watch_board.hpp"
 
 namespace lightnet {
 

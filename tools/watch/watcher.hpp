@@ -12,12 +12,12 @@
 #include <vector>
 
 #include "core/film/film.hpp"
-#include "core/run/prepare/prepare_progress.hpp"
+#include "core/run/assembly/prepare_progress.hpp"
 #include "tools/explain/live_explainer.hpp"
-#include "tools/pace.hpp"
 #include "tools/preview/tev_preview.hpp"
+#include "tools/preview/watch_board.hpp"
+#include "tools/support/pace.hpp"
 #include "tools/watch/places_at_work.hpp"
-#include "tools/watch/watch_board.hpp"
 #include "tools/watch/watch_history.hpp"
 #include "tools/watch/watch_json.hpp"
 #include "tools/watch/watch_server.hpp"

@@ -9,7 +9,7 @@
 #include "core/base/own_process.hpp"
 #include "core/base/this_machine.hpp"
 #include "core/network/graph/plugin_use.hpp"
-#include "core/run/runtime/fingerprint.hpp"
+#include "core/run/assembly/fingerprint.hpp"
 #include "transport/daemon/host_service.hpp"
 
 namespace lightnet {

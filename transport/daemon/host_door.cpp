@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/base/error.hpp"
-#include "core/run/runtime/job.hpp"
+#include "core/run/assembly/job.hpp"
 
 namespace lightnet {
 namespace {

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "core/run/runtime/job.hpp"
+#include "core/run/assembly/job.hpp"
 #include "transport/daemon/background_work.hpp"
 #include "transport/daemon/last_scene.hpp"
 #include "transport/places/place_threads.hpp"

@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "core/run/runtime/job.hpp"
+#include "core/run/assembly/job.hpp"
 #include "core/scene/scene.hpp"
 
 namespace lightnet {

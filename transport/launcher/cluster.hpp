@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "core/network/graph/plan.hpp"
+#include "core/run/assembly/activity.hpp"
+#include "core/run/assembly/job.hpp"
 #include "core/run/message/carrier.hpp"
 #include "core/run/message/figures.hpp"
-#include "core/run/prepare/activity.hpp"
-#include "core/run/runtime/job.hpp"
 #include "transport/keys/allow_list.hpp"
 #include "transport/wire/machine.hpp"
 

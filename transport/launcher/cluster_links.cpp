@@ -4,7 +4,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/ip_address.hpp"
-#include "core/run/runtime/fingerprint.hpp"
+#include "core/run/assembly/fingerprint.hpp"
 #include "transport/keys/key_file.hpp"
 #include "transport/launcher/own_host.hpp"
 #include "transport/places/descriptors.hpp"

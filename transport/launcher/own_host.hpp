@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "core/base/own_process.hpp"
-#include "core/run/prepare/assembly.hpp"
-#include "core/run/runtime/place.hpp"
+#include "core/run/assembly/assembly.hpp"
+#include "core/run/place/place.hpp"
 #include "transport/launcher/host_link.hpp"
 #include "transport/places/place_threads.hpp"
 #include "transport/zmq/gateway.hpp"

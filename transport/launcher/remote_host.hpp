@@ -10,7 +10,7 @@
 #include <string>
 
 #include "core/base/hash.hpp"
-#include "core/readers/files.hpp"
+#include "core/readers/files/files.hpp"
 #include "core/run/message/counters.hpp"
 #include "core/run/message/message.hpp"
 #include "transport/launcher/host_connection.hpp"

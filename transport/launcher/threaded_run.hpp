@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <memory>
 
+#include "core/run/assembly/assembly.hpp"
 #include "core/run/message/carrier.hpp"
 #include "core/run/message/figures.hpp"
-#include "core/run/prepare/assembly.hpp"
-#include "core/run/runtime/place.hpp"
+#include "core/run/place/place.hpp"
 #include "transport/places/place_transport.hpp"
 #include "transport/zmq/zmq_place_transport.hpp"
 

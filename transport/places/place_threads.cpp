@@ -11,10 +11,10 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/run/assembly/looker.hpp"
+#include "core/run/assembly/place_tracer.hpp"
 #include "core/run/message/place_name.hpp"
-#include "core/run/prepare/looker.hpp"
-#include "core/run/runtime/dispatcher.hpp"
-#include "core/run/runtime/place_tracer.hpp"
+#include "core/run/place/dispatcher.hpp"
 #include "transport/places/wakeup.hpp"
 
 namespace lightnet {

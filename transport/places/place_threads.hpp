@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "core/run/assembly/assembly.hpp"
 #include "core/run/message/figures.hpp"
-#include "core/run/prepare/assembly.hpp"
-#include "core/run/runtime/place.hpp"
+#include "core/run/place/place.hpp"
 #include "transport/places/place_transport.hpp"
 
 namespace lightnet {

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "core/base/hash.hpp"
-#include "core/readers/files.hpp"
+#include "core/readers/files/files.hpp"
+#include "core/run/assembly/job.hpp"
 #include "core/run/message/tuning.hpp"
-#include "core/run/runtime/job.hpp"
 
 namespace lightnet {
 

@@ -6,8 +6,8 @@
 #include <thread>
 #include <vector>
 
+#include "core/run/assembly/prepared.hpp"
 #include "core/run/message/tuning.hpp"
-#include "core/run/prepare/prepared.hpp"
 #include "transport/store/blob_cache.hpp"
 
 namespace lightnet {

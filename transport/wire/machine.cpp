@@ -6,7 +6,7 @@
 #include "core/base/allowance.hpp"
 #include "core/base/build_info.hpp"
 #include "core/base/this_machine.hpp"
-#include "core/run/runtime/fingerprint.hpp"
+#include "core/run/assembly/fingerprint.hpp"
 
 namespace lightnet {
 namespace {

@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <cassert>
 
-#include "core/network/light/light_op.hpp"
-#include "core/network/light/renderer.hpp"
-
 namespace lightnet {
 namespace {
 

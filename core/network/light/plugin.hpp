@@ -9,7 +9,7 @@
 
 namespace lightnet {
 
-struct SceneFormat;  // core/readers/scene_format.hpp
+struct SceneFormat;  // core/readers/common/scene_format.hpp
 
 /// How something was compiled, as far as objects that go to and fro depend on it. Filled in where it is compiled.
 struct PluginBuild {

@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
+#include "core/readers/common/spectra.hpp"
 #include "core/readers/daylight/clear_sky.hpp"
-#include "core/readers/spectra.hpp"
 
 namespace lightnet {
 namespace {

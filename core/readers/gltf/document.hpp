@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/readers/assets.hpp"
+#include "core/readers/common/assets.hpp"
 #include "core/readers/gltf/json.hpp"
 
 namespace lightnet::gltf {

@@ -6,7 +6,7 @@
 #include <set>
 #include <string_view>
 
-#include "core/readers/assets.hpp"
+#include "core/readers/common/assets.hpp"
 #include "core/readers/gltf/nodes.hpp"
 
 namespace lightnet::gltf {

@@ -1,7 +1,7 @@
 // Scenes in glTF 2.0.
 #pragma once
 
-#include "core/readers/scene_format.hpp"
+#include "core/readers/common/scene_format.hpp"
 
 namespace lightnet::gltf {
 

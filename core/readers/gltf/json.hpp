@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/base/json.hpp"
-#include "core/readers/report.hpp"
+#include "core/readers/common/report.hpp"
 
 namespace lightnet::gltf {
 

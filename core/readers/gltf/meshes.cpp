@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/readers/common/mesh_tools.hpp"
 #include "core/readers/gltf/draco.hpp"
-#include "core/readers/mesh_tools.hpp"
 
 namespace lightnet::gltf {
 namespace {

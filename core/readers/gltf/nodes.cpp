@@ -8,9 +8,9 @@
 #include <numbers>
 #include <utility>
 
+#include "core/readers/common/mesh_tools.hpp"
 #include "core/readers/gltf/meshes.hpp"
 #include "core/readers/gltf/skins.hpp"
-#include "core/readers/mesh_tools.hpp"
 #include "core/scene/reach.hpp"
 #include "core/scene/surfaces/placement.hpp"
 

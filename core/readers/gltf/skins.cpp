@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/readers/mesh_tools.hpp"
+#include "core/readers/common/mesh_tools.hpp"
 
 namespace lightnet::gltf {
 namespace {

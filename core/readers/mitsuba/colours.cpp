@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/base/suggestion.hpp"
-#include "core/readers/spectra.hpp"
+#include "core/readers/common/spectra.hpp"
 
 namespace lightnet::mitsuba {
 namespace {

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "core/readers/common/spectra.hpp"
 #include "core/readers/mitsuba/properties.hpp"
-#include "core/readers/spectra.hpp"
 
 namespace lightnet::mitsuba {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "core/readers/assets.hpp"
+#include "core/readers/common/assets.hpp"
 
 namespace lightnet::mitsuba {
 

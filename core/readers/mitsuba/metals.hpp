@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/readers/spectra.hpp"
+#include "core/readers/common/spectra.hpp"
 
 namespace lightnet::mitsuba {
 

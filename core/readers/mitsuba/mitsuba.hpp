@@ -1,7 +1,7 @@
 // Scenes in the XML of Mitsuba: version 3 and its forerunners 0.5, 0.6 and 2.
 #pragma once
 
-#include "core/readers/scene_format.hpp"
+#include "core/readers/common/scene_format.hpp"
 
 namespace lightnet::mitsuba {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/base/suggestion.hpp"
-#include "core/readers/trimmed.hpp"
+#include "core/readers/files/trimmed.hpp"
 
 namespace lightnet::mitsuba {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "core/base/suggestion.hpp"
 #include "core/base/unwanted.hpp"
-#include "core/readers/files.hpp"
-#include "core/readers/mesh_tools.hpp"
+#include "core/readers/common/mesh_tools.hpp"
+#include "core/readers/files/files.hpp"
 #include "core/readers/mitsuba/attributes.hpp"
 #include "core/readers/mitsuba/colours.hpp"
 #include "core/readers/mitsuba/primitives.hpp"

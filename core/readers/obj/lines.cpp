@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/readers/trimmed.hpp"
+#include "core/readers/files/trimmed.hpp"
 
 namespace lightnet::obj {
 namespace {

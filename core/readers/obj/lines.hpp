@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "core/base/error.hpp"
-#include "core/readers/report.hpp"
+#include "core/readers/common/report.hpp"
 
 namespace lightnet::obj {
 

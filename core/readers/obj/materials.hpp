@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "core/readers/assets.hpp"
+#include "core/readers/common/assets.hpp"
 
 namespace lightnet::obj {
 

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "core/base/unwanted.hpp"
-#include "core/readers/mesh_tools.hpp"
+#include "core/readers/common/mesh_tools.hpp"
 #include "core/readers/obj/lines.hpp"
 #include "core/scene/reach.hpp"
 

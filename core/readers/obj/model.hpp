@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/readers/report.hpp"
+#include "core/readers/common/report.hpp"
 #include "core/scene/data/scene_data.hpp"
 
 namespace lightnet::obj {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/base/suggestion.hpp"
-#include "core/readers/assets.hpp"
-#include "core/readers/mesh_tools.hpp"
+#include "core/readers/common/assets.hpp"
+#include "core/readers/common/mesh_tools.hpp"
 #include "core/readers/obj/elsewhere.hpp"
 #include "core/readers/obj/materials.hpp"
 #include "core/readers/obj/model.hpp"

@@ -1,7 +1,7 @@
 // OBJ files, alone as scenes.
 #pragma once
 
-#include "core/readers/scene_format.hpp"
+#include "core/readers/common/scene_format.hpp"
 
 namespace lightnet::obj {
 

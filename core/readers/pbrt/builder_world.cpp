@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/base/suggestion.hpp"
-#include "core/readers/files.hpp"
+#include "core/readers/files/files.hpp"
 #include "core/readers/pbrt/builder.hpp"
 #include "core/readers/pbrt/materials.hpp"
 #include "core/readers/pbrt/older_materials.hpp"

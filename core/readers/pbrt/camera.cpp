@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/base/suggestion.hpp"
+#include "core/readers/common/spectra.hpp"
 #include "core/readers/pbrt/transforms.hpp"
-#include "core/readers/spectra.hpp"
 
 namespace lightnet::pbrt {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "core/readers/spectra.hpp"
+#include "core/readers/common/spectra.hpp"
 
 namespace lightnet::pbrt {
 namespace {

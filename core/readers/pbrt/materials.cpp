@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/base/suggestion.hpp"
-#include "core/readers/spectra.hpp"
+#include "core/readers/common/spectra.hpp"
 
 namespace lightnet::pbrt {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/math/transform.hpp"
-#include "core/readers/spectra.hpp"
+#include "core/readers/common/spectra.hpp"
 
 namespace lightnet::pbrt {
 

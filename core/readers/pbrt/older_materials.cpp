@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "core/base/suggestion.hpp"
+#include "core/readers/common/spectra.hpp"
 #include "core/readers/pbrt/older.hpp"
-#include "core/readers/spectra.hpp"
 
 namespace lightnet::pbrt {
 

@@ -4,9 +4,9 @@
 #include <charconv>
 #include <utility>
 
-#include "core/readers/files.hpp"
+#include "core/readers/common/spectra.hpp"
+#include "core/readers/files/files.hpp"
 #include "core/readers/pbrt/older.hpp"
-#include "core/readers/spectra.hpp"
 
 namespace lightnet::pbrt {
 // Ashikhmin and Shirley's model

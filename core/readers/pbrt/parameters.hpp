@@ -13,8 +13,8 @@
 
 #include "core/base/error.hpp"
 #include "core/base/math/vec.hpp"
+#include "core/readers/common/report.hpp"
 #include "core/readers/pbrt/colour_space.hpp"
-#include "core/readers/report.hpp"
 
 namespace lightnet::pbrt {
 

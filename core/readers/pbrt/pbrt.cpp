@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/readers/gzip.hpp"
+#include "core/readers/files/gzip.hpp"
 #include "core/readers/pbrt/builder.hpp"
 #include "core/readers/pbrt/syntax.hpp"
 #include "core/readers/pbrt/version.hpp"

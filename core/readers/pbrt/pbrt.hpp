@@ -1,7 +1,7 @@
 // Scenes in the language of pbrt-v4.
 #pragma once
 
-#include "core/readers/scene_format.hpp"
+#include "core/readers/common/scene_format.hpp"
 
 namespace lightnet::pbrt {
 

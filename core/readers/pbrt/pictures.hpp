@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/base/workshop.hpp"
-#include "core/readers/files.hpp"
-#include "core/readers/image_file.hpp"
+#include "core/readers/files/files.hpp"
+#include "core/readers/images/image_file.hpp"
 #include "core/readers/pbrt/sources.hpp"
 #include "core/scene/data/scene_data.hpp"
 

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "core/base/suggestion.hpp"
-#include "core/readers/gzip.hpp"
+#include "core/readers/files/gzip.hpp"
 #include "core/readers/pbrt/meshes.hpp"
 #include "core/readers/pbrt/older_shapes.hpp"
 #include "core/readers/pbrt/quadrics.hpp"

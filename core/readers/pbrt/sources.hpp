@@ -6,11 +6,11 @@
 
 #include "core/base/error.hpp"
 #include "core/base/math/rgb.hpp"
-#include "core/readers/files.hpp"
+#include "core/readers/common/report.hpp"
+#include "core/readers/common/spectra.hpp"
+#include "core/readers/files/files.hpp"
 #include "core/readers/pbrt/parameters.hpp"
 #include "core/readers/pbrt/version.hpp"
-#include "core/readers/report.hpp"
-#include "core/readers/spectra.hpp"
 
 namespace lightnet::pbrt {
 

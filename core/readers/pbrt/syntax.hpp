@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/readers/files.hpp"
+#include "core/readers/files/files.hpp"
 #include "core/readers/pbrt/parameters.hpp"
 #include "core/readers/pbrt/tokenizer.hpp"
 #include "core/readers/pbrt/version.hpp"

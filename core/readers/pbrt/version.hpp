@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "core/readers/files.hpp"
+#include "core/readers/files/files.hpp"
 
 namespace lightnet::pbrt {
 

@@ -1,7 +1,7 @@
 #include "core/readers/ply/ply.hpp"
 
-#include "core/readers/assets.hpp"
-#include "core/readers/mesh_tools.hpp"
+#include "core/readers/common/assets.hpp"
+#include "core/readers/common/mesh_tools.hpp"
 #include "core/readers/ply/mesh.hpp"
 
 namespace lightnet::ply {

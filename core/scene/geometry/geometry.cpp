@@ -6,8 +6,8 @@
 #include "core/base/unwanted.hpp"
 #include "core/scene/data/contents.hpp"
 #include "core/scene/geometry/form.hpp"
+#include "core/scene/geometry/lost_rays.hpp"
 #include "core/scene/geometry/quads.hpp"
-#include "core/scene/lost_rays.hpp"
 #include "core/scene/surfaces/placement.hpp"
 
 #include <embree/rtcore.h>

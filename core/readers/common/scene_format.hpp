@@ -1,0 +1,28 @@
+// What a format of scene files says of itself.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/readers/files/files.hpp"
+#include "core/scene/data/scene_data.hpp"
+
+namespace lightnet {
+
+/// Values for variables of a scene's file, by name.
+using SceneConstants = std::map<std::string, std::string>;
+
+/// One folder of core/readers, and one line in the table of read_scene.cpp; or brought by a plugin.
+struct SceneFormat {
+    std::vector<std::string_view> endings;  // of its main files, with the dot, in lower case
+    std::string_view maker{};               // whose format it is, where the ending does not tell
+    bool has_variables = false;             // else it is given no constants
+    /// Reads the main file of a scene and all that it names, through `files` alone. Throws UserError with all that is
+    /// wrong; approximations stand in the scene's warnings.
+    SceneData (*read)(Files& files, const std::string& path, const SceneConstants& constants) = nullptr;
+    std::string plugin{};  // that has brought it; set by those who load it
+};
+
+}  // namespace lightnet

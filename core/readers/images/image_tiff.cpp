@@ -1,0 +1,201 @@
+// TIFF, with libtiff: 8 and 16 bits and floats, in strips or tiles; whatever else there is, as libtiff turns it into 8
+// bits.
+#include <tiffio.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstdarg>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <string>
+
+#include "core/base/error.hpp"
+#include "core/readers/images/image_decoders.hpp"
+
+namespace lightnet::decoders {
+namespace {
+
+// Of fax, which has a bit for each row that is like the one above, and of younger kinds; and of those in use.
+constexpr std::int64_t pixels_per_byte = 1 << 16, pixels_per_byte_in_use = 4096;
+
+std::int64_t pixels_per_byte_of(TIFF* tiff) {
+    std::uint16_t kind = COMPRESSION_NONE;
+    TIFFGetFieldDefaulted(tiff, TIFFTAG_COMPRESSION, &kind);
+    for (const int known : {COMPRESSION_NONE, COMPRESSION_LZW, COMPRESSION_JPEG, COMPRESSION_ADOBE_DEFLATE,
+                            COMPRESSION_DEFLATE, COMPRESSION_PACKBITS})
+        if (kind == known) return pixels_per_byte_in_use;
+    return pixels_per_byte;
+}
+
+struct TiffBytes {
+    Input bytes;
+    std::size_t at = 0;
+};
+
+tmsize_t read_some(thandle_t handle, void* into, tmsize_t wanted) {
+    auto& source = *static_cast<TiffBytes*>(handle);
+    const auto count = std::min(static_cast<std::size_t>(std::max<tmsize_t>(0, wanted)),
+                                source.bytes.size() - std::min(source.at, source.bytes.size()));
+    if (count) std::memcpy(into, source.bytes.data() + source.at, count);
+    source.at += count;
+    return static_cast<tmsize_t>(count);
+}
+
+tmsize_t write_nothing(thandle_t, void*, tmsize_t) { return 0; }
+
+toff_t seek(thandle_t handle, toff_t to, int from) {
+    auto& source = *static_cast<TiffBytes*>(handle);
+    const std::size_t base = from == SEEK_CUR ? source.at : from == SEEK_END ? source.bytes.size() : 0;
+    source.at = base + to;
+    return source.at;
+}
+
+int close_nothing(thandle_t) { return 0; }
+toff_t size_of(thandle_t handle) { return static_cast<TiffBytes*>(handle)->bytes.size(); }
+
+int note(TIFF*, void* said, const char*, const char* format, va_list values) {
+    char text[256] = "";
+    std::vsnprintf(text, sizeof text, format, values);
+    auto& first = *static_cast<std::string*>(said);
+    if (first.empty()) first = text;
+    return 1;  // nothing is to be printed
+}
+
+int ignore(TIFF*, void*, const char*, const char*, va_list) { return 1; }
+
+/// An open file; what it says of mistakes is kept.
+class OpenTiff {
+public:
+    explicit OpenTiff(Input bytes) : source_{bytes} {
+        const tmsize_t most_at_once =
+            std::min(tmsize_t{1} << 30, (tmsize_t{64} << 20) + 1024 * static_cast<tmsize_t>(bytes.size()));
+        const std::unique_ptr<TIFFOpenOptions, void (*)(TIFFOpenOptions*)> options(TIFFOpenOptionsAlloc(),
+                                                                                   TIFFOpenOptionsFree);
+        TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), most_at_once);
+        TIFFOpenOptionsSetErrorHandlerExtR(options.get(), note, &said_);
+        TIFFOpenOptionsSetWarningHandlerExtR(options.get(), ignore, nullptr);
+        tiff_ = TIFFClientOpenExt("image", "rm", &source_, read_some, write_nothing, seek, close_nothing, size_of,
+                                  nullptr, nullptr, options.get());
+        must(tiff_);
+    }
+    OpenTiff(const OpenTiff&) = delete;
+    OpenTiff& operator=(const OpenTiff&) = delete;
+    ~OpenTiff() {
+        if (tiff_) TIFFClose(tiff_);
+    }
+    operator TIFF*() const { return tiff_; }
+    void must(bool good) const {
+        if (!good) throw Error("TIFF: " + (said_.empty() ? "the file is broken, or ends early" : said_));
+    }
+
+private:
+    TiffBytes source_;
+    std::string said_;
+    TIFF* tiff_ = nullptr;
+};
+
+struct Layout {
+    std::uint32_t width = 0, height = 0;
+    std::uint16_t bits = 1, channels = 1, format = SAMPLEFORMAT_UINT, planes = PLANARCONFIG_CONTIG,
+                  colours = PHOTOMETRIC_MINISBLACK;
+    /// Do its samples stand as we keep them?
+    bool plain() const {
+        const bool whole = format == SAMPLEFORMAT_UINT && (bits == 8 || bits == 16);
+        const bool rgb = colours == PHOTOMETRIC_RGB && (channels == 3 || channels == 4);
+        const bool grey = colours == PHOTOMETRIC_MINISBLACK && channels <= 2;
+        return planes == PLANARCONFIG_CONTIG && (whole || floats()) && (rgb || grey);
+    }
+    bool floats() const { return format == SAMPLEFORMAT_IEEEFP && bits == 32; }
+    std::size_t row() const { return std::size_t{width} * channels * bits / 8; }
+};
+
+Layout layout_of(TIFF* tiff) {
+    Layout found;
+    TIFFGetField(tiff, TIFFTAG_IMAGEWIDTH, &found.width);
+    TIFFGetField(tiff, TIFFTAG_IMAGELENGTH, &found.height);
+    TIFFGetFieldDefaulted(tiff, TIFFTAG_BITSPERSAMPLE, &found.bits);
+    TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLESPERPIXEL, &found.channels);
+    TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLEFORMAT, &found.format);
+    TIFFGetFieldDefaulted(tiff, TIFFTAG_PLANARCONFIG, &found.planes);
+    TIFFGetField(tiff, TIFFTAG_PHOTOMETRIC, &found.colours);
+    return found;
+}
+
+// Samples in the order of this machine, row by row.
+std::vector<std::uint8_t> rows_of(const OpenTiff& tiff, const Layout& layout) {
+    std::vector<std::uint8_t> rows(layout.row() * layout.height);
+    if (!TIFFIsTiled(tiff)) {
+        tiff.must(static_cast<std::size_t>(TIFFScanlineSize64(tiff)) == layout.row());
+        for (std::uint32_t y = 0; y < layout.height; ++y)
+            tiff.must(TIFFReadScanline(tiff, rows.data() + y * layout.row(), y, 0) == 1);
+        return rows;
+    }
+    std::uint32_t width = 0, height = 0;
+    TIFFGetField(tiff, TIFFTAG_TILEWIDTH, &width);
+    TIFFGetField(tiff, TIFFTAG_TILELENGTH, &height);
+    check_size(width, height);
+    const std::size_t pixel = std::size_t{layout.channels} * layout.bits / 8;
+    std::vector<std::uint8_t> tile(pixel * width * height);
+    tiff.must(static_cast<std::size_t>(TIFFTileSize64(tiff)) == tile.size());
+    for (std::uint32_t y = 0; y < layout.height; y += height)
+        for (std::uint32_t x = 0; x < layout.width; x += width) {
+            tiff.must(TIFFReadTile(tiff, tile.data(), x, y, 0, 0) >= 0);
+            const std::size_t across = std::min(width, layout.width - x), down = std::min(height, layout.height - y);
+            for (std::size_t row = 0; row < down; ++row)
+                std::memcpy(rows.data() + (y + row) * layout.row() + x * pixel, tile.data() + row * width * pixel,
+                            across * pixel);
+        }
+    return rows;
+}
+
+Image image_of_floats(const Layout& layout, const std::vector<std::uint8_t>& rows) {
+    const std::size_t count = std::size_t{layout.width} * layout.height, channels = layout.channels;
+    std::vector<Rgb> pixels(count);
+    std::vector<float> alpha(channels % 2 == 0 ? count : 0);
+    for (std::size_t i = 0; i < count; ++i) {
+        float number[4] = {};
+        std::memcpy(number, rows.data() + i * channels * sizeof(float), channels * sizeof(float));
+        pixels[i] = channels > 2 ? Rgb{number[0], number[1], number[2]} : Rgb{number[0], number[0], number[0]};
+        if (!alpha.empty()) alpha[i] = number[channels - 1];
+    }
+    return {layout.width, layout.height, pixels, alpha};
+}
+
+Raster raster_of(const Layout& layout, std::vector<std::uint8_t> rows) {
+    Raster raster{layout.width, layout.height, layout.channels, layout.bits == 16, std::move(rows)};
+    if (raster.wide && std::endian::native == std::endian::little)
+        for (std::size_t i = 0; i + 1 < raster.bytes.size(); i += 2) std::swap(raster.bytes[i], raster.bytes[i + 1]);
+    return raster;
+}
+
+// Palettes, few bits, planes, CMYK, YCbCr.
+Raster turned_into_eight_bits(const OpenTiff& tiff, const Layout& layout) {
+    char why[1024] = "";
+    if (!TIFFRGBAImageOK(tiff, why)) throw Error("TIFF: " + std::string(why));
+    std::vector<std::uint32_t> pixels(std::size_t{layout.width} * layout.height);
+    std::uint16_t turned = ORIENTATION_TOPLEFT;
+    TIFFGetFieldDefaulted(tiff, TIFFTAG_ORIENTATION,
+                          &turned);  // asked for as it stands there, so that nothing turns it
+    tiff.must(TIFFReadRGBAImageOriented(tiff, layout.width, layout.height, pixels.data(), turned, 1) == 1);
+    Raster raster{layout.width, layout.height, 3, false, {}};
+    raster.bytes.reserve(pixels.size() * 3);
+    for (const std::uint32_t pixel : pixels)
+        for (const auto value : {TIFFGetR(pixel), TIFFGetG(pixel), TIFFGetB(pixel)})
+            raster.bytes.push_back(static_cast<std::uint8_t>(value));
+    return raster;
+}
+
+}  // namespace
+
+Found read_tiff(Input bytes) {
+    const OpenTiff tiff(bytes);
+    const Layout layout = layout_of(tiff);
+    check_size(layout.width, layout.height, bytes, pixels_per_byte_of(tiff));
+    if (!layout.plain()) return turned_into_eight_bits(tiff, layout);
+    auto rows = rows_of(tiff, layout);
+    if (layout.floats()) return image_of_floats(layout, rows);
+    return raster_of(layout, std::move(rows));
+}
+
+}  // namespace lightnet::decoders

@@ -1,0 +1,188 @@
+#include "core/run/assembly/assembly.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "core/base/error.hpp"
+#include "core/network/graph/lamp_groups.hpp"
+#include "core/network/light/node_context.hpp"
+
+namespace lightnet {
+namespace {
+
+using Terminals = std::vector<Terminal>;
+
+// Which position of `whole` each of `part` has.
+std::vector<std::uint32_t> positions(const Terminals& part, const Terminals& whole, std::uint32_t first) {
+    std::vector<std::uint32_t> at;
+    for (const auto& terminal : part) {
+        const auto found = std::find(whole.begin(), whole.end(), terminal);
+        at.push_back(first + static_cast<std::uint32_t>(found - whole.begin()));
+    }
+    return at;
+}
+
+// Sees to it that nobody asks with a lock in hand.
+class GuardedPort final : public Port {
+public:
+    GuardedPort(Port& port, const Locks& locks) : port_(port), locks_(locks) {}
+    Ticket begin(std::span<const Query> questions, std::span<Rgb> answers) override {
+        locks_.check_may_ask();
+        return port_.begin(questions, answers);
+    }
+    void finish(Ticket ticket) override { port_.finish(ticket); }
+    void abandon(Ticket ticket) noexcept override { port_.abandon(ticket); }
+
+private:
+    Port& port_;
+    const Locks& locks_;
+};
+
+template <class Make>
+auto made(const Network& network, std::size_t node, Inputs inputs, const NodeServices& services, const Make& make) {
+    const auto& what = network.graph.nodes[whole_of(network.graph, node)];  // nobody knows that it has a sector
+    try {
+        return make(NodeContext(what, std::move(inputs), *network.scenes[whole_of(network.graph, node)], network.seed,
+                                services));
+    } catch (const std::exception& error) {
+        throw Error(what.kind + " '" + what.name + "'", error.what());
+    }
+}
+
+}  // namespace
+
+std::vector<std::shared_ptr<const Scene>> scenes_of(const Graph& graph, const Registry& registry,
+                                                    const std::shared_ptr<const Scene>& scene) {
+    const auto groups = lamp_groups(graph, registry);
+    std::map<LampView, std::shared_ptr<const Scene>> made{{LampView{}, scene}};
+    std::vector<std::shared_ptr<const Scene>> scenes;
+    for (const auto& node : graph.nodes) {
+        const LampView view{groups_wanted(node, groups), !groups.empty() && asks_for_groups(node)};
+        auto& seen = made[view];
+        if (!seen) seen = std::make_shared<const Scene>(*scene, view);
+        scenes.push_back(seen);
+    }
+    return scenes;
+}
+
+bool Network::answers_with(std::size_t node, std::size_t width) const {
+    return width == 1 || width == width_of(node) || (layers.by_group[node] && width == layers.groups);
+}
+
+std::size_t Network::width_of(std::size_t node) const {
+    return kind_of(node).role == Role::image ? colours_of(layers) : layers.of_node[node].size();
+}
+
+std::shared_ptr<const Sectors> Network::sectors(std::size_t node) const {
+    const std::size_t whole = whole_of(graph, node);
+    const auto& what = graph.nodes[whole];
+    if (!kind_of(whole).run.landmarks) throw Error(what.kind + " '" + what.name + "'", "can't be sharded");
+    // As nobody prepares the sharded node itself, none of the shared values is its own.
+    return std::static_pointer_cast<const Sectors>(shared->get(whole, 0, {}, [&](Builders&) -> SharedValues::Value {
+        const auto count = static_cast<std::uint32_t>(sectors_of(graph, whole).size());
+        return std::make_shared<const Sectors>(
+            kind_of(whole).run.landmarks(NodeContext(what, {}, *scenes[whole], seed)), count);
+    }));
+}
+
+Port* Assembly::port_between(std::size_t asker, std::size_t asked, std::size_t width) {
+    Port* port = port_to_(asked, width);
+    return tap_ ? tap_(asker, asked, width, port) : port;
+}
+
+Inputs Assembly::inputs_of(std::size_t node) {
+    const auto& of_node = network_.layers.of_node;
+    const bool image = network_.kind_of(node).role == Role::image;
+    // what it asks it keeps apart as it comes, or by groups of lamps alone, or not at all
+    const bool additive =
+        image ? !network_.kind_of(node).light.merges : of_node[node].empty() || of_node[node].front().node != node;
+    const auto emission = static_cast<std::uint32_t>(network_.layers.emission);
+    std::vector<Input> inputs;
+    for (const auto asked : network_.graph.inputs_of(node)) {
+        Input input;
+        input.name = network_.graph.nodes[asked].name;
+        if (additive)
+            input.layers = positions(of_node[asked], of_node[node], image ? emission : 0);
+        else if (network_.layers.by_group[node])
+            input.layers = positions(of_node[node], of_node[node], 0);
+        if (image)
+            for (auto& layer : input.layers) layer = network_.layers.of_colour[layer];
+        input.port = port_between(node, asked, input.width());
+        if (network_.kind_of(node).run.locks)
+            input.port = guarded_.emplace_back(std::make_unique<GuardedPort>(*input.port, *services_.locks)).get();
+        inputs.push_back(std::move(input));
+    }
+    if (image)
+        for (std::size_t i = 0; i < network_.layers.shown.size(); ++i) {
+            const auto shown = network_.layers.shown[i];
+            const auto layer = static_cast<std::uint32_t>(first_colour(network_.layers, i));
+            inputs.push_back({network_.graph.nodes[shown].name,
+                              port_between(node, shown, 1),
+                              {layer},
+                              network_.kind_of(shown).light.facts,
+                              network_.layers.ids[i]});
+        }
+    return {std::move(inputs), network_.width_of(node)};
+}
+
+NodeServices Assembly::services_of(std::size_t node) {
+    NodeServices services = services_;
+    services.rehearsal = &rehearsals_[node];
+    services.off_surface = &off_surface_[node];
+    const auto kept = network_.kept.find(network_.graph.nodes[whole_of(network_.graph, node)].name);
+    if (kept != network_.kept.end()) services.kept = kept->second;
+    return services;
+}
+
+std::map<std::string, std::uint64_t> Assembly::by_name(const std::map<std::size_t, std::uint64_t>& by_node) const {
+    std::map<std::string, std::uint64_t> counts;
+    for (const auto& [node, count] : by_node)
+        if (count) counts[network_.graph.nodes[whole_of(network_.graph, node)].name] += count;
+    return counts;
+}
+
+std::unique_ptr<LightOp> Assembly::make_light(std::size_t node, const Inputs& inputs, std::uint32_t pass) {
+    NodeServices services = services_of(node);
+    services.pass = pass;
+    return made(network_, node, inputs, services, network_.kind_of(node).make_light);
+}
+
+const LightOp& Assembly::light(std::size_t node) {
+    auto& light = lights_[node];
+    if (light) return *light;
+    Inputs inputs = inputs_of(node);
+    if (network_.renewed[node])
+        light = std::make_unique<NodeByPass>(
+            [this, node, inputs](std::uint32_t pass) { return make_light(node, inputs, pass); });
+    else
+        light = make_light(node, inputs, 0);
+    return *light;
+}
+
+void Assembly::prepare(std::size_t node, Services& services, std::uint32_t pass) {
+    const auto& what = network_.graph.nodes[node];
+    light(node);
+    std::optional<Turned> turned;
+    if (gauge_) turned.emplace(*gauge_, Gauge::at(node));
+    try {
+        if (network_.renewed[node]) static_cast<NodeByPass&>(*lights_[node]).begin(pass);
+        lights_[node]->prepare(services);
+    } catch (const std::exception& error) {
+        throw Error(what.kind + " '" + what.name + "', preparing", error.what());
+    }
+}
+
+Rehearsal& Assembly::rehearsal(std::size_t node) {
+    if (!network_.kind_of(node).run.rehearses)
+        throw Error("it asks for a rehearsal, but its kind does not say that it does");
+    return rehearsals_[node];
+}
+
+const Renderer& Assembly::renderer(std::size_t node) {
+    auto& renderer = renderers_[node];
+    if (!renderer)
+        renderer = made(network_, node, inputs_of(node), services_of(node), network_.kind_of(node).make_renderer);
+    return *renderer;
+}
+
+}  // namespace lightnet

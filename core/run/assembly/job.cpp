@@ -1,0 +1,161 @@
+#include "core/run/assembly/job.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/build_info.hpp"
+#include "core/base/error.hpp"
+#include "core/network/graph/check.hpp"
+#include "core/network/graph/graph_film.hpp"
+#include "core/network/graph/json.hpp"
+#include "core/network/graph/plugin_use.hpp"
+
+namespace lightnet {
+
+namespace {
+
+// Around the graph's own levels.
+constexpr JsonLimits job_limits{.bytes = most_job_bytes, .depth = JsonLimits{}.depth + 4};
+
+[[noreturn]] void not_a_job(const std::string& what) { throw Error("not a job", what); }
+
+template <class Integer>
+Integer count_of(const Json& object, const char* key) {
+    try {
+        return object.at(key).whole<Integer>();
+    } catch (const Error& error) {
+        not_a_job(std::string("'") + key + "' is no count: " + error.what());
+    }
+}
+
+nlohmann::json json_of_path(const std::string& path) { return nlohmann::json::parse(text_to_json(path)); }
+
+nlohmann::json json_of(const Tuning& tuning) {
+    nlohmann::json json;
+    for (const auto& knob : knobs)
+        if (knob.where == Knob::Where::places)
+            std::visit([&](const auto& member) { json[knob.name] = tuning.*member; }, knob.member);
+    return json;
+}
+
+void take(const Json& json, const Knob& knob, std::string& text) { text = json.at(knob.name).text(); }
+void take(const Json& json, const Knob& knob, bool& flag) { flag = json.at(knob.name).flag(); }
+template <class Integer>
+void take(const Json& json, const Knob& knob, Integer& number) {
+    number = count_of<Integer>(json, knob.name);
+    if (number < knob.least || number > knob.most)  // a stranger's job may ask for any number of fibers
+        not_a_job(std::string("'") + knob.name + "' is " + std::to_string(number) + ", and goes from " +
+                  std::to_string(knob.least) + " to " + std::to_string(knob.most));
+}
+
+Tuning tuning_of(const Json& json) {
+    Tuning tuning;
+    for (const auto& knob : knobs)
+        if (knob.where == Knob::Where::places)
+            std::visit([&](const auto& member) { take(json, knob, tuning.*member); }, knob.member);
+    return tuning;
+}
+
+JobFile file_of(const Json& json) {
+    const auto hash = hash_from_hex(json.at("hash").text());
+    if (!hash) not_a_job("a file of it has no proper hash");
+    return {text_from_json(json.at("path")), *hash, count_of<std::uint64_t>(json, "size")};
+}
+
+std::shared_ptr<const Network> network_around(const Job& job, const Registry& registry,
+                                              std::shared_ptr<const Scene> scene, KeptResults kept,
+                                              std::function<Bytes(const Hash&)> results) {
+    Network network{job.graph, registry, std::move(scene), job.seed};
+    network.results = std::move(results);
+    network.kept = std::move(kept);
+    network.check_answers = job.tuning.check_answers;
+    return std::make_shared<const Network>(std::move(network));
+}
+
+}  // namespace
+
+std::string to_json(const Job& job) {
+    nlohmann::json files = nlohmann::json::array();
+    for (const auto& file : job.files)
+        files.push_back({{"path", json_of_path(file.path)}, {"hash", to_hex(file.hash)}, {"size", file.size}});
+    const auto rest = nlohmann::json{
+        {"scene", json_of_path(job.scene)},
+        {"files", std::move(files)},
+        {"seed", job.seed},
+        {"isa", job.isa},
+        {"width", job.width},
+        {"height", job.height},
+        {"tuning", json_of(job.tuning)},
+        {"plugins",
+         job.plugins}}.dump();
+    return "{\"graph\":" + to_json(job.graph) + "," + rest.substr(1);  // which is text already
+}
+
+Job job_from_json(std::string_view text) {
+    const Json json = parse_json(text, job_limits);
+    Job job;
+    job.graph = graph_from_json(json.at("graph"));
+    job.scene = text_from_json(json.at("scene"));
+    for (const auto& file : json.at("files").list()) job.files.push_back(file_of(file));
+    job.seed = count_of<std::uint64_t>(json, "seed");
+    job.isa = json.at("isa").text();
+    job.width = count_of<std::uint32_t>(json, "width");
+    job.height = count_of<std::uint32_t>(json, "height");
+    job.tuning = tuning_of(json.at("tuning"));
+    for (const auto& plugin : json.at("plugins").list()) job.plugins.push_back(plugin.text());
+    return job;
+}
+
+Job read_job(std::string_view text, const Registry& registry) {
+    Job job = job_from_json(text);
+    const auto is_side = [](std::uint32_t pixels) { return 1 <= pixels && pixels <= longest_side; };
+    if (!is_side(job.width) || !is_side(job.height)) not_a_job("its picture has a side that no picture has");
+    if (const auto why = why_plugins_differ(job.plugins, registry); !why.empty()) throw Error(why);
+    try {
+        job.graph = check(job.graph, registry);
+    } catch (const UserError& error) {
+        throw Error("the job's graph is not sound", error.what());
+    }
+    return job;
+}
+
+std::shared_ptr<const Network> build_network(const Job& job, const Registry& registry, Files& files,
+                                             std::function<Bytes(const Hash&)> results) {
+    return build_network(job, registry, load_scene(job.graph, registry, files, job.scene), std::move(results));
+}
+
+std::shared_ptr<const Network> build_network(const Job& job, const Registry& registry, LoadedScene scene,
+                                             std::function<Bytes(const Hash&)> results) {
+    SceneOptions options;
+    options.isa = job.isa;
+    options.width = job.width;
+    options.height = job.height;
+    try {
+        auto built = std::make_shared<const Scene>(std::move(scene.data), options);
+        return network_around(job, registry, std::move(built), std::move(scene.kept), std::move(results));
+    } catch (const std::bad_alloc&) {
+        throw Error(job.scene, "is too large for the memory of this machine, with what finds its surfaces");
+    }
+}
+
+std::shared_ptr<const Network> build_network(const Job& job, const Registry& registry,
+                                             std::shared_ptr<const Scene> built,
+                                             std::function<Bytes(const Hash&)> results) {
+    std::vector<Problem> problems;
+    find_mistakes(job.graph, registry, built->data(), problems);
+    if (!problems.empty()) throw UserError(std::move(problems));
+    return network_around(job, registry, std::move(built), {}, std::move(results));
+}
+
+SceneSource scene_source(const Job& job, const Registry& registry) {
+    const Node& node = scene_of(job.graph, registry);
+    return {job.graph.file, job.scene, job.files, node.entries, node.params, job.isa, job.width, job.height};
+}
+
+std::string made_from(const Job& job) {
+    std::string text = build_id() + '\n' + job.isa + '\n' + std::to_string(job.seed) + '\n' + job.scene;
+    for (const auto& file : job.files) text += '\n' + file.path + ' ' + to_hex(file.hash);
+    for (const auto& plugin : job.plugins) text += '\n' + plugin;
+    return text;
+}
+
+}  // namespace lightnet

@@ -1,0 +1,114 @@
+#include "core/run/assembly/load_scene.hpp"
+
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/network/graph/graph_film.hpp"
+#include "core/network/graph/lamp_groups.hpp"
+#include "core/readers/read_scene.hpp"
+
+namespace lightnet {
+namespace {
+
+using Values = std::map<std::string, Value>;
+
+std::optional<float> number(const Values& values, const std::string& name) {
+    const auto found = values.find(name);
+    return found == values.end() ? std::nullopt : std::optional(float(std::get<double>(found->second.data)));
+}
+
+Vec3 triple(const Value& value) {
+    const auto& list = std::get<Table>(value.data).list;
+    const auto at = [&](std::size_t i) { return float(std::get<double>(list.at(i).data)); };
+    return {at(0), at(1), at(2)};
+}
+
+std::optional<Vec3> point(const Values& values, const std::string& name) {
+    const auto found = values.find(name);
+    return found == values.end() ? std::nullopt : std::optional(triple(found->second));
+}
+
+CameraOverride camera_of(const Values& camera) {
+    return {point(camera, "from"), point(camera, "to"),    point(camera, "up"),
+            number(camera, "fov"), number(camera, "lens"), number(camera, "focus")};
+}
+
+SkyOverride sky_override(const Values& sky) {
+    SkyOverride wanted;
+    wanted.towards = point(sky, "towards");
+    wanted.turbidity = number(sky, "turbidity").value_or(wanted.turbidity);
+    wanted.albedo = number(sky, "albedo").value_or(wanted.albedo);
+    wanted.scale = number(sky, "scale").value_or(wanted.scale);
+    wanted.sun_scale = number(sky, "sun_scale").value_or(wanted.sun_scale);
+    wanted.sun_angle = number(sky, "sun_angle");
+    return wanted;
+}
+
+}  // namespace
+
+SceneOverrides scene_overrides(const Graph& graph, const Registry& registry) {
+    const Values& params = scene_of(graph, registry).params;
+    SceneOverrides overrides;
+    if (const auto chosen = params.find("seen_by"); chosen != params.end())
+        overrides.seen_by = std::get<std::string>(chosen->second.data);
+    if (const auto camera = params.find("camera"); camera != params.end())
+        overrides.camera = camera_of(std::get<Table>(camera->second.data).named);
+    if (const auto around = params.find("environment"); around != params.end()) {
+        if (const auto* file = std::get_if<std::string>(&around->second.data)) {
+            overrides.environment = beside_graph(graph, *file);
+        } else {
+            const Vec3 colour = triple(around->second);
+            overrides.environment = Rgb{colour.x, colour.y, colour.z};
+        }
+    }
+    if (const auto sky = params.find("sky"); sky != params.end())
+        overrides.sky = sky_override(std::get<Table>(sky->second.data).named);
+    overrides.environment_scale = number(params, "environment_scale").value_or(1);
+    overrides.exposure = number(params, "exposure").value_or(0);
+    overrides.clay = params.contains("material");
+    const auto two_sided = params.find("two_sided");
+    overrides.two_sided = two_sided != params.end() && std::get<bool>(two_sided->second.data);
+    if (const auto groups = params.find("groups"); groups != params.end())
+        for (const auto& [name, lamps] : std::get<Table>(groups->second.data).named)
+            overrides.groups.push_back({name, names_in(lamps)});
+    return overrides;
+}
+
+std::map<std::string, std::string> scene_constants(const Graph& graph, const Registry& registry) {
+    const Values& params = scene_of(graph, registry).params;
+    std::map<std::string, std::string> constants;
+    if (const auto given = params.find("constants"); given != params.end())
+        for (const auto& [name, value] : std::get<Table>(given->second.data).named) {
+            const auto* text = std::get_if<std::string>(&value.data);
+            constants[name] = text ? *text : to_string(value);
+        }
+    // to the reader it is one more variable of the file
+    if (const auto variant = params.find("variant"); variant != params.end())
+        constants["variant"] = std::get<std::string>(variant->second.data);
+    return constants;
+}
+
+void find_mistakes(const Graph& graph, const Registry& registry, const SceneData& scene,
+                   std::vector<Problem>& problems) {
+    for (const auto& node : graph.nodes)
+        if (const Kind* kind = registry.find(node.kind); kind && kind->mistakes)
+            for (const auto& what : kind->mistakes(node, &scene))
+                problems.push_back({node.where, node.kind + " '" + node.name + "': " + what});
+}
+
+LoadedScene override_scene(const Graph& graph, const Registry& registry, Files& files, SceneData scene) {
+    apply(scene_overrides(graph, registry), scene, files, scene_of(graph, registry).where);
+    std::vector<Problem> problems;
+    auto kept = read_kept(graph, registry, files, scene, problems);
+    find_mistakes(graph, registry, scene, problems);
+    if (!problems.empty()) throw UserError(std::move(problems));
+    return {std::move(scene), std::move(kept)};
+}
+
+LoadedScene load_scene(const Graph& graph, const Registry& registry, Files& files, const std::string& path) {
+    return override_scene(graph, registry, files, read_scene(files, path, scene_constants(graph, registry)));
+}
+
+}  // namespace lightnet

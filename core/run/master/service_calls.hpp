@@ -1,0 +1,148 @@
+// The calls that preparing nodes make to their services: pieces first, then a result.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/network/graph/layout.hpp"
+#include "core/network/light/mapped.hpp"
+#include "core/run/assembly/prepared.hpp"
+#include "core/run/master/shard_dealer.hpp"
+#include "core/run/message/message.hpp"
+#include "core/run/message/step.hpp"
+#include "core/run/schedule/spot_checks.hpp"
+#include "core/run/schedule/votes.hpp"
+
+namespace lightnet {
+
+/// One call of a node's prepare(), which is the same on all its places.
+class ServiceCall {
+public:
+    ServiceCall() = default;
+    /// `parts`: how many results it has; more than one where each sector of a node gets its own.
+    ServiceCall(const StepReport& what, bool rehearsed, std::uint32_t parts = 1);
+
+    const StepReport& what() const { return what_; }
+    /// It is a rehearsal, or comes after one.
+    bool rehearsed() const { return rehearsed_; }
+    std::uint32_t parts() const { return static_cast<std::uint32_t>(kept_.size()); }
+    bool done() const { return !names_.empty(); }
+    /// Null until it is there, and when it was let go of and nobody else has it.
+    Bytes result(std::uint32_t part = 0) const { return kept_[part] ? kept_[part] : lent_[part].lock(); }
+    const Hash& name(std::uint32_t part = 0) const { return names_[part]; }
+    std::size_t missing() const { return missing_; }
+    /// Does it take shards?
+    bool shared_out() const { return what_.kind == StepReport::Kind::map || what_.kind == StepReport::Kind::sectors; }
+
+    /// Who does which of its shards.
+    ShardDealer& dealer() { return dealer_; }
+    /// The results of the first of the shards that went under this number, or of more of them, by join_shards(); what
+    /// comes late is dropped. True when no shard is missing. Throws Error when they are not what was asked for, or have
+    /// not as many parts as they should.
+    bool answer(ShardDealer::CopyId id, const Bytes& joined, double now);
+    /// A copy waits for the result, and does shards from now on; see ShardDealer::join().
+    void join(const NodeCopy& copy, std::uint64_t process, double now);
+    /// Every shard is there, and whatever was to be checked has been. `more_to_come`: copies that have not joined; what
+    /// nobody else can be asked about waits for them.
+    bool all_there(bool more_to_come);
+    /// Some shards, chosen at random, are asked of a second host as well. Before the first is dealt out.
+    void verify(SpotChecks checks) { checks_ = checks; }
+    /// A host's shard that others do otherwise; see Carrier::doubt(). None: there is none.
+    const std::optional<Failure>& lie() const { return lie_; }
+    void complete(const Bytes& result) { complete({Result{content_hash(*result), result}}); }
+    void complete(const std::vector<Result>& parts);
+    void complete_from_shards();
+    /// Lets the results go, which somebody else keeps.
+    void let_go();
+    /// One that was let go of is there again. False: it is another one.
+    bool restore(std::uint32_t part, const Result& result);
+    /// All shards are to be done once more.
+    void begin_again();
+
+private:
+    struct Results {
+        Bytes all;  // of what was done together
+        std::span<const std::byte> own;
+    };
+    std::vector<std::span<const std::byte>> parts_of(const Results& shard) const;
+    void join_what_is_next();
+    void vote(std::uint32_t shard, const std::string& host, std::span<const std::byte> result, double now);
+
+    StepReport what_;
+    bool rehearsed_ = false;
+    std::vector<Bytes> kept_ = std::vector<Bytes>(1);  // results, by part
+    std::vector<std::weak_ptr<const std::vector<std::byte>>> lent_ =
+        std::vector<std::weak_ptr<const std::vector<std::byte>>>(1);
+    std::vector<Hash> names_;  // of all parts, or none
+    ShardDealer dealer_;
+    std::vector<Results> shards_;  // that wait for those before them
+    std::vector<bool> answered_;
+    struct Joined {
+        ShardJoiner results;
+        Hasher hasher;
+    };
+    std::vector<Joined> joined_;  // by part: of shards that came before next_
+    std::size_t next_ = 0;
+    std::size_t missing_ = 0;
+    SpotChecks checks_;
+    std::map<std::uint32_t, Votes> votes_;  // on shards that more than one host is asked about
+    std::optional<Failure> lie_;
+};
+
+/// All calls of a run, by node and number. The nodes that stand for the sectors of one node make the same calls, which
+/// are that node's.
+class ServiceCalls {
+public:
+    /// `cache` may be null. `renewed`: renewed_nodes(), whose results nobody wants in a later run.
+    ServiceCalls(const Graph& graph, std::string made_from, ResultCache* cache, std::vector<bool> renewed = {})
+        : graph_(graph), recipes_(graph, std::move(made_from)), cache_(cache), renewed_(std::move(renewed)) {}
+    /// From now on `millionths` of all shards are asked of a second host as well.
+    void verify(std::uint32_t millionths) { verify_ = millionths; }
+
+    /// The call that a place reports; begun, or found in the cache, when nobody has reported it before. Throws Error
+    /// when another place has reported something else.
+    ServiceCall& reported(std::size_t node, const StepReport& at);
+    /// One that has been reported.
+    ServiceCall& of(std::size_t node, std::uint32_t number) { return calls_.at({whole_of(graph_, node), number}); }
+    /// The result for a node that has a sector or is whole. Null when there is none, so far or any more: then its
+    /// shards are to be done.
+    Bytes result(std::size_t node, std::uint32_t number);
+    /// Which part of a call's result a node gets.
+    std::uint32_t part_of(std::size_t node, const ServiceCall& call) const;
+    /// The node will make other calls, for another pass.
+    void forget(std::size_t node);
+    /// Keeps its result for later runs.
+    void keep(std::size_t node, std::uint32_t number);
+    /// Every copy of the node has its part: what is large and on disk need not be in memory as well.
+    void all_have(std::size_t node, std::uint32_t number);
+    /// Node → hash over all its results.
+    std::map<std::string, Hash> hashes() const;
+    /// Of the node's last call; null: it has none.
+    Bytes last_result(std::size_t node) const;
+    /// The call of the node that has no result yet.
+    const ServiceCall* unfinished(std::size_t node) const;
+    /// All of the node's calls with shards to be done, by number. Those that somebody has gone past may be among them.
+    std::vector<std::pair<std::uint32_t, ServiceCall*>> dealt_out(std::size_t node);
+
+private:
+    ResultCache* cache_for(std::size_t whole) const {
+        return whole < renewed_.size() && renewed_[whole] ? nullptr : cache_;
+    }
+    Hash recipe_of(std::size_t whole, std::uint32_t number, const ServiceCall& call, std::uint32_t part) const;
+
+    const Graph& graph_;
+    Recipes recipes_;
+    ResultCache* cache_;
+    std::vector<bool> renewed_;
+    std::uint32_t verify_ = 0;
+    std::map<std::pair<std::size_t, std::uint32_t>, ServiceCall> calls_;
+};
+
+}  // namespace lightnet

@@ -1,0 +1,116 @@
+// What other places take off one that has more to do than they.
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/run/place/full_bundle.hpp"
+#include "core/run/place/place.hpp"
+
+namespace lightnet {
+namespace {
+
+constexpr double enough = 0.02;           // seconds of work: helpers are asked again long before they have done it
+constexpr std::size_t least_bundle = 64;  // questions, and as many as long as nobody knows how long they take
+constexpr double worth_waiting = 2;       // times as long as this place would need for all that waits
+constexpr double own_piece = 5e-4;        // seconds that this place takes for them at once
+constexpr std::size_t most_own = 4;       // such pieces at the same time, of nodes that ask on
+
+}  // namespace
+
+bool Place::called_here(std::size_t node) const { return tuning_.call_own_nodes && holds(node); }
+
+// Other places that hold the node, but not all that this one holds: such have as much to do as this one.
+std::vector<std::uint32_t> Place::helpers(std::size_t node) const {
+    const auto& holders = plan_.places_of[node];
+    std::vector<std::uint32_t> helpers;
+    for (const auto place : holders) {
+        const auto lacks_one = [&](const std::vector<std::uint32_t>& held_by) {
+            return std::find(held_by.begin(), held_by.end(), place) == held_by.end() &&
+                   std::any_of(held_by.begin(), held_by.end(), [&](auto i) { return plan_.places[i] == me_; });
+        };
+        if (plan_.places[place] != me_ && std::any_of(plan_.places_of.begin(), plan_.places_of.end(), lacks_one))
+            helpers.push_back(place);
+    }
+    return helpers;
+}
+
+// Who is asked by bundles: where this place holds the node, its helpers, and it itself in reserve.
+Plan Place::plan_for(std::size_t node) const {
+    if (!called_here(node)) return plan_;
+    Plan plan = plan_;
+    const auto others = helpers(node);
+    std::erase_if(plan.places_of[node], [&](auto place) {
+        return plan.places[place] != me_ && std::find(others.begin(), others.end(), place) == others.end();
+    });
+    return plan;
+}
+
+void Place::use(std::size_t node, std::size_t width, PlannedPort& port) {
+    const auto count = called_here(node) ? helpers(node).size() : 0;
+    port.use(called_here(node), count > 0);
+    if (count == 0) return;
+    relieved_.push_back({node, width, &port, count});
+    if (const auto found = remotes_.find({node, width}); found != remotes_.end()) found->second.port->keep_back(true);
+}
+
+// Helpers get bundles as long as they answer one soon. As a rule this place has something else to do meanwhile: so it
+// may take them a little longer than this place alone would need for all that waits.
+// DECISIONS: relief-by-the-idle
+void Place::share_out() {
+    for (const auto& relieved : relieved_) {
+        const auto found = remotes_.find({relieved.node, relieved.width});
+        if (found == remotes_.end()) continue;
+        auto& [key, remote] = *found;
+        while (const std::size_t waiting = remote.port->waiting()) {
+            const auto size = std::min(full_bundle(tuning_.bundle, remote.own_seconds),
+                                       std::max(waiting / (2 * (relieved.helpers + 1)), least_bundle));
+            const auto soonest = remote.port->replicas().scheduler().soonest(std::min(size, waiting));
+            if (!soonest || *soonest > enough) break;
+            if (remote.own_seconds > 0 && *soonest > worth_waiting * remote.own_seconds * double(waiting)) break;
+            remote.port->share(size);
+        }
+    }
+}
+
+// Begins to answer some of what waits for helpers. False: nothing does.
+bool Place::start_own() {
+    for (const auto& relieved : relieved_) {
+        const auto found = remotes_.find({relieved.node, relieved.width});
+        if (found == remotes_.end() || found->second.port->waiting() == 0) continue;
+        auto& remote = found->second;
+        if (remote.own_fibers >= most_own) continue;
+        const double seconds = remote.own_seconds;
+        const auto size = seconds > 0
+                              ? std::clamp<std::size_t>(static_cast<std::size_t>(std::min(own_piece / seconds, 1e9)), 1,
+                                                        tuning_.bundle)
+                              : least_bundle;
+        auto bundle = remote.port->take_back(size);
+        fibers_.start(network_.graph.nodes[relieved.node].name.c_str(),
+                      [this, relieved, bundle = std::move(bundle)] { answer_own(relieved, bundle); });
+        return true;
+    }
+    return false;
+}
+
+void Place::answer_own(const Relieved& relieved, const Bundle<Query>& bundle) {
+    auto& remote = remotes_.at({relieved.node, relieved.width});
+    const auto leave = [](Remote* left) { --left->own_fibers; };
+    ++remote.own_fibers;
+    const std::unique_ptr<Remote, decltype(leave)> counted(&remote, leave);  // also when the run ends meanwhile
+    const auto& questions = *bundle.questions;
+    std::vector<Rgb> answers(questions.size() * relieved.width);
+    try {
+        relieved.port->call().begin(questions, answers);
+        remote.port->answered_here(bundle, answers);
+    } catch (const NodeError& error) {
+        remote.port->failed(bundle, {error.what(), error.host()});
+    }
+    const double seconds =
+        std::chrono::duration<double>(fibers_.running_time(fibers_.current())).count() / double(questions.size());
+    remote.own_seconds = remote.own_seconds > 0 ? 0.8 * remote.own_seconds + 0.2 * seconds : seconds;
+}
+
+}  // namespace lightnet

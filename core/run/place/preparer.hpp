@@ -1,0 +1,55 @@
+// The preparing nodes of one place, led by the launcher step by step.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/run/assembly/assembly.hpp"
+#include "core/run/fiber/fiber.hpp"
+#include "core/run/message/message.hpp"
+
+namespace lightnet {
+
+/// Runs each node's prepare() in a fiber of its own, which waits wherever the node calls a service, until the launcher
+/// brings the result. Belongs to a place, and to its thread.
+class Preparer {
+public:
+    /// What its place does for it.
+    struct PlaceHooks {
+        std::string name;
+        std::function<void(Fibers::Fiber*)> resume;  // as soon as the place gets to it
+        std::function<void(Message)> reply;
+        std::function<void()> look;  // throws Cancelled when the place is to stop; any thread
+    };
+    Preparer(const Network& network, Assembly& assembly, Fibers& fibers, PlaceHooks place);
+    ~Preparer();
+
+    /// A step of any kind but shards.
+    void take(Message ask);
+    /// Begins one prepare() that has been asked for. Outside fibers only. False: there is none.
+    bool start_next();
+    /// Does shards, in a fiber of the node: the first, and as many more of them as take little time and room; whoever
+    /// asked hands out the others again. Throws Error when the node does not wait for them.
+    Bytes shards(std::size_t node, const Step& step);
+    /// What all its nodes have been given so far.
+    std::uint64_t result_bytes() const { return result_bytes_; }
+
+private:
+    class Node;
+
+    const Network& network_;
+    Assembly& assembly_;
+    Fibers& fibers_;
+    PlaceHooks place_;
+    std::map<std::size_t, std::shared_ptr<Node>> nodes_;  // as they prepare for the latest pass
+    std::deque<std::shared_ptr<Node>> to_start_;
+    std::uint64_t result_bytes_ = 0;
+};
+
+}  // namespace lightnet

@@ -1,0 +1,44 @@
+// From the names of files to what may run.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/network/graph/graph.hpp"
+#include "core/network/graph/hosts.hpp"
+#include "core/network/graph/kind.hpp"
+#include "tools/cli/options.hpp"
+#include "tools/cli/render.hpp"
+
+namespace lightnet {
+
+/// What the files say that the user named, before anything is checked.
+struct Written {
+    Graph graph;
+    Hosts hosts;                    // empty without a hosts file
+    std::vector<Problem> problems;  // on the way to them
+};
+
+Written read_files(const GraphOptions& graph, const std::string& hosts);
+/// For `lightnet render`. Evaluates Lua, so call it before the scene is read: reading starts threads, and Lua runs in
+/// a child, which would have nothing of them but their locks.
+Written read_files(const RenderedScene& scene, const std::string& hosts);
+
+/// A sound graph, and where it runs.
+struct Loaded {
+    Graph graph;  // checked
+    Hosts hosts;  // those for this process have their number of places
+    std::vector<Problem> warnings, notes;
+};
+
+/// Applies what the user wants otherwise, and checks all of it. Throws UserError that names all problems of the graph,
+/// of the hosts and of the way to the scene.
+Loaded make_sound(Written written, const PictureOptions& wanted, const Registry& registry);
+/// Hosts that have a name which nobody is called by. It may be known when they are there: no reason not to begin.
+std::vector<Problem> unknown_names(const Hosts& hosts);
+
+void warn(const std::vector<Problem>& warnings, std::ostream& err);
+
+}  // namespace lightnet

@@ -1,0 +1,104 @@
+// Groups of options that several verbs share: what they hold, and how they are described to the command line.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/film/gains.hpp"
+#include "tools/request/run_request.hpp"
+#include "tools/support/progress.hpp"
+#include "transport/start/troubles.hpp"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace lightnet {
+
+/// A graph file.
+struct GraphOptions {
+    std::string file;
+    std::map<std::string, std::string> constants;  // -D
+};
+
+/// Width and height, pixels.
+struct PictureSize {
+    std::uint32_t width = 0, height = 0;
+    friend bool operator==(const PictureSize&, const PictureSize&) = default;
+};
+
+/// Edges of what is wanted of a picture, pixels; the last column and row are excluded.
+struct PictureCrop {
+    std::uint32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+    friend bool operator==(const PictureCrop&, const PictureCrop&) = default;
+};
+
+/// What stands in place of what the graph says of its picture. What wasn't given is absent.
+struct PictureOptions {
+    std::optional<std::uint32_t> samples;  // per pixel
+    std::optional<PictureSize> size;
+    std::optional<PictureCrop> crop;
+    std::optional<double> exposure;  // stops
+    std::string camera;              // of the scene's file, name or number; "": as the graph says
+    std::vector<Gain> gains;         // of layers
+    std::string output;              // file; "": as the graph says
+};
+
+/// What all verbs that make a picture take.
+struct RunningOptions {
+    PictureOptions picture;
+    std::string hosts;                           // file; "": none
+    std::optional<std::uint32_t> threads;        // places in this process; 1: serial
+    std::optional<std::uint32_t> local_workers;  // daemons to start here
+    Troubles troubles;                           // of these
+    std::string listen;                          // endpoint where hosts may join
+    std::string key;                             // file with our own; "": the usual one
+    std::string allow;                           // whose hosts may join, see AllowFile; "": who knows the pass
+    std::string pass;                            // file with what hosts must know to join; "": the usual one
+    bool insecure = false;                       // even beyond this machine
+    std::optional<int> wait;                     // seconds for hosts to come or, if given, to be free; none: 30
+    std::optional<std::uint32_t> slurm;          // daemons to start as a job array
+    std::string partition, slurm_arguments;
+    std::vector<std::string> ssh;  // machines on which to start daemons, as ssh calls them
+    std::string ssh_command = "ssh -T -o BatchMode=yes -o ConnectTimeout=10";
+    std::string ssh_daemon;  // lightnetd there; "": as here, or else in the PATH there
+    std::uint64_t seed = 0;
+    ProgressMode progress = ProgressMode::automatic;
+    std::string trace;                          // file for what places were busy with; "": none
+    std::optional<WatchAddress> watch;          // none: nobody can watch
+    std::string report;                         // file; "": none
+    double preview = 0;                         // seconds between two pictures of what is there; 0: none
+    std::optional<WatchAddress> viewer;         // tev, to be shown the picture while it grows
+    bool resume = false;                        // from a checkpoint
+    bool forget = false;                        // it, when the picture is finished
+    double time_limit = 0;                      // seconds; 0: none
+    std::string reference, curve;               // files; "": none
+    PictureView view = PictureView::automatic;  // of the PNG
+    Tuning tuning;
+};
+
+void add_graph(CLI::App& verb, GraphOptions& graph);
+void add_constants(CLI::App& verb, std::map<std::string, std::string>& constants, const char* help);
+/// --samples, --size and --crop.
+void add_picture(CLI::App& verb, PictureOptions& picture);
+/// An option, or where `name` has no dashes the words of the command line, that gives layers gains.
+CLI::Option* add_gains(CLI::App& verb, const char* name, std::vector<Gain>& gains, const char* help);
+/// --view
+void add_view(CLI::App& verb, PictureView& view);
+void add_output(CLI::App& verb, std::string& file, const char* help);
+CLI::Option* add_hosts(CLI::App& verb, std::string& file);
+CLI::Option* add_threads(CLI::App& verb, std::optional<std::uint32_t>& threads, const char* help);
+/// All of them but --output, whose help differs.
+void add_running(CLI::App& verb, RunningOptions& running);
+
+/// For `when_taken_apart()`: what is wrong with them together. `--slurm` wants a place where daemons can join.
+std::optional<std::string> settle(RunningOptions& running);
+/// The same: a scene where a graph is wanted, and the other way round. `instead`: "to render it: lightnet run".
+std::optional<std::string> mistaken_scene(const std::string& graph, const std::string& instead);
+std::optional<std::string> mistaken_graph(const std::string& scene, const std::string& instead);
+
+}  // namespace lightnet

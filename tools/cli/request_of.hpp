@@ -1,0 +1,14 @@
+// From what the user typed to a run that is ready to go.
+#pragma once
+
+#include "tools/cli/launcher.hpp"
+#include "tools/cli/loading.hpp"
+#include "tools/cli/options.hpp"
+#include "tools/request/run_request.hpp"
+
+namespace lightnet {
+
+/// Also warns of what there is to warn of. Throws UserError where hosts are further away than the user has allowed.
+RunRequest request_of(const RunningOptions& running, const Launcher& launcher, Loaded loaded);
+
+}  // namespace lightnet

@@ -1,0 +1,32 @@
+// Where files go that a run writes, and where none may go.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/network/graph/graph.hpp"
+#include "core/network/graph/kind.hpp"
+
+namespace lightnet {
+
+/// How all pages of reports begin.
+inline constexpr std::string_view report_page_beginning = "<!doctype html>\n<!--lightnet-->";
+
+/// Throws UserError when no picture can be written there, or files of others stand where it and what comes with it
+/// would: said before work starts, not after hours of it.
+void check_output(const std::string& output);
+
+/// The same for the page of a report.
+void check_report(const std::string& html);
+
+/// What is wrong with the files that a graph, sound or not, wants to be written (`keep`): they stay in the graph's
+/// folder, or below, wherever links lead, and take no place of others.
+std::vector<Problem> problems_of_kept_files(const Graph& graph, const Registry& registry);
+
+/// The same for the picture that a graph names. It is taken from the current folder, and stays in that or in the
+/// graph's.
+std::vector<Problem> problems_of_picture(const Graph& graph, const std::string& file);
+
+}  // namespace lightnet

@@ -1,0 +1,62 @@
+#include "tools/pictures/picture_notes.hpp"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <nlohmann/json.hpp>
+
+#include "core/base/build_info.hpp"
+#include "core/base/joined.hpp"
+#include "core/base/name_id.hpp"
+#include "core/network/graph/lamp_groups.hpp"
+#include "core/scene/camera_in.hpp"
+#include "core/scene/camera_matrices.hpp"
+
+namespace lightnet {
+namespace {
+
+using Manifest = nlohmann::json;  // whose objects are sorted by name
+
+std::array<float, 16> for_rows(const Matrix& matrix) {
+    std::array<float, 16> entries{};
+    for (std::size_t i = 0; i < 16; ++i) entries[i] = static_cast<float>(matrix.m[i % 4][i / 4]);
+    return entries;
+}
+
+}  // namespace
+
+std::string manifest_of(const SceneData& scene, NamedBy by) {
+    Manifest manifest = Manifest::object();
+    const SurfaceNames names = surface_names(scene, by);
+    for (const auto* all : {&names.of_shape, &names.of_instance})
+        for (const auto& name : *all)
+            if (!name.empty()) manifest[name] = fmt::format("{:08x}", std::bit_cast<std::uint32_t>(name_id(name)));
+    return manifest.dump(-1, ' ', true, Manifest::error_handler_t::replace);
+}
+
+PictureWords words_of(const Graph& graph, const Registry& registry, const FilmFormat& format,
+                      const std::map<std::string, std::string>& recipe, const SceneData& scene) {
+    PictureWords words;
+    auto& texts = words.notes.texts;
+    texts["software"] = "lightnet " + version();
+    texts["seed"] = recipe.at("seed");
+    texts["graph"] = recipe.at("graph");
+    if (const auto groups = lamp_groups(graph, registry); !groups.empty()) texts["groups"] = joined(groups);
+    const auto camera = matrices_of(camera_in(scene, format.width, format.height), format.width, format.height);
+    words.notes.matrices["worldToCamera"] = for_rows(camera.to_camera);
+    words.notes.matrices["worldToNDC"] = for_rows(camera.to_ndc);
+    for (const auto& [name, count] : format.ids) {
+        const Node& node = graph.nodes.at(graph.find(name).value());
+        words.manifests[name] = manifest_of(scene, named_by(std::get<std::string>(node.params.at("of").data)));
+    }
+    return words;
+}
+
+void add_words(const PictureWords& words, Picture& picture) {
+    picture.notes = words.notes;
+    for (auto& matte : picture.mattes)
+        if (const auto found = words.manifests.find(matte.name); found != words.manifests.end())
+            matte.manifest = found->second;
+}
+
+}  // namespace lightnet

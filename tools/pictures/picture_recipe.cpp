@@ -1,0 +1,50 @@
+#include "tools/pictures/picture_recipe.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "core/base/build_info.hpp"
+#include "core/base/hash.hpp"
+#include "core/network/graph/layout.hpp"
+#include "core/run/assembly/fingerprint.hpp"
+
+namespace lightnet {
+namespace {
+
+// The graph without what stands apart in a recipe, and without what changes no pixel: where its lines stand, and how
+// its files are called.
+std::string text_of_light(Graph graph, const Registry& registry) {
+    graph.file.clear();
+    for (auto& node : graph.nodes) {
+        node.where = {};
+        const Kind* kind = registry.find(node.kind);
+        if (kind->role != Role::image) continue;
+        for (const auto& param : kind->params)
+            if (param.type == ParamType::film || param.name == "samples" || param.name == "error")
+                node.params.erase(param.name);
+    }
+    return to_json(graph);
+}
+
+}  // namespace
+
+std::map<std::string, std::string> picture_recipe(const Job& job, const Registry& registry, const FilmFormat& format,
+                                                  std::uint32_t tile) {
+    std::string files = job.scene;
+    for (const auto& file : job.files) files += "\n" + file.path + " " + to_hex(file.hash);
+    std::string build = build_id();
+    for (const auto& plugin : job.plugins) build += ", " + plugin;
+    const auto crop = format.crop.value_or(Window{0, 0, format.width, format.height});
+    return {{"graph", to_hex(content_hash(text_of_light(written(job.graph), registry)))},
+            {"scene", to_hex(content_hash(files))},
+            {"seed", std::to_string(job.seed)},
+            {"size", fmt::format("{}x{}", format.width, format.height)},
+            {"crop", fmt::format("{},{},{},{}", crop.x, crop.y, crop.x + crop.width, crop.y + crop.height)},
+            {"error", fmt::format("{}", format.refinement.error)},
+            {"tile", std::to_string(tile)},
+            {"build", build},
+            {"arithmetic", std::to_string(fingerprint(job.isa))}};
+}
+
+}  // namespace lightnet

@@ -1,0 +1,81 @@
+// A run, as it is asked for.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/film/tone.hpp"
+#include "core/network/graph/graph.hpp"
+#include "core/network/graph/hosts.hpp"
+#include "core/network/graph/kind.hpp"
+#include "core/readers/files/files.hpp"
+#include "core/run/message/tuning.hpp"
+#include "core/scene/data/scene_data.hpp"
+#include "tools/http/watch_rules.hpp"
+#include "tools/request/run_keys.hpp"
+#include "tools/support/progress.hpp"
+#include "transport/start/troubles.hpp"
+
+namespace lightnet {
+
+/// How a run is: in one thread, in places of this process, or with hosts of any kind (and places of this process).
+enum class Mode { serial, threads, network };
+
+/// A scene that has been read before its run, with the files that it took. As its file says: nothing is overridden yet.
+struct ReadScene {
+    DiskFiles files;
+    SceneData scene;
+};
+
+/// Daemons to be started by Slurm.
+struct SlurmRequest {
+    std::uint32_t daemons = 0;
+    std::string partition;               // "": Slurm's usual one
+    std::vector<std::string> arguments;  // more words for sbatch
+};
+
+/// Daemons to be started by ssh.
+struct SshRequest {
+    std::vector<std::string> command;  // and its options
+    std::string daemon;                // lightnetd there; "": as here, or else in the PATH there
+};
+
+/// A run, ready to go.
+struct RunRequest {
+    Graph graph;  // checked; --samples and --size are in it, and the sectors of sharded nodes
+    Hosts hosts;  // to be called, or that join by name; and places of this process
+    Mode mode = Mode::serial;
+    std::uint32_t threads = 0;                      // places in this process, as many as `hosts` names if it names any
+    std::uint32_t local_workers = 0;                // mode network: daemons to start
+    std::uint32_t local_places = 0;                 // of each; 0: as many as there are cores, dealt out
+    Troubles troubles;                              // of them
+    std::string listen;                             // mode network: endpoint where hosts may join; "": nowhere
+    RunKeys keys;                                   // mode network: by which hosts and this process know each other
+    std::string pass;                               // file with what hosts must know to join; "": the usual one
+    SlurmRequest slurm;                             // mode network
+    SshRequest ssh;                                 // likewise; on which machines: see keys.ssh
+    std::chrono::seconds wait{30};                  // for a host when a node has no place any more
+    std::optional<std::chrono::seconds> busy_wait;  // for hosts that serve other runs; none: as long as it takes
+    bool resume = false;                            // from the checkpoint beside the output, if there is one
+    bool forget = false;                            // leave no checkpoint beside a finished picture
+    Tuning tuning;
+    std::string scene;                // file, as seen from here
+    std::shared_ptr<ReadScene> read;  // it, read already; the run takes it away. None: still to be read
+    std::string output;               // "x.exr", as seen from here
+    std::uint64_t seed = 0;
+    std::string trace;                          // file for what places were busy with; "": none
+    std::optional<WatchAddress> watch;          // serve a page that shows the run
+    std::string report;                         // file of a page that shows what the run did; "": none
+    PictureView view = PictureView::automatic;  // of the PNG
+    double time_limit = 0;                      // seconds since the run began; 0: none
+    std::string reference, curve;               // a picture to be compared with, and a file for the errors; "": none
+    double preview = 0;                         // seconds between two pictures of what is there; 0: none
+    std::optional<WatchAddress> viewer;         // tev, to be shown the picture while it grows
+    ProgressMode progress = ProgressMode::automatic;
+};
+
+}  // namespace lightnet

@@ -1,0 +1,353 @@
+#include "tools/session/rendering.hpp"
+
+#include <fmt/format.h>
+#include <pwd.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "core/base/hash.hpp"
+#include "core/base/this_machine.hpp"
+#include "core/base/unwanted.hpp"
+#include "core/network/graph/check.hpp"
+#include "core/run/assembly/looker.hpp"
+#include "core/run/master/master_renderer.hpp"
+#include "core/run/schedule/spot_checks.hpp"
+#include "core/run/serial/serial.hpp"
+#include "transport/launcher/threaded_run.hpp"
+#include "transport/store/cache_folder.hpp"
+
+namespace lightnet {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+
+constexpr auto drain_deadline = 5s;  // for tiles that are under way when the run is told to stop
+
+// Somebody has answered falsely.
+struct Lie {
+    Failure what;
+};
+
+// For those who have to wait for the hosts of this run.
+std::string who_runs(const Graph& graph) {
+    const passwd* user = getpwuid(getuid());
+    return fmt::format("{}@{} ({})", user ? user->pw_name : std::to_string(getuid()), machine_name(), graph.file);
+}
+
+}  // namespace
+
+Rendering::Rendering(Assignment what, RunBook& book, const Signals& signals)
+    : what_(std::move(what)),
+      book_(book),
+      signals_(signals),
+      image_(renderer_of(what_.job.graph, what_.registry)),
+      id_(secret_number()) {
+    book_.name_run(id_);
+}
+
+void Rendering::perform(LoadedScene scene, const DiskFiles& files) {
+    if (what_.request.tuning.verify > 0 && what_.request.mode != Mode::network)
+        book_.alert("--verify asks other hosts, and this run has none");
+    switch (what_.request.mode) {
+        case Mode::serial:
+            return serially(std::move(scene));
+        case Mode::threads:
+            return in_threads(std::move(scene));
+        case Mode::network:
+            return on_hosts(std::move(scene), files);
+    }
+}
+
+void Rendering::serially(LoadedScene scene) {
+    book_.phase("prepare");
+    const auto network = build_network(what_.job, what_.registry, std::move(scene));
+    book_.share(network, made_from(what_.job));
+    std::optional<Looker> looker;
+    const Crowd alone{{}, {}, [&] { return std::vector{this_process(1, looker->figures())}; }, {}};
+    SerialRun run(*network, [&] {
+        if (ended()) throw Cancelled{};
+        if (looker) show(alone);
+    });
+    std::optional<PlaceTracer> tracer;
+    if (what_.request.tuning.trace) run.trace(tracer.emplace(what_.job.graph, 1 << 16));
+    if (book_.shown()) looker.emplace(std::vector{&run.gauge()});
+    run.watch([this](const PrepareProgress& progress) { book_.preparing(progress); });
+    book_.use(Plan{{PlaceAt{}}, std::vector<std::vector<std::uint32_t>>(what_.job.graph.nodes.size(), {0})},
+              what_.job.graph);
+    try {
+        const LookingAt looking(&signals_.any);
+        render(run);
+    } catch (const Cancelled&) {
+    }
+    if (looker) book_.show_last(alone.hosts);
+    auto counters = run.counters();
+    if (tracer) counters.traces.push_back(tracer->take("", 0));
+    book_.count(counters);
+}
+
+void Rendering::render(SerialRun& run) {
+    auto tiles = book_.next_step();
+    const auto say = [this](const std::string& text) { book_.say(text); };
+    run.prepare(made_from(what_.job), cache(), say, TilesByPass(what_.job.graph, what_.registry, tiles).pass());
+    what_.kept.write([&](std::size_t node) { return run.last_result(node); }, book_);
+    book_.phase("render");
+    for (; !tiles.empty() && !ended(); tiles = book_.next_step()) {
+        TilesByPass passes(what_.job.graph, what_.registry, tiles);
+        while (!passes.empty() && !ended()) {
+            auto pass = passes.begin_next();
+            for (std::size_t next = 0; next < pass.size() && !ended(); ++next) {
+                const Tile tile = pass[next];
+                const auto more = passes.sort(book_.take(tile, run.render(tile)));
+                pass.insert(pass.end(), more.begin(), more.end());
+            }
+        }
+    }
+}
+
+void Rendering::in_threads(LoadedScene scene) {
+    book_.phase("prepare");
+    const auto network = build_network(what_.job, what_.registry, std::move(scene));
+    book_.share(network, made_from(what_.job));
+    const Plan plan =
+        lightnet::plan(what_.job.graph, what_.registry, what_.request.hosts, {{"", what_.request.threads}});
+    ThreadedRun run(network, id_, plan, what_.job.tuning);
+    book_.use(plan, what_.job.graph);
+    if (book_.shown()) run.watch();
+    const auto places = static_cast<std::uint32_t>(plan.places.size());
+    const auto hosts = [&] { return std::vector{this_process(places, run.figures())}; };
+    hand_out(run.carrier(), plan,
+             {[&](std::size_t) { run.check(); }, [&] { return network->activity->all(); }, hosts, {}, [] {}});
+    book_.show_last(hosts);
+    book_.count(run.stop());
+}
+
+// How many tiles are under way per place: one that renders and one that waits, or, where lighting is elsewhere, as many
+// as keep the questions of several together.
+std::uint32_t Rendering::tiles_per_place(const Plan& plan) const {
+    const auto& images = plan.places_of[image_];
+    const bool alone = std::all_of(plan.places_of.begin(), plan.places_of.end(),
+                                   [&](const auto& places) { return places.empty() || places == images; });
+    return alone ? 2 : 6;
+}
+
+// Where what nodes prepare is kept. Doing without is slower, and no error.
+ResultCache* Rendering::cache() {
+    if (what_.request.tuning.verify > 0) return nullptr;  // what earlier runs have kept there nobody has verified
+    if (what_.request.tuning.cache == "none" || preparing_nodes(what_.job.graph, what_.registry).empty())
+        return nullptr;
+    try {
+        cache_.emplace(what_.request.tuning.cache.empty() ? default_cache_folder() : what_.request.tuning.cache,
+                       what_.request.tuning.cache_size);
+        return &*cache_;
+    } catch (const Error& error) {
+        book_.warn(std::string("what nodes prepare is not kept: ") + error.what());
+        return nullptr;
+    }
+}
+
+// True when all is prepared, false when the run was stopped, or its time is over.
+bool Rendering::prepare(Conductor& conductor, const Crowd& crowd) {
+    while (!conductor.prepare(50ms)) {
+        if (ended()) return false;
+        crowd.look_around(conductor.in_force().places_of[image_].size());
+        book_.preparing(with(conductor.progress(), crowd.doing()));
+        show(crowd);
+    }
+    for (const auto& [node, hash] : conductor.prepared()) book_.set("prepared." + node, to_hex(hash));
+    return true;
+}
+
+void Rendering::hand_out(Carrier& carrier, const Plan& plan, const Crowd& crowd) {
+    Conductor::Options options;
+    options.run = id_;
+    options.graph = &what_.job.graph;
+    options.registry = &what_.registry;
+    options.width = static_cast<std::uint32_t>(what_.format.colours());
+    options.made_from = made_from(what_.job);
+    options.cache = cache();
+    options.verify = what_.request.tuning.verify;
+    options.say = [this](const std::string& text) { book_.say(text); };
+    Conductor conductor(std::move(options), carrier);
+    auto tiles = book_.next_step();
+    conductor.begin_pass(TilesByPass(what_.job.graph, what_.registry, tiles).pass());
+    conductor.propose(plan);
+    if (!prepare(conductor, crowd)) return;
+    const auto write_kept = [&] {
+        what_.kept.write([&](std::size_t node) { return conductor.last_result(node); }, book_);
+    };
+    if (!what_.request.tuning.verify) write_kept();
+    book_.phase("render");
+    for (; !tiles.empty() && !ended(); tiles = book_.next_step()) {
+        TilesByPass passes(what_.job.graph, what_.registry, tiles);
+        while (!passes.empty() && !ended()) hand_out_pass(conductor, passes, crowd);
+    }
+    if (what_.request.tuning.verify && !stopped()) write_kept();  // nobody was found to have lied
+}
+
+// Prepares for the next pass, as far as that is still to be done, and has its tiles rendered.
+void Rendering::hand_out_pass(Conductor& conductor, TilesByPass& passes, const Crowd& crowd) {
+    MasterRenderer::Job job;
+    job.run = id_;
+    job.image = static_cast<std::uint32_t>(image_);
+    job.width = static_cast<std::uint32_t>(what_.format.colours());
+    job.tiles = passes.begin_next();
+    conductor.begin_pass(passes.pass());
+    if (!prepare(conductor, crowd)) return;
+    conductor.begin_master();
+    const auto tiles = tiles_per_place(conductor.proposed());
+    job.credit = {tiles, tiles * MasterRenderer::most_together};
+    job.check_answers = what_.request.tuning.check_answers;
+    job.verify = what_.request.tuning.verify;
+    job.alone = [this](const Plan& plan) { return answers_alone(plan, what_.job.graph, image_); };
+    if (book_.shown()) job.handed_out = [this](const auto& handed_out) { book_.show_handed_out(handed_out); };
+    MasterRenderer* more = nullptr;
+    MasterRenderer master(std::move(job), conductor, [&](const Tile& tile, std::span<const Rgb> pixels) {
+        more->append(passes.sort(book_.take(tile, pixels)));
+    });
+    more = &master;
+    master.use(conductor.in_force());
+    while (!ended() && !master.work(50ms)) {
+        crowd.look_around(master.renderers());
+        show(crowd);
+    }
+    if (signals_.terminated) {
+        master.drain();
+        const auto end = Clock::now() + drain_deadline;
+        while (master.outstanding() > 0 && Clock::now() < end && !signals_.interrupted) master.work(50ms);
+    }
+    crowd.trust();
+    book_.count(master.counters());
+    if (const auto& aside = master.set_aside_tiles(); !aside.empty()) {
+        std::string all = "the picture lacks some of its tiles, and is not written:";
+        for (const auto& tile : aside) all += "\n  " + tile;
+        throw Error("node '" + what_.job.graph.nodes[image_].name + "'", all);
+    }
+}
+
+Cluster::Options Rendering::cluster_options(const DiskFiles& files) {
+    Cluster::Options options;
+    options.run = id_;
+    options.who = who_runs(what_.job.graph);
+    options.job = what_.job;
+    options.files = files.seen();
+    options.plan = [this](const std::vector<HostOffer>& offers) {
+        return lightnet::plan(what_.job.graph, what_.registry, whole_ ? Hosts{} : what_.request.hosts, offers);
+    };
+    options.say = [this](const std::string& text) { book_.say(text); };
+    options.warn = [this](const std::string& text) { book_.warn(text); };
+    return options;
+}
+
+void Rendering::on_hosts(LoadedScene scene, const DiskFiles& files) {
+    book_.phase("prepare");
+    auto options = cluster_options(files);
+    if (what_.request.threads) {
+        options.network = build_network(what_.job, what_.registry, std::move(scene));
+        book_.share(options.network, made_from(what_.job));
+    }
+    Crew crew(what_.request, std::move(options), [this] { return book_.share_done(); });
+    while (true) {
+        try {
+            return on(crew);
+        } catch (const Lie& lie) {
+            begin_anew(crew, lie.what);
+        }
+    }
+}
+
+// What the liar has told may be in any sum, record or photon: all of it is done again, without him.
+// DECISIONS: begun-anew-without-the-liar
+void Rendering::begin_anew(Crew& crew, const Failure& lie) {
+    crew.cluster().finish(300ms);
+    book_.begin_anew();
+    if (lie.host.empty() && whole_)
+        throw Error("answers of hosts differ, and nobody can tell which is right",
+                    lie.why + "; with three hosts, or with --threads 1, whose answers are believed, it can be told");
+    if (lie.host.empty()) {
+        book_.alert(lie.why +
+                    ": the run begins anew, with the whole network at each host, so that it shows who is wrong");
+        whole_ = true;
+    } else {
+        book_.alert(lie.host + " is taken out, as it answers falsely: " + lie.why +
+                    "; all that it has told is done again");
+        liars_.insert(lie.host);
+    }
+    id_ = secret_number();
+    book_.name_run(id_);
+    book_.phase("prepare");
+    crew.begin_anew(id_, liars_, what_.request.threads ? network_of_files() : nullptr);
+}
+
+// Who alone holds a node can say of it what he likes.
+void Rendering::warn_of_unverified(const Plan& plan) {
+    if (!what_.request.tuning.verify) return;
+    for (std::size_t node = 0; node < plan.places_of.size(); ++node) {
+        std::set<std::string> hosts;
+        for (const auto place : plan.places_of[node]) hosts.insert(plan.places[place].host);
+        if (hosts.size() == 1 && !hosts.begin()->empty())
+            book_.alert(fmt::format("node '{}' is at {} alone, so nobody can verify what it answers there",
+                                    what_.job.graph.nodes[node].name, *hosts.begin()));
+    }
+}
+
+// For places of this process, which keep what they have learnt with the network.
+std::shared_ptr<const Network> Rendering::network_of_files() const {
+    DiskFiles files;
+    auto network = build_network(what_.job, what_.registry, files);
+    for (const auto& [path, hash] : files.hashes())
+        if (std::none_of(
+                what_.job.files.begin(), what_.job.files.end(),
+                [&, path = path, hash = hash](const JobFile& file) { return file.path == path && file.hash == hash; }))
+            throw Error(path, "has changed since the run began");
+    return network;
+}
+
+// A run on those hosts that are not known to lie. Throws Lie.
+void Rendering::on(Crew& crew) {
+    auto& cluster = crew.cluster();
+    const auto trust = [&] {
+        if (what_.request.tuning.verify > 0 && cluster.lie()) throw Lie{*cluster.lie()};
+    };
+    crew.gather(signals_.any, book_.time_left());
+    if (ended()) {
+        cluster.finish(300ms);
+        return;
+    }
+    book_.use(cluster.plan(), what_.job.graph);
+    for (const auto& host : crew.missing()) book_.warn(host);
+    warn_of_unverified(cluster.plan());
+    std::optional<Clock::time_point> homeless;
+    const auto look_around = [&](std::size_t renderers) {
+        crew.look_after();
+        trust();
+        if (renderers > 0) return homeless.reset();
+        const auto& name = what_.job.graph.nodes[image_].name;
+        if (!homeless) {
+            book_.say(fmt::format("node '{}' has no place any more; waiting {} s for a host to come", name,
+                                  what_.request.wait.count()));
+            homeless = Clock::now();
+        }
+        if (Clock::now() - *homeless > what_.request.wait)
+            throw Error(fmt::format("node '{}' has no place any more, and no host came within {} s", name,
+                                    what_.request.wait.count()));
+    };
+    if (book_.shown()) cluster.watch();
+    hand_out(cluster, cluster.plan(),
+             {look_around, [&] { return cluster.doing(); }, [&] { return cluster.hosts(); },
+              [&](const std::string& host) { return cluster.drain(host); }, trust});
+    book_.show_last([&] { return cluster.hosts(); });
+    book_.use(cluster.plan(), what_.job.graph);
+    for (const auto& host : cluster.hosts()) book_.use(host);
+    const auto counted = cluster.finish(stopped() ? 300ms : 1000ms);
+    if (!stopped()) trust();  // a word of the last moment
+    for (const auto& host : cluster.hosts()) book_.note_memory(host);
+    book_.count(counted);
+}
+
+}  // namespace lightnet

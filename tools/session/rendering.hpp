@@ -1,0 +1,90 @@
+// Has a job rendered: in one thread, in places of this process, or on hosts.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/film/film.hpp"
+#include "core/network/graph/kind.hpp"
+#include "core/network/graph/plan.hpp"
+#include "core/readers/files/files.hpp"
+#include "core/run/assembly/job.hpp"
+#include "core/run/assembly/load_scene.hpp"
+#include "core/run/master/conductor.hpp"
+#include "core/run/master/tiles_by_pass.hpp"
+#include "core/run/message/carrier.hpp"
+#include "core/run/serial/serial.hpp"
+#include "tools/request/run_request.hpp"
+#include "tools/session/crew.hpp"
+#include "tools/session/kept_files.hpp"
+#include "tools/session/run_book.hpp"
+#include "tools/support/signals.hpp"
+#include "transport/launcher/cluster.hpp"
+#include "transport/store/result_cache.hpp"
+
+namespace lightnet {
+
+/// What is to be rendered. All of it outlives the rendering.
+struct Assignment {
+    const RunRequest& request;
+    const Registry& registry;
+    const Job& job;
+    const FilmFormat& format;
+    const KeptFiles& kept;
+};
+
+/// One thread's. Tiles go into the book; a signal ends it early, and so does the book's limit of time.
+class Rendering {
+public:
+    Rendering(Assignment what, RunBook& book, const Signals& signals);
+
+    /// `files`: what was read for the scene. Throws NoWorker or Error.
+    void perform(LoadedScene scene, const DiskFiles& files);
+
+private:
+    void serially(LoadedScene scene);
+    void in_threads(LoadedScene scene);
+    void on_hosts(LoadedScene scene, const DiskFiles& files);
+    void on(Crew& crew);
+    void warn_of_unverified(const Plan& plan);
+    void begin_anew(Crew& crew, const Failure& lie);
+    std::shared_ptr<const Network> network_of_files() const;
+    Cluster::Options cluster_options(const DiskFiles& files);
+    /// Called several times a second with the number of places that render.
+    /// Those who do the work.
+    struct Crowd {
+        std::function<void(std::size_t renderers)> look_around;
+        std::function<Doings()> doing;  // while they prepare
+        std::function<std::vector<HostState>()> hosts;
+        std::function<bool(const std::string& host)> drain;  // none: nobody can be taken out
+        std::function<void()> trust = [] {};                 // throws when somebody has lied
+    };
+    void show(const Crowd& crowd);
+    void obey(const WatchCommand& wish, const Crowd& crowd);
+    static HostState this_process(std::uint32_t places, HostFigures figures);
+    void render(SerialRun& run);
+    void hand_out(Carrier& carrier, const Plan& plan, const Crowd& crowd);
+    void hand_out_pass(Conductor& conductor, TilesByPass& passes, const Crowd& crowd);
+    bool prepare(Conductor& conductor, const Crowd& crowd);
+    ResultCache* cache();
+    std::uint32_t tiles_per_place(const Plan& plan) const;
+    bool stopped() const { return signals_.any; }
+    bool ended() const { return stopped() || book_.time_is_over(); }
+
+    Assignment what_;
+    RunBook& book_;
+    const Signals& signals_;
+    std::size_t image_;
+    std::optional<DiskResultCache> cache_;
+    std::uint64_t id_;
+    std::set<std::string> liars_;  // hosts that take no part any more
+    bool whole_ = false;           // each host is to hold the whole network, whatever the hosts file says
+};
+
+}  // namespace lightnet

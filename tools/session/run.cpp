@@ -1,0 +1,236 @@
+#include "tools/session/run.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <iostream>
+#include <new>
+#include <optional>
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "core/base/own_files.hpp"
+#include "core/network/graph/graph_film.hpp"
+#include "core/readers/read_scene.hpp"
+#include "core/run/assembly/load_scene.hpp"
+#include "tools/pictures/output_file.hpp"
+#include "tools/pictures/picture_lock.hpp"
+#include "tools/pictures/picture_recipe.hpp"
+#include "tools/request/run_settings.hpp"
+#include "tools/session/delivery.hpp"
+#include "tools/session/kept_files.hpp"
+#include "tools/session/rendering.hpp"
+#include "tools/session/run_book.hpp"
+#include "tools/session/run_trace.hpp"
+#include "tools/support/exit_code.hpp"
+#include "tools/support/signals.hpp"
+
+namespace lightnet {
+namespace {
+
+// One run of a checked graph, from its scene to its files.
+class Run {
+public:
+    Run(const RunRequest& request, const Registry& registry)
+        : request_(request),
+          registry_(registry),
+          signals_(watch_signals()),
+          format_(film_format(request, registry)),
+          book_(format_, request.progress, request.tuning.tile, first_page(request, registry, format_)) {}
+
+    int perform();
+
+private:
+    LoadedScene load(DiskFiles& files);
+    int render();
+    int cancelled();
+    std::string write_what_is_there(std::optional<std::chrono::duration<double>> most, const std::string& outcome);
+    bool end_in_time();
+    void open_to_watchers();
+    int perform_watched();
+    bool show_outcome(const std::string& outcome);
+    void take_up_checkpoint(const SceneData& scene);
+    void report_failure();
+
+    const RunRequest& request_;
+    const Registry& registry_;
+    const Signals& signals_;
+    FilmFormat format_;
+    RunBook book_;
+    std::optional<LiveExplainer> explainer_;
+    std::optional<Watcher> watcher_;
+    Job job_;
+};
+
+void Run::take_up_checkpoint(const SceneData& scene) {
+    auto recipe = picture_recipe(job_, registry_, format_, request_.tuning.tile);
+    book_.describe(words_of(request_.graph, registry_, format_, recipe, scene));
+    book_.keep_checkpoint(request_.output, std::move(recipe), std::chrono::seconds(request_.tuning.checkpoint));
+    if (request_.resume) book_.take_up_checkpoint();
+}
+
+LoadedScene Run::load(DiskFiles& files) {
+    book_.phase("load");
+    SceneData read = request_.read ? std::move(request_.read->scene)
+                                   : read_scene(files, request_.scene, scene_constants(request_.graph, registry_));
+    LoadedScene scene = override_scene(request_.graph, registry_, files, std::move(read));
+    for (const auto& warning : scene.data.warnings)
+        if (is_of_files_outside(warning) && request_.mode == Mode::network)
+            book_.alert(to_string(warning));
+        else
+            book_.warn(to_string(warning));
+    job_ = make_job(request_, registry_, format_, files);
+    return scene;
+}
+
+int Run::render() {
+    DiskFiles own;
+    DiskFiles& files = request_.read ? request_.read->files : own;
+    LoadedScene scene = load(files);
+    const KeptFiles to_keep(request_.graph, registry_, scene.data);
+    book_.expose(scene.data.film.scale);
+    book_.limit_time(request_.time_limit);
+    if (!request_.reference.empty()) {
+        const Window wanted = format_.crop.value_or(Window{0, 0, format_.width, format_.height});
+        book_.compare_with({request_.reference, request_.curve, wanted.width, wanted.height});
+    }
+    book_.show_png(request_.view, scene_overrides(request_.graph, registry_).exposure != 0);
+    book_.trace_to(request_.trace);
+    if (request_.preview > 0) book_.preview(request_.output, request_.preview);
+    take_up_checkpoint(scene.data);
+    if (book_.complete() && book_.is_written(request_.output)) {
+        book_.say(request_.output + " is finished: nothing to do; ask for more with --samples");
+        return exit_code::done;
+    }
+    if (book_.complete())
+        book_.say(request_.output + " is finished but for its file");
+    else
+        Rendering({request_, registry_, job_, format_, to_keep}, book_, signals_).perform(std::move(scene), files);
+    if (signals_.any) return cancelled();
+    if (!book_.complete() && !end_in_time()) return exit_code::failed;
+    book_.phase("write");
+    book_.name_bad_light(job_.graph);
+    return finish_run(book_, request_, scene_overrides(request_.graph, registry_).exposure, signals_.any);
+}
+
+// What is there becomes the picture, whatever it is; its checkpoint first, as that is what costs most to lose. In
+// words.
+std::string Run::write_what_is_there(std::optional<std::chrono::duration<double>> most, const std::string& outcome) {
+    const bool kept = book_.save_checkpoint(most);
+    const std::string goes_on = kept ? "; --resume goes on from here" : "";
+    const auto there = book_.end_early();
+    std::string written = there.empty() ? "no picture was written" : there + ", in " + request_.output;
+    try {
+        if (!there.empty()) book_.write_picture(request_.output);
+    } catch (const std::exception& error) {
+        written = std::string("no picture was written: ") + error.what();
+    }
+    book_.write_report(request_.output, outcome);
+    return written + goes_on;
+}
+
+int Run::cancelled() {
+    const auto there = write_what_is_there(time_to_end(signals_), "cancelled");
+    std::cerr << "cancelled: " << there << '\n';
+    return exit_code::interrupted;
+}
+
+// False: it came too soon for a picture that is one.
+bool Run::end_in_time() {
+    if (!book_.covered()) {
+        const auto there = write_what_is_there({}, "preview");
+        std::cerr << "lightnet: the time was over before every pixel had a sample: " << there << '\n';
+        return false;
+    }
+    book_.say("the time is over: " + book_.end_early() +
+              (book_.keeps_checkpoint() ? "; --resume goes on from here" : ""));
+    return true;
+}
+
+void Run::open_to_watchers() {
+    if (!request_.watch && !request_.viewer && request_.report.empty()) return;
+    if (request_.watch) explainer_.emplace(request_, registry_, format_);
+    watcher_.emplace(Watcher::Options{request_.watch, request_.viewer, !request_.report.empty(), ask_to_stop,
+                                      explainer_ ? &*explainer_ : nullptr},
+                     WatchedRun{request_.graph, registry_, format_, request_.output});
+    book_.show_to(&*watcher_);
+    // Whoever asks for it wants to know, however little else is said.
+    if (request_.watch) std::cerr << "watch it at " << watcher_->url() << std::endl;
+}
+
+int Run::perform() {
+    check_output(request_.output);
+    if (!request_.trace.empty())
+        if (const auto why = why_not_replaced(request_.trace, trace_beginning); !why.empty())
+            throw UserError({request_.trace, 0}, why);
+    if (!request_.report.empty()) check_report(request_.report);
+    const PictureLock lock(request_.output);
+    open_to_watchers();
+    try {
+        const int code = perform_watched();
+        const bool told = show_outcome(code == exit_code::done          ? "done"
+                                       : code == exit_code::interrupted ? "cancelled"
+                                                                        : "failed");
+        return told || code != exit_code::done ? code : exit_code::failed;
+    } catch (...) {
+        show_outcome("failed");
+        throw;
+    }
+}
+
+// A report that can't be written takes nothing from the picture, but whoever asked for it has to know: false.
+bool Run::show_outcome(const std::string& outcome) {
+    if (!watcher_) return true;
+    book_.show_outcome(outcome);
+    if (request_.report.empty()) return true;
+    const auto complain = [&](const std::string& why) {
+        std::cerr << "lightnet: there is no report: " << why << '\n';
+        return false;
+    };
+    try {
+        book_.write_report_page(request_.report);
+        return true;
+    } catch (const std::bad_alloc&) {
+        return complain("there is not enough memory for it");
+    } catch (const std::exception& error) {
+        return complain(error.what());
+    }
+}
+
+int Run::perform_watched() {
+    try {
+        return render();
+    } catch (const UserError&) {
+        throw;
+    } catch (const NoWorker& error) {
+        report_failure();
+        std::cerr << "lightnet: " << error.what() << '\n';
+        return dynamic_cast<const NobodyKnown*>(&error) ? exit_code::unknown_key : exit_code::no_worker;
+    } catch (...) {
+        report_failure();
+        throw;
+    }
+}
+
+// What went wrong is said anyhow; a report that can't be written must not hide it.
+void Run::report_failure() {
+    try {
+        if (book_.save_checkpoint()) book_.say("what is there is kept: --resume goes on from here");
+        book_.write_report(request_.output, "failed");
+    } catch (const std::exception& error) {
+        book_.alert(std::string("there is no report of it: ") + error.what());
+    }
+}
+
+}  // namespace
+
+int run(const RunRequest& request, const Registry& registry) try {
+    return Run(request, registry).perform();
+} catch (const std::bad_alloc&) {  // whose own words are none
+    const auto film = film_of(request.graph, registry);
+    throw Error(
+        fmt::format("there is not enough memory for {}x{} pixels of '{}'; a smaller --size or --crop takes less",
+                    film.width, film.height, request.scene));
+}
+
+}  // namespace lightnet
