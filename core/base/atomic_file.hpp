@@ -11,10 +11,10 @@ namespace lightnet {
 /// old file stays as it was, the temporary one is removed, and Error says why. Where the file system can do it, the
 /// temporary file has no name before it is whole: one whose writer is killed leaves nothing.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
-/// The same for what lies in pieces.
+/// Writes what lies in pieces, one after the other, as write_file() writes one piece.
 void write_file(const std::filesystem::path& path, std::span<const std::string_view> pieces);
-/// The same for what nobody but this user may read (mode 0600), where nothing is yet. False: something is there by now,
-/// and stays.
+/// Writes what nobody but this user may read (mode 0600), as write_file() does, where nothing is yet. False: something
+/// is there by now, and stays.
 bool write_new_secret(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace lightnet

@@ -46,8 +46,8 @@ std::optional<TcpEndpoint> tcp_endpoint(std::string_view text);
 /// "[::1]" for "::1": where a port may stand behind it.
 std::string before_port(const std::string& host);
 
-/// The same endpoint always as the same text: addresses as machines write them, names in small letters. What isn't an
-/// endpoint stays as it is.
+/// One text for each endpoint: addresses as machines write them, names in small letters. What is no endpoint stays as
+/// it is.
 std::string usual_text(const std::string& endpoint);
 
 }  // namespace lightnet

@@ -14,7 +14,7 @@ struct ProcessFigures {
     std::uint64_t descriptors = 0, most_descriptors = 0;  // open, and that it may have
 };
 ProcessFigures process_figures();
-/// The same number of threads, alone.
+/// How many threads this process has; 0 where the system doesn't say.
 std::uint64_t own_threads();
 
 /// The most bytes of memory that it had at once since it began, or since forget_peak_memory().

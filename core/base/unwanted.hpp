@@ -12,7 +12,7 @@ struct Cancelled {};
 /// Ends this thread's work when nobody wants it any more: throws Cancelled. Costs next to nothing; whoever may compute
 /// for more than a tenth of a second calls it now and then. Work that asks or traces rays does so by that.
 void end_if_unwanted();
-/// The same as a question, for those who must not throw.
+/// Does nobody want this thread's work any more? For those who must not throw.
 bool is_unwanted();
 
 /// Until the end of a block, work of this thread is unwanted once `stop` is set. Null: it is wanted, come what may.

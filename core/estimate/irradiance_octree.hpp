@@ -36,7 +36,8 @@ public:
     /// there is none. The weight of a record falls to 0 where it ends, so that no border shows. Error: Ward et al.
     /// 1988, equation 5; weight: Tabellion & Lamorlette 2004.
     std::optional<Rgb> irradiance(Vec3 position, Vec3 normal, float stretch) const;
-    /// The same of each group. False: there is none.
+    /// Irradiance of each group of lamps at a point, as irradiance() finds that of their sum. False: no record reaches
+    /// the point.
     bool irradiance(Vec3 position, Vec3 normal, float stretch, std::span<Rgb> groups) const;
     /// Does any record reach the point?
     bool covers(Vec3 position, Vec3 normal) const;

@@ -169,7 +169,7 @@ public:
             at = branches_[at].next + (position[branches_[at].axis] >= branches_[at].border);
         return cell_at(at);
     }
-    /// The same of `count` positions, with turn_of() their sides.
+    /// What is known at each of `count` positions, whose sides are given by turn_of(); null: nothing.
     void find(const Columns3& positions, const Flags& sides, std::size_t count,
               std::array<const GuideCell*, lanes>& cells) const;
     /// The point as it knows it. False: it knows nothing.

@@ -52,7 +52,7 @@ public:
     /// Adds the mean light of each question's paths to its answer, group by group of lamps. Random numbers come from
     /// child(question.stream, key), those of first directions from FirstRays::stream(question).
     void light(std::span<const Query> questions, Key key, FirstRays& first, std::span<Rgb> answers) const;
-    /// The same where paths go on by a guide, not by surfaces alone.
+    /// Adds the mean light of paths that go on by a guide, and not by surfaces alone.
     void light(std::span<const Query> questions, Key key, const LightGuide& guide, std::span<Rgb> answers) const;
 
     /// Follows paths by a guide, or null, and appends what each of them has found. Of a scene that keeps no groups

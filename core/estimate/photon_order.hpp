@@ -39,7 +39,7 @@ struct ByPhoton {
         return x != y ? x < y : comes_before(a, b);
     }
 };
-/// The same order of those that stand for them.
+/// The order of proxies along an axis: that of their photons.
 struct ByProxy {
     std::size_t axis;
     const Photon* photons;

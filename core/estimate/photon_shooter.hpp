@@ -33,7 +33,7 @@ public:
     /// Paths `first` … `first + count` of `total`; appends what they leave on surfaces: of all light `share` (1 /
     /// total).
     void shoot(std::uint64_t first, std::size_t count, double share, const Aim& aim, std::vector<Photon>& out) const;
-    /// The same paths, as trials: of those that leave something.
+    /// Paths `first` … `first + count`, as shoot() follows them; appends a trial for each that leaves something.
     void attempt(std::uint64_t first, std::size_t count, const Aim& aim, std::vector<Trial>& out) const;
 
 private:

@@ -69,8 +69,8 @@ public:
     /// 2 (1 - d²/r²) / (π r²), whose radius r is the distance of the farthest of `most` photons, or `radius` where
     /// there are fewer. Without bias where light is even on a plane larger than that.
     Rgb radiance(const Lookup& at, float radius, std::size_t most, Nearest& scratch) const;
-    /// The same, of each group of lamps by itself: among the photons nearest of all. All groups that photons have must
-    /// have a place; `to` comes zeroed.
+    /// Radiance of each group of lamps, as radiance() estimates that of their sum, of the photons that are nearest of
+    /// all. All groups that photons have must have a place; `to` comes zeroed.
     void radiance(const Lookup& at, float radius, std::size_t most, Nearest& scratch, std::span<Rgb> to) const;
 
 private:

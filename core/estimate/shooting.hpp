@@ -29,7 +29,7 @@ struct Shooting {
 
     /// As the node's parameters say: shooting_params().
     static Shooting of(const NodeContext& here);
-    /// The same where an `error` may decide how many.
+    /// As the parameters of a node say where an `error` may decide how many are emitted.
     static Shooting with_error(const NodeContext& here);
 };
 
@@ -61,9 +61,9 @@ std::size_t shards_each(const Shooting& shooting);
 /// How photons are spread that the node has had sent, in discs of `gather` photons, no larger than `radius` (m): from
 /// some first ones, on all places. Where nobody says how many light paths are emitted, this decides it.
 ///
-/// As many that a part of the scene that gets a hundredth of them has them with the wanted error, of noise (1 / √n); and
-/// that discs lie off their surfaces by no more than its root. That part of their light is given back, so that what is
-/// left is of second order.
+/// As many that a part of the scene that gets a hundredth of them has them with the wanted error, of noise (1 / √n);
+/// and that discs lie off their surfaces by no more than its root. That part of their light is given back, so that what
+/// is left is of second order.
 PhotonSpread take_spread(Services& services, const Scene& scene, Shooting& shooting, const Aim& aim, std::size_t gather,
                          float radius);
 

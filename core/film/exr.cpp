@@ -49,7 +49,7 @@ private:
     std::size_t at_ = 0;
 };
 
-/// The same bytes, to be looked at again.
+/// Bytes of a file in memory, read again.
 class Written final : public Imf::IStream {
 public:
     explicit Written(std::string_view bytes) : IStream("picture"), bytes_(bytes) {}

@@ -157,7 +157,7 @@ public:
     /// The tiles that are wanted now that `tile` has come: those cells of it that aren't done, or its blocks if it
     /// could not be taken as a whole.
     std::vector<Tile> more(const Tile& tile) const;
-    /// The same for all that is there: what a film that was taken up goes on with, beside what tiles_of() gives.
+    /// All tiles that a film that was taken up goes on with, beside what tiles_of() gives.
     std::vector<Tile> going_on() const;
 
     /// Is all of this tile there already?
@@ -165,7 +165,7 @@ public:
     /// What of this tile is not: all of it, nothing, or those of its blocks that are wanted one by one.
     std::vector<Tile> lacking(const Tile& tile) const;
     FilmState state() const;
-    /// The same, into room that is there already.
+    /// Writes state() into room that is there already.
     void state(FilmState& into) const;
     /// Takes up what another film of this format held, or one of fewer samples. This one must be empty. Throws Error
     /// when it does not fit.
@@ -177,7 +177,7 @@ public:
     double covered() const;
     /// As many as a picture must have at least to take up all that is there.
     std::uint32_t samples_begun() const;
-    /// The same for a picture of so many samples, which are no fewer than were begun. A short last block is left out
+    /// A film of so many samples, no fewer than were begun, with all that is there. A short last block is left out
     /// where there are to be more.
     Film of_samples(std::uint32_t samples) const;
 
@@ -195,9 +195,9 @@ public:
     /// that each pixel has without a gap, which is what a picture of so many samples has there; where pixels differ in
     /// that, the picture says how many each has.
     Picture picture(float scale = 1) const;
-    /// The same, exposed as expose() said, of the pixels of a tile that has been added: a colour per pixel (row by row)
-    /// and one of FilmFormat::views(), side by side; ids in false_colour(), alpha as grey. For looking at a picture
-    /// while it grows.
+    /// A tile that has been added, as picture() shows it, exposed as expose() said: a colour per pixel (row by row) and
+    /// one of FilmFormat::views(), side by side; ids in false_colour(), alpha as grey. For looking at a picture while
+    /// it grows.
     std::vector<Rgb> so_far(const Tile& tile) const;
     /// All that have been added, each place once.
     std::vector<Tile> areas() const;

@@ -55,7 +55,7 @@ inline std::uint32_t pass_of(const Tile& tile) { return tile.block(); }
 inline constexpr std::uint32_t pass_marks = 0xffff;
 constexpr std::uint16_t mark_of_pass(std::uint32_t pass) { return static_cast<std::uint16_t>(pass % pass_marks + 1); }
 
-/// The same work, block by block.
+/// The work of a tile as one tile for each of its blocks of samples.
 std::vector<Tile> one_by_one(const Tile& tile);
 
 }  // namespace lightnet

@@ -15,7 +15,7 @@ namespace lightnet {
 /// not every format has. Opens files only through `files`. Throws UserError with all that is wrong; approximations
 /// stand in the scene's warnings.
 SceneData read_scene(Files& files, const std::string& path, const SceneConstants& constants = {});
-/// The same for other formats than those of scene_formats().
+/// The scene in a file of one of these formats, where read_scene() knows those of scene_formats() alone.
 SceneData read_scene(Files& files, const std::string& path, const SceneConstants& constants,
                      std::span<const SceneFormat> formats);
 

@@ -26,7 +26,7 @@ public:
     /// The ray through a picture position and a point of the lens, uniform over its disk if `lens` is over [0,1)². All
     /// rays of one position meet on the plane in focus.
     Ray ray(float x, float y, Vec2 lens) const;
-    /// The same of many positions; no points of the `lens`: through its middle.
+    /// The rays through many picture positions and points of the lens; no points of the `lens`: through its middle.
     void rays(std::span<const Vec2> positions, std::span<const Vec2> lens, std::span<Ray> rays) const;
 
     /// Where in the picture `position` (world space) is seen from the middle of the lens, as homogeneous coordinates:

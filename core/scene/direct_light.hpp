@@ -74,7 +74,8 @@ struct LampNumbers {
 /// light by this sample, whatever is in between.
 std::optional<LampRay> ray_to_lamp(const Scene& scene, const Gathering& at, const LampNumbers& numbers,
                                    Heuristic heuristic);
-/// The same of a light that was sampled for lit_point(at), which finds_lamps().
+/// Radiance that a light sends to `at` and on, if nothing is in the way: one that was sampled for lit_point(at), which
+/// finds_lamps().
 std::optional<LampRay> ray_to_lamp(const Scene& scene, const Gathering& at, const LightSample& lamp,
                                    Heuristic heuristic);
 /// Can light from a sampled lamp be sent on?
@@ -86,9 +87,11 @@ inline bool finds_lamps(const Scene& scene, const Gathering& at) {
 /// weight of having found it by the BSDF, at the lit_point() `from`. Without the sample's own weight.
 Rgb light_by_bsdf(const Scene& scene, const LitPoint& from, const BsdfSample& sample, const SurfacePoint* end,
                   Heuristic heuristic);
-/// The same of a lamp that emits so much towards the point, where sampling lights finds it with density `other`.
+/// Radiance from a lamp that emits so much towards the point, times the weight of having found it by the BSDF, where
+/// sampling lights finds it with density `other`.
 Rgb lamp_by_bsdf(Rgb emitted, float pdf, float other, Heuristic heuristic);
-/// The same of a ray that met nothing, where `sky` is what lies there: of the environment, or of suns.
+/// Radiance from beyond the scene on a ray that met nothing, times the weight of having found it by the BSDF; `sky` is
+/// what lies there: of the environment, or of suns.
 Rgb sky_by_bsdf(const SkyRadiance& sky, const BsdfSample& sample, Heuristic heuristic);
 
 }  // namespace lightnet

@@ -58,7 +58,7 @@ struct LampView {
 class Scene {
 public:
     explicit Scene(SceneData data, const SceneOptions& options = {});
-    /// The same scene, as if there were no other lamps. It shares all but what finds them, and what was a lamp is in
+    /// A scene as if there were no other lamps than these. It shares all but what finds them, and what was a lamp is in
     /// the way of light as before.
     Scene(const Scene& whole, const LampView& lamps);
     ~Scene();
@@ -67,11 +67,11 @@ public:
 
     /// The nearest hit in (0, ray.far). The hit is the same for single rays and packets, whatever the others are.
     std::optional<Hit> intersect(const Ray& ray) const;
-    /// The same for many rays; `hits[i]` is empty where ray i leaves the scene.
+    /// The nearest hits of many rays; `hits[i]` is empty where ray i leaves the scene.
     void intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const;
     /// Is anything in (0, ray.far)?
     bool occluded(const Ray& ray) const;
-    /// The same for many rays: `hidden[i]` is 1 where something is in the way of ray i, else 0.
+    /// What is hidden from many rays: `hidden[i]` is 1 where something is in the way of ray i, else 0.
     void occluded(std::span<const Ray> rays, std::span<std::uint8_t> hidden) const;
 
     /// The surface point that is nearest to `position`, within `reach` (scene units); where several are, `normal` says
@@ -80,7 +80,7 @@ public:
     std::optional<Hit> nearest(Vec3 position, Vec3 normal, float reach) const;
 
     SurfacePoint surface(const Hit& hit) const;
-    /// The same, made where it is to stay; appended.
+    /// Appends the surface point of a hit, made where it is to stay.
     void add_surface(const Hit& hit, std::vector<SurfacePoint>& to) const;
     /// Fetches what will be asked about them from memory: of some at once, before the first is.
     void expect(std::span<const std::optional<Hit>> hits) const;
@@ -95,7 +95,7 @@ public:
     std::uint8_t lobes(const Hit& hit) const;
     /// How the surface scatters there.
     Bsdf bsdf(const SurfacePoint& point) const;
-    /// The same of many, made where they are to stay; appended.
+    /// Appends how surfaces scatter at many points, made where they are to stay.
     void add_bsdfs(std::span<const SurfacePoint> points, std::vector<Bsdf>& to) const;
 
     /// Radiance that the surface itself emits into `direction` (unit, away from it).
@@ -111,7 +111,8 @@ public:
     /// Chooses a light and a direction to it from `from`: to a point of a lamp, to a bare light, a sun or the
     /// environment. None: no light can reach the point by this sample.
     std::optional<LightSample> sample_light(const LitPoint& from, float choice, Vec2 u) const;
-    /// The same for up to `lanes` points at once, which is quicker. No `choices`: there is but one light.
+    /// Chooses a light for up to `lanes` points at once, which is quicker than sample_light(). No `choices`: there is
+    /// but one light.
     void sample_lights(std::span<const LitPoint> from, std::span<const float> choices, std::span<const Vec2> u,
                        LightSamples& samples) const;
     /// What sample_light() always chooses, if that's a flat lamp; else null.
@@ -119,10 +120,10 @@ public:
     /// Density with which sample_light() finds the emitting point `on`, which lies in `direction` from `from`. 0 if it
     /// is not on a lamp.
     float light_pdf(const LitPoint& from, Vec3 direction, const SurfacePoint& on) const;
-    /// The same in two steps, of which the second is quicker for many at once. None: it is not on a lamp.
+    /// light_pdf() in two steps, of which the second is quicker for many at once. None: it is not on a lamp.
     std::optional<LampMet> lamp_met(const LitPoint& from, Vec3 direction, const SurfacePoint& on) const;
     void light_pdfs(std::span<const LampMet> met, std::span<float> pdfs) const;
-    /// The same for the environment along a ray.
+    /// Density with which sample_light() finds the environment along a ray.
     float environment_pdf(const Ray& ray) const;
     /// Does sample_light() choose the environment at all? It never chooses one that is the same everywhere.
     bool samples_environment() const;
@@ -137,7 +138,7 @@ public:
     std::optional<Emission> emit(float choice, Vec2 position_sample, Vec2 direction_sample) const;
     /// Could the ray end where light comes from? False is certain, true is a guess that is cheaper than tracing it.
     bool may_shine(const Ray& ray) const;
-    /// The same of lamps alone: where it is false, all that the ray could find is the environment.
+    /// Could the ray end on a lamp? Where it is false, all that the ray could find is the environment.
     bool may_meet_lamp(const Ray& ray) const;
     /// The ray on which nothing may be if the surface point is to see a light.
     Ray ray_to(const SurfacePoint& from, const LightSample& lamp) const;

@@ -56,6 +56,10 @@ TEST(Project, HasAMasterAndPlacesThatNeverSeeEachOther) {
 
 TEST(Project, HasOneTypeOfEachName) { EXPECT_THAT(repeated_types(product()), IsEmpty()); }
 
+TEST(Project, HasCommentsWithASubjectOfTheirOwn) {
+    EXPECT_THAT(all_complaints(product(), borrowed_subjects), IsEmpty());
+}
+
 TEST(Project, HasDocumentsThatShowItsCode) {
     for (const char* document : {"README.md", "CONTRIBUTING.md"})
         EXPECT_THAT(stale_cuts(read(document), all_files()), IsEmpty());

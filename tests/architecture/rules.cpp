@@ -202,6 +202,17 @@ Complaints bad_header(const SourceFile& file) {
     return complaints;
 }
 
+Complaints borrowed_subjects(const SourceFile& file) {
+    static const std::regex pattern(R"(^\s*/// The same\b)");
+    Complaints complaints;
+    const auto lines = lines_of(file.text);
+    for (std::size_t i = 0; i < lines.size(); ++i)
+        if (std::regex_search(lines[i], pattern) &&
+            (i == 0 || !std::regex_search(lines[i - 1], std::regex(R"(^\s*///)"))))
+            complaints.push_back(at_line(file, i + 1, "the subject of this comment stands in another one"));
+    return complaints;
+}
+
 Complaints too_long(const SourceFile& file, std::size_t most_lines) {
     const std::size_t lines = lines_of(file.text).size();
     if (lines <= most_lines) return {};

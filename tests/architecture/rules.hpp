@@ -29,6 +29,9 @@ Complaints words_of_distribution(const SourceFile& file);
 /// A header without #pragma once, or with a `using namespace`.
 Complaints bad_header(const SourceFile& file);
 
+/// Comments whose subject stands in another one: "The same …" says nothing where it is shown alone.
+Complaints borrowed_subjects(const SourceFile& file);
+
 /// A file of more lines than the house allows.
 Complaints too_long(const SourceFile& file, std::size_t most_lines);
 

@@ -176,5 +176,12 @@ TEST(Folders, DoNotIncludeEachOther) {
     EXPECT_THAT(glances({up, down, back}, "core/math", "core/graph"), SizeIs(1));
 }
 
+TEST(Comments, HaveASubjectOfTheirOwn) {
+    EXPECT_THAT(borrowed_subjects({"core/a.hpp", "/// Sums.\nint sum();\n/// The same of many.\nint sums();\n"}),
+                ElementsAre("core/a.hpp:3: the subject of this comment stands in another one"));
+    EXPECT_THAT(borrowed_subjects({"core/a.hpp", "/// Sums of many.\n/// The same ones as before.\nint sums();\n"}),
+                IsEmpty());
+}
+
 }  // namespace
 }  // namespace lightnet::house

@@ -97,7 +97,8 @@ void add_running(CLI::App& verb, RunningOptions& running);
 
 /// For `when_taken_apart()`: what is wrong with them together. `--slurm` wants a place where daemons can join.
 std::optional<std::string> settle(RunningOptions& running);
-/// The same: a scene where a graph is wanted, and the other way round. `instead`: "to render it: lightnet run".
+/// What is wrong where a scene stands for a graph, and a graph for a scene; none: nothing. `instead`: "to render it:
+/// lightnet run".
 std::optional<std::string> mistaken_scene(const std::string& graph, const std::string& instead);
 std::optional<std::string> mistaken_graph(const std::string& scene, const std::string& instead);
 

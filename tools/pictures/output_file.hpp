@@ -18,14 +18,14 @@ inline constexpr std::string_view report_page_beginning = "<!doctype html>\n<!--
 /// would: said before work starts, not after hours of it.
 void check_output(const std::string& output);
 
-/// The same for the page of a report.
+/// Throws UserError when no page of a report can be written there.
 void check_report(const std::string& html);
 
 /// What is wrong with the files that a graph, sound or not, wants to be written (`keep`): they stay in the graph's
 /// folder, or below, wherever links lead, and take no place of others.
 std::vector<Problem> problems_of_kept_files(const Graph& graph, const Registry& registry);
 
-/// The same for the picture that a graph names. It is taken from the current folder, and stays in that or in the
+/// What is wrong with the picture that a graph names: it is taken from the current folder, and stays in that or in the
 /// graph's.
 std::vector<Problem> problems_of_picture(const Graph& graph, const std::string& file);
 

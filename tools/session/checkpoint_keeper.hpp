@@ -36,7 +36,7 @@ public:
     bool save(std::uint64_t blocks, std::optional<std::chrono::duration<double>> most = {});
     /// Waits for what is being saved, and removes the file.
     void remove();
-    /// The same; the film, empty again, is saved from now on.
+    /// Waits for what is being saved, and removes the file; the film, empty again, is saved from now on.
     void begin_anew();
 
 private:

@@ -12,7 +12,7 @@ namespace lightnet {
 /// "2026-11-23T14:05:09+0100 lightnetd: it is ready": when, in the time of this machine, who, what.
 std::string log_line(const std::string& program, const std::string& text, std::chrono::system_clock::time_point when);
 
-/// The same as a line of JSON, as docs/schemas/log.schema.json has it. `host`: who speaks.
+/// A line of JSON, as docs/schemas/log.schema.json has it. `host`: who speaks.
 std::string log_json(const std::string& program, const std::string& host, const LogEntry& entry,
                      std::chrono::system_clock::time_point when);
 

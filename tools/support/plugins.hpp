@@ -14,8 +14,8 @@ namespace lightnet {
 /// that is wrong with any of them. Before threads are started.
 void load_plugins(const std::vector<std::string>& files, Registry& registry);
 
-/// The same for what the folder of plugins holds ($LIGHTNET_PLUGIN_FOLDER, else ~/.local/share/lightnet/plugins); what
-/// can't be used is left out, and said: an old plugin must not stop a program that does without.
+/// Loads what the folder of plugins holds ($LIGHTNET_PLUGIN_FOLDER, else ~/.local/share/lightnet/plugins); what can't
+/// be used is left out, and said: an old plugin must not stop a program that does without.
 void load_installed_plugins(Registry& registry, std::ostream& err);
 
 /// Daemons that this process starts load the same ($LIGHTNETD_PLUGIN). Before threads are started.

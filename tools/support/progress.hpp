@@ -60,7 +60,7 @@ public:
     /// In JSON, the line has these members besides, and their values.
     using Marks = std::vector<std::pair<std::string, std::string>>;
     void say(std::string_view message, const Marks& marks);
-    /// The same in every mode: for what is an error, though the run goes on.
+    /// Says it in every mode: for what is an error, though the run goes on.
     void insist(std::string_view message, const Marks& marks = {});
     /// The last line. A bar goes when the work is finished, and stays where it is when not.
     void finish(Time now);

@@ -62,7 +62,7 @@ public:
     void taken(const Tile& tile);
     /// Shows what is new, if it is time.
     void look(const Film& film);
-    /// The same, and who takes part: asked for when it is time to.
+    /// Shows what is new and who takes part, which is asked for when it is time to.
     using Hosts = std::function<std::vector<HostState>()>;
     void look(const Film& film, const Hosts& hosts);
     /// The last time that hosts can be asked.

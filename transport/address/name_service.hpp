@@ -37,7 +37,7 @@ std::shared_ptr<const NameService> system_names();
 /// The families in turns, beginning with that of the first: who has but one of them loses no time with the other.
 std::vector<IpAddress> in_turns(const std::vector<IpAddress>& addresses);
 
-/// The same addresses as the network cards of this machine have; empty: there is no such card. `why`: cards can't be
+/// The addresses of a network card of this machine, in turns; empty: there is no such card. `why`: cards can't be
 /// looked at, as in a service that is allowed no AF_NETLINK.
 std::vector<IpAddress> addresses_of_card(const std::string& card, std::string& why);
 

@@ -24,7 +24,7 @@ public:
     /// What is known of it by now. Asks when nothing is, and anew when what is known is older than `fresh`. Numbers and
     /// "localhost" are known without asking. Never waits.
     Whereabout look(const std::string& host, Time now, std::chrono::milliseconds fresh = std::chrono::hours(24));
-    /// The same, waits for an answer, and gives up after so long.
+    /// What is known of it once it is answered; gives up after so long.
     Whereabout wait_for(const std::string& host, std::chrono::milliseconds most);
     /// Of several addresses, the one that has answered last under this endpoint is called first the next time.
     void remember(const std::string& endpoint, const IpAddress& address);

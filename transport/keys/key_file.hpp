@@ -22,7 +22,7 @@ std::optional<KeyPair> take_key_from_environment();
 
 /// The pair in a file. Throws Error when there is none, or others could read it.
 KeyPair load_key(const std::string& file);
-/// The same; where there is none, one is made, readable by its user only. Nothing is ever overwritten.
+/// The pair in a file; where there is none, one is made, readable by its user only. Nothing is ever overwritten.
 KeyPair load_or_make_key(const std::string& file);
 bool key_is_there(const std::string& file);
 

@@ -138,7 +138,7 @@ class NoWorker : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
-/// The same, as we and they don't know each other by our keys (exit code 4).
+/// No host can be reached, as we and they don't know each other by our keys (exit code 4).
 class NobodyKnown final : public NoWorker {
 public:
     using NoWorker::NoWorker;

@@ -133,7 +133,7 @@ public:
     virtual void lose(Time now, const std::string& why) = 0;
     /// Tells it that the run ends. See take_ended().
     virtual void send_end() = 0;
-    /// The same for a host that must have ended before this process goes on; others count nothing.
+    /// Tells a host that the run ends which must have ended before this process goes on; others count nothing.
     virtual Counters wait_for_end() = 0;
 
 protected:

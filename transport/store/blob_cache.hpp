@@ -50,13 +50,13 @@ public:
     Bytes read(const Hash& hash) const;
     /// Room for a blob that comes in pieces. It is not synced: what is read is verified, and can be sent again.
     Incoming receive(const Hash& hash) const;
-    /// The same at once, for a blob that is what its name says. Throws Error when the disk refuses.
+    /// Stores a blob that is what its name says. Throws Error when the disk refuses.
     void store(const Hash& hash, std::span<const std::byte> blob) const;
     /// Removes the blobs and recipes that were not read for the longest time until the folder is within its limit, and
     /// recipes of blobs that are gone. Other files stay, and so do blobs that somebody claims, see CacheClaim; they do
     /// not count. Throws nothing.
     void trim() const { make_room(0); }
-    /// The same, until there is room for so many bytes more.
+    /// Trims until there is room for so many bytes more.
     void make_room(std::uint64_t bytes) const;
     std::uint64_t most_bytes() const { return most_bytes_; }
     const std::string& folder() const { return folder_; }

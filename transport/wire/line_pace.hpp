@@ -38,7 +38,7 @@ public:
     void mark(Time now);
     /// It has said so.
     void taken(std::uint64_t mark, Time now);
-    /// The same for ends that say of each piece that they have it, in their order: nobody needs a mark.
+    /// For ends that say of each piece that they have it, in their order: nobody needs a mark.
     void sent_piece(std::size_t bytes, Time now);
     void piece_taken(Time now);
 

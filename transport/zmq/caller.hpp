@@ -37,7 +37,7 @@ public:
     void watch(Poll& poll) const;
     /// What became of its handshakes, the last one since the last call; none: there was none.
     std::optional<Handshake> look_at_handshake();
-    /// The same endpoint in numbers; "": it's a name, and nobody has answered so far.
+    /// Where it answers, in numbers; "": the endpoint is a name, and nobody has answered so far.
     std::string answering_at() const;
     /// Why nobody answers, as far as the name has to do with it; "": it hasn't.
     std::string trouble() const;

@@ -78,7 +78,7 @@ public:
     std::string endpoint() const;
     /// Sends all frames or none. False: the peer is gone or its queue is full.
     bool send(Frames& frames) { return try_send(frames) == SendResult::sent; }
-    /// The same, and why not.
+    /// Sends all frames or none, and says why not.
     SendResult try_send(Frames& frames);
     /// One whole message, if there is one.
     std::optional<Frames> receive();
@@ -118,8 +118,8 @@ private:
 
 /// A socket that binds and answers: knows its peers, refuses those that are gone.
 Socket answering_socket(const SocketContext& context);
-/// The same for other hosts: greets each connection with an empty message, so that a peer whose connection was cut
-/// knows that what was under way may be lost. Who does not answer its heartbeats is cut off.
+/// A socket that answers other hosts: greets each connection with an empty message, so that a peer whose connection was
+/// cut knows that what was under way may be lost. Who does not answer its heartbeats is cut off.
 Socket door_socket(const SocketContext& context);
 /// Has a door listen at `endpoint`: an address, a name or a network card of this machine, and a port, which may be "*".
 /// Where a name has several addresses, at all of them. Throws Error with what would be right.
@@ -128,7 +128,7 @@ void listen(Socket& door, const SocketContext& context, const std::string& endpo
 /// each reconnection. Without `keys` nothing is encrypted, and nobody knows who the other is.
 Socket asking_socket(const SocketContext& context, const std::string& endpoint,
                      const std::optional<LineKeys>& keys = std::nullopt);
-/// The same, to be connected by the caller, who may look after it before.
+/// An asking_socket() that the caller connects, who may look after it before.
 Socket unconnected_asking_socket(const SocketContext& context, const std::string& endpoint,
                                  const std::optional<LineKeys>& keys);
 

@@ -30,7 +30,7 @@ public:
                         std::span<Vec2> points) {
         sobol_points(keys, offset_of(dimension), indices, points);
     }
-    /// The same of next().
+    /// What next() gives for many keys and indices when `dimension` numbers have been used.
     static void many(std::span<const Key> keys, std::span<const std::uint32_t> indices, std::uint32_t dimension,
                      std::span<float> values) {
         sobol_coordinates(keys, offset_of(dimension), indices, values);

@@ -20,7 +20,7 @@ float sobol_coordinate(Key key, std::uint32_t index);
 /// Many at once, for a fraction of the work: sobol_point(mix(keys[i] + offset), indices[i]), to the bit.
 void sobol_points(std::span<const Key> keys, Key offset, std::span<const std::uint32_t> indices,
                   std::span<Vec2> points);
-/// The same of sobol_coordinate().
+/// Many first coordinates at once: sobol_coordinate(mix(keys[i] + offset), indices[i]), to the bit.
 void sobol_coordinates(std::span<const Key> keys, Key offset, std::span<const std::uint32_t> indices,
                        std::span<float> values);
 

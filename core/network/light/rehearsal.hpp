@@ -24,7 +24,7 @@ public:
     void begin(std::uint16_t pass = 0) { on_ = true, pass_ = pass; }
     /// Ends it. All that was noted, sorted, each question once.
     std::vector<Query> end();
-    /// The same while it goes on.
+    /// All that was noted so far, sorted, each question once; it goes on.
     const std::vector<Query>& noted();
 
 private:

@@ -103,7 +103,7 @@ protected:
     virtual Bytes map_bytes(std::size_t count, const Shard& work) = 0;
     /// How the scene is cut up for the copies of the node; null: each copy has all.
     virtual const Sectors* sectors() { return nullptr; }
-    /// The same as map_bytes() for work whose results are one list per sector, by join_shards(): gives those of the
+    /// Does work whose results are one list per sector, by join_shards(), as map_bytes() does: gives those of the
     /// copy's own. Only where there are sectors.
     virtual Bytes map_sectors(std::size_t count, const Shard& work) { return map_bytes(count, work); }
 

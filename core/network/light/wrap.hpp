@@ -39,7 +39,8 @@ public:
     std::size_t inputs() const { return inputs_.size(); }
     /// How bright is it there, says input `index`. Sets the question's stream and pass.
     Rgb ask(std::size_t index, Query question);
-    /// The same where there may be no surface to ask about: black then, and counted. See SurfaceLookup::question().
+    /// How bright is it there, where there may be no surface to ask about? Black then, and counted. See
+    /// SurfaceLookup::question().
     Rgb ask(std::size_t index, const std::optional<Query>& question);
     /// Seed for the random numbers that the class draws by itself while it answers what it is asked now.
     Key seed() const { return child(stream_, key_, 0); }
@@ -81,8 +82,8 @@ struct Wrapping {
     std::vector<Param> params = {};
     bool reproducible = true;    // false: it draws random numbers that can't be seeded; the run says so
     std::size_t at_once = 2048;  // instances that a call may have waiting at a time
-    /// Of all calls of a process whose kinds name the same here, one at a time goes on: for libraries that change global
-    /// variables. Such a class asks no inputs. Empty: calls don't disturb each other.
+    /// Of all calls of a process whose kinds name the same here, one at a time goes on: for libraries that change
+    /// global variables. Such a class asks no inputs. Empty: calls don't disturb each other.
     std::string alone = {};
 };
 

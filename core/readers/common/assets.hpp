@@ -24,7 +24,7 @@ public:
 
     /// The bytes of the file at `path`. None: reported.
     std::optional<Bytes> read(const std::string& path, const SourceLine& where);
-    /// The same, or null and why there are none.
+    /// Bytes of a file, or null and why there are none.
     struct Found {
         Bytes bytes;
         std::string problem;

@@ -54,7 +54,7 @@ std::array<double, 3> project(const Spectrum& spectrum) {
     return to_rgb(x, y, z);
 }
 
-/// The same, with D65 as {1, 1, 1}.
+/// Linear sRGB of a spectrum, with D65 as {1, 1, 1}.
 template <class Spectrum>
 Rgb balanced(const Spectrum& spectrum) {
     static const auto white = project([](double, double d65) { return d65; });

@@ -36,7 +36,7 @@ public:
 
     /// The values of an accessor; integers that are normalised lie in 0 … 1 or -1 … 1. None: reported.
     std::optional<Values> values(const At& accessor_index);
-    /// The same of whole numbers without a sign. None: reported.
+    /// The values of an accessor of whole numbers without a sign. None: reported.
     std::optional<std::vector<std::uint32_t>> indices(const At& accessor_index);
     /// Makes of whole numbers what an accessor says that they mean: shares, where it is normalised.
     void normalise(const At& accessor_index, Values& values) const;
@@ -44,7 +44,7 @@ public:
     std::optional<std::span<const std::byte>> view(const At& view_index);
     /// The bytes behind a "uri": data in it, or a file. None: reported.
     std::optional<Bytes> resource(const At& uri) const;
-    /// The same; null: what is wrong with it.
+    /// Bytes behind a "uri", or null and what is wrong with it.
     struct Resource {
         Bytes bytes;
         std::string problem;

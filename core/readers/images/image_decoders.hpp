@@ -46,7 +46,8 @@ Raster read_webp(Input bytes);
 
 /// Throws Error unless an image of that size is worth allocating.
 void check_size(std::int64_t width, std::int64_t height);
-/// The same before a file is unpacked, of which a byte holds so many pixels at most.
+/// Throws Error unless an image of that size is worth allocating, before a file is unpacked of which a byte holds so
+/// many pixels at most.
 void check_size(std::int64_t width, std::int64_t height, Input file, std::int64_t pixels_per_byte);
 
 /// Where colours lie that are given by red, green and blue: CIE 1931 x and y.

@@ -12,7 +12,7 @@ LightColour peaked_blackbody(float kelvin);
 /// From the axes of a picture as sky_layout.hpp lays it out by latitude and longitude into those of pbrt-v3's lights.
 /// Of the sky z is up, and the picture begins at x and goes on to y.
 Matrix older_sky_axes();
-/// The same of a goniometric light, of which y is up, and the picture goes on to z.
+/// The axes of a goniometric light of pbrt-v3, of which y is up, and whose picture goes on to z.
 Matrix older_goniometer_axes();
 
 }  // namespace lightnet::pbrt

@@ -27,7 +27,7 @@ public:
 
     /// What the parameter says, as a texture of the scene: rgb, spectrum or the name of a texture.
     TextureId colour(Parameters& parameters, std::string_view name, Rgb fallback, Use use = Use::surface);
-    /// The same; none when the parameter isn't there.
+    /// What the parameter says, as colour() gives it; none when the parameter isn't there.
     std::optional<TextureId> maybe_colour(Parameters& parameters, std::string_view name, Use use = Use::surface);
     /// A number or the name of a float texture; none when the parameter isn't there.
     std::optional<TextureId> maybe_number(Parameters& parameters, std::string_view name);

@@ -22,9 +22,9 @@ struct AttributedMesh {
     std::vector<Rgb> of_triangles;  // where faces have them, and not vertices; else empty
     bool found = false;             // there is something of that name
 };
-/// The same with the numbers that Mitsuba calls "vertex_NAME" or "face_NAME": those of the properties NAME_0, NAME_1
-/// and NAME_2, or NAME_r, NAME_g and NAME_b, or NAME_x …; one alone is a grey. "vertex_color" may also be red, green
-/// and blue.
+/// A mesh with the numbers that Mitsuba calls "vertex_NAME" or "face_NAME": those of the properties NAME_0, NAME_1 and
+/// NAME_2, or NAME_r, NAME_g and NAME_b, or NAME_x …; one alone is a grey. "vertex_color" may also be red, green and
+/// blue.
 AttributedMesh read_ply(std::span<const std::byte> bytes, std::string_view attribute);
 
 }  // namespace lightnet

@@ -26,7 +26,7 @@ Doings doings_from(std::string_view text);
 class Activity {
 public:
     void set(const std::string& node, Doing doing);
-    /// The same thing goes on.
+    /// How far a node has got with what it does.
     void set(const std::string& node, std::uint64_t done, std::uint64_t total);
     Doings all() const;
 

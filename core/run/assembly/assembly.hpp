@@ -106,7 +106,7 @@ public:
     }
     /// Answers that were infinite or no numbers, by name of the node; nodes that gave none are left out.
     std::map<std::string, std::uint64_t> not_finite() const { return by_name(not_finite_); }
-    /// The same of what they asked about no surface.
+    /// Questions about no surface, by name of the node that was asked; nodes that were asked none are left out.
     std::map<std::string, std::uint64_t> off_surface() const { return by_name(off_surface_); }
     /// Of questions whose numbers were not finite, by the node that was asked.
     std::map<std::string, std::uint64_t> unsound_questions() const { return by_name(unsound_); }

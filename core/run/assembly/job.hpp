@@ -54,7 +54,7 @@ Job read_job(std::string_view text, const Registry& registry);
 /// Reads the scene, changes what the graph overrides, and builds everything that the places of a process share.
 std::shared_ptr<const Network> build_network(const Job& job, const Registry& registry, Files& files,
                                              std::function<Bytes(const Hash&)> results = {});
-/// The same from a scene that has been loaded.
+/// Builds what the places of a process share from a scene that has been loaded.
 std::shared_ptr<const Network> build_network(const Job& job, const Registry& registry, LoadedScene scene,
                                              std::function<Bytes(const Hash&)> results = {});
 

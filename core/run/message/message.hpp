@@ -99,7 +99,7 @@ std::size_t work_in(const std::vector<Question>& questions) {
     return questions.size();
 }
 
-/// The same of a message.
+/// How much work the questions of a message are.
 inline std::size_t work_in(const Message& message) {
     return std::visit(
         [](const auto& questions) -> std::size_t {

@@ -95,7 +95,7 @@ public:
     /// Is anything waiting for credit, or to be tried again?
     bool has_waiting() const { return scheduler_.has_waiting(); }
     std::size_t outstanding() const { return scheduler_.questions_out(); }
-    /// The same, and those that wait for credit.
+    /// Questions that are under way, and those that wait for credit.
     std::size_t unanswered() const { return scheduler_.questions_out() + scheduler_.questions_waiting(); }
     std::size_t bundles_outstanding() const { return scheduler_.copies_out(); }
     const Scheduler& scheduler() const { return scheduler_; }

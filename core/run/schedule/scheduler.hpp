@@ -197,7 +197,8 @@ public:
     double pace() const { return times_.any() ? 1 / times_.rate() : 0; }
     /// When `replica` would have answered `questions` more, in seconds from now, as far as is known.
     double completion_time(Replica replica, std::size_t questions) const;
-    /// The same, of who would be asked next. None: nobody but the reserve may be asked now.
+    /// When whoever would be asked next would have answered `questions` more, in seconds from now. None: nobody but the
+    /// reserve may be asked now.
     std::optional<double> soonest(std::size_t questions) const;
     /// The replica to which a region belongs; only when there is one.
     Replica home(std::uint64_t region) const { return homes_.owner_of(region); }

@@ -29,7 +29,7 @@ public:
     double spread() const { return spread_; }
     /// Seconds per question; 0: not known.
     double of(Replica replica) const;
-    /// The same, or the mean of the others where it is not known.
+    /// Seconds per question: its own, or the mean of the others where that is not known.
     double assumed(Replica replica) const;
     /// Seconds per question that those who answered lately say they worked on it, all waiting left out; 0: nobody has.
     double said() const { return said_; }

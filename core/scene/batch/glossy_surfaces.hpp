@@ -50,7 +50,7 @@ public:
 
     /// What ray_to_lamp() gives for each, of lamps that were sampled for it.
     const RaysToLamp& look_at(const LightSamples& lamps, Heuristic heuristic);
-    /// The same without the weight that both techniques share by: the light is whole.
+    /// What look_at() gives without the weight that both techniques share by: the light is whole.
     const RaysToLamp& look_at_whole(const LightSamples& lamps);
 
 private:

@@ -41,9 +41,9 @@ public:
 
     /// What ray_to_lamp() gives for each, of the only lamp.
     const RaysToLamp& look_at(const FlatLamp& lamp, Heuristic heuristic);
-    /// The same without the weight that both techniques share by: the light is whole.
+    /// What look_at() gives without the weight that both techniques share by: the light is whole.
     const RaysToLamp& look_at_whole(const FlatLamp& lamp);
-    /// The same of lamps that were sampled for each.
+    /// What ray_to_lamp() gives for each, of lamps that were sampled for it.
     const RaysToLamp& look_at(const LightSamples& lamps, Heuristic heuristic);
     const RaysToLamp& look_at_whole(const LightSamples& lamps);
 

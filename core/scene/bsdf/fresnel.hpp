@@ -26,8 +26,8 @@ inline float fresnel_dielectric(float cosine, float eta) {
     return sine2_t >= 1 ? 1 : reflected;
 }
 
-/// The same of a conductor with the complex index eta + i k, for cosine in [0,1].
-/// Lagarde 2013, "Memo on Fresnel equations", as in pbrt.
+/// Unpolarised reflectance of a conductor with the complex index eta + i k, for cosine in [0,1]. Lagarde 2013, "Memo on
+/// Fresnel equations", as in pbrt.
 inline float fresnel_conductor(float cosine, float eta, float k) {
     cosine = cosine > 0 ? cosine : 0;
     cosine = cosine < 1 ? cosine : 1;

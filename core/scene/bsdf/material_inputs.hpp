@@ -50,7 +50,7 @@ public:
     float times(float value, std::optional<TextureId> texture) const {
         return texture ? value * colour(*texture).r : value;
     }
-    /// The same within 0 … 1.
+    /// A number, times the red of its texture, within 0 … 1.
     float share(float value, std::optional<TextureId> texture) const {
         return std::clamp(times(value, texture), 0.0f, 1.0f);
     }

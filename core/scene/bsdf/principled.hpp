@@ -59,7 +59,7 @@ struct PrincipledBsdf {
     float plastic_share() const { return (1 - metallic) * (1 - transmission); }
     /// Share of light from that height that the dielectric's reflection leaves to the diffuse part below it.
     float passes(float height) const;
-    /// The same of diffuse light.
+    /// Share of diffuse light that the dielectric's reflection leaves to the diffuse part below it.
     float passes_on_average() const;
 
 private:

@@ -81,7 +81,7 @@ struct MeetingSphere {
     }
 };
 
-/// The same of quadrics, too: all of them may.
+/// Which rays of a packet may meet a form: spheres are tried, quadrics may all be met.
 template <class Round>
 std::array<std::uint64_t, most_rays> which_may_meet(const Form& form, RTCRayN* rays, unsigned n, float stretch) {
     if constexpr (std::is_same_v<Round, Sphere>) {

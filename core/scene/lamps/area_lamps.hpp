@@ -40,7 +40,7 @@ public:
     /// the kind.
     using EvenLamp = std::variant<std::monostate, FlatLamp, BallLamp>;
     EvenLamp even(std::size_t lamp) const;
-    /// The same, kept. Null: there are too many.
+    /// What even() gives, kept. Null: there are too many.
     const EvenLamp* known(std::size_t lamp) const { return known_.empty() ? nullptr : &known_[lamp]; }
     /// Density with which sample() finds the emitting point `on`, which lies in `direction` from `from`.
     float pdf(std::size_t lamp, Vec3 from, Vec3 direction, const SurfacePoint& on) const;

@@ -40,14 +40,14 @@ public:
     float pdf(Vec3 direction) const;
     /// radiance() and pdf().
     SkyRadiance look(Vec3 direction) const;
-    /// The same of up to `lanes` directions, which wait for memory as those of sample() do.
+    /// radiance() and pdf() of up to `lanes` directions, which wait for memory as those of sample() do.
     void look(std::span<const Vec3> directions, std::span<SkyRadiance> seen) const;
     /// Towards bright parts, by the CDF of the rows, then by that of its row's columns.
     SkyRadiance sample(Vec2 u) const;
-    /// The same for up to `lanes` numbers. The memory that they need is fetched at once, and they don't wait for it one
+    /// Up to `lanes` samples at once. The memory that they need is fetched at once, and they don't wait for it one
     /// after the other.
-    /// DECISIONS: memory-of-a-sky-ahead
-    /// DECISIONS: skies-not-learnt
+    // DECISIONS: memory-of-a-sky-ahead
+    // DECISIONS: skies-not-learnt
     void sample(std::span<const Vec2> u, std::span<SkyRadiance> seen) const;
     /// Towards all that shines, for those who have no other way to find it. `pdf` is that of this way.
     SkyRadiance sample_all(Vec2 u) const;

@@ -27,11 +27,11 @@ public:
 
     /// `u` becomes the place within the choice. None: no light reaches the point.
     std::optional<LightChoice> choose(const LitPoint& from, float& u) const;
-    /// The same for many points at once. Chance 0: no light reaches the point.
+    /// Chooses a light for each of many points. Chance 0: no light reaches the point.
     void choose(std::span<const LitPoint> from, std::span<float> places, std::span<LightChoice> chosen) const;
     /// The chance with which choose() finds a light.
     float chance(const LitPoint& from, std::uint32_t light) const;
-    /// The same of many.
+    /// The chances with which choose() finds each of these.
     void chances(std::span<const LampMet> met, std::span<float> chances) const;
 
     /// Are there more lights than the nearest cache is likely to hold?

@@ -178,7 +178,7 @@ struct Lights::PointsAsked {
     std::span<const float> choices;
     std::span<const Vec2> u;
 };
-/// The same, picked from many.
+/// Points that are picked from many.
 struct Lights::PointsPicked {
     std::size_t count = 0;
     std::array<std::uint32_t, lanes> who;

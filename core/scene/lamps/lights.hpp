@@ -57,17 +57,17 @@ public:
     bool many() const { return choices_ > 1; }
     /// None: no light can reach the point by this sample.
     std::optional<LightSample> sample(const LitPoint& from, float choice, Vec2 u) const;
-    /// The same for up to `lanes` points at once. No `choices`: there is but one light.
+    /// Samples a light for up to `lanes` points at once. No `choices`: there is but one light.
     void sample(std::span<const LitPoint> from, std::span<const float> choices, std::span<const Vec2> u,
                 LightSamples& samples) const;
     /// What sample() always chooses, if that's a flat lamp; else null.
     const FlatLamp* only_flat_lamp() const { return only_flat_lamp_ ? &*only_flat_lamp_ : nullptr; }
     /// Density with which sample() finds the emitting point `on`, which lies in `direction` from `from`. 0: not a lamp.
     float pdf(const LitPoint& from, Vec3 direction, const SurfacePoint& on) const;
-    /// The same in two steps: which lamp it is, and then how likely those are.
+    /// pdf() in two steps: which lamp it is, and then how likely those are.
     std::optional<LampMet> met(const LitPoint& from, Vec3 direction, const SurfacePoint& on) const;
     void pdfs(std::span<const LampMet> met, std::span<float> pdfs) const;
-    /// The same of the environment along a ray.
+    /// Density with which sample() finds the environment along a ray.
     float environment_pdf(const Ray& ray) const;
     /// Does sample() choose the environment at all?
     bool samples_environment() const { return !maps_.empty(); }

@@ -37,7 +37,7 @@ public:
 
     const MaterialNeeds& needs(MaterialId material) const { return made_[material].needs; }
     Bsdf bsdf(MaterialId material, const SurfacePoint& point) const;
-    /// The same, made where it is to stay.
+    /// Appends how a material scatters at a point, made where it is to stay.
     void add_bsdf(MaterialId material, const SurfacePoint& point, std::vector<Bsdf>& to) const {
         const Made& made = made_[material];
         if (made.simple)
@@ -47,7 +47,7 @@ public:
     }
     /// How its points are shaded many at once, if they are.
     ColumnShape::Kind column_kind(MaterialId material) const;
-    /// The same everywhere; null: it depends on the place.
+    /// How a material scatters that is alike everywhere; null: it depends on the place.
     const Bsdf::Model* constant_model(MaterialId material) const {
         return made_[material].constant ? &*made_[material].constant : nullptr;
     }

@@ -62,7 +62,7 @@ public:
 
     /// What textures may depend on there, by the same coordinates, of a shape as it was made.
     TexturePlace place(std::uint32_t geometry, std::uint32_t primitive, float u, float v) const;
-    /// The same, but for where the point is.
+    /// What textures may depend on there, but for where the point is.
     TexturePlace coordinates(std::uint32_t geometry, std::uint32_t primitive, float u, float v) const;
     /// Null: the shape is none.
     const PlacedQuadric* quadric(std::uint32_t geometry) const { return quadrics_[geometry].get(); }

@@ -25,7 +25,7 @@ struct TexturePlace {
 /// image's bottom row. May lie below 0, as heights do.
 /// DECISIONS: textures-of-one-size
 Rgb value_at(std::span<const Texture> textures, TextureId texture, const TexturePlace& place);
-/// The same as a colour: never below 0.
+/// The value of a texture at a place, as a colour: never below 0.
 Rgb look_up(std::span<const Texture> textures, TextureId texture, const TexturePlace& place);
 
 /// Where in memory the numbers of a picture lie that look_up() will read first: null where it reads none. For who looks

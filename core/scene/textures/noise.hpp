@@ -14,7 +14,7 @@ float noise(Vec3 p);
 
 /// Octaves of noise, each of 1.99 times the frequency of the one before and `roughness` times its height.
 float fractal_noise(Vec3 p, std::int32_t octaves, float roughness);
-/// The same of the noise's magnitude: creased.
+/// Octaves of the noise's magnitude, added up as in fractal_noise(): creased.
 float turbulence(Vec3 p, std::int32_t octaves, float roughness);
 /// Waves of water under a wind that differs from place to place.
 float wind_waves(Vec3 p);
