@@ -34,7 +34,7 @@ TEST(RunReport, IsJsonThatSaysWhatRanWhere) {
 }
 
 TEST(RunReport, KeepsAListWhereThereIsNothing) {
-    const auto json = nlohmann::json::parse(to_json({}));
+    const auto json = nlohmann::json::parse(to_json(RunReport{}));
     EXPECT_TRUE(json["places"].is_array());
     EXPECT_TRUE(json["phases"].is_array());
     EXPECT_TRUE(json["counters"].is_object());

@@ -7,8 +7,8 @@
 namespace lightnet {
 namespace {
 
-constexpr double safe_part = 0.9;   // of the time that is left: what is begun should be finished
-constexpr std::uint32_t parts = 4;  // of it, of which one is taken by a step of several blocks
+constexpr double safe_part = 0.9;            // of the time that is left: what is begun should be finished
+constexpr std::uint32_t parts_of_limit = 4;  // of it, of which one is taken by a step of several blocks
 constexpr std::uint32_t times = 4;  // the last step, as what little of it was seen may have been quick by chance
 constexpr std::uint32_t whole_group = samples_per_block * blocks_per_group;
 constexpr double most_samples = 1u << 28;
@@ -30,7 +30,7 @@ std::uint32_t TimeLimit::next(std::uint32_t there, std::uint32_t wanted, Time no
     const std::uint32_t base = there / samples_per_block * samples_per_block;
     std::uint32_t more = fitting;
     if (fitting >= samples_per_block) {
-        const std::uint32_t most = std::min(fitting / parts, times * last_);
+        const std::uint32_t most = std::min(fitting / parts_of_limit, times * last_);
         more = std::max(most, samples_per_block) / samples_per_block * samples_per_block;
         if (more >= whole_group) more -= (base + more) % whole_group;
     }
