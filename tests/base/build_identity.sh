@@ -30,7 +30,7 @@ echo 1 >"$tree/core/base/a.cpp"
 before=$(id)
 [[ $before =~ ^id\ [0-9a-f]{12}$ ]] || { echo "no name: $before"; exit 1; }
 expect same "nothing done"
-for file in docs/page.md README.md tests/a_test.cpp tools/cli/options.cpp lua/script.cpp core/base/CMakeLists.txt; do
+for file in docs/page.md README.md tests/a_test.cpp tools/options.cpp lua/script.cpp core/base/CMakeLists.txt; do
     echo 1 >"$tree/$file"
     expect same "a new $file"
 done

@@ -115,9 +115,9 @@ std::optional<ImageTexture> Materials::picture(const At& info, Kind kind) {
     if (!index) return std::nullopt;
     const At at = list[*index];
     // images of WebP are read as well as what stands in for them; those of Basis Universal are not
-    At source = at["extensions"]["EXT_texture_webp"]["source"];
-    if (!source) source = at["source"];
-    if (!source) source = at["extensions"]["KHR_texture_basisu"]["source"];
+    const At webp = at["extensions"]["EXT_texture_webp"]["source"], plain = at["source"],
+             basis = at["extensions"]["KHR_texture_basisu"]["source"];
+    const At& source = webp ? webp : plain ? plain : basis;
     if (!source) {
         at.warn("a texture without an image of a known format is left out");
         return std::nullopt;
