@@ -27,7 +27,7 @@ public:
         scene = folder_.write("ball.pbrt",
                               "Film \"rgb\" \"integer xresolution\" 30 \"integer yresolution\" 20\n"
                               "Camera \"perspective\"\nWorldBegin\nLightSource \"infinite\"\nShape \"sphere\"\n"
-                              "MediumInterface \"fog\"\n");
+                              "MakeNamedMedium \"fog\" \"string type\" \"cloud\"\n");
     }
 
     int operator()(std::vector<std::string> words) {
