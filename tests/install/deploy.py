@@ -39,7 +39,7 @@ class Farm:
     def __init__(self, folder):
         self.folder, self.running = pathlib.Path(folder), []
         self.port, self.metrics = free_port(), free_port()
-        for name in ("work", "cache", "keys"):
+        for name in ("pictures", "cache", "keys"):
             (self.folder / name).mkdir(exist_ok=True)
         made = subprocess.run([deploy / "make_keys.sh", self.folder / "keys"], env=self.environment(), check=True,
                               capture_output=True, text=True)
@@ -113,9 +113,9 @@ def compose(folder):
                 name = mount.split(":")[0]
                 assert name.startswith("./") or name in file["volumes"], f"{mount} is nowhere"
             assert set(service["networks"]) <= set(file["networks"])
-        paths = {"/keys/": f"{farm.folder}/keys/", "/cache": farm.folder / "cache", "/pictures/": f"{farm.folder}/work/"}
+        paths = {"/keys/": f"{farm.folder}/keys/", "/cache": farm.folder / "cache", "/pictures/": f"{farm.folder}/pictures/"}
         words = lambda service: [farm.here(str(word), paths) for word in service["entrypoint"] + service["command"]]
-        return farm.render(words(daemon), words(launcher), farm.folder / "work/cornell.exr")
+        return farm.render(words(daemon), words(launcher), farm.folder / "pictures/cornell.exr")
     finally:
         farm.end()
 
@@ -151,7 +151,7 @@ def kubernetes(folder):
                 assert variable["name"] in values, variable
             text = [re.sub(r"\$\((\w+)\)", lambda name: values[name.group(1)], word)
                     for word in container["command"] + container["args"]]
-            paths["/pictures/"] = f"{farm.folder}/work/"
+            paths["/pictures/"] = f"{farm.folder}/pictures/"
             paths.pop("/pictures", None)
             paths.pop("/tmp")  # no word names it
             return [farm.here(word, paths) for word in text]
@@ -162,7 +162,7 @@ def kubernetes(folder):
             assert container["securityContext"]["readOnlyRootFilesystem"], "it writes nowhere but where it should"
         probe = daemon["spec"]["containers"][0]["livenessProbe"]["httpGet"]
         assert probe["path"] == "/healthz" and probe["port"] in [port["name"] for port in daemon["spec"]["containers"][0]["ports"]]
-        return farm.render(words(daemon), words(launcher), farm.folder / "work/cornell.exr")
+        return farm.render(words(daemon), words(launcher), farm.folder / "pictures/cornell.exr")
     finally:
         farm.end()
 
