@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -16,7 +17,6 @@ namespace {
 
 // Behind the name of the program, which may hold anything: fields 3 and following of /proc/self/stat.
 struct Stat {
-    double utime = 0, stime = 0;  // ticks
     std::uint64_t threads = 0;
     double started = 0;  // ticks since the machine was
     std::uint64_t virtually = 0, resident_pages = 0;
@@ -30,9 +30,7 @@ Stat own_stat() {
     if (end == std::string::npos) return stat;
     std::istringstream in(text.substr(end + 1));
     std::string skipped;
-    for (int field = 3; field < 14; ++field) in >> skipped;
-    in >> stat.utime >> stat.stime;
-    for (int field = 16; field < 20; ++field) in >> skipped;
+    for (int field = 3; field < 20; ++field) in >> skipped;
     in >> stat.threads >> skipped >> stat.started >> stat.virtually >> stat.resident_pages;
     return stat;
 }
@@ -42,6 +40,13 @@ double machine_started() {
     for (std::string line; std::getline(in, line);)
         if (line.starts_with("btime ")) return std::stod(line.substr(6));
     return 0;
+}
+
+// /proc/self/stat counts in ticks of 10 ms: a process that has just begun would have taken nothing.
+double processor_seconds() {
+    timespec taken{};
+    if (clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &taken) != 0) return 0;
+    return static_cast<double>(taken.tv_sec) + static_cast<double>(taken.tv_nsec) * 1e-9;
 }
 
 std::uint64_t open_descriptors() {
@@ -62,7 +67,7 @@ ProcessFigures process_figures() {
     figures.resident = stat.resident_pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
     figures.virtually = stat.virtually;
     figures.threads = stat.threads;
-    if (ticks > 0) figures.processor_seconds = (stat.utime + stat.stime) / ticks;
+    figures.processor_seconds = processor_seconds();
     if (ticks > 0 && stat.started > 0) figures.started = machine_started() + stat.started / ticks;
     figures.descriptors = open_descriptors();
     rlimit limit{};
