@@ -9,3 +9,4 @@ myst_heading_anchors = 4
 # What is no page of the site, but of the tree, is named by its path in the text; links to folders and code stay as they are.
 suppress_warnings = ["myst.header"]
 pygments_style = "friendly"
+html_search_scorer = "scorer.js"

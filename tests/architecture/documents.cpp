@@ -13,8 +13,9 @@
 namespace lightnet::house {
 namespace {
 
-/// A decision as its heading and its text have it.
-struct Decision {
+/// An entry of the notebook as its heading and its text have it.
+struct Entry {
+    const SourceFile* page = nullptr;
     std::size_t line = 0;
     std::string cited_in;  // folder; "": it doesn't say
 };
@@ -31,23 +32,27 @@ std::vector<std::pair<std::string, std::size_t>> cited_in(const SourceFile& file
     return found;
 }
 
-std::map<std::string, Decision> decisions_in(const SourceFile& file, Complaints& complaints) {
-    static const std::regex heading("### ([a-z0-9-]+)"), claim(R"(\*Cited in\* `([\w/]+)`)");
-    std::map<std::string, Decision> decisions;
-    const auto lines = lines_of(file.text);
+void read_entries(const SourceFile& page, std::map<std::string, Entry>& entries, Complaints& complaints) {
+    static const std::regex heading("## ([a-z0-9-]+)"), claim(R"(\*Cited in\* `([\w/]+)`)");
+    const auto lines = lines_of(page.text);
     std::string key;
     std::smatch match;
     for (std::size_t i = 0; i < lines.size(); ++i) {
         const std::string two = lines[i] + (i + 1 < lines.size() ? " " + lines[i + 1] : "");  // claims may be wrapped
         if (std::regex_match(lines[i], match, heading)) {
             key = match[1];
-            if (!decisions.emplace(key, Decision{i + 1, {}}).second)
-                complaints.push_back(at_line(file, i + 1, "'" + key + "' is a key already"));
+            if (!entries.emplace(key, Entry{&page, i + 1, {}}).second)
+                complaints.push_back(at_line(page, i + 1, "'" + key + "' is a key already"));
         } else if (!key.empty() && std::regex_search(two, match, claim)) {
-            decisions[key].cited_in = match[1];
+            entries[key].cited_in = match[1];
         }
     }
-    return decisions;
+}
+
+std::map<std::string, Entry> entries_of(const Pages& notebook, Complaints& complaints) {
+    std::map<std::string, Entry> entries;
+    for (const SourceFile& page : notebook) read_entries(page, entries, complaints);
+    return entries;
 }
 
 /// What the code defines, by name.
@@ -122,31 +127,44 @@ std::map<std::string, std::size_t> listed_services(const SourceFile& document, c
 
 }  // namespace
 
-Complaints unknown_decisions(const SourceFile& file, const SourceFile& decisions) {
+Complaints unknown_decisions(const SourceFile& file, const Pages& notebook) {
     const auto cited = cited_in(file);
     if (cited.empty()) return {};
     Complaints complaints;
-    const auto known = decisions_in(decisions, complaints);
-    complaints.clear();  // those are the decisions' own
+    const auto known = entries_of(notebook, complaints);
+    complaints.clear();  // those are the notebook's own
     for (const auto& [key, line] : cited)
         if (!known.contains(key)) complaints.push_back(at_line(file, line, "there is no decision '" + key + "'"));
     return complaints;
 }
 
-Complaints uncited_decisions(const SourceFile& decisions, const std::vector<SourceFile>& files) {
+Complaints uncited_decisions(const Pages& notebook, const std::vector<SourceFile>& files) {
     Complaints complaints;
     std::map<std::string, std::set<std::string>> places;
     for (const SourceFile& file : files)
         for (const auto& [key, line] : cited_in(file)) places[key].insert(file.path);
-    for (const auto& [key, decision] : decisions_in(decisions, complaints)) {
+    for (const auto& [key, entry] : entries_of(notebook, complaints)) {
         const auto& paths = places[key];
-        const auto& folder = decision.cited_in;
+        const auto& folder = entry.cited_in;
         if (folder.empty() && !paths.empty())
-            complaints.push_back(at_line(decisions, decision.line, "'" + key + "' is cited in " + *paths.begin()));
+            complaints.push_back(at_line(*entry.page, entry.line, "'" + key + "' is cited in " + *paths.begin()));
         if (!folder.empty() &&
             std::none_of(paths.begin(), paths.end(), [&](const auto& path) { return path.starts_with(folder + "/"); }))
-            complaints.push_back(at_line(decisions, decision.line, "'" + key + "' is not cited in " + folder));
+            complaints.push_back(at_line(*entry.page, entry.line, "'" + key + "' is not cited in " + folder));
     }
+    return complaints;
+}
+
+Complaints decisions_without_an_entry(const SourceFile& decisions, const Pages& notebook) {
+    static const std::regex heading("### ([a-z0-9-]+)");
+    Complaints complaints;
+    const auto known = entries_of(notebook, complaints);
+    complaints.clear();
+    const auto lines = lines_of(decisions.text);
+    std::smatch match;
+    for (std::size_t i = 0; i < lines.size(); ++i)
+        if (std::regex_match(lines[i], match, heading) && !known.contains(match[1]))
+            complaints.push_back(at_line(decisions, i + 1, "the notebook has no '" + match[1].str() + "'"));
     return complaints;
 }
 

@@ -8,12 +8,18 @@
 
 namespace lightnet::house {
 
-/// Keys that a file cites (`// DECISIONS: KEY`) and that no heading of DECISIONS.md has.
-Complaints unknown_decisions(const SourceFile& file, const SourceFile& decisions);
+/// The notebook: what was chosen, room by room (`docs/notebook`). Headings (`## KEY`) are keys.
+using Pages = std::vector<SourceFile>;
 
-/// Keys of DECISIONS.md that two headings share, that claim to be `*Cited in*` a folder where nobody cites them, or
+/// Keys that a file cites (`// DECISIONS: KEY`) and that the notebook doesn't have.
+Complaints unknown_decisions(const SourceFile& file, const Pages& notebook);
+
+/// Keys of the notebook that two headings share, that claim to be `*Cited in*` a folder where nobody cites them, or
 /// that are cited without a claim.
-Complaints uncited_decisions(const SourceFile& decisions, const std::vector<SourceFile>& files);
+Complaints uncited_decisions(const Pages& notebook, const std::vector<SourceFile>& files);
+
+/// Headings of DECISIONS.md (`### KEY`) of which the notebook says nothing.
+Complaints decisions_without_an_entry(const SourceFile& decisions, const Pages& notebook);
 
 /// What a document names in backticks that the code doesn't have: files (`core/film/film.hpp`), folders (`core/film/`),
 /// types (`Film`), members (`Film::add`) and functions (`ask_all()`). Anything else in backticks is left alone.

@@ -15,25 +15,32 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-const SourceFile some_decisions{"DECISIONS.md",
-                                "# Decisions\n\n### blocks-of-16\n\nBecause. *Cited in*\n`core/film`.\n\n"
-                                "### own-vectors\n\nBecause.\n"};
+const Pages some_notebook{
+    {"docs/notebook/film.md", "# The film\n\n## blocks-of-16\n\nBecause. *Cited in*\n`core/film`.\n"},
+    {"docs/notebook/base.md", "# Base\n\n## own-vectors\n\nBecause.\n"}};
 
 TEST(Decisions, AreThereWhereCodeCitesThem) {
-    EXPECT_THAT(unknown_decisions({"core/x.cpp", "int a;\n// DECISIONS: blocks-of-16\n"}, some_decisions), IsEmpty());
-    EXPECT_THAT(unknown_decisions({"core/x.cpp", "int a;\n    // DECISIONS: blocks-of-17\n"}, some_decisions),
+    EXPECT_THAT(unknown_decisions({"core/x.cpp", "int a;\n// DECISIONS: blocks-of-16\n"}, some_notebook), IsEmpty());
+    EXPECT_THAT(unknown_decisions({"core/x.cpp", "int a;\n    // DECISIONS: blocks-of-17\n"}, some_notebook),
                 ElementsAre("core/x.cpp:2: there is no decision 'blocks-of-17'"));
 }
 
 TEST(Decisions, AreCitedWhereTheySayThatTheyAre) {
     const SourceFile film{"core/film/x.cpp", "// DECISIONS: blocks-of-16\n"};
-    EXPECT_THAT(uncited_decisions(some_decisions, {film}), IsEmpty());
-    EXPECT_THAT(uncited_decisions(some_decisions, {}),
-                ElementsAre("DECISIONS.md:3: 'blocks-of-16' is not cited in core/film"));
-    EXPECT_THAT(uncited_decisions(some_decisions, {{"core/filmed/x.cpp", film.text}}), SizeIs(1)) << "another folder";
-    EXPECT_THAT(uncited_decisions(some_decisions, {film, {"core/base/x.hpp", "// DECISIONS: own-vectors\n"}}),
-                ElementsAre("DECISIONS.md:8: 'own-vectors' is cited in core/base/x.hpp"));
-    EXPECT_THAT(uncited_decisions({"DECISIONS.md", "### a\n### a\n"}, {}), SizeIs(1)) << "two of one key";
+    EXPECT_THAT(uncited_decisions(some_notebook, {film}), IsEmpty());
+    EXPECT_THAT(uncited_decisions(some_notebook, {}),
+                ElementsAre("docs/notebook/film.md:3: 'blocks-of-16' is not cited in core/film"));
+    EXPECT_THAT(uncited_decisions(some_notebook, {{"core/filmed/x.cpp", film.text}}), SizeIs(1)) << "another folder";
+    EXPECT_THAT(uncited_decisions(some_notebook, {film, {"core/base/x.hpp", "// DECISIONS: own-vectors\n"}}),
+                ElementsAre("docs/notebook/base.md:3: 'own-vectors' is cited in core/base/x.hpp"));
+    EXPECT_THAT(uncited_decisions({{"a.md", "## a\n"}, {"b.md", "## a\n"}}, {}), SizeIs(1)) << "two of one key";
+}
+
+TEST(Decisions, StandInTheNotebookAtLength) {
+    EXPECT_THAT(decisions_without_an_entry({"DECISIONS.md", "# Decisions\n### own-vectors\n"}, some_notebook),
+                IsEmpty());
+    EXPECT_THAT(decisions_without_an_entry({"DECISIONS.md", "# Decisions\n### own-films\n"}, some_notebook),
+                ElementsAre("DECISIONS.md:2: the notebook has no 'own-films'"));
 }
 
 TEST(Documents, NameOnlyWhatTheCodeHas) {
@@ -104,14 +111,19 @@ TEST(Project, ListsTheServicesThatItsNodesUse) {
 }
 
 TEST(Project, CitesDecisionsThatAreThere) {
-    const SourceFile decisions = read("DECISIONS.md");
+    Pages notebook;
+    for (const auto& entry : std::filesystem::directory_iterator(root() / "docs/notebook"))
+        notebook.push_back(read(entry.path().lexically_relative(root())));
     auto files = all_files();
     std::ranges::move(files_of("cmake"), std::back_inserter(files));
-    Complaints all = uncited_decisions(decisions, files);
+    Complaints all = uncited_decisions(notebook, files);
     for (const SourceFile& file : files)
         if (!file.path.starts_with("tests/"))
-            std::ranges::move(unknown_decisions(file, decisions), std::back_inserter(all));
+            std::ranges::move(unknown_decisions(file, notebook), std::back_inserter(all));
     EXPECT_THAT(all, IsEmpty());
+    const SourceFile decisions = read("DECISIONS.md");
+    EXPECT_THAT(decisions_without_an_entry(decisions, notebook), IsEmpty());
+    EXPECT_LE(decisions.text.size(), 25'000u) << "what is longer belongs into the notebook";
 }
 
 TEST(Project, HasDocumentsThatNameWhatIsThere) {
