@@ -1,10 +1,13 @@
 #include <zlib.h>
 
 #include "core/base/error.hpp"
+#include "core/readers/common/measurements.hpp"
 #include "core/readers/mitsuba/serialized.hpp"
 #include "core/readers/read_scene.hpp"
+#include "core/scene/bsdf/measured.hpp"
 #include "tests/fuzz/targets.hpp"
 #include "tests/support/gltf_text.hpp"
+#include "tests/support/measured_numbers.hpp"
 #include "tests/support/packed_meshes.hpp"
 #include "tests/support/scene_text.hpp"
 
@@ -33,6 +36,7 @@ void read_mitsuba(std::span<const std::byte> bytes) {
     test::MemoryFiles files{{"a.obj", square},
                             {"p.hdr", dot},
                             {"a.ply", meshes().seeds().front()},
+                            {"a.bsdf", measured().seeds().front()},
                             {"more.xml", "<scene><include filename='scene.xml'/><shape type='cube'/></scene>"}};
     attempt("scene.xml", text_of(bytes), std::move(files), use);
 }
@@ -50,6 +54,7 @@ std::vector<std::string> mitsuba_seeds() {
 <include filename="more.xml"/></scene>)",
         R"(<scene version="0.6.0"><shape type="shapegroup" id="g"><shape type="ply"><string name="filename" value="a.ply"/></shape></shape>
 <shape type="instance"><ref id="g"/><transform name="toWorld"><rotate y="1" angle="30"/><matrix value="1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"/></transform></shape>
+<shape type="cube"><bsdf type="measured"><string name="filename" value="a.bsdf"/></bsdf></shape>
 <shape type="cylinder"><point name="p0" x="1"/><bsdf type="bumpmap"><texture type="scale"><texture type="bitmap"><string name="filename" value="p.hdr"/>
 <float name="uscale" value="2"/></texture><float name="scale" value="3"/></texture><bsdf type="roughconductor"><string name="material" value="Au"/></bsdf></bsdf></shape>
 <shape type="disk"><bsdf type="mixturebsdf"><string name="weights" value=".5,.2"/><bsdf type="diffuse"><spectrum name="reflectance" value="400:.1 700:.5"/></bsdf>
@@ -165,6 +170,25 @@ std::vector<std::string> serialized_seeds() {
     return {one + packed(6) + raw(std::uint64_t{0}, std::uint64_t{one.size()}, 2u), packed(6)};
 }
 
+void read_measured(std::span<const std::byte> bytes) {
+    try {
+        const auto measured = read_measurement(bytes);
+        const MeasuredBsdf bsdf{measured.get()};
+        for (const Vec3 o : {Vec3{0, 0, 1}, normalize(Vec3{1, 2, 1}), normalize(Vec3{-1, 0.5f, -2})})
+            for (const Vec2 u : {Vec2{0, 0}, Vec2{0.3f, 0.6f}, Vec2{0.999999f, 0.999999f}}) {
+                (void)bsdf.sample(o, 0, u, lobe::all);
+                (void)bsdf.evaluate(o, {-o.x, -o.y, o.z}, lobe::all);
+            }
+    } catch (const Error&) {
+    }
+}
+
+std::vector<std::string> measured_seeds() {
+    auto plain = test::even_numbers({1, 1, 1});
+    plain.times_facets = false;
+    return {test::tensor_file_of(plain), test::tensor_file_of(test::ggx_numbers(0.3f, 0.3f, {1, 1, 1}, 2), {400, 600})};
+}
+
 }  // namespace
 
 Target mitsuba() { return {"mitsuba", read_mitsuba<drop>, mitsuba_seeds}; }
@@ -173,6 +197,7 @@ Target gltf() { return {"gltf", read_gltf<drop>, gltf_seeds}; }
 Target rays_gltf() { return {"rays_gltf", read_gltf<render>, gltf_seeds, 20}; }
 Target obj() { return {"obj", read_obj<drop>, obj_seeds}; }
 Target rays_obj() { return {"rays_obj", read_obj<render>, obj_seeds, 20}; }
+Target measured() { return {"measured", read_measured, measured_seeds}; }
 Target serialized() { return {"serialized", read_serialized, serialized_seeds}; }
 
 }  // namespace lightnet::fuzz

@@ -12,6 +12,7 @@ void read(std::span<const std::byte> bytes) {
     files.add("scene.pbrt", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     files.add("part.pbrt", "Include \"scene.pbrt\"\n");
     files.add("mesh.ply", meshes().seeds().front());
+    files.add("even.bsdf", measured().seeds().front());
     files.add("picture.hdr",
               std::string("#?RADIANCE\n\n-Y 1 +X 2\n") + std::string("\x80\x40\x20\x81\x80\x40\x20\x81", 8));
     try {
@@ -56,6 +57,8 @@ AttributeBegin
 AttributeEnd
 Material "conductor" "spectrum eta" "metal-Cu-eta" "spectrum k" "metal-Cu-k"
 Shape "disk" "float radius" 2
+Material "measured" "string filename" "even.bsdf"
+Shape "sphere"
 Material "dielectric" "float eta" 1.5
 Shape "cylinder" "float zmin" -1 "float zmax" 1
 LightSource "infinite" "blackbody L" 6500 "float scale" .1

@@ -43,6 +43,8 @@ Target gltf();
 Target obj();
 /// Mitsuba's packed meshes.
 Target serialized();
+/// Measured materials, and light on those that could be read.
+Target measured();
 /// Pictures of the usual kinds, and of the others.
 Target pictures();
 Target rare_pictures();
@@ -88,10 +90,11 @@ Target pasts();
 Target words();
 
 inline std::vector<Target> all_targets() {
-    return {packets(),    scenes(),   meshes(),  texts(),     mitsuba(),       gltf(),        obj(),
-            serialized(), pictures(), films(),   manifests(), jobs(),          checkpoints(), graphs(),
-            keys(),       gates(),    watched(), rays_pbrt(), rays_mitsuba(),  rays_gltf(),   rays_obj(),
-            customs(),    kept(),     pasts(),   words(),     conversations(), lines(),       rare_pictures()};
+    return {packets(),      scenes(),        meshes(),   texts(),         mitsuba(),   gltf(),
+            obj(),          serialized(),    pictures(), films(),         manifests(), jobs(),
+            checkpoints(),  graphs(),        keys(),     gates(),         watched(),   rays_pbrt(),
+            rays_mitsuba(), rays_gltf(),     rays_obj(), customs(),       kept(),      pasts(),
+            words(),        conversations(), lines(),    rare_pictures(), measured()};
 }
 
 }  // namespace lightnet::fuzz

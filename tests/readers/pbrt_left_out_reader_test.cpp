@@ -91,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(
         LeftOut{"WorldBegin Material \"subsurface\" \"rgb mfp\" [ 1 1 1 ] \"float scale\" 2",
                 "subsurface scattering is not supported"},
         LeftOut{"WorldBegin Material \"hair\" \"float eumelanin\" 1 \"float beta_m\" .1", "scattering by hair"},
-        LeftOut{"WorldBegin Material \"measured\" \"string filename\" \"a.bsdf\"", "measured materials"},
+        LeftOut{"WorldBegin Material \"measured\" \"string filename\" \"a.bsdf\"", "measured material 'a.bsdf'"},
         LeftOut{"Film \"image\" WorldBegin Material \"matte\" \"float sigma\" 20", "Oren and Nayar"},
         LeftOut{"Film \"image\" WorldBegin Material \"uber\" \"rgb opacity\" [ .1 .5 1 ]", "that of red is taken"}));
 

@@ -123,8 +123,6 @@ TEST(PbrtMaterials, WithoutAMatchAreTheNearest) {
     const std::string lead = "scene.pbrt:2: Material ";
     EXPECT_THAT(warnings_of(with("Material \"subsurface\"")), HasSubstr(lead + "'subsurface': subsurface scattering"));
     EXPECT_THAT(warnings_of(with("Material \"hair\"")), HasSubstr(lead + "'hair': scattering by hair"));
-    EXPECT_THAT(warnings_of(with("Material \"measured\" \"string filename\" \"x.bsdf\"")),
-                HasSubstr(lead + "'measured': measured"));
 }
 
 TEST(PbrtMaterials, Mix) {

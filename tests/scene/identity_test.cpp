@@ -12,6 +12,15 @@ std::shared_ptr<const Image> picture(float grey) {
     return std::make_shared<const Image>(2, 1, std::vector<Rgb>{{grey, 0, 0}, {0, 0, 1}}, std::vector<float>{1, 0.5f});
 }
 
+std::shared_ptr<const Measurement> measured(float red) {
+    Measurement::Numbers numbers;
+    numbers.azimuths = numbers.angles = {0};
+    numbers.facet_grid = numbers.area_grid = numbers.seen_grid = numbers.light_grid = {2, 2};
+    numbers.facets = numbers.areas = numbers.seen = numbers.light = {1, 1, 1, 1};
+    numbers.colours = {{1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {red, 1, 1}};
+    return std::make_shared<const Measurement>(numbers);
+}
+
 ImageTexture image_texture() { return {picture(0.5f), Wrap::repeat, Wrap::repeat, {}, {}, false}; }
 Roughness rough() { return {0.1f, 0.2f, TextureId{1}, Roughness::Means::alpha}; }
 
@@ -40,6 +49,7 @@ std::vector<Material> all_materials() {
     add(TwoFacedMaterial{0, 1});
     add(NoMaterial{});
     add(BurleyMaterial{1, 1, 1, 1, rough(), 1, 1, 1, 1, 1, 1, 1, true, true});
+    add(MeasuredMaterial{measured(1)});
     return materials;
 }
 
@@ -134,6 +144,10 @@ public:
         here([&] { image = picture(0.75f); });
         here([&] { image = nullptr; });
         here([&] { image = std::make_shared<const Image>(1, 2, std::vector<Rgb>(2), std::vector<float>{1, 1}); });
+    }
+    void operator()(std::shared_ptr<const Measurement>& measurement) {
+        here([&] { measurement = measured(0.5f); });
+        here([&] { measurement = nullptr; });
     }
     void operator()(std::monostate&) {}
 

@@ -49,6 +49,7 @@ const std::map<std::string, Bsdfs::Maker, std::less<>>& Bsdfs::makers() {
                                                                  {"normalmap", &Bsdfs::normal_map},
                                                                  {"coating", &Bsdfs::coating},
                                                                  {"roughcoating", &Bsdfs::coating},
+                                                                 {"measured", &Bsdfs::measured},
                                                                  {"null", &Bsdfs::nothing}};
     return table;
 }
@@ -321,6 +322,21 @@ Material Bsdfs::thin_principled(Properties& properties) {
     model.through = context_.assets.add(half);
     model.lets_through = may_be_above_zero(model.transmission) || may_be_above_zero(model.through);
     return {"", model};
+}
+
+Material Bsdfs::measured(Properties& properties) {
+    const Node* name = properties.find("filename");
+    if (!name) {
+        context_.error(properties.node(), fmt::format("{} needs a 'filename'", properties.owner()));
+        return grey();
+    }
+    const std::string path = context_.path(properties.text("filename", ""), *name);
+    const auto read = [&] {
+        auto [bytes, problem] = context_.assets.try_read(path);
+        return bytes ? bytes : throw Error(problem);
+    };
+    const auto found = measurements_.get(path, name->where, read);
+    return found ? one_sided(MeasuredMaterial{found}) : grey();
 }
 
 Material Bsdfs::nothing(Properties&) { return {"", NoMaterial{}}; }

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 
+#include "core/readers/common/measurements.hpp"
 #include "core/readers/mitsuba/textures.hpp"
 
 namespace lightnet::mitsuba {
@@ -11,7 +12,8 @@ namespace lightnet::mitsuba {
 /// Makes the materials of one scene; what several shapes refer to is made once.
 class Bsdfs {
 public:
-    explicit Bsdfs(Textures& textures) : textures_(textures), context_(textures.context()) {}
+    explicit Bsdfs(Textures& textures)
+        : textures_(textures), context_(textures.context()), measurements_(context_.report()) {}
 
     /// The material of a <bsdf>. What is wrong is reported and grey.
     MaterialId of(const Node& node);
@@ -48,6 +50,7 @@ private:
     Material bump_map(Properties&);
     Material normal_map(Properties&);
     Material coating(Properties&);
+    Material measured(Properties&);
     Material nothing(Properties&);
 
     Roughness roughness(Properties& properties, float fallback);
@@ -62,6 +65,7 @@ private:
 
     Textures& textures_;
     const Context& context_;
+    Measurements measurements_;
     std::map<const Node*, std::optional<MaterialId>> made_;  // none: being made
     std::optional<MaterialId> unnamed_[2];
     int depth_ = 0;

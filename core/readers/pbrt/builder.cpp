@@ -48,6 +48,7 @@ Builder::Builder(const Sources& sources)
     : sources_(sources),
       pictures_(sources_, workshop_),
       textures_(sources_, scene_, pictures_),
+      measurements_(sources_.report),
       shapes_(sources_, workshop_) {
     scene_.film.width = sources_.older() ? 640 : 1280, scene_.film.height = sources_.older() ? 480 : 720;
     Material grey;

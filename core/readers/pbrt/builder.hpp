@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/base/workshop.hpp"
+#include "core/readers/common/measurements.hpp"
 #include "core/readers/pbrt/camera.hpp"
 #include "core/readers/pbrt/colour_space.hpp"
 #include "core/readers/pbrt/lights.hpp"
@@ -146,6 +147,7 @@ private:
     Workshop workshop_;
     Pictures pictures_;
     Textures textures_;
+    Measurements measurements_;
     Shapes shapes_;
     State state_;
     std::vector<Saved> stack_;

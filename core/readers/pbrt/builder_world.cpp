@@ -20,15 +20,19 @@ Material Builder::material_of(const std::string& type, Parameters& parameters) {
         const auto found = named_.find(name);
         return found == named_.end() ? std::nullopt : uses_[found->second].made;
     };
+    const auto measured = [&](const std::string& name, const SourceLine& where) {
+        const std::string path = sources_.path(name);
+        return measurements_.get(path, where, [&] { return sources_.files.read(path); });
+    };
     Material material;
     if (sources_.older()) {
         const auto add = [&](Material part) {
             scene_.materials.push_back(std::move(part));
             return static_cast<MaterialId>(scene_.materials.size() - 1);
         };
-        material = make_older_material(type, parameters, {{textures_, find}, add});
+        material = make_older_material(type, parameters, {{textures_, find, measured}, add});
     } else {
-        material = make_material(type, parameters, {textures_, find});
+        material = make_material(type, parameters, {textures_, find, measured});
     }
     parameters.warn_unused();
     return material;

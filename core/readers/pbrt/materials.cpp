@@ -159,8 +159,10 @@ Material hair(Parameters& parameters, const MaterialSources& sources) {
 }
 
 Material measured(Parameters& parameters, const MaterialSources& sources) {
-    parameters.warn("measured materials are not supported: grey diffuse is taken");
-    parameters.ignore({"filename"});
+    const std::string file = parameters.file("filename");
+    if (file.empty()) parameters.error("parameter 'filename' is missing");
+    const auto found = file.empty() ? nullptr : sources.measured(file, parameters.where());
+    if (found) return model(MeasuredMaterial{found});
     return model(DiffuseMaterial{sources.textures.constant(grey), 0, std::nullopt});
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -16,6 +17,8 @@ struct MaterialSources {
     Textures& textures;
     /// A finished material by its name; none: there is no such.
     std::function<std::optional<MaterialId>(const std::string&)> named;
+    /// What a file of that name says that was measured; null: it can't be had, and a warning says so.
+    std::function<std::shared_ptr<const Measurement>(const std::string& file, const SourceLine& where)> measured;
 };
 
 /// The material of that type. Where a scene has nothing like it, the nearest is taken, with a warning. An unknown type

@@ -32,7 +32,7 @@ inline std::optional<BsdfSample> sample_of(const Model& model, Vec3 o, float cho
 template <class Model>
 constexpr bool always_opaque = std::is_same_v<Model, DiffuseBsdf> || std::is_same_v<Model, RoughDiffuseBsdf> ||
                                std::is_same_v<Model, ConductorBsdf> || std::is_same_v<Model, CoatedDiffuseBsdf> ||
-                               std::is_same_v<Model, CoatedConductorBsdf>;
+                               std::is_same_v<Model, CoatedConductorBsdf> || std::is_same_v<Model, MeasuredBsdf>;
 
 }  // namespace
 

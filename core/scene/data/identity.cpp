@@ -67,6 +67,10 @@ public:
         add(hash->bytes);
     }
 
+    void add(const std::shared_ptr<const Measurement>& measured) {
+        add(measured ? measured->content().bytes : Hash{}.bytes);
+    }
+
 private:
     void add_bytes(std::span<const std::byte> bytes) {
         constexpr std::size_t enough = 1 << 16;  // many small numbers go to the hash together

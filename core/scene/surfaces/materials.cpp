@@ -25,6 +25,8 @@ const PrincipledCoatNormal* own_coat(const Material& material) {
 bool anisotropic(const Material& material) {
     bool found = false;
     visit_each<Roughness>(material, [&](const Roughness& roughness) { found |= roughness.u != roughness.v; });
+    const auto* measured = std::get_if<MeasuredMaterial>(&material.model);
+    found |= measured && measured->measured && !measured->measured->isotropic();
     return found || turned_grooves(material);
 }
 
