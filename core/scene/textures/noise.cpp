@@ -70,17 +70,15 @@ constexpr std::array<Rgb, 9> vein_colours{{{0.58f, 0.58f, 0.6f},
 }  // namespace
 
 float noise(Vec3 p) {
-    const auto [x, dx] = cell_of(p.x);
-    const auto [y, dy] = cell_of(p.y);
-    const auto [z, dz] = cell_of(p.z);
-    const float along = eased(dx);
+    const Cell x = cell_of(p.x), y = cell_of(p.y), z = cell_of(p.z);
+    const float along = eased(x.within);
     const auto edge = [&](std::uint32_t j, std::uint32_t k) {
-        const float below = dy - float(j), behind = dz - float(k);
-        return between(along, slope(x, y + j, z + k, {dx, below, behind}),
-                       slope(x + 1, y + j, z + k, {dx - 1, below, behind}));
+        const float below = y.within - float(j), behind = z.within - float(k);
+        return between(along, slope(x.at, y.at + j, z.at + k, {x.within, below, behind}),
+                       slope(x.at + 1, y.at + j, z.at + k, {x.within - 1, below, behind}));
     };
-    const float up = eased(dy);
-    return between(eased(dz), between(up, edge(0, 0), edge(1, 0)), between(up, edge(0, 1), edge(1, 1)));
+    const float up = eased(y.within);
+    return between(eased(z.within), between(up, edge(0, 0), edge(1, 0)), between(up, edge(0, 1), edge(1, 1)));
 }
 
 float fractal_noise(Vec3 p, std::int32_t octaves, float roughness) {
