@@ -28,7 +28,7 @@ void Workshop::add(std::function<void()> task) {
         lock.unlock();
         return task();
     }
-    tasks_.push_back(std::move(task));
+    tasks_.push_back({std::move(task), LookingAt::now()});
     if (threads_.size() < most_threads_) start_thread();
     came_.notify_one();
 }
@@ -45,6 +45,7 @@ void Workshop::finish() {
     while (do_one(lock)) {
     }
     done_.wait(lock, [this] { return tasks_.empty() && under_way_ == 0; });
+    if (given_up_) throw Cancelled{};
 }
 
 void Workshop::work(const std::stop_token& stop) {
@@ -55,14 +56,23 @@ void Workshop::work(const std::stop_token& stop) {
 bool Workshop::do_one(std::unique_lock<std::mutex>& lock) {
     if (tasks_.empty()) return false;
     const auto task = std::move(tasks_.front());
-    const LookingAt nothing(nullptr);  // tasks must not throw
     tasks_.pop_front();
     ++under_way_;
     lock.unlock();
-    task();
+    const bool done = is_done(task);
     lock.lock();
+    given_up_ |= !done;
     if (--under_way_ == 0 && tasks_.empty()) done_.notify_all();
     return true;
+}
+
+bool Workshop::is_done(const Task& task) try {
+    const LookingAt looking(task.unwanted);
+    end_if_unwanted();
+    task.work();
+    return true;
+} catch (const Cancelled&) {
+    return false;
 }
 
 }  // namespace lightnet

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
@@ -13,8 +14,9 @@
 namespace lightnet {
 
 /// Does tasks in any order, on threads of its own, as far as the system gives them, which end with it. What depends on
-/// the order belongs behind finish(). Called from one thread; tasks must not throw, and share nothing but what never
-/// changes.
+/// the order belongs behind finish(). Called from one thread; tasks share nothing but what never changes, and throw
+/// nothing, but for Cancelled: they are unwanted when their giver's work is (core/base/unwanted.hpp), and what of them
+/// has not begun then is left out.
 class Workshop {
 public:
     /// 0 threads: as many as it may use cores, but a few at most. The caller's own counts as one.
@@ -23,28 +25,36 @@ public:
     Workshop(const Workshop&) = delete;
     Workshop& operator=(const Workshop&) = delete;
 
-    /// Takes a task; does it at once when too much is waiting, so that what waits stays small.
+    /// Takes a task; does it at once when too much is waiting, so that what waits stays small: then it may throw
+    /// Cancelled.
     void add(std::function<void()> task);
-    /// Returns when all tasks are done; the caller helps.
+    /// Returns when all tasks are done; the caller helps. Throws Cancelled when some were not, as they were unwanted.
     void finish();
 
 private:
     static constexpr std::size_t most_waiting = 64;
+    struct Task {
+        std::function<void()> work;
+        const std::atomic<bool>* unwanted;
+    };
 
     void work(const std::stop_token& stop);
     void start_thread();
     bool do_one(std::unique_lock<std::mutex>& lock);
+    static bool is_done(const Task& task);
 
     std::mutex tasks_mutex_;
     std::condition_variable_any came_;
     std::condition_variable done_;
-    std::deque<std::function<void()>> tasks_;
+    std::deque<Task> tasks_;
     std::size_t under_way_ = 0;
+    bool given_up_ = false;  // a task was not done
     unsigned most_threads_;
     std::vector<std::jthread> threads_;  // started when there is work; first to go
 };
 
-/// Calls work(first, last) for pieces of 0 … `count`, on all cores if there is more than one. It must not throw.
+/// Calls work(first, last) for pieces of 0 … `count`, on all cores if there is more than one. It must not throw,
+/// but for Cancelled, which comes back to the caller.
 template <class Work>
 void in_pieces(std::size_t count, const Work& work, std::size_t piece = 1 << 14) {
     if (count <= piece) return work(0, count);

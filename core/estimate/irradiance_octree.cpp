@@ -1,5 +1,7 @@
 #include "core/estimate/irradiance_octree.hpp"
 
+#include "core/base/unwanted.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -78,6 +80,7 @@ void IrradianceOctree::clamp_to_neighbours() {
         return records_[a].reach < records_[b].reach || (records_[a].reach == records_[b].reach && a < b);
     });
     for (const auto i : order) {
+        end_if_unwanted();
         Entry& entry = records_[i];
         for_all_near(entry.record.position, [&](const Reach& other) {
             const float between = length(entry.record.position - other.position);

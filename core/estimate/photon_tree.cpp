@@ -2,6 +2,7 @@
 
 #include "core/base/math/columns.hpp"
 #include "core/base/math/sampling.hpp"
+#include "core/base/unwanted.hpp"
 #include "core/estimate/photon_order.hpp"
 
 #include <algorithm>
@@ -110,6 +111,7 @@ void PhotonTree::sort(Part part) {
 
 // Puts the photons that lie lower along the longest side before the others.
 std::array<PhotonTree::Part, 2> PhotonTree::halved(Part part) {
+    end_if_unwanted();
     const auto [first, leaves] = part;
     const std::size_t low = first * width, high = std::min(low + leaves * width, size_);
     const auto photons = std::span(photons_).subspan(low, high - low);
@@ -120,6 +122,7 @@ std::array<PhotonTree::Part, 2> PhotonTree::halved(Part part) {
 
 // The same for so few that they stay in the cache: where they are is moved, and they follow in the end.
 void PhotonTree::put_in_leaves(Part part) {
+    end_if_unwanted();
     const auto [first, leaves] = part;
     const std::size_t low = first * width, high = std::min(low + leaves * width, size_);
     const std::vector<Photon> photons(photons_.begin() + std::ptrdiff_t(low), photons_.begin() + std::ptrdiff_t(high));
@@ -155,6 +158,7 @@ void PhotonTree::put_in_boxes() {
     const std::size_t leaves = photons_.size() / width;
     levels_.emplace_back(groups(leaves));
     for (std::size_t i = 0; i < leaves; ++i) {
+        if (i % leaves_at_once == 0) end_if_unwanted();
         const Leaf& inside = leaf(i);
         Boxes& boxes = levels_[0][i / fan];
         for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/unwanted.hpp"
+
 #include <atomic>
 #include <numeric>
 #include <vector>
@@ -33,6 +35,40 @@ TEST(Pieces, AreAllThereOnce) {
         in_pieces(count, work, 10);
         EXPECT_EQ(done, std::vector<int>(count, 1));
     }
+}
+
+// Whoever has given a task and does not want it any more is told that it was not done, by whatever thread.
+TEST(Workshop, EndsWhatIsUnwanted) {
+    for (const unsigned threads : {1u, 2u, 4u}) {
+        std::atomic<bool> unwanted = false;
+        std::atomic<int> done = 0;
+        const LookingAt looking(&unwanted);
+        Workshop workshop(threads);
+        const auto all = [&] {
+            for (int i = 0; i < 1000; ++i)
+                workshop.add([&] {
+                    if (++done == 10) unwanted = true;
+                    end_if_unwanted();
+                });
+            workshop.finish();
+        };
+        EXPECT_THROW(all(), Cancelled);
+        EXPECT_LE(done, 9 + int(threads)) << "one each may have begun";
+        if (threads == 1) continue;  // it was done in add()
+        EXPECT_THROW(workshop.finish(), Cancelled) << "nobody takes it for done, however often they ask";
+    }
+}
+
+TEST(Pieces, OfWhatIsUnwantedEndTheirCaller) {
+    std::atomic<bool> unwanted = false;
+    std::atomic<int> done = 0;
+    const LookingAt looking(&unwanted);
+    const auto work = [&](std::size_t, std::size_t) {
+        if (++done == 3) unwanted = true;
+        end_if_unwanted();
+    };
+    EXPECT_THROW(in_pieces(1000, work, 1), Cancelled);
+    EXPECT_LT(done, 100);
 }
 
 TEST(Workshop, MayBeGivenUp) {

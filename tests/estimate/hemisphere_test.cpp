@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include "core/base/math/sampling.hpp"
+#include "core/base/unwanted.hpp"
 #include "core/estimate/hemisphere.hpp"
 #include "core/estimate/irradiance_octree.hpp"
 
+#include <atomic>
 #include <cmath>
 #include <functional>
 
@@ -147,6 +149,13 @@ TEST(IrradianceOctree, DoesNotFollowAGradientFartherThanItHolds) {
         EXPECT_NEAR(found->g, 1, 0.25f);
         EXPECT_EQ(found->g > 1, x > 0) << "it is followed as far as that";
     }
+}
+
+TEST(IrradianceOctree, IsNotBuiltWhenNobodyWantsItAnyMore) {
+    const std::atomic<bool> unwanted = true;
+    const LookingAt looking(&unwanted);
+    const std::vector<IrradianceRecord> some{plain({0, 0, 0}, 1, 4), plain({-0.01f, 0, 0}, 1, 0.4f)};
+    EXPECT_THROW(IrradianceOctree(some, {0.1f, 0.001f, 10}, box), Cancelled);
 }
 
 TEST(IrradianceOctree, DoesNotTrustARecordMoreThanItsNeighbours) {

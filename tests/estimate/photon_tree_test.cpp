@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <limits>
 #include <thread>
 #include <tuple>
 
 #include "core/base/math/samples.hpp"
+#include "core/base/unwanted.hpp"
 #include "core/estimate/photon_tree.hpp"
 #include "core/estimate/ranks.hpp"
 
@@ -44,6 +46,12 @@ TEST(Photon, KeepsItsDirections) {
         EXPECT_GT(dot(photon.towards_light(), d), 1 - 1e-6f);
         EXPECT_NEAR(photon.cosine_to(n), 1, 0.02f);
     }
+}
+
+TEST(PhotonTree, IsNotBuiltWhenNobodyWantsItAnyMore) {
+    const std::atomic<bool> unwanted = true;
+    const LookingAt looking(&unwanted);
+    for (const std::uint32_t count : {100u, 100'000u}) EXPECT_THROW(PhotonTree{on_floor(count, 1)}, Cancelled);
 }
 
 TEST(PhotonTree, FindsTheNearestWithTiesByWhatTheyAre) {

@@ -2,8 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <numbers>
 
+#include "core/base/unwanted.hpp"
+#include "core/readers/pbrt/subdivision.hpp"
 #include "core/scene/surfaces/placed_quadric.hpp"
 #include "tests/support/pbrt_text.hpp"
 
@@ -120,6 +123,15 @@ TEST(PbrtSubdivision, EndsOnTheLimitSurface) {
         for (std::size_t i = 0; i < mesh.positions.size(); ++i) EXPECT_LT(dot(mesh.positions[i], mesh.normals[i]), 0);
         EXPECT_THAT(scene.warnings, IsEmpty());
     }
+}
+
+TEST(PbrtSubdivision, EndsWhenNobodyWantsItAnyMore) {
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh.triangles = {{0, 1, 2}};
+    const std::atomic<bool> unwanted = true;
+    const LookingAt looking(&unwanted);
+    EXPECT_THROW(pbrt::subdivide(mesh, 12), Cancelled);
 }
 
 TEST(PbrtSubdivision, KeepsBoundariesWhereTheyAre) {

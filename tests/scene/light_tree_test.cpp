@@ -1,12 +1,14 @@
 // Choosing one of many lights.
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "core/base/math/samples.hpp"
 #include "core/base/math/sampling.hpp"
+#include "core/base/unwanted.hpp"
 #include "core/scene/lamps/light_tree.hpp"
 
 namespace lightnet::light_tree_test {
@@ -136,6 +138,12 @@ TEST_P(LargerLightTrees, LeaveOutNothingThatIsAboveTheSurface) {
 const auto as_name = [](const auto& count) { return std::to_string(count.param) + "Lights"; };
 INSTANTIATE_TEST_SUITE_P(Of, LightTrees, testing::Values(7, 20, 33, 34, 80, 40000), as_name);
 INSTANTIATE_TEST_SUITE_P(Of, LargerLightTrees, testing::Values(30, 300), as_name);
+
+TEST(LightTree, IsNotBuiltWhenNobodyWantsItAnyMore) {
+    const std::atomic<bool> unwanted = true;
+    const LookingAt looking(&unwanted);
+    for (const std::uint32_t count : {100u, 40'000u}) EXPECT_THROW(LightTree{scattered_lights(count)}, Cancelled);
+}
 
 TEST(LightTree, OfNoLightsChoosesNone) {
     for (const LightTree& tree :

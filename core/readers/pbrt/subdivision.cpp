@@ -1,5 +1,7 @@
 #include "core/readers/pbrt/subdivision.hpp"
 
+#include "core/base/unwanted.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -33,7 +35,8 @@ class Edges {
 public:
     explicit Edges(const Mesh& mesh) {
         index_.reserve(mesh.triangles.size() * 2);
-        for (const auto& t : mesh.triangles)
+        for (const auto& t : mesh.triangles) {
+            end_if_unwanted();
             for (int i = 0; i < 3; ++i) {
                 const auto a = t[i], b = t[(i + 1) % 3];
                 const auto [at, fresh] = index_.try_emplace(key_of(a, b), all.size());
@@ -42,6 +45,7 @@ public:
                 edge.opposite = edge.opposite + mesh.positions[t[(i + 2) % 3]];
                 ++edge.faces;
             }
+        }
     }
     const Edge& between(std::uint32_t a, std::uint32_t b) const { return all[index_.find(key_of(a, b))->second]; }
 
@@ -95,6 +99,7 @@ Mesh refined(const Mesh& mesh) {
     }
     fine.triangles.reserve(mesh.triangles.size() * 4);
     for (const auto& t : mesh.triangles) {
+        end_if_unwanted();
         const auto ab = edges.between(t[0], t[1]).middle, bc = edges.between(t[1], t[2]).middle,
                    ca = edges.between(t[2], t[0]).middle;
         fine.triangles.push_back({t[0], ab, ca});

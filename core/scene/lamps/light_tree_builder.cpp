@@ -1,5 +1,6 @@
 #include "core/scene/lamps/light_tree_builder.hpp"
 
+#include "core/base/unwanted.hpp"
 #include "core/base/workshop.hpp"
 
 #include <algorithm>
@@ -209,6 +210,7 @@ LightTreeBuilder::Branch LightTreeBuilder::grow(Part whole, std::uint32_t apart,
     Branch forks;
     std::vector<Below> tasks{{whole, 0}};
     while (!tasks.empty()) {
+        end_if_unwanted();
         const auto [part, place] = tasks.back();
         tasks.pop_back();
         const auto here = std::uint32_t(forks.size());
