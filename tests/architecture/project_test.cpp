@@ -56,6 +56,10 @@ TEST(Project, HasAMasterAndPlacesThatNeverSeeEachOther) {
 
 TEST(Project, HasOneTypeOfEachName) { EXPECT_THAT(repeated_types(product()), IsEmpty()); }
 
+TEST(Project, ReadsFilesThatOthersMayHaveMadeByOneReader) {
+    EXPECT_THAT(all_complaints(product(), streams_of_files), IsEmpty());
+}
+
 TEST(Project, HasCommentsWithASubjectOfTheirOwn) {
     EXPECT_THAT(all_complaints(product(), borrowed_subjects), IsEmpty());
 }

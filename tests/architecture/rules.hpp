@@ -26,6 +26,10 @@ Complaints stray_includes(const SourceFile& file);
 /// Words of distribution (threads, sockets, serializers, coroutines) in the code of a node; comments may say anything.
 Complaints words_of_distribution(const SourceFile& file);
 
+/// Streams of files in code of the product that has no reason to use them: what users name, or others may have put in
+/// their place, is read by PlainFile, which never waits and knows how much it takes, and written by write_file().
+Complaints streams_of_files(const SourceFile& file);
+
 /// A header without #pragma once, or with a `using namespace`.
 Complaints bad_header(const SourceFile& file);
 

@@ -117,6 +117,14 @@ TEST(Nodes, MaySpeakOfAnythingInWords) {
                 IsEmpty());
 }
 
+TEST(Files, AreReadByOneReader) {
+    for (const char* code : {"#include <fstream>\n", "std::ifstream in(path);\n", "std::ofstream out(path);\n",
+                             "FILE* file = fopen(path, \"r\");\n", "std::basic_ifstream<char> in;\n"})
+        EXPECT_THAT(streams_of_files({"tools/x.cpp", code}), SizeIs(1)) << code;
+    EXPECT_THAT(streams_of_files({"tools/x.cpp", "// an ifstream\nPlainFile file(\"fopen\", 1);\n"}), IsEmpty());
+    EXPECT_THAT(streams_of_files({"core/base/own_process.cpp", "std::ifstream in(\"/proc/self/stat\");\n"}), IsEmpty());
+}
+
 TEST(CodeOnly, BlanksCommentsAndTextButKeepsLines) {
     EXPECT_EQ(code_only("a // b\nc /* d\ne */ f \"g\\\"h\" 'i' 1'000"), "a     \nc     \n     f \"    \" ' ' 1'000");
 }

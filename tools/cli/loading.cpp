@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <fstream>
+#include <limits>
 #include <ostream>
 #include <utility>
 
 #include "core/base/allowance.hpp"
+#include "core/base/plain_file.hpp"
 #include "core/network/graph/check.hpp"
 #include "core/network/graph/check_hosts.hpp"
 #include "core/network/graph/graph_film.hpp"
@@ -21,6 +22,13 @@ namespace {
 
 constexpr auto names_patience = std::chrono::seconds(3);  // for all names of a hosts file
 
+bool can_be_read(const std::string& file) try {
+    const PlainFile opened(file, std::numeric_limits<std::uint64_t>::max());
+    return true;
+} catch (const Error&) {
+    return false;
+}
+
 // Scenes are read much later, perhaps elsewhere; that a file is there can be said at once.
 void check_scene_files(const Graph& graph, std::vector<Problem>& problems) {
     for (const auto& node : graph.nodes) {
@@ -29,8 +37,7 @@ void check_scene_files(const Graph& graph, std::vector<Problem>& problems) {
             const auto* path = std::get_if<std::string>(&value.data);
             if (!path) return;
             const std::string file = beside_graph(graph, *path);
-            std::error_code ignored;
-            if (!std::filesystem::is_regular_file(file, ignored) || !std::ifstream(file))
+            if (!can_be_read(file))
                 problems.push_back({node.where, "Scene '" + node.name + "': can't read '" + file + "'"});
         };
         check(node.entries[0]);

@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 
 #include <chrono>
-#include <fstream>
 #include <map>
 #include <ostream>
 #include <set>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "core/base/joined.hpp"
+#include "core/base/own_process.hpp"
 #include "core/readers/read_scene.hpp"
 #include "core/readers/statistics.hpp"
 #include "core/run/assembly/fingerprint.hpp"
@@ -32,14 +32,6 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
 std::string mebibytes(std::uint64_t bytes) { return fmt::format("{:.1f} MiB", double(bytes) / (1 << 20)); }
-
-/// Of this process, in bytes; 0 where the system doesn't tell.
-std::uint64_t resident_memory() {
-    std::ifstream status("/proc/self/statm");
-    std::uint64_t all = 0, resident = 0;
-    status >> all >> resident;
-    return resident * 4096;
-}
 
 std::string counts_text(const std::map<std::string, std::size_t>& counts) {
     std::string text;
@@ -142,7 +134,7 @@ int print_scene_info(const SceneInfoOptions& options, const Launcher& launcher) 
     const auto middle = Clock::now();
     const Scene built(std::move(scene), settings);
     line(out, "time", fmt::format("{:.3f} s to read, {:.3f} s to build", reading, seconds_since(middle)));
-    const std::uint64_t resident = resident_memory();
+    const std::uint64_t resident = process_figures().resident;
     std::string memory = fmt::format("{} of shapes, {} in all", mebibytes(found.geometry_bytes), mebibytes(resident));
     if (found.triangles)
         memory += fmt::format("; per triangle {:.0f} bytes, {:.0f} in all",
