@@ -18,8 +18,6 @@ using namespace std::chrono_literals;
 using namespace test;
 using Clock = std::chrono::steady_clock;
 
-constexpr auto soon = 1s;
-
 std::atomic<int> at_work{0};
 
 /// Prepares for ever: in its prepare(), in a shard, in a value that places share, in pieces of that, or in one piece.
@@ -70,10 +68,11 @@ Learning endless(const std::string& where) {
              node("image", "RayTracer", {Value{NodeRef{"endless"}}}, seen())}};
 }
 
-void expect_nobody_at_work(Clock::time_point since) {
-    while (at_work > 0 && Clock::now() - since < slowdown * 20s) std::this_thread::sleep_for(1ms);
+// Whoever does not look is at work for ever.
+void expect_nobody_at_work() {
+    const auto end = Clock::now() + slowdown * 20s;
+    while (at_work > 0 && Clock::now() < end) std::this_thread::sleep_for(1ms);
     EXPECT_EQ(at_work, 0);
-    EXPECT_LT(Clock::now() - since, slowdown * soon);
 }
 
 class Cancel : public ::testing::TestWithParam<std::string> {};
@@ -86,14 +85,12 @@ TEST_P(Cancel, EndsASerialRun) {
     });
     std::vector<PrepareProgress> told;
     run.watch([&](const PrepareProgress& progress) { told.push_back(progress); });
-    Clock::time_point since;
     const std::jthread user([&] {
         while (at_work == 0) std::this_thread::sleep_for(1ms);
-        since = Clock::now();
         stop = true;
     });
     EXPECT_THROW(run.prepare(""), Cancelled);
-    expect_nobody_at_work(since);
+    expect_nobody_at_work();
     EXPECT_EQ(told.back(), (PrepareProgress{"endless", 1, 1, 3, 8, "goes on for ever"}));
 }
 
@@ -113,9 +110,8 @@ TEST_P(Cancel, EndsPlacesInThreads) {
     begin(conductor);
     EXPECT_EQ(with(conductor.progress(), learning.network->activity->all()),
               (PrepareProgress{"endless", 1, 1, 3, 8, "goes on for ever"}));
-    const auto since = Clock::now();
     run.stop();
-    expect_nobody_at_work(since);
+    expect_nobody_at_work();
 }
 
 TEST_P(Cancel, EndsPlacesOnHosts) {
@@ -124,17 +120,16 @@ TEST_P(Cancel, EndsPlacesOnHosts) {
     HostThread one(learning.registry, 2, folder.file("one")), two(learning.registry, 1, folder.file("two"));
     const std::atomic<bool> never{false};
     Cluster cluster(cluster_of(learning, {one.endpoint(), two.endpoint()}));
-    cluster.gather(slowdown * 5s, never);
+    cluster.gather(slowdown * 20s, never);
     Conductor conductor(learning.options(), cluster);
     conductor.propose(cluster.plan());
     begin(conductor);
-    const auto end = Clock::now() + slowdown * 5s;  // hosts tell it with their heartbeats
+    const auto end = Clock::now() + slowdown * 20s;  // hosts tell it with their heartbeats
     while (cluster.doing().empty() && Clock::now() < end) conductor.prepare(2ms);
     EXPECT_EQ(with(conductor.progress(), cluster.doing()),
               (PrepareProgress{"endless", 1, 1, 3, 8, "goes on for ever"}));
-    const auto since = Clock::now();
     cluster.finish(300ms);
-    expect_nobody_at_work(since);
+    expect_nobody_at_work();
 }
 
 INSTANTIATE_TEST_SUITE_P(WhereverANodeWorks, Cancel, ::testing::Values("prepare", "shard", "value", "pieces", "piece"),

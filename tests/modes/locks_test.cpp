@@ -72,7 +72,7 @@ TEST(Locks, AreHeldByOneCallInTheWholeRun) {
     HostThread one(rare.registry, 2, folder.file("one")), two(rare.registry, 1, folder.file("two"));
     const std::atomic<bool> never{false};
     Cluster cluster(cluster_of(rare, {one.endpoint(), two.endpoint()}));
-    cluster.gather(test::slowdown * 5s, never);
+    cluster.gather(test::slowdown * 20s, never);
     EXPECT_EQ(rare.networked(cluster), expected);
     EXPECT_EQ(most_holders, 1);
     cluster.finish();
@@ -86,7 +86,7 @@ TEST(Locks, AreGivenOnWhenALineIsCutAgainAndAgain) {
     test::BadLine line(two.endpoint());
     const std::atomic<bool> never{false};
     Cluster cluster(cluster_of(rare, {one.endpoint(), line.endpoint()}));
-    cluster.gather(test::slowdown * 5s, never);
+    cluster.gather(test::slowdown * 20s, never);
     const Scissors scissors(line, test::slowdown * 40ms);
     EXPECT_EQ(rare.networked(cluster), expected) << "nobody may wait for ever";
     cluster.finish();

@@ -61,7 +61,7 @@ std::optional<Failure> lie_among(std::uint32_t millionths, bool lies) {
     };
     Cluster cluster(std::move(options));
     const std::atomic<bool> never{false};
-    cluster.gather(slowdown * 5s, never);
+    cluster.gather(slowdown * 20s, never);
     EXPECT_FALSE(learning.networked(cluster).empty());
     auto lie = cluster.lie();
     cluster.finish();

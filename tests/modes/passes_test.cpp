@@ -97,7 +97,7 @@ TEST(Passes, GiveTheSameBytesInThreadsAndOnHosts) {
     HostThread one(learning.registry, 2, folder.file("one")), two(learning.registry, 1, folder.file("two"));
     const std::atomic<bool> never{false};
     Cluster cluster(cluster_of(learning, {one.endpoint(), two.endpoint()}));
-    cluster.gather(slowdown * 5s, never);
+    cluster.gather(slowdown * 20s, never);
     EXPECT_EQ(learning.networked(cluster), expected);
     cluster.finish();
 }
@@ -109,7 +109,7 @@ TEST(Passes, GiveTheSameBytesWhenAHostLeavesInOne) {
     HostThread one(learning.registry, 1, folder.file("one")), two(learning.registry, 1, folder.file("two"));
     const std::atomic<bool> never{false};
     Cluster cluster(cluster_of(learning, {one.endpoint(), two.endpoint()}));
-    cluster.gather(slowdown * 5s, never);
+    cluster.gather(slowdown * 20s, never);
     learning.between_passes = [&](std::uint32_t pass) {
         if (pass == 1) two.leave();
     };

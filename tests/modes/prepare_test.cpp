@@ -49,7 +49,7 @@ TEST(Prepare, GivesTheBytesOfASerialRunOnHosts) {
     HostThread one(learning.registry, 2, folder.file("one")), two(learning.registry, 1, folder.file("two"));
     const std::atomic<bool> never{false};
     Cluster cluster(cluster_of(learning, {one.endpoint(), two.endpoint()}));
-    cluster.gather(test::slowdown * 5s, never);
+    cluster.gather(test::slowdown * 20s, never);
     EXPECT_EQ(learning.networked(cluster), learning.serial());
     cluster.finish();
 }
@@ -62,7 +62,7 @@ TEST(Prepare, GoesOnWhenAHostLeavesInTheMiddle) {
         HostThread one(learning.registry, 1, folder.file("one")), two(learning.registry, 1, folder.file("two"));
         const std::atomic<bool> never{false};
         Cluster cluster(cluster_of(learning, {one.endpoint(), two.endpoint()}));
-        cluster.gather(test::slowdown * 5s, never);
+        cluster.gather(test::slowdown * 20s, never);
         int called = 0;
         EXPECT_EQ(learning.networked(cluster,
                                      [&] {
@@ -103,7 +103,7 @@ TEST(Prepare, PutsShardsTogetherThoughPlacesDoOnlySomeOfThoseThatTheyAreAskedFor
     HostThread one(learning.registry, 1, folder.file("one")), two(learning.registry, 1, folder.file("two"));
     const std::atomic<bool> never{false};
     Cluster cluster(cluster_of(learning, {one.endpoint(), two.endpoint()}));
-    cluster.gather(test::slowdown * 5s, never);
+    cluster.gather(test::slowdown * 20s, never);
     learning.networked(cluster);
     EXPECT_EQ(learning.said, expected);
     cluster.finish();
@@ -135,7 +135,7 @@ TEST(Prepare, GetsOverTheLossOfAHostAtAnyMoment) {
             LearningDaemon two(folder.file("two"));
             const std::atomic<bool> never{false};
             Cluster cluster(cluster_of(learning, {one.endpoint(), two.endpoint()}));
-            cluster.gather(test::slowdown * 5s, never);
+            cluster.gather(test::slowdown * 20s, never);
             int called = 0;
             const auto hurt = [&] {
                 if (++called == calls) two.signal(number);
@@ -154,7 +154,7 @@ TEST(Prepare, LetsAHostJoinInTheMiddle) {
     std::optional<HostThread> two;
     const std::atomic<bool> never{false};
     Cluster cluster(cluster_of(learning, {one.endpoint()}));
-    cluster.gather(test::slowdown * 5s, never);
+    cluster.gather(test::slowdown * 20s, never);
     EXPECT_EQ(learning.networked(cluster,
                                  [&] {
                                      if (!two) {
@@ -174,7 +174,7 @@ TEST(Prepare, GoesOnWhenALineIsCutAgainAndAgain) {
     test::BadLine line(two.endpoint());
     const std::atomic<bool> never{false};
     Cluster cluster(cluster_of(learning, {one.endpoint(), line.endpoint()}));
-    cluster.gather(test::slowdown * 5s, never);
+    cluster.gather(test::slowdown * 20s, never);
     const Scissors scissors(line, test::slowdown * 40ms);
     EXPECT_EQ(learning.networked(cluster), expected);
     cluster.finish();

@@ -73,7 +73,7 @@ TEST(OldLines, AreReplacedWithoutTheLossOfAByte) {
     options.line_life = line_life;
     Cluster cluster(std::move(options));
     const std::atomic<bool> never{false};
-    cluster.gather(test::slowdown * 5s, never);
+    cluster.gather(test::slowdown * 20s, never);
     EXPECT_EQ(learning.networked(cluster), expected);
     EXPECT_GE(cluster.renewed_lines(), 2u) << "or nothing was shown";
     cluster.finish();

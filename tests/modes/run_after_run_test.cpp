@@ -23,10 +23,10 @@ TEST(RunAfterRun, EndsAsSoonAsAllHostsSayThatTheyAreFree) {
         auto options = cluster_of(learning, {one.endpoint(), two.endpoint()});
         options.run = run;
         Cluster cluster(std::move(options));
-        cluster.gather(slowdown * 5s, never);
+        cluster.gather(slowdown * 20s, never);
         cluster.adopt(cluster.plan());
-        const auto end = std::chrono::steady_clock::now() + slowdown * 5s;
-        cluster.finish(slowdown * 10s);
+        const auto end = std::chrono::steady_clock::now() + slowdown * 30s;
+        cluster.finish(slowdown * 60s);
         ASSERT_TRUE(std::chrono::steady_clock::now() < end) << "run " << run << ": a host did not end";
     }
 }
@@ -46,11 +46,11 @@ TEST(RunAfterRun, GoesOnWithTheSceneOfTheRunBefore) {
         auto options = cluster_of(learning, {one.endpoint()});
         options.job.width += wider;
         Cluster cluster(std::move(options));
-        cluster.gather(slowdown * 5s, never);
+        cluster.gather(slowdown * 20s, never);
         if (wider == 0) {
             EXPECT_TRUE(learning.networked(cluster) == expected);
         }
-        cluster.finish(slowdown * 10s);
+        cluster.finish(slowdown * 60s);
         return found.load();
     };
     EXPECT_EQ(run(0), 0);
@@ -71,9 +71,9 @@ TEST(RunAfterRun, NeedsNoFilesOfASceneThatIsThere) {
     const std::atomic<bool> never{false};
     const auto run = [&] {
         Cluster cluster(cluster_of(learning, {one.endpoint()}));
-        cluster.gather(slowdown * 5s, never);
+        cluster.gather(slowdown * 20s, never);
         EXPECT_TRUE(learning.networked(cluster) == expected);
-        cluster.finish(slowdown * 10s);
+        cluster.finish(slowdown * 60s);
     };
     const auto file = folder.file("one") + "/" + to_hex(cluster_of(learning, {}).job.files.at(0).hash);
     run();

@@ -228,7 +228,7 @@ TEST(Sharded, GivesTheBytesOfAWholeMapOnHosts) {
         three(cut.registry, 1, folder.file("three"));
     const std::atomic<bool> never{false};
     Cluster cluster(sharded_cluster(cut, {one.endpoint(), two.endpoint(), three.endpoint()}));
-    cluster.gather(test::slowdown * 5s, never);
+    cluster.gather(test::slowdown * 20s, never);
     EXPECT_EQ(cut.networked(cluster), mapped().serial());
     cluster.finish();
 }
@@ -241,7 +241,7 @@ TEST(Sharded, IsMadeElsewhereWhenAHostLeavesWhileItPrepares) {
         HostThread one(cut.registry, 1, folder.file("one")), two(cut.registry, 1, folder.file("two"));
         const std::atomic<bool> never{false};
         Cluster cluster(sharded_cluster(cut, {one.endpoint(), two.endpoint()}));
-        cluster.gather(test::slowdown * 5s, never);
+        cluster.gather(test::slowdown * 20s, never);
         int called = 0;
         EXPECT_EQ(cut.networked(cluster,
                                 [&] {

@@ -118,7 +118,7 @@ public:
                                    "\nStrictModes no\nUsePAM no\nPidFile none\nPasswordAuthentication no\n"
                                    "PermitRootLogin yes\n");
             process = std::make_unique<Process>(std::vector<std::string>{"/usr/sbin/sshd", "-D", "-e", "-f", config});
-            there = process->wait_for("listening on", slowdown * seconds(5));
+            there = process->wait_for("listening on");
         }
         command =
             "ssh -T -o BatchMode=yes -o StrictHostKeyChecking=no -o UserKnownHostsFile=/dev/null -o LogLevel=ERROR "

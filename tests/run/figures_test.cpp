@@ -34,7 +34,7 @@ TEST(Looker, SeesWhatPlacesAreAt) {
     waiting.nodes[0].bundles.add(7);
     const Looker looker({&working, &waiting});
     HostFigures seen;
-    for (const auto end = std::chrono::steady_clock::now() + test::slowdown * std::chrono::seconds(10);
+    for (const auto end = std::chrono::steady_clock::now() + test::slowdown * std::chrono::seconds(30);
          std::chrono::steady_clock::now() < end && seen.places.empty();) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
         if (const auto now = looker.figures(); now.places[0].busy > 1) seen = now;

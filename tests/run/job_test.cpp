@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <string>
 #include <thread>
@@ -11,6 +12,7 @@
 #include "core/network/graph/check.hpp"
 #include "core/run/assembly/fingerprint.hpp"
 #include "nodes/standard_nodes.hpp"
+#include "tests/support/processor_time.hpp"
 #include "tests/support/slowdown.hpp"
 
 namespace lightnet::job_test {
@@ -125,9 +127,9 @@ TEST(ReadJob, RefusesAChainOfAHundredThousandNodes) {
 TEST(ReadJob, TakesNoTimeThatGrowsWithTheSquareOfWhatIsSent) {
     std::string text = "[";
     for (int i = 0; i < 400'000; ++i) text += "{\"\":0},";
-    const auto begun = std::chrono::steady_clock::now();
+    const auto begun = test::processor_time();
     EXPECT_NE(refusal(text + "0]"), "");
-    EXPECT_LT(std::chrono::steady_clock::now() - begun, test::slowdown * std::chrono::seconds(2));
+    EXPECT_LT(test::processor_time() - begun, test::slowdown * std::chrono::seconds(2));
     EXPECT_THAT(refusal(std::string(most_job_bytes + 1, ' ')), HasSubstr("more than 32 MiB"));
 }
 
@@ -138,7 +140,9 @@ TEST(Fingerprint, IsComputedOnce) {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
     };
     const double first = seconds_of(1);
-    EXPECT_LT(seconds_of(100), first);
+    double again = first;
+    for (int time = 0; time < 10; ++time) again = std::min(again, seconds_of(100));  // others may be in the way
+    EXPECT_LT(again, first);
     std::vector<std::jthread> threads;
     const auto known = fingerprint("sse4.2");
     for (int i = 0; i < 4; ++i) threads.emplace_back([known] { EXPECT_EQ(fingerprint("sse4.2"), known); });

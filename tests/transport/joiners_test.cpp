@@ -24,7 +24,7 @@ protected:
     // Takes in what comes, until `enough`.
     template <class Enough>
     bool wait_for(const Enough& enough) {
-        const auto end = std::chrono::steady_clock::now() + test::slowdown * std::chrono::seconds(5);
+        const auto end = std::chrono::steady_clock::now() + test::slowdown * std::chrono::seconds(20);
         while (!enough() && std::chrono::steady_clock::now() < end) {
             Poll poll;
             joiners.watch(poll);

@@ -65,7 +65,7 @@ bool Visitor::watch(const std::string& host, const std::string& origin) {
          "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n");
     std::size_t end = 0;
     while ((end = come_.find("\r\n\r\n")) == std::string::npos)
-        if (!more(slowdown * std::chrono::seconds(5))) return false;
+        if (!more(slowdown * std::chrono::seconds(20))) return false;
     const bool may = status_of(come_) == 101;
     come_.erase(0, end + 4);
     return may;

@@ -33,7 +33,7 @@ public:
         bool text = false;
         std::string data;
     };
-    std::optional<Frame> next(std::chrono::milliseconds patience = slowdown * std::chrono::seconds(5));
+    std::optional<Frame> next(std::chrono::milliseconds patience = slowdown * std::chrono::seconds(20));
     /// The next text that holds this.
     std::optional<std::string> next_with(const std::string& part);
     void say(std::string_view text) const;
