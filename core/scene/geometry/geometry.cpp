@@ -168,8 +168,13 @@ RTCDevice device_for(const Geometry::Options& options) {
     if (!has_isa(isa)) throw Error("scene", "this processor, or Embree, has no instruction set '" + isa + "'");
     const unsigned threads = building_threads(options.threads);
     // DECISIONS: trees-by-all-cores
-    const std::string config = "start_threads=0,threads=" + std::to_string(threads) + ",isa=" + isa;
+    // Its cache of subdivided surfaces, of which we have none, takes 128 MiB of addresses. Where these can't be had it
+    // leaves a lock of its own locked, and the end of the next device would wait for that for ever.
+    const std::string config =
+        "start_threads=0,threads=" + std::to_string(threads) + ",isa=" + isa + ",tessellation_cache_size=0";
     if (RTCDevice device = rtcNewDevice(config.c_str())) return device;
+    if (rtcGetDeviceError(nullptr) == RTC_ERROR_OUT_OF_MEMORY)
+        throw Error("scene", "there is not enough memory for what finds surfaces");
     throw Error("scene", "Embree gives no device for instruction set '" + isa + "'");
 }
 
