@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/base/words_of.hpp"
+
 namespace lightnet::error_test {
 namespace {
 
@@ -22,6 +24,15 @@ TEST(UserError, TellsAllProblemsALineEach) {
 
 TEST(Error, NamesThePlaceFirst) {
     EXPECT_STREQ(Error("bounce on onyx2", "out of memory").what(), "bounce on onyx2: out of memory");
+}
+
+TEST(Error, OfTheLibraryIsToldInWords) {
+    EXPECT_EQ(words_of(std::bad_alloc()), "there is not enough memory");
+    EXPECT_EQ(words_of(Error("a", "b")), "a: b");
+    const std::system_error no_thread(std::make_error_code(std::errc::resource_unavailable_try_again));
+    EXPECT_THAT(words_of(no_thread), testing::StartsWith("the system gives no more threads; a higher limit"));
+    EXPECT_EQ(words_of(std::system_error(std::make_error_code(std::errc::no_space_on_device), "x")),
+              "x: No space left on device");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/words_of.hpp"
 #include "transport/daemon/host_service.hpp"
 #include "transport/keys/key_file.hpp"
 #include "transport/store/cache_folder.hpp"
@@ -177,8 +178,8 @@ void Host::Service::arrived(Frames frames) {
         else
             control({route, key}, *header, *fields);
     } catch (const std::exception& error) {
-        door.send(route, Type::broken, header->run, Fields{}.set("text", error.what()));
-        if (run && run->id() == header->run) drop_run(error.what());
+        door.send(route, Type::broken, header->run, Fields{}.set("text", words_of(error)));
+        if (run && run->id() == header->run) drop_run(words_of(error));
     }
 }
 
@@ -224,8 +225,8 @@ void Host::Service::advance() {
             if (run->serving()) door.send(launcher, Type::ready, run->id(), {});
         }
     } catch (const std::exception& error) {
-        door.send(launcher, Type::broken, run->id(), Fields{}.set("text", error.what()));
-        drop_run(error.what());
+        door.send(launcher, Type::broken, run->id(), Fields{}.set("text", words_of(error)));
+        drop_run(words_of(error));
     }
 }
 

@@ -8,6 +8,7 @@
 #include "core/base/joined.hpp"
 #include "core/base/own_process.hpp"
 #include "core/base/this_machine.hpp"
+#include "core/base/words_of.hpp"
 #include "core/network/graph/plugin_use.hpp"
 #include "core/run/assembly/fingerprint.hpp"
 #include "transport/daemon/host_service.hpp"
@@ -144,8 +145,8 @@ void Host::Service::look_at_arriving() {
     try {
         start(job, job.read.get());
     } catch (const std::exception& error) {
-        refuse(job.route, job.id, error.what());
-        if (run && run->id() == job.id) drop_run(error.what());
+        refuse(job.route, job.id, words_of(error));
+        if (run && run->id() == job.id) drop_run(words_of(error));
     }
 }
 

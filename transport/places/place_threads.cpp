@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/words_of.hpp"
 #include "core/run/assembly/looker.hpp"
 #include "core/run/assembly/place_tracer.hpp"
 #include "core/run/message/place_name.hpp"
@@ -77,7 +78,7 @@ void PlaceThreads::Threads::serve(std::uint32_t index) {
         is_place ? serve_place(index, life) : dispatch(life);
         change(life, State::ended);
     } catch (const std::exception& error) {
-        life.died_of = (is_place ? name : "the " + name) + ": " + error.what();
+        life.died_of = (is_place ? name : "the " + name) + ": " + words_of(error);
         change(life, State::died);
     }
 }

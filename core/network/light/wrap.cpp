@@ -9,6 +9,7 @@
 #include "core/base/error.hpp"
 #include "core/base/math/samples.hpp"
 #include "core/base/unwanted.hpp"
+#include "core/base/words_of.hpp"
 #include "core/network/light/describe_question.hpp"
 #include "core/network/light/light_op.hpp"
 #include "core/network/light/locks.hpp"
@@ -52,7 +53,7 @@ Rgb ask_named(WrappedInstance& instance, const Question& question) try {
 } catch (const Cancelled&) {
     throw;
 } catch (const std::exception& error) {
-    throw Error(describe(question), error.what());
+    throw Error(describe(question), words_of(error));
 } catch (...) {
     throw Error(describe(question), "threw what is no std::exception");
 }

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/base/error.hpp"
+#include "core/base/words_of.hpp"
 #include "core/network/graph/lamp_groups.hpp"
 #include "core/network/light/node_context.hpp"
 
@@ -45,7 +46,7 @@ auto made(const Network& network, std::size_t node, Inputs inputs, const NodeSer
         return make(NodeContext(what, std::move(inputs), *network.scenes[whole_of(network.graph, node)], network.seed,
                                 services));
     } catch (const std::exception& error) {
-        throw Error(what.kind + " '" + what.name + "'", error.what());
+        throw Error(what.kind + " '" + what.name + "'", words_of(error));
     }
 }
 
@@ -168,7 +169,7 @@ void Assembly::prepare(std::size_t node, Services& services, std::uint32_t pass)
         if (network_.renewed[node]) static_cast<NodeByPass&>(*lights_[node]).begin(pass);
         lights_[node]->prepare(services);
     } catch (const std::exception& error) {
-        throw Error(what.kind + " '" + what.name + "', preparing", error.what());
+        throw Error(what.kind + " '" + what.name + "', preparing", words_of(error));
     }
 }
 

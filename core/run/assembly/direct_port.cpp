@@ -9,6 +9,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/unwanted.hpp"
+#include "core/base/words_of.hpp"
 #include "core/network/light/describe_question.hpp"
 
 namespace lightnet {
@@ -111,7 +112,7 @@ void answer(const Callee& node, std::size_t width, std::span<const Query> questi
 } catch (const NodeError& error) {
     throw NodeError("'" + node.name + "'", error.what(), error.host());
 } catch (const std::exception& error) {
-    throw NodeError("'" + node.name + "'" + culprit(node, questions), error.what(), {});
+    throw NodeError("'" + node.name + "'" + culprit(node, questions), words_of(error), {});
 }
 
 }  // namespace lightnet

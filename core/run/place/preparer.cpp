@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/words_of.hpp"
 #include "core/film/tile.hpp"
 #include "core/network/light/rehearsal.hpp"
 #include "core/network/light/services.hpp"
@@ -40,7 +41,7 @@ public:
         } catch (const Cancelled&) {
             throw;
         } catch (const std::exception& error) {
-            failure_ = error.what();
+            failure_ = words_of(error);
         }
         if (failure_.empty() && sectors_) say_what_it_has();
         at_ = {StepReport::Kind::done, call_, 0};
