@@ -59,7 +59,8 @@ Image to_image(decoders::Raster raster, const Encoding& encoding) {
 constexpr const char* known_kinds = "JPEG, PNG, TIFF, TGA, BMP, GIF, WebP, PNM, PFM, KTX 2, OpenEXR, Radiance HDR";
 
 bool begins(std::span<const std::byte> bytes, std::string_view start, std::size_t at = 0) {
-    return bytes.size() >= at + start.size() && std::memcmp(bytes.data() + at, start.data(), start.size()) == 0;
+    if (bytes.size() < at + start.size()) return false;
+    return start.empty() || std::memcmp(bytes.data() + at, start.data(), start.size()) == 0;  // no pointer to nothing
 }
 
 /// How files of a kind begin, and what reads them; nothing does so: what they are called.
