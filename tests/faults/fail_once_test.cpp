@@ -89,7 +89,7 @@ void write_stand_ins(const Folder& folder) {
     script("sbatch", "cat >" + folder.file("job") +
                          "\nexport SLURM_ARRAY_JOB_ID=7 SLURM_ARRAY_TASK_ID=1 SLURM_CPUS_ON_NODE=1\nsh " +
                          folder.file("job") + " >/dev/null 2>&1 &\necho $! >" + folder.file("process") + "\necho 7\n");
-    script("scancel", "kill -9 $(cat " + folder.file("process") + ")\n");
+    script("scancel", "kill $(cat " + folder.file("process") + ")\n");
 }
 
 class FailOnce : public ::testing::TestWithParam<Case> {
@@ -127,10 +127,10 @@ protected:
         }
         const std::string told = what_failed(folder);
         if (told.empty()) return false;
-        judge(folder, code, run.output());
         // What can't be cancelled leaves by itself, in a minute.
         if (GetParam().starts_by_slurm) Process({"/bin/sh", folder.file("scancel")}).wait();
         EXPECT_EQ(children_after(others), others) << "it left processes behind";
+        judge(folder, code, run.output());
         if (daemon) {
             EXPECT_LT(daemon->process->wait(std::chrono::milliseconds(1)), 0) << daemon->process->output();
         }

@@ -34,8 +34,10 @@ std::vector<std::string> holders_of(const std::string& node, const std::string& 
 class Loss : public ::testing::Test {
 protected:
     static void SetUpTestSuite() {
-        reference = new std::string(launch_for(length, graph_file("cornell.lua"), some_seconds).picture);
+        const auto made = launch_for(length, graph_file("cornell.lua"), some_seconds);
+        reference = new std::string(made.picture);
         ASSERT_FALSE(reference->empty());
+        rays = counter(made.report, "rays");
     }
     static void TearDownTestSuite() { delete reference; }
 
@@ -65,6 +67,7 @@ protected:
     }
 
     static std::string* reference;
+    static inline double rays = 0;  // that it takes
     Folder folder;
     std::filesystem::path out = folder / "picture.exr";
 };
@@ -111,6 +114,17 @@ TEST_F(Loss, OfAHostThatHangsAndComesBackChangesNoByte) {
     ASSERT_TRUE(run->wait_for("is lost")) << run->output();
     two.process->signal(SIGCONT);
     expect_same(*run);
+}
+
+TEST_F(Loss, OfALauncherThatSleepsLosesNoCount) {
+    const Daemon one(folder);
+    const auto run = start({whole(one.endpoint)});
+    ASSERT_TRUE(in_the_middle(*run));
+    run->signal(SIGSTOP);
+    ASSERT_TRUE(one.process->wait_for("is given up")) << one.process->output();
+    run->signal(SIGCONT);
+    const auto end = expect_same(*run);
+    EXPECT_GE(counter(end.report, "rays"), rays) << "what was done before it slept counts as well";
 }
 
 TEST_F(Loss, OfTheOnlyHostOfAnOperatorMovesItElsewhere) {

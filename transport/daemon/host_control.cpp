@@ -322,6 +322,9 @@ void Host::Service::look_at_ending() {
     auto counters = over.counters.get();
     counters.broken_packets += std::exchange(broken_packets, 0);
     add_ended(counters);
+    if (given_up.id == over.id) counters += given_up.done;
+    given_up = {over.id, counters};
+    given_up.done.places.clear(), given_up.done.traces.clear();
     if (over.route.empty()) return;
     Fields fields;
     for (const auto& [name, count] : counters.named()) fields.set(name, count);

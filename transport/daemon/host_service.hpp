@@ -69,6 +69,12 @@ struct Host::Service {
         std::future<Counters> counters;
     };
     std::optional<Ending> ending;
+    // What was counted of a run that was given up, as its launcher was silent: it may find us again, and begin it anew.
+    struct GivenUp {
+        std::uint64_t id = 0;
+        Counters done;
+    };
+    GivenUp given_up;
     std::string who;                        // began the run
     std::string launcher;                   // route to it
     Time heard{};                           // from it
