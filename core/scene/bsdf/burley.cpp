@@ -176,22 +176,10 @@ std::optional<BsdfSample> BurleyBsdf::sample_smooth(Vec3 o, float choice, float 
 
 /// A direction by the facets; its weight is still to be found.
 std::optional<BsdfSample> BurleyBsdf::sample_facets(Vec3 o, float choice, Vec2 u) const {
-    BsdfSample result;
-    result.lobe = lobe::glossy;
-    if (thin) result.transmitted = choice >= reflection_chance(o.z, o.z);
-    const Vec3 m = (result.transmitted ? window : facets).sample_visible(o, u);
-    if (!thin) result.transmitted = choice >= reflection_chance(dot(o, m), o.z);
-    if (result.transmitted && !thin) {
-        const Refracted bent = refract(o, m, eta);
-        if (!bent.possible) return {};
-        result.incoming = normalize(bent.direction);
-        result.eta = bent.eta;
-    } else {
-        result.incoming = normalize(reflect(o, m));
-        if (result.transmitted) result.incoming.z = -result.incoming.z;
-    }
-    if ((result.incoming.z * o.z < 0) != result.transmitted) return {};
-    return result;
+    bool transmitted = thin && choice >= reflection_chance(o.z, o.z);
+    const Vec3 m = (transmitted ? window : facets).sample_visible(o, u);
+    if (!thin) transmitted = choice >= reflection_chance(dot(o, m), o.z);
+    return way_by_facet(o, m, transmitted, thin, eta);
 }
 
 std::optional<BsdfSample> BurleyBsdf::upright_sample(Vec3 o, float choice, Vec2 u, std::uint8_t lobes) const {
@@ -214,11 +202,7 @@ std::optional<BsdfSample> BurleyBsdf::upright_sample(Vec3 o, float choice, Vec2 
         result = sample_facets(o, choice, u);
     }
     if (!result) return {};
-    const auto [value, pdf] = upright_value(o, result->incoming, lobes);
-    if (!(pdf > 0)) return {};
-    result->weight = value / pdf;
-    result->pdf = pdf;
-    return result;
+    return weighed(*result, upright_value(o, result->incoming, lobes));
 }
 
 CosineChoices BurleyBsdf::cosine_choices(float outgoing, std::uint8_t lobes) const {

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 
 #include "core/scene/bsdf/fresnel.hpp"
 #include "core/scene/bsdf/microfacets.hpp"
+#include "core/scene/bsdf/scattering.hpp"
 
 namespace lightnet {
 
@@ -42,6 +44,26 @@ inline Facets refraction(const Microfacets& facets, Vec3 outgoing, Vec3 incoming
     const float root = i_m + o_m / relative;
     const float both = facets.density(m) * std::fabs(i_m * o_m / (root * root * outgoing.z));
     return {both * facets.visible(outgoing, incoming) / (relative * relative), both * facets.visible(outgoing), o_m};
+}
+
+/// The way that light comes by a facet with normal `m`, which reflects it or lets it through: bent by `eta` (inside
+/// over outside) into a solid, mirrored to the other side by a sheet. Its weight is still to be found. None: there is
+/// none.
+inline std::optional<BsdfSample> way_by_facet(Vec3 outgoing, Vec3 m, bool transmitted, bool thin, float eta) {
+    BsdfSample result;
+    result.lobe = lobe::glossy;
+    result.transmitted = transmitted;
+    if (transmitted && !thin) {
+        const Refracted bent = refract(outgoing, m, eta);
+        if (!bent.possible) return {};
+        result.incoming = normalize(bent.direction);
+        result.eta = bent.eta;
+    } else {
+        result.incoming = normalize(reflect(outgoing, m));
+        if (transmitted) result.incoming.z = -result.incoming.z;
+    }
+    if ((result.incoming.z * outgoing.z < 0) != transmitted) return {};
+    return result;
 }
 
 }  // namespace lightnet

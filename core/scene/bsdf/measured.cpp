@@ -13,9 +13,10 @@ std::optional<BsdfSample> MeasuredBsdf::sample(Vec3 outgoing, float, Vec2 u, std
     const Vec3 facet = measured->sample_facet(upright, u);
     const Vec3 incoming = normalize(facet * (2 * dot(upright, facet)) - upright);
     if (!(incoming.z > 0)) return {};
-    const auto [value, pdf] = measured->value(upright, incoming);
-    if (!(pdf > 0)) return {};
-    return BsdfSample{outgoing.z > 0 ? incoming : -incoming, value / pdf, pdf, lobe::glossy};
+    BsdfSample found;
+    found.incoming = outgoing.z > 0 ? incoming : -incoming;
+    found.lobe = lobe::glossy;
+    return weighed(found, measured->value(upright, incoming));
 }
 
 }  // namespace lightnet

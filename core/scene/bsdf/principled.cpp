@@ -242,22 +242,11 @@ std::optional<BsdfSample> PrincipledBsdf::sample_smooth(Vec3 o, float choice, fl
 /// A direction by the facets; its weight is still to be found.
 std::optional<BsdfSample> PrincipledBsdf::sample_facets(Vec3 o, float choice, Vec2 u) const {
     const Vec3 m = facets.sample_visible(o, u);
-    BsdfSample result;
-    result.lobe = lobe::glossy;
     const float mirror_chance = reflection_chance(dot(o, m));
-    result.transmitted = choice >= mirror_chance;
-    if (result.transmitted && !thin) {
-        const float own = dispersion != 0 ? index(colour_of((choice - mirror_chance) / (1 - mirror_chance))) : eta;
-        const Refracted refracted = refract(o, m, own);
-        if (!refracted.possible) return {};
-        result.incoming = normalize(refracted.direction);
-        result.eta = refracted.eta;
-    } else {
-        result.incoming = normalize(reflect(o, m));
-        if (result.transmitted) result.incoming.z = -result.incoming.z;
-    }
-    if ((result.incoming.z * o.z < 0) != result.transmitted) return {};
-    return result;
+    const bool transmitted = choice >= mirror_chance;
+    const bool spread = transmitted && !thin && dispersion != 0;
+    const float own = spread ? index(colour_of((choice - mirror_chance) / (1 - mirror_chance))) : eta;
+    return way_by_facet(o, m, transmitted, thin, own);
 }
 
 /// A direction off the coat; the weight of a rough one is still to be found.
@@ -304,11 +293,7 @@ std::optional<BsdfSample> PrincipledBsdf::upright_sample(Vec3 o, float choice, V
         result = sample_facets(o, choice, u);
     }
     if (!result) return {};
-    const auto [value, pdf] = upright_value(o, result->incoming, lobes);
-    if (!(pdf > 0)) return {};
-    result->weight = value / pdf;
-    result->pdf = pdf;
-    return result;
+    return weighed(*result, upright_value(o, result->incoming, lobes));
 }
 
 CosineChoices PrincipledBsdf::cosine_choices(float outgoing, std::uint8_t lobes) const {

@@ -26,6 +26,14 @@ struct BsdfValue {
     float pdf = 0;  // per steradian
 };
 
+/// A sampled direction with the weight and the density that `of` gives it; none: it is never sampled.
+inline std::optional<BsdfSample> weighed(BsdfSample found, const BsdfValue& of) {
+    if (!(of.pdf > 0)) return {};
+    found.weight = of.value / of.pdf;
+    found.pdf = of.pdf;
+    return found;
+}
+
 /// The numbers in [begin, end) are those for which sample() goes by the cosine, on the viewer's side.
 struct CosineChoices {
     float begin = 0, end = 0;
