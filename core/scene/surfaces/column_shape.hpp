@@ -29,6 +29,7 @@ struct ColumnShape {
     const Bsdf::Model* model = nullptr;  // of any of them; null: it is not the same everywhere
     const Shading* shading = nullptr;    // knows what it is where
     float least_offset = 0;              // by which rays must leave the shape, m
+    const float* turned = nullptr;       // by triangle: see triangle_offset_at(); null: none is more than that
     std::uint8_t lobes = 0;              // rough ones of it: who leaves one of them out is shaded alone
     bool one_sided = false;
     bool bumpy = false;

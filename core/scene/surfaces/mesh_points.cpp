@@ -15,7 +15,7 @@ struct MeshPoints::Places {
             const Vec3 n = geometric_normal(at, all.towards_[i], all.flip_[i] != 0);
             all.position_.set(i, p);
             all.normal_.set(i, n);
-            all.offset_[i] = triangle_offset_at(at, p, n, all.least_offset_[i]);
+            all.offset_[i] = triangle_offset_at(all.turned_[i], p, n, all.least_offset_[i]);
             all.shading_.set(i, shading_normal(all.interpolated_[i], n));
         }
     }

@@ -80,7 +80,7 @@ protected:
     std::array<const ColumnShape*, lanes> shapes_;
     std::array<Hit, lanes> hits_;
     Columns3 a_, b_, c_;  // corners
-    Column u_, v_, least_offset_;
+    Column u_, v_, least_offset_, turned_;
     Columns3 interpolated_, towards_;  // shading normals: there, and their sum over the corners; nothing: it has none
     Flags flip_, one_sided_;
     Columns3 outgoing_;
@@ -129,6 +129,7 @@ private:
     u_[to] = hit.u;
     v_[to] = hit.v;
     least_offset_[to] = shape.least_offset;
+    turned_[to] = shape.turned ? shape.turned[hit.primitive] : 0;
     one_sided_[to] = shape.one_sided;
     outgoing_.set(to, outgoing);
     if (mesh.normals.empty()) {

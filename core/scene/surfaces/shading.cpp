@@ -34,6 +34,19 @@ float least_offset(const Shape& shape) {
     return mesh ? triangle_offset(longest_edge(*mesh)) : 0;
 }
 
+/// By triangle: its turned_offset(). None: no more than `least`, all of them.
+std::vector<float> turned_offsets(const Shape& shape, float least) {
+    const auto* mesh = std::get_if<Mesh>(&shape.geometry);
+    if (!mesh) return {};
+    std::vector<float> turned(mesh->triangles.size());
+    bool more = false;
+    for (std::uint32_t t = 0; t < turned.size(); ++t) {
+        turned[t] = turned_offset(corners(*mesh, t));
+        more |= !(turned[t] <= least);
+    }
+    return more ? turned : std::vector<float>{};
+}
+
 struct Along {
     Vec3 u, v;  // ∂position/∂u and ∂position/∂v
 };
@@ -90,6 +103,7 @@ Shading::Shading(const SceneData& data) : data_(data), materials_(data) {
     for (const auto& shape : data.shapes) {
         needs_.push_back({materials_.needs(shape.material), least_offset(shape), std::get_if<Mesh>(&shape.geometry),
                           materials_.lobes(shape.material)});
+        needs_.back().turned = turned_offsets(shape, needs_.back().offset);
         needs_.back().material.texture |= shape.emission && shape.emission->texture;
         const auto by_place = [&](const std::optional<TextureId>& texture) {
             return texture && depends_on_place(data.textures, *texture);
@@ -108,7 +122,14 @@ ColumnShape Shading::column_shape(const Shape& shape, const Needs& needs) const 
     const Bsdf::Model* model = materials_.constant_model(shape.material);
     const auto* diffuse = model ? std::get_if<DiffuseBsdf>(model) : nullptr;
     const auto lobes = static_cast<std::uint8_t>((needs.lobes ? needs.lobes : lobe::all) & lobe::rough);
-    ColumnShape made{kind, needs.mesh, diffuse ? diffuse->albedo : Rgb{}, model, this, needs.offset, lobes};
+    ColumnShape made{kind,
+                     needs.mesh,
+                     diffuse ? diffuse->albedo : Rgb{},
+                     model,
+                     this,
+                     needs.offset,
+                     needs.turned.empty() ? nullptr : needs.turned.data(),
+                     lobes};
     made.one_sided = data_.materials[shape.material].one_sided;
     made.bumpy = materials_.bumpy(shape.material);
     made.shines = shape.emission.has_value();
@@ -161,7 +182,8 @@ void Shading::on_mesh(const Needs& needs, SurfacePoint& point) const {
     }
     point.position = on_triangle(at, point.u, point.v);
     point.normal = geometric_normal(mesh, point.primitive, at);
-    point.offset = triangle_offset_at(at, point.position, point.normal, needs.offset);
+    const float turned = needs.turned.empty() ? 0 : needs.turned[point.primitive];
+    point.offset = triangle_offset_at(turned, point.position, point.normal, needs.offset);
     point.shading = Frame::around(shading_normal(interpolated, point.normal));
     dress(mesh, needs, point);
 }

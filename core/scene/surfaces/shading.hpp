@@ -77,10 +77,11 @@ public:
 private:
     struct Needs {
         MaterialNeeds material;
-        float offset = 0;            // least distance by which rays must leave the shape, m
-        const Mesh* mesh = nullptr;  // null: the shape is another
-        std::uint8_t lobes = 0;      // 0: not the same everywhere
-        bool place = false;          // textures of opacity or emission depend on where a point is
+        float offset = 0;             // least distance by which rays must leave the shape, m
+        const Mesh* mesh = nullptr;   // null: the shape is another
+        std::uint8_t lobes = 0;       // 0: not the same everywhere
+        bool place = false;           // textures of opacity or emission depend on where a point is
+        std::vector<float> turned{};  // by triangle: see triangle_offset_at(); empty: none is more than `offset`
     };
     void find(std::uint32_t geometry, std::uint32_t primitive, float u, float v, SurfacePoint& point) const;
     ColumnShape column_shape(const Shape& shape, const Needs& needs) const;

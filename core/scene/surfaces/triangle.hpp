@@ -67,12 +67,18 @@ inline Vec3 on_triangle(const Corners& at, float u, float v) {
 /// What rays round when they look for a triangle whose edges are no longer: own part of an offset.
 inline float triangle_offset(float longest_edge) { return 8 * rounding_step * longest_edge; }
 
-/// By how much rays must leave a triangle at `position`. Where one of its angles is nearly straight, rays turn it about
-/// its longest edge, as far as the circle through its corners is wider than that. `least`: because of its mesh.
-inline float triangle_offset_at(const Corners& at, Vec3 position, Vec3 normal, float least) {
+/// Because of one triangle: where one of its angles is nearly straight, rays turn it about its longest edge, as far as
+/// the circle through its corners is wider than that.
+inline float turned_offset(const Corners& at) {
     const WideVec3 a(at.a), ab = WideVec3(at.b) - a, ac = WideVec3(at.c) - a, bc = ac - ab;
     const double size = length(cross(ab, ac)), edges = std::sqrt(dot(ab, ab) * dot(ac, ac) * dot(bc, bc));
-    const float turned = triangle_offset(float(edges / size)), most = 0x1p-16f * largest_coordinate(position);
+    return triangle_offset(float(edges / size));
+}
+
+/// By how much rays must leave a triangle at `position`. `turned`: its turned_offset(), or 0 where that is no more than
+/// `least`: what its mesh asks for.
+inline float triangle_offset_at(float turned, Vec3 position, Vec3 normal, float least) {
+    const float most = 0x1p-16f * largest_coordinate(position);
     const float no_more = turned < most ? turned : most;  // of what is hardly there
     return offset_at(position, normal, no_more > least ? no_more : least);
 }
