@@ -65,6 +65,22 @@ TEST(Render, MakesAGraphOfASceneFile) {
     EXPECT_EQ(run.read->scene.shapes.size(), 1u) << "read once, for its size and for the run";
 }
 
+// What hosts read by the graph is what was read here for the picture's size.
+TEST(Render, ReadsTheSceneByTheConstantsOfItsGraph) {
+    Bench lightnet;
+    const auto scene = lightnet.write("ball.xml",
+                                      "<scene version='3.0.0'><default name='r' value='1'/><shape type='sphere'>"
+                                      "<float name='radius' value='$r'/></shape></scene>");
+    const auto graph =
+        lightnet.write("light.lua",
+                       "light = AmbientOcclusion {}\nscene = Scene { 'other.pbrt', constants = { r = 3 } }\n"
+                       "image = RayTracer { light, scene = scene, film = { 8, 4 } }\n");
+    EXPECT_EQ(lightnet({"render", scene, "--lighting", graph}), 7) << lightnet.err;
+    const RunRequest& run = lightnet.runs.at(0);
+    EXPECT_EQ(std::get<Sphere>(run.read->scene.shapes.at(0).geometry).radius, 3);
+    EXPECT_EQ(scene_constants(run.graph, lightnet.registry).at("r"), "3");
+}
+
 TEST(Render, TakesTheOptionsOfRun) {
     Bench lightnet;
     lightnet({"render", lightnet.scene, "--samples", "3", "--size", "8x4", "-o", "y.exr", "--local-workers", "2",

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/readers/read_scene.hpp"
+#include "core/run/assembly/load_scene.hpp"
 #include "tools/cli/launcher.hpp"
 #include "tools/cli/loading.hpp"
 #include "tools/cli/options.hpp"
@@ -46,14 +47,19 @@ void describe_render(CLI::App& app, RenderOptions& options) {
     add_examples(app, {"lightnet render graphs/cornell_box.pbrt --size 256x256 --samples 16"});
 }
 
+/// Of the file that is rendered: those of the graph's scene, as whoever reads it elsewhere takes them.
+std::map<std::string, std::string> constants_of(const Graph& graph) {
+    for (const Node& node : graph.nodes)
+        if (node.kind == "Scene") return scene_constants(node);
+    return {};
+}
+
 int render_scene(const RenderOptions& options, const Launcher& launcher) {
     const auto& scene = options.scene;
     RunningOptions running = options.running;
     Written written = read_files(scene, running.hosts);
     auto read = std::make_shared<ReadScene>();
-    const bool own_graph = !scene.lighting.ends_with(".lua");  // else the constants are the graph's
-    read->scene =
-        read_scene(read->files, scene.file, own_graph ? scene.constants : std::map<std::string, std::string>{});
+    read->scene = read_scene(read->files, scene.file, constants_of(written.graph));
     auto& picture = running.picture;
     const auto& film = read->scene.film;
     if (!picture.size) picture.size = PictureSize{film.width, film.height};

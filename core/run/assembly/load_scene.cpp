@@ -76,18 +76,23 @@ SceneOverrides scene_overrides(const Graph& graph, const Registry& registry) {
     return overrides;
 }
 
-std::map<std::string, std::string> scene_constants(const Graph& graph, const Registry& registry) {
-    const Values& params = scene_of(graph, registry).params;
+std::map<std::string, std::string> scene_constants(const Node& scene) {
     std::map<std::string, std::string> constants;
-    if (const auto given = params.find("constants"); given != params.end())
-        for (const auto& [name, value] : std::get<Table>(given->second.data).named) {
-            const auto* text = std::get_if<std::string>(&value.data);
-            constants[name] = text ? *text : to_string(value);
-        }
+    const auto given = scene.params.find("constants"), variant = scene.params.find("variant");
+    if (given != scene.params.end())
+        if (const auto* table = std::get_if<Table>(&given->second.data))
+            for (const auto& [name, value] : table->named) {
+                const auto* text = std::get_if<std::string>(&value.data);
+                constants[name] = text ? *text : to_string(value);
+            }
     // to the reader it is one more variable of the file
-    if (const auto variant = params.find("variant"); variant != params.end())
-        constants["variant"] = std::get<std::string>(variant->second.data);
+    if (variant != scene.params.end())
+        if (const auto* name = std::get_if<std::string>(&variant->second.data)) constants["variant"] = *name;
     return constants;
+}
+
+std::map<std::string, std::string> scene_constants(const Graph& graph, const Registry& registry) {
+    return scene_constants(scene_of(graph, registry));
 }
 
 void find_mistakes(const Graph& graph, const Registry& registry, const SceneData& scene,
