@@ -1,12 +1,16 @@
 #include <zlib.h>
 
+#include <stdexcept>
+
 #include "core/base/error.hpp"
+#include "core/readers/common/light_profile.hpp"
 #include "core/readers/common/measurements.hpp"
 #include "core/readers/mitsuba/serialized.hpp"
 #include "core/readers/read_scene.hpp"
 #include "core/scene/bsdf/measured.hpp"
 #include "tests/fuzz/targets.hpp"
 #include "tests/support/gltf_text.hpp"
+#include "tests/support/light_profile_text.hpp"
 #include "tests/support/measured_numbers.hpp"
 #include "tests/support/packed_meshes.hpp"
 #include "tests/support/scene_text.hpp"
@@ -59,7 +63,8 @@ std::vector<std::string> mitsuba_seeds() {
 <float name="uscale" value="2"/></texture><float name="scale" value="3"/></texture><bsdf type="roughconductor"><string name="material" value="Au"/></bsdf></bsdf></shape>
 <shape type="disk"><bsdf type="mixturebsdf"><string name="weights" value=".5,.2"/><bsdf type="diffuse"><spectrum name="reflectance" value="400:.1 700:.5"/></bsdf>
 <bsdf type="dielectric"><string name="intIOR" value="water"/></bsdf></bsdf></shape>
-<emitter type="envmap"><string name="filename" value="p.hdr"/></emitter><emitter type="spot"/><emitter type="sun"/></scene>)"};
+<emitter type="envmap"><string name="filename" value="p.hdr"/></emitter><emitter type="projector"><texture name="irradiance" type="bitmap">
+<string name="filename" value="p.hdr"/></texture></emitter><emitter type="spot"/><emitter type="sun"/></scene>)"};
 }
 
 template <Use use>
@@ -189,6 +194,23 @@ std::vector<std::string> measured_seeds() {
     return {test::tensor_file_of(plain), test::tensor_file_of(test::ggx_numbers(0.3f, 0.3f, {1, 1, 1}, 2), {400, 600})};
 }
 
+void read_profile(std::span<const std::byte> bytes) {
+    try {
+        const auto profile = read_light_profile(text_of(bytes));
+        for (const Vec3 d : {Vec3{0, 0, -1}, Vec3{0, 0, 1}, normalize(Vec3{1, 2, -1}), normalize(Vec3{-1, -0.5f, 2})})
+            if (const float candela = profile.towards(d); !(candela >= 0 && candela < 1e31f))
+                throw std::logic_error("a profile of impossible light");
+    } catch (const Error&) {
+    }
+}
+
+std::vector<std::string> profile_seeds() {
+    return {test::light_profile("3 2", "0 45 90\n0 180\n9 5 1\n8 4 0"),
+            test::light_profile("2 4", "0 180 0 90 180 270 1 2 3 4 5 6 7 8"),
+            test::light_profile("3 2", "-90 0 90 0 60 1 2 3 4 5 6", 2),
+            "A LAMP\nTILT=INCLUDE\n1\n2\n0 90\n1 .9\n1 100 1 2 1 3 1 0 0 0\n1 1 9\n-10 10\n0\n7 7\n"};
+}
+
 }  // namespace
 
 Target mitsuba() { return {"mitsuba", read_mitsuba<drop>, mitsuba_seeds}; }
@@ -198,6 +220,7 @@ Target rays_gltf() { return {"rays_gltf", read_gltf<render>, gltf_seeds, 20}; }
 Target obj() { return {"obj", read_obj<drop>, obj_seeds}; }
 Target rays_obj() { return {"rays_obj", read_obj<render>, obj_seeds, 20}; }
 Target measured() { return {"measured", read_measured, measured_seeds}; }
+Target profiles() { return {"profiles", read_profile, profile_seeds}; }
 Target serialized() { return {"serialized", read_serialized, serialized_seeds}; }
 
 }  // namespace lightnet::fuzz

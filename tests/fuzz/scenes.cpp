@@ -1,6 +1,7 @@
 #include "core/base/error.hpp"
 #include "core/readers/read_scene.hpp"
 #include "tests/fuzz/targets.hpp"
+#include "tests/support/light_profile_text.hpp"
 #include "tests/support/memory_files.hpp"
 
 namespace lightnet::fuzz {
@@ -13,6 +14,7 @@ void read(std::span<const std::byte> bytes) {
     files.add("part.pbrt", "Include \"scene.pbrt\"\n");
     files.add("mesh.ply", meshes().seeds().front());
     files.add("even.bsdf", measured().seeds().front());
+    files.add("lamp.ies", test::light_profile("2 1", "0 90 0 1 1"));
     files.add("picture.hdr",
               std::string("#?RADIANCE\n\n-Y 1 +X 2\n") + std::string("\x80\x40\x20\x81\x80\x40\x20\x81", 8));
     try {
@@ -85,6 +87,7 @@ LightSource "distant" "float illuminance" 3
 LightSource "infinite" "string filename" "picture.hdr" "float illuminance" 2
 LightSource "projection" "string filename" "picture.hdr"
 LightSource "goniometric" "rgb I" [ 1 2 3 ] "float power" 5
+LightSource "goniometric" "string filename" "lamp.ies" "float power" 5
 MakeNamedMedium "m" "string type" "homogeneous" "rgb sigma_a" [ 1 1 1 ] "rgb sigma_s" [ 0 0 0 ]
 MediumInterface "" "m"
 AreaLightSource "diffuse" "string filename" "picture.hdr" "float power" 10

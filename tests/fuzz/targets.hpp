@@ -45,6 +45,8 @@ Target obj();
 Target serialized();
 /// Measured materials, and light on those that could be read.
 Target measured();
+/// Profiles of luminaires, asked for what they send into some directions.
+Target profiles();
 /// Pictures of the usual kinds, and of the others.
 Target pictures();
 Target rare_pictures();
@@ -94,7 +96,7 @@ inline std::vector<Target> all_targets() {
             obj(),          serialized(),    pictures(), films(),         manifests(), jobs(),
             checkpoints(),  graphs(),        keys(),     gates(),         watched(),   rays_pbrt(),
             rays_mitsuba(), rays_gltf(),     rays_obj(), customs(),       kept(),      pasts(),
-            words(),        conversations(), lines(),    rare_pictures(), measured()};
+            words(),        conversations(), lines(),    rare_pictures(), measured(),  profiles()};
 }
 
 }  // namespace lightnet::fuzz

@@ -4,7 +4,9 @@
 
 #include <cmath>
 
+#include "core/scene/lamps/environment.hpp"
 #include "core/scene/textures/look_up.hpp"
+#include "tests/support/light_profile_text.hpp"
 #include "tests/support/scene_text.hpp"
 
 namespace lightnet::test::gltf_reader_test {
@@ -12,6 +14,7 @@ namespace {
 
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 using testing::SizeIs;
 
 // bytes 0 … 35: a triangle's positions; 36 … 41: its indices; 44 … 67: uvs; 68 … 79: colours in bytes
@@ -188,6 +191,28 @@ TEST(GltfLights, AreThoseOfKhrLightsPunctual) {
     EXPECT_EQ(std::get<PointLight>(scene.lights[0]).intensity, (Rgb{3, 0, 0}));
     EXPECT_EQ(std::get<SpotLight>(scene.lights[1]).falloff, SpotLight::Falloff::squared_linear);
     EXPECT_EQ(std::get<DirectionalLight>(scene.lights[2]).direction, (Vec3{0, 0, -1}));
+}
+
+// straight down is -z of the node, here +x; 90 degrees from it, horizontally 0, is its x, here z
+TEST(GltfLights, MayHaveTheProfilesOfLuminaires) {
+    const std::string file = with_triangle(
+        R"("extensions":{"EXT_lights_ies":{"lights":[{"uri":"a.ies","mimeType":"application/x-ies-lm-63"}]}},"extensionsUsed":["EXT_lights_ies"],
+      "nodes":[{"mesh":0},{"name":"hall","translation":[1,2,3],"rotation":[0,-0.70710678,0,0.70710678],
+      "extensions":{"EXT_lights_ies":{"light":0,"multiplier":2,"color":[1,0.5,0]}}},{"extensions":{"EXT_lights_ies":{"light":0}}}],"scenes":[{"nodes":[0,1,2]}],)");
+    const auto scene =
+        read_as("a.glb", glb(file, bytes), {{"a.ies", light_profile("2 3", "0 90\n0 90 180\n8 4\n8 4\n8 0")}});
+    EXPECT_THAT(warnings_of(scene), Not(HasSubstr("ies")));
+    ASSERT_THAT(scene.lights, SizeIs(2));
+    const auto& lamp = std::get<PointLight>(scene.lights[0]);
+    EXPECT_EQ(lamp.position, (Vec3{1, 2, 3}));
+    EXPECT_EQ(lamp.label.name, "hall");
+    EXPECT_EQ(lamp.intensity, (Rgb{2, 1, 0}));
+    const Environment pattern(lamp.pattern.value());
+    EXPECT_NEAR(pattern.radiance({1, 0, 0}).g, 8, 0.05f);
+    EXPECT_NEAR(pattern.radiance(normalize({1, 0, 1})).g, 6, 0.05f);
+    EXPECT_NEAR(pattern.radiance(normalize({1, 0, -1})).g, 4, 0.05f);
+    EXPECT_THAT(errors_as("a.glb", glb(file, bytes), {{"a.ies", "x"}}), HasSubstr("lights[0]"));
+    EXPECT_THAT(errors_as("a.glb", glb(file, bytes)), HasSubstr("a.ies"));
 }
 
 TEST(GltfCamera, LooksAlongMinusZWithXOnTheRight) {

@@ -151,6 +151,8 @@ std::vector<Parameter> of_emitters() {
     emitter("point", {colour("intensity"), moved("to_world"), "<point name='position' x='3'/>"});
     emitter("spot", {colour("intensity"), moved("to_world"), number("cutoff_angle", "40"), number("beam_width", "3"),
                      checks("texture")});
+    emitter("projector", {number("scale", "3"), number("fov", "30"), word("focal_length", "30mm"), moved("to_world")},
+            checks("irradiance"));
     emitter("directional", {colour("irradiance"), "<vector name='direction' x='3'/>",
                             "<transform name='to_world'><rotate x='1' angle='30'/></transform>"});
     emitter("constant", {colour("radiance")});
@@ -223,7 +225,7 @@ TEST(MitsubaPlugins, ThatAreNotSupportedAreNamed) {
     for (const std::string type : {"heightfield", "hair", "sdfgrid", "bsplinecurve", "linearcurve", "deformable"})
         EXPECT_THAT(warnings_of(read(ball + "<shape type='" + type + "'/>")),
                     HasSubstr("shape '" + type + "' is not supported"));
-    for (const std::string type : {"projector", "collimated", "directionalarea", "volumelight"})
+    for (const std::string type : {"collimated", "directionalarea", "volumelight"})
         EXPECT_THAT(warnings_of(read(ball + "<emitter type='" + type + "'/>")),
                     HasSubstr("emitter '" + type + "' is not supported"));
     for (const std::string type : {"radiancemeter", "spherical", "irradiancemeter", "distant", "batch"})

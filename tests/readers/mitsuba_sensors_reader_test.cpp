@@ -4,7 +4,9 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
+#include "core/scene/lamps/slide_light.hpp"
 #include "tests/support/scene_text.hpp"
 
 namespace lightnet::test::mitsuba_sensors_reader_test {
@@ -152,13 +154,53 @@ TEST(MitsubaSensor, CutsWhatIsTooNear) {
     EXPECT_THAT(warnings_of(with("")), Not(HasSubstr("far_clip")));
 }
 
-TEST(MitsubaSpot, IsAsBrightAsItsTextureIsOnAverage) {
+// 2 × 1 pixels of Radiance HDR: red, green
+const std::string two_pixels =
+    "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n" + std::string("\x80\0\0\x81\0\x80\0\x81", 8);
+const std::string as_texture = "type='bitmap'><string name='filename' value='p.hdr'/></texture>";
+
+// across its cone, which is 45 degrees wide on each side, with u along x
+TEST(MitsubaSpot, ThrowsItsTexture) {
+    const auto scene = read_mitsuba(one_ball +
+                                        "<emitter type='spot'><rgb name='intensity' value='10'/><float "
+                                        "name='cutoff_angle' value='45'/><texture name='texture' " +
+                                        as_texture + "</emitter>",
+                                    {{"p.hdr", two_pixels}});
+    const SlideLight light(std::get<SpotLight>(scene.lights.at(0)));
+    EXPECT_NEAR(light.towards(normalize({-0.5f, 0, 1})).r, 10, 1e-3f);
+    EXPECT_NEAR(light.towards(normalize({0.5f, 0, 1})).g, 10, 1e-3f);
+    EXPECT_NEAR(light.towards({0, 0, 1}).r, 5, 1e-3f);
+    EXPECT_THAT(warnings_of(scene), Not(HasSubstr("spot")));
+}
+
+TEST(MitsubaSpot, OfARightAngleIsAsBrightAsItsTextureIsOnAverage) {
+    const auto scene =
+        read_mitsuba(one_ball +
+                         "<emitter type='spot'><rgb name='intensity' value='10'/><float name='cutoff_angle' "
+                         "value='90'/><texture name='texture' " +
+                         as_texture + "</emitter>",
+                     {{"p.hdr", two_pixels}});
+    EXPECT_NEAR(std::get<SpotLight>(scene.lights.at(0)).intensity.g, 5, 1e-5f);
+    EXPECT_THAT(warnings_of(scene), HasSubstr("throws no picture"));
+}
+
+// The irradiance of a plane at distance 1 is π times the picture's, all over it; its right is at -x, as a camera's.
+TEST(MitsubaProjector, ThrowsItsPicture) {
     const auto scene = read_mitsuba(
         one_ball +
-        "<emitter type='spot'><rgb name='intensity' value='10'/><texture type='checkerboard' name='texture'><float "
-        "name='color0' value='.2'/><float name='color1' value='.2'/></texture></emitter>");
-    EXPECT_NEAR(std::get<SpotLight>(scene.lights.at(0)).intensity.g, 2, 1e-5f);
-    EXPECT_THAT(warnings_of(scene), HasSubstr("the texture of emitter 'spot' is taken as its mean"));
+            "<emitter type='projector'><float name='fov' value='90'/><float name='scale' value='2'/><texture "
+            "name='irradiance' " +
+            as_texture + "</emitter>",
+        {{"p.hdr", two_pixels}});
+    const SlideLight light(std::get<SpotLight>(scene.lights.at(0)));
+    for (const float x : {0.5f, 0.9f}) {
+        const double cosine = 1 / std::sqrt(1 + double{x} * x);
+        EXPECT_NEAR(light.towards(normalize({x, 0, 1})).r * std::pow(cosine, 3), 2 * std::numbers::pi, 1e-3);
+        EXPECT_NEAR(light.towards(normalize({-x, 0, 1})).g * std::pow(cosine, 3), 2 * std::numbers::pi, 1e-3);
+    }
+    EXPECT_TRUE(is_black(light.towards(normalize({0, 0.51f, 1}))));
+    EXPECT_THAT(warnings_of(scene), Not(HasSubstr("projector")));
+    EXPECT_THAT(errors_of_mitsuba(one_ball + "<emitter type='projector'/>"), HasSubstr("needs an 'irradiance'"));
 }
 
 TEST(MitsubaSensor, SeesPlusXOnTheLeft) {

@@ -7,6 +7,7 @@
 
 #include "core/readers/common/spectra.hpp"
 #include "core/scene/camera.hpp"
+#include "core/scene/lamps/slide_light.hpp"
 #include "core/scene/scene.hpp"
 #include "tests/support/both_ways.hpp"
 #include "tests/support/pbrt_text.hpp"
@@ -19,6 +20,7 @@ using testing::IsEmpty;
 using testing::SizeIs;
 
 constexpr float pi = std::numbers::pi_v<float>;
+const std::string dark(4, '\0');  // a pixel of Radiance HDR
 
 void expect_near(Vec3 a, Vec3 b) { EXPECT_LT(length(a - b), 1e-5f) << a.x << ' ' << a.y << ' ' << a.z; }
 
@@ -150,12 +152,22 @@ TEST(PbrtLights, MayShineByAPictureOfDirections) {
     EXPECT_NEAR(power_of(strong), 10, 0.1f);
 }
 
-TEST(PbrtLights, ThatProjectAreApproximated) {
-    const MemoryFiles files{{"p.hdr", picture(2, 2)}};
-    const auto slide = read_world("LightSource \"projection\" \"string filename\" \"p.hdr\" \"float fov\" 60", files);
-    EXPECT_NEAR(std::get<SpotLight>(slide.lights.at(0)).outer, pi / 6, 1e-6f);
-    EXPECT_EQ(std::get<SpotLight>(slide.lights.at(0)).intensity, (Rgb{1, 0.5f, 0.25f}));
-    EXPECT_THAT(warnings_of(slide), HasSubstr("taken as a spot light"));
+// twice as wide as high: the angle is that of its height; its first row lies at -y
+TEST(PbrtLights, MayProjectPictures) {
+    const MemoryFiles files{{"p.hdr", "#?RADIANCE\n\n-Y 2 +X 4\n" + std::string("\x80\0\0\x81", 4) + dark + dark +
+                                          dark + dark + dark + dark + std::string("\0\x80\0\x81", 4)}};
+    const std::string lamp =
+        "Translate 0 0 5 LightSource \"projection\" \"string filename\" \"p.hdr\" \"float fov\" 90 ";
+    const auto scene = read_world(lamp, files);
+    EXPECT_THAT(scene.warnings, IsEmpty());
+    const SlideLight slide(std::get<SpotLight>(scene.lights.at(0)));
+    EXPECT_EQ(slide.position, (Vec3{0, 0, 5}));
+    EXPECT_NEAR(slide.towards(normalize({-1.5f, -0.5f, 1})).r, 1, 1e-4f);
+    EXPECT_NEAR(slide.towards(normalize({1.5f, 0.5f, 1})).g, 1, 1e-4f);
+    EXPECT_TRUE(is_black(slide.towards(normalize({1.5f, -0.5f, 1}))));
+    EXPECT_TRUE(is_black(slide.towards(normalize({0, 1.01f, 1}))));
+    const SlideLight strong(std::get<SpotLight>(read_world(lamp + "\"float power\" 30", files).lights.at(0)));
+    EXPECT_NEAR(luminance(strong.power()), 30, 0.01f);
 }
 
 TEST(PbrtLamps, MayHavePictures) {

@@ -85,7 +85,8 @@ SceneData room() {
     scene.materials = all_materials();
     scene.textures = all_textures();
     scene.environments.push_back({{1, 1, 1}, picture(0.25f), {}, {}});
-    scene.lights = {PointLight{{0, 0, 1}, {1, 1, 1}}, SpotLight{{}, {0, 0, 1}, {1, 1, 1}, 0.1f, 0.2f, {}},
+    scene.lights = {PointLight{{0, 0, 1}, {1, 1, 1}},
+                    SpotLight{{}, {0, 0, 1}, {1, 1, 1}, 0.1f, 0.2f, {}, {}, Slide{picture(0.5f)}},
                     DirectionalLight{{0, 0, -1}, {1, 1, 1}}};
     return scene;
 }

@@ -20,6 +20,7 @@ const std::set<std::string, std::less<>> known_extensions{"KHR_materials_transmi
                                                           "KHR_materials_specular",
                                                           "KHR_materials_unlit",
                                                           "KHR_lights_punctual",
+                                                          "EXT_lights_ies",
                                                           "KHR_texture_transform",
                                                           "KHR_mesh_quantization",
                                                           "EXT_mesh_gpu_instancing",

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/readers/common/mesh_tools.hpp"
+#include "core/readers/gltf/lights.hpp"
 #include "core/readers/gltf/meshes.hpp"
 #include "core/readers/gltf/skins.hpp"
 #include "core/scene/reach.hpp"
@@ -26,11 +27,6 @@ bool invertible(const Matrix& t) {
     return std::fabs(m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
                      m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
                      m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0])) > 1e-30;
-}
-
-Vec3 axis_of(const Matrix& t, Vec3 direction) {
-    const Vec3 d = transform_direction(t, direction);
-    return length(d) > 0 && finite(d) ? normalize(d) : direction;
 }
 
 struct Standing {
@@ -60,6 +56,7 @@ public:
         : document_(document),
           assets_(assets),
           materials_(document, assets, variant),
+          lights_(document, assets),
           nodes_(document.root()["nodes"]) {}
 
     void build() {
@@ -76,8 +73,7 @@ public:
                     names.try_emplace(pose, node["name"].text(""));
                 }
             if (node["camera"]) camera(node["camera"], to_world, node["name"].text(""));
-            if (const At light = node["extensions"]["KHR_lights_punctual"]["light"]; light && visible)
-                this->light(light, to_world, node["name"].text(""));
+            if (visible) lights_.add(node, to_world);
         }
         for (const auto& [pose, where] : places)
             if (!assets_.report().full()) add(pose, where, names[pose]);
@@ -269,37 +265,10 @@ private:
         return true;
     }
 
-    /// It goes by the name of its node, or else by its own.
-    void light(const At& index, const Matrix& to_world, const std::string& node) {
-        const At list = document_.root()["extensions"]["KHR_lights_punctual"]["lights"];
-        const auto which = index.index(list.size());
-        if (!which) return;
-        const At at = list[*which];
-        const auto colour = at["color"].numbers<3>({1, 1, 1});
-        const Rgb strength = Rgb{float(colour[0]), float(colour[1]), float(colour[2])} * at["intensity"].real(1);
-        if (at["range"]) at.warn("ranges of lights are left out: their light goes on beyond");
-        const Vec3 position = transform_point(to_world, {0, 0, 0}), ahead = axis_of(to_world, {0, 0, -1});
-        if (!in_reach(position)) return index.error("stands out of reach");
-        const std::string type = at["type"].text("");
-        auto& lights = assets_.scene().lights;
-        const LampLabel label{node.empty() ? at["name"].text("") : node};
-        if (type == "point") {
-            lights.push_back(PointLight{position, strength, label});
-        } else if (type == "directional") {
-            lights.push_back(DirectionalLight{ahead, strength, label});
-        } else if (type == "spot") {
-            const float outer = std::clamp(at["spot"]["outerConeAngle"].real(0.785398f), 1e-4f, 1.570796f);
-            const float inner = std::clamp(at["spot"]["innerConeAngle"].real(0), 0.0f, outer);
-            lights.push_back(
-                SpotLight{position, ahead, strength, inner, outer, SpotLight::Falloff::squared_linear, label});
-        } else {
-            at["type"].error("must be point, spot or directional");
-        }
-    }
-
     Document& document_;
     Assets& assets_;
     Materials materials_;
+    Lights lights_;
     At nodes_;
     std::optional<WorldOfNodes> world_of_nodes_;  // once a skin asks
     std::uint64_t baked_ = 0;                     // triangles

@@ -43,6 +43,7 @@ constexpr std::array harmless =
                                      "cameras.orthographic.znear",
                                      "cameras.perspective.zfar",
                                      "cameras.perspective.znear",
+                                     "extensions.EXT_lights_ies",
                                      "extensions.KHR_lights_punctual",
                                      "images.mimeType",
                                      "materials.alphaCutoff",

@@ -4,14 +4,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <memory>
 #include <numbers>
+#include <vector>
 
 #include "core/base/suggestion.hpp"
 #include "core/readers/daylight/daylight.hpp"
 #include "core/readers/daylight/sun_position.hpp"
 #include "core/readers/mitsuba/colours.hpp"
+#include "core/readers/mitsuba/sensors.hpp"
 #include "core/readers/mitsuba/transforms.hpp"
 #include "core/scene/reach.hpp"
+#include "core/scene/textures/look_up.hpp"
 
 namespace lightnet::mitsuba {
 namespace {
@@ -49,13 +54,35 @@ void point(Properties& properties, Textures&, SceneData& scene) {
         PointLight{properties.point("position", origin), light_of(properties, "intensity", 1).rgb, label(properties)});
 }
 
-/// What a texture in front of a light leaves of it, on average.
-Rgb mean_of_texture(Properties& properties, Textures& textures, const char* name) {
-    const Node* given = properties.find(name);
-    if (!given) return {1, 1, 1};
-    properties.context().warn(
-        *given, fmt::format("the texture of {} is taken as its mean: no picture is thrown", properties.owner()));
-    return mean_colour(properties.context().assets.scene(), textures.of_light(*given));
+/// A texture as a picture, upright as Mitsuba has it: pixel by pixel where it is one, else of 512 by 512; at most of
+/// 4096 by 4096.
+std::shared_ptr<const Image> picture_of(const SceneData& scene, TextureId texture) {
+    constexpr std::uint32_t most = 4096;
+    std::uint32_t wide = 512, high = 512;
+    if (is_constant(scene.textures[texture])) wide = high = 1;
+    if (const auto* picture = std::get_if<ImageTexture>(&scene.textures[texture].pattern);
+        picture && picture->image && !picture->image->empty())
+        wide = std::min(most, picture->image->width), high = std::min(most, picture->image->height);
+    std::vector<Rgb> pixels;
+    pixels.reserve(std::size_t{wide} * high);
+    for (std::uint32_t y = 0; y < high; ++y)
+        for (std::uint32_t x = 0; x < wide; ++x)
+            pixels.push_back(look_up(scene.textures, texture,
+                                     {{(float(x) + 0.5f) / float(wide), 1 - (float(y) + 0.5f) / float(high)}}));
+    return std::make_shared<const Image>(wide, high, pixels);
+}
+
+/// As wide as the cone, in front of the light.
+void add_slide(SpotLight& light, const Node& given, Textures& textures, const Matrix& to_world) {
+    const auto& context = textures.context();
+    const TextureId texture = textures.of_light(given);
+    if (light.outer >= 89.5f * to_radians) {
+        context.warn(given, "a spot of 90 degrees or more throws no picture: the mean of its texture is taken");
+        light.intensity *= mean_colour(context.assets.scene(), texture);
+        return;
+    }
+    const float tangent = std::tan(light.outer);
+    light.slide = Slide{picture_of(context.assets.scene(), texture), rotation_of(to_world), tangent, tangent, false};
 }
 
 void spot(Properties& properties, Textures& textures, SceneData& scene) {
@@ -69,7 +96,30 @@ void spot(Properties& properties, Textures& textures, SceneData& scene) {
     light.outer = cutoff * to_radians, light.inner = beam * to_radians;
     light.falloff = SpotLight::Falloff::linear;
     light.label = label(properties);
-    light.intensity *= mean_of_texture(properties, textures, "texture");
+    if (const Node* given = properties.find("texture")) add_slide(light, *given, textures, to_world);
+    scene.lights.push_back(light);
+}
+
+/// Its picture is the irradiance of a plane at distance 1, over π.
+void projector(Properties& properties, Textures& textures, SceneData& scene) {
+    const auto& context = properties.context();
+    const Matrix to_world = transform_of(properties);
+    const Node* given = properties.find("irradiance");
+    const float strength = std::numbers::pi_v<float> * std::max(0.0f, properties.number("scale", 1));
+    if (!given) return context.error(properties.node(), "a projector needs an 'irradiance'");
+    SpotLight light;
+    light.position = transform_point(to_world, {0, 0, 0});
+    light.axis = unit(transform_direction(to_world, {0, 0, 1}), {0, 0, 1});
+    light.intensity = {strength, strength, strength};
+    light.label = label(properties);
+    Slide slide{picture_of(scene, textures.of_light(*given)), rotation_of(to_world)};
+    for (std::size_t i = 0; i < 3; ++i)  // as a camera's picture, whose right is -x and whose top +y
+        slide.to_world.m[i][0] *= -1, slide.to_world.m[i][1] *= -1;
+    const Extent extent = extent_of(properties, slide.image->width, slide.image->height);
+    slide.half_width = float(extent.x), slide.half_height = float(extent.y);
+    slide.even_on_planes = true;
+    light.outer = light.inner = std::atan(std::hypot(slide.half_width, slide.half_height)) + 1e-3f;
+    light.slide = slide;
     scene.lights.push_back(light);
 }
 
@@ -192,14 +242,12 @@ void sun_and_sky(Properties& properties, Textures&, SceneData& scene) {
 void add_emitter(const Node& node, Textures& textures) {
     const auto& context = textures.context();
     using Adder = void (*)(Properties&, Textures&, SceneData&);
-    static const std::map<std::string, Adder, std::less<>> adders{{"point", point},
-                                                                  {"spot", spot},
-                                                                  {"directional", directional},
-                                                                  {"constant", constant},
-                                                                  {"envmap", environment_map},
-                                                                  {"sunsky", sun_and_sky},
-                                                                  {"sky", sun_and_sky},
-                                                                  {"sun", sun_and_sky}};
+    static const std::map<std::string, Adder, std::less<>> adders{
+        {"point", point},         {"spot", spot},
+        {"projector", projector}, {"directional", directional},
+        {"constant", constant},   {"envmap", environment_map},
+        {"sunsky", sun_and_sky},  {"sky", sun_and_sky},
+        {"sun", sun_and_sky}};
     Properties properties(node, context);
     if (context.document.lent.contains(node.id) && !adders.contains(node.type)) {
         properties.ignore_all();  // the shapes that it is lent to say what there is to say

@@ -38,11 +38,6 @@ FilmData film_of(Properties& sensor) {
     return film;
 }
 
-/// Half the picture's width and height at distance 1.
-struct Extent {
-    double x = 1, y = 1;
-};
-
 std::string lower_case(std::string text) {
     for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     return text;
@@ -67,6 +62,8 @@ double tangent_of_fov(Properties& properties) {
     return std::tan(std::clamp(fov, 0.01, 179.9) * one_degree / 2);
 }
 
+}  // namespace
+
 Extent extent_of(Properties& properties, double w, double h) {
     const bool by_angle = properties.has("fov") && !properties.has("focal_length");
     const double tangent = by_angle ? tangent_of_fov(properties) : tangent_of_lens(properties);
@@ -78,6 +75,8 @@ Extent extent_of(Properties& properties, double w, double h) {
         properties.context().error(properties.node(), fmt::format("unknown fov_axis '{}'", axis.substr(0, 32)));
     return {tangent * w / h, tangent};
 }
+
+namespace {
 
 /// Takes the scale out of a transform and hands it back, per axis.
 Vec3 take_scale(Matrix& t) {

@@ -6,6 +6,13 @@
 
 namespace lightnet::mitsuba {
 
+/// Half a picture's width and height at distance 1.
+struct Extent {
+    double x = 1, y = 1;
+};
+/// Of what is seen, or thrown, by a lens on a picture of w by h: 'fov' with its axis, or 'focal_length'.
+Extent extent_of(Properties& properties, double w, double h);
+
 /// Between these planes across its axis a sensor of Mitsuba sees things; metres.
 struct SensorDepth {
     float nearest = 0, farthest = 0;

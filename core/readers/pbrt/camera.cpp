@@ -129,6 +129,36 @@ Shot make_camera(const std::string& type, Parameters& parameters, const Matrix& 
     return shot;
 }
 
+namespace {
+
+/// Those that pbrt-v4 has measured.
+const std::vector<std::string>& sensors() {
+    static const std::vector<std::string> known{
+        "cie1931",       "canon_eos_100d",     "canon_eos_1dx_mkii", "canon_eos_200d",    "canon_eos_200d_mkii",
+        "canon_eos_5d",  "canon_eos_5d_mkii",  "canon_eos_5d_mkiii", "canon_eos_5d_mkiv", "canon_eos_5ds",
+        "canon_eos_m",   "hasselblad_l1d_20c", "nikon_d810",         "nikon_d850",        "sony_ilce_6400",
+        "sony_ilce_7m3", "sony_ilce_7rm3",     "sony_ilce_9"};
+    return known;
+}
+
+/// Of the light that a sensor shows as white; 0: D65, as it comes. pbrt fits what a camera's sensor sees to what the
+/// eye does, by 24 patches under that light, white ones exactly: what is left between both is saturated colours.
+float kelvin_of_white(Parameters& parameters) {
+    const std::string sensor = parameters.text("sensor", "cie1931");
+    const float kelvin = parameters.number("whitebalance", 0);
+    if (sensor == "cie1931") return kelvin;
+    if (std::ranges::find(sensors(), sensor) == sensors().end())
+        parameters.error(fmt::format("unknown sensor '{}'{}", sensor, did_you_mean(sensor, sensors())));
+    else
+        parameters.warn(
+            fmt::format("the colours of sensor '{}' are taken as those of the eye: whites and brightness "
+                        "agree, saturated colours may be others",
+                        sensor));
+    return kelvin > 0 ? kelvin : 6500;
+}
+
+}  // namespace
+
 FilmShot make_film(const std::string& type, Parameters& parameters, Version version) {
     const bool older = version == Version::v3;
     const std::vector<std::string> known = film_types(version);
@@ -146,16 +176,14 @@ FilmShot make_film(const std::string& type, Parameters& parameters, Version vers
         film.width = static_cast<std::uint32_t>(width), film.height = static_cast<std::uint32_t>(height);
     film.scale = older ? parameters.number("scale", 1) : parameters.number("iso", 100) / 100;
     if (!(film.scale > 0)) parameters.error(older ? "'scale' must be above 0" : "'iso' must be above 0");
-    if (const std::string sensor = older ? "cie1931" : parameters.text("sensor", "cie1931"); sensor != "cie1931")
-        parameters.warn(fmt::format("the colours of sensor '{}' are left out: taken as 'cie1931'", sensor));
-    if (const float kelvin = older ? 0 : parameters.number("whitebalance", 0); kelvin > 0)
+    if (const float kelvin = older ? 0 : kelvin_of_white(parameters); kelvin > 0)
         shot.white = daylight_colour(kelvin).rgb;
     if (const Parameter* crop = parameters.find("cropwindow", Type::number)) {
         film.crop = window(*crop, parameters, film.crop);
         for (float& side : film.crop) side = std::clamp(side, 0.0f, 1.0f);
     }
     pixel_bounds(film, parameters);
-    if (!(shot.white == Rgb{1, 1, 1}))
+    if (!(shot.white == Rgb{1, 1, 1}) && parameters.find("whitebalance"))
         parameters.warn("the white balance is done for each channel, not for the cones of the eye, as pbrt does it");
     for (const char* most : {"maxcomponentvalue", "maxsampleluminance"})
         if (parameters.find(most))

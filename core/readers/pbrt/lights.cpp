@@ -9,9 +9,12 @@
 #include <vector>
 
 #include "core/base/suggestion.hpp"
+#include "core/readers/common/light_profile.hpp"
 #include "core/readers/pbrt/older_light.hpp"
 #include "core/readers/pbrt/pictured_lights.hpp"
 #include "core/readers/pbrt/transforms.hpp"
+#include "core/scene/lamps/environment.hpp"
+#include "core/scene/lamps/slide_light.hpp"
 
 namespace lightnet::pbrt {
 namespace {
@@ -207,10 +210,29 @@ std::shared_ptr<const Image> in_grey(const Image& image) {
     return std::make_shared<const Image>(image.width, image.height, pixels);
 }
 
+bool names_a_profile(const std::string& file) {
+    return file.size() > 4 && same_but_for_case(std::string_view(file).substr(file.size() - 4), ".ies");
+}
+
+/// That of a luminaire's maker, which pbrt does not read.
+std::optional<EnvironmentData> light_profile(const Making& making, const std::string& file) {
+    const auto bytes = making.sources.read(file, making.parameters.where());
+    if (!bytes) return std::nullopt;
+    try {
+        const auto profile = read_light_profile({reinterpret_cast<const char*>((*bytes)->data()), (*bytes)->size()});
+        if (profile.tilted) making.parameters.warn("how the lamp's light changes as it is tilted is left out");
+        return pattern_of(profile, turn_of(making));
+    } catch (const Error& problem) {
+        making.parameters.error(fmt::format("'{}': {}", file, problem.what()));
+        return std::nullopt;
+    }
+}
+
 /// The picture by which a goniometric light shines: of pbrt-v4 a square of equal areas whose middle is y; of pbrt-v3 by
 /// latitude and longitude, in colour. None: reported, or there is none.
 std::optional<EnvironmentData> goniogram(const Making& making) {
     const std::string file = picture_file(making.parameters, "", making.sources);
+    if (names_a_profile(file)) return light_profile(making, file);
     const auto image = file.empty() ? nullptr : making.textures.pictures().get(file, {}, making.parameters.where());
     making.textures.pictures().finish();
     if (!image || image->empty()) return std::nullopt;
@@ -230,11 +252,17 @@ std::optional<EnvironmentData> goniogram(const Making& making) {
     return pattern;
 }
 
+/// Its mean over all directions.
+float mean_over_directions(const EnvironmentData& pattern) {
+    if (pattern.layout == EnvironmentData::Layout::equal_area) return mean_luminance(*pattern.image);
+    return luminance(Environment(pattern).total()) / (4 * float_pi);
+}
+
 void goniometric_light(const Making& making) {
     auto colour = strength(making.parameters, making.sources, "I");
     PointLight light{transform_point(making.to_world, {}), {}, making.label, goniogram(making)};
     if (const auto power = power_of(making); power && colour) {
-        const float mean = light.pattern ? mean_luminance(*light.pattern->image) : 1;
+        const float mean = light.pattern ? mean_over_directions(*light.pattern) : 1;
         *colour *= mean > 0 ? *power / (4 * float_pi * mean) : 0;
     }
     if (!colour) return;
@@ -253,16 +281,22 @@ void projection_light(const Making& making) {
     const auto image = file.empty() ? nullptr : making.textures.pictures().get(file, {}, parameters.where());
     making.textures.pictures().finish();
     const auto axis = axis_of(making, {}, {0, 0, 1});
-    if (!image || !colour || !axis) return;
-    parameters.warn("a projection light is taken as a spot light with the mean colour of its image");
+    if (!image || image->empty() || !colour || !axis || !(fov > 0 && fov < 180)) return;
     SpotLight light;
     light.position = transform_point(making.to_world, {});
     light.label = making.label;
     light.axis = *axis;
-    light.outer = light.inner = fov / 2 * float_pi / 180;
-    light.intensity = *colour * mean_colour(*image);
-    if (const auto power = power_of(making); power && luminance(light.intensity) > 0)
-        light.intensity *= *power / (2 * float_pi * (1 - std::cos(light.outer)) * luminance(light.intensity));
+    light.intensity = *colour;
+    Slide slide{image, turn_of(making)};
+    // the angle is that of the shorter side; pbrt's picture has its first row at -y
+    const float tangent = std::tan(fov / 2 * float_pi / 180), shape = float(image->width) / float(image->height);
+    slide.half_width = tangent * std::max(1.0f, shape), slide.half_height = tangent * std::max(1.0f, 1 / shape);
+    light.outer = light.inner = std::atan(std::hypot(slide.half_width, slide.half_height)) + 1e-3f;
+    light.slide = slide;
+    if (const auto power = power_of(making)) {
+        const float now = luminance(SlideLight(light).power());
+        light.intensity *= now > 0 ? *power * luminance(light.intensity) / now : 0;
+    }
     making.scene.lights.push_back(light);
 }
 

@@ -21,6 +21,7 @@ std::set<const Image*> images_of(const SceneData& scene) {
     };
     for (const auto& texture : scene.textures) visit_each<Shared>(texture, add);
     for (const auto& environment : scene.environments) visit_each<Shared>(environment, add);
+    for (const auto& light : scene.lights) visit_each<Shared>(light, add);
     return images;
 }
 

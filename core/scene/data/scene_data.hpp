@@ -198,6 +198,18 @@ void visit_members(Is<PointLight> auto& light, const auto& visit) {
     visit(position, intensity, pattern);
 }
 
+/// A picture that light passes. At distance 1 along z it is 2 half_width wide and 2 half_height high, dark beyond.
+struct Slide {
+    std::shared_ptr<const Image> image{};
+    Matrix to_world{};  // a rotation, perhaps mirrored: x to the picture's right, y down in it, z ahead
+    float half_width = 1, half_height = 1;
+    bool even_on_planes = false;  // the intensity is divided by cos³, so that white lights planes across z evenly
+};
+void visit_members(Is<Slide> auto& slide, const auto& visit) {
+    auto& [image, to_world, half_width, half_height, even_on_planes] = slide;
+    visit(image, to_world, half_width, half_height, even_on_planes);
+}
+
 /// Full intensity within `inner` of its axis, none beyond `outer` (radians), between them as `falloff` says.
 struct SpotLight {
     Vec3 position, axis{0, 0, 1};  // axis: unit
@@ -210,10 +222,11 @@ struct SpotLight {
         fourth_power
     } falloff = Falloff::smoothstep;
     LampLabel label{};
+    std::optional<Slide> slide{};  // times this; z is the axis
 };
 void visit_members(Is<SpotLight> auto& light, const auto& visit) {
-    auto& [position, axis, intensity, inner, outer, falloff, label] = light;
-    visit(position, axis, intensity, inner, outer, falloff);
+    auto& [position, axis, intensity, inner, outer, falloff, label, slide] = light;
+    visit(position, axis, intensity, inner, outer, falloff, slide);
 }
 
 /// From infinity. With an angle it is a disk in the sky, a sun, which rays can meet.

@@ -27,6 +27,11 @@ NearLight near_light_of(const PointLight& light) {
     return PatternedLight{light.position, Environment(pattern), light.label};
 }
 
+NearLight near_light_of(const SpotLight& light) {
+    if (light.slide) return SlideLight(light);
+    return light;
+}
+
 float spot_falloff(const SpotLight& light, float cosine) {
     const float inner = std::cos(light.inner), outer = outer_cosine(light);
     if (cosine >= inner) return 1;
@@ -60,6 +65,18 @@ std::optional<LightSample> light_from(const PatternedLight& light, Vec3 from) {
     if (!(length_squared(way) > 0)) return {};
     return from_point(light.position, light.pattern.radiance(normalize(way)), from);
 }
+
+std::optional<LightSample> light_from(const SlideLight& light, Vec3 from) {
+    const Vec3 way = from - light.position;
+    if (!(length_squared(way) > 0)) return {};
+    return from_point(light.position, light.towards(normalize(way)), from);
+}
+
+LightBounds bounds_of(const SlideLight& light) { return light.bounds(); }
+
+Rgb power_of(const SlideLight& light) { return light.power(); }
+
+Emission emission_of(const SlideLight& light, Vec2 u) { return light.emission(u); }
 
 // By the mean of its intensity: what it sends into the brightest direction may be a thousand times that.
 LightBounds bounds_of(const PatternedLight& light) {

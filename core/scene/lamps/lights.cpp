@@ -32,7 +32,7 @@ Lights::Lights(const SceneData& data, const Shading& shading, const Ball& around
     for (const auto& light : data.lights) {
         if (!std::visit([&](const auto& one) { return is_wanted(one.label.group); }, light)) continue;
         if (const auto* directional = std::get_if<DirectionalLight>(&light)) far_.add(*directional, groups_ > 1);
-        if (const auto* spot = std::get_if<SpotLight>(&light)) near_.emplace_back(*spot);
+        if (const auto* spot = std::get_if<SpotLight>(&light)) near_.push_back(near_light_of(*spot));
         if (const auto* point = std::get_if<PointLight>(&light)) near_.push_back(near_light_of(*point));
     }
     std::vector<double> light_of_maps;

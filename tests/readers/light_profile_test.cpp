@@ -1,0 +1,193 @@
+// Profiles of luminaires (.ies), by hand.
+#include "core/readers/common/light_profile.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/base/math/sampling.hpp"
+#include "core/scene/lamps/environment.hpp"
+#include "tests/support/light_profile_text.hpp"
+#include "tests/support/scene_text.hpp"
+
+namespace lightnet::test::light_profile_test {
+namespace {
+
+using testing::HasSubstr;
+
+/// `up` degrees from straight down, turned by `around` degrees from +x.
+Vec3 direction(float up, float around) {
+    const float a = up * pi / 180, b = around * pi / 180;
+    return {std::sin(a) * std::cos(b), std::sin(a) * std::sin(b), -std::cos(a)};
+}
+
+float candela(const std::string& text, float up, float around) {
+    return read_light_profile(text).towards(direction(up, around));
+}
+
+TEST(LightProfiles, AreLinearBetweenTheirAngles) {
+    const auto text = light_profile("3 1", "0 45 90\n0\n100 60, 20");
+    for (const float around : {0.0f, 77.0f, 200.0f}) {
+        EXPECT_NEAR(candela(text, 0, around), 100, 1e-3f);
+        EXPECT_NEAR(candela(text, 22.5f, around), 80, 1e-2f);
+        EXPECT_NEAR(candela(text, 67.5f, around), 40, 1e-2f);
+        EXPECT_EQ(candela(text, 91, around), 0);
+    }
+}
+
+TEST(LightProfiles, MayShineUpwardsOnly) {
+    const auto text = light_profile("2 1", "90 180\n0\n10 30");
+    EXPECT_EQ(candela(text, 45, 0), 0);
+    EXPECT_NEAR(candela(text, 135, 0), 20, 1e-2f);
+}
+
+// plane by plane, at 45 degrees up: 10, 20, 30 …
+TEST(LightProfiles, OfAQuarterAreMirroredTwice) {
+    const auto text = light_profile("2 3", "0 90\n0 45 90\n10 10\n20 20\n30 30");
+    for (const float around : {45.0f, 135.0f, 225.0f, 315.0f}) EXPECT_NEAR(candela(text, 45, around), 20, 1e-2f);
+    for (const float around : {90.0f, 270.0f}) EXPECT_NEAR(candela(text, 45, around), 30, 1e-2f);
+    EXPECT_NEAR(candela(text, 45, 180), 10, 1e-2f);
+}
+
+TEST(LightProfiles, OfAHalfAreMirroredOnce) {
+    const auto text = light_profile("2 3", "0 90\n0 90 180\n10 10\n20 20\n30 30");
+    EXPECT_NEAR(candela(text, 45, 180), 30, 1e-2f);
+    EXPECT_NEAR(candela(text, 45, 270), 20, 1e-2f);
+    EXPECT_NEAR(candela(text, 45, 315), 15, 1e-2f);
+}
+
+// of 1995: alike on both sides of the plane through 90 and 270 degrees
+TEST(LightProfiles, OfTheOtherHalfAreMirroredToo) {
+    const auto text = light_profile("2 3", "0 90\n90 180 270\n10 10\n20 20\n30 30");
+    EXPECT_NEAR(candela(text, 45, 0), 20, 1e-2f);
+    EXPECT_NEAR(candela(text, 45, 45), 15, 1e-2f);
+    EXPECT_NEAR(candela(text, 45, 315), 25, 1e-2f);
+}
+
+TEST(LightProfiles, OfTheWholeAreNotMirrored) {
+    const auto text = light_profile("2 5", "0 90\n0 90 180 270 360\n10 10\n20 20\n30 30\n40 40\n10 10");
+    EXPECT_NEAR(candela(text, 45, 45), 15, 1e-2f);
+    EXPECT_NEAR(candela(text, 45, 270), 40, 1e-2f);
+    EXPECT_NEAR(candela(text, 45, 315), 25, 1e-2f);
+    const auto open = light_profile("2 4", "0 90\n0 90 180 270.5\n10 10\n20 20\n30 30\n40 40");
+    EXPECT_NEAR(candela(open, 45, 315.25f), 25, 1e-2f);
+}
+
+// a floodlight: vertical angles around x, horizontal ones along it, both from -z
+TEST(LightProfiles, OfTypeBTurnAroundTheHorizontal) {
+    const auto text = light_profile("3 3", "-90 0 90\n-60 0 60\n1 2 3\n4 5 6\n7 8 9", 2);
+    const auto profile = read_light_profile(text);
+    const float s = std::sqrt(0.5f), sixty = std::sqrt(0.75f);
+    EXPECT_NEAR(profile.towards({0, 0, -1}), 5, 1e-3f);
+    EXPECT_NEAR(profile.towards({0, s, -s}), 5.5f, 1e-3f);
+    EXPECT_NEAR(profile.towards({0.5f, 0, -sixty}), 6.5f, 1e-3f);
+    EXPECT_NEAR(profile.towards({-0.5f, 0, -sixty}), 3.5f, 1e-3f);
+    EXPECT_NEAR(profile.towards({0.5f, -sixty, 0}), 5.5f, 1e-3f);
+    EXPECT_EQ(profile.towards({1, 0, 0}), 0);
+    EXPECT_EQ(profile.towards({0, s, s}), 0);
+}
+
+TEST(LightProfiles, OfTypeATurnAroundTheVertical) {
+    const auto profile = read_light_profile(light_profile("3 2", "-30 0 30\n0 90\n1 2 3\n4 5 6", 3));
+    const float s = std::sqrt(0.5f);
+    EXPECT_NEAR(profile.towards({0, 0, -1}), 2, 1e-3f);
+    EXPECT_NEAR(profile.towards({s, 0, -s}), 3.5f, 1e-3f);
+    EXPECT_NEAR(profile.towards({-s, 0, -s}), 3.5f, 1e-3f);  // mirrored
+    EXPECT_NEAR(profile.towards(normalize({0, std::tan(15 * pi / 180), -1})), 2.5f, 1e-3f);
+    EXPECT_EQ(profile.towards({0, s, -s}), 0);
+}
+
+TEST(LightProfiles, AreMultipliedByTheirFactors) {
+    EXPECT_NEAR(candela(light_profile("2 1", "0 90 0 10 10", 1, "0.5 0.8 60"), 45, 0), 4, 1e-3f);
+    EXPECT_NEAR(candela("TILT=NONE\n1 -1 2.5 2 1 1 1 0 0 0 1 1 0 0 90 0 10 10", 45, 0), 25, 1e-3f);
+}
+
+// of 1986, without a first line that says so
+TEST(LightProfiles, MayHaveFactorsOfTilt) {
+    const auto profile = read_light_profile(
+        "A LAMP OF OLD\nTILT=INCLUDE\n1\n3\n0 45 90\n1 .9 .8\n1 100 1 2 1 1 1 0 0 0\n1 1 9\n0 90\n0\n7 7\n");
+    EXPECT_TRUE(profile.tilted);
+    EXPECT_NEAR(profile.towards({0, 0, -1}), 7, 1e-4f);
+    EXPECT_FALSE(read_light_profile(light_profile("2 1", "0 90 0 1 1")).tilted);
+}
+
+TEST(LightProfiles, SayWhatIsWrong) {
+    const auto problem = [](const std::string& text) -> std::string {
+        try {
+            (void)read_light_profile(text);
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_THAT(problem(""), HasSubstr("there is no line that begins with 'TILT='"));
+    EXPECT_THAT(problem("IESNA91\nTILT=NONE\n"), HasSubstr("it ends before the number of lamps"));
+    EXPECT_THAT(problem(light_profile("2 1", "0 90 0 1")), HasSubstr("it ends before the last candela"));
+    EXPECT_THAT(problem(light_profile("2 1", "0 90 0 1 x")), HasSubstr("the last candela is not a number"));
+    EXPECT_THAT(problem(light_profile("2 1", "90 0 0 1 1")), HasSubstr("a vertical angle does not ascend"));
+    EXPECT_THAT(problem(light_profile("2 1", "0 720 0 1 1")), HasSubstr("a vertical angle is 720"));
+    EXPECT_THAT(problem(light_profile("-2 1", "0 90 0 1 1")), HasSubstr("the number of vertical angles is -2"));
+    EXPECT_THAT(problem(light_profile("60000 60000", "0 90 0 1 1")), HasSubstr("it ends before the number of vert"));
+    EXPECT_THAT(problem(light_profile("2 1", "0 90 0 1 1", 4)), HasSubstr("there is no type of photometry 4"));
+    EXPECT_THAT(problem(light_profile("2 1", "0 90 0 1 nan")), HasSubstr("not a number"));
+}
+
+// of a surface that shines evenly, I cos: π I in all
+TEST(LightProfilePatterns, HaveTheFluxOfTheirLamp) {
+    std::string angles, candelas;
+    for (int up = 0; up <= 90; up += 5) {
+        angles += std::to_string(up) + " ";
+        candelas += std::to_string(200 * std::cos(up * std::numbers::pi / 180)) + " ";
+    }
+    const Environment pattern(
+        pattern_of(read_light_profile(light_profile("19 1", angles + " 0 " + candelas)), Matrix{}));
+    EXPECT_NEAR(pattern.total().g, 200 * pi, 0.002f * 200 * pi);
+    EXPECT_NEAR(pattern.radiance({0, 0, -1}).g, 200, 0.1f);
+}
+
+TEST(LightProfilePatterns, LieAsTheLuminaireDoes) {
+    const auto profile =
+        read_light_profile(light_profile("2 5", "0 90\n0 90 180 270 360\n10 10 20 20 30 30 40 40 10 10"));
+    const Environment pattern(pattern_of(profile, Matrix{}));
+    for (const float up : {20.0f, 50.0f, 80.0f})
+        for (const float around : {10.0f, 100.0f, 190.0f, 300.0f}) {
+            const Vec3 d = direction(up, around);
+            EXPECT_NEAR(pattern.radiance(d).r, profile.towards(d), 0.1f) << up << " " << around;
+        }
+}
+
+const std::string down = light_profile("2 1", "0 90 0 8 8");
+
+TEST(PbrtProfiles, AreWhatGoniometricLightsMayName) {
+    const auto scene = read_as("scene.pbrt",
+                               "WorldBegin\nTranslate 0 0 3\nLightSource \"goniometric\" \"string filename\" \"a.IES\" "
+                               "\"rgb I\" [ 1 1 1 ] \"float scale\" 2\n",
+                               {{"a.IES", down}});
+    const auto& light = std::get<PointLight>(scene.lights.at(0));
+    EXPECT_EQ(light.position, (Vec3{0, 0, 3}));
+    ASSERT_TRUE(light.pattern);
+    const Environment pattern(*light.pattern);
+    EXPECT_NEAR(pattern.radiance(direction(45, 30)).g * light.intensity.g, 16, 1e-2f);
+    EXPECT_EQ(pattern.radiance({0, 0, 1}).g, 0);
+}
+
+TEST(PbrtProfiles, HaveThePowerThatIsAsked) {
+    const auto scene = read_as(
+        "scene.pbrt", "WorldBegin LightSource \"goniometric\" \"string filename\" \"a.ies\" \"float power\" 100\n",
+        {{"a.ies", down}});
+    const auto& light = std::get<PointLight>(scene.lights.at(0));
+    EXPECT_NEAR(luminance(Environment(light.pattern.value()).total() * light.intensity), 100, 0.5f);
+}
+
+TEST(PbrtProfiles, ThatCantBeReadAreErrors) {
+    EXPECT_THAT(
+        errors_as("scene.pbrt", "WorldBegin\nLightSource \"goniometric\" \"string filename\" \"a.ies\"\n",
+                  {{"a.ies", "TILT=NONE"}}),
+        HasSubstr(
+            "scene.pbrt:2: LightSource 'goniometric': 'a.ies': light profile: it ends before the number of lamps"));
+}
+
+}  // namespace
+}  // namespace lightnet::test::light_profile_test
