@@ -25,7 +25,7 @@ find_package(pugixml REQUIRED)                             # scenes in XML (core
 find_package(Boost 1.74 REQUIRED COMPONENTS context)       # fibers (core/fiber); Beast: HTTP (tools/watch)
 find_package(Eigen3 3.4 REQUIRED CONFIG)                # least squares (core/film)
 find_package(fmt REQUIRED)                                 # text: g++ 12 has no std::format
-find_package(nlohmann_json REQUIRED)                       # canonical text of graphs and plans, reports of runs
+find_package(nlohmann_json REQUIRED)                       # how texts and numbers are written and read in JSON (core/base)
 find_package(CLI11 REQUIRED)                               # command lines (tools)
 find_package(cppzmq REQUIRED)                              # sockets (transport)
 pkg_check_modules(crypto REQUIRED IMPORTED_TARGET libcrypto)   # SHA-256 content hashes (core)

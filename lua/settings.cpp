@@ -1,11 +1,12 @@
 #include "lua/settings.hpp"
 
 #include <lua_any.hpp>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <tuple>
 
+#include "core/base/json.hpp"
+#include "core/base/json_tree.hpp"
 #include "core/network/graph/json.hpp"
 #include "core/network/graph/value.hpp"
 #include "lua/child.hpp"
@@ -100,9 +101,9 @@ std::string evaluate_settings(const std::string& file) {
     } catch (const std::exception& error) {
         taken.problems = {{{file, 0}, error.what()}};
     }
-    auto lines = nlohmann::json::array();
+    auto lines = JsonTree::list();
     for (const auto& line : taken.lines) lines.push_back({line.verb, line.name, line.value, line.where.line});
-    return to_json(taken.problems) + "\n" + lines.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    return to_json(taken.problems) + "\n" + to_text(lines);
 }
 
 }  // namespace
@@ -118,8 +119,11 @@ std::vector<SettingLine> load_settings(const std::string& file) {
     if (auto problems = problems_from_json(std::string_view(text).substr(0, end)); !problems.empty())
         throw UserError(std::move(problems));
     std::vector<SettingLine> lines;
-    for (const auto& line : nlohmann::json::parse(text.substr(end + 1)))
-        lines.push_back({line[0], line[1], line[2], {file, line[3].get<int>()}});
+    const Json read = parse_json(std::string_view(text).substr(end + 1));
+    for (const auto& line : read.list()) {
+        const auto& part = line.list(4);
+        lines.push_back({part[0].text(), part[1].text(), part[2].text(), {file, static_cast<int>(part[3].number())}});
+    }
     std::sort(lines.begin(), lines.end(),
               [](const auto& a, const auto& b) { return std::tie(a.verb, a.name) < std::tie(b.verb, b.name); });
     return lines;

@@ -5,12 +5,10 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "core/base/error.hpp"
-
 namespace lightnet {
 namespace {
 
-[[noreturn]] void malformed(const std::string& what) { throw Error("malformed JSON", what); }
+[[noreturn]] void malformed(const std::string& what) { throw JsonError(what); }
 
 template <class T>
 const T& as(const Json& json, const char* wanted) {

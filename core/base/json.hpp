@@ -11,7 +11,15 @@
 #include <variant>
 #include <vector>
 
+#include "core/base/error.hpp"
+
 namespace lightnet {
+
+/// A text is no JSON, goes beyond its limits, or says something else than what is asked for.
+class JsonError : public Error {
+public:
+    explicit JsonError(const std::string& what) : Error("malformed JSON", what) {}
+};
 
 /// How much a text may hold. What is beyond is refused before it takes time or memory.
 struct JsonLimits {
@@ -20,7 +28,7 @@ struct JsonLimits {
     std::size_t depth = 32;          // of lists and objects in each other
 };
 
-/// A value. What asks for one type throws Error when it is another.
+/// A value. What asks for one type throws JsonError when it is another.
 struct Json {
     using List = std::vector<Json>;
     using Object = std::map<std::string, Json, std::less<>>;
@@ -50,7 +58,7 @@ private:
     std::uint64_t whole_up_to(std::uint64_t most) const;
 };
 
-/// Throws Error when the text is no JSON or goes beyond the limits.
+/// Throws JsonError when the text is no JSON or goes beyond the limits.
 Json parse_json(std::string_view text, const JsonLimits& limits = {});
 
 }  // namespace lightnet

@@ -3,13 +3,14 @@
 #include <cerrno>
 #include <cstring>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <span>
 #include <type_traits>
 
 #include "core/base/atomic_file.hpp"
 #include "core/base/error.hpp"
 #include "core/base/hash.hpp"
+#include "core/base/json.hpp"
+#include "core/base/json_tree.hpp"
 #include "core/base/plain_file.hpp"
 #include "core/base/printable.hpp"
 
@@ -21,7 +22,8 @@ constexpr std::uint64_t largest_checkpoint = std::uint64_t{64} << 30;
 // magic, size of the text, text (JSON), sums, blocks that wait, hash of all before it. Little-endian, as in memory.
 constexpr std::string_view magic = "lightnet checkpoint 4\n";
 
-using Json = nlohmann::json;
+// The hash of all has been checked before it is read.
+constexpr JsonLimits as_large_as_the_film{.bytes = std::size_t{1} << 30, .values = 100'000'000, .depth = 8};
 
 template <class T>
 std::string_view bytes_of(std::span<const T> values) {
@@ -52,16 +54,18 @@ private:
 
 std::string text_of(const Checkpoint& checkpoint) {
     const auto& film = checkpoint.film;
-    Json parts = Json::array();
+    JsonTree parts = JsonTree::list();
     for (const auto& part : film.parts) {
-        Json waiting = Json::array();
+        JsonTree waiting = JsonTree::list();
         for (const auto& [block, sum] : part.waiting) waiting.push_back({block, sum.blocks, sum.pixels.size()});
         parts.push_back({part.x, part.y, part.width, part.height, part.next_block, std::move(waiting)});
     }
-    return Json{{"of", checkpoint.of},      {"samples", film.samples},
-                {"sums", film.sums.size()}, {"spreads", film.spreads.size()},
-                {"lost", film.lost},        {"parts", parts}}
-        .dump(-1, ' ', false, Json::error_handler_t::replace);
+    return sorted_text({{"of", checkpoint.of},
+                        {"samples", film.samples},
+                        {"sums", film.sums.size()},
+                        {"spreads", film.spreads.size()},
+                        {"lost", film.lost},
+                        {"parts", std::move(parts)}});
 }
 
 std::vector<Rgb> colours(Reader& reader, std::size_t count) {
@@ -71,41 +75,32 @@ std::vector<Rgb> colours(Reader& reader, std::size_t count) {
     return colours;
 }
 
-// The library would take -1 for a large number.
-std::uint32_t number(const Json& value) {
-    if (!value.is_number_unsigned() || value > std::numeric_limits<std::uint32_t>::max()) throw Error("it is damaged");
-    return value;
-}
+std::uint32_t number(const Json& value) { return value.whole<std::uint32_t>(); }
 
-// Lists of the text have so many entries, or are no lists of ours.
-const Json& list(const Json& value, std::size_t entries) {
-    if (!value.is_array() || value.size() != entries) throw Error("a part of it is damaged");
-    return value;
-}
-
-FilmState::Part part_of(const Json& text, Reader& reader) {
-    const Json& values = list(text, 6);
+FilmState::Part part_of(const Json& text, Reader& reader) try {
+    const auto& values = text.list(6);
     FilmState::Part part{number(values[0]), number(values[1]), number(values[2]),
                          number(values[3]), number(values[4]), {}};
-    if (!values[5].is_array()) throw Error("a part of it is damaged");
-    for (const auto& waits : values[5]) {
-        const Json& sum = list(waits, 3);
+    for (const auto& waits : values[5].list()) {
+        const auto& sum = waits.list(3);
         FilmState::Sum made{number(sum[1]), colours(reader, number(sum[2]))};
         if (!part.waiting.emplace(number(sum[0]), std::move(made)).second) throw Error("it has a block twice");
     }
     return part;
+} catch (const JsonError&) {
+    throw Error("a part of it is damaged");
 }
 
 FilmState film_of(const Json& text, Reader& reader) {
     FilmState film;
     film.samples = number(text.at("samples"));
-    film.sums = colours(reader, text.at("sums"));
-    const std::size_t spreads = text.at("spreads");
+    film.sums = colours(reader, text.at("sums").whole<std::size_t>());
+    const auto spreads = text.at("spreads").whole<std::size_t>();
     if (spreads > reader.left() / sizeof(FilmState::Spread)) throw Error("it is damaged");
     film.spreads.resize(spreads);
     reader.get(film.spreads.data(), spreads);
-    film.lost = text.at("lost").get<std::vector<std::uint64_t>>();
-    for (const auto& part : text.at("parts")) film.parts.push_back(part_of(part, reader));
+    for (const auto& lost : text.at("lost").list()) film.lost.push_back(lost.whole<std::uint64_t>());
+    for (const auto& part : text.at("parts").list()) film.parts.push_back(part_of(part, reader));
     if (reader.left() > 0) throw Error("it holds more than it says");
     return film;
 }
@@ -122,9 +117,11 @@ Checkpoint from_bytes(std::string_view bytes) {
     std::uint64_t size = 0;
     reader.get(&size, 1);
     try {
-        const auto text = Json::parse(reader.text(size));
-        return {text.at("of"), film_of(text, reader)};
-    } catch (const Json::exception&) {  // its words quote the file
+        const Json text = parse_json(reader.text(size), as_large_as_the_film);
+        std::map<std::string, std::string> of;
+        for (const auto& [name, value] : text.at("of").object()) of[name] = value.text();
+        return {std::move(of), film_of(text, reader)};
+    } catch (const JsonError&) {  // its words are for programmers
         throw Error("it is damaged");
     }
 }

@@ -72,12 +72,11 @@ const std::array homes{
     Home{"zlib", std::regex("zlib\\.h"), std::regex("core/readers/(mitsuba/\\w+|files/gzip|images/image_ktx)\\.cpp")},
     Home{"Boost.Context", std::regex("boost/context/.*"), std::regex("core/run/fiber/.*")},
     Home{"Boost.Beast", std::regex("boost/beast.*"), std::regex("tools/http/.*")},
-    Home{"Boost.Asio", std::regex("boost/(?!context/|beast).*"),
-         std::regex("tools/http/.*|transport/start/delay_line\\.cpp")},
+    Home{"Boost.Asio", std::regex("boost/(?!context/|beast).*"), std::regex("tools/http/.*")},
     Home{"libcrypto", std::regex("openssl/.*"), std::regex("core/base/hash\\.cpp")},
     Home{"libsodium", std::regex("sodium.*"), std::regex("transport/keys/.*")},
     Home{"CLI11", std::regex("CLI/.*"), std::regex("tools/.*")},
-    Home{"nlohmann JSON", std::regex("nlohmann/.*"), std::regex("(core|lua|tools)/.*")},
+    Home{"nlohmann JSON", std::regex("nlohmann/.*"), std::regex("core/base/json(_tree)?\\.cpp")},
 };
 
 bool ends_with(std::string_view text, std::string_view end) {

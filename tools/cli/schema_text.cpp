@@ -1,25 +1,23 @@
 #include "tools/cli/schema_text.hpp"
 
-#include <nlohmann/json.hpp>
-
 #include <cmath>
 #include <limits>
 #include <type_traits>
 #include <variant>
 
+#include "core/base/json_tree.hpp"
+
 namespace lightnet {
 namespace {
 
-using Ordered = nlohmann::ordered_json;
-
-Ordered json_of_value(const Value& value) {
+JsonTree json_of_value(const Value& value) {
     return std::visit(
-        [](const auto& data) -> Ordered {
+        [](const auto& data) -> JsonTree {
             using Type = std::decay_t<decltype(data)>;
             if constexpr (std::is_same_v<Type, NodeRef>) {
                 return data.name;
             } else if constexpr (std::is_same_v<Type, Table>) {
-                Ordered json = data.named.empty() ? Ordered::array() : Ordered::object();
+                JsonTree json = data.named.empty() ? JsonTree::list() : JsonTree::object();
                 if (data.named.empty())
                     for (const auto& entry : data.list) json.push_back(json_of_value(entry));
                 for (const auto& [name, entry] : data.named) json[name] = json_of_value(entry);
@@ -31,8 +29,8 @@ Ordered json_of_value(const Value& value) {
         value.data);
 }
 
-Ordered json_of_param(const Param& param) {
-    Ordered json{{"type", to_string(param.type)}, {"help", param.help}};
+JsonTree json_of_param(const Param& param) {
+    JsonTree json{{"type", to_string(param.type)}, {"help", param.help}};
     if (!param.unit.empty()) json["unit"] = param.unit;
     if (param.initial) json["default"] = json_of_value(*param.initial);
     json["optional"] = param.optional || param.initial.has_value();
@@ -45,12 +43,12 @@ Ordered json_of_param(const Param& param) {
     return json;
 }
 
-Ordered json_of_kind(const Kind& kind) {
-    Ordered inputs{{"least", kind.inputs.least}};
+JsonTree json_of_kind(const Kind& kind) {
+    JsonTree inputs{{"least", kind.inputs.least}};
     if (kind.inputs.most < std::numeric_limits<std::size_t>::max()) inputs["most"] = kind.inputs.most;
-    Ordered json{{"gives", to_string(kind.role)}, {"help", kind.help}, {"inputs", inputs}};
+    JsonTree json{{"gives", to_string(kind.role)}, {"help", kind.help}, {"inputs", inputs}};
     if (!kind.plugin.empty()) json["plugin"] = kind.plugin;
-    json["params"] = Ordered::object();
+    json["params"] = JsonTree::object();
     for (const auto& param : kind.params) json["params"][param.name] = json_of_param(param);
     return json;
 }
@@ -111,9 +109,9 @@ std::string definition_of(const Kind& kind) {
 }  // namespace
 
 std::string schema_json(const std::vector<Kind>& kinds) {
-    Ordered json = Ordered::object();
+    JsonTree json = JsonTree::object();
     for (const auto& kind : kinds) json[kind.name] = json_of_kind(kind);
-    return json.dump(2) + "\n";
+    return to_text(json, {.indent = 2, .strict = true}) + "\n";
 }
 
 std::string lua_definitions(const std::vector<Kind>& kinds) {

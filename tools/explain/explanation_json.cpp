@@ -1,19 +1,20 @@
 #include "tools/explain/explanation_json.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <bit>
 #include <cstdlib>
 
 #include "core/base/error.hpp"
+#include "core/base/json.hpp"
+#include "core/base/json_tree.hpp"
 #include "tools/explain/named_surface.hpp"
 
 namespace lightnet {
 namespace {
 
-using Tree = nlohmann::ordered_json;
+using Tree = JsonTree;
 
 // Floats survive as decimal numbers; what is no number has no name in JSON, and goes by its bits.
 Tree tree_of(float number) {
@@ -23,14 +24,14 @@ Tree tree_of(float number) {
 Tree tree_of(Vec3 v) { return {tree_of(v.x), tree_of(v.y), tree_of(v.z)}; }
 Tree tree_of(Rgb c) { return {tree_of(c.r), tree_of(c.g), tree_of(c.b)}; }
 Tree tree_of(const std::vector<Rgb>& colours) {
-    Tree list = Tree::array();
+    Tree list = Tree::list();
     for (const auto& colour : colours) list.push_back(tree_of(colour));
     return list;
 }
 
-float float_of(const Tree& tree) {
-    if (!tree.is_string()) return tree.get<float>();
-    return std::bit_cast<float>(static_cast<std::uint32_t>(std::strtoul(tree.get<std::string>().c_str(), nullptr, 16)));
+float float_of(const Json& json) {
+    if (!std::holds_alternative<std::string>(json.data)) return static_cast<float>(json.number());
+    return std::bit_cast<float>(static_cast<std::uint32_t>(std::strtoul(json.text().c_str(), nullptr, 16)));
 }
 
 // Programs that know numbers by 53 bits must not spoil it, so the stream is text.
@@ -48,19 +49,19 @@ Tree tree_of(const Query& query) {
             {"pass", query.pass}};
 }
 
-Query query_of(const Tree& tree) {
+Query query_of(const Json& tree) {
     Query query;
-    query.stream = std::strtoull(tree.at("stream").get<std::string>().c_str(), nullptr, 16);
-    tree.at("instance").get_to(query.instance);
-    tree.at("geometry").get_to(query.geometry);
-    tree.at("primitive").get_to(query.primitive);
+    query.stream = std::strtoull(tree.at("stream").text().c_str(), nullptr, 16);
+    query.instance = tree.at("instance").whole<decltype(query.instance)>();
+    query.geometry = tree.at("geometry").whole<decltype(query.geometry)>();
+    query.primitive = tree.at("primitive").whole<decltype(query.primitive)>();
     query.u = float_of(tree.at("u")), query.v = float_of(tree.at("v"));
-    const Tree& out = tree.at("outgoing");
-    query.outgoing = {float_of(out.at(0)), float_of(out.at(1)), float_of(out.at(2))};
-    tree.at("sample").get_to(query.sample);
-    tree.at("lobes").get_to(query.lobes);
-    tree.at("depth").get_to(query.depth);
-    tree.at("pass").get_to(query.pass);
+    const auto& out = tree.at("outgoing").list(3);
+    query.outgoing = {float_of(out[0]), float_of(out[1]), float_of(out[2])};
+    query.sample = tree.at("sample").whole<decltype(query.sample)>();
+    query.lobes = tree.at("lobes").whole<decltype(query.lobes)>();
+    query.depth = tree.at("depth").whole<decltype(query.depth)>();
+    query.pass = tree.at("pass").whole<decltype(query.pass)>();
     return query;
 }
 
@@ -97,11 +98,11 @@ Tree ray_tree(const TracedRay& ray, const Scene& scene) {
 
 Tree sample_tree(const PixelAccount& account, const ExplainedSample& part) {
     const auto& network = *account.network;
-    Tree layers = Tree::object(), questions = Tree::array(), rays = Tree::array();
+    Tree layers = Tree::object(), questions = Tree::list(), rays = Tree::list();
     for (const std::size_t k : account.format.views())
         if (account.format.is_plain(k)) layers[account.format.name_of(k)] = tree_of(part.colours[k]);
     for (const auto& asked : part.account.questions) {
-        Tree& tree = questions.emplace_back(question_tree(asked, network.graph));
+        Tree& tree = questions.push_back(question_tree(asked, network.graph));
         tree["within"] = within_of(asked.within);
         tree["surface"] = tree_of(named_surface(*network.scene, network.scene->hit(asked.question)));
     }
@@ -113,9 +114,9 @@ Tree sample_tree(const PixelAccount& account, const ExplainedSample& part) {
             {"rays", rays}};
 }
 
-std::size_t node_called(const Tree& name, const Graph& graph) {
-    const auto node = graph.find(name.get<std::string>());
-    if (!node) throw Error("the graph has no node '" + name.get<std::string>() + "'");
+std::size_t node_called(const std::string& name, const Graph& graph) {
+    const auto node = graph.find(name);
+    if (!node) throw Error("the graph has no node '" + name + "'");
     return *node;
 }
 
@@ -123,7 +124,7 @@ std::size_t node_called(const Tree& name, const Graph& graph) {
 
 std::string explanation_json(const PixelAccount& account, const std::string& picture, std::size_t most) {
     const auto& pixel = account.pixel;
-    Tree layers = Tree::array(), samples = Tree::array();
+    Tree layers = Tree::list(), samples = Tree::list();
     for (const auto& layer : pixel.layers)
         layers.push_back({{"name", layer.name}, {"colour", tree_of(layer.pixels[0])}, {"gain", tree_of(layer.gain)}});
     for (std::size_t i = 0; i < std::min(most, account.parts.size()); ++i)
@@ -136,23 +137,29 @@ std::string explanation_json(const PixelAccount& account, const std::string& pic
                     {"colour", tree_of(pixel.beauty[0])},
                     {"layers", layers},
                     {"brightest", samples}};
-    return tree.dump(1, ' ', false, Tree::error_handler_t::replace) + "\n";
+    return to_text(tree, {.indent = 1}) + "\n";
 }
 
 std::string question_line(const AskedQuestion& asked, const Graph& graph) {
-    return question_tree(asked, graph).dump() + "\n";
+    return to_text(question_tree(asked, graph), {.strict = true}) + "\n";
 }
 
-AskedQuestion question_of_line(const std::string& line, const Graph& graph) try {
-    const Tree tree = Tree::parse(line);
+AskedQuestion question_of_line(const std::string& line, const Graph& graph) {
     AskedQuestion asked;
-    asked.asker = node_called(tree.at("asker"), graph), asked.asked = node_called(tree.at("asked"), graph);
-    asked.question = query_of(tree.at("question"));
-    for (const auto& colour : tree.at("answer"))
-        asked.answer.push_back({float_of(colour.at(0)), float_of(colour.at(1)), float_of(colour.at(2))});
+    std::string asker, target;
+    try {
+        const Json json = parse_json(line);
+        asker = json.at("asker").text(), target = json.at("asked").text();
+        asked.question = query_of(json.at("question"));
+        for (const auto& answer : json.at("answer").list()) {
+            const auto& colour = answer.list(3);
+            asked.answer.push_back({float_of(colour[0]), float_of(colour[1]), float_of(colour[2])});
+        }
+    } catch (const JsonError& wrong) {
+        throw Error("this line is no question", wrong.what());
+    }
+    asked.asker = node_called(asker, graph), asked.asked = node_called(target, graph);
     return asked;
-} catch (const Tree::exception& wrong) {
-    throw Error("this line is no question", wrong.what());
 }
 
 }  // namespace lightnet

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/json_tree.hpp"
 #include "core/network/graph/layout.hpp"
 #include "core/run/assembly/job.hpp"
 #include "core/run/assembly/load_scene.hpp"
@@ -28,10 +28,9 @@ constexpr std::size_t most_told = 3;     // samples, the brightest first
 
 struct ExplainerEnds {};
 
-std::string explained(const PixelWish& wish, nlohmann::json more) {
+std::string explained(const PixelWish& wish, JsonTree more) {
     more["x"] = wish.x, more["y"] = wish.y;
-    return nlohmann::json{{"explained", std::move(more)}}.dump(-1, ' ', false,
-                                                               nlohmann::json::error_handler_t::replace);
+    return sorted_text({{"explained", std::move(more)}});
 }
 
 }  // namespace

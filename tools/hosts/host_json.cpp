@@ -1,7 +1,6 @@
 #include "tools/hosts/host_json.hpp"
 
-#include <nlohmann/json.hpp>
-
+#include "core/base/json_tree.hpp"
 #include "core/base/printable.hpp"
 #include "tools/hosts/host_table.hpp"
 
@@ -9,8 +8,7 @@ namespace lightnet {
 
 std::string host_json(const std::vector<HostAnswer>& hosts, const std::vector<std::string>& joining,
                       const std::string& build) {
-    using Json = nlohmann::ordered_json;
-    Json all = Json::array();
+    JsonTree all = JsonTree::list();
     for (const auto& host : hosts) {
         const auto& machine = host.machine;
         all.push_back({{"asked", in_utf8(host.asked)},
@@ -34,8 +32,8 @@ std::string host_json(const std::vector<HostAnswer>& hosts, const std::vector<st
                          {"cores", machine.cores},
                          {"memory", machine.memory}}}});
     }
-    const Json json{{"format", "lightnet hosts 1"}, {"build", build}, {"hosts", all}, {"joining", joining}};
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    const JsonTree json{{"format", "lightnet hosts 1"}, {"build", build}, {"hosts", all}, {"joining", joining}};
+    return to_text(json, {.indent = 2}) + "\n";
 }
 
 }  // namespace lightnet

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <exception>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <ostream>
 #include <string_view>
 
 #include "core/base/error.hpp"
+#include "core/base/json_tree.hpp"
 #include "core/base/own_files.hpp"
 #include "core/film/compare_layers.hpp"
 #include "core/film/exr.hpp"
@@ -20,11 +20,7 @@
 #include "tools/support/exit_code.hpp"
 
 namespace lightnet {
-namespace {
-
-using Json = nlohmann::ordered_json;
-
-}  // namespace
+namespace {}  // namespace
 
 Picture picture_in(const std::string& path) {
     if (has_ending(path, ".exr")) return read_exr(path);
@@ -101,8 +97,8 @@ void print(const std::string& name, const Comparison& found, std::ostream& out) 
     for (const auto& layer : found.only_in_picture) out << "  layer " << layer << " is not in the reference\n";
 }
 
-Json json_of(const Comparison& found) {
-    Json layers = Json::array();
+JsonTree json_of(const std::string& file, const Comparison& found, const std::vector<std::string>& beyond) {
+    JsonTree layers = JsonTree::list();
     for (const auto& [layer, difference, flip] : found.layers) {
         const Rgb ratio = difference.mean_ratio;
         layers.push_back({{"name", layer},
@@ -114,10 +110,12 @@ Json json_of(const Comparison& found) {
                           {"blocks", difference.block_difference},
                           {"mean_ratio", {ratio.r, ratio.g, ratio.b}}});
     }
-    return {{"identical", found.identical},
-            {"layers", layers},
+    return {{"file", file},
+            {"identical", found.identical},
+            {"layers", std::move(layers)},
             {"only_in_reference", found.only_in_reference},
-            {"only_in_image", found.only_in_picture}};
+            {"only_in_image", found.only_in_picture},
+            {"too_far", beyond}};
 }
 
 /// All that one call of compare says.
@@ -133,7 +131,7 @@ public:
             out_ << fmt::format("FLIP: {:g} pixels per degree, exposure {:g}, clipped to 0..1, sRGB\n",
                                 request_.view.pixels_per_degree, request_.view.exposure);
         for (const auto& name : request_.pictures) add(reference, name);
-        if (request_.json) out_ << json().dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+        if (request_.json) out_ << to_text(json(), {.indent = 2}) << '\n';
         return code_;
     }
 
@@ -143,10 +141,7 @@ private:
         const Comparison found = compare_layers(reference, picture, request_.view);
         const auto beyond = passed(request_, found);
         if (!request_.json) print(name, found, out_);
-        Json entry{{"file", name}};
-        entry.update(json_of(found));
-        entry["too_far"] = beyond;
-        pictures_.push_back(std::move(entry));
+        pictures_.push_back(json_of(name, found, beyond));
         for (const auto& one : beyond) err_ << "lightnet: " << name << ": " << one << '\n';
         if (!beyond.empty()) code_ = std::max(code_, exit_code::failed);
         write_pictures(reference, picture, found);
@@ -166,7 +161,7 @@ private:
         write_png(request_.difference, difference);
     }
 
-    Json json() const {
+    JsonTree json() const {
         return {{"format", "lightnet compare 1"},
                 {"reference", request_.reference},
                 {"flip",
@@ -179,7 +174,7 @@ private:
     const CompareRequest& request_;
     std::ostream& out_;
     std::ostream& err_;
-    Json pictures_ = Json::array();
+    JsonTree pictures_ = JsonTree::list();
     int code_ = exit_code::done;
 };
 

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <bit>
-#include <nlohmann/json.hpp>
 
 #include "core/base/build_info.hpp"
 #include "core/base/joined.hpp"
+#include "core/base/json_tree.hpp"
 #include "core/base/name_id.hpp"
 #include "core/network/graph/lamp_groups.hpp"
 #include "core/scene/camera_in.hpp"
@@ -14,8 +14,6 @@
 
 namespace lightnet {
 namespace {
-
-using Manifest = nlohmann::json;  // whose objects are sorted by name
 
 std::array<float, 16> for_rows(const Matrix& matrix) {
     std::array<float, 16> entries{};
@@ -26,12 +24,12 @@ std::array<float, 16> for_rows(const Matrix& matrix) {
 }  // namespace
 
 std::string manifest_of(const SceneData& scene, NamedBy by) {
-    Manifest manifest = Manifest::object();
+    std::map<std::string, std::string> manifest;
     const SurfaceNames names = surface_names(scene, by);
     for (const auto* all : {&names.of_shape, &names.of_instance})
         for (const auto& name : *all)
             if (!name.empty()) manifest[name] = fmt::format("{:08x}", std::bit_cast<std::uint32_t>(name_id(name)));
-    return manifest.dump(-1, ' ', true, Manifest::error_handler_t::replace);
+    return to_text(manifest, {.ascii = true});
 }
 
 PictureWords words_of(const Graph& graph, const Registry& registry, const FilmFormat& format,

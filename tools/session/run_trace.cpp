@@ -8,8 +8,8 @@
 #include <iterator>
 #include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
 
+#include "core/base/json_tree.hpp"
 #include "core/network/graph/hosts.hpp"
 #include "core/run/message/place_name.hpp"
 
@@ -19,9 +19,7 @@ namespace {
 constexpr std::array<const char*, 7> kind_names{"prepare", "light", "tiles", "call", "send", "take", "waiting"};
 
 // A text of JSON, with its quotes.
-std::string json_text(const std::string& text) {
-    return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
+std::string json_text(const std::string& text) { return to_text(text); }
 
 struct TraceEnds {
     std::size_t sent = 0, taken = 0;

@@ -4,9 +4,9 @@
 
 #include <array>
 #include <ctime>
-#include <nlohmann/json.hpp>
 
 #include "core/base/hash.hpp"
+#include "core/base/json_tree.hpp"
 #include "core/base/printable.hpp"
 
 namespace lightnet {
@@ -40,14 +40,14 @@ std::string public_name_of_run(std::uint64_t run) {
 
 std::string log_json(const std::string& program, const std::string& host, const LogEntry& entry,
                      std::chrono::system_clock::time_point when) {
-    nlohmann::ordered_json line{{"format", "lightnet log 1"},
-                                {"time", log_time(when)},
-                                {"level", log_level(entry.level)},
-                                {"program", program},
-                                {"host", host}};
+    JsonTree line{{"format", "lightnet log 1"},
+                  {"time", log_time(when)},
+                  {"level", log_level(entry.level)},
+                  {"program", program},
+                  {"host", host}};
     if (entry.run) line["run"] = public_name_of_run(*entry.run);
     line["text"] = in_utf8(entry.text);
-    return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    return to_text(line);
 }
 
 }  // namespace lightnet

@@ -8,8 +8,9 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <nlohmann/json.hpp>
 #include <utility>
+
+#include "core/base/json_tree.hpp"
 
 namespace lightnet {
 namespace {
@@ -65,8 +66,7 @@ Progress::Progress(std::uint64_t total, Style style, std::ostream& out, Time now
       reported_(now) {
     if (mode_ == ProgressMode::automatic) mode_ = style_.terminal ? ProgressMode::bar : ProgressMode::plain;
     if (mode_ == ProgressMode::json)
-        out_ << nlohmann::ordered_json{{"event", "begin"}, {"format", "lightnet progress 1"}, {"total", total_}}.dump()
-             << std::endl;
+        out_ << to_text({{"event", "begin"}, {"format", "lightnet progress 1"}, {"total", total_}}) << std::endl;
 }
 
 double Progress::fraction() const {
@@ -181,11 +181,11 @@ void Progress::clear_bar() {
 }
 
 void Progress::line_of_json(std::string_view event, Time now) {
-    nlohmann::ordered_json line{
+    JsonTree line{
         {"event", event}, {"phase", phase_}, {"done", done_}, {"total", total_}, {"seconds", seconds(now - begun_)}};
-    if (step_) line.update({{"step", step_->name}, {"step_done", step_->done}, {"step_total", step_->total}});
+    if (step_) line["step"] = step_->name, line["step_done"] = step_->done, line["step_total"] = step_->total;
     if (const auto left = seconds_left(now)) line["seconds_left"] = *left;
-    out_ << line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << std::endl;
+    out_ << to_text(line) << std::endl;
 }
 
 void Progress::say(std::string_view message, const Marks& marks) {
@@ -195,9 +195,9 @@ void Progress::say(std::string_view message, const Marks& marks) {
 void Progress::insist(std::string_view message, const Marks& marks) {
     clear_bar();
     if (mode_ == ProgressMode::json) {
-        nlohmann::ordered_json line{{"event", "message"}, {"text", message}};
+        JsonTree line{{"event", "message"}, {"text", message}};
         for (const auto& [name, value] : marks) line[name] = value;
-        out_ << line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << std::endl;
+        out_ << to_text(line) << std::endl;
     } else {
         out_ << message << std::endl;
     }

@@ -1,26 +1,13 @@
 #include "tools/support/run_report.hpp"
 
-#include <nlohmann/json.hpp>
-
 #include "core/base/atomic_file.hpp"
+#include "core/base/json.hpp"
+#include "core/base/json_tree.hpp"
 #include "core/base/printable.hpp"
 
 namespace lightnet {
-namespace {
-
-using OrderedJson = nlohmann::ordered_json;
-
-// Names of files may be in any encoding, and JSON is UTF-8.
-void spell_out(OrderedJson& json) {
-    if (json.is_string()) json = in_utf8(json.get_ref<const std::string&>());
-    if (json.is_structured())
-        for (auto& part : json) spell_out(part);
-}
-
-}  // namespace
-
 std::string to_json(const RunReport& report) {
-    OrderedJson places = OrderedJson::array(), phases = OrderedJson::array();
+    JsonTree places = JsonTree::list(), phases = JsonTree::list();
     for (const auto& place : report.places)
         places.push_back({{"host", place.host},
                           {"index", place.index},
@@ -28,7 +15,7 @@ std::string to_json(const RunReport& report) {
                           {"seconds", place.seconds},
                           {"waiting", place.waiting},
                           {"idle", place.idle}});
-    OrderedJson nodes = OrderedJson::array(), edges = OrderedJson::array();
+    JsonTree nodes = JsonTree::list(), edges = JsonTree::list();
     for (const auto& node : report.nodes)
         nodes.push_back({{"name", node.name},
                          {"kind", node.kind},
@@ -48,10 +35,10 @@ std::string to_json(const RunReport& report) {
                          {"bundles", edge.bundles},
                          {"sent", edge.sent},
                          {"bytes", edge.bytes}});
-    OrderedJson layers = OrderedJson::array();
+    JsonTree layers = JsonTree::list();
     for (const auto& [name, mean, share] : report.layers)
         layers.push_back({{"name", name}, {"mean", mean}, {"share", share}});
-    OrderedJson hosts = OrderedJson::array();
+    JsonTree hosts = JsonTree::list();
     for (const auto& host : report.hosts)
         hosts.push_back({{"host", host.host},
                          {"state", host.state},
@@ -65,17 +52,17 @@ std::string to_json(const RunReport& report) {
                          {"peak_memory", host.peak_memory}});
     for (const auto& [name, seconds] : report.phases) phases.push_back({{"name", name}, {"seconds", seconds}});
 
-    OrderedJson preparing = OrderedJson::array();
+    JsonTree preparing = JsonTree::list();
     for (const auto& [node, what, seconds] : report.preparing)
         preparing.push_back({{"node", node}, {"what", what}, {"seconds", seconds}});
 
-    OrderedJson json;
+    JsonTree json;
     json["format"] = "lightnet run 2";
     json["outcome"] = report.outcome;
     json["graph"] = {{"file", report.graph}, {"hash", report.graph_hash}};
     if (!report.network.empty()) {
         json["graph"]["folder"] = report.folder;
-        json["graph"]["network"] = OrderedJson::parse(report.network);
+        json["graph"]["network"] = JsonTree(parse_json(report.network));
     }
     json["mode"] = report.mode;
     json["peak_memory"] = report.peak_memory;
@@ -96,8 +83,8 @@ std::string to_json(const RunReport& report) {
     json["settings"] = report.settings;
     json["versions"] = report.versions;
     json["warnings"] = report.warnings;
-    spell_out(json);
-    return json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
+    json.change_texts(in_utf8);  // names of files may be in any encoding, and JSON is UTF-8
+    return to_text(json, {.indent = 2}) + "\n";
 }
 
 std::filesystem::path report_beside(const std::filesystem::path& picture) {

@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <chrono>
 #include <iostream>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "core/base/error.hpp"
+#include "core/base/json_tree.hpp"
 #include "core/base/plain_file.hpp"
 #include "tools/cli/launcher.hpp"
 #include "tools/http/live_line.hpp"
@@ -114,7 +114,7 @@ bool hear_until(Told told, LiveTable& table, LiveLine& line, std::chrono::steady
 }
 
 int ask_for(const std::string& wish, const WatchOptions& options, LiveLine& line, const std::string& token) {
-    line.say(nlohmann::json{{"do", wish}, {"host", options.drain}, {"token", token}}.dump());
+    line.say(to_text({{"do", wish}, {"host", options.drain}, {"token", token}}, {.strict = true}));
     LiveTable table;
     if (!hear_until([&] { return table.allowed().has_value(); }, table, line, first_state))
         throw Error("the launcher does not answer");

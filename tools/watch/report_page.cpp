@@ -5,9 +5,10 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <nlohmann/json.hpp>
 
 #include "core/base/error.hpp"
+#include "core/base/json.hpp"
+#include "core/base/json_tree.hpp"
 #include "tools/watch/watch_page.hpp"
 
 namespace lightnet {
@@ -51,7 +52,7 @@ std::vector<const std::vector<Rgb>*> colours_of(const Picture& picture) {
     return colours;
 }
 
-nlohmann::json frozen_picture(const Picture& picture, std::size_t most_bytes) {
+JsonTree frozen_picture(const Picture& picture, std::size_t most_bytes) {
     const auto colours = colours_of(picture);
     std::uint32_t step = 1;
     const auto part = [&](std::uint32_t side) { return (side + step - 1) / step; };
@@ -66,6 +67,12 @@ nlohmann::json frozen_picture(const Picture& picture, std::size_t most_bytes) {
             for (const auto* colour : colours) words.push_back(packed((*colour)[std::size_t{y} * picture.width + x]));
     return {
         {"width", part(picture.width)}, {"height", part(picture.height)}, {"step", step}, {"pixels", base64(words)}};
+}
+
+JsonTree noted(const std::string& text) try {
+    return JsonTree(parse_json(text));
+} catch (const JsonError&) {  // whose words are for programmers
+    throw Error("report", "what was noted while the run went is damaged");
 }
 
 // As part of a page, where "</script>" would end it.
@@ -88,17 +95,16 @@ void replace_once(std::string& text, std::string_view what, const std::string& b
 
 }  // namespace
 
-std::string report_page(const Watcher& watcher, const Picture& picture, const ReportFacts& facts) try {
-    auto history = nlohmann::json::array();
-    for (const auto& state : watcher.history()) history.push_back(nlohmann::json::parse(state));
-    auto json = nlohmann::json::parse(watcher.hello());
-    json["state"] = nlohmann::json::parse(watcher.last_state());
+std::string report_page(const Watcher& watcher, const Picture& picture, const ReportFacts& facts) {
+    auto history = JsonTree::list();
+    for (const auto& state : watcher.history()) history.push_back(noted(state));
+    auto json = noted(watcher.hello());
+    json["state"] = noted(watcher.last_state());
     json["history"] = std::move(history);
     json["log"] = watcher.lines();
-    json["facts"] = facts;
-    const auto text = [&] {
-        return within_script(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
-    };
+    json["facts"] = JsonTree::list();
+    for (const auto& [name, value] : facts) json["facts"].push_back({name, value});
+    const auto text = [&] { return within_script(sorted_text(json)); };
     const std::size_t taken = watch_page().size() + text().size() + 1000;
     json["picture"] = frozen_picture(picture, most_report_bytes - std::min(taken, most_report_bytes));
 
@@ -109,8 +115,6 @@ std::string report_page(const Watcher& watcher, const Picture& picture, const Re
                  "<meta charset=\"utf-8\">\n<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
                  "script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:\">");
     return page;
-} catch (const nlohmann::json::exception&) {  // whose words are for programmers
-    throw Error("report", "what was noted while the run went is damaged");
 }
 
 }  // namespace lightnet

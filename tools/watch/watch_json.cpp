@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <string>
 
+#include "core/base/json_tree.hpp"
 #include "core/film/png.hpp"
 #include "core/network/graph/hosts.hpp"
 #include "core/network/graph/layout.hpp"
@@ -16,12 +16,8 @@
 namespace lightnet {
 namespace {
 
-using WatchJson = nlohmann::json;
-
 constexpr std::size_t most_rows = 100;
 constexpr std::size_t most_in_flight = 400;
-
-std::string text_of(const WatchJson& json) { return json.dump(-1, ' ', false, WatchJson::error_handler_t::replace); }
 
 // The view of that name.
 std::vector<std::size_t> view_of(const std::string& name, const FilmFormat& format) {
@@ -45,9 +41,9 @@ std::vector<std::size_t> picture_of(std::size_t node, const Layers& layers, cons
 
 const char* name_of(Role role) { return role == Role::image ? "image" : role == Role::light ? "light" : "scene"; }
 
-WatchJson nodes_json(const WatchedRun& run) {
+JsonTree nodes_json(const WatchedRun& run) {
     const auto layers = layers_of(run.graph, run.registry);
-    auto all = WatchJson::array();
+    auto all = JsonTree::list();
     for (std::size_t node = 0; node < run.graph.nodes.size(); ++node) {
         const auto& what = run.graph.nodes[node];
         if (sector_at(run.graph, node)) break;  // they stand behind all others, and for one of them
@@ -59,22 +55,22 @@ WatchJson nodes_json(const WatchedRun& run) {
     return all;
 }
 
-WatchJson edges_json(const WatchedRun& run) {
-    auto all = WatchJson::array();
+JsonTree edges_json(const WatchedRun& run) {
+    auto all = JsonTree::list();
     for (const auto& edge : asking_edges(run.graph, layers_of(run.graph, run.registry), run.registry))
         all.push_back({edge.from, edge.to});
     return all;
 }
 
-WatchJson row(const PlaceFigures& place) { return {place.busy, place.asking, place.waiting, place.idle}; }
+JsonTree row(const PlaceFigures& place) { return {place.busy, place.asking, place.waiting, place.idle}; }
 
-WatchJson host_json(const HostState& host, bool by_place, bool in_words) {
-    WatchJson json{{"name", host.name.empty() ? std::string(own_process) : host.name},
-                   {"state", host.state},
-                   {"there", host.there},
-                   {"places", host.places},
-                   {"answered", host.progress}};
-    auto rows = WatchJson::array();
+JsonTree host_json(const HostState& host, bool by_place, bool in_words) {
+    JsonTree json{{"name", host.name.empty() ? std::string(own_process) : host.name},
+                  {"state", host.state},
+                  {"there", host.there},
+                  {"places", host.places},
+                  {"answered", host.progress}};
+    auto rows = JsonTree::list();
     PlaceFigures sum;
     for (const auto& place : host.figures.places) {
         if (by_place) rows.push_back(row(place));
@@ -88,7 +84,7 @@ WatchJson host_json(const HostState& host, bool by_place, bool in_words) {
 }
 
 // All hosts but those, as one.
-WatchJson rest_json(const std::vector<HostState>& hosts, const std::set<std::size_t>& named) {
+JsonTree rest_json(const std::vector<HostState>& hosts, const std::set<std::size_t>& named) {
     HostState sum;
     std::size_t count = 0, gone = 0;
     auto& places = sum.figures.places.emplace_back();
@@ -110,7 +106,7 @@ WatchJson rest_json(const std::vector<HostState>& hosts, const std::set<std::siz
 }
 
 // DECISIONS: hosts-by-the-hundred
-WatchJson hosts_json(const std::vector<HostState>& hosts) {
+JsonTree hosts_json(const std::vector<HostState>& hosts) {
     std::size_t places = 0;
     for (const auto& host : hosts) places += host.places;
     std::set<std::size_t> named;
@@ -120,14 +116,14 @@ WatchJson hosts_json(const std::vector<HostState>& hosts) {
     };
     name(false);
     name(true);
-    auto all = WatchJson::array();
+    auto all = JsonTree::list();
     for (const auto i : named) all.push_back(host_json(hosts[i], places <= most_rows, hosts.size() <= most_rows));
     if (named.size() < hosts.size()) all.push_back(rest_json(hosts, named));
     return all;
 }
 
 // Over all hosts. What sectors did, their node did.
-void add_figures(WatchJson& json, const WatchedState& state, const Graph& graph) {
+void add_figures(JsonTree& json, const WatchedState& state, const Graph& graph) {
     std::vector<NodeFigures> nodes(graph.nodes.size());
     std::vector<EdgeFigures> edges;
     for (const auto& host : state.hosts) {
@@ -137,11 +133,11 @@ void add_figures(WatchJson& json, const WatchedState& state, const Graph& graph)
         edges.resize(std::max(edges.size(), figures.edges.size()));
         for (std::size_t edge = 0; edge < figures.edges.size(); ++edge) edges[edge] += figures.edges[edge];
     }
-    auto& all = json["nodes"] = WatchJson::array();
+    auto& all = json["nodes"] = JsonTree::list();
     for (const auto& node : nodes)
         all.push_back(
             {node.looks, node.waiting, node.bundles, node.questions, node.bytes, node.nanoseconds, node.answered});
-    auto& lines = json["edges"] = WatchJson::array();
+    auto& lines = json["edges"] = JsonTree::list();
     for (const auto& edge : edges) lines.push_back({edge.questions, edge.bundles, edge.sent, edge.bytes});
 }
 
@@ -149,7 +145,7 @@ void add_figures(WatchJson& json, const WatchedState& state, const Graph& graph)
 
 std::string hello_json(const WatchedRun& run) {
     const auto work = run.format.work();
-    auto colours = WatchJson::array();
+    auto colours = JsonTree::list();
     for (const std::size_t k : run.format.views()) {
         const auto gain = k < run.format.gains.size() ? run.format.gains[k] : Rgb{1, 1, 1};
         const auto& name = run.format.name_of(k);
@@ -158,33 +154,34 @@ std::string hello_json(const WatchedRun& run) {
                            {"fact", run.format.facts.contains(name)},
                            {"gain", {gain.r, gain.g, gain.b}}});
     }
-    return text_of({{"hello",
-                     {{"graph", run.graph.file},
-                      {"output", run.output},
-                      {"picture", {work.x, work.y, work.width, work.height}},
-                      {"samples", run.format.samples},
-                      {"colours", colours},
-                      {"levels", least_of_levels()},
-                      {"nodes", nodes_json(run)},
-                      {"edges", edges_json(run)}}}});
+    const auto levels = least_of_levels();
+    return sorted_text({{"hello",
+                         {{"graph", run.graph.file},
+                          {"output", run.output},
+                          {"picture", {work.x, work.y, work.width, work.height}},
+                          {"samples", run.format.samples},
+                          {"colours", colours},
+                          {"levels", std::vector(levels.begin(), levels.end())},
+                          {"nodes", nodes_json(run)},
+                          {"edges", edges_json(run)}}}});
 }
 
 std::string state_json(const WatchedState& state, const Graph& graph) {
-    WatchJson json{{"t", std::round(state.seconds * 1000) / 1000},
-                   {"phase", state.phase},
-                   {"done", state.done},
-                   {"outcome", state.outcome}};
+    JsonTree json{{"t", std::round(state.seconds * 1000) / 1000},
+                  {"phase", state.phase},
+                  {"done", state.done},
+                  {"outcome", state.outcome}};
     if (state.left) json["left"] = std::round(*state.left * 10) / 10;
     json["hosts"] = hosts_json(state.hosts);
     add_figures(json, state, graph);
-    auto& tiles = json["tiles"] = WatchJson::array();
+    auto& tiles = json["tiles"] = JsonTree::list();
     for (std::size_t i = 0; i < std::min(state.in_flight.size(), most_in_flight); ++i) {
         const auto& tile = state.in_flight[i];
         tiles.push_back({tile.x, tile.y, tile.width, tile.height});
     }
-    auto& doing = json["doing"] = WatchJson::object();
+    auto& doing = json["doing"] = JsonTree::object();
     for (const auto& [node, what] : state.doing) doing[node] = {what.what, what.done, what.total};
-    return text_of(json);
+    return sorted_text(json);
 }
 
 }  // namespace lightnet

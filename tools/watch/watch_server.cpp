@@ -4,10 +4,11 @@
 #include <deque>
 #include <memory>
 #include <mutex>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
+#include "core/base/json.hpp"
+#include "core/base/json_tree.hpp"
 #include "core/base/this_machine.hpp"
 #include "tools/http/http_server.hpp"
 
@@ -35,6 +36,11 @@ struct Letterbox {
     std::deque<std::string> letters;
 };
 
+// What a page says; null: it is no JSON.
+Json understood(const std::string& text) try { return parse_json(text); } catch (const JsonError&) {
+    return {};
+}
+
 // One page that watches.
 class WatchingPage final : public HttpGuest {
 public:
@@ -60,10 +66,10 @@ public:
     }
 
     bool hear(const std::string& text) override {
-        const auto said = nlohmann::json::parse(text, nullptr, false);
+        const Json said = understood(text);
         const auto word = [&](const char* name) {
-            const auto found = said.is_object() ? said.find(name) : said.end();
-            return found != said.end() && found->is_string() ? found->get<std::string>() : std::string();
+            const auto* found = said.has(name) ? std::get_if<std::string>(&said.at(name).data) : nullptr;
+            return found ? *found : std::string();
         };
         const auto what = word("do");
         const bool known = what == "check" || what == "end" || what == "write" || what == "drain" || what == "explain";
@@ -77,7 +83,7 @@ public:
                                    : what == "write" ? What::write
                                                      : What::drain,
                                    word("host"), told_later(what)});
-        texts_.push_back(nlohmann::json{{"done", what}, {"allowed", allowed}}.dump());
+        texts_.push_back(sorted_text({{"done", what}, {"allowed", allowed}}));
         return true;
     }
 
@@ -85,19 +91,17 @@ private:
     std::function<void(const std::string&)> told_later(const std::string& what) const {
         return [box = letterbox_, what](const std::string& why_not) {
             const std::lock_guard lock(box->letters_mutex);
-            box->letters.push_back(nlohmann::json{{"obeyed", what}, {"why_not", why_not}}.dump(
-                -1, ' ', false, nlohmann::json::error_handler_t::replace));
+            box->letters.push_back(sorted_text({{"obeyed", what}, {"why_not", why_not}}));
         };
     }
     void look_at_letters() {
         const std::lock_guard lock(letterbox_->letters_mutex);
         std::swap(texts_, letterbox_->letters);
     }
-    void explain(const nlohmann::json& said) {
+    void explain(const Json& said) {
         const auto number = [&](const char* name, std::uint32_t usual) {
-            const auto found = said.find(name);
-            const bool whole = found != said.end() && found->is_number_unsigned() && *found <= 0xffffffffu;
-            return whole ? found->get<std::uint32_t>() : usual;
+            const auto* found = said.has(name) ? std::get_if<std::uint64_t>(&said.at(name).data) : nullptr;
+            return found && *found <= 0xffffffffu ? static_cast<std::uint32_t>(*found) : usual;
         };
         if (!site_.options.explain) return;
         const PixelWish wish{number("x", ~0u), number("y", ~0u), number("samples", PixelWish{}.samples)};
@@ -108,8 +112,7 @@ private:
     }
     void look_at_board() {
         if (const auto lines = site_.board.lines_since(seen_); !lines.empty())
-            texts_.push_back(
-                nlohmann::json{{"log", lines}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+            texts_.push_back(sorted_text({{"log", lines}}));
         if (const auto state = site_.board.state_since(seen_); !state.empty())
             texts_.push_back("{\"state\":" + state + "}");
     }

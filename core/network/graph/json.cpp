@@ -1,11 +1,10 @@
 #include "core/network/graph/json.hpp"
 
-#include <nlohmann/json.hpp>
-
 #include <cmath>
 #include <string_view>
 #include <utility>
 
+#include "core/base/json_tree.hpp"
 #include "core/base/printable.hpp"
 #include "core/network/graph/graph.hpp"
 #include "core/network/graph/hosts.hpp"
@@ -16,15 +15,9 @@
 namespace lightnet {
 namespace {
 
-using Tree = nlohmann::json;  // its objects are sorted by key, hence the text canonical
+using Tree = JsonTree;
 
-std::string dump(const Tree& json) {
-    try {
-        return json.dump();
-    } catch (const Tree::exception&) {
-        throw Error("a name in it is not UTF-8");
-    }
-}
+std::string dump(const Tree& json) { return to_text(json, {.by_name = true, .strict = true}); }
 
 // Texts may be names of files, which are bytes.
 Tree json_of(const std::string& text) {
@@ -38,7 +31,7 @@ Tree json_of(const std::string& text) {
     return {{"bytes", std::move(bytes)}};
 }
 
-Tree json_of(const SourceLine& where) { return Tree::array({json_of(where.file), where.line}); }
+Tree json_of(const SourceLine& where) { return Tree({json_of(where.file), where.line}); }
 
 // JSON has no name for what isn't finite.
 Tree json_of(double number) {
@@ -49,7 +42,7 @@ Tree json_of(double number) {
 Tree json_of(const Value& value);
 
 Tree json_of(const List& list) {
-    Tree json = Tree::array();
+    Tree json = Tree::list();
     for (const auto& value : list) json.push_back(json_of(value));
     return json;
 }
@@ -81,7 +74,7 @@ Tree json_of(const Node& node) {
 }
 
 Tree json_of(const std::vector<ChoiceEntry>& choices) {
-    Tree json = Tree::array();
+    Tree json = Tree::list();
     for (const auto& entry : choices)
         json.push_back({{"node", entry.node}, {"name", entry.name}, {"where", json_of(entry.where)}});
     return json;
@@ -90,7 +83,7 @@ Tree json_of(const std::vector<ChoiceEntry>& choices) {
 }  // namespace
 
 std::string to_json(const Graph& graph) {
-    Tree nodes = Tree::array();
+    Tree nodes = Tree::list();
     for (std::size_t i = 0; i < written_nodes(graph); ++i) nodes.push_back(json_of(graph.nodes[i]));
     Tree json{{"file", json_of(graph.file)}, {"nodes", std::move(nodes)}};
     if (!graph.sectors.empty()) json["shards"] = shards_in(graph);
@@ -98,7 +91,7 @@ std::string to_json(const Graph& graph) {
 }
 
 std::string to_json(const Hosts& hosts) {
-    Tree list = Tree::array();
+    Tree list = Tree::list();
     for (const auto& host : hosts.hosts)
         list.push_back({{"endpoint", host.endpoint},
                         {"key", host.key},
@@ -112,8 +105,8 @@ std::string to_json(const Hosts& hosts) {
 }
 
 std::string to_json(const Plan& plan) {
-    Tree places = Tree::array();
-    for (const auto& place : plan.places) places.push_back(Tree::array({place.host, place.index}));
+    Tree places = Tree::list();
+    for (const auto& place : plan.places) places.push_back(Tree({place.host, place.index}));
     Tree strategies = Tree::object();
     for (const auto& [node, strategy] : plan.strategies) strategies[std::to_string(node)] = name_of(strategy);
     return dump({{"places", std::move(places)},
@@ -124,11 +117,11 @@ std::string to_json(const Plan& plan) {
 }
 
 std::string to_json(const std::vector<Problem>& problems) {
-    Tree list = Tree::array();
-    for (const auto& problem : problems) list.push_back(Tree::array({json_of(problem.where), json_of(problem.what)}));
+    Tree list = Tree::list();
+    for (const auto& problem : problems) list.push_back(Tree({json_of(problem.where), json_of(problem.what)}));
     return dump(list);
 }
 
-std::string text_to_json(const std::string& text) { return dump(json_of(text)); }
+JsonTree tree_of_text(const std::string& text) { return json_of(text); }
 
 }  // namespace lightnet

@@ -7,6 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/json.hpp"
+#include "core/base/json_tree.hpp"
 #include "core/network/graph/graph.hpp"
 
 namespace lightnet {
@@ -20,7 +21,7 @@ std::string to_json(const std::vector<Problem>& problems);
 std::vector<Problem> problems_from_json(std::string_view text);
 
 /// A text as JSON; bytes that are no UTF-8, as in names of old files, as {"bytes": digits}.
-std::string text_to_json(const std::string& text);
+JsonTree tree_of_text(const std::string& text);
 /// Reads it back. Throws Error on anything else.
 std::string text_from_json(const Json& json);
 

@@ -1,9 +1,8 @@
 #include "core/run/assembly/job.hpp"
 
-#include <nlohmann/json.hpp>
-
 #include "core/base/build_info.hpp"
 #include "core/base/error.hpp"
+#include "core/base/json_tree.hpp"
 #include "core/network/graph/check.hpp"
 #include "core/network/graph/graph_film.hpp"
 #include "core/network/graph/json.hpp"
@@ -27,10 +26,8 @@ Integer count_of(const Json& object, const char* key) {
     }
 }
 
-nlohmann::json json_of_path(const std::string& path) { return nlohmann::json::parse(text_to_json(path)); }
-
-nlohmann::json json_of(const Tuning& tuning) {
-    nlohmann::json json;
+JsonTree json_of(const Tuning& tuning) {
+    JsonTree json;
     for (const auto& knob : knobs)
         if (knob.where == Knob::Where::places)
             std::visit([&](const auto& member) { json[knob.name] = tuning.*member; }, knob.member);
@@ -74,19 +71,18 @@ std::shared_ptr<const Network> network_around(const Job& job, const Registry& re
 }  // namespace
 
 std::string to_json(const Job& job) {
-    nlohmann::json files = nlohmann::json::array();
+    JsonTree files = JsonTree::list();
     for (const auto& file : job.files)
-        files.push_back({{"path", json_of_path(file.path)}, {"hash", to_hex(file.hash)}, {"size", file.size}});
-    const auto rest = nlohmann::json{
-        {"scene", json_of_path(job.scene)},
-        {"files", std::move(files)},
-        {"seed", job.seed},
-        {"isa", job.isa},
-        {"width", job.width},
-        {"height", job.height},
-        {"tuning", json_of(job.tuning)},
-        {"plugins",
-         job.plugins}}.dump();
+        files.push_back({{"path", tree_of_text(file.path)}, {"hash", to_hex(file.hash)}, {"size", file.size}});
+    const auto rest = to_text({{"scene", tree_of_text(job.scene)},
+                               {"files", std::move(files)},
+                               {"seed", job.seed},
+                               {"isa", job.isa},
+                               {"width", job.width},
+                               {"height", job.height},
+                               {"tuning", json_of(job.tuning)},
+                               {"plugins", job.plugins}},
+                              {.by_name = true, .strict = true});
     return "{\"graph\":" + to_json(job.graph) + "," + rest.substr(1);  // which is text already
 }
 

@@ -1,17 +1,15 @@
 #include "core/run/message/place_record.hpp"
 
-#include <nlohmann/json.hpp>
-
 #include "core/base/json.hpp"
+#include "core/base/json_tree.hpp"
 
 namespace lightnet {
 
 // Lists of numbers in the order of the members: many hosts send one at the same time.
 std::string to_text(const std::vector<PlaceRecord>& records) {
-    using Tree = nlohmann::json;
-    Tree all = Tree::array();
+    JsonTree all = JsonTree::list();
     for (const auto& record : records) {
-        Tree nodes = Tree::array(), edges = Tree::array();
+        JsonTree nodes = JsonTree::list(), edges = JsonTree::list();
         for (const auto& [name, node] : record.nodes)
             nodes.push_back({name, node.answered, node.busy_ns, node.bundles, node.replies, node.latency_ns});
         for (const auto& [ends, edge] : record.edges)
@@ -20,7 +18,7 @@ std::string to_text(const std::vector<PlaceRecord>& records) {
         all.push_back({record.host, record.index, record.lived_ns, record.waited_ns, record.idle_ns, std::move(nodes),
                        std::move(edges)});
     }
-    return all.dump(-1, ' ', false, Tree::error_handler_t::replace);
+    return to_text(all);
 }
 
 std::vector<PlaceRecord> place_records_from(std::string_view text) {
