@@ -2,7 +2,9 @@
 
 #include <utility>  // which Asio forgets
 
-#include <boost/asio.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/write.hpp>
 
 #include <array>
 #include <chrono>

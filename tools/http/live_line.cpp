@@ -2,9 +2,13 @@
 
 #include <utility>  // which Asio forgets
 
-#include <boost/asio.hpp>
-#include <boost/beast/core.hpp>
-#include <boost/beast/websocket.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/beast/core/basic_stream.hpp>
+#include <boost/beast/core/buffers_to_string.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/rate_policy.hpp>
+#include <boost/beast/websocket/stream.hpp>
 #include <limits>
 #include <new>
 
@@ -22,6 +26,7 @@ using Fault = boost::system::error_code;
 using namespace std::chrono_literals;
 
 constexpr auto line_patience = 5s;
+constexpr bool uncompressed = false;              // streams that could deflate take long to compile
 constexpr std::size_t most_heard = 16 << 20;      // bytes of a message
 constexpr std::size_t longest_answer = 64 << 10;  // to the first request
 
@@ -50,7 +55,7 @@ using Line = beast::basic_stream<asio::ip::tcp, asio::any_io_executor, FewAtFirs
 
 struct LiveLine::Parts {
     asio::io_context io{1};
-    websocket::stream<Line> socket{io};
+    websocket::stream<Line, uncompressed> socket{io};
     beast::flat_buffer heard;
     bool reading = false, complete = false, over = false;
 

@@ -29,7 +29,7 @@ int code_at_first = 0;
 std::string_view words_at_first;
 
 void end_at_once(int) {
-    [[maybe_unused]] const auto written = write(STDERR_FILENO, words_at_first.data(), words_at_first.size());
+    [[maybe_unused]] const auto written = ::write(STDERR_FILENO, words_at_first.data(), words_at_first.size());
     _exit(code_at_first);
 }
 

@@ -53,10 +53,10 @@ Quads::Quads(const Mesh& mesh) {
 }
 
 bool Quads::add_pair(const Mesh& mesh, std::uint32_t first, std::uint32_t second) {
-    constexpr std::uint32_t farthest = (1u << 28) - 1;
+    constexpr std::uint32_t most_apart = (1u << 28) - 1;
     const Triangle &one = mesh.triangles[first], &other = mesh.triangles[second];
     const auto apart = share_an_edge(one, other);
-    if (!apart || second - first > farthest) return false;
+    if (!apart || second - first > most_apart) return false;
     const auto [i, k] = *apart;
     corners_.push_back({one[i], one[(i + 1) % 3], other[k], one[(i + 2) % 3]});
     pairs_.push_back({first, second - first, i, k});
